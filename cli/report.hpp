@@ -1,0 +1,21 @@
+// report.html: one file that shows a run to somebody who has nothing but a browser. Curves,
+// energies, quality figures and the moving picture of the fields; no network, no other file needed
+// to view it.
+#pragma once
+
+#include <filesystem>
+
+namespace pulvis {
+
+// Reads run.h5 (complete frames only) and, where there is one, summary.json of the run's folder,
+// and writes report.html into it. Every key of the summary is optional; these have a meaning of
+// their own, others are listed as they are:
+//   title, outcome, steps, elements, particles, wall_seconds, threads, element_updates_per_second,
+//   peak_memory_bytes, thickness, relative_density, energy_balance_error, version, commit,
+//   tools      [{name, point: [x, y], normal: [x, y]}] at the end of the run, m
+//   limits     {energy_balance, kinetic_energy, penetration}, dimensionless
+//   quality    [{name, value, limit, meaning}]: shown instead of the figures made from the history
+// Throws OutputError where the folder holds no readable run or the report cannot be written.
+void write_report(const std::filesystem::path& run_folder);
+
+}  // namespace pulvis

@@ -1,0 +1,18 @@
+# Puts the report's page (this folder) into a target as bytes, and links what packs its data.
+
+set(report_folder ${CMAKE_CURRENT_LIST_DIR})
+
+function(add_report_assets target)
+  find_package(ZLIB REQUIRED)
+  file(GLOB assets CONFIGURE_DEPENDS ${report_folder}/*.html ${report_folder}/*.css
+       ${report_folder}/*.js ${report_folder}/vendor/*)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/report_assets.cpp)
+  add_custom_command(
+    OUTPUT ${source}
+    COMMAND ${CMAKE_COMMAND} -D "ASSETS=${assets}" -D "OUTPUT=${source}"
+            -P ${report_folder}/write_assets.cmake
+    DEPENDS ${assets} ${report_folder}/write_assets.cmake
+    VERBATIM)
+  target_sources(${target} PRIVATE ${source})
+  target_link_libraries(${target} PRIVATE ZLIB::ZLIB)
+endfunction()

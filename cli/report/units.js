@@ -1,0 +1,48 @@
+// Units for people: results are SI, an engineer reads mm, kN and MPa.
+"use strict";
+
+const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""],
+                  [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
+const SCALED = new Set(["m", "N", "Pa", "J", "s", "m/s", "V", "W", "N/m"]);
+
+// {factor, label}: multiply an SI number by the factor to show it in the labelled unit.
+function unitFor(unit, largest) {
+  if (unit === "-" || unit === "") return {factor: 1, label: ""};
+  if (!SCALED.has(unit) || !(largest > 0)) return {factor: 1, label: unit};
+  const fits = ([size, prefix]) => largest >= size * 0.9995 && !(unit[0] === "m" && size > 1);
+  const [size, prefix] = PREFIXES.find(fits) || PREFIXES[PREFIXES.length - 1];
+  return {factor: 1 / size, label: prefix + unit};
+}
+
+function largest(values) {
+  let most = 0;
+  for (const v of values) if (Math.abs(v) > most) most = Math.abs(v);
+  return most;
+}
+
+function digits(value, count = 4) {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return value.toExponential(Math.max(0, count - 2));
+  return String(Number(value.toPrecision(Math.max(count, Math.ceil(Math.log10(size))))));
+}
+
+function withUnit(value, unit, count = 4) {
+  const shown = unitFor(unit, Math.abs(value));
+  return digits(value * shown.factor, count) + (shown.label ? " " + shown.label : "");
+}
+
+const element = (tag, properties) => Object.assign(document.createElement(tag), properties);
+const percent = value => digits(100 * value, 3) + " %";
+const words = name => name.replaceAll("_", " ");
+const titled = name => words(name).replace(/^./, letter => letter.toUpperCase());
+const labelled = (name, unit) => unit ? `${name} [${unit}]` : name;
+
+// Round numbers that divide [low, high] into about `count` parts.
+function niceTicks(low, high, count) {
+  const rough = (high - low) / count, size = 10 ** Math.floor(Math.log10(rough));
+  const step = size * ([1, 2, 5, 10].find(s => s * size >= rough) || 10);
+  const first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
+  return Array.from({length: Math.max(0, last - first + 1)}, (_, i) => (first + i) * step);
+}

@@ -1,0 +1,40 @@
+# Writes OUTPUT, a source that holds each file of the list ASSETS. As bytes: string literals have a
+# length that compilers refuse to go beyond, and CMake changes some characters of text it reads.
+
+set(arrays "")
+set(choices "")
+set(number 0)
+foreach(asset ${ASSETS})
+  get_filename_component(name ${asset} NAME)
+  file(READ ${asset} bytes HEX)
+  string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+  string(REGEX REPLACE "(0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,)" "\\1\n" bytes "${bytes}")
+  string(APPEND arrays "constexpr unsigned char asset_${number}[] = {\n${bytes}};\n")
+  string(APPEND choices
+         "  if (name == \"${name}\") return view(asset_${number}, sizeof asset_${number});\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+
+file(WRITE ${OUTPUT} "// Generated from cli/report/ by cli/report/write_assets.cmake.
+#include \"cli/report_assets.hpp\"
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace pulvis {
+namespace {
+
+${arrays}
+std::string_view view(const unsigned char* bytes, std::size_t size) {
+  return {reinterpret_cast<const char*>(bytes), size};
+}
+
+}  // namespace
+
+std::string_view report_asset(std::string_view name) {
+${choices}  throw std::invalid_argument(\"report: no part named \" + std::string(name));
+}
+
+}  // namespace pulvis
+")

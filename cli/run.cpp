@@ -1,0 +1,175 @@
+#include "cli/run.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/info.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+
+#include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "cli/summary.hpp"
+#include "engine/recorder.hpp"
+#include "engine/run_folder.hpp"
+#include "scenes/read.hpp"
+#include "scenes/results.hpp"
+#include "scenes/simulation.hpp"
+#include "systems/run_failure.hpp"
+
+namespace pulvis {
+namespace {
+
+std::atomic<bool> interrupted{false};
+void interrupt(int) { interrupted = true; }
+
+// SIGINT and SIGTERM end the run between two steps; a full disk is an error, not a death.
+void take_signals() {
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+std::filesystem::path folder_of(const RunOptions& options) {
+  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem() : options.folder;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
+}
+
+// Sampling times: evenly over the run, the first at 0, the last at its end.
+class Timetable {
+ public:
+  Timetable(double end, int count) : end_(end), count_(count) {}
+  bool due(double time) const { return next_ <= count_ && time >= at(next_); }
+  double next() const { return next_ > count_ ? end_ : at(next_); }
+  void pass(double time) {
+    while (next_ <= count_ && time >= at(next_)) ++next_;
+  }
+
+ private:
+  double at(int i) const { return i >= count_ ? end_ : end_ * i / count_; }
+  double end_;
+  int count_, next_ = 0;
+};
+
+// Quality that the scene set limits for, looked at on every sample.
+void check_limits(const Scene& scene, const Results& results, const Clock& clock) {
+  const auto stop = [&](const char* key, double value, double limit) {
+    throw RunFailure(fmt::format("energies: {} is {:.4g} at step {}, t = {:.6g} s; allowed {:.4g} (limits.{})",
+                                 key, value, clock.step, clock.time, limit, key));
+  };
+  const double balance = results.energy_balance_error();
+  if (!(balance <= scene.limits.energy_balance))
+    stop("energy_balance", balance, scene.limits.energy_balance);
+  const Energies& e = results.energies();
+  const double ratio = e.internal() > 0 ? e.kinetic / e.internal() : 0;
+  const bool started = clock.time > 0.1 * clock.end;  // nothing is quasi-static at first touch
+  if (scene.limits.kinetic_energy && started && !(ratio <= *scene.limits.kinetic_energy))
+    stop("kinetic_energy", ratio, *scene.limits.kinetic_energy);
+}
+
+struct Run {
+  const LoadedScene& loaded;
+  std::filesystem::path folder;
+  int threads;
+  std::unique_ptr<Simulation> simulation;
+  Results results;
+  Recorder recorder;
+  Progress progress;
+
+  Run(const LoadedScene& scene, const std::filesystem::path& where, int workers,
+      std::unique_ptr<Simulation> built)
+      : loaded(scene), folder(where), threads(workers), simulation(std::move(built)),
+        results(scene.scene, simulation->world()),
+        recorder(where,
+                 {program_version(), program_commit(), scene.scene.title,
+                  fmt::format("{:016x}", scene.hash), scene.scene.seed, workers},
+                 results.mesh(), results.series(), results.fields()),
+        progress(simulation->clock().end, results.elements()) {}
+
+  void record(Timetable& samples, Timetable& frames) {
+    const Clock& clock = simulation->clock();
+    simulation->observe();
+    recorder.sample(clock.time, results.sample());
+    samples.pass(clock.time);
+    check_limits(loaded.scene, results, clock);
+    if (!frames.due(clock.time)) return;
+    recorder.frame(clock.time, clock.step, results.frame());
+    frames.pass(clock.time);
+  }
+
+  // True when the run reached its end, false when it was interrupted.
+  bool go() {
+    const Clock& clock = simulation->clock();
+    const OutputSpec& output = loaded.scene.output;
+    Timetable samples(clock.end, std::max(output.samples, output.frames));
+    Timetable frames(clock.end, output.frames);
+    while (true) {
+      if (samples.due(clock.time) || frames.due(clock.time)) record(samples, frames);
+      if (simulation->finished()) return true;
+      simulation->move();
+      simulation->run_until(std::min(samples.next(), frames.next()), [&] {
+        progress.show(clock.time, clock.step);
+        return interrupted.load();
+      });
+      if (interrupted) return false;
+    }
+  }
+
+  void finish(const std::string& outcome) {
+    progress.finish();
+    recorder.finish(outcome);
+    write_summary(folder, loaded.scene, simulation->world(), results,
+                  {progress.seconds(), simulation->clock().step, threads,
+                   fmt::format("{:016x}", loaded.hash), outcome});
+    write_report(folder);
+  }
+};
+
+void print_end(const Run& run) {
+  const Results& r = run.results;
+  const double seconds = run.progress.seconds();
+  const std::int64_t steps = run.simulation->clock().step;
+  fmt::print("{} steps in {:.2f} s, {:.1f} M element-updates/s; energy balance error {:.3g}\n", steps,
+             seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
+             r.energy_balance_error());
+  if (r.has("stress_ratio/axial"))
+    fmt::print("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",
+               r.value("relative_density"), r.value("stress_ratio/axial"),
+               r.value("stress_ratio/lateral"));
+  fmt::print("results in {}\n", run.folder.string());
+}
+
+}  // namespace
+
+ExitCode run_scene(const RunOptions& options) {
+  take_signals();
+  const LoadedScene loaded = load_scene(options.scene, options.overrides);
+  const std::filesystem::path folder = folder_of(options);
+  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  // Everything that can be refused is refused before the folder is made.
+  auto simulation = std::make_unique<Simulation>(loaded.scene, threads);
+  open_run_folder(folder, options.overwrite);
+  write_text(folder / "scene.toml", loaded.text);
+  Run run(loaded, folder, threads, std::move(simulation));
+  try {
+    const bool done = run.go();
+    run.finish(done ? "done" : "interrupted");
+    print_end(run);
+    return done ? ExitCode::done : ExitCode::interrupted;
+  } catch (const RunFailure& failure) {
+    run.finish(std::string("failed: ") + failure.what());
+    fmt::print(stderr, "pulvis: the run went bad: {}\nwhat was written before is in {}\n",
+               failure.what(), folder.string());
+    return ExitCode::run_failed;
+  }
+}
+
+}  // namespace pulvis

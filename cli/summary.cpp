@@ -1,0 +1,99 @@
+#include "cli/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "components/contact.hpp"
+#include "engine/output_error.hpp"
+
+namespace pulvis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json tools_json(const Scene& scene, const World& world) {
+  Json tools = Json::array();
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const double* at = world.column<ToolPosition>().values() + 2 * t;
+    const double* f = world.column<ToolForce>().values() + 2 * t;
+    tools.push_back({{"name", scene.tools[t].name},
+                     {"point", {at[0], at[1]}},
+                     {"normal", {scene.tools[t].normal.x(), scene.tools[t].normal.y()}},
+                     {"force", {f[0], f[1]}}});
+  }
+  return tools;
+}
+
+Json materials_json(const Scene& scene) {
+  Json materials = Json::array();
+  for (const MaterialSpec& m : scene.materials) {
+    Json entry{{"name", m.name},
+               {"density", m.density},
+               {"youngs_modulus", m.youngs_modulus},
+               {"poissons_ratio", m.poissons_ratio}};
+    if (m.yield_stress) {
+      entry["yield_stress"] = *m.yield_stress;
+      entry["hardening_modulus"] = m.hardening_modulus;
+    }
+    materials.push_back(entry);
+  }
+  return materials;
+}
+
+std::int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+Json limits_json(const LimitSpec& limits) {
+  Json json{{"energy_balance", limits.energy_balance}, {"penetration", limits.penetration}};
+  if (limits.kinetic_energy) json["kinetic_energy"] = *limits.kinetic_energy;
+  return json;
+}
+
+void add_figures(Json& json, const Results& results) {
+  json["energy_balance_error"] = results.energy_balance_error();
+  json["kinetic_ratio"] = results.kinetic_ratio();
+  for (const char* name : {"penetration", "relative_density", "stress_ratio/axial", "stress_ratio/lateral"})
+    if (results.has(name)) json[name] = results.value(name);
+}
+
+}  // namespace
+
+std::string program_version() { return PULVIS_VERSION; }
+std::string program_commit() { return PULVIS_COMMIT; }
+
+void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
+                   const Results& results, const RunCost& cost) {
+  const double updates = static_cast<double>(cost.steps) * static_cast<double>(results.elements());
+  Json json{{"title", scene.title},
+            {"outcome", cost.outcome},
+            {"version", program_version()},
+            {"commit", program_commit()},
+            {"scene_hash", cost.scene_hash},
+            {"seed", scene.seed},
+            {"threads", cost.threads},
+            {"wall_seconds", cost.wall_seconds},
+            {"time", world.resource<Clock>().time},
+            {"steps", cost.steps},
+            {"particles", world.resource<Bodies>().particles()},
+            {"elements", results.elements()},
+            {"element_updates_per_second", cost.wall_seconds > 0 ? updates / cost.wall_seconds : 0},
+            {"peak_memory_bytes", peak_memory()},
+            {"thickness", scene.thickness}};
+  add_figures(json, results);
+  json["limits"] = limits_json(scene.limits);
+  json["tools"] = tools_json(scene, world);
+  json["materials"] = materials_json(scene);
+  const std::filesystem::path path = folder / "summary.json";
+  std::ofstream file(path);
+  file << json.dump(2) << '\n';
+  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
+}
+
+}  // namespace pulvis

@@ -1,0 +1,26 @@
+// summary.json: the figures of a run that people and scripts look up first.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scenes/results.hpp"
+#include "scenes/scene.hpp"
+
+namespace pulvis {
+
+struct RunCost {
+  double wall_seconds = 0;
+  std::int64_t steps = 0;
+  int threads = 1;
+  std::string scene_hash, outcome;
+};
+
+void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
+                   const Results& results, const RunCost& cost);
+
+// Version and commit of this program, as results carry them.
+std::string program_version();
+std::string program_commit();
+
+}  // namespace pulvis

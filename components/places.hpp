@@ -1,0 +1,42 @@
+// The places where arrays live. `laned`: rows stand in slots of four particles of one chunk.
+// `by_chunk`: the rows of a chunk are contiguous, so a chunk system may write its own.
+#pragma once
+
+#include "engine/component.hpp"
+
+namespace pulvis {
+
+struct Node {  // of a particle's mesh; the nodes of the outline come first
+  static constexpr const char* name = "node";
+  static constexpr bool laned = true, by_chunk = true;
+};
+struct BoundaryNode {  // the same nodes, outline only
+  static constexpr const char* name = "boundary";
+  static constexpr bool laned = true, by_chunk = true;
+};
+struct Element {  // four-node quad; its four Gauss points are components of a row
+  static constexpr const char* name = "element";
+  static constexpr bool laned = true, by_chunk = true;
+};
+struct Particle {  // one slot a chunk
+  static constexpr const char* name = "particle";
+  static constexpr bool laned = true, by_chunk = true;
+};
+struct ControlPoint {  // of the contact curves, particle after particle
+  static constexpr const char* name = "curve";
+  static constexpr bool laned = false, by_chunk = true;
+};
+struct Contact {  // (edge of one particle, other particle), four Gauss points a row
+  static constexpr const char* name = "contact";
+  static constexpr bool laned = false, by_chunk = false;
+};
+struct ToolContact {  // (edge of a particle, tool), four Gauss points a row
+  static constexpr const char* name = "tool_contact";
+  static constexpr bool laned = false, by_chunk = false;
+};
+struct Tool {
+  static constexpr const char* name = "tool";
+  static constexpr bool laned = false, by_chunk = false;
+};
+
+}  // namespace pulvis

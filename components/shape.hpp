@@ -1,0 +1,81 @@
+// Shapes and bodies: what all particles of a class share (mesh, contact curve), and which particle
+// stands in which lane of which chunk. Resources: fixed once the scene is built.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "components/body.hpp"
+
+namespace pulvis {
+
+using Point = std::array<double, 2>;
+
+// The undeformed mesh of one particle class, in its own frame (centre of the outline at the origin).
+struct Shape {
+  static constexpr int no_edge = -1;
+
+  struct GaussPoint {
+    std::array<double, 4> inverse_jacobian;  // d(xi,eta)/d(X,Y): xi_X xi_Y eta_X eta_Y, 1/m
+    double determinant;                      // of dX/dxi, m^2: the area that the point stands for
+  };
+  struct CurveTerm {  // share of a boundary node in a control point
+    Row<BoundaryNode> node;
+    double weight;
+  };
+  struct Edge {  // of the contact curve, from one boundary node to the next, counter-clockwise
+    int first_control = 0;            // its four control points are first_control .. +3
+    int previous = no_edge;           // no_edge where the outline has a corner
+    int next = no_edge;
+    double length = 0;                // m, undeformed
+    double stiffness = 0;             // 1/m: edge length / area of the element behind it
+    std::array<double, 4> weight{};   // m: length that each of its Gauss points stands for
+  };
+
+  std::string name;
+  std::vector<Point> nodes;                          // m; outline first
+  std::vector<std::array<Row<Node>, 4>> quads;       // counter-clockwise
+  std::vector<std::array<GaussPoint, 4>> gauss;      // [elements]
+  std::vector<double> nodal_area;                    // m^2: a quarter of every element around
+  int boundary_nodes = 0;
+  std::vector<std::int32_t> curve_begin;             // [control points + 1] into curve_terms
+  std::vector<CurveTerm> curve_terms;
+  std::vector<Edge> edges;
+  std::vector<double> contact_stiffness;             // 1/m^2, [elements]: sum of (edge length / area)^2
+  double area = 0;                                   // m^2, of the true outline
+
+  int control_points() const { return static_cast<int>(curve_begin.size()) - 1; }
+  int elements() const { return static_cast<int>(quads.size()); }
+};
+
+// Particles by slot: slot = 4 * chunk + lane. A slot without a particle has number -1; it is computed
+// like the others (at rest, undeformed) and seen by no contact, no energy and no result.
+struct Bodies {
+  static constexpr const char* resource_name = "bodies";
+  static constexpr int nobody = -1;
+
+  struct Slot {
+    int number = nobody;     // of the particle in the scene, from 0
+    int shape = 0;           // position in `shapes`
+    int material = 0;        // of the scene
+    int first_control = 0;   // row of its first control point
+  };
+
+  double thickness = 0;  // m
+  std::vector<Shape> shapes;
+  std::vector<Slot> slots;           // [4 * chunks]
+  std::vector<int> slot_of_number;   // [particles]
+
+  const Shape& shape_of_chunk(Chunk c) const {
+    return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(c.index) * 4].shape)];
+  }
+  const Shape& shape_of_slot(int slot) const {
+    return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(slot)].shape)];
+  }
+  int chunks() const { return static_cast<int>(slots.size()) / 4; }
+  int particles() const { return static_cast<int>(slot_of_number.size()); }
+};
+
+}  // namespace pulvis

@@ -1,0 +1,165 @@
+// A system's only door to data: Read<C>, Write<C> and Structural<Place>, as function parameters.
+// What a system may touch is its signature; writing through Read does not compile.
+#pragma once
+
+#include <span>
+
+#include "engine/world.hpp"
+
+namespace pulvis {
+
+enum class AccessMode { read, write, structural };
+
+struct AccessInfo {
+  TypeKey key;           // of the component, resource, or (structural) place
+  TypeKey place;         // of the component's place; null for resources
+  std::string name;      // "node/velocity"; "clock"
+  AccessMode mode;
+  bool chunked;          // the place is divided by chunks, so a chunk system may write it
+};
+
+// The rows of one column that a chunk owns, addressed from zero: view(row, component).
+template <class C, class Pointer>
+class ChunkView {
+ public:
+  explicit ChunkView(Pointer base) : base_(base) {}
+  auto& operator()(Row<typename C::Place> row, int component = 0) const {
+    return base_[row.value * C::count + component];
+  }
+
+ private:
+  Pointer base_;
+};
+
+namespace detail {
+template <class C>
+std::int32_t first_row(const Column<C>& column, Chunk chunk) {
+  return column.table.chunk_begin[static_cast<std::size_t>(chunk.index)];
+}
+
+template <class T>
+AccessInfo access_info(AccessMode mode) {
+  if constexpr (IsComponent<T>)
+    return {type_key<T>(), type_key<typename T::Place>(),
+            std::string(T::Place::name) + "/" + T::info.name, mode, T::Place::by_chunk};
+  else
+    return {type_key<T>(), nullptr, T::resource_name, mode, false};
+}
+}  // namespace detail
+
+// Components: rows of a plain table by operator()(row, component); rows of a chunk by chunk(c).
+template <class T>
+class Read {
+ public:
+  explicit Read(World& world) : column_(&world.column<T>()) {}
+  static AccessInfo info() { return detail::access_info<T>(AccessMode::read); }
+
+  const auto& operator()(Row<typename T::Place> row, int component = 0) const {
+    static_assert(!T::Place::laned, "rows of a laned place are reached chunk by chunk");
+    return column_->values()[static_cast<std::size_t>(row.value) * T::count + component];
+  }
+  auto chunk(Chunk c) const {
+    const std::size_t first = static_cast<std::size_t>(detail::first_row(*column_, c)) * T::count;
+    if constexpr (T::Place::laned)
+      return ChunkView<T, const Lane*>(column_->lanes() + first);
+    else
+      return ChunkView<T, const typename T::value_type*>(column_->values() + first);
+  }
+  // The whole column as it lies in memory: [row][component], four lanes each where laned.
+  std::span<const typename T::value_type> values() const {
+    return {column_->values(), column_->bytes() / sizeof(typename T::value_type)};
+  }
+  int rows() const { return static_cast<int>(column_->table.rows); }
+
+ private:
+  const Column<T>* column_;
+};
+
+template <class T>
+class Write {
+ public:
+  explicit Write(World& world) : column_(&world.column<T>()) {}
+  static AccessInfo info() { return detail::access_info<T>(AccessMode::write); }
+
+  auto& operator()(Row<typename T::Place> row, int component = 0) const {
+    static_assert(!T::Place::laned, "rows of a laned place are reached chunk by chunk");
+    return column_->values()[static_cast<std::size_t>(row.value) * T::count + component];
+  }
+  auto chunk(Chunk c) const {
+    const std::size_t first = static_cast<std::size_t>(detail::first_row(*column_, c)) * T::count;
+    if constexpr (T::Place::laned)
+      return ChunkView<T, Lane*>(column_->lanes() + first);
+    else
+      return ChunkView<T, typename T::value_type*>(column_->values() + first);
+  }
+  std::span<typename T::value_type> values() const {
+    return {column_->values(), column_->bytes() / sizeof(typename T::value_type)};
+  }
+  int rows() const { return static_cast<int>(column_->table.rows); }
+
+ private:
+  Column<T>* column_;
+};
+
+template <IsResource R>
+class Read<R> {
+ public:
+  explicit Read(World& world) : resource_(&world.resource<R>()) {}
+  static AccessInfo info() { return detail::access_info<R>(AccessMode::read); }
+  const R& operator*() const { return *resource_; }
+  const R* operator->() const { return resource_; }
+
+ private:
+  const R* resource_;
+};
+
+template <IsResource R>
+class Write<R> {
+ public:
+  explicit Write(World& world) : resource_(&world.resource<R>()) {}
+  static AccessInfo info() { return detail::access_info<R>(AccessMode::write); }
+  R& operator*() const { return *resource_; }
+  R* operator->() const { return resource_; }
+
+ private:
+  R* resource_;
+};
+
+// The right to change how many rows a place has. Every column of the place follows, so this excludes
+// any other access to the place: a sync point.
+template <class Place>
+class Structural {
+ public:
+  explicit Structural(World& world) : world_(&world) {}
+  static AccessInfo info() {
+    return {type_key<Place>(), type_key<Place>(), std::string(Place::name) + "/*",
+            AccessMode::structural, false};
+  }
+  int rows() const { return static_cast<int>(world_->table<Place>().rows); }
+  void rebuild(const std::vector<std::int32_t>& sources) const { world_->rebuild<Place>(sources); }
+
+ private:
+  World* world_;
+};
+
+// A component or resource that a system uses only where the scene has it: test with `if (handle)`.
+// The graph holds it to the same rules when it is there.
+template <class Access>
+class Optional;
+
+template <template <class> class Mode, class T>
+class Optional<Mode<T>> {
+ public:
+  explicit Optional(World& world) : there_(world.has<T>()), access_(there_ ? new_access(world) : nullptr) {}
+  static AccessInfo info() { return Mode<T>::info(); }
+  explicit operator bool() const { return there_; }
+  const Mode<T>& operator*() const { return *access_; }
+  const Mode<T>* operator->() const { return access_.get(); }
+
+ private:
+  static std::shared_ptr<Mode<T>> new_access(World& world) { return std::make_shared<Mode<T>>(world); }
+  bool there_;
+  std::shared_ptr<Mode<T>> access_;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,65 @@
+// How a named array is declared, and the number types that index it.
+//
+// A place is where arrays live: nodes, elements, contacts... The places themselves are declared in
+// components/; the engine only knows that a place has rows, and that the rows of some places stand in
+// slots of four lanes, chunk by chunk (AoSoA), while others are plain lists.
+#pragma once
+
+#include <compare>
+#include <concepts>
+#include <cstdint>
+
+namespace pulvis {
+
+// Row of a plain table, or slot (four lanes) of a laned one. Rows of different places do not mix.
+template <class Place>
+struct Row {
+  std::int32_t value = 0;
+  constexpr Row() = default;
+  constexpr explicit Row(std::int64_t v) : value(static_cast<std::int32_t>(v)) {}
+  auto operator<=>(const Row&) const = default;
+};
+
+struct ComponentInfo {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+};
+
+// Base of a declaration:
+//   struct Velocity : Component<Node, double, 2> {
+//     static constexpr ComponentInfo info{"velocity", "m/s", "..."};
+//   };
+template <class PlaceTag, class Value, int Count>
+struct Component {
+  using Place = PlaceTag;
+  using value_type = Value;
+  static constexpr int count = Count;
+};
+
+template <class C>
+concept IsComponent = requires {
+  typename C::Place;
+  typename C::value_type;
+  C::count;
+  C::info;
+};
+
+// Anything else that systems share by name: connectivity, the clock, totals.
+template <class R>
+concept IsResource = !IsComponent<R> && requires { R::resource_name; };
+
+// One chunk of laned rows: the four particles that a chunk system works on.
+struct Chunk {
+  std::int32_t index = 0;
+};
+
+// Identity of a component, resource or place type at run time.
+using TypeKey = const void*;
+template <class T>
+TypeKey type_key() {
+  static const char key = 0;
+  return &key;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,330 @@
+#include "engine/hdf5.hpp"
+
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "engine/output_error.hpp"
+
+namespace pulvis::hdf5 {
+namespace {
+
+static_assert(sizeof(Id) == sizeof(hid_t));
+
+// HDF5's constants are macros that cast in the old style.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+constexpr hid_t defaults = H5P_DEFAULT;
+constexpr hid_t whole = H5S_ALL;
+constexpr hid_t error_stack = H5E_DEFAULT;
+constexpr std::size_t variable_length = H5T_VARIABLE;
+constexpr hsize_t unlimited = H5S_UNLIMITED;
+#pragma GCC diagnostic pop
+
+constexpr std::uint64_t most_chunk_rows = 65536;
+
+// HDF5 prints nothing, and closes nothing at the program's exit: after a full disk its own clean-up
+// would run into the half-written file again and crash. Every File closes itself.
+void prepare_library() {
+  [[maybe_unused]] static const herr_t before_anything_else = H5dont_atexit();
+  H5Eset_auto2(error_stack, nullptr, nullptr);
+}
+
+// "... error message = 'No space left on device', ..." holds the system's own words: keep only
+// them.
+std::string system_words(const std::string& text) {
+  static constexpr std::string_view lead = "error message = '";
+  const auto begin = text.find(lead);
+  if (begin == std::string::npos) return text;
+  const auto first = begin + lead.size();
+  return text.substr(first, text.find('\'', first) - first);
+}
+
+herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* out) {
+  if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
+  return 0;
+}
+
+std::string reason() {
+  std::string innermost;
+  H5Ewalk2(error_stack, H5E_WALK_UPWARD, keep_innermost, &innermost);
+  return innermost.empty() ? "HDF5 gave no reason" : system_words(innermost);
+}
+
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.get(), variable_length);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  return type;
+}
+
+Handle with_groups_on_the_way() {
+  Handle properties(H5Pcreate(H5P_LINK_CREATE));
+  H5Pset_create_intermediate_group(properties.get(), 1);
+  return properties;
+}
+
+Handle packed_in_chunks(const Shape& shape) {
+  Handle properties(H5Pcreate(H5P_DATASET_CREATE));
+  std::vector<hsize_t> chunk(shape.begin(), shape.end());
+  for (auto& extent : chunk) extent = std::min<hsize_t>(extent, most_chunk_rows);
+  H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+  H5Pset_shuffle(properties.get());
+  H5Pset_deflate(properties.get(), 1);
+  return properties;
+}
+
+Handle space_of(const Shape& shape) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  return Handle(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr));
+}
+
+std::uint64_t product(const Shape& shape) {
+  std::uint64_t count = 1;
+  for (const auto extent : shape) count *= extent;
+  return count;
+}
+
+herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+herr_t add_dataset(hid_t, const char* name, const H5O_info_t* info, void* names) {
+  if (info->type == H5O_TYPE_DATASET) {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this != &other) {
+    close();
+    id_ = other.release();
+  }
+  return *this;
+}
+
+void Handle::close() noexcept {
+  if (id_ >= 0) H5Idec_ref(release());
+}
+
+File::File(std::filesystem::path path, Handle handle)
+    : path_(std::move(path)), handle_(std::move(handle)) {}
+
+File File::create(const std::filesystem::path& path) {
+  prepare_library();
+  const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, defaults, defaults);
+  if (id < 0) throw OutputError(path, "create the file", reason());
+  return {path, Handle(id)};
+}
+
+File File::open(const std::filesystem::path& path) {
+  prepare_library();
+  const Id id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, defaults);
+  if (id < 0) throw OutputError(path, "open the file", reason());
+  return {path, Handle(id)};
+}
+
+Id File::checked(Id result, std::string_view verb, const std::string& object) const {
+  if (result < 0) throw OutputError(path_, std::string(verb) + " " + object, reason());
+  return result;
+}
+
+void File::flush() {
+  checked(H5Fflush(handle_.get(), H5F_SCOPE_GLOBAL), "flush", "the file");
+  void* descriptor = nullptr;
+  checked(H5Fget_vfd_handle(handle_.get(), defaults, &descriptor), "find", "the file's descriptor");
+  if (fsync(*static_cast<int*>(descriptor)) != 0) {
+    throw OutputError(path_, "flush the file", std::strerror(errno));
+  }
+}
+
+void File::close() {
+  if (handle_.get() >= 0) checked(H5Fclose(handle_.release()), "close", "the file");
+}
+
+void File::make_group(const std::string& object) {
+  const Handle links = with_groups_on_the_way();
+  Handle group(checked(H5Gcreate2(handle_.get(), object.c_str(), links.get(), defaults, defaults),
+                       "make", object));
+}
+
+void File::write(const std::string& dataset, std::span<const double> values, const Shape& shape,
+                 Packing packing) {
+  write_any(dataset, H5T_NATIVE_DOUBLE, values.data(), values.size(), shape, packing);
+}
+
+void File::write(const std::string& dataset, std::span<const std::int32_t> values,
+                 const Shape& shape, Packing packing) {
+  write_any(dataset, H5T_NATIVE_INT32, values.data(), values.size(), shape, packing);
+}
+
+void File::write_any(const std::string& dataset, Id type, const void* values, std::size_t count,
+                     const Shape& shape, Packing packing) {
+  if (shape.empty() || product(shape) != count) {
+    throw std::invalid_argument(dataset + ": the values do not fill the shape");
+  }
+  const Handle links = with_groups_on_the_way();
+  const Handle space = space_of(shape);
+  const bool pack = packing == Packing::shuffle_gzip && count > 0;  // no chunk may be empty
+  const Handle layout = pack ? packed_in_chunks(shape) : Handle(H5Pcreate(H5P_DATASET_CREATE));
+  const Handle made(checked(H5Dcreate2(handle_.get(), dataset.c_str(), type, space.get(),
+                                       links.get(), layout.get(), defaults),
+                            "write", dataset));
+  if (count == 0) return;
+  checked(H5Dwrite(made.get(), type, whole, whole, defaults, values), "write", dataset);
+}
+
+void File::make_series(const std::string& dataset, std::uint64_t chunk) {
+  const hsize_t none = 0, most = unlimited, rows = chunk;
+  const Handle links = with_groups_on_the_way();
+  const Handle space(H5Screate_simple(1, &none, &most));
+  const Handle layout(H5Pcreate(H5P_DATASET_CREATE));
+  checked(H5Pset_chunk(layout.get(), 1, &rows), "chunk", dataset);
+  const Handle made(checked(H5Dcreate2(handle_.get(), dataset.c_str(), H5T_NATIVE_DOUBLE,
+                                       space.get(), links.get(), layout.get(), defaults),
+                            "make", dataset));
+}
+
+void File::append(const std::string& dataset, std::span<const double> values) {
+  const hsize_t before = size_of(dataset), added = values.size(), after = before + added;
+  if (added == 0) return;
+  const Handle series(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
+  checked(H5Dset_extent(series.get(), &after), "extend", dataset);
+  const Handle target(H5Dget_space(series.get()));
+  const Handle source(H5Screate_simple(1, &added, nullptr));
+  checked(H5Sselect_hyperslab(target.get(), H5S_SELECT_SET, &before, nullptr, &added, nullptr),
+          "extend", dataset);
+  checked(H5Dwrite(series.get(), H5T_NATIVE_DOUBLE, source.get(), target.get(), defaults,
+                   values.data()),
+          "write", dataset);
+}
+
+void File::set_attribute(const std::string& object, const std::string& name, double value) {
+  set_any(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void File::set_attribute(const std::string& object, const std::string& name, std::int64_t value) {
+  set_any(object, name, H5T_NATIVE_INT64, &value);
+}
+
+void File::set_attribute(const std::string& object, const std::string& name, std::uint64_t value) {
+  set_any(object, name, H5T_NATIVE_UINT64, &value);
+}
+
+void File::set_attribute(const std::string& object, const std::string& name,
+                         std::string_view value) {
+  const std::string copy(value);
+  const char* const text = copy.c_str();
+  const Handle type = text_type();
+  set_any(object, name, type.get(), static_cast<const void*>(&text));
+}
+
+void File::set_any(const std::string& object, const std::string& name, Id type, const void* value) {
+  const Handle owner(checked(H5Oopen(handle_.get(), object.c_str(), defaults), "open", object));
+  const Handle space(H5Screate(H5S_SCALAR));
+  const Handle made(
+      checked(H5Acreate2(owner.get(), name.c_str(), type, space.get(), defaults, defaults),
+              "write the attribute " + name + " of", object));
+  checked(H5Awrite(made.get(), type, value), "write the attribute " + name + " of", object);
+}
+
+bool File::contains(const std::string& object) const {
+  for (auto end = object.find('/', 1);; end = object.find('/', end + 1)) {
+    const std::string part = object.substr(0, end);  // H5Lexists fails where a parent is missing
+    if (part != "/" && H5Lexists(handle_.get(), part.c_str(), defaults) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+bool File::is_group(const std::string& object) const {
+  const Handle found(checked(H5Oopen(handle_.get(), object.c_str(), defaults), "open", object));
+  return H5Iget_type(found.get()) == H5I_GROUP;
+}
+
+std::vector<std::string> File::children(const std::string& group) const {
+  std::vector<std::string> names;
+  checked(H5Literate_by_name(handle_.get(), group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr,
+                             add_name, &names, defaults),
+          "list", group);
+  return names;
+}
+
+std::vector<std::string> File::datasets_below(const std::string& group) const {
+  std::vector<std::string> names;
+  checked(H5Ovisit_by_name2(handle_.get(), group.c_str(), H5_INDEX_NAME, H5_ITER_INC, add_dataset,
+                            &names, H5O_INFO_BASIC, defaults),
+          "list", group);
+  return names;
+}
+
+Shape File::shape(const std::string& dataset) const {
+  const Handle found(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
+  const Handle space(checked(H5Dget_space(found.get()), "measure", dataset));
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
+  H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+  return {extent.begin(), extent.end()};
+}
+
+std::uint64_t File::size_of(const std::string& dataset) const { return product(shape(dataset)); }
+
+void File::read_any(const std::string& dataset, Id type, void* values) const {
+  const Handle found(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
+  checked(H5Dread(found.get(), type, whole, whole, defaults, values), "read", dataset);
+}
+
+std::vector<double> File::read_doubles(const std::string& dataset) const {
+  std::vector<double> values(size_of(dataset));
+  if (!values.empty()) read_any(dataset, H5T_NATIVE_DOUBLE, values.data());
+  return values;
+}
+
+std::vector<std::int32_t> File::read_integers(const std::string& dataset) const {
+  std::vector<std::int32_t> values(size_of(dataset));
+  if (!values.empty()) read_any(dataset, H5T_NATIVE_INT32, values.data());
+  return values;
+}
+
+bool File::has_attribute(const std::string& object, const std::string& name) const {
+  return H5Aexists_by_name(handle_.get(), object.c_str(), name.c_str(), defaults) > 0;
+}
+
+void File::read_attribute(const std::string& object, const std::string& name, Id type,
+                          void* value) const {
+  const Handle found(
+      checked(H5Aopen_by_name(handle_.get(), object.c_str(), name.c_str(), defaults, defaults),
+              "open the attribute " + name + " of", object));
+  checked(H5Aread(found.get(), type, value), "read the attribute " + name + " of", object);
+}
+
+double File::number_attribute(const std::string& object, const std::string& name) const {
+  double value = 0;
+  read_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+  return value;
+}
+
+std::uint64_t File::unsigned_attribute(const std::string& object, const std::string& name) const {
+  std::uint64_t value = 0;
+  read_attribute(object, name, H5T_NATIVE_UINT64, &value);
+  return value;
+}
+
+std::string File::text_attribute(const std::string& object, const std::string& name) const {
+  char* text = nullptr;
+  const Handle type = text_type();
+  read_attribute(object, name, type.get(), static_cast<void*>(&text));
+  const std::string copy = text == nullptr ? "" : text;
+  H5free_memory(text);
+  return copy;
+}
+
+}  // namespace pulvis::hdf5

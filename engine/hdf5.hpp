@@ -1,0 +1,93 @@
+// A thin RAII wrapper of the HDF5 C library: what the recorder, the checkpoint and the report need
+// of it, and no more. The C header stays inside hdf5.cpp, so that nobody else sees its macros.
+//
+// Every call that fails throws OutputError with the file, the operation and HDF5's innermost
+// reason; HDF5's own printing to stderr is off. Paths inside a file are absolute
+// ("/frames/000000/position"); missing groups on the way are made. The default file version is
+// kept: newer ones are refused by plain readers after a crash.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pulvis::hdf5 {
+
+using Id = std::int64_t;  // hid_t
+using Shape = std::vector<std::uint64_t>;
+
+// Owns one HDF5 identifier of any kind. Closing one cannot fail in a way anybody could act upon,
+// but for a file, which File::close() handles.
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(Id id) : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle() { close(); }
+
+  Id get() const { return id_; }
+  Id release() { return std::exchange(id_, -1); }
+  void close() noexcept;
+
+ private:
+  Id id_ = -1;
+};
+
+enum class Packing { none, shuffle_gzip };  // the latter for meshes: it gains a hundredfold
+
+class File {
+ public:
+  static File create(const std::filesystem::path& path);  // an existing file is replaced
+  static File open(const std::filesystem::path& path);    // read only
+
+  const std::filesystem::path& path() const { return path_; }
+  void flush();  // to the disk: H5Fflush and fsync
+  void close();  // throws where the last bytes cannot be written; the destructor does not
+
+  // Writing. `object` is the path of a group or dataset.
+  void make_group(const std::string& object);
+  void write(const std::string& dataset, std::span<const double> values, const Shape& shape,
+             Packing packing = Packing::none);
+  void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
+             Packing packing = Packing::none);
+  void make_series(const std::string& dataset, std::uint64_t chunk);  // empty, 1-D, extendable
+  void append(const std::string& dataset, std::span<const double> values);
+  void set_attribute(const std::string& object, const std::string& name, double value);
+  void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
+  void set_attribute(const std::string& object, const std::string& name, std::uint64_t value);
+  void set_attribute(const std::string& object, const std::string& name, std::string_view value);
+
+  // Reading.
+  bool contains(const std::string& object) const;
+  bool is_group(const std::string& object) const;
+  std::vector<std::string> children(const std::string& group) const;  // in the order of their names
+  std::vector<std::string> datasets_below(const std::string& group) const;  // "tool/top/force_y"
+  Shape shape(const std::string& dataset) const;
+  std::vector<double> read_doubles(const std::string& dataset) const;
+  std::vector<std::int32_t> read_integers(const std::string& dataset) const;
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  double number_attribute(const std::string& object, const std::string& name) const;
+  std::uint64_t unsigned_attribute(const std::string& object, const std::string& name) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+
+ private:
+  File(std::filesystem::path path, Handle handle);
+  void write_any(const std::string& dataset, Id type, const void* values, std::size_t count,
+                 const Shape& shape, Packing packing);
+  void set_any(const std::string& object, const std::string& name, Id type, const void* value);
+  void read_any(const std::string& dataset, Id type, void* values) const;
+  void read_attribute(const std::string& object, const std::string& name, Id type,
+                      void* value) const;
+  std::uint64_t size_of(const std::string& dataset) const;
+  Id checked(Id result, std::string_view verb, const std::string& object) const;
+
+  std::filesystem::path path_;
+  Handle handle_;
+};
+
+}  // namespace pulvis::hdf5

@@ -1,0 +1,40 @@
+// What a run tells the recorder about itself: the names, units and meanings of its results, the
+// mesh they live on, and where they came from.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pulvis {
+
+struct SeriesInfo {     // one series of the history: a number a sample
+  std::string name;     // slashes make groups: "tool/top/force_y"
+  std::string unit;     // SI, "-" where there is none
+  std::string meaning;  // a line for the reader
+};
+
+enum class FieldPlace { node, cell, particle };
+
+struct FieldInfo {  // one field of the frames: `components` numbers a place
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  FieldPlace place = FieldPlace::cell;
+  int components = 1;
+};
+
+struct RunMesh {                            // fixed over the run
+  std::vector<std::int32_t> quads;          // [cells * 4], node numbers, counter-clockwise
+  std::vector<std::int32_t> cell_particle;  // [cells]
+  std::vector<std::int32_t> node_particle;  // [nodes]
+  std::vector<double> reference;            // [nodes * 2], m, positions before the first step
+};
+
+struct RunAttributes {
+  std::string version, commit, title, scene_hash;
+  std::uint64_t seed = 0;
+  int threads = 1;
+};
+
+}  // namespace pulvis

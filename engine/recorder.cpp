@@ -1,0 +1,184 @@
+#include "engine/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/output_error.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr std::uint64_t history_chunk = 1024;  // 8 kB a series: a thousand samples in one piece
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument("recorder: " + what);
+}
+
+void check_mesh(const RunMesh& mesh) {
+  require(mesh.quads.size() == 4 * mesh.cell_particle.size(), "four node numbers a cell");
+  require(mesh.reference.size() == 2 * mesh.node_particle.size(), "two coordinates a node");
+}
+
+void check_fields(const std::vector<FieldInfo>& fields) {
+  require(!fields.empty() && fields.front().name == "position" &&
+              fields.front().place == FieldPlace::node && fields.front().components == 2,
+          "the first field is position (node, 2 components)");
+}
+
+const char* name_of(FieldPlace place) {
+  if (place == FieldPlace::node) return "node";
+  return place == FieldPlace::cell ? "cell" : "particle";
+}
+
+std::vector<double> with_zero_third(const std::vector<double>& plane) {
+  std::vector<double> space(plane.size() / 2 * 3, 0.0);
+  for (std::size_t i = 0; i < plane.size() / 2; ++i) {
+    space[3 * i] = plane[2 * i];
+    space[3 * i + 1] = plane[2 * i + 1];
+  }
+  return space;
+}
+
+// A file beyond the allowed size would otherwise end the program: it shall be an error like any
+// other.
+void survive_a_full_quota() {
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);
+#endif
+}
+
+}  // namespace
+
+Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes,
+                   const RunMesh& mesh, std::vector<SeriesInfo> series,
+                   std::vector<FieldInfo> fields)
+    : series_(std::move(series)),
+      fields_((check_mesh(mesh), check_fields(fields), std::move(fields))),  // before any file
+      file_(hdf5::File::create(folder / "run.h5")),
+      csv_(folder / "history.csv", series_),
+      xdmf_(folder / "run.xdmf", "run.h5", mesh.node_particle.size(), mesh.cell_particle.size(),
+            fields_),
+      pending_(series_.size()) {
+  survive_a_full_quota();
+  places_ = {mesh.node_particle.size(), mesh.cell_particle.size()};
+  write_attributes(attributes);
+  write_mesh(mesh);
+  file_.make_group("/frames");
+  make_history();
+  file_.flush();
+}
+
+Recorder::~Recorder() {
+  if (!open_) return;
+  try {
+    append_history();
+    csv_.close();
+    file_.close();
+  } catch (const std::exception&) {  // the first failure was already thrown from sample or frame
+  }
+}
+
+void Recorder::describe(const std::string& object, const std::string& unit,
+                        const std::string& meaning) {
+  file_.set_attribute(object, "unit", std::string_view(unit));
+  file_.set_attribute(object, "meaning", std::string_view(meaning));
+}
+
+void Recorder::write_attributes(const RunAttributes& attributes) {
+  file_.set_attribute("/", "format", std::int64_t{1});
+  file_.set_attribute("/", "version", std::string_view(attributes.version));
+  file_.set_attribute("/", "commit", std::string_view(attributes.commit));
+  file_.set_attribute("/", "title", std::string_view(attributes.title));
+  file_.set_attribute("/", "scene_hash", std::string_view(attributes.scene_hash));
+  file_.set_attribute("/", "seed", attributes.seed);
+  file_.set_attribute("/", "threads", std::int64_t{attributes.threads});
+}
+
+void Recorder::write_mesh(const RunMesh& mesh) {
+  constexpr auto packed = hdf5::Packing::shuffle_gzip;
+  const std::uint64_t nodes = mesh.node_particle.size(), cells = mesh.cell_particle.size();
+  file_.write("/mesh/quads", mesh.quads, {cells, 4}, packed);
+  describe("/mesh/quads", "-", "node numbers of each cell, counter-clockwise");
+  file_.write("/mesh/cell_particle", mesh.cell_particle, {cells}, packed);
+  describe("/mesh/cell_particle", "-", "particle each cell belongs to");
+  file_.write("/mesh/node_particle", mesh.node_particle, {nodes}, packed);
+  describe("/mesh/node_particle", "-", "particle each node belongs to");
+  file_.write("/mesh/reference", mesh.reference, {nodes, 2}, packed);
+  describe("/mesh/reference", "m", "positions of the nodes before the first step");
+}
+
+void Recorder::make_history() {
+  file_.make_series("/history/time", history_chunk);
+  describe("/history/time", "s", "simulated time");
+  for (const auto& series : series_) {
+    file_.make_series("/history/" + series.name, history_chunk);
+    describe("/history/" + series.name, series.unit, series.meaning);
+  }
+}
+
+void Recorder::sample(double time, std::span<const double> values) {
+  require(values.size() == series_.size(), "a sample holds one value a series");
+  csv_.add(time, values);
+  pending_time_.push_back(time);
+  for (std::size_t i = 0; i < values.size(); ++i) pending_[i].push_back(values[i]);
+}
+
+void Recorder::append_history() {
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    file_.append("/history/" + series_[i].name, pending_[i]);
+    pending_[i].clear();
+  }
+  file_.append("/history/time", pending_time_);  // last: every series is at least as long
+  pending_time_.clear();
+}
+
+void Recorder::frame(double time, std::int64_t step,
+                     const std::vector<std::vector<double>>& fields) {
+  require(fields.size() == fields_.size(), "a frame holds every field");
+  const std::string group = fmt::format("/frames/{:06}", frames_);
+  file_.make_group(group);
+  file_.set_attribute(group, "time", time);
+  file_.set_attribute(group, "step", step);
+  for (std::size_t i = 0; i < fields.size(); ++i) write_field(group, fields_[i], fields[i]);
+  append_history();
+  file_.flush();
+  file_.set_attribute(group, "complete", std::int64_t{1});
+  file_.flush();
+  csv_.flush();
+  xdmf_.add(time, group);
+  ++frames_;
+}
+
+void Recorder::write_field(const std::string& group, const FieldInfo& field,
+                           const std::vector<double>& values) {
+  const auto columns = static_cast<std::uint64_t>(field.components);
+  const std::uint64_t rows = values.size() / columns;
+  const bool fits =
+      field.place == FieldPlace::particle || rows == places_[static_cast<std::size_t>(field.place)];
+  require(fits && rows * columns == values.size(), "field " + field.name + " has a wrong length");
+  const auto stored = static_cast<std::uint64_t>(stored_components(field));
+  const std::string dataset = group + "/" + field.name;
+  const hdf5::Shape shape = stored == 1 ? hdf5::Shape{rows} : hdf5::Shape{rows, stored};
+  if (stored == columns) {
+    file_.write(dataset, values, shape);
+  } else {
+    file_.write(dataset, with_zero_third(values), shape);
+  }
+  describe(dataset, field.unit, field.meaning);
+  file_.set_attribute(dataset, "place", std::string_view(name_of(field.place)));
+  file_.set_attribute(dataset, "components", std::int64_t{field.components});
+}
+
+void Recorder::finish(std::string_view outcome) {
+  if (!std::exchange(open_, false)) return;
+  append_history();
+  file_.set_attribute("/", "outcome", outcome);
+  file_.flush();
+  csv_.close();
+  file_.close();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,74 @@
+// Recorder: writes what a run hands it into the run's folder: run.h5 (all of it), run.xdmf (the
+// frames, for ParaView and meshio) and history.csv (the history, for a spreadsheet). It knows
+// names, units and numbers, and no physics.
+//
+// run.h5 /                      version, commit, title, scene_hash, seed, threads; in the end outcome
+//        /mesh/<name>           quads [cells,4], cell_particle, node_particle, reference [nodes,2]
+//        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
+//                               complete = 1, written last: a frame without it is not to be read
+//        /history/<name>        one 1-D dataset a series; /history/time
+// Every dataset has the attributes unit and meaning, a field also place (node, cell, particle) and
+// components. A field of two components is stored with a third one of zeros, because XDMF has no
+// plane vectors (components = 2 tells); `position` is not.
+//
+// After frame() returns, the frame and every sample before it are on the disk: a killed run loses
+// only what came later. All failures of the machine are OutputError.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/hdf5.hpp"
+#include "engine/history_csv.hpp"
+#include "engine/record.hpp"
+#include "engine/xdmf.hpp"
+
+namespace pulvis {
+
+class Recorder {
+ public:
+  // `folder` exists (open_run_folder made it). `position` (node, 2 components) is the first field.
+  Recorder(std::filesystem::path folder, const RunAttributes& attributes, const RunMesh& mesh,
+           std::vector<SeriesInfo> series, std::vector<FieldInfo> fields);
+
+  // One history row: a value a series, in their order. Kept in memory until the next frame.
+  void sample(double time, std::span<const double> values);
+
+  // One frame: the values of each field, in their order, the components of a place together.
+  void frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
+
+  // Writes what is left and closes the files; `outcome` says in words how the run ended. Without it
+  // the destructor does the same as well as it can, and run.h5 has no outcome.
+  void finish(std::string_view outcome = "done");
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  std::int64_t frames() const { return frames_; }
+
+ private:
+  void write_attributes(const RunAttributes& attributes);
+  void write_mesh(const RunMesh& mesh);
+  void make_history();
+  void append_history();
+  void write_field(const std::string& group, const FieldInfo& field,
+                   const std::vector<double>& values);
+  void describe(const std::string& object, const std::string& unit, const std::string& meaning);
+
+  std::vector<SeriesInfo> series_;
+  std::vector<FieldInfo> fields_;
+  hdf5::File file_;
+  HistoryCsv csv_;
+  Xdmf xdmf_;
+  std::vector<std::uint64_t> places_;         // how many of each FieldPlace there are
+  std::vector<double> pending_time_;          // samples not yet in run.h5
+  std::vector<std::vector<double>> pending_;  // [series][sample]
+  std::int64_t frames_ = 0;
+  bool open_ = true;
+};
+
+}  // namespace pulvis

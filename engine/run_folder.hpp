@@ -1,0 +1,22 @@
+// The folder a run writes into: made, or refused, before anything else is written.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/output_error.hpp"
+
+namespace pulvis {
+
+// The folder already holds a run, and the caller did not say it may be replaced.
+class RunFolderTaken : public OutputError {
+ public:
+  using OutputError::OutputError;
+};
+
+// Makes the folder, parents included, and checks that files can be written into it. A folder that
+// holds a run.h5 is refused unless `overwrite`; then the old run's own files (run.h5, run.xdmf,
+// history.csv, summary.json, report.html, checkpoint-*.h5, pictures/) go and others stay. A refusal
+// leaves everything as it was: what this call made is taken away again.
+void open_run_folder(const std::filesystem::path& folder, bool overwrite = false);
+
+}  // namespace pulvis

@@ -1,0 +1,134 @@
+#include "engine/task_graph.hpp"
+
+#include <oneapi/tbb/flow_graph.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace pulvis {
+
+namespace detail {
+void check_chunk_writes(const System& system) {
+  for (const AccessInfo& access : system.accesses) {
+    const bool writes = access.mode != AccessMode::read;
+    if (writes && !access.chunked)
+      throw std::logic_error("chunk system '" + system.name + "' may not write '" + access.name +
+                             "': it is not divided by chunks");
+  }
+}
+}  // namespace detail
+
+bool conflict(const AccessInfo& a, const AccessInfo& b) {
+  if (a.mode == AccessMode::structural || b.mode == AccessMode::structural)
+    return a.place != nullptr && a.place == b.place;
+  return a.key == b.key && (a.mode == AccessMode::write || b.mode == AccessMode::write);
+}
+
+namespace {
+
+void merge_accesses(std::vector<AccessInfo>& into, const std::vector<AccessInfo>& from) {
+  for (const AccessInfo& access : from) {
+    const auto same = std::ranges::find(into, access.key, &AccessInfo::key);
+    if (same == into.end())
+      into.push_back(access);
+    else if (access.mode != AccessMode::read)
+      same->mode = access.mode;
+  }
+}
+
+bool stages_conflict(const StagePlan& a, const StagePlan& b) {
+  return std::ranges::any_of(a.accesses, [&](const AccessInfo& x) {
+    return std::ranges::any_of(b.accesses, [&](const AccessInfo& y) { return conflict(x, y); });
+  });
+}
+
+// Keeps an edge only where no longer path says the same.
+std::vector<std::pair<int, int>> reduced_edges(const std::vector<StagePlan>& stages) {
+  const int n = static_cast<int>(stages.size());
+  std::vector<std::vector<bool>> reach(static_cast<std::size_t>(n), std::vector<bool>(stages.size()));
+  std::vector<std::pair<int, int>> edges;
+  for (int later = 0; later < n; ++later)
+    for (int earlier = later - 1; earlier >= 0; --earlier) {
+      const auto l = static_cast<std::size_t>(later), e = static_cast<std::size_t>(earlier);
+      if (reach[l][e] || !stages_conflict(stages[e], stages[l])) continue;
+      edges.emplace_back(earlier, later);
+      reach[l][e] = true;
+      for (std::size_t k = 0; k < e; ++k) reach[l][k] = reach[l][k] || reach[e][k];
+    }
+  std::ranges::sort(edges);
+  return edges;
+}
+
+// The systems of each stage, as positions in the list.
+std::vector<std::vector<std::size_t>> group(const std::vector<System>& systems) {
+  std::vector<std::vector<std::size_t>> stages;
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    const bool joins = i > 0 && systems[i].by_chunk && systems[i - 1].by_chunk;
+    if (!joins) stages.emplace_back();
+    stages.back().push_back(i);
+  }
+  return stages;
+}
+
+}  // namespace
+
+GraphPlan derive_plan(const std::vector<System>& systems) {
+  GraphPlan plan;
+  for (const auto& members : group(systems)) {
+    StagePlan stage;
+    stage.by_chunk = systems[members.front()].by_chunk;
+    for (const std::size_t i : members) {
+      stage.systems.push_back(systems[i].name);
+      merge_accesses(stage.accesses, systems[i].accesses);
+    }
+    plan.stages.push_back(std::move(stage));
+  }
+  plan.edges = reduced_edges(plan.stages);
+  return plan;
+}
+
+struct TaskGraph::Flow {
+  using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
+
+  std::vector<System> systems;
+  tbb::flow::graph graph;
+  std::optional<tbb::flow::broadcast_node<tbb::flow::continue_msg>> start;
+  std::vector<std::unique_ptr<Node>> nodes;
+};
+
+TaskGraph::TaskGraph(std::vector<System> systems, int chunks)
+    : plan_(derive_plan(systems)), flow_(std::make_unique<Flow>()) {
+  flow_->systems = std::move(systems);
+  const auto stages = group(flow_->systems);
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    std::vector<const System*> members;
+    for (const std::size_t i : stages[s]) members.push_back(&flow_->systems[i]);
+    auto body = [members, chunks, by_chunk = plan_.stages[s].by_chunk](tbb::flow::continue_msg) {
+      if (!by_chunk) return members.front()->run(Chunk{});
+      tbb::parallel_for(0, chunks, [&](int chunk) {
+        for (const System* system : members) system->run(Chunk{chunk});
+      });
+    };
+    flow_->nodes.push_back(std::make_unique<Flow::Node>(flow_->graph, body));
+  }
+  flow_->start.emplace(flow_->graph);
+  std::vector<bool> has_predecessor(stages.size());
+  for (const auto& [earlier, later] : plan_.edges) {
+    const auto e = static_cast<std::size_t>(earlier), l = static_cast<std::size_t>(later);
+    tbb::flow::make_edge(*flow_->nodes[e], *flow_->nodes[l]);
+    has_predecessor[l] = true;
+  }
+  for (std::size_t s = 0; s < stages.size(); ++s)
+    if (!has_predecessor[s]) tbb::flow::make_edge(*flow_->start, *flow_->nodes[s]);
+}
+
+TaskGraph::~TaskGraph() = default;
+TaskGraph::TaskGraph(TaskGraph&&) noexcept = default;
+
+void TaskGraph::run() {
+  flow_->start->try_put(tbb::flow::continue_msg{});
+  flow_->graph.wait_for_all();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,51 @@
+// The task graph of a step, derived from what its systems declare.
+//
+// Consecutive chunk systems of the list become one stage: a parallel loop over chunks that runs them
+// back to back while the chunk is in cache. Two stages get an edge, in list order, when they touch the
+// same component and one of them writes, or when one of them changes the length of a place that the
+// other touches. Nobody writes edges. Stages without an edge between them run side by side.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/system.hpp"
+
+namespace pulvis {
+
+struct StagePlan {
+  std::vector<std::string> systems;
+  bool by_chunk = false;
+  std::vector<AccessInfo> accesses;  // union over its systems; write wins over read
+};
+
+struct GraphPlan {
+  std::vector<StagePlan> stages;
+  std::vector<std::pair<int, int>> edges;  // transitively reduced, (earlier, later)
+};
+
+// True when the two accesses may not run side by side.
+bool conflict(const AccessInfo& a, const AccessInfo& b);
+
+class TaskGraph {
+ public:
+  // `systems` in the order of the step list. Must be built and run inside the arena it will use.
+  TaskGraph(std::vector<System> systems, int chunks);
+  ~TaskGraph();
+  TaskGraph(TaskGraph&&) noexcept;
+
+  // Runs every stage once. An exception of a system ends the run and comes out here.
+  void run();
+  const GraphPlan& plan() const { return plan_; }
+
+ private:
+  struct Flow;
+  GraphPlan plan_;
+  std::unique_ptr<Flow> flow_;
+};
+
+// The part of TaskGraph that is data: what `pulvis plan` prints and the tests assert.
+GraphPlan derive_plan(const std::vector<System>& systems);
+
+}  // namespace pulvis

@@ -1,0 +1,206 @@
+// The world: tables (how many rows a place has) and the columns and resources that a scene asked for.
+// Nothing is allocated that was not added by name; asking for a missing column is an error that names it.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <vector>
+
+#include "engine/component.hpp"
+#include "engine/lane.hpp"
+
+namespace pulvis {
+
+// Zeroed memory on a cache-line boundary.
+class Buffer {
+ public:
+  Buffer() = default;
+  explicit Buffer(std::size_t bytes);
+  std::byte* data() { return data_.get(); }
+  const std::byte* data() const { return data_.get(); }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  struct Free {
+    void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t{64}); }
+  };
+  std::unique_ptr<std::byte[], Free> data_;
+  std::size_t bytes_ = 0;
+};
+
+class ColumnBase {
+ public:
+  ColumnBase(ComponentInfo declared, std::string at, int numbers, std::size_t bytes_of_row)
+      : info(declared), place(std::move(at)), count(numbers), row_bytes(bytes_of_row) {}
+  virtual ~ColumnBase() = default;
+  ColumnBase(const ColumnBase&) = delete;
+  ColumnBase& operator=(const ColumnBase&) = delete;
+
+  void allocate(std::size_t rows) { buffer_ = Buffer(rows * row_bytes); }
+  // New row r takes what old row sources[r] held; a negative source gives zeros.
+  void rebuild(const std::vector<std::int32_t>& sources);
+
+  std::size_t bytes() const { return buffer_.bytes(); }
+  std::byte* data() { return buffer_.data(); }
+  const std::byte* data() const { return buffer_.data(); }
+
+  const ComponentInfo info;
+  const std::string place;
+  const int count;              // numbers in a row (in a lane of a slot)
+  const std::size_t row_bytes;  // of a row, or of a slot with its four lanes
+
+ private:
+  Buffer buffer_;
+};
+
+// The rows of one place. `chunk_begin` (chunks + 1 entries) says which rows belong to which chunk;
+// it is empty for places that are not divided by chunks.
+struct Table {
+  std::string place;
+  bool laned = false;
+  std::size_t rows = 0;
+  std::vector<std::int32_t> chunk_begin;
+  std::vector<ColumnBase*> columns;
+};
+
+template <IsComponent C>
+class Column : public ColumnBase {
+ public:
+  using value_type = typename C::value_type;
+  static constexpr bool laned = C::Place::laned;
+  static constexpr std::size_t bytes_a_row = sizeof(value_type) * C::count * (laned ? lane_count : 1);
+
+  explicit Column(const Table& owner)
+      : ColumnBase(C::info, C::Place::name, C::count, bytes_a_row), table(owner) {}
+
+  value_type* values() { return reinterpret_cast<value_type*>(data()); }
+  const value_type* values() const { return reinterpret_cast<const value_type*>(data()); }
+  Lane* lanes() requires(laned && std::is_same_v<value_type, double>) {
+    return reinterpret_cast<Lane*>(data());
+  }
+  const Lane* lanes() const requires(laned && std::is_same_v<value_type, double>) {
+    return reinterpret_cast<const Lane*>(data());
+  }
+
+  const Table& table;
+};
+
+class World {
+ public:
+  // A place divided by chunks gets the rows (or slots) of every chunk; another just a number of rows.
+  template <class Place>
+  void add_table(const std::vector<std::int32_t>& rows_of_chunk);
+  template <class Place>
+  void add_table(std::size_t rows);
+  template <IsComponent C>
+  void add();
+  template <IsResource R, class... Args>
+  R& emplace(Args&&... args);
+
+  template <class Place>
+  Table& table();
+  template <class Place>
+  bool has_table() const { return tables_.contains(type_key<Place>()); }
+  template <IsComponent C>
+  Column<C>& column();
+  template <IsComponent C>
+  const Column<C>& column() const { return const_cast<World*>(this)->column<C>(); }
+  template <IsComponent C>
+  bool has() const { return columns_.contains(type_key<C>()); }
+  template <IsResource R>
+  R& resource();
+  template <IsResource R>
+  const R& resource() const { return const_cast<World*>(this)->resource<R>(); }
+  template <IsResource R>
+  bool has() const { return resources_.contains(type_key<R>()); }
+
+  // Gives every column of the place new rows; see ColumnBase::rebuild.
+  template <class Place>
+  void rebuild(const std::vector<std::int32_t>& sources);
+
+  // In the order in which they were added.
+  const std::vector<const ColumnBase*>& columns() const { return ordered_; }
+  int chunks() const { return chunks_; }
+
+ private:
+  Table& insert_table(TypeKey key, Table table);
+
+  std::map<TypeKey, std::unique_ptr<Table>> tables_;
+  std::map<TypeKey, std::unique_ptr<ColumnBase>> columns_;
+  std::map<TypeKey, std::shared_ptr<void>> resources_;
+  std::vector<const ColumnBase*> ordered_;
+  int chunks_ = 0;
+};
+
+template <class Place>
+void World::add_table(const std::vector<std::int32_t>& rows_of_chunk) {
+  Table table{Place::name, Place::laned, 0, {0}, {}};
+  for (const std::int32_t rows : rows_of_chunk) table.chunk_begin.push_back(table.chunk_begin.back() + rows);
+  table.rows = static_cast<std::size_t>(table.chunk_begin.back());
+  insert_table(type_key<Place>(), std::move(table));
+}
+
+template <class Place>
+void World::add_table(std::size_t rows) {
+  insert_table(type_key<Place>(), Table{Place::name, Place::laned, rows, {}, {}});
+}
+
+template <IsComponent C>
+void World::add() {
+  if (has<C>()) return;
+  Table& owner = table<typename C::Place>();
+  auto column = std::make_unique<Column<C>>(owner);
+  column->allocate(owner.rows);
+  owner.columns.push_back(column.get());
+  ordered_.push_back(column.get());
+  columns_.emplace(type_key<C>(), std::move(column));
+}
+
+template <IsResource R, class... Args>
+R& World::emplace(Args&&... args) {
+  auto made = std::make_shared<R>(std::forward<Args>(args)...);
+  R& result = *made;
+  resources_[type_key<R>()] = std::move(made);
+  return result;
+}
+
+template <class Place>
+Table& World::table() {
+  const auto found = tables_.find(type_key<Place>());
+  if (found == tables_.end())
+    throw std::logic_error(std::string("the world has no table '") + Place::name + "'");
+  return *found->second;
+}
+
+template <IsComponent C>
+Column<C>& World::column() {
+  const auto found = columns_.find(type_key<C>());
+  if (found == columns_.end())
+    throw std::logic_error(std::string("the world has no column '") + C::info.name + "' at '" +
+                           C::Place::name + "'");
+  return static_cast<Column<C>&>(*found->second);
+}
+
+template <IsResource R>
+R& World::resource() {
+  const auto found = resources_.find(type_key<R>());
+  if (found == resources_.end())
+    throw std::logic_error(std::string("the world has no resource '") + R::resource_name + "'");
+  return *static_cast<R*>(found->second.get());
+}
+
+template <class Place>
+void World::rebuild(const std::vector<std::int32_t>& sources) {
+  Table& owner = table<Place>();
+  for (ColumnBase* column : owner.columns) column->rebuild(sources);
+  owner.rows = sources.size();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,105 @@
+#include "engine/xdmf.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "engine/output_error.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr const char* integers = R"(NumberType="Int" Precision="4")";
+constexpr const char* doubles = R"(NumberType="Float" Precision="8")";
+
+std::string escaped(const std::string& text) {
+  static const std::map<char, const char*> entities = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+  std::string safe;
+  for (const char c : text) {
+    const auto entity = entities.find(c);
+    entity == entities.end() ? safe += c : safe += entity->second;
+  }
+  return safe;
+}
+
+const char* attribute_type(int components) {
+  if (components == 1) return "Scalar";
+  if (components == 3) return "Vector";
+  if (components == 6) return "Tensor6";
+  return components == 9 ? "Tensor" : "Matrix";
+}
+
+}  // namespace
+
+int stored_components(const FieldInfo& field) {
+  return field.components == 2 && field.name != "position" ? 3 : field.components;
+}
+
+Xdmf::Xdmf(std::filesystem::path path, std::string heavy, std::uint64_t nodes, std::uint64_t cells,
+           const std::vector<FieldInfo>& fields)
+    : path_(std::move(path)), heavy_(std::move(heavy)), nodes_(nodes), cells_(cells) {
+  for (const auto& field : fields) {
+    const bool drawn = field.place != FieldPlace::particle && field.name != "position";
+    if (drawn) fields_.push_back(field);
+  }
+}
+
+void Xdmf::add(double time, const std::string& group) {
+  grids_ += grid(time, group);
+  replace_file(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<Xdmf Version=\"3.0\">\n<Domain>\n"
+      "<Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" +
+      grids_ + "</Grid>\n</Domain>\n</Xdmf>\n");
+}
+
+std::string Xdmf::grid(double time, const std::string& group) const {
+  std::string text = fmt::format(
+      "<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{:.17g}\"/>\n"
+      "<Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">{}</Topology>\n"
+      "<Geometry GeometryType=\"XY\">{}</Geometry>\n",
+      group.substr(group.rfind('/') + 1), time, cells_, item("/mesh/quads", integers, cells_, 4),
+      item(group + "/position", doubles, nodes_, 2));
+  for (const auto& field : fields_) text += attribute(field, group);
+  text += fmt::format(
+      "<Attribute Name=\"particle\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n",
+      item("/mesh/cell_particle", integers, cells_, 1));
+  return text + "</Grid>\n";
+}
+
+std::string Xdmf::item(const std::string& dataset, const std::string& number, std::uint64_t rows,
+                       int columns) const {
+  const std::string extent =
+      columns == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, columns);
+  return fmt::format("<DataItem Format=\"HDF\" {} Dimensions=\"{}\">{}:{}</DataItem>", number,
+                     extent, escaped(heavy_), escaped(dataset));
+}
+
+std::string Xdmf::attribute(const FieldInfo& field, const std::string& group) const {
+  const bool on_nodes = field.place == FieldPlace::node;
+  const int columns = stored_components(field);
+  return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
+                     escaped(field.name), attribute_type(columns), on_nodes ? "Node" : "Cell",
+                     item(group + "/" + field.name, doubles, on_nodes ? nodes_ : cells_, columns));
+}
+
+void Xdmf::replace_file(const std::string& text) const {
+  const std::filesystem::path beside = path_.string() + ".new";
+  std::FILE* const file = std::fopen(beside.c_str(), "wb");
+  if (file == nullptr) throw OutputError(beside, "create the file", std::strerror(errno));
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (std::fclose(file) != 0 || !written) {
+    throw OutputError(beside, "write the file", std::strerror(errno));
+  }
+  std::error_code error;
+  std::filesystem::rename(beside, path_, error);
+  if (error) throw OutputError(path_, "replace the file", error.message());
+}
+
+}  // namespace pulvis

@@ -1,0 +1,296 @@
+#include "scenes/build.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "components/contact.hpp"
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "scenes/mesh.hpp"
+#include "scenes/place.hpp"
+
+namespace pulvis {
+namespace {
+
+// Share of the shortest edge that surfaces may move towards each other before contact rows are made
+// anew: rows cost little while apart, re-binning costs several steps.
+constexpr double skin_share = 0.5;
+
+double friction_of(const Scene& scene, const std::string& a, const std::string& b) {
+  for (const FrictionSpec& f : scene.frictions)
+    if ((f.first == a && f.second == b) || (f.first == b && f.second == a)) return f.coefficient;
+  return scene.contact.friction;
+}
+
+ContactRules contact_rules(const Scene& scene) {
+  ContactRules rules{scene.contact.stiffness, scene.contact.damping, scene.limits.penetration,
+                     static_cast<int>(scene.materials.size()), {}, {}};
+  for (const MaterialSpec& a : scene.materials)
+    for (const MaterialSpec& b : scene.materials)
+      rules.friction.push_back(friction_of(scene, a.name, b.name));
+  for (const ToolSpec& tool : scene.tools)
+    for (const MaterialSpec& m : scene.materials)
+      rules.tool_friction.push_back(friction_of(scene, tool.name, m.name));
+  return rules;
+}
+
+bool any_friction(const ContactRules& rules, const Needs& needs) {
+  const auto acts = [](double mu) { return mu > 0; };
+  return (needs.pairs && std::ranges::any_of(rules.friction, acts)) ||
+         (needs.tools && std::ranges::any_of(rules.tool_friction, acts));
+}
+
+// Uniform in [0, 1) from the top 53 bits: the same on every machine and standard library.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+// One particle in its lane: which shape, and the turn from the shape's frame to the scene's.
+struct Placed {
+  const BodySpec* body;
+  int number;
+  double turn;  // rad, of the mesh in space: the body's angle and the mesh phase
+};
+
+// Particles of one class after the other, four to a chunk; a mesh phase turns the mesh, not the shape
+// (a disc's outline does not care), so that all particles of a class share one undeformed mesh.
+std::vector<std::vector<Placed>> by_class(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  std::mt19937_64 random(scene.seed);
+  std::vector<std::vector<Placed>> classes(scene.particles.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto which = static_cast<std::size_t>(bodies[i].particle);
+    const ParticleSpec& spec = scene.particles[which];
+    const double phase =
+        spec.random_mesh_phase ? 2 * std::numbers::pi * uniform(random) : spec.mesh_phase;
+    classes[which].push_back({&bodies[i], static_cast<int>(i), bodies[i].angle + phase});
+  }
+  return classes;
+}
+
+struct Layout {
+  Bodies bodies;
+  std::vector<const Placed*> placed;  // [slots]; null where nobody stands
+};
+
+Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& classes,
+               std::size_t particles) {
+  Layout layout;
+  layout.bodies.thickness = scene.thickness;
+  layout.bodies.slot_of_number.resize(particles);
+  int control = 0;
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    if (classes[c].empty()) continue;
+    const int shape = static_cast<int>(layout.bodies.shapes.size());
+    layout.bodies.shapes.push_back(make_shape(scene.particles[c]));
+    const std::size_t lanes = (classes[c].size() + 3) / 4 * 4;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const bool there = i < classes[c].size();
+      Bodies::Slot slot{there ? classes[c][i].number : Bodies::nobody, shape,
+                        scene.particles[c].material, control};
+      control += layout.bodies.shapes.back().control_points();
+      if (there)
+        layout.bodies.slot_of_number[static_cast<std::size_t>(slot.number)] =
+            static_cast<int>(layout.bodies.slots.size());
+      layout.bodies.slots.push_back(slot);
+      layout.placed.push_back(there ? &classes[c][i] : nullptr);
+    }
+  }
+  return layout;
+}
+
+template <class Count>
+std::vector<std::int32_t> rows_by_chunk(const Bodies& bodies, const Count& count) {
+  std::vector<std::int32_t> rows;
+  for (int c = 0; c < bodies.chunks(); ++c)
+    rows.push_back(static_cast<std::int32_t>(count(bodies.shape_of_chunk(Chunk{c}))));
+  return rows;
+}
+
+void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
+  world.add_table<Node>(rows_by_chunk(bodies, [](const Shape& s) { return s.nodes.size(); }));
+  world.add_table<Element>(rows_by_chunk(bodies, [](const Shape& s) { return s.quads.size(); }));
+  world.add_table<Particle>(rows_by_chunk(bodies, [](const Shape&) { return 1; }));
+  world.add<Position>();
+  world.add<Velocity>();
+  world.add<InternalForce>();
+  world.add<DeviatoricStress>();
+  world.add<MeanStress>();
+  world.add<ShearModulus>();
+  world.add<BulkModulus>();
+  world.add<Density>();
+  world.add<LeastJacobian>();
+  world.add<WorstElement>();
+  world.add<StableTimeStep>();
+  world.add<KineticEnergy>();
+  world.add<ElasticEnergy>();
+  if (!needs.plastic) return;
+  world.add<YieldStress>();
+  world.add<HardeningModulus>();
+  world.add<PlasticMetric>();
+  world.add<PlasticStrain>();
+  world.add<PlasticWork>();
+}
+
+template <class At>
+void add_row_columns(World& world, const Needs& needs) {
+  world.add_table<At>(std::size_t{0});
+  world.add<ContactPair<At>>();
+  world.add<ContactReach<At>>();
+  world.add<EdgeLength<At>>();
+  world.add<ContactStiffness<At>>();
+  world.add<ContactWeight<At>>();
+  world.add<PointForce<At>>();
+  world.add<Penetration<At>>();
+  world.add<ContactEnergy<At>>();
+  if (needs.friction) {
+    world.add<FrictionCoefficient<At>>();
+    world.add<ElasticSlip<At>>();
+    world.add<FrictionWork<At>>();
+  }
+  if (needs.damping) {
+    world.add<DampingCoefficient<At>>();
+    world.add<DampingWork<At>>();
+  }
+}
+
+void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs) {
+  world.add_table<BoundaryNode>(
+      rows_by_chunk(bodies, [](const Shape& s) { return s.boundary_nodes; }));
+  world.add_table<ControlPoint>(
+      rows_by_chunk(bodies, [](const Shape& s) { return 4 * s.control_points(); }));
+  world.add<ContactForce>();
+  world.add<CurvePosition>();
+  world.add<CurveForce>();
+  world.add<MaximumSpeed>();
+  if (needs.friction || needs.damping) world.add<CurveVelocity>();
+  if (needs.pairs) {
+    add_row_columns<Contact>(world, needs);
+    world.add<ClosestPoint>();
+    if (needs.friction) world.add<FrictionCouple>();
+  }
+  if (needs.tools) add_row_columns<ToolContact>(world, needs);
+}
+
+void fill_bodies(World& world, const Layout& layout) {
+  auto& x = world.column<Position>();
+  auto& v = world.column<Velocity>();
+  for (std::size_t slot = 0; slot < layout.placed.size(); ++slot) {
+    const Chunk chunk{static_cast<std::int32_t>(slot / 4)};
+    const int lane = static_cast<int>(slot % 4);
+    const Placed* placed = layout.placed[slot];
+    const Shape& shape = layout.bodies.shape_of_chunk(chunk);
+    const auto first = static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(chunk.index)]);
+    const double c = placed ? std::cos(placed->turn) : 1, s = placed ? std::sin(placed->turn) : 0;
+    for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+      const Point p = shape.nodes[n];
+      const Vec2 arm(c * p[0] - s * p[1], s * p[0] + c * p[1]);
+      Lane* at = x.lanes() + 2 * (first + n);
+      Lane* rate = v.lanes() + 2 * (first + n);
+      const Vec2 where = placed ? Vec2(placed->body->position + arm) : arm;
+      at[0][lane] = where.x();
+      at[1][lane] = where.y();
+      if (!placed) continue;
+      const double omega = placed->body->angular_velocity;
+      rate[0][lane] = placed->body->velocity.x() - omega * arm.y();
+      rate[1][lane] = placed->body->velocity.y() + omega * arm.x();
+    }
+  }
+}
+
+void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
+  for (std::size_t slot = 0; slot < bodies.slots.size(); ++slot) {
+    const MaterialSpec& m = scene.materials[static_cast<std::size_t>(bodies.slots[slot].material)];
+    world.column<ShearModulus>().values()[slot] = m.youngs_modulus / (2 * (1 + m.poissons_ratio));
+    world.column<BulkModulus>().values()[slot] = m.youngs_modulus / (3 * (1 - 2 * m.poissons_ratio));
+    world.column<Density>().values()[slot] = m.density;
+    if (!world.has<YieldStress>()) continue;
+    world.column<YieldStress>().values()[slot] =
+        m.yield_stress.value_or(std::numeric_limits<double>::infinity());
+    world.column<HardeningModulus>().values()[slot] = m.hardening_modulus;
+  }
+}
+
+ToolProgram tool_program(const Scene& scene) {
+  ToolProgram program;
+  for (const ToolSpec& tool : scene.tools) {
+    program.names.push_back(tool.name);
+    program.start.push_back({tool.point.x(), tool.point.y()});
+  }
+  double begin = 0;
+  for (const StageSpec& stage : scene.stages) {
+    for (const MoveSpec& move : stage.moves)
+      program.segments.push_back({move.tool, begin, stage.duration, move.ramp,
+                                  {move.displacement.x(), move.displacement.y()}});
+    begin += stage.duration;
+  }
+  return program;
+}
+
+void add_tools(World& world, const Scene& scene) {
+  world.add_table<Tool>(scene.tools.size());
+  world.add<ToolPosition>();
+  world.add<ToolVelocity>();
+  world.add<ToolNormal>();
+  world.add<ToolForce>();
+  for (std::size_t t = 0; t < scene.tools.size(); ++t)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      world.column<ToolNormal>().values()[2 * t + k] = scene.tools[t].normal[axis];
+      world.column<ToolPosition>().values()[2 * t + k] = scene.tools[t].point[axis];
+    }
+  world.emplace<ToolProgram>(tool_program(scene));
+}
+
+double shortest_edge(const Bodies& bodies) {
+  double least = std::numeric_limits<double>::max();
+  for (const Shape& shape : bodies.shapes)
+    for (const Shape::Edge& edge : shape.edges) least = std::min(least, edge.length);
+  return least;
+}
+
+void add_clock(World& world, const Scene& scene) {
+  Clock& clock = world.emplace<Clock>();
+  clock.safety = scene.time.safety;
+  for (const StageSpec& stage : scene.stages) clock.end += stage.duration;
+}
+
+}  // namespace
+
+Needs needs_of(const Scene& scene, std::size_t particles) {
+  Needs needs;
+  needs.plastic = std::ranges::any_of(
+      scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
+  needs.pairs = particles > 1;
+  needs.tools = !scene.tools.empty();
+  needs.friction = any_friction(contact_rules(scene), needs);
+  needs.damping = needs.contact() && scene.contact.damping > 0;
+  return needs;
+}
+
+std::unique_ptr<World> build_world(const Scene& scene) {
+  const std::vector<BodySpec> bodies = place_bodies(scene);
+  check_overlaps(scene, bodies);
+  const Needs needs = needs_of(scene, bodies.size());
+  const auto classes = by_class(scene, bodies);
+  Layout layout = lay_out(scene, classes, bodies.size());
+
+  auto world = std::make_unique<World>();
+  add_body_columns(*world, layout.bodies, needs);
+  if (needs.tools) add_tools(*world, scene);
+  if (needs.contact()) {
+    add_contact_columns(*world, layout.bodies, needs);
+    world->emplace<ContactRules>(contact_rules(scene));
+    world->emplace<ContactIndex>().skin = skin_share * shortest_edge(layout.bodies);
+  }
+  fill_bodies(*world, layout);
+  fill_materials(*world, scene, layout.bodies);
+  add_clock(*world, scene);
+  world->emplace<Totals>();
+  world->emplace<Bodies>(std::move(layout.bodies));
+  return world;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,26 @@
+// From a scene to the world that its systems run in: tables, and the columns that the scene asks for.
+#pragma once
+
+#include <memory>
+
+#include "engine/world.hpp"
+#include "scenes/scene.hpp"
+
+namespace pulvis {
+
+// What a scene needs: decides which columns (and with them which systems) exist.
+struct Needs {
+  bool plastic = false;   // a material yields
+  bool pairs = false;     // more than one particle
+  bool tools = false;
+  bool friction = false;  // a coefficient above zero can act
+  bool damping = false;
+  bool contact() const { return pairs || tools; }
+};
+
+Needs needs_of(const Scene& scene, std::size_t particles);
+
+// Places the particles, checks that they have room (throws SceneError), and fills a world.
+std::unique_ptr<World> build_world(const Scene& scene);
+
+}  // namespace pulvis

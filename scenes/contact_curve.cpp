@@ -1,0 +1,137 @@
+#include "scenes/contact_curve.hpp"
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "systems/contact_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+using Terms = std::map<int, double>;  // boundary node -> weight
+
+void add(Terms& to, const Terms& from, double factor) {
+  for (const auto& [node, weight] : from) to[node] += factor * weight;
+}
+
+Terms smoothed(int before, int at, int after, double c) {
+  return {{before, -c}, {at, 1 + 2 * c}, {after, -c}};
+}
+
+void push_control_point(Shape& shape, const Terms& terms) {
+  if (shape.curve_begin.empty()) shape.curve_begin.push_back(0);
+  for (const auto& [node, weight] : terms)
+    if (weight != 0) shape.curve_terms.push_back({Row<BoundaryNode>(node), weight});
+  shape.curve_begin.push_back(static_cast<std::int32_t>(shape.curve_terms.size()));
+}
+
+// Smoothing of the node `i` of a face with `edges` edges. Next to a corner 1/11 (1/10 when both
+// neighbours are corners) instead of 1/12: solves "nodal loads of a uniform pressure are 1/2, 1, 1...".
+double face_smoothing(int i, int edges) {
+  if (i == 0 || i == edges) return 0;
+  if (edges == 2) return 1.0 / 10;
+  return i == 1 || i == edges - 1 ? 1.0 / 11 : 1.0 / 12;
+}
+
+void push_face(Shape& shape, int first, int edges, int boundary_nodes) {
+  const auto node = [&](int i) { return (first + i) % boundary_nodes; };
+  std::vector<Terms> y;
+  for (int i = 0; i <= edges; ++i) {
+    const double c = face_smoothing(i, edges);
+    y.push_back(c > 0 ? smoothed(node(i - 1), node(i), node(i + 1), c) : Terms{{node(i), 1.0}});
+  }
+  // The spline ends in its end node with no curvature: the control points beyond are mirror images.
+  Terms before, after;
+  add(before, y[0], 2);
+  add(before, y[1], -1);
+  add(after, y[y.size() - 1], 2);
+  add(after, y[y.size() - 2], -1);
+
+  const int first_control = shape.curve_begin.empty() ? 0 : shape.control_points();
+  push_control_point(shape, before);
+  for (const Terms& terms : y) push_control_point(shape, terms);
+  push_control_point(shape, after);
+  const int first_edge = static_cast<int>(shape.edges.size());
+  for (int e = 0; e < edges; ++e) {
+    Shape::Edge edge;
+    edge.first_control = first_control + e;
+    edge.previous = e > 0 ? first_edge + e - 1 : Shape::no_edge;
+    edge.next = e + 1 < edges ? first_edge + e + 1 : Shape::no_edge;
+    shape.edges.push_back(edge);
+  }
+}
+
+Point node_of(const Shape& shape, int boundary_node) {
+  return shape.nodes[static_cast<std::size_t>(boundary_node)];
+}
+
+// The element that has the boundary edge from node i to node i + 1.
+std::size_t element_behind(const Shape& shape, int i) {
+  const int j = (i + 1) % shape.boundary_nodes;
+  for (std::size_t e = 0; e < shape.quads.size(); ++e)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (shape.quads[e][k].value == i && shape.quads[e][(k + 1) % 4].value == j) return e;
+  throw std::logic_error("boundary edge without an element");
+}
+
+}  // namespace
+
+void close_curve(Shape& shape, const std::vector<double>& smoothing) {
+  const int n = shape.boundary_nodes;
+  for (int c = 0; c < n + 3; ++c) {
+    const int i = (c + n - 1) % n;
+    push_control_point(shape, smoothed((i + n - 1) % n, i, (i + 1) % n,
+                                       smoothing[static_cast<std::size_t>(i)]));
+  }
+  for (int e = 0; e < n; ++e) {
+    Shape::Edge edge;
+    edge.first_control = e;
+    edge.previous = (e + n - 1) % n;
+    edge.next = (e + 1) % n;
+    shape.edges.push_back(edge);
+  }
+}
+
+void cornered_curve(Shape& shape, const std::vector<int>& corners) {
+  for (std::size_t f = 0; f < corners.size(); ++f) {
+    const int end = f + 1 < corners.size() ? corners[f + 1] : shape.boundary_nodes;
+    push_face(shape, corners[f], end - corners[f], shape.boundary_nodes);
+  }
+}
+
+void measure_edges(Shape& shape) {
+  std::vector<Point> control;
+  for (int c = 0; c < shape.control_points(); ++c) {
+    Point y{};
+    for (std::int32_t t = shape.curve_begin[static_cast<std::size_t>(c)];
+         t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
+      const Shape::CurveTerm& term = shape.curve_terms[static_cast<std::size_t>(t)];
+      for (std::size_t k = 0; k < 2; ++k) y[k] += term.weight * node_of(shape, term.node.value)[k];
+    }
+    control.push_back(y);
+  }
+  shape.contact_stiffness.assign(shape.quads.size(), 0);
+  for (int i = 0; i < static_cast<int>(shape.edges.size()); ++i) {
+    Shape::Edge& edge = shape.edges[static_cast<std::size_t>(i)];
+    edge.length = 0;
+    for (std::size_t g = 0; g < 4; ++g) {
+      const auto slope = kernels::basis_slope(kernels::edge_u[g]);
+      double tx = 0, ty = 0;
+      for (std::size_t a = 0; a < 4; ++a) {
+        tx += slope[a] * control[static_cast<std::size_t>(edge.first_control) + a][0];
+        ty += slope[a] * control[static_cast<std::size_t>(edge.first_control) + a][1];
+      }
+      edge.weight[g] = kernels::edge_w[g] * std::hypot(tx, ty);
+      edge.length += edge.weight[g];
+    }
+    const std::size_t element = element_behind(shape, i);
+    double area = 0;
+    for (const Shape::GaussPoint& point : shape.gauss[element]) area += point.determinant;
+    edge.stiffness = edge.length / area;
+    shape.contact_stiffness[element] += edge.stiffness * edge.stiffness;
+  }
+}
+
+}  // namespace pulvis

@@ -1,0 +1,24 @@
+// The smooth contact curve of a meshed outline: control points as combinations of boundary nodes.
+//
+// y_i = x_i - c (x_(i-1) - 2 x_i + x_(i+1)) with c = 1/12: the spline passes where the true outline is
+// when the nodes stand on the polygon of equal area, and a uniform pressure on it loads the nodes as it
+// would load the element edges.
+#pragma once
+
+#include <vector>
+
+#include "components/shape.hpp"
+
+namespace pulvis {
+
+// One closed spline along all boundary nodes, without corners; `smoothing`: c of each, about 1/12.
+void close_curve(Shape& shape, const std::vector<double>& smoothing);
+// A spline for every face between two corners (boundary node numbers, rising, first is 0). A curve ends
+// in its corner node; the rows next to it are such that a uniform pressure on an even face still gives
+// every node what its element edges carry: 1/2, 1, 1, ..., 1/2 edge lengths.
+void cornered_curve(Shape& shape, const std::vector<int>& corners);
+// Undeformed lengths, contact stiffness and Gauss weights of the edges, and the stiffness of the
+// elements behind them. Needs the mesh's Gauss points.
+void measure_edges(Shape& shape);
+
+}  // namespace pulvis

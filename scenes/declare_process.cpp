@@ -1,0 +1,270 @@
+// Declarations of what happens to the powder: placement, tools, stages, friction, and the settings
+// of a run.
+#include "scenes/declare.hpp"
+
+namespace pulvis::schema {
+
+const TableDeclaration<BodySpec>& body() {
+  static const TableDeclaration<BodySpec> declaration{
+      {"body", true, "", "One particle, placed by hand."},
+      {{{.name = "particle",
+         .kind = Kind::reference,
+         .refers_to = "particle",
+         .required = true,
+         .doc = "Its class."},
+        index_to(&BodySpec::particle)},
+       {{.name = "position",
+         .kind = Kind::vector,
+         .unit = "m",
+         .range = within(-largest_size, largest_size),
+         .required = true,
+         .doc = "Centre of the outline."},
+        to(&BodySpec::position)},
+       {{.name = "angle",
+         .kind = Kind::quantity,
+         .unit = "rad",
+         .range = within(-1000, 1000),
+         .fallback = value_of("0 deg"),
+         .doc = "Turn, counter-clockwise."},
+        to(&BodySpec::angle)},
+       {{.name = "velocity",
+         .kind = Kind::vector,
+         .unit = "m/s",
+         .range = within(-1e5, 1e5),
+         .fallback = pair_of("0 m/s", "0 m/s"),
+         .doc = "Initial velocity of the centre."},
+        to(&BodySpec::velocity)},
+       {{.name = "angular_velocity",
+         .kind = Kind::quantity,
+         .unit = "rad/s",
+         .range = within(-1e12, 1e12),
+         .fallback = value_of("0 rad/s"),
+         .doc = "Initial spin, counter-clockwise."},
+        to(&BodySpec::angular_velocity)}}};
+  return declaration;
+}
+
+const TableDeclaration<SquarePacking>& packing() {
+  static const TableDeclaration<SquarePacking> declaration{
+      {"packing", true, "", "Many particles at once, row by row from the bottom."},
+      {{{.name = "kind",
+         .kind = Kind::choice,
+         .choices = {{"square", "rows and columns on a square lattice"}},
+         .required = true,
+         .doc = "How the particles are arranged."},
+        nothing<SquarePacking>},
+       {{.name = "particle",
+         .kind = Kind::reference,
+         .refers_to = "particle",
+         .required = true,
+         .doc = "Their class."},
+        index_to(&SquarePacking::particle)},
+       {{.name = "rows",
+         .kind = Kind::integer,
+         .range = within(1, 1e6),
+         .required = true,
+         .doc = "Particles on top of each other."},
+        integer_to(&SquarePacking::rows)},
+       {{.name = "columns",
+         .kind = Kind::integer,
+         .range = within(1, 1e6),
+         .required = true,
+         .doc = "Particles side by side."},
+        integer_to(&SquarePacking::columns)},
+       {{.name = "spacing",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .doc = "Distance from centre to centre; must be given for rectangles.",
+         .fallback_doc = "the diameter of the discs: they touch"},
+        to(&SquarePacking::spacing)},
+       {{.name = "corner",
+         .kind = Kind::vector,
+         .unit = "m",
+         .range = within(-largest_size, largest_size),
+         .fallback = pair_of("0 m", "0 m"),
+         .doc = "Lower left corner of the first particle's lattice cell."},
+        to(&SquarePacking::corner)}}};
+  return declaration;
+}
+
+const TableDeclaration<ToolSpec>& tool() {
+  static const TableDeclaration<ToolSpec> declaration{
+      {"tool", true, "", "A rigid punch or wall."},
+      {{{.name = "name",
+         .kind = Kind::name,
+         .required = true,
+         .doc = "Moves, friction pairs and the results refer to it."},
+        to(&ToolSpec::name)},
+       {{.name = "shape",
+         .kind = Kind::choice,
+         .choices = {{"plane", "fills the half-plane behind its surface"}},
+         .required = true,
+         .doc = "Its surface."},
+        nothing<ToolSpec>},
+       {{.name = "point",
+         .kind = Kind::vector,
+         .unit = "m",
+         .range = within(-largest_size, largest_size),
+         .required = true,
+         .doc = "A point of the surface."},
+        to(&ToolSpec::point)},
+       {{.name = "normal",
+         .kind = Kind::direction,
+         .required = true,
+         .doc = "Direction from the tool into the powder, of any length."},
+        to(&ToolSpec::normal)}}};
+  return declaration;
+}
+
+const TableDeclaration<StageSpec>& stage() {
+  static const TableDeclaration<StageSpec> declaration{
+      {"stage", true, "", "A part of the run; stages follow each other in the order of the file."},
+      {{{.name = "name", .kind = Kind::name, .required = true, .doc = "Shown in the report."},
+        to(&StageSpec::name)},
+       {{.name = "kind",
+         .kind = Kind::choice,
+         .choices = {{"settle", "no tool moves, the particles come to rest"},
+                     {"compact", "tools move and load the powder"},
+                     {"hold", "no tool moves, the load is kept"},
+                     {"unload", "tools move back"}},
+         .required = true,
+         .doc = "What the stage is for."},
+        [](StageSpec& spec, const Decoded& value) {
+          spec.kind = static_cast<StageSpec::Kind>(value.index);
+        }},
+       {{.name = "duration",
+         .kind = Kind::quantity,
+         .unit = "s",
+         .range = within(1e-15, 1e6),
+         .required = true,
+         .doc = "Simulated time."},
+        to(&StageSpec::duration)}}};
+  return declaration;
+}
+
+const TableDeclaration<MoveSpec>& move() {
+  static const TableDeclaration<MoveSpec> declaration{
+      {"stage.move", true, "", "What one tool does during the stage above it."},
+      {{{.name = "tool",
+         .kind = Kind::reference,
+         .refers_to = "tool",
+         .required = true,
+         .doc = "The tool that moves."},
+        index_to(&MoveSpec::tool)},
+       {{.name = "displacement",
+         .kind = Kind::vector,
+         .unit = "m",
+         .range = within(-largest_size, largest_size),
+         .required = true,
+         .doc = "Way travelled over the stage."},
+        to(&MoveSpec::displacement)},
+       {{.name = "ramp",
+         .kind = Kind::number,
+         .range = above(0, 0.5),
+         .fallback = value_of(0.1),
+         .doc =
+             "Share of the stage in which the speed rises smoothly, and falls again at its end."},
+        to(&MoveSpec::ramp)}}};
+  return declaration;
+}
+
+const TableDeclaration<FrictionSpec>& friction() {
+  static const TableDeclaration<FrictionSpec> declaration{
+      {"friction", true, "", "Friction of one pair, instead of `contact.friction`."},
+      {{{.name = "between",
+         .kind = Kind::name_pair,
+         .required = true,
+         .doc = "Two materials, or a material and a tool; a material may meet itself."},
+        [](FrictionSpec& spec, const Decoded& value) {
+          spec.first = value.names[0];
+          spec.second = value.names[1];
+        }},
+       {{.name = "coefficient",
+         .kind = Kind::number,
+         .range = within(0, 10),
+         .required = true,
+         .doc = "Coulomb's coefficient."},
+        to(&FrictionSpec::coefficient)}}};
+  return declaration;
+}
+
+const TableDeclaration<ContactSpec>& contact() {
+  static const TableDeclaration<ContactSpec> declaration{
+      {"contact", false, "", "Contact of everything with everything."},
+      {{{.name = "friction",
+         .kind = Kind::number,
+         .range = within(0, 10),
+         .fallback = value_of(0.0),
+         .doc = "Coulomb's coefficient of every pair that no `[[friction]]` names."},
+        to(&ContactSpec::friction)},
+       {{.name = "stiffness",
+         .kind = Kind::number,
+         .range = within(0.01, 100),
+         .fallback = value_of(1.0),
+         .doc = "Contact stiffness over bulk modulus times edge length over element area."},
+        to(&ContactSpec::stiffness)},
+       {{.name = "damping",
+         .kind = Kind::number,
+         .range = within(0, 1),
+         .fallback = value_of(0.0),
+         .doc = "Share of the critical damping of the contact spring."},
+        to(&ContactSpec::damping)}}};
+  return declaration;
+}
+
+const TableDeclaration<TimeSpec>& time() {
+  static const TableDeclaration<TimeSpec> declaration{
+      {"time", false, "", "Time integration."},
+      {{{.name = "safety",
+         .kind = Kind::number,
+         .range = between(0, 1),
+         .fallback = value_of(0.9),
+         .doc = "Share of the stable time step that is used."},
+        to(&TimeSpec::safety)}}};
+  return declaration;
+}
+
+const TableDeclaration<OutputSpec>& output() {
+  static const TableDeclaration<OutputSpec> declaration{
+      {"output", false, "", "How much is written."},
+      {{{.name = "frames",
+         .kind = Kind::integer,
+         .range = within(1, 1e6),
+         .fallback = value_of(50),
+         .doc = "Fields written over the run, besides the first."},
+        integer_to(&OutputSpec::frames)},
+       {{.name = "samples",
+         .kind = Kind::integer,
+         .range = within(1, 1e8),
+         .fallback = value_of(1000),
+         .doc = "Rows of the history over the run, besides the first."},
+        integer_to(&OutputSpec::samples)}}};
+  return declaration;
+}
+
+const TableDeclaration<LimitSpec>& limits() {
+  static const TableDeclaration<LimitSpec> declaration{
+      {"limits", false, "", "Health: a run that passes one of these stops."},
+      {{{.name = "energy_balance",
+         .kind = Kind::number,
+         .range = above(0, 1e6),
+         .fallback = value_of(0.05),
+         .doc = "Error of the energy balance over the largest energy of the run."},
+        to(&LimitSpec::energy_balance)},
+       {{.name = "penetration",
+         .kind = Kind::number,
+         .range = above(0, 1e6),
+         .fallback = value_of(0.5),
+         .doc = "Penetration over the length of a boundary edge."},
+        to(&LimitSpec::penetration)},
+       {{.name = "kinetic_energy",
+         .kind = Kind::number,
+         .range = above(0, 1e6),
+         .doc = "Kinetic over internal energy, for runs meant to be quasi-static.",
+         .fallback_doc = "no limit"},
+        to(&LimitSpec::kinetic_energy)}}};
+  return declaration;
+}
+
+}  // namespace pulvis::schema

@@ -1,0 +1,22 @@
+// From packings and bodies to single particles, and the check that they have room.
+#pragma once
+
+#include "scenes/scene.hpp"
+
+#include <vector>
+
+namespace pulvis {
+
+// Overlaps up to this share of the smaller particle's size are round-off: particles that touch
+// exactly, as in a square packing, are meant to.
+inline constexpr double touching_tolerance = 1e-9;
+
+// Every particle of the scene. Bodies and packings come in the order of the file, a packing row by
+// row from the bottom, each row from the left; the position in the list is the particle's number.
+std::vector<BodySpec> place_bodies(const Scene& scene);
+
+// Throws SceneError when particles overlap each other or a tool, naming both, the depth, and the
+// place of the scene that put the particle there.
+void check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies);
+
+}  // namespace pulvis

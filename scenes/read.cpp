@@ -1,0 +1,190 @@
+#include "scenes/read.hpp"
+
+#include "scenes/checks.hpp"
+#include "scenes/override.hpp"
+#include "scenes/scene_text.hpp"
+#include "scenes/table_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace pulvis {
+namespace {
+
+using document::Array;
+using document::Table;
+using document::Value;
+
+constexpr std::size_t largest_file = 16U << 20U;  // bytes; scenes are written by hand
+
+class SceneReader {
+ public:
+  SceneReader(const Table& root, Problems& problems) : root_(root), tables_(root, problems) {}
+
+  Scene read(const std::filesystem::path& file) {
+    Scene scene;
+    scene.file = file;
+    tables_.read(schema::top_level(), Value{root_, {{1, 1}, -1}}, "", "", scene);
+    scene.materials = read_all(schema::material());
+    scene.particles = read_particles();
+    scene.bodies = read_all(schema::body());
+    scene.packings = read_all(schema::packing());
+    scene.tools = read_all(schema::tool());
+    scene.stages = read_stages();
+    scene.frictions = read_all(schema::friction());
+    read_one(schema::contact(), scene.contact);
+    read_one(schema::time(), scene.time);
+    read_one(schema::output(), scene.output);
+    read_one(schema::limits(), scene.limits);
+    return scene;
+  }
+
+  const schema::Origins& origins() const { return tables_.origins(); }
+
+ private:
+  static std::string numbered(const std::string& name, std::size_t i) {
+    return fmt::format("{}[{}]", name, i);
+  }
+
+  template <class Spec>
+  std::vector<Spec> read_all(const schema::TableDeclaration<Spec>& declaration) {
+    return read_elements(declaration, root_, "");
+  }
+
+  template <class Spec>
+  std::vector<Spec> read_elements(const schema::TableDeclaration<Spec>& declaration,
+                                  const Table& parent, const std::string& parent_path) {
+    const Array& elements = tables_.elements(parent, parent_path, declaration.info);
+    const std::string name = declaration.info.path.substr(declaration.info.path.rfind('.') + 1);
+    std::vector<Spec> specs(elements.size());
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const std::string path = numbered(schema::joined_path(parent_path, name), i);
+      specs[i].mark = elements[i].origin.mark;
+      tables_.read(declaration, elements[i], path, "", specs[i]);
+    }
+    return specs;
+  }
+
+  template <class Spec>
+  void read_one(const schema::TableDeclaration<Spec>& declaration, Spec& spec) {
+    if (const document::Entry* entry = document::find(root_, declaration.info.path))
+      tables_.read(declaration, entry->value, declaration.info.path, "", spec);
+  }
+
+  std::vector<ParticleSpec> read_particles() {
+    std::vector<ParticleSpec> particles = read_all(schema::particle());
+    const Array& elements = array_at("particle");
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const Table& table = elements[i].get<Table>();
+      const document::Entry* mesh = document::find(table, "mesh");
+      const std::string* outline = document::find_text(table, "outline");
+      if (mesh != nullptr && outline != nullptr && holds_outline(*outline))
+        tables_.read(schema::mesh(), mesh->value, numbered("particle", i) + ".mesh", *outline,
+                     particles[i]);
+    }
+    return particles;
+  }
+
+  // A misspelt outline is reported once; the keys of its mesh cannot be judged then.
+  static bool holds_outline(const std::string& outline) {
+    const schema::KeyInfo& key = *schema::find_key(*schema::find_table("particle"), "outline");
+    for (const schema::Choice& choice : key.choices)
+      if (choice.word == outline) return true;
+    return false;
+  }
+
+  std::vector<StageSpec> read_stages() {
+    std::vector<StageSpec> stages = read_all(schema::stage());
+    const Array& elements = array_at("stage");
+    for (std::size_t i = 0; i < stages.size(); ++i)
+      stages[i].moves =
+          read_elements(schema::move(), elements[i].get<Table>(), numbered("stage", i));
+    return stages;
+  }
+
+  // Of a table that read_all has found to be an array of tables, or to be missing.
+  const Array& array_at(const std::string& name) const {
+    static const Array none;
+    const document::Entry* entry = document::find(root_, name);
+    const bool usable = entry != nullptr && document::is_array_of_tables(entry->value);
+    return usable ? entry->value.get<Array>() : none;
+  }
+
+  const Table& root_;
+  schema::TableReader tables_;
+};
+
+[[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& message) {
+  throw SceneError({{file.string(), 1, 1, "", "scene", message}});
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::error_code failure;
+  if (!std::filesystem::exists(file, failure))
+    refuse_file(file, "there is no such file, allowed: a scene (TOML)");
+  if (std::filesystem::is_directory(file, failure))
+    refuse_file(file, "is a folder, allowed: a scene (TOML)");
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(largest_file + 1, '\0');
+  if (stream) stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad() || !(stream.eof() || stream)) refuse_file(file, "cannot be read");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest_file)
+    refuse_file(file, fmt::format("is larger than {} MiB", largest_file >> 20U));
+  return text;
+}
+
+Table parsed(const std::string& text, Problems& problems) {
+  try {
+    Table root = document::parse(text);
+    if (root.empty()) problems.add({{1, 1}, -1}, "scene", "is empty, allowed: a scene (TOML)");
+    problems.throw_if_any();
+    return root;
+  } catch (const document::SyntaxError& error) {
+    problems.add({error.mark, -1}, "syntax", error.what());
+    problems.throw_if_any();
+    throw;  // not reached
+  }
+}
+
+}  // namespace
+
+LoadedScene load_scene_text(const std::string& text, const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides) {
+  Problems problems(file, overrides);
+  Table root = parsed(text, problems);
+  apply_overrides(root, overrides, problems);
+  problems.throw_if_any();
+  schema::fill_defaults(root);
+
+  LoadedScene loaded;
+  SceneReader reader(root, problems);
+  loaded.scene = reader.read(file);
+  problems.throw_if_any();
+  complete_and_check(loaded.scene, reader.origins(), problems);
+  problems.throw_if_any();
+  loaded.text = scene_text(root);
+  loaded.hash = scene_hash(loaded.text);
+  return loaded;
+}
+
+LoadedScene load_scene(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides) {
+  return load_scene_text(text_of(file), file, overrides);
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return load_scene(file, overrides).scene;
+}
+
+std::uint64_t scene_hash(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3U;
+  }
+  return hash;
+}
+
+}  // namespace pulvis

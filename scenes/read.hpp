@@ -1,0 +1,33 @@
+// Reads a scene file. Everything that is wrong with it is thrown as one SceneError, before anything
+// is built or run.
+#pragma once
+
+#include "scenes/problem.hpp"
+#include "scenes/scene.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pulvis {
+
+struct LoadedScene {
+  Scene scene;
+  std::string text;  // the scene as run, as TOML: overrides and defaults included, one fixed layout
+  std::uint64_t hash = 0;  // of that text: the same for every file that says the same
+};
+
+LoadedScene load_scene(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides = {});
+
+// The same for a text that is already in memory; `file` is its name in messages.
+LoadedScene load_scene_text(const std::string& text, const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides = {});
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+// FNV-1a, 64 bits: the same on every machine.
+std::uint64_t scene_hash(const std::string& text);
+
+}  // namespace pulvis

@@ -1,0 +1,263 @@
+#include "scenes/results.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/body.hpp"
+#include "components/contact.hpp"
+#include "engine/access.hpp"
+
+namespace pulvis {
+
+std::optional<DieCell> die_cell(const Scene& scene) {
+  DieCell cell{-1, -1, -1, -1};
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const Vec2 n = scene.tools[t].normal;
+    int* side = n.x() > 1 - 1e-12    ? &cell.left
+                : n.x() < -1 + 1e-12 ? &cell.right
+                : n.y() > 1 - 1e-12  ? &cell.bottom
+                : n.y() < -1 + 1e-12 ? &cell.top
+                                     : nullptr;
+    if (side == nullptr || *side >= 0) return std::nullopt;
+    *side = static_cast<int>(t);
+  }
+  if (cell.left < 0 || cell.right < 0 || cell.bottom < 0 || cell.top < 0) return std::nullopt;
+  return cell;
+}
+
+namespace {
+
+std::optional<double> common_yield_stress(const Scene& scene, const Bodies& bodies) {
+  std::optional<double> common;
+  for (const int slot : bodies.slot_of_number) {
+    const int material = bodies.slots[static_cast<std::size_t>(slot)].material;
+    const auto& yield = scene.materials[static_cast<std::size_t>(material)].yield_stress;
+    if (!yield || (common && *common != *yield)) return std::nullopt;
+    common = yield;
+  }
+  return common;
+}
+
+// Sum over the particles in the order of their numbers; empty lanes do not count.
+template <class C>
+double total(const World& world) {
+  const Bodies& bodies = world.resource<Bodies>();
+  double sum = 0;
+  for (const int slot : bodies.slot_of_number)
+    sum += world.column<C>().values()[static_cast<std::size_t>(slot)];
+  return sum;
+}
+
+// Calls visit(slot row offset in `Place` rows, lane, shape) for every particle by number.
+template <class Place, class Visit>
+void for_each_particle(const World& world, const Visit& visit) {
+  const Bodies& bodies = world.resource<Bodies>();
+  const Table& table = const_cast<World&>(world).table<Place>();
+  for (const int slot : bodies.slot_of_number)
+    visit(static_cast<std::size_t>(table.chunk_begin[static_cast<std::size_t>(slot / 4)]), slot % 4,
+          bodies.shape_of_slot(slot));
+}
+
+template <class C>
+std::vector<double> node_values(const World& world) {
+  std::vector<double> out;
+  for_each_particle<Node>(world, [&](std::size_t first, int lane, const Shape& shape) {
+    const Lane* at = world.column<C>().lanes() + first * C::count;
+    for (std::size_t i = 0; i < shape.nodes.size() * C::count; ++i) out.push_back(at[i][lane]);
+  });
+  return out;
+}
+
+struct CellStress {
+  double xx = 0, yy = 0, zz = 0, xy = 0, effective = 0, pressure = 0;
+};
+
+// Mean over the Gauss points of an element; the effective stress is the mean of theirs.
+CellStress cell_stress(const Lane* s, double mean, int lane) {
+  CellStress c;
+  for (int g = 0; g < gauss_points; ++g) {
+    const double xx = s[3 * g][lane], yy = s[3 * g + 1][lane], xy = s[3 * g + 2][lane];
+    const double zz = -(xx + yy);
+    c.xx += xx / gauss_points;
+    c.yy += yy / gauss_points;
+    c.zz += zz / gauss_points;
+    c.xy += xy / gauss_points;
+    c.effective += std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * xy * xy)) / gauss_points;
+  }
+  c.xx += mean;
+  c.yy += mean;
+  c.zz += mean;
+  c.pressure = -mean;
+  return c;
+}
+
+}  // namespace
+
+Results::Results(const Scene& scene, const World& world)
+    : world_(world), cell_(die_cell(scene)),
+      yield_stress_(common_yield_stress(scene, world.resource<Bodies>())) {
+  for_each_particle<Node>(world, [&](std::size_t, int, const Shape& shape) {
+    particle_area_ += shape.area;
+    elements_ += shape.elements();
+    nodes_ += static_cast<std::int64_t>(shape.nodes.size());
+  });
+  for (const ToolSpec& tool : scene.tools) {
+    const std::string name = "tool/" + tool.name + "/";
+    add_series(name + "position_x", "m", "a point of the tool's surface");
+    add_series(name + "position_y", "m", "a point of the tool's surface");
+    add_series(name + "force_x", "N", "of the particles, on the tool");
+    add_series(name + "force_y", "N", "of the particles, on the tool");
+  }
+  if (cell_) {
+    add_series("relative_density", "-", "undeformed particle area / area between the tools");
+    if (yield_stress_) {
+      add_series("stress_ratio/axial", "-", "mean of top and bottom stress / yield stress");
+      add_series("stress_ratio/lateral", "-", "mean of left and right stress / yield stress");
+    }
+  }
+  add_series("energy/kinetic", "J", "of all nodes");
+  add_series("energy/elastic", "J", "stored in the elements");
+  add_series("energy/plastic", "J", "spent in plastic flow");
+  add_series("energy/hourglass", "J", "of hourglass control; none with four Gauss points");
+  add_series("energy/contact", "J", "stored in the contact springs");
+  add_series("energy/friction", "J", "dissipated by friction");
+  add_series("energy/damping", "J", "dissipated by contact damping");
+  add_series("energy/external", "J", "work of the tools");
+  add_series("energy/balance", "J", "all energies less the work of the tools and the energy at the start");
+  add_series("contacts", "-", "boundary edges that touch another particle or a tool");
+  add_series("penetration", "-", "deepest so far, of the boundary edge length");
+  add_series("dt", "s", "time step");
+
+  fields_ = {{"position", "m", "of the node", FieldPlace::node, 2},
+             {"velocity", "m/s", "of the node, half a step later", FieldPlace::node, 2},
+             {"effective_stress", "Pa", "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
+             {"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
+             {"stress", "Pa", "Cauchy: xx yy zz xy", FieldPlace::cell, 4}};
+  if (world.has<PlasticStrain>())
+    fields_.push_back({"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
+}
+
+void Results::add_series(const std::string& name, const std::string& unit, const std::string& meaning) {
+  position_[name] = series_.size();
+  series_.push_back({name, unit, meaning});
+}
+
+RunMesh Results::mesh() const {
+  RunMesh mesh;
+  std::int32_t particle = 0, first_node = 0;
+  for_each_particle<Node>(world_, [&](std::size_t, int, const Shape& shape) {
+    for (const auto& quad : shape.quads) {
+      for (const Row<Node> n : quad) mesh.quads.push_back(first_node + n.value);
+      mesh.cell_particle.push_back(particle);
+    }
+    mesh.node_particle.insert(mesh.node_particle.end(), shape.nodes.size(), particle);
+    first_node += static_cast<std::int32_t>(shape.nodes.size());
+    particle += 1;
+  });
+  mesh.reference = node_values<Position>(world_);
+  return mesh;
+}
+
+void Results::take_energies() {
+  const Totals& totals = world_.resource<Totals>();
+  Energies& e = energies_;
+  e.kinetic = total<KineticEnergy>(world_);
+  e.elastic = total<ElasticEnergy>(world_);
+  e.plastic = world_.has<PlasticWork>() ? total<PlasticWork>(world_) : 0;
+  e.contact = totals.contact_energy;
+  e.friction = totals.friction_work;
+  e.damping = totals.damping_work;
+  e.external = totals.external_work;
+  const double all =
+      e.kinetic + e.elastic + e.plastic + e.hourglass + e.contact + e.friction + e.damping;
+  if (first_) initial_energy_ = all;
+  first_ = false;
+  e.balance = all - e.external - initial_energy_;
+  worst_balance_ = std::max(worst_balance_, std::abs(e.balance));
+  largest_energy_ = std::max({largest_energy_, std::abs(e.external), initial_energy_});
+  kinetic_internal_.emplace_back(e.kinetic, e.internal());
+}
+
+void Results::append_tools(std::vector<double>& row) const {
+  if (!world_.has_table<Tool>()) return;
+  const auto& position = world_.column<ToolPosition>();
+  const auto& force = world_.column<ToolForce>();
+  for (std::size_t t = 0; t < position.table.rows; ++t) {
+    row.insert(row.end(), position.values() + 2 * t, position.values() + 2 * t + 2);
+    row.insert(row.end(), force.values() + 2 * t, force.values() + 2 * t + 2);
+  }
+}
+
+void Results::append_density(std::vector<double>& row) const {
+  if (!cell_) return;
+  const auto at = [&](const auto& column, int tool, int k) {
+    return column.values()[static_cast<std::size_t>(2 * tool + k)];
+  };
+  const auto& position = world_.column<ToolPosition>();
+  const auto& force = world_.column<ToolForce>();
+  const double width = at(position, cell_->right, 0) - at(position, cell_->left, 0);
+  const double height = at(position, cell_->top, 1) - at(position, cell_->bottom, 1);
+  row.push_back(particle_area_ / (width * height));
+  if (!yield_stress_) return;
+  const double thickness = world_.resource<Bodies>().thickness;
+  const double axial = 0.5 * (at(force, cell_->top, 1) - at(force, cell_->bottom, 1));
+  const double lateral = 0.5 * (at(force, cell_->right, 0) - at(force, cell_->left, 0));
+  row.push_back(axial / (width * thickness) / *yield_stress_);
+  row.push_back(lateral / (height * thickness) / *yield_stress_);
+}
+
+void Results::append_energies(std::vector<double>& row) const {
+  const Energies& e = energies_;
+  for (const double value : {e.kinetic, e.elastic, e.plastic, e.hourglass, e.contact, e.friction,
+                             e.damping, e.external, e.balance})
+    row.push_back(value);
+}
+
+std::vector<double> Results::sample() {
+  take_energies();
+  std::vector<double> row;
+  append_tools(row);
+  append_density(row);
+  append_energies(row);
+  const Totals& totals = world_.resource<Totals>();
+  row.push_back(static_cast<double>(totals.touching));
+  row.push_back(totals.worst_penetration);
+  row.push_back(world_.resource<Clock>().dt);
+  last_ = row;
+  return row;
+}
+
+std::vector<std::vector<double>> Results::frame() const {
+  std::vector<std::vector<double>> fields{node_values<Position>(world_), node_values<Velocity>(world_)};
+  fields.resize(fields_.size());
+  for_each_particle<Element>(world_, [&](std::size_t first, int lane, const Shape& shape) {
+    const Lane* s = world_.column<DeviatoricStress>().lanes();
+    const Lane* p = world_.column<MeanStress>().lanes();
+    for (std::size_t e = first; e < first + shape.quads.size(); ++e) {
+      const CellStress c = cell_stress(s + e * DeviatoricStress::count, p[e][lane], lane);
+      fields[2].push_back(c.effective);
+      fields[3].push_back(c.pressure);
+      fields[4].insert(fields[4].end(), {c.xx, c.yy, c.zz, c.xy});
+      if (fields.size() == 5) continue;
+      const Lane* eps = world_.column<PlasticStrain>().lanes() + e * gauss_points;
+      fields[5].push_back(0.25 * ((eps[0][lane] + eps[1][lane]) + (eps[2][lane] + eps[3][lane])));
+    }
+  });
+  return fields;
+}
+
+double Results::value(const std::string& series) const { return last_.at(position_.at(series)); }
+
+double Results::energy_balance_error() const {
+  return largest_energy_ > 0 ? worst_balance_ / largest_energy_ : 0;
+}
+
+double Results::kinetic_ratio() const {
+  double largest = 0, worst = 0;
+  for (const auto& [kinetic, internal] : kinetic_internal_) largest = std::max(largest, internal);
+  for (const auto& [kinetic, internal] : kinetic_internal_)
+    if (internal > 0.01 * largest) worst = std::max(worst, kinetic / internal);
+  return worst;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,74 @@
+// What a run hands back: history series, frame fields and the mesh, taken from an observed world.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/run_state.hpp"
+#include "engine/record.hpp"
+#include "engine/world.hpp"
+#include "scenes/scene.hpp"
+
+namespace pulvis {
+
+// Energies of the whole scene at t_n, J. `balance` is what the others leave over: 0 in a perfect run.
+struct Energies {
+  double kinetic = 0, elastic = 0, plastic = 0, hourglass = 0, contact = 0;
+  double friction = 0, damping = 0, external = 0, balance = 0;
+  double internal() const { return elastic + plastic + hourglass; }
+};
+
+// The box between four tools whose normals look along +x, -x, +y, -y: what relative density refers to.
+struct DieCell {
+  int left, right, bottom, top;  // tools
+};
+std::optional<DieCell> die_cell(const Scene& scene);
+
+class Results {
+ public:
+  Results(const Scene& scene, const World& world);
+
+  const std::vector<SeriesInfo>& series() const { return series_; }
+  const std::vector<FieldInfo>& fields() const { return fields_; }
+  RunMesh mesh() const;
+
+  // One value a series. Keeps the worst energy error and ratios seen, for the summary.
+  std::vector<double> sample();
+  // One list a field: particles in the order of their numbers, each with its nodes or elements.
+  std::vector<std::vector<double>> frame() const;
+
+  // Of the last sample.
+  double value(const std::string& series) const;
+  bool has(const std::string& series) const { return position_.contains(series); }
+  const Energies& energies() const { return energies_; }
+  // Largest |balance| of the run over the largest energy that came in or was there at the start.
+  double energy_balance_error() const;
+  // Largest kinetic over internal energy, while the internal one is above 1% of its final value.
+  double kinetic_ratio() const;
+  std::int64_t elements() const { return elements_; }
+
+ private:
+  void add_series(const std::string& name, const std::string& unit, const std::string& meaning);
+  void take_energies();
+  void append_tools(std::vector<double>& row) const;
+  void append_density(std::vector<double>& row) const;
+  void append_energies(std::vector<double>& row) const;
+
+  const World& world_;
+  std::optional<DieCell> cell_;
+  std::optional<double> yield_stress_;  // where all particles share one
+  double particle_area_ = 0;
+  std::int64_t elements_ = 0, nodes_ = 0;
+  std::vector<SeriesInfo> series_;
+  std::vector<FieldInfo> fields_;
+  std::map<std::string, std::size_t> position_;
+  std::vector<double> last_;
+  Energies energies_;
+  double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
+  std::vector<std::pair<double, double>> kinetic_internal_;
+  bool first_ = true;
+};
+
+}  // namespace pulvis

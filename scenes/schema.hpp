@@ -1,0 +1,131 @@
+// The scene language as data: every key is declared once, with its kind, unit, default, allowed
+// range and one line of documentation. The reader, the reference, the JSON Schema and the default
+// values all come from these declarations (declare_*.cpp).
+#pragma once
+
+#include "scenes/document.hpp"
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pulvis::schema {
+
+enum class Kind {
+  quantity,   // a string: number and unit
+  vector,     // two quantities: x and y
+  phase,      // a quantity, or the key's one word
+  number,     // a bare number
+  integer,    // a bare whole number
+  direction,  // two bare numbers, not both zero
+  text,       // a string
+  name,       // a string others refer to; part of paths in the results
+  choice,     // one of a few words
+  reference,  // the name of another table's element
+  name_pair,  // two names of materials or tools
+};
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool without_low = false;  // the bound itself is refused
+  bool without_high = false;
+
+  bool holds(double value) const;  // false for NaN
+};
+
+struct Choice {
+  std::string word;
+  std::string doc;
+};
+
+struct KeyInfo {
+  std::string name = {};
+  Kind kind = Kind::text;
+  std::string unit = {};  // SI, of quantities
+  Range range = {};       // of quantities in the SI unit, of vectors for each component
+  int multiple_of = 1;    // of integers
+  std::vector<Choice> choices = {};
+  std::string word = {};       // Kind::phase: the word that stands instead of a quantity
+  std::string refers_to = {};  // Kind::reference: the table whose names are allowed
+  std::optional<document::Value> fallback = {};  // the default
+  bool required = false;
+  std::string only_for = {};  // the table's selector must have this value
+  std::string needs = {};     // another key without which this one has no effect
+  std::string doc = {};
+  std::string fallback_doc = {};  // what happens without the key, where that is no value
+};
+
+// A value as its setter gets it; which members hold something follows from the kind.
+struct Decoded {
+  double number = 0;  // quantity in SI, number
+  std::int64_t integer = 0;
+  int index = 0;         // choice, reference: position in the list
+  bool is_word = false;  // phase
+  Vec2 vector = Vec2::Zero();
+  std::string text = {};
+  std::array<std::string, 2> names = {};
+};
+
+struct TableInfo {
+  std::string path;      // "material", "particle.mesh"; empty: the top level
+  bool repeated;         // [[material]], any number of times; otherwise [contact], at most once
+  std::string selector;  // the key that only_for compares, here or in the parent table
+  std::string doc;
+};
+
+template <class Spec>
+struct Key {
+  KeyInfo info;
+  std::function<void(Spec&, const Decoded&)> set;
+};
+
+template <class Spec>
+struct TableDeclaration {
+  TableInfo info;
+  std::vector<Key<Spec>> keys;
+};
+
+// A declaration without its setters: all that documents, default values and checks need.
+struct TableView {
+  TableInfo info;
+  std::vector<KeyInfo> keys;
+};
+
+const TableDeclaration<Scene>& top_level();
+const TableDeclaration<MaterialSpec>& material();
+const TableDeclaration<ParticleSpec>& particle();
+const TableDeclaration<ParticleSpec>& mesh();
+const TableDeclaration<BodySpec>& body();
+const TableDeclaration<SquarePacking>& packing();
+const TableDeclaration<ToolSpec>& tool();
+const TableDeclaration<StageSpec>& stage();
+const TableDeclaration<MoveSpec>& move();
+const TableDeclaration<FrictionSpec>& friction();
+const TableDeclaration<ContactSpec>& contact();
+const TableDeclaration<TimeSpec>& time();
+const TableDeclaration<OutputSpec>& output();
+const TableDeclaration<LimitSpec>& limits();
+
+const std::vector<TableView>& all_tables();  // top level first, a parent before its children
+const TableView* find_table(const std::string& path);
+const KeyInfo* find_key(const TableView& table, const std::string& name);
+std::string joined_path(const std::string& path, const std::string& key);
+std::vector<std::string> known_words(const TableView& table);  // its keys and child tables
+
+std::string allowed(const KeyInfo& key);  // "a quantity in Pa, >= 1 and <= 1e+13"
+
+// Whether `key` has a meaning in `table`, whose selector has the value `selected`.
+bool applies(const KeyInfo& key, const document::Table& table, const std::string& selected);
+
+// The value of a table's selector; `parent` is asked where the table has no such key itself.
+std::string selected_by(const TableInfo& info, const document::Table& table,
+                        const std::string& parent);
+
+// Writes every default that is not given into the tree, so that it is read like a given value.
+void fill_defaults(document::Table& root);
+
+}  // namespace pulvis::schema

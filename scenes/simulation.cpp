@@ -1,0 +1,42 @@
+#include "scenes/simulation.hpp"
+
+#include "scenes/build.hpp"
+
+namespace pulvis {
+
+Simulation::Simulation(const Scene& scene, int threads)
+    : world_(build_world(scene)), workers_(threads) {
+  workers_.run([&] {
+    step_ = std::make_unique<Step>(*world_);
+    step_->start();
+  });
+}
+
+Simulation::~Simulation() {
+  workers_.run([&] { step_.reset(); });
+}
+
+void Simulation::run_until(double time, const std::function<bool()>& stop) {
+  workers_.run([&] {
+    while (clock().time < time) {
+      step_->run();
+      if (stop && stop()) return;
+    }
+  });
+}
+
+void Simulation::observe() {
+  workers_.run([&] { step_->observe(); });
+}
+
+void Simulation::move() {
+  workers_.run([&] { step_->move(); });
+}
+
+void Simulation::run_steps(std::int64_t count) {
+  workers_.run([&] {
+    for (std::int64_t i = 0; i < count; ++i) step_->run();
+  });
+}
+
+}  // namespace pulvis

@@ -1,0 +1,20 @@
+// Quantities with units, as scene files write them: "10 mm", "200 GPa", "0.3 N/um^2", "45 deg".
+// udunits2 knows the units; this file adds what it leaves open: the number is read exactly, angles
+// are kept apart from plain numbers, and units with an offset or a hidden factor are refused.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace pulvis {
+
+struct UnitError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The value of `text` in the SI unit `wanted` ("m", "Pa", "rad/s", ...). Throws UnitError with what
+// was given and what is wanted. Safe to call from several threads.
+double parse_quantity(std::string_view text, const std::string& wanted);
+
+}  // namespace pulvis

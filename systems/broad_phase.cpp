@@ -1,0 +1,170 @@
+#include "systems/broad_phase.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pulvis {
+
+Box box_of(const double* points, int count) {
+  Box box{{points[0], points[1]}, {points[0], points[1]}};
+  for (int i = 1; i < count; ++i)
+    for (int k = 0; k < 2; ++k) {
+      box.low[k] = std::min(box.low[k], points[2 * i + k]);
+      box.high[k] = std::max(box.high[k], points[2 * i + k]);
+    }
+  return box;
+}
+
+bool near(const Box& a, const Box& b, double skin) {
+  for (int k = 0; k < 2; ++k)
+    if (a.low[k] > b.high[k] + skin || b.low[k] > a.high[k] + skin) return false;
+  return true;
+}
+
+namespace {
+
+// Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours
+// stand in the cells around.
+class Grid {
+ public:
+  Grid(const std::vector<Box>& boxes, const std::vector<int>& slots, double skin) {
+    Box all = boxes[static_cast<std::size_t>(slots.front())];
+    for (const int s : slots) {
+      const Box& b = boxes[static_cast<std::size_t>(s)];
+      for (int k = 0; k < 2; ++k) {
+        all.low[k] = std::min(all.low[k], b.low[k]);
+        all.high[k] = std::max(all.high[k], b.high[k]);
+        size_ = std::max(size_, b.high[k] - b.low[k] + skin);
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      low_[k] = all.low[k];
+      // A particle that flew off must not ask for a grid of its own; far cells fold into the last one.
+      count_[k] = static_cast<int>(std::clamp((all.high[k] - all.low[k]) / size_ + 1, 1.0, 4096.0));
+    }
+    cell_begin_.assign(static_cast<std::size_t>(count_[0] * count_[1]) + 1, 0);
+    for (const int s : slots) cell_begin_[cell(boxes[static_cast<std::size_t>(s)]) + 1] += 1;
+    std::partial_sum(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin());
+    members_.resize(slots.size());
+    std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
+    for (const int s : slots)
+      members_[static_cast<std::size_t>(next[cell(boxes[static_cast<std::size_t>(s)])]++)] = s;
+  }
+
+  template <class Visit>
+  void around(const Box& box, const Visit& visit) const {
+    const int cx = index(box, 0), cy = index(box, 1);
+    for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, count_[1] - 1); ++y)
+      for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, count_[0] - 1); ++x) {
+        const auto c = static_cast<std::size_t>(y * count_[0] + x);
+        for (int m = cell_begin_[c]; m < cell_begin_[c + 1]; ++m)
+          visit(members_[static_cast<std::size_t>(m)]);
+      }
+  }
+
+ private:
+  int index(const Box& box, int k) const {
+    const double middle = 0.5 * (box.low[k] + box.high[k]);
+    return static_cast<int>(std::clamp((middle - low_[k]) / size_, 0.0, count_[k] - 1.0));
+  }
+  std::size_t cell(const Box& box) const {
+    return static_cast<std::size_t>(index(box, 1) * count_[0] + index(box, 0));
+  }
+
+  double size_ = 0;
+  double low_[2] = {0, 0};
+  int count_[2] = {1, 1};
+  std::vector<std::int32_t> cell_begin_, members_;
+};
+
+struct Curves {
+  const Bodies& bodies;
+  std::span<const double> control;
+  std::vector<Box> particle;  // [slots]
+
+  const double* points(int slot) const {
+    return control.data() + 2 * bodies.slots[static_cast<std::size_t>(slot)].first_control;
+  }
+  Box edge(int slot, int e) const {
+    const Shape& shape = bodies.shape_of_slot(slot);
+    return box_of(points(slot) + 2 * shape.edges[static_cast<std::size_t>(e)].first_control, 4);
+  }
+};
+
+double squared_middle_distance(const Box& a, const Box& b) {
+  double sum = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double d = 0.5 * ((a.low[k] + a.high[k]) - (b.low[k] + b.high[k]));
+    sum += d * d;
+  }
+  return sum;
+}
+
+// The edges of `other` that come near `box`; the nearest, or no_edge.
+int nearest_edge(const Curves& curves, int other, const std::vector<Box>& other_edges, const Box& box,
+                 double skin) {
+  if (!near(box, curves.particle[static_cast<std::size_t>(other)], skin)) return Shape::no_edge;
+  int nearest = Shape::no_edge;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t e = 0; e < other_edges.size(); ++e) {
+    if (!near(box, other_edges[e], skin)) continue;
+    const double distance = squared_middle_distance(box, other_edges[e]);
+    if (distance < least) {
+      least = distance;
+      nearest = static_cast<int>(e);
+    }
+  }
+  return nearest;
+}
+
+std::vector<EdgeCandidate> candidates_of(const Curves& curves, const Grid& grid, int slot, double skin) {
+  const Box& own = curves.particle[static_cast<std::size_t>(slot)];
+  std::vector<int> others;
+  grid.around(own, [&](int other) {
+    if (other != slot && near(own, curves.particle[static_cast<std::size_t>(other)], skin))
+      others.push_back(other);
+  });
+  std::ranges::sort(others);
+  std::vector<std::vector<Box>> other_edges(others.size());
+  for (std::size_t o = 0; o < others.size(); ++o) {
+    const auto count = curves.bodies.shape_of_slot(others[o]).edges.size();
+    for (std::size_t e = 0; e < count; ++e)
+      other_edges[o].push_back(curves.edge(others[o], static_cast<int>(e)));
+  }
+  std::vector<EdgeCandidate> found;
+  for (int e = 0; e < static_cast<int>(curves.bodies.shape_of_slot(slot).edges.size()); ++e) {
+    const Box box = curves.edge(slot, e);
+    for (std::size_t o = 0; o < others.size(); ++o) {
+      const int start = nearest_edge(curves, others[o], other_edges[o], box, skin);
+      if (start != Shape::no_edge) found.push_back({slot, e, others[o], start});
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
+                                           double skin) {
+  if (bodies.slot_of_number.empty()) return {};
+  std::vector<int> slots = bodies.slot_of_number;
+  std::ranges::sort(slots);
+  Curves curves{bodies, control, std::vector<Box>(bodies.slots.size())};
+  for (const int s : slots)
+    curves.particle[static_cast<std::size_t>(s)] =
+        box_of(curves.points(s), bodies.shape_of_slot(s).control_points());
+  const Grid grid(curves.particle, slots, skin);
+
+  std::vector<std::vector<EdgeCandidate>> found(slots.size());
+  tbb::parallel_for(std::size_t{0}, slots.size(),
+                    [&](std::size_t i) { found[i] = candidates_of(curves, grid, slots[i], skin); });
+  std::vector<EdgeCandidate> all;
+  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,30 @@
+// Which edges of which particles are near which others: pure geometry, no columns. Exact with respect
+// to the boxes of control points, which contain their curve (convex hull property of B-splines).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "components/shape.hpp"
+
+namespace pulvis {
+
+struct Box {
+  double low[2], high[2];
+};
+
+// One candidate: an edge of the particle in `slot` within `skin` of the particle in `other`, whose edge
+// `start` is the nearest to it.
+struct EdgeCandidate {
+  std::int32_t slot, edge, other, start;
+};
+
+Box box_of(const double* points, int count);
+bool near(const Box& a, const Box& b, double skin);
+
+// All candidates, sorted by (slot, edge, other). `control`: x y of every control point.
+std::vector<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
+                                           double skin);
+
+}  // namespace pulvis

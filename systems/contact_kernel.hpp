@@ -1,0 +1,101 @@
+// Contact between smooth outlines, integrated along the boundary: curves, closest points, tractions.
+//
+// Curve    uniform cubic B-spline of control points y (C2). For the edge between knots i and i+1 with
+//          parameter u in [0,1]: x(u) = sum_a N_a(u) y_(i-1+a). The y are linear in the boundary nodes,
+//          y_i = x_i - c (x_(i-1) - 2 x_i + x_(i+1)), so forces on y go back to x by the transpose and
+//          energy and momentum are kept. A corner ends a spline; see scenes/contact_curve.
+// Contact  the four Gauss points s of an edge of one body against the closest point m of the other's
+//          curve: (x_s - x_m) . x_m' = 0, gap g = (x_m - x_s) . n_m [m, > 0 in penetration], pressure
+//          p = kappa/2 g. Then the roles change: two half passes, no master. The forces are the
+//          derivative of sum w kappa/4 g^2.
+// Friction Coulomb with a tangential spring u [m] per point, return-mapped (Cundall & Strack 1979, as
+//          plasticity: Wriggers 2006, ch. 5). The slip increment is objective: the rotation of the
+//          surface across the gap is taken out, and the same term acts on the other body, so that
+//          angular momentum is kept although the two points are a gap apart.
+// Damping  c [Pa s/m] on the rate of the gap (T 5.1); never pulls.
+// Sign     t = direction of growing u (counter-clockwise), n = (t_y, -t_x) outward.
+#pragma once
+
+#include <array>
+
+#include "engine/lane.hpp"
+
+namespace pulvis::kernels {
+
+// Gauss-Legendre points and weights on [0,1].
+inline constexpr double edge_u[4] = {0.069431844202973712388, 0.33000947820757186760,
+                                     0.66999052179242813240, 0.93056815579702628761};
+inline constexpr double edge_w[4] = {0.17392742256872692869, 0.32607257743127307131,
+                                     0.32607257743127307131, 0.17392742256872692869};
+
+template <class T>
+std::array<T, 4> basis(T u) {
+  const T v = 1.0 - u, u2 = u * u, v2 = v * v;
+  return {v2 * v * (1.0 / 6.0), 0.5 * u2 * u - u2 + 2.0 / 3.0, 0.5 * v2 * v - v2 + 2.0 / 3.0,
+          u2 * u * (1.0 / 6.0)};
+}
+template <class T>
+std::array<T, 4> basis_slope(T u) {
+  const T v = 1.0 - u;
+  return {-0.5 * (v * v), u * (1.5 * u - 2.0), v * (2.0 - 1.5 * v), 0.5 * (u * u)};
+}
+
+// One edge of a curve as a cubic: x(u) = a + u (b + u (c + u d)), for x and y.
+template <class T>
+struct Cubic {
+  T a, b, c, d;
+  T value(T u) const { return a + u * (b + u * (c + u * d)); }
+  T slope(T u) const { return b + u * (2.0 * c + u * (3.0 * d)); }
+  T curvature(T u) const { return 2.0 * c + u * (6.0 * d); }
+};
+template <class T>
+Cubic<T> cubic(T y0, T y1, T y2, T y3) {
+  const T third = 1.0 / 3.0 * y1;
+  return {(y0 + y2) * (1.0 / 6.0) + 2.0 * third, 0.5 * (y2 - y0), 0.5 * (y0 + y2) - y1,
+          (y3 - y0) * (1.0 / 6.0) + 0.5 * (y1 - y2)};
+}
+
+// Newton step of the parameter towards the closest point; where the distance is not convex (the far
+// side of the outline) the sign of the slope still leads downhill.
+template <class T>
+T closest_point_step(T rx, T ry, T sx, T sy, T cx, T cy) {
+  const T slope = rx * sx + ry * sy;  // (x_s - x_m) . x_m'
+  const T length2 = sx * sx + sy * sy;
+  const T curvature = length2 - (rx * cx + ry * cy);
+  return slope / max(curvature, 0.25 * length2);
+}
+
+template <class T>
+struct Traction {
+  T pressure;       // Pa, >= 0, on the sampled body along n
+  T spring_energy;  // J/m^2
+  T damping_power;  // W/m^2, >= 0
+};
+
+// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass.
+template <class T>
+Traction<T> normal_traction(T g, T g_rate, T kappa, T c) {
+  const T zero{};
+  const T touching = max(g, zero);
+  const T spring = kappa * touching;
+  const T total = select(g > 0.0, max(spring + c * g_rate, zero), zero);
+  return {total, 0.5 * spring * touching, (total - spring) * g_rate};
+}
+
+template <class T>
+struct Friction {
+  T traction;      // Pa, on the sampled body along t
+  T elastic_slip;  // m, new
+  T work;          // J/m^2, dissipated in this step, >= 0
+};
+
+// `slip` m: how far the sampled body slid along t in the last step.
+template <class T>
+Friction<T> coulomb_return(T elastic_slip, T slip, T pressure, T mu, T kappa) {
+  const T trial = elastic_slip + slip;
+  const T limit = mu * pressure / kappa;
+  const T held = max(min(trial, limit), -limit);
+  return {-(kappa * held), held, kappa * held * (trial - held)};
+}
+
+}  // namespace pulvis::kernels

@@ -1,0 +1,51 @@
+// How the element systems reach an element of a chunk: its map, Gauss points and state. No physics.
+#pragma once
+
+#include "components/shape.hpp"
+#include "engine/access.hpp"
+#include "systems/j2_kernel.hpp"
+
+namespace pulvis {
+
+using Quad = std::array<Row<Node>, 4>;
+using ElementGauss = std::array<Shape::GaussPoint, 4>;
+
+template <class Nodes>
+kernels::QuadMap<Lane> quad_map(const Nodes& x, const Quad& q) {
+  return kernels::quad_map(x(q[0], 0), x(q[0], 1), x(q[1], 0), x(q[1], 1), x(q[2], 0), x(q[2], 1),
+                           x(q[3], 0), x(q[3], 1));
+}
+
+inline kernels::Matrix2<Lane> map_gradient(const kernels::QuadMap<Lane>& map, int g) {
+  return kernels::map_gradient(map, kernels::gauss_xi[g], kernels::gauss_eta[g]);
+}
+
+// theta: current over undeformed area of the element.
+inline Lane dilatation(const kernels::QuadMap<Lane>& map, const ElementGauss& gauss) {
+  Lane now{};
+  double before = 0;
+  for (int g = 0; g < gauss_points; ++g) {
+    now += determinant(map_gradient(map, g));
+    before += gauss[static_cast<std::size_t>(g)].determinant;
+  }
+  return now * (1 / before);
+}
+
+template <class View>
+kernels::Symmetric3<Lane> plastic_metric(const View& c, Row<Element> e, int g) {
+  return {c(e, 4 * g), c(e, 4 * g + 1), c(e, 4 * g + 2), c(e, 4 * g + 3)};
+}
+
+template <class View>
+kernels::Deviator<Lane> deviator(const View& s, Row<Element> e, int g) {
+  return {s(e, 3 * g), s(e, 3 * g + 1), s(e, 3 * g + 2)};
+}
+
+template <class View>
+void store(const View& s, Row<Element> e, int g, const kernels::Deviator<Lane>& value) {
+  s(e, 3 * g) = value.xx;
+  s(e, 3 * g + 1) = value.yy;
+  s(e, 3 * g + 2) = value.xy;
+}
+
+}  // namespace pulvis

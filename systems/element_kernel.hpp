@@ -1,0 +1,116 @@
+// Kinematics of the four-node plane-strain quad with 2x2 Gauss points and mean dilatation.
+//
+// Source   Simo, Taylor & Pister (1985); Hughes (1980) for the mean-dilatation idea; explicit use as in
+//          Belytschko, Liu & Moran (2000), ch. 8
+// Symbols  X, x   undeformed, current position [m];  (xi, eta) in [-1,1]^2
+//          A      dx/d(xi,eta) at a point [m]
+//          F      deformation gradient dx/dX [-], plane strain: F_zz = 1
+//          J      det F [-];  theta = current / undeformed area of the element [-]
+// Everything is a function of values, for T = double or Lane.
+#pragma once
+
+#include "engine/lane.hpp"
+
+namespace pulvis::kernels {
+
+inline constexpr double gauss = 0.57735026918962576451;  // 1/sqrt 3
+inline constexpr double gauss_xi[4] = {-gauss, gauss, gauss, -gauss};
+inline constexpr double gauss_eta[4] = {-gauss, -gauss, gauss, gauss};
+
+template <class T>
+struct Matrix2 {
+  T xx, xy, yx, yy;
+};
+
+template <class T>
+T determinant(const Matrix2<T>& m) {
+  return m.xx * m.yy - m.xy * m.yx;
+}
+
+// x(xi, eta) = centre + a xi + b eta + h xi eta: the isoparametric map without its constant.
+template <class T>
+struct QuadMap {
+  T ax, ay, bx, by, hx, hy;
+};
+
+template <class T>
+QuadMap<T> quad_map(T x0, T y0, T x1, T y1, T x2, T y2, T x3, T y3) {
+  const T sx = x2 - x0, dx = x1 - x3, sy = y2 - y0, dy = y1 - y3;
+  return {0.25 * (sx + dx), 0.25 * (sy + dy), 0.25 * (sx - dx), 0.25 * (sy - dy),
+          0.25 * ((x0 - x1) + (x2 - x3)), 0.25 * ((y0 - y1) + (y2 - y3))};
+}
+
+// A = [dx/dxi dx/deta; dy/dxi dy/deta]
+template <class T>
+Matrix2<T> map_gradient(const QuadMap<T>& m, double xi, double eta) {
+  return {m.ax + eta * m.hx, m.bx + xi * m.hx, m.ay + eta * m.hy, m.by + xi * m.hy};
+}
+
+// F = A d(xi,eta)/dX; `inverse` = xi_X, xi_Y, eta_X, eta_Y of the undeformed element.
+template <class T, class Inverse>
+Matrix2<T> deformation_gradient(const Matrix2<T>& a, const Inverse& inverse) {
+  return {a.xx * inverse[0] + a.xy * inverse[2], a.xx * inverse[1] + a.xy * inverse[3],
+          a.yx * inverse[0] + a.yy * inverse[2], a.yx * inverse[1] + a.yy * inverse[3]};
+}
+
+// Forces of a quad's nodes collected as their moments with 1, xi and eta; see add_flux, node_force.
+template <class T>
+struct QuadFlux {
+  T xi_x{}, xi_y{}, eta_x{}, eta_y{}, h_x{}, h_y{};
+};
+
+// Adds the Kirchhoff-like stress sigma (xx yy xy), acting at a Gauss point of a slice `thickness` deep.
+// With F = A (dX/dxi)^-1, P dN/dX dV0 collapses to sigma cof(A) dN/dxi: no undeformed geometry is needed.
+template <class T>
+void add_flux(QuadFlux<T>& flux, const Matrix2<T>& a, T sxx, T syy, T sxy, double xi, double eta) {
+  const T qxi_x = sxx * a.yy - sxy * a.xy, qxi_y = sxy * a.yy - syy * a.xy;
+  const T qeta_x = sxy * a.xx - sxx * a.yx, qeta_y = syy * a.xx - sxy * a.yx;
+  flux.xi_x += qxi_x;
+  flux.xi_y += qxi_y;
+  flux.eta_x += qeta_x;
+  flux.eta_y += qeta_y;
+  flux.h_x += eta * qxi_x + xi * qeta_x;
+  flux.h_y += eta * qxi_y + xi * qeta_y;
+}
+
+// Force of the stresses on node I of the quad: -sum_g (sigma cof A) dN_I/dxi; factor = thickness / 4.
+template <class T>
+struct QuadForce {
+  T x[4], y[4];
+};
+template <class T>
+QuadForce<T> node_forces(const QuadFlux<T>& q, double factor) {
+  const T px = factor * (q.xi_x + q.eta_x), mx = factor * (q.xi_x - q.eta_x), hx = factor * q.h_x;
+  const T py = factor * (q.xi_y + q.eta_y), my = factor * (q.xi_y - q.eta_y), hy = factor * q.h_y;
+  // dN_I/dxi = (xi_I + xi_I eta_I eta)/4: nodes (-,-) (+,-) (+,+) (-,+)
+  return {{px - hx, hx - mx, -px - hx, mx + hx}, {py - hy, hy - my, -py - hy, my + hy}};
+}
+
+// a^(-1/3) without a division: two third-order steps from a polynomial. Near one, where det F lives.
+inline Lane inverse_cube_root_far(Lane a) {
+  return Lane{1 / std::cbrt(a[0]), 1 / std::cbrt(a[1]), 1 / std::cbrt(a[2]), 1 / std::cbrt(a[3])};
+}
+inline double inverse_cube_root_far(double a) { return 1 / std::cbrt(a); }
+
+template <class T>
+T inverse_cube_root(T a) {
+  // Least relative error of degree 4 on [1/2, 2]; see the test for its bound.
+  const T x = a - 1.25;
+  T y = 0.92867438 + x * (-0.24146973 + x * (0.12257569 + x * (-0.12062945 + x * 0.09144541)));
+  for (int i = 0; i < 2; ++i) {
+    const T h = 1.0 - a * (y * y) * y;
+    y = y + y * (h * (0.33333333333333333 + 0.22222222222222222 * h));
+  }
+  if (any((a < 0.5) | (a > 2.0))) return inverse_cube_root_far(a);
+  return y;
+}
+
+// Square of the smaller singular value of A: the half-width of the element across its narrow side.
+template <class T>
+T squared_half_width(const Matrix2<T>& a) {
+  const T trace = (a.xx * a.xx + a.yy * a.yy) + (a.xy * a.xy + a.yx * a.yx);
+  const T det = determinant(a);
+  return 0.5 * (trace - sqrt(max(trace * trace - 4.0 * det * det, T{})));
+}
+
+}  // namespace pulvis::kernels

@@ -1,0 +1,109 @@
+// kinetic_energy, elastic_energy, plastic_work: per particle, on the steps that are sampled.
+// contact_totals: sums of the contact rows, every step, since dissipation adds up over steps.
+//
+// Kinetic energy is 1/2 m v_(n-1/2) . v_(n+1/2): together with the stored energy at t_n it is what the
+// leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors and not phase.
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "systems/contact_row.hpp"
+#include "systems/element_access.hpp"
+#include "systems/systems.hpp"
+
+namespace pulvis {
+
+void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Density> density,
+                    Read<InternalForce> internal, Optional<Read<ContactForce>> contact,
+                    Read<Velocity> velocity, Write<KineticEnergy> energy) {
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto f = internal.chunk(chunk);
+  const auto v = velocity.chunk(chunk);
+  const Lane mass_per_area = density.chunk(chunk)(Row<Particle>()) * bodies->thickness;
+  const double half = 0.5 * (clock->dt_before + clock->dt);
+  Lane total{};
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
+    const Row<Node> n(i);
+    const Lane mass = mass_per_area * shape.nodal_area[static_cast<std::size_t>(i)];
+    for (int k = 0; k < 2; ++k) {
+      Lane force = f(n, k);
+      if (contact && i < shape.boundary_nodes) force += contact->chunk(chunk)(Row<BoundaryNode>(i), k);
+      total += 0.5 * v(n, k) * (mass * v(n, k) + force * half);
+    }
+  }
+  energy.chunk(chunk)(Row<Particle>()) = total;
+}
+
+void elastic_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+                    Read<BulkModulus> bulk, Optional<Read<PlasticMetric>> metric,
+                    Write<ElasticEnergy> energy) {
+  const Row<Particle> particle;
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto nodes = x.chunk(chunk);
+  const Lane shear = mu.chunk(chunk)(particle), k = bulk.chunk(chunk)(particle);
+  Lane total{};
+  for (int i = 0; i < shape.elements(); ++i) {
+    const Row<Element> e(i);
+    const auto map = quad_map(nodes, shape.quads[static_cast<std::size_t>(i)]);
+    const ElementGauss& gauss = shape.gauss[static_cast<std::size_t>(i)];
+    const Lane theta = dilatation(map, gauss);
+    double area = 0;
+    for (int g = 0; g < gauss_points; ++g) {
+      const auto& point = gauss[static_cast<std::size_t>(g)];
+      const auto f = kernels::deformation_gradient(map_gradient(map, g), point.inverse_jacobian);
+      const auto c = metric ? plastic_metric(metric->chunk(chunk), e, g) : kernels::Symmetric3<Lane>{};
+      total += point.determinant * kernels::isochoric_energy(f, c, shear);
+      area += point.determinant;
+    }
+    for (int l = 0; l < lane_count; ++l) total[l] += area * kernels::volumetric_energy(k[l], theta[l]);
+  }
+  energy.chunk(chunk)(particle) = total * bodies->thickness;
+}
+
+void plastic_work(Chunk chunk, Read<Bodies> bodies, Read<YieldStress> sigma_y,
+                  Read<HardeningModulus> hardening, Read<PlasticStrain> eps, Write<PlasticWork> work) {
+  const Row<Particle> particle;
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
+  const Lane yield = min(sigma_y.chunk(chunk)(particle), broadcast(1e300));
+  const kernels::LinearHardening<Lane> law{yield, hardening.chunk(chunk)(particle)};
+  const auto strain = eps.chunk(chunk);
+  Lane total{};
+  for (int i = 0; i < shape.elements(); ++i)
+    for (int g = 0; g < gauss_points; ++g)
+      total += shape.gauss[static_cast<std::size_t>(i)][static_cast<std::size_t>(g)].determinant *
+               law.plastic_work(strain(Row<Element>(i), g));
+  work.chunk(chunk)(particle) = total * bodies->thickness;
+}
+
+namespace {
+
+template <class At>
+void add_rows(const Read<ContactPair<At>>& pair, const Read<ContactEnergy<At>>& energy,
+              const Optional<Read<FrictionWork<At>>>& friction,
+              const Optional<Read<DampingWork<At>>>& damping, Totals& totals) {
+  for (int r = 0; r < pair.rows(); ++r) {
+    const Row<At> row(r);
+    if (pair(row, 3) == 0) continue;
+    totals.touching += 1;
+    totals.contact_energy += energy(row);
+    if (friction) totals.friction_work += (*friction)(row);
+    if (damping) totals.damping_work += (*damping)(row);
+  }
+}
+
+}  // namespace
+
+void contact_totals(Optional<Read<ContactPair<Contact>>> pair,
+                    Optional<Read<ContactEnergy<Contact>>> energy,
+                    Optional<Read<FrictionWork<Contact>>> friction,
+                    Optional<Read<DampingWork<Contact>>> damping,
+                    Optional<Read<ContactPair<ToolContact>>> tool_pair,
+                    Optional<Read<ContactEnergy<ToolContact>>> tool_energy,
+                    Optional<Read<FrictionWork<ToolContact>>> tool_friction,
+                    Optional<Read<DampingWork<ToolContact>>> tool_damping, Write<Totals> totals) {
+  totals->touching = 0;
+  totals->contact_energy = 0;
+  if (pair) add_rows(*pair, *energy, friction, damping, *totals);
+  if (tool_pair) add_rows(*tool_pair, *tool_energy, tool_friction, tool_damping, *totals);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,69 @@
+// element_health: stops a run whose elements turned inside out or went NaN.
+// contact_health: stops a run in which a surface went too deep into another (a body on its way through
+// a wall looks like that first).
+//
+// Runs     every step, after the forces
+#include <fmt/format.h>
+
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "systems/contact_row.hpp"
+#include "systems/run_failure.hpp"
+#include "systems/systems.hpp"
+
+namespace pulvis {
+
+void element_health(Read<Bodies> bodies, Read<Clock> clock, Read<LeastJacobian> least,
+                    Read<WorstElement> worst) {
+  const auto values = least.values();
+  for (std::size_t slot = 0; slot < values.size(); ++slot) {
+    if (values[slot] > 0) continue;  // NaN is not
+    throw RunFailure(fmt::format(
+        "trial_stress: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the element "
+        "turned inside out; allowed > 0 (is a tool too fast, or the mesh too coarse for the load?)",
+        bodies->slots[slot].number, static_cast<int>(worst.values()[slot]), values[slot], clock->step,
+        clock->time));
+  }
+}
+
+namespace {
+
+template <class At>
+void check_rows(const Bodies& bodies, const Clock& clock, double limit, const char* system,
+                const char* partner, const Read<ContactPair<At>>& pair,
+                const Read<Penetration<At>>& penetration, const Read<EdgeLength<At>>& length,
+                double& worst) {
+  for (int r = 0; r < pair.rows(); ++r) {
+    const Row<At> row(r);
+    const double depth = penetration(row) / length(row);
+    worst = std::max(worst, depth);
+    if (depth <= limit) continue;
+    const auto number = [&](int slot) { return bodies.slots[static_cast<std::size_t>(slot)].number; };
+    const int other = partner == std::string("tool") ? pair(row, 2) : number(pair(row, 2));
+    throw RunFailure(fmt::format(
+        "{}: particle {}, edge {} against {} {}: penetration {:.6g} m is {:.3g} of the edge length at "
+        "step {}, t = {:.6g} s; allowed {:.3g} (limits.penetration)",
+        system, number(pair(row, 0)), pair(row, 1), partner, other, penetration(row), depth, clock.step,
+        clock.time, limit));
+  }
+}
+
+}  // namespace
+
+void contact_health(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
+                    Optional<Read<ContactPair<Contact>>> pair,
+                    Optional<Read<Penetration<Contact>>> penetration,
+                    Optional<Read<EdgeLength<Contact>>> length,
+                    Optional<Read<ContactPair<ToolContact>>> tool_pair,
+                    Optional<Read<Penetration<ToolContact>>> tool_penetration,
+                    Optional<Read<EdgeLength<ToolContact>>> tool_length, Write<Totals> totals) {
+  const double limit = rules->penetration_limit;
+  if (pair)
+    check_rows(*bodies, *clock, limit, "edge_contact", "particle", *pair, *penetration, *length,
+               totals->worst_penetration);
+  if (tool_pair)
+    check_rows(*bodies, *clock, limit, "tool_contact", "tool", *tool_pair, *tool_penetration,
+               *tool_length, totals->worst_penetration);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,152 @@
+// Finite-strain J2 elasto-plasticity, isotropic hardening, plane strain.
+//
+// Source   Simo & Hughes (1998), boxes 9.1 and 9.2: multiplicative split, radial return on the
+//          isochoric elastic left Cauchy-Green tensor. Two departures: the state is the inverse plastic
+//          metric C_p^-1 (as in Simo 1992), so that the stress follows from F alone and cannot drift;
+//          and the trace after the return comes from det b_e = 1 instead of being kept, which closes
+//          the energy balance.
+// Symbols  C      C_p^-1 - 1 [-] (xx yy zz xy; zero when virgin);  b = J^(-2/3) F C_p^-1 F^T [-]
+//          mu, K  shear and bulk modulus [Pa];  theta element dilatation [-]
+//          s      deviatoric Cauchy stress [Pa] = mu dev b / theta;  p mean stress [Pa]
+//          sigma_y flow stress [Pa], H hardening modulus [Pa], eps accumulated plastic strain [-]
+// Energy   W = mu/2 (tr b - 3) + K/2 (1/2 (theta^2 - 1) - ln theta)  per undeformed volume
+// Valid    theta > 0, det F > 0; any strain
+#pragma once
+
+#include "systems/element_kernel.hpp"
+
+namespace pulvis::kernels {
+
+template <class T>
+struct Symmetric3 {  // of a plane problem: out-of-plane shear is zero
+  T xx, yy, zz, xy;
+};
+
+template <class T>
+T trace(const Symmetric3<T>& a) {
+  return a.xx + a.yy + a.zz;
+}
+
+template <class T>
+T squared_norm(const Symmetric3<T>& a) {
+  return (a.xx * a.xx + a.yy * a.yy) + (a.zz * a.zz + 2.0 * (a.xy * a.xy));
+}
+
+// b before the isochoric scaling: F C_p^-1 F^T; elastic material has C = 0.
+template <class T>
+Symmetric3<T> left_cauchy_green(const Matrix2<T>& f) {
+  return {f.xx * f.xx + f.xy * f.xy, f.yx * f.yx + f.yy * f.yy, T{} + 1.0,
+          f.xx * f.yx + f.xy * f.yy};
+}
+template <class T>
+Symmetric3<T> left_cauchy_green(const Matrix2<T>& f, const Symmetric3<T>& c) {
+  const T cxx = 1.0 + c.xx, cyy = 1.0 + c.yy;
+  const T gxx = f.xx * cxx + f.xy * c.xy, gxy = f.xx * c.xy + f.xy * cyy;
+  const T gyx = f.yx * cxx + f.yy * c.xy, gyy = f.yx * c.xy + f.yy * cyy;
+  return {gxx * f.xx + gxy * f.xy, gyx * f.yx + gyy * f.yy, 1.0 + c.zz, gxx * f.yx + gxy * f.yy};
+}
+
+// scale * dev(b), as xx yy xy (zz follows).
+template <class T>
+struct Deviator {
+  T xx, yy, xy;
+};
+template <class T>
+Deviator<T> scaled_deviator(const Symmetric3<T>& b, T scale) {
+  const T mean = trace(b) * (1.0 / 3.0);
+  return {scale * (b.xx - mean), scale * (b.yy - mean), scale * b.xy};
+}
+template <class T>
+T squared_norm(const Deviator<T>& s) {
+  const T zz = s.xx + s.yy;
+  return (s.xx * s.xx + s.yy * s.yy) + (zz * zz + 2.0 * (s.xy * s.xy));
+}
+
+// dU/dtheta of U = K/2 (1/2 (theta^2 - 1) - ln theta): grows without bound as theta -> 0.
+template <class T>
+T mean_stress(T bulk_modulus, T theta) {
+  return 0.5 * bulk_modulus * (theta - 1.0 / theta);
+}
+
+// Isotropic hardening. A law is a struct with flow_stress(eps) and plastic_work(eps) that is linear in
+// eps over a step with slope modulus(eps); perfectly plastic is H = 0.
+template <class T>
+struct LinearHardening {
+  T sigma_y, H;
+  T flow_stress(T eps) const { return sigma_y + H * eps; }
+  T modulus(T) const { return H; }
+  T plastic_work(T eps) const { return eps * (sigma_y + 0.5 * H * eps); }  // J/m^3
+};
+
+template <class T, class Hardening>
+auto yields(const Deviator<T>& s, T eps, const Hardening& law) {
+  const T limit = law.flow_stress(eps);
+  return squared_norm(s) > (2.0 / 3.0) * limit * limit;
+}
+
+// tr b for a given deviator d (of unit-determinant b): root x of det(d + x 1) = 1, from a near guess.
+template <class T>
+T mean_of_unit_determinant(const Symmetric3<T>& d, T guess) {
+  const T q = 0.5 * squared_norm(d);
+  const T det = d.zz * (d.xx * d.yy - d.xy * d.xy);
+  T x = guess;
+  for (int i = 0; i < 2; ++i) x = x - ((x * x - q) * x + det - 1.0) / (3.0 * (x * x) - q);
+  return x;
+}
+
+template <class T>
+struct J2State {
+  Deviator<T> s;    // Cauchy, Pa
+  Symmetric3<T> c;  // C_p^-1 - 1
+  T eps;
+};
+
+// Radial return of the trial state at a Gauss point. Lanes that do not yield come back unchanged.
+template <class T, class Hardening>
+J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T mu, T theta,
+                         const Hardening& law) {
+  constexpr double sqrt_2_3 = 0.81649658092772603273;
+  const auto flows = yields(trial.s, trial.eps, law);
+  const T j = determinant(f);
+  const T r = inverse_cube_root(j);  // J^(-1/3)
+  const Symmetric3<T> b = left_cauchy_green(f, trial.c);
+  const T mean = r * r * trace(b) * (1.0 / 3.0);
+
+  // Consistency: |s| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps + sqrt(2/3) dgamma), mu_bar = mu tr b/3.
+  const T norm = sqrt(squared_norm(trial.s));
+  const T mu_bar = mu * mean / theta;
+  const T excess = norm - sqrt_2_3 * law.flow_stress(trial.eps);
+  const T dgamma = select(flows, excess / (2.0 * mu_bar + (2.0 / 3.0) * law.modulus(trial.eps)), T{});
+  const T beta = select(flows, 1.0 - 2.0 * mu_bar * dgamma / norm, T{} + 1.0);
+
+  const T scale = beta * r * r;
+  const Symmetric3<T> d{scale * b.xx - beta * mean, scale * b.yy - beta * mean,
+                        scale * b.zz - beta * mean, scale * b.xy};
+  const T shift = mean_of_unit_determinant(d, mean) - beta * mean;
+
+  // b_new = beta b + shift 1 pulled back: C_p^-1 = beta C_p^-1 + shift J^(2/3) (F^T F)^-1.
+  const T pull = shift * (r * r) * (r * r);  // shift J^(2/3) / J^2
+  const T cxx = f.xy * f.xy + f.yy * f.yy, cyy = f.xx * f.xx + f.yx * f.yx;
+  const T cxy = -(f.xx * f.xy + f.yx * f.yy);
+  const T grow = beta - 1.0;
+  J2State<T> next;
+  next.s = {beta * trial.s.xx, beta * trial.s.yy, beta * trial.s.xy};
+  next.c = {beta * trial.c.xx + (grow + pull * cxx), beta * trial.c.yy + (grow + pull * cyy),
+            beta * trial.c.zz + (grow + shift * j * r), beta * trial.c.xy + pull * cxy};
+  next.eps = trial.eps + sqrt_2_3 * dgamma;
+  next.c = {select(flows, next.c.xx, trial.c.xx), select(flows, next.c.yy, trial.c.yy),
+            select(flows, next.c.zz, trial.c.zz), select(flows, next.c.xy, trial.c.xy)};
+  return next;
+}
+
+// Stored energy per undeformed volume, without the volumetric part (which the element has once).
+template <class T>
+T isochoric_energy(const Matrix2<T>& f, const Symmetric3<T>& c, T mu) {
+  const T r = inverse_cube_root(determinant(f));
+  return 0.5 * mu * (r * r * trace(left_cauchy_green(f, c)) - 3.0);
+}
+inline double volumetric_energy(double bulk_modulus, double theta) {
+  return 0.5 * bulk_modulus * (0.5 * (theta * theta - 1) - std::log(theta));
+}
+
+}  // namespace pulvis::kernels

@@ -1,0 +1,85 @@
+#include "systems/step.hpp"
+
+#include "systems/systems.hpp"
+
+namespace pulvis {
+
+// ---- the order of a step: a newcomer's first page ------------------------------------------------
+StepList step_list(World& w) {
+  const bool plastic = w.has<PlasticMetric>();
+  const bool pairs = w.has<ContactPair<Contact>>();
+  const bool tools = w.has<ContactPair<ToolContact>>();
+  const bool touching = pairs || tools;
+  StepList step;
+  const auto force = [&](bool asked, const char* name, auto* function) {
+    if (asked) step.forces.push_back(make_system(w, name, function));
+  };
+  const auto observe = [&](bool asked, const char* name, auto* function) {
+    if (asked) step.observe.push_back(make_system(w, name, function, When::on_sample));
+  };
+  const auto move = [&](bool asked, const char* name, auto* function) {
+    if (asked) step.motion.push_back(make_system(w, name, function));
+  };
+
+  // clang-format off
+  force(tools,    "tool_motion",      tool_motion);
+  force(pairs,    "bin_edges",        bin_edges);
+  force(tools,    "bin_tool_edges",   bin_tool_edges);
+  force(touching, "note_binning",     note_binning);
+  force(pairs,    "edge_contact",     edge_contact);
+  force(tools,    "tool_contact",     tool_contact);
+  force(touching, "contact_totals",   contact_totals);
+  force(touching, "contact_health",   contact_health);
+  force(tools,    "tool_reaction",    tool_reaction);
+  force(touching, "contact_force",    contact_force);
+  force(!plastic, "elastic_stress",   elastic_stress);
+  force(plastic,  "trial_stress",     trial_stress);
+  force(plastic,  "j2_return_map",    j2_return_map);
+  force(true,     "internal_force",   internal_force);
+
+  observe(true,    "kinetic_energy",  kinetic_energy);
+  observe(true,    "elastic_energy",  elastic_energy);
+  observe(plastic, "plastic_work",    plastic_work);
+
+  move(true,      "integrate",        integrate);
+  move(touching,  "contact_curve",    contact_curve);
+  move(true,      "stable_time_step", stable_time_step);
+  move(true,      "element_health",   element_health);
+  move(true,      "advance_clock",    advance_clock);
+  // clang-format on
+  return step;
+}
+
+std::vector<System> start_list(World& w) {
+  std::vector<System> start;
+  if (w.has<CurvePosition>()) start.push_back(make_system(w, "contact_curve", contact_curve));
+  start.push_back(make_system(w, "stable_time_step", stable_time_step));
+  return start;
+}
+
+namespace {
+
+std::vector<System> joined(std::vector<System> first, std::vector<System> second) {
+  first.insert(first.end(), std::make_move_iterator(second.begin()),
+               std::make_move_iterator(second.end()));
+  return first;
+}
+
+}  // namespace
+
+Step::Step(World& world)
+    : world_(world),
+      whole_(joined(step_list(world).forces, step_list(world).motion), world.chunks()),
+      observed_(joined(step_list(world).forces, step_list(world).observe), world.chunks()),
+      motion_(step_list(world).motion, world.chunks()) {}
+
+void Step::start() {
+  TaskGraph(start_list(world_), world_.chunks()).run();
+  choose_time_step(Read<StableTimeStep>(world_).values(), world_.resource<Clock>());
+}
+
+void Step::run() { whole_.run(); }
+void Step::observe() { observed_.run(); }
+void Step::move() { motion_.run(); }
+
+}  // namespace pulvis

@@ -1,0 +1,38 @@
+// The step: the one ordered list of systems, and the graphs made from it.
+#pragma once
+
+#include <vector>
+
+#include "engine/task_graph.hpp"
+
+namespace pulvis {
+
+// The systems that a world's columns ask for, in order. The forces at t_n and the motion to t_(n+1) are
+// apart so that a result can be taken between them, where positions, stresses and forces belong together.
+struct StepList {
+  std::vector<System> forces;
+  std::vector<System> observe;  // energies, on sampled steps
+  std::vector<System> motion;
+};
+
+StepList step_list(World& world);
+
+// What has to be known before the first step: contact curves and the stable time step.
+std::vector<System> start_list(World& world);
+
+// A step as the run loop uses it.
+class Step {
+ public:
+  explicit Step(World& world);
+  void start();    // once
+  void run();      // forces and motion, fused
+  void observe();  // forces and energies at t_n...
+  void move();     // ...and then the motion that finishes the step
+  const GraphPlan& plan() const { return whole_.plan(); }
+
+ private:
+  World& world_;
+  TaskGraph whole_, observed_, motion_;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,111 @@
+// Every system of the explicit step, by signature. What a system reads and writes is what it declares
+// here; systems/step.cpp puts them in order.
+#pragma once
+
+#include <span>
+
+#include "components/contact.hpp"
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+
+namespace pulvis {
+
+// Steps between two looks at the elements' frequencies: geometry changes by parts in 1e4 in a step.
+inline constexpr int time_step_interval = 8;
+
+// ---- tools and binning ------------------------------------------------------------------------
+void tool_motion(Read<Clock>, Read<ToolProgram>, Write<ToolPosition>, Write<ToolVelocity>);
+void bin_edges(Read<Bodies>, Read<Clock>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
+               Read<CurvePosition>, Write<ContactIndex>, Structural<Contact>,
+               Write<ContactPair<Contact>>, Write<EdgeLength<Contact>>,
+               Write<ContactStiffness<Contact>>, Write<ContactWeight<Contact>>,
+               Write<ContactReach<Contact>>, Write<ClosestPoint>,
+               Optional<Write<FrictionCoefficient<Contact>>>,
+               Optional<Write<DampingCoefficient<Contact>>>);
+void bin_tool_edges(Read<Bodies>, Read<Clock>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
+                    Read<CurvePosition>, Read<ToolPosition>, Read<ToolNormal>, Write<ContactIndex>,
+                    Structural<ToolContact>, Write<ContactPair<ToolContact>>,
+                    Write<EdgeLength<ToolContact>>, Write<ContactStiffness<ToolContact>>,
+                    Write<ContactWeight<ToolContact>>, Write<ContactReach<ToolContact>>,
+                    Optional<Write<FrictionCoefficient<ToolContact>>>,
+                    Optional<Write<DampingCoefficient<ToolContact>>>);
+void note_binning(Read<Clock>, Write<ContactIndex>);
+
+// ---- narrow phase -----------------------------------------------------------------------------
+void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
+                  Write<ClosestPoint>, Write<ContactPair<Contact>>, Write<ContactReach<Contact>>,
+                  Read<ContactStiffness<Contact>>, Read<ContactWeight<Contact>>,
+                  Write<PointForce<Contact>>, Write<Penetration<Contact>>,
+                  Write<ContactEnergy<Contact>>, Optional<Read<FrictionCoefficient<Contact>>>,
+                  Optional<Write<ElasticSlip<Contact>>>, Optional<Write<FrictionWork<Contact>>>,
+                  Optional<Write<FrictionCouple>>, Optional<Read<DampingCoefficient<Contact>>>,
+                  Optional<Write<DampingWork<Contact>>>);
+void tool_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
+                  Read<ToolPosition>, Read<ToolVelocity>, Read<ToolNormal>,
+                  Write<ContactPair<ToolContact>>, Write<ContactReach<ToolContact>>,
+                  Read<ContactStiffness<ToolContact>>, Read<ContactWeight<ToolContact>>,
+                  Write<PointForce<ToolContact>>, Write<Penetration<ToolContact>>,
+                  Write<ContactEnergy<ToolContact>>,
+                  Optional<Read<FrictionCoefficient<ToolContact>>>,
+                  Optional<Write<ElasticSlip<ToolContact>>>,
+                  Optional<Write<FrictionWork<ToolContact>>>,
+                  Optional<Read<DampingCoefficient<ToolContact>>>,
+                  Optional<Write<DampingWork<ToolContact>>>);
+void contact_totals(Optional<Read<ContactPair<Contact>>>, Optional<Read<ContactEnergy<Contact>>>,
+                    Optional<Read<FrictionWork<Contact>>>, Optional<Read<DampingWork<Contact>>>,
+                    Optional<Read<ContactPair<ToolContact>>>,
+                    Optional<Read<ContactEnergy<ToolContact>>>,
+                    Optional<Read<FrictionWork<ToolContact>>>,
+                    Optional<Read<DampingWork<ToolContact>>>, Write<Totals>);
+void tool_reaction(Read<Clock>, Read<ContactPair<ToolContact>>, Read<PointForce<ToolContact>>,
+                   Read<ToolVelocity>, Write<ToolForce>, Write<Totals>);
+void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
+                    Optional<Read<ContactPair<Contact>>>, Optional<Read<Penetration<Contact>>>,
+                    Optional<Read<EdgeLength<Contact>>>, Optional<Read<ContactPair<ToolContact>>>,
+                    Optional<Read<Penetration<ToolContact>>>, Optional<Read<EdgeLength<ToolContact>>>,
+                    Write<Totals>);
+
+// ---- chunk by chunk: forces of the bodies -------------------------------------------------------
+void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<ContactPair<Contact>>>,
+                   Optional<Read<PointForce<Contact>>>, Optional<Read<ClosestPoint>>,
+                   Optional<Read<FrictionCouple>>, Optional<Read<ContactPair<ToolContact>>>,
+                   Optional<Read<PointForce<ToolContact>>>, Write<CurveForce>, Write<ContactForce>);
+void elastic_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
+                    Write<DeviatoricStress>, Write<MeanStress>, Write<LeastJacobian>,
+                    Write<WorstElement>);
+void trial_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
+                  Read<PlasticMetric>, Write<DeviatoricStress>, Write<MeanStress>,
+                  Write<LeastJacobian>, Write<WorstElement>);
+void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<YieldStress>,
+                   Read<HardeningModulus>, Write<DeviatoricStress>, Write<PlasticMetric>,
+                   Write<PlasticStrain>);
+void internal_force(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress>, Read<MeanStress>,
+                    Write<InternalForce>);
+
+// ---- on sampled steps ---------------------------------------------------------------------------
+void kinetic_energy(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalForce>,
+                    Optional<Read<ContactForce>>, Read<Velocity>, Write<KineticEnergy>);
+void elastic_energy(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
+                    Optional<Read<PlasticMetric>>, Write<ElasticEnergy>);
+void plastic_work(Chunk, Read<Bodies>, Read<YieldStress>, Read<HardeningModulus>,
+                  Read<PlasticStrain>, Write<PlasticWork>);
+
+// ---- motion ---------------------------------------------------------------------------------------
+void integrate(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalForce>,
+               Optional<Read<ContactForce>>, Write<Velocity>, Write<Position>);
+void contact_curve(Chunk, Read<Bodies>, Read<Position>, Read<Velocity>, Write<CurvePosition>,
+                   Optional<Write<CurveVelocity>>, Write<MaximumSpeed>);
+void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
+                      Read<BulkModulus>, Read<Density>, Optional<Read<ContactRules>>,
+                      Write<StableTimeStep>);
+void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>);
+void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolVelocity>>,
+                   Write<Clock>);
+
+// ---- used outside the step too --------------------------------------------------------------------
+// Where the programme puts a tool at `time`, m.
+Point tool_position_at(const ToolProgram& program, int tool, double time);
+// Sets clock.dt from the particles' stable steps.
+void choose_time_step(std::span<const double> stable, Clock& clock);
+
+}  // namespace pulvis

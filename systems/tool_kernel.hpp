@@ -1,0 +1,23 @@
+// Smooth prescribed motion: the share of a displacement travelled at the share tau of its duration.
+//
+// The speed rises from zero over the first `ramp` of the duration as u^3 (10 - 15 u + 6 u^2) (so that
+// acceleration and its rate start at zero: no stress wave is sent), stays constant, and falls likewise.
+#pragma once
+
+#include <algorithm>
+
+namespace pulvis::kernels {
+
+// Integral of u^3 (10 - 15 u + 6 u^2) from 0 to u in [0, 1]; 1/2 at u = 1.
+inline double ramp_integral(double u) { return u * u * u * u * (2.5 + u * (-3.0 + u)); }
+
+inline double smooth_travel(double tau, double ramp) {
+  if (tau <= 0) return 0;
+  if (tau >= 1) return 1;
+  const double top_speed = 1 / (1 - ramp);
+  if (tau > 0.5) return 1 - smooth_travel(1 - tau, ramp);
+  const double rising = ramp > 0 ? ramp * ramp_integral(std::min(tau / ramp, 1.0)) : 0;
+  return top_speed * (rising + std::max(tau - ramp, 0.0));
+}
+
+}  // namespace pulvis::kernels

@@ -1,0 +1,60 @@
+// tool_motion: where the tools' programmes put them at t_n, and their mean velocity over the last step.
+// tool_reaction: what the particles do to each tool, and the work that the tools have done.
+#include "components/contact.hpp"
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "systems/systems.hpp"
+#include "systems/tool_kernel.hpp"
+
+namespace pulvis {
+
+Point tool_position_at(const ToolProgram& program, int tool, double time) {
+  Point at = program.start[static_cast<std::size_t>(tool)];
+  for (const ToolProgram::Segment& s : program.segments) {
+    if (s.tool != tool) continue;
+    const double share = kernels::smooth_travel((time - s.begin) / s.duration, s.ramp);
+    at[0] += share * s.displacement[0];
+    at[1] += share * s.displacement[1];
+  }
+  return at;
+}
+
+void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Write<ToolPosition> position,
+                 Write<ToolVelocity> velocity) {
+  for (int t = 0; t < position.rows(); ++t) {
+    const Row<Tool> tool(t);
+    const Point now = tool_position_at(*program, t, clock->time);
+    const Point before = tool_position_at(*program, t, clock->time - clock->dt_before);
+    for (int k = 0; k < 2; ++k) {
+      const double moved = now[static_cast<std::size_t>(k)] - before[static_cast<std::size_t>(k)];
+      velocity(tool, k) = clock->dt_before > 0 ? moved / clock->dt_before : 0;
+      position(tool, k) = now[static_cast<std::size_t>(k)];
+    }
+  }
+}
+
+// Work by the trapezoidal rule: forces at both ends of the step, which is what keeps the energy balance
+// of the leapfrog to second order.
+void tool_reaction(Read<Clock> clock, Read<ContactPair<ToolContact>> pair,
+                   Read<PointForce<ToolContact>> force, Read<ToolVelocity> velocity,
+                   Write<ToolForce> tool_force, Write<Totals> totals) {
+  const auto power = [&] {
+    double sum = 0;
+    for (int t = 0; t < tool_force.rows(); ++t)
+      for (int k = 0; k < 2; ++k) sum -= tool_force(Row<Tool>(t), k) * velocity(Row<Tool>(t), k);
+    return sum;
+  };
+  const double power_before = power();
+  for (int t = 0; t < tool_force.rows(); ++t)
+    tool_force(Row<Tool>(t), 0) = tool_force(Row<Tool>(t), 1) = 0;
+  for (int r = 0; r < pair.rows(); ++r) {
+    const Row<ToolContact> row(r);
+    if (pair(row, 3) == 0) continue;
+    const Row<Tool> tool(pair(row, 2));
+    for (int g = 0; g < edge_points; ++g)
+      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= force(row, edge_points * k + g);
+  }
+  totals->external_work += 0.5 * (power_before + power()) * clock->dt_before;
+}
+
+}  // namespace pulvis

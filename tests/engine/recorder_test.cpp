@@ -1,0 +1,288 @@
+// The recorder: what it writes can be read back, in the places and with the units the users'
+// scripts rely on; what the machine refuses becomes an OutputError that names the file and the
+// reason.
+#include "engine/recorder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "engine/output_error.hpp"
+#include "engine/run_folder.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// Two squares side by side, each a particle of one quad.
+RunMesh two_squares() {
+  return {.quads = {0, 1, 2, 3, 4, 5, 6, 7},
+          .cell_particle = {0, 1},
+          .node_particle = {0, 0, 0, 0, 1, 1, 1, 1},
+          .reference = {0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 3, 0, 3, 1, 2, 1}};
+}
+
+std::vector<FieldInfo> four_fields() {
+  return {{"position", "m", "where the node is", FieldPlace::node, 2},
+          {"velocity", "m/s", "how fast it moves", FieldPlace::node, 2},
+          {"effective_stress", "Pa", "von Mises", FieldPlace::cell, 1},
+          {"contacts", "-", "edges in contact", FieldPlace::particle, 1}};
+}
+
+std::vector<SeriesInfo> two_series() {
+  return {{"tool/top/force_y", "N", "force on the punch"},
+          {"relative_density", "-", "solid share"}};
+}
+
+constexpr double third = 1.0 / 3.0;
+
+class RecorderTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::temp_directory_path() /
+             ("pulvis-recorder-" + std::to_string(getpid()) + "-" + test->name());
+    fs::remove_all(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  // Frame k at time k: everything moved by k in x, stress 100 k and 100 k + 1.
+  static std::vector<std::vector<double>> fields_of(int k) {
+    auto position = two_squares().reference;
+    for (std::size_t i = 0; i < position.size(); i += 2) position[i] += k;
+    return {position, std::vector<double>(16, k), {100.0 * k, 100.0 * k + 1}, {1, 2}};
+  }
+
+  void record(int frames, bool finish = true) const {
+    open_run_folder(folder);
+    Recorder recorder(folder, {"0.1.0", "abc", "Two <squares>", "f00d", 18446744073709551615U, 2},
+                      two_squares(), two_series(), four_fields());
+    for (int k = 0; k < frames; ++k) {
+      recorder.sample(k, std::vector{k * third, 0.5});
+      recorder.sample(k + 0.5, std::vector{k * third + 1e-9, 0.75});
+      recorder.frame(k, 1000 * k, fields_of(k));
+    }
+    if (finish) recorder.finish();
+  }
+
+  std::string text_of(const char* name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder / name).rdbuf();
+    return text.str();
+  }
+
+  fs::path folder;
+};
+
+TEST_F(RecorderTest, LaysTheFileOutAsPromised) {
+  record(2);
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_THAT(file.children("/"), ElementsAre("frames", "history", "mesh"));
+  EXPECT_EQ(file.shape("/mesh/quads"), (hdf5::Shape{2, 4}));
+  EXPECT_EQ(file.shape("/mesh/reference"), (hdf5::Shape{8, 2}));
+  EXPECT_EQ(file.read_integers("/mesh/quads"), two_squares().quads);
+  EXPECT_EQ(file.read_integers("/mesh/cell_particle"), two_squares().cell_particle);
+  EXPECT_EQ(file.read_integers("/mesh/node_particle"), two_squares().node_particle);
+  EXPECT_THAT(file.children("/frames"), ElementsAre("000000", "000001"));
+  EXPECT_EQ(file.shape("/frames/000001/position"), (hdf5::Shape{8, 2}));
+  EXPECT_EQ(file.shape("/frames/000001/effective_stress"), (hdf5::Shape{2}));
+  EXPECT_EQ(file.read_doubles("/frames/000001/effective_stress"), (std::vector{100.0, 101.0}));
+  EXPECT_EQ(file.shape("/history/tool/top/force_y"), (hdf5::Shape{4}));
+}
+
+TEST_F(RecorderTest, WritesTheAttributesOfTheRun) {
+  record(1);
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_EQ(file.text_attribute("/", "version"), "0.1.0");
+  EXPECT_EQ(file.text_attribute("/", "commit"), "abc");
+  EXPECT_EQ(file.text_attribute("/", "title"), "Two <squares>");
+  EXPECT_EQ(file.text_attribute("/", "scene_hash"), "f00d");
+  EXPECT_EQ(file.text_attribute("/", "outcome"), "done");
+  EXPECT_EQ(file.unsigned_attribute("/", "seed"), 18446744073709551615U);
+  EXPECT_EQ(file.number_attribute("/", "threads"), 2);
+}
+
+TEST_F(RecorderTest, GivesEveryDatasetAUnitAndAMeaning) {
+  record(2);
+  const auto file = hdf5::File::open(folder / "run.h5");
+  const auto datasets = file.datasets_below("/");
+  EXPECT_EQ(datasets.size(), 4U + 2 * 4U + 3U);
+  for (const auto& dataset : datasets) {
+    EXPECT_FALSE(file.text_attribute("/" + dataset, "unit").empty()) << dataset;
+    EXPECT_FALSE(file.text_attribute("/" + dataset, "meaning").empty()) << dataset;
+  }
+  EXPECT_EQ(file.text_attribute("/history/tool/top/force_y", "unit"), "N");
+  EXPECT_EQ(file.text_attribute("/frames/000001/velocity", "unit"), "m/s");
+  EXPECT_EQ(file.text_attribute("/history/time", "unit"), "s");
+}
+
+TEST_F(RecorderTest, MarksFramesCompleteAndSaysWhenAndAtWhichStep) {
+  record(3);
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_EQ(file.number_attribute("/frames/000002", "complete"), 1);
+  EXPECT_EQ(file.number_attribute("/frames/000002", "time"), 2);
+  EXPECT_EQ(file.number_attribute("/frames/000002", "step"), 2000);
+}
+
+TEST_F(RecorderTest, StoresPlaneVectorsWithAThirdComponentOfZero) {
+  record(2);
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_EQ(file.shape("/frames/000001/velocity"), (hdf5::Shape{8, 3}));
+  EXPECT_EQ(file.number_attribute("/frames/000001/velocity", "components"), 2);
+  const auto velocity = file.read_doubles("/frames/000001/velocity");
+  for (std::size_t i = 0; i < velocity.size(); ++i) EXPECT_EQ(velocity[i], i % 3 == 2 ? 0 : 1);
+}
+
+TEST_F(RecorderTest, WritesTheSameHistoryAsCsvToTheLastBit) {
+  record(3);
+  const auto file = hdf5::File::open(folder / "run.h5");
+  const auto time = file.read_doubles("/history/time");
+  const auto force = file.read_doubles("/history/tool/top/force_y");
+  std::istringstream csv(text_of("history.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "time [s],tool/top/force_y [N],relative_density [-]");
+  std::size_t row = 0;
+  for (; std::getline(csv, line); ++row) {
+    const auto comma = line.find(',');
+    ASSERT_LT(row, time.size());
+    EXPECT_EQ(std::stod(line), time[row]);
+    EXPECT_EQ(std::stod(line.substr(comma + 1)), force[row]);
+  }
+  EXPECT_EQ(row, time.size());
+  EXPECT_EQ(row, 6U);
+}
+
+TEST_F(RecorderTest, KeepsSamplesThatComeAfterTheLastFrame) {
+  open_run_folder(folder);
+  {
+    Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
+    recorder.sample(0, std::vector{1.0, 2.0});
+    recorder.frame(0, 0, fields_of(0));
+    recorder.sample(1, std::vector{3.0, 4.0});
+  }  // not finished: the destructor closes
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_THAT(file.read_doubles("/history/tool/top/force_y"), ElementsAre(1.0, 3.0));
+  EXPECT_FALSE(file.has_attribute("/", "outcome"));
+}
+
+TEST_F(RecorderTest, LeavesAFrameReadableWhileTheRunGoesOn) {
+  open_run_folder(folder);
+  Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
+  recorder.sample(0, std::vector{1.0, 2.0});
+  recorder.frame(0, 0, fields_of(0));
+  fs::copy_file(folder / "run.h5", folder / "as-after-a-kill.h5");  // nothing is closed yet
+  const auto file = hdf5::File::open(folder / "as-after-a-kill.h5");
+  EXPECT_EQ(file.number_attribute("/frames/000000", "complete"), 1);
+  EXPECT_THAT(file.read_doubles("/history/time"), ElementsAre(0.0));
+  EXPECT_THAT(text_of("history.csv"), HasSubstr("\n0,1,2\n"));
+}
+
+TEST_F(RecorderTest, RefusesWrongLengthsAndAFirstFieldThatIsNoPosition) {
+  open_run_folder(folder);
+  Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
+  EXPECT_THROW(recorder.sample(0, std::vector{1.0}), std::invalid_argument);
+  auto fields = fields_of(0);
+  fields[2].push_back(0);
+  EXPECT_THROW(recorder.frame(0, 0, fields), std::invalid_argument);
+  EXPECT_THROW(Recorder(folder / "b", {}, two_squares(), {}, {four_fields()[2]}),
+               std::invalid_argument);
+}
+
+TEST_F(RecorderTest, RefusesAFolderThatHoldsARunUnlessToldToReplaceIt) {
+  record(1);
+  std::ofstream(folder / "notes.txt") << "mine";
+  EXPECT_THROW(open_run_folder(folder), RunFolderTaken);
+  EXPECT_TRUE(fs::exists(folder / "run.h5"));
+  open_run_folder(folder, true);
+  EXPECT_FALSE(fs::exists(folder / "run.h5"));
+  EXPECT_FALSE(fs::exists(folder / "run.xdmf"));
+  EXPECT_TRUE(fs::exists(folder / "notes.txt"));
+}
+
+TEST_F(RecorderTest, SaysWhyAFolderCannotBeMadeAndLeavesNothingBehind) {
+  std::ofstream(folder) << "a file where the folder should be";
+  try {
+    open_run_folder(folder / "run");
+    FAIL() << "was not refused";
+  } catch (const OutputError& error) {
+    EXPECT_EQ(error.path(), folder / "run");
+    EXPECT_EQ(error.reason(), "Not a directory");
+  }
+  EXPECT_THROW(open_run_folder(folder), OutputError);
+  EXPECT_TRUE(fs::is_regular_file(folder));
+  EXPECT_THROW(open_run_folder("/proc/pulvis/run"), OutputError);
+}
+
+TEST_F(RecorderTest, SaysWhatTheSystemSaidWhereTheFolderIsMissing) {
+  try {
+    Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
+    FAIL() << "was not refused";
+  } catch (const OutputError& error) {
+    EXPECT_EQ(error.path(), folder / "run.h5");
+    EXPECT_EQ(error.reason(), "No such file or directory");
+  }
+}
+
+// A child process with a file-size limit stands for a full disk: the same failing write().
+TEST_F(RecorderTest, TurnsAFullDiskIntoAnErrorAndKeepsTheFramesBefore) {
+  const auto write_until_full = [this] {
+    const rlimit limit{100'000, 100'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      record(1000);
+    } catch (const OutputError& error) {
+      std::exit(error.reason() == "File too large" ? 4 : 1);
+    }
+  };
+  EXPECT_EXIT(write_until_full(), ::testing::ExitedWithCode(4), "^$");
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_EQ(file.number_attribute("/frames/000000", "complete"), 1);
+}
+
+TEST_F(RecorderTest, WritesAnXdmfThatMeshioReadsAsATimeSeries) {
+  record(3);
+  std::ofstream(folder / "read.py") << R"(
+import sys, meshio
+with meshio.xdmf.TimeSeriesReader(sys.argv[1]) as reader:
+    points, cells = reader.read_points_cells()
+    assert reader.num_steps == 3, reader.num_steps
+    assert points.shape == (8, 2), points.shape
+    assert len(cells) == 1 and cells[0].type == "quad" and cells[0].data.shape == (2, 4), cells
+    for step in range(3):
+        time, nodes, quads = reader.read_data(step)
+        assert time == step
+        assert quads["effective_stress"][0].tolist() == [100 * step, 100 * step + 1]
+        assert quads["particle"][0].tolist() == [0, 1]
+        assert nodes["velocity"].shape == (8, 3)
+        assert nodes["velocity"][7].tolist() == [step, step, 0]
+        assert "contacts" not in nodes and "contacts" not in quads
+)";
+  const std::string command = "/usr/bin/python3 '" + (folder / "read.py").string() + "' '" +
+                              (folder / "run.xdmf").string() + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST_F(RecorderTest, WritesAnXdmfThatIsWellFormedAfterEveryFrame) {
+  record(2, false);
+  const std::string check =
+      "import sys, xml.dom.minidom as m; d = m.parse(sys.argv[1]); "
+      "assert len(d.getElementsByTagName(\\\"Grid\\\")) == 3";
+  const std::string command =
+      "/usr/bin/python3 -c \"" + check + "\" '" + (folder / "run.xdmf").string() + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_FALSE(fs::exists(folder / "run.xdmf.new"));
+}
+
+}  // namespace
+}  // namespace pulvis

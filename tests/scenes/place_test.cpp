@@ -1,0 +1,252 @@
+// Placement: where particles stand, that touching is accepted, and that overlaps are found with
+// their depth. Depths are compared with closed forms.
+#include "scenes/place.hpp"
+#include "scenes/read.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <numbers>
+
+namespace pulvis {
+namespace {
+
+using std::numbers::sqrt2;
+using testing::HasSubstr;
+
+constexpr double size = 0.01;  // m, of every particle here
+
+ParticleSpec disc() {
+  ParticleSpec particle;
+  particle.name = "disc";
+  particle.outline = DiscOutline{size};
+  return particle;
+}
+
+ParticleSpec square() {
+  ParticleSpec particle;
+  particle.name = "square";
+  particle.outline = RectangleOutline{size, size};
+  particle.mesh = RectangleMesh{};
+  return particle;
+}
+
+BodySpec at(double x, double y, int particle = 0, double angle = 0) {
+  BodySpec body;
+  body.particle = particle;
+  body.position = Vec2(x, y);
+  body.angle = angle;
+  return body;
+}
+
+ToolSpec plane(const std::string& name, const Vec2& point, const Vec2& normal) {
+  return {name, point, normal.normalized(), {}};
+}
+
+Scene scene_of(std::vector<BodySpec> bodies) {
+  Scene scene;
+  scene.file = "place.toml";
+  scene.particles = {disc(), square()};
+  scene.bodies = std::move(bodies);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    scene.bodies[i].mark = {static_cast<int>(10 * (i + 1)), 1};
+  return scene;
+}
+
+std::vector<SceneProblem> problems_of(const Scene& scene) {
+  try {
+    check_overlaps(scene, place_bodies(scene));
+  } catch (const SceneError& error) {
+    return error.errors();
+  }
+  return {};
+}
+
+Scene die(int rows, int columns, Vec2 corner) {
+  Scene scene = scene_of({});
+  SquarePacking packing;
+  packing.rows = rows;
+  packing.columns = columns;
+  packing.spacing = size;
+  packing.corner = corner;
+  packing.mark = {7, 1};
+  scene.packings = {packing};
+  const Vec2 far_corner = corner + size * Vec2(columns, rows);
+  scene.tools = {plane("left", corner, {1, 0}), plane("bottom", corner, {0, 1}),
+                 plane("right", far_corner, {-1, 0}), plane("top", far_corner, {0, -1})};
+  return scene;
+}
+
+TEST(PlaceBodies, APackingIsFilledRowByRowFromTheBottom) {
+  const auto bodies = place_bodies(die(2, 3, Vec2(1, 2)));
+  ASSERT_EQ(bodies.size(), 6U);
+  EXPECT_TRUE(bodies[0].position.isApprox(Vec2(1.005, 2.005), 1e-15));
+  EXPECT_TRUE(bodies[1].position.isApprox(Vec2(1.015, 2.005), 1e-15));
+  EXPECT_TRUE(bodies[3].position.isApprox(Vec2(1.005, 2.015), 1e-15));
+  EXPECT_EQ(bodies[5].mark.line, 7);
+}
+
+TEST(PlaceBodies, BodiesAndPackingsKeepTheOrderOfTheFile) {
+  Scene scene = scene_of({at(1, 1), at(2, 2)});
+  SquarePacking packing;
+  packing.spacing = size;
+  packing.mark = {15, 1};
+  scene.packings = {packing};
+  const auto bodies = place_bodies(scene);
+  ASSERT_EQ(bodies.size(), 3U);
+  EXPECT_EQ(bodies[0].position, Vec2(1, 1));
+  EXPECT_EQ(bodies[1].mark.line, 15);
+  EXPECT_EQ(bodies[2].position, Vec2(2, 2));
+}
+
+TEST(PlaceBodies, TheTextOfASceneKeepsThatOrder) {
+  const std::string start = R"(family = "compaction"
+[[material]]
+name = "m"
+density = "1 kg/m^3"
+youngs_modulus = "1 GPa"
+poissons_ratio = 0
+[[particle]]
+name = "p"
+material = "m"
+outline = "disc"
+diameter = "1 mm"
+[[body]]
+particle = "p"
+position = ["5 m", "1 m"]
+[[packing]]
+kind = "square"
+particle = "p"
+rows = 1
+columns = 2
+[[body]]
+particle = "p"
+position = ["6 m", "1 m"]
+[[stage]]
+name = "s"
+kind = "settle"
+duration = "1 s"
+)";
+  const LoadedScene first = load_scene_text(start, "a.toml");
+  const auto before = place_bodies(first.scene);
+  const auto after = place_bodies(load_scene_text(first.text, "b.toml").scene);
+  ASSERT_EQ(before.size(), 4U);
+  ASSERT_EQ(after.size(), 4U);
+  EXPECT_EQ(before[3].position.x(), 6);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(before[i].position, after[i].position);
+}
+
+TEST(CheckOverlaps, EveryShippedSceneHasRoom) {
+  const auto folder = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") continue;
+    const Scene scene = read_scene(entry.path());
+    EXPECT_NO_THROW(check_overlaps(scene, place_bodies(scene))) << entry.path();
+  }
+}
+
+TEST(CheckOverlaps, TouchingIsAcceptedWhereverThePackingLies) {
+  for (const double shift : {0.0, 0.1, -0.3, 1.0 / 3, 7.7})
+    EXPECT_TRUE(problems_of(die(10, 10, Vec2(shift, -shift))).empty()) << shift;
+}
+
+TEST(CheckOverlaps, DiscsJustAboveTheToleranceAreRefused) {
+  EXPECT_TRUE(problems_of(scene_of({at(0, 0), at(size * (1 - 0.5e-9), 0)})).empty());
+  EXPECT_EQ(problems_of(scene_of({at(0, 0), at(size * (1 - 2e-9), 0)})).size(), 1U);
+}
+
+TEST(CheckOverlaps, NamesBothParticlesTheDepthAndThePlace) {
+  const auto problems = problems_of(scene_of({at(0, 0), at(0.5, 0), at(0.006, 0)}));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].line, 30);
+  EXPECT_EQ(problems[0].key, "body[2].position");
+  EXPECT_THAT(problems[0].text(),
+              HasSubstr("place.toml:30:1: body[2].position: particle 2 ('disc' at "
+                        "(0.006, 0) m) overlaps particle 0 ('disc' at (0, 0) m) by "
+                        "0.004 m, allowed: particles that touch or are apart"));
+}
+
+TEST(CheckOverlaps, ADenseListIsCutShort) {
+  const auto problems = problems_of(scene_of(std::vector<BodySpec>(20, at(0, 0))));
+  ASSERT_EQ(problems.size(), 21U);
+  EXPECT_THAT(problems.back().message, HasSubstr("more overlaps"));
+}
+
+TEST(CheckOverlaps, DiscBehindAndAcrossATool) {
+  Scene scene = scene_of({at(0, 0.004), at(0.1, -1), at(0.2, 0.005)});
+  scene.tools = {plane("floor", Vec2::Zero(), {0, 1})};
+  const auto problems = problems_of(scene);
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_THAT(problems[0].message,
+              HasSubstr("particle 0 ('disc' at (0, 0.004) m) is outside the die: it "
+                        "reaches 0.001 m behind tool 'floor'"));
+  EXPECT_THAT(problems[1].message, HasSubstr("1.005 m behind tool 'floor'"));
+}
+
+TEST(CheckOverlaps, ObliqueTools) {
+  Scene scene = scene_of({at(0, 0)});
+  scene.tools = {plane("slope", Vec2(0, -size / sqrt2), {1, 1})};
+  EXPECT_TRUE(problems_of(scene).empty());  // touches: distance size/2
+  scene.tools = {plane("slope", Vec2(0, 0), {1, 1})};
+  ASSERT_EQ(problems_of(scene).size(), 1U);
+  EXPECT_THAT(problems_of(scene)[0].message, HasSubstr("reaches 0.005 m behind"));
+}
+
+TEST(CheckOverlaps, RectanglesAndTools) {
+  Scene scene = scene_of({at(0, size / 2, 1)});
+  scene.tools = {plane("floor", Vec2::Zero(), {0, 1})};
+  EXPECT_TRUE(problems_of(scene).empty());
+  scene.bodies[0].angle = std::numbers::pi / 4;  // stands on a corner, which is size/sqrt(2) away
+  ASSERT_EQ(problems_of(scene).size(), 1U);
+  EXPECT_THAT(problems_of(scene)[0].message, HasSubstr("reaches 0.00207107 m behind"));
+}
+
+TEST(CheckOverlaps, RectanglesTouchingAndOverlapping) {
+  EXPECT_TRUE(problems_of(scene_of({at(0, 0, 1), at(size, 0, 1)})).empty());
+  EXPECT_TRUE(problems_of(scene_of({at(0.3, 0.7, 1), at(0.3 + size / 3, 0.7 + size, 1)})).empty());
+  const auto shallow = problems_of(scene_of({at(0, 0, 1), at(size - 1e-6, 0.002, 1)}));
+  ASSERT_EQ(shallow.size(), 1U);
+  EXPECT_THAT(shallow[0].message, HasSubstr("by 1e-06 m"));
+  const auto tiny = problems_of(scene_of({at(0, 0, 1), at(size * (1 - 1e-8), 0, 1)}));
+  EXPECT_EQ(tiny.size(), 1U);
+}
+
+TEST(CheckOverlaps, ATurnedSquareTouchesWithItsCorner) {
+  const double reach = size / 2 + size / sqrt2;
+  const double eighth = std::numbers::pi / 4;
+  EXPECT_TRUE(problems_of(scene_of({at(0, 0, 1), at(reach, 0, 1, eighth)})).empty());
+  const auto problems = problems_of(scene_of({at(0, 0, 1), at(reach - 1e-4, 0, 1, eighth)}));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_THAT(problems[0].message, HasSubstr("by 0.0001 m"));
+}
+
+TEST(CheckOverlaps, DiscAgainstRectangle) {
+  const double side = size;                // disc beside the square
+  const double corner = size / 2 / sqrt2;  // disc at its corner, along the diagonal
+  const Vec2 diagonal = Vec2::Constant(size / 2 + corner);
+  EXPECT_TRUE(problems_of(scene_of({at(0, 0, 1), at(side, 0)})).empty());
+  EXPECT_TRUE(problems_of(scene_of({at(0, 0, 1), at(diagonal.x(), diagonal.y())})).empty());
+  EXPECT_THAT(problems_of(scene_of({at(0, 0, 1), at(side - 1e-5, 0.001)})).at(0).message,
+              HasSubstr("by 1e-05 m"));
+  EXPECT_THAT(problems_of(scene_of({at(0, 0), at(0.001, 0, 1)})).at(0).message,
+              HasSubstr("by 0.009 m"));
+}
+
+TEST(CheckOverlaps, SizesThatDifferByManyOrders) {
+  Scene scene = scene_of({at(0, 0), at(0.005 + 0.5e-9, 0, 1)});
+  scene.particles[1].outline = DiscOutline{1e-9};
+  EXPECT_TRUE(problems_of(scene).empty());
+}
+
+TEST(CheckOverlaps, TenThousandParticlesTakeWellUnderASecond) {
+  const Scene scene = die(100, 100, Vec2::Zero());
+  const auto bodies = place_bodies(scene);
+  const auto start = std::chrono::steady_clock::now();
+  check_overlaps(scene, bodies);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(taken.count(), 1.0);  // about 0.05 s; the margin is for loaded machines
+}
+
+}  // namespace
+}  // namespace pulvis

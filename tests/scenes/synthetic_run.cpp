@@ -1,0 +1,181 @@
+#include "tests/scenes/synthetic_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "engine/recorder.hpp"
+#include "engine/run_folder.hpp"
+
+namespace pulvis::testing {
+namespace {
+
+constexpr double duration = 1e-3, yield = 290e6;
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+// A square's points moved onto a disc of radius 1, and back towards the square as `flat` goes to 1.
+Point on_disc(double u, double v, double flat) {
+  const double x = u * std::sqrt(1 - v * v / 2), y = v * std::sqrt(1 - u * u / 2);
+  return {x + flat * (u - x), y + flat * (v - y)};
+}
+
+double squeeze(double share) { return 1 - 0.2 * share; }  // height of the compact, of its first one
+
+int side(const SyntheticRun& run) { return run.divisions + 1; }
+
+std::vector<double> positions(const SyntheticRun& run, double share) {
+  std::vector<double> xy;
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    for (int node = 0; node < side(run) * side(run); ++node) {
+      const double u = 2.0 * (node % side(run)) / run.divisions - 1;
+      const double v = 2.0 * (node / side(run)) / run.divisions - 1;
+      const Point at = on_disc(u, v, 0.85 * share);
+      xy.push_back(run.diameter * (disc % run.columns + 0.5 + at.x / 2));
+      xy.push_back(run.diameter * (disc / run.columns + 0.5 + at.y / 2) * squeeze(share));
+    }
+  }
+  return xy;
+}
+
+RunMesh mesh_of(const SyntheticRun& run) {
+  RunMesh mesh;
+  const int nodes = side(run) * side(run);
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    mesh.node_particle.insert(mesh.node_particle.end(), static_cast<std::size_t>(nodes), disc);
+    for (int cell = 0; cell < run.divisions * run.divisions; ++cell) {
+      const int first = disc * nodes + cell / run.divisions * side(run) + cell % run.divisions;
+      mesh.quads.insert(mesh.quads.end(),
+                        {first, first + 1, first + side(run) + 1, first + side(run)});
+      mesh.cell_particle.push_back(disc);
+    }
+  }
+  mesh.reference = positions(run, 0);
+  return mesh;
+}
+
+// High where discs touch, with a little of each disc's own.
+std::vector<double> stresses(const SyntheticRun& run, double share) {
+  std::vector<double> values;
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    for (int cell = 0; cell < run.divisions * run.divisions; ++cell) {
+      const double u = 2.0 * (cell % run.divisions + 0.5) / run.divisions - 1;
+      const double v = 2.0 * (cell / run.divisions + 0.5) / run.divisions - 1;
+      const double reach = 0.35 + 0.65 * std::max(std::abs(u), std::abs(v));
+      values.push_back(yield * share * std::min(1.2, reach * (1.1 + 0.15 * std::sin(3.7 * disc))));
+    }
+  }
+  return values;
+}
+
+std::vector<FieldInfo> fields() {
+  return {{"position", "m", "position of the node", FieldPlace::node, 2},
+          {"velocity", "m/s", "velocity of the node", FieldPlace::node, 2},
+          {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
+          {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
+          {"stress", "Pa", "Cauchy stress xx, yy, zz, xy", FieldPlace::cell, 4}};
+}
+
+std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share) {
+  const auto xy = positions(run, share);
+  const auto stress = stresses(run, share);
+  std::vector<double> strain, tensor;
+  for (const double value : stress) {
+    strain.push_back(0.3 * share * value / yield);
+    tensor.insert(tensor.end(), {-0.4 * value, -value, -0.5 * value, 0.1 * value});
+  }
+  return {xy, std::vector<double>(xy.size(), 0.5), stress, strain, tensor};
+}
+
+std::vector<SeriesInfo> series(bool tools) {
+  std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy"},
+                                 {"energy/elastic", "J", "elastic energy"},
+                                 {"energy/plastic", "J", "plastic work"},
+                                 {"energy/hourglass", "J", "energy of hourglass modes"},
+                                 {"energy/balance", "J", "energy made or lost"},
+                                 {"contacts", "-", "edges in contact"}};
+  if (!tools) return all;
+  for (const std::string tool : {"top", "bottom"}) {
+    all.push_back({"tool/" + tool + "/position_x", "m", "position of the tool"});
+    all.push_back({"tool/" + tool + "/position_y", "m", "position of the tool"});
+    all.push_back({"tool/" + tool + "/force_x", "N", "force on the tool"});
+    all.push_back({"tool/" + tool + "/force_y", "N", "force on the tool"});
+  }
+  all.push_back({"relative_density", "-", "solid share of the die"});
+  all.push_back({"stress_ratio/axial", "-", "axial stress over the yield stress"});
+  all.push_back({"stress_ratio/lateral", "-", "lateral stress over the yield stress"});
+  return all;
+}
+
+// The punch comes down to share 1 at 0.9 of the time and lifts a little: the density turns back.
+double share_at(double time) {
+  const double t = time / duration;
+  return t < 0.9 ? t / 0.9 : 1 - 0.3 * (t - 0.9);
+}
+
+std::vector<double> row(const SyntheticRun& run, double time) {
+  const double share = share_at(time), ratio = 3 * share * share * share + 0.3 * share;
+  const double load = time > 0.9 * duration ? 1 - 8 * (1 - share) : 1;
+  const double force = std::max(0.0, load) * ratio * yield * run.columns * run.diameter * 1e-3;
+  const double height = run.rows * run.diameter * squeeze(share), work = 0.3 * force * 1e-3;
+  std::vector<double> values = {0.004 * work * (1 + std::sin(40 * share)),
+                                0.2 * work,
+                                0.75 * work,
+                                0.012 * work,
+                                0.002 * work,
+                                std::floor(400 * share)};
+  if (!run.tools) return values;
+  values.insert(values.end(), {0, height, 0.001 * force, force});
+  values.insert(values.end(), {0, 0, -0.001 * force, -0.93 * force});
+  values.insert(values.end(), {0.785 / squeeze(share), std::max(0.0, load) * ratio,
+                               0.55 * ratio * (0.3 + 0.7 * std::max(0.0, load))});
+  return values;
+}
+
+void write_summary(const SyntheticRun& run, const std::filesystem::path& folder) {
+  const int cells = run.rows * run.columns * run.divisions * run.divisions;
+  nlohmann::ordered_json summary = {{"title", "A synthetic compact </script><b>& more</b>"},
+                                    {"outcome", "done"},
+                                    {"steps", 94000},
+                                    {"elements", cells},
+                                    {"wall_seconds", 18.34},
+                                    {"threads", 2},
+                                    {"element_updates_per_second", 98.2e6},
+                                    {"peak_memory_bytes", 61e6},
+                                    {"thickness", 1e-3},
+                                    {"energy_balance_error", 0.0021},
+                                    {"materials", {{{"name", "steel"}, {"density", 7960}}}}};
+  if (run.tools) {
+    const double top = run.rows * run.diameter * squeeze(share_at(duration));
+    const double right = run.columns * run.diameter;
+    summary["relative_density"] = 0.962;
+    summary["limits"] = {{"energy_balance", 0.05}, {"kinetic_energy", 0.05}};
+    summary["tools"] = {{{"name", "top"}, {"point", {0.0, top}}, {"normal", {0, -1}}},
+                        {{"name", "bottom"}, {"point", {0.0, 0.0}}, {"normal", {0, 1}}},
+                        {{"name", "left"}, {"point", {0.0, 0.0}}, {"normal", {1, 0}}},
+                        {{"name", "right"}, {"point", {right, 0.0}}, {"normal", {-1, 0}}}};
+  }
+  std::ofstream(folder / "summary.json") << summary.dump(2) << "\n";
+}
+
+}  // namespace
+
+void record(const SyntheticRun& run, const std::filesystem::path& folder) {
+  open_run_folder(folder, true);
+  Recorder recorder(folder, {"0.1.0", "0123abc", "A synthetic compact", "f00d", 7, 2}, mesh_of(run),
+                    series(run.tools), fields());
+  const int samples = (run.frames - 1) * run.samples_a_frame;
+  for (int i = 0; i <= samples; ++i) {
+    const double time = duration * i / std::max(1, samples);
+    recorder.sample(time, row(run, time));
+    if (i % run.samples_a_frame == 0) recorder.frame(time, 94 * i, frame_of(run, share_at(time)));
+  }
+  recorder.finish();
+  write_summary(run, folder);
+}
+
+}  // namespace pulvis::testing
