@@ -1,6 +1,5 @@
 // report.html: one file that shows a run to somebody who has nothing but a browser. Curves,
-// energies, quality figures and the moving picture of the fields; no network, no other file needed
-// to view it.
+// energies, quality figures and the moving picture of the fields, without any other file.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,4 @@
-// What report.html carries of a run: a head (names, units, ranges; JSON) and sections of packed
-// numbers.
+// What report.html carries of a run: a head (JSON: names, units, ranges) and packed numbers.
 //
 // Frames are thinned evenly, the last one always kept, so that the file stays small enough to mail:
 // about 15 MB for a hundred particles of 141 quads.

@@ -35,8 +35,7 @@ void prepare_library() {
   H5Eset_auto2(error_stack, nullptr, nullptr);
 }
 
-// "... error message = 'No space left on device', ..." holds the system's own words: keep only
-// them.
+// "... error message = 'No space left on device', ..." holds the system's own words: keep these.
 std::string system_words(const std::string& text) {
   static constexpr std::string_view lead = "error message = '";
   const auto begin = text.find(lead);

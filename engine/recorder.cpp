@@ -42,8 +42,7 @@ std::vector<double> with_zero_third(const std::vector<double>& plane) {
   return space;
 }
 
-// A file beyond the allowed size would otherwise end the program: it shall be an error like any
-// other.
+// A file beyond the allowed size would end the program: it shall be an error like any other.
 void survive_a_full_quota() {
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);

@@ -2,7 +2,7 @@
 // frames, for ParaView and meshio) and history.csv (the history, for a spreadsheet). It knows
 // names, units and numbers, and no physics.
 //
-// run.h5 /                      version, commit, title, scene_hash, seed, threads; in the end outcome
+// run.h5 /                      version, commit, title, scene_hash, seed, threads, then outcome
 //        /mesh/<name>           quads [cells,4], cell_particle, node_particle, reference [nodes,2]
 //        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
 //                               complete = 1, written last: a frame without it is not to be read

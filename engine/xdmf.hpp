@@ -1,5 +1,4 @@
-// run.xdmf: tells ParaView and meshio how to read the frames of run.h5 as one mesh that moves in
-// time.
+// run.xdmf: tells ParaView and meshio how to read the frames of run.h5 as one moving mesh.
 //
 // One Uniform grid a frame, each with its own geometry, and every item a whole dataset: readers do
 // not agree on hyperslabs. The file is replaced as a whole at each frame (written beside and

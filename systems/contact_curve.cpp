@@ -38,7 +38,7 @@ void put(const View& list, int control_points, int c, const ControlLanes& y) {
 
 }  // namespace
 
-void contact_curve(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<Velocity> v,
+[[gnu::flatten]] void contact_curve(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<Velocity> v,
                    Write<CurvePosition> position, Optional<Write<CurveVelocity>> velocity,
                    Write<MaximumSpeed> speed) {
   const Shape& shape = bodies->shape_of_chunk(chunk);

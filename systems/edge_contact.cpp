@@ -81,7 +81,7 @@ struct Closest {
   LaneMask beyond;
 };
 
-Closest closest_points(const OtherCurve& other, const PointLanes& points, LaneEdges start) {
+[[gnu::flatten]] Closest closest_points(const OtherCurve& other, const PointLanes& points, LaneEdges start) {
   Closest c{start, {}, {}, {}, {}};
   for (int step = 0;; ++step) {
     c.curve = gather(other.shape, other.position, c.at.edge);
@@ -109,7 +109,7 @@ Closest closest_points(const OtherCurve& other, const PointLanes& points, LaneEd
 }
 
 // How the points move against the curve; both rates vanish in a common rigid motion.
-RowMotion row_motion(const OtherCurve& other, const Closest& c, const PointLanes& velocity) {
+[[gnu::flatten]] RowMotion row_motion(const OtherCurve& other, const Closest& c, const PointLanes& velocity) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
   const Lane over_length = 1.0 / sqrt(sx * sx + sy * sy);
   RowMotion m{};

@@ -87,10 +87,10 @@ QuadForce<T> node_forces(const QuadFlux<T>& q, double factor) {
 }
 
 // a^(-1/3) without a division: two third-order steps from a polynomial. Near one, where det F lives.
-inline Lane inverse_cube_root_far(Lane a) {
+[[gnu::noinline, gnu::cold]] inline Lane inverse_cube_root_far(Lane a) {
   return Lane{1 / std::cbrt(a[0]), 1 / std::cbrt(a[1]), 1 / std::cbrt(a[2]), 1 / std::cbrt(a[3])};
 }
-inline double inverse_cube_root_far(double a) { return 1 / std::cbrt(a); }
+[[gnu::noinline, gnu::cold]] inline double inverse_cube_root_far(double a) { return 1 / std::cbrt(a); }
 
 template <class T>
 T inverse_cube_root(T a) {

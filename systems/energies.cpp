@@ -32,7 +32,7 @@ void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<De
   energy.chunk(chunk)(Row<Particle>()) = total;
 }
 
-void elastic_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+[[gnu::flatten]] void elastic_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
                     Read<BulkModulus> bulk, Optional<Read<PlasticMetric>> metric,
                     Write<ElasticEnergy> energy) {
   const Row<Particle> particle;

@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-void integrate(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Density> density,
+[[gnu::flatten]] void integrate(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Density> density,
                Read<InternalForce> internal, Optional<Read<ContactForce>> contact,
                Write<Velocity> velocity, Write<Position> position) {
   const Shape& shape = bodies->shape_of_chunk(chunk);

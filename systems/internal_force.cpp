@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-void internal_force(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<DeviatoricStress> s,
+[[gnu::flatten]] void internal_force(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<DeviatoricStress> s,
                     Read<MeanStress> p, Write<InternalForce> force) {
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto nodes = x.chunk(chunk);

@@ -84,16 +84,6 @@ auto yields(const Deviator<T>& s, T eps, const Hardening& law) {
   return squared_norm(s) > (2.0 / 3.0) * limit * limit;
 }
 
-// tr b for a given deviator d (of unit-determinant b): root x of det(d + x 1) = 1, from a near guess.
-template <class T>
-T mean_of_unit_determinant(const Symmetric3<T>& d, T guess) {
-  const T q = 0.5 * squared_norm(d);
-  const T det = d.zz * (d.xx * d.yy - d.xy * d.xy);
-  T x = guess;
-  for (int i = 0; i < 2; ++i) x = x - ((x * x - q) * x + det - 1.0) / (3.0 * (x * x) - q);
-  return x;
-}
-
 template <class T>
 struct J2State {
   Deviator<T> s;    // Cauchy, Pa
@@ -102,40 +92,51 @@ struct J2State {
 };
 
 // Radial return of the trial state at a Gauss point. Lanes that do not yield come back unchanged.
+// One division serves the consistency condition and the root of the determinant together.
 template <class T, class Hardening>
-J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T mu, T theta,
+J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T mu, T over_theta,
                          const Hardening& law) {
   constexpr double sqrt_2_3 = 0.81649658092772603273;
   const auto flows = yields(trial.s, trial.eps, law);
   const T j = determinant(f);
   const T r = inverse_cube_root(j);  // J^(-1/3)
+  const T r2 = r * r;
   const Symmetric3<T> b = left_cauchy_green(f, trial.c);
-  const T mean = r * r * trace(b) * (1.0 / 3.0);
+  const T mean = r2 * trace(b) * (1.0 / 3.0);
+  const Symmetric3<T> d{r2 * b.xx - mean, r2 * b.yy - mean, r2 * b.zz - mean, r2 * b.xy};
 
-  // Consistency: |s| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps + sqrt(2/3) dgamma), mu_bar = mu tr b/3.
+  // Consistency: |s| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps + sqrt(2/3) dgamma), mu_bar = mu tr b/3;
+  // beta = |s_new| / |s_trial|.
   const T norm = sqrt(squared_norm(trial.s));
-  const T mu_bar = mu * mean / theta;
+  const T two_mu_bar = 2.0 * mu * mean * over_theta;
   const T excess = norm - sqrt_2_3 * law.flow_stress(trial.eps);
-  const T dgamma = select(flows, excess / (2.0 * mu_bar + (2.0 / 3.0) * law.modulus(trial.eps)), T{});
-  const T beta = select(flows, 1.0 - 2.0 * mu_bar * dgamma / norm, T{} + 1.0);
+  const T slope = norm * (two_mu_bar + (2.0 / 3.0) * law.modulus(trial.eps));
 
-  const T scale = beta * r * r;
-  const Symmetric3<T> d{scale * b.xx - beta * mean, scale * b.yy - beta * mean,
-                        scale * b.zz - beta * mean, scale * b.xy};
-  const T shift = mean_of_unit_determinant(d, mean) - beta * mean;
+  // Mean m of b_new = beta d + m 1 from det b_new = 1: Newton from the trial mean, whose slope serves
+  // twice (the trial mean is off by the square of the elastic strain).
+  const T q_trial = 0.5 * squared_norm(d);
+  const T tangent = 3.0 * (mean * mean) - q_trial;
+  const T over = 1.0 / (slope * tangent);
+  const T beta = select(flows, 1.0 - two_mu_bar * excess * (over * tangent), T{} + 1.0);
+  const T beta2 = beta * beta, q = beta2 * q_trial;
+  const T det = beta2 * beta * (d.zz * (d.xx * d.yy - d.xy * d.xy));
+  const T over_tangent = over * slope;
+  T m = mean;
+  for (int i = 0; i < 2; ++i) m = m - ((m * m - q) * m + det - 1.0) * over_tangent;
 
-  // b_new = beta b + shift 1 pulled back: C_p^-1 = beta C_p^-1 + shift J^(2/3) (F^T F)^-1.
-  const T pull = shift * (r * r) * (r * r);  // shift J^(2/3) / J^2
+  // Pulled back: C_p^-1 = beta C_p^-1 + (m - beta mean) J^(2/3) (F^T F)^-1.
+  const T shift = m - beta * mean;
+  const T pull = shift * (r2 * r2);  // J^(2/3) / J^2
   const T cxx = f.xy * f.xy + f.yy * f.yy, cyy = f.xx * f.xx + f.yx * f.yx;
   const T cxy = -(f.xx * f.xy + f.yx * f.yy);
   const T grow = beta - 1.0;
   J2State<T> next;
   next.s = {beta * trial.s.xx, beta * trial.s.yy, beta * trial.s.xy};
-  next.c = {beta * trial.c.xx + (grow + pull * cxx), beta * trial.c.yy + (grow + pull * cyy),
-            beta * trial.c.zz + (grow + shift * j * r), beta * trial.c.xy + pull * cxy};
-  next.eps = trial.eps + sqrt_2_3 * dgamma;
-  next.c = {select(flows, next.c.xx, trial.c.xx), select(flows, next.c.yy, trial.c.yy),
-            select(flows, next.c.zz, trial.c.zz), select(flows, next.c.xy, trial.c.xy)};
+  next.c = {select(flows, beta * trial.c.xx + (grow + pull * cxx), trial.c.xx),
+            select(flows, beta * trial.c.yy + (grow + pull * cyy), trial.c.yy),
+            select(flows, beta * trial.c.zz + (grow + shift * j * r), trial.c.zz),
+            select(flows, beta * trial.c.xy + pull * cxy, trial.c.xy)};
+  next.eps = trial.eps + select(flows, sqrt_2_3 * excess * norm * (over * tangent), T{});
   return next;
 }
 

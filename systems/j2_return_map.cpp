@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-void j2_return_map(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+[[gnu::flatten]] void j2_return_map(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
                    Read<YieldStress> sigma_y, Read<HardeningModulus> hardening,
                    Write<DeviatoricStress> s, Write<PlasticMetric> metric, Write<PlasticStrain> eps) {
   const Row<Particle> particle;
@@ -30,12 +30,12 @@ void j2_return_map(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<Shea
 
     const auto map = quad_map(nodes, shape.quads[static_cast<std::size_t>(i)]);
     const ElementGauss& gauss = shape.gauss[static_cast<std::size_t>(i)];
-    const Lane theta = dilatation(map, gauss);
+    const Lane over_theta = 1.0 / dilatation(map, gauss);
     for (int g = 0; g < gauss_points; ++g) {
       const auto f = kernels::deformation_gradient(map_gradient(map, g),
                                                    gauss[static_cast<std::size_t>(g)].inverse_jacobian);
       const auto next = kernels::radial_return<Lane>(
-          {deviator(stress, e, g), plastic_metric(c, e, g), strain(e, g)}, f, shear, theta, law);
+          {deviator(stress, e, g), plastic_metric(c, e, g), strain(e, g)}, f, shear, over_theta, law);
       store(stress, e, g, next.s);
       c(e, 4 * g) = next.c.xx;
       c(e, 4 * g + 1) = next.c.yy;

@@ -58,7 +58,7 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views& v, Write<Least
 
 }  // namespace
 
-void trial_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+[[gnu::flatten]] void trial_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
                   Read<BulkModulus> bulk, Read<PlasticMetric> metric, Write<DeviatoricStress> s,
                   Write<MeanStress> p, Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;
@@ -71,7 +71,7 @@ void trial_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<Shear
                });
 }
 
-void elastic_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+[[gnu::flatten]] void elastic_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
                     Read<BulkModulus> bulk, Write<DeviatoricStress> s, Write<MeanStress> p,
                     Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;

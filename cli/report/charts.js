@@ -1,5 +1,5 @@
-// The curves. A chart is {x, y, lines}: x and each line are {label, unit, values}, the values in SI;
-// y is what stands at the axis.
+// The curves. A chart is {x, y, lines}: x and each line are {label, unit, values}, values in SI; y
+// is what stands at the axis.
 "use strict";
 
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7",

@@ -1,5 +1,4 @@
-// The moving picture of the fields: quads filled by value on a canvas, particle outlines, tools,
-// legend.
+// The moving picture: quads filled by value on a canvas, particle outlines, tools, legend.
 "use strict";
 
 // Viridis, which the colour-blind can read and a grey printer keeps in order.
@@ -163,8 +162,7 @@ class Picture {
     ctx.stroke();
   }
 
-  // A tool's point in this frame: the summary has it at the end, the history tells how it came
-  // there.
+  // A tool's point in this frame: the summary has its end, the history how it came there.
   toolPoint(tool) {
     const time = this.history.get("time").values, now = this.head.frames[this.frame].time;
     let sample = time.findIndex(t => t >= now * (1 - 1e-6));

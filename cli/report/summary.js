@@ -34,6 +34,18 @@ function lastOf(history, name) {
   return values.length ? values[values.length - 1] : undefined;
 }
 
+// Units of a material's numbers: the summary is plain SI.
+const MATERIAL_UNITS = {density: "kg/m³", youngs_modulus: "Pa", poissons_ratio: "-",
+                        yield_stress: "Pa", hardening_modulus: "Pa"};
+
+function materialRows(materials) {
+  const told = (key, value) => `${words(key).replace(/s (modulus|ratio)$/, "'s $1")} ` +
+    (typeof value === "number" ? withUnit(value, MATERIAL_UNITS[key] || "-") : value);
+  return (Array.isArray(materials) ? materials : []).map(({name, ...numbers}) =>
+    [`Material ${name || ""}`, Object.entries(numbers).map(one => told(...one)).join(", "),
+     ["materials"]]);
+}
+
 // Rows for the keys with a meaning of their own: [label, text or null, the keys it tells].
 function knownRows(head, history) {
   const s = head.summary, has = key => typeof s[key] === "number";
@@ -48,6 +60,8 @@ function knownRows(head, history) {
      ["relative_density"]],
     ["Largest force", largestForce(history), []],
     ["Thickness of the slice", has("thickness") ? withUnit(s.thickness, "m") : null, ["thickness"]],
+    ...materialRows(s.materials),
+    ["Simulated time", has("time") ? withUnit(s.time, "s") : null, ["time"]],
     ["Steps", has("steps") ? count(s.steps) : null, ["steps"]],
     ["Computing time", has("wall_seconds") ? duration(s.wall_seconds) +
       (has("threads") ? ` on ${s.threads} thread${s.threads === 1 ? "" : "s"}` : "") : null,
@@ -81,6 +95,7 @@ function otherRows(value, name, rows) {
 function fillSummary(head, history) {
   const known = knownRows(head, history);
   const told = new Set(["title", "tools", "limits", "quality", "energy_balance_error",
+                        "kinetic_ratio", "penetration",
                         ...known.flatMap(row => row[2])]);
   const rows = known.filter(row => row[1]);
   for (const [key, value] of Object.entries(head.summary)) {
@@ -99,14 +114,16 @@ function qualityFigures(head, history) {
   const s = head.summary, limits = s.limits || {};
   if (Array.isArray(s.quality)) return s.quality;
   const most = name => history.has(name) ? largest(history.get(name).values) : NaN;
+  const given = (key, other) => typeof s[key] === "number" ? s[key] : other;
   const internal = Math.max(most("energy/elastic") || 0, most("energy/plastic") || 0);
-  const balance = typeof s.energy_balance_error === "number" ? s.energy_balance_error :
-    most("energy/balance") / Math.max(internal, most("energy/kinetic") || 0);
+  const balance = given("energy_balance_error",
+    most("energy/balance") / Math.max(internal, most("energy/kinetic") || 0));
   return [
     {name: "Energy balance error", value: balance, limit: limits.energy_balance ?? 0.05,
      meaning: "energy lost or made by the calculation, of the largest energy in the run"},
-    {name: "Kinetic energy", value: most("energy/kinetic") / internal, limit: limits.kinetic_energy,
-     meaning: "largest kinetic energy, of the largest internal energy"},
+    {name: "Kinetic energy", limit: limits.kinetic_energy,
+     value: given("kinetic_ratio", most("energy/kinetic") / internal),
+     meaning: "kinetic energy, of the internal energy"},
     {name: "Hourglass energy", value: most("energy/hourglass") / internal, limit: 0.03,
      meaning: "largest energy of modes that no stress resists, of the largest internal energy"},
     {name: "Penetration", value: most("penetration"), limit: limits.penetration,

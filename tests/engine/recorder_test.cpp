@@ -1,6 +1,5 @@
 // The recorder: what it writes can be read back, in the places and with the units the users'
-// scripts rely on; what the machine refuses becomes an OutputError that names the file and the
-// reason.
+// scripts rely on; what the machine refuses becomes an OutputError that tells file and reason.
 #include "engine/recorder.hpp"
 
 #include <gmock/gmock.h>

@@ -148,7 +148,12 @@ void write_summary(const SyntheticRun& run, const std::filesystem::path& folder)
                                     {"peak_memory_bytes", 61e6},
                                     {"thickness", 1e-3},
                                     {"energy_balance_error", 0.0021},
-                                    {"materials", {{{"name", "steel"}, {"density", 7960}}}}};
+                                    {"materials",
+                                     {{{"name", "steel"},
+                                       {"density", 7960},
+                                       {"youngs_modulus", 193e9},
+                                       {"poissons_ratio", 0.3},
+                                       {"yield_stress", 290e6}}}}};
   if (run.tools) {
     const double top = run.rows * run.diameter * squeeze(share_at(duration));
     const double right = run.columns * run.diameter;
