@@ -10,7 +10,8 @@ namespace pulvis {
 // and writes report.html into it. Every key of the summary is optional; these have a meaning of
 // their own, others are listed as they are:
 //   title, outcome, steps, elements, particles, wall_seconds, threads, element_updates_per_second,
-//   peak_memory_bytes, thickness, relative_density, energy_balance_error, version, commit,
+//   peak_memory_bytes, thickness, time, relative_density, version, commit, energy_balance_error,
+//   kinetic_ratio, materials [{name, density, ...}, SI],
 //   tools      [{name, point: [x, y], normal: [x, y]}] at the end of the run, m
 //   limits     {energy_balance, kinetic_energy, penetration}, dimensionless
 //   quality    [{name, value, limit, meaning}]: shown instead of the figures made from the history

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace pulvis {
 
@@ -19,6 +20,7 @@ using Lane [[gnu::vector_size(32)]] = double;
 using LaneMask [[gnu::vector_size(32)]] = std::int64_t;
 
 inline Lane broadcast(double value) { return Lane{value, value, value, value}; }
+inline Lane broadcast(Lane value) { return value; }
 
 inline Lane select(LaneMask mask, Lane yes, Lane no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
@@ -44,6 +46,25 @@ inline Lane sqrt(Lane a) {
 }
 #endif
 inline double sqrt(double a) { return std::sqrt(a); }
+
+// a b + c, rounded once. Contraction is off for the whole build, so this is the only way to get one: the
+// compilers cannot differ.
+inline double fma(double a, double b, double c) { return std::fma(a, b, c); }
+#ifdef __FMA__
+inline Lane fused(Lane a, Lane b, Lane c) {
+  return Lane(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
+}
+#else
+inline Lane fused(Lane a, Lane b, Lane c) {
+  return Lane{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1]), std::fma(a[2], b[2], c[2]),
+              std::fma(a[3], b[3], c[3])};
+}
+#endif
+template <class A, class B, class C>
+  requires(!(std::is_arithmetic_v<A> && std::is_arithmetic_v<B> && std::is_arithmetic_v<C>))
+Lane fma(A a, B b, C c) {
+  return fused(broadcast(a), broadcast(b), broadcast(c));
+}
 
 // Fixed-order sum and extremes of the lanes: the same bits on every machine.
 inline double sum(Lane a) { return (a[0] + a[1]) + (a[2] + a[3]); }

@@ -29,21 +29,22 @@ T trace(const Symmetric3<T>& a) {
 
 template <class T>
 T squared_norm(const Symmetric3<T>& a) {
-  return (a.xx * a.xx + a.yy * a.yy) + (a.zz * a.zz + 2.0 * (a.xy * a.xy));
+  return fma(a.xx, a.xx, a.yy * a.yy) + fma(a.zz, a.zz, 2.0 * (a.xy * a.xy));
 }
 
 // b before the isochoric scaling: F C_p^-1 F^T; elastic material has C = 0.
 template <class T>
 Symmetric3<T> left_cauchy_green(const Matrix2<T>& f) {
-  return {f.xx * f.xx + f.xy * f.xy, f.yx * f.yx + f.yy * f.yy, T{} + 1.0,
-          f.xx * f.yx + f.xy * f.yy};
+  return {fma(f.xx, f.xx, f.xy * f.xy), fma(f.yx, f.yx, f.yy * f.yy), T{} + 1.0,
+          fma(f.xx, f.yx, f.xy * f.yy)};
 }
 template <class T>
 Symmetric3<T> left_cauchy_green(const Matrix2<T>& f, const Symmetric3<T>& c) {
   const T cxx = 1.0 + c.xx, cyy = 1.0 + c.yy;
-  const T gxx = f.xx * cxx + f.xy * c.xy, gxy = f.xx * c.xy + f.xy * cyy;
-  const T gyx = f.yx * cxx + f.yy * c.xy, gyy = f.yx * c.xy + f.yy * cyy;
-  return {gxx * f.xx + gxy * f.xy, gyx * f.yx + gyy * f.yy, 1.0 + c.zz, gxx * f.yx + gxy * f.yy};
+  const T gxx = fma(f.xx, cxx, f.xy * c.xy), gxy = fma(f.xx, c.xy, f.xy * cyy);
+  const T gyx = fma(f.yx, cxx, f.yy * c.xy), gyy = fma(f.yx, c.xy, f.yy * cyy);
+  return {fma(gxx, f.xx, gxy * f.xy), fma(gyx, f.yx, gyy * f.yy), 1.0 + c.zz,
+          fma(gxx, f.yx, gxy * f.yy)};
 }
 
 // scale * dev(b), as xx yy xy (zz follows).
@@ -59,7 +60,7 @@ Deviator<T> scaled_deviator(const Symmetric3<T>& b, T scale) {
 template <class T>
 T squared_norm(const Deviator<T>& s) {
   const T zz = s.xx + s.yy;
-  return (s.xx * s.xx + s.yy * s.yy) + (zz * zz + 2.0 * (s.xy * s.xy));
+  return fma(s.xx, s.xx, s.yy * s.yy) + fma(zz, zz, 2.0 * (s.xy * s.xy));
 }
 
 // dU/dtheta of U = K/2 (1/2 (theta^2 - 1) - ln theta): grows without bound as theta -> 0.
@@ -73,7 +74,7 @@ T mean_stress(T bulk_modulus, T theta) {
 template <class T>
 struct LinearHardening {
   T sigma_y, H;
-  T flow_stress(T eps) const { return sigma_y + H * eps; }
+  T flow_stress(T eps) const { return fma(H, eps, sigma_y); }
   T modulus(T) const { return H; }
   T plastic_work(T eps) const { return eps * (sigma_y + 0.5 * H * eps); }  // J/m^3
 };
@@ -103,39 +104,39 @@ J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T mu, T o
   const T r2 = r * r;
   const Symmetric3<T> b = left_cauchy_green(f, trial.c);
   const T mean = r2 * trace(b) * (1.0 / 3.0);
-  const Symmetric3<T> d{r2 * b.xx - mean, r2 * b.yy - mean, r2 * b.zz - mean, r2 * b.xy};
+  const Symmetric3<T> d{fma(r2, b.xx, -mean), fma(r2, b.yy, -mean), fma(r2, b.zz, -mean), r2 * b.xy};
 
   // Consistency: |s| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps + sqrt(2/3) dgamma), mu_bar = mu tr b/3;
   // beta = |s_new| / |s_trial|.
   const T norm = sqrt(squared_norm(trial.s));
   const T two_mu_bar = 2.0 * mu * mean * over_theta;
-  const T excess = norm - sqrt_2_3 * law.flow_stress(trial.eps);
+  const T excess = fma(-sqrt_2_3, law.flow_stress(trial.eps), norm);
   const T slope = norm * (two_mu_bar + (2.0 / 3.0) * law.modulus(trial.eps));
 
   // Mean m of b_new = beta d + m 1 from det b_new = 1: Newton from the trial mean, whose slope serves
   // twice (the trial mean is off by the square of the elastic strain).
   const T q_trial = 0.5 * squared_norm(d);
-  const T tangent = 3.0 * (mean * mean) - q_trial;
+  const T tangent = fma(3.0 * mean, mean, -q_trial);
   const T over = 1.0 / (slope * tangent);
   const T beta = select(flows, 1.0 - two_mu_bar * excess * (over * tangent), T{} + 1.0);
   const T beta2 = beta * beta, q = beta2 * q_trial;
-  const T det = beta2 * beta * (d.zz * (d.xx * d.yy - d.xy * d.xy));
+  const T det_less_1 = fma(beta2 * beta, d.zz * fma(d.xx, d.yy, -(d.xy * d.xy)), -1.0);
   const T over_tangent = over * slope;
   T m = mean;
-  for (int i = 0; i < 2; ++i) m = m - ((m * m - q) * m + det - 1.0) * over_tangent;
+  for (int i = 0; i < 2; ++i) m = fma(-over_tangent, fma(fma(m, m, -q), m, det_less_1), m);
 
   // Pulled back: C_p^-1 = beta C_p^-1 + (m - beta mean) J^(2/3) (F^T F)^-1.
-  const T shift = m - beta * mean;
+  const T shift = fma(-beta, mean, m);
   const T pull = shift * (r2 * r2);  // J^(2/3) / J^2
-  const T cxx = f.xy * f.xy + f.yy * f.yy, cyy = f.xx * f.xx + f.yx * f.yx;
-  const T cxy = -(f.xx * f.xy + f.yx * f.yy);
+  const T cxx = fma(f.xy, f.xy, f.yy * f.yy), cyy = fma(f.xx, f.xx, f.yx * f.yx);
+  const T cxy = -fma(f.xx, f.xy, f.yx * f.yy);
   const T grow = beta - 1.0;
   J2State<T> next;
   next.s = {beta * trial.s.xx, beta * trial.s.yy, beta * trial.s.xy};
-  next.c = {select(flows, beta * trial.c.xx + (grow + pull * cxx), trial.c.xx),
-            select(flows, beta * trial.c.yy + (grow + pull * cyy), trial.c.yy),
-            select(flows, beta * trial.c.zz + (grow + shift * j * r), trial.c.zz),
-            select(flows, beta * trial.c.xy + pull * cxy, trial.c.xy)};
+  next.c = {select(flows, fma(beta, trial.c.xx, fma(pull, cxx, grow)), trial.c.xx),
+            select(flows, fma(beta, trial.c.yy, fma(pull, cyy, grow)), trial.c.yy),
+            select(flows, fma(beta, trial.c.zz, fma(shift * j, r, grow)), trial.c.zz),
+            select(flows, fma(beta, trial.c.xy, pull * cxy), trial.c.xy)};
   next.eps = trial.eps + select(flows, sqrt_2_3 * excess * norm * (over * tangent), T{});
   return next;
 }

@@ -39,7 +39,8 @@ const MATERIAL_UNITS = {density: "kg/m³", youngs_modulus: "Pa", poissons_ratio:
                         yield_stress: "Pa", hardening_modulus: "Pa"};
 
 function materialRows(materials) {
-  const told = (key, value) => `${words(key).replace(/s (modulus|ratio)$/, "'s $1")} ` +
+  const named = key => words(key).replace(/^(young|poisson)s/, (_, name) => `${titled(name)}'s`);
+  const told = (key, value) => `${named(key)} ` +
     (typeof value === "number" ? withUnit(value, MATERIAL_UNITS[key] || "-") : value);
   return (Array.isArray(materials) ? materials : []).map(({name, ...numbers}) =>
     [`Material ${name || ""}`, Object.entries(numbers).map(one => told(...one)).join(", "),
