@@ -29,6 +29,9 @@ struct DeviatoricStress : Component<Element, double, 3 * gauss_points> {
 struct MeanStress : Component<Element, double, 1> {
   static constexpr ComponentInfo info{"mean_stress", "Pa", "Cauchy, one for the element; tension > 0"};
 };
+struct IsochoricScale : Component<Element, double, gauss_points> {
+  static constexpr ComponentInfo info{"isochoric_scale", "-", "(det F)^(-2/3), kept for the return map"};
+};
 struct PlasticMetric : Component<Element, double, 4 * gauss_points> {
   static constexpr ComponentInfo info{
       "plastic_metric", "-", "inverse plastic right Cauchy-Green tensor less one, xx yy zz xy"};

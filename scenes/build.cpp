@@ -129,6 +129,7 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   if (!needs.plastic) return;
   world.add<YieldStress>();
   world.add<HardeningModulus>();
+  world.add<IsochoricScale>();
   world.add<PlasticMetric>();
   world.add<PlasticStrain>();
   world.add<PlasticWork>();

@@ -93,40 +93,44 @@ struct J2State {
 };
 
 // Radial return of the trial state at a Gauss point. Lanes that do not yield come back unchanged.
-// One division serves the consistency condition and the root of the determinant together.
+// `r2` = J^(-2/3). b_trial is not formed again: its deviator is theta s / mu, its mean follows from
+// det b = 1. One division serves the consistency condition and the roots of the determinant together.
 template <class T, class Hardening>
-J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T mu, T over_theta,
-                         const Hardening& law) {
+J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
+                         T theta_over_mu, const Hardening& law) {
   constexpr double sqrt_2_3 = 0.81649658092772603273;
   const auto flows = yields(trial.s, trial.eps, law);
-  const T j = determinant(f);
-  const T r = inverse_cube_root(j);  // J^(-1/3)
-  const T r2 = r * r;
-  const Symmetric3<T> b = left_cauchy_green(f, trial.c);
-  const T mean = r2 * trace(b) * (1.0 / 3.0);
-  const Symmetric3<T> d{fma(r2, b.xx, -mean), fma(r2, b.yy, -mean), fma(r2, b.zz, -mean), r2 * b.xy};
+  const T norm2 = squared_norm(trial.s), norm = sqrt(norm2);
+  const T dxx = theta_over_mu * trial.s.xx, dyy = theta_over_mu * trial.s.yy;
+  const T dxy = theta_over_mu * trial.s.xy;
+  const T q = (0.5 * norm2) * (theta_over_mu * theta_over_mu);  // 1/2 d : d
+  const T det = (dxx + dyy) * fma(dxy, dxy, -(dxx * dyy));      // det d
+
+  // Mean of b_trial = d + mean 1 from its unit determinant, mean^3 - q mean + det = 1: the elastic strain
+  // is small, so that a fixed slope converges; what is left over is of its eighth order.
+  T mean = fma(q - det, 1.0 / 3.0, 1.0);
+  const T rough = fma(3.0 * mean, mean, -q);
+  const T two_mu_bar_rough = 2.0 * mu_over_theta * mean;
 
   // Consistency: |s| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps + sqrt(2/3) dgamma), mu_bar = mu tr b/3;
   // beta = |s_new| / |s_trial|.
-  const T norm = sqrt(squared_norm(trial.s));
-  const T two_mu_bar = 2.0 * mu * mean * over_theta;
   const T excess = fma(-sqrt_2_3, law.flow_stress(trial.eps), norm);
-  const T slope = norm * (two_mu_bar + (2.0 / 3.0) * law.modulus(trial.eps));
-
-  // Mean m of b_new = beta d + m 1 from det b_new = 1: Newton from the trial mean, whose slope serves
-  // twice (the trial mean is off by the square of the elastic strain).
-  const T q_trial = 0.5 * squared_norm(d);
-  const T tangent = fma(3.0 * mean, mean, -q_trial);
-  const T over = 1.0 / (slope * tangent);
-  const T beta = select(flows, 1.0 - two_mu_bar * excess * (over * tangent), T{} + 1.0);
-  const T beta2 = beta * beta, q = beta2 * q_trial;
-  const T det_less_1 = fma(beta2 * beta, d.zz * fma(d.xx, d.yy, -(d.xy * d.xy)), -1.0);
+  const T slope = norm * fma(2.0 / 3.0, law.modulus(trial.eps), two_mu_bar_rough);
+  const T over = 1.0 / (slope * rough);
   const T over_tangent = over * slope;
+  const T dgamma = select(flows, excess * norm * (over * rough), T{});
+  const T beta = select(flows, fma(-two_mu_bar_rough * excess, over * rough, 1.0), T{} + 1.0);
+
+  const T beta2 = beta * beta, q_new = beta2 * q, det_new = fma(beta2 * beta, det, -1.0);
   T m = mean;
-  for (int i = 0; i < 2; ++i) m = fma(-over_tangent, fma(fma(m, m, -q), m, det_less_1), m);
+  for (int i = 0; i < 2; ++i) {
+    mean = fma(-over_tangent, fma(fma(mean, mean, -q), mean, det - 1.0), mean);
+    m = fma(-over_tangent, fma(fma(m, m, -q_new), m, det_new), m);
+  }
 
   // Pulled back: C_p^-1 = beta C_p^-1 + (m - beta mean) J^(2/3) (F^T F)^-1.
   const T shift = fma(-beta, mean, m);
+  const T j = determinant(f);
   const T pull = shift * (r2 * r2);  // J^(2/3) / J^2
   const T cxx = fma(f.xy, f.xy, f.yy * f.yy), cyy = fma(f.xx, f.xx, f.yx * f.yx);
   const T cxy = -fma(f.xx, f.xy, f.yx * f.yy);
@@ -135,9 +139,9 @@ J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T mu, T o
   next.s = {beta * trial.s.xx, beta * trial.s.yy, beta * trial.s.xy};
   next.c = {select(flows, fma(beta, trial.c.xx, fma(pull, cxx, grow)), trial.c.xx),
             select(flows, fma(beta, trial.c.yy, fma(pull, cyy, grow)), trial.c.yy),
-            select(flows, fma(beta, trial.c.zz, fma(shift * j, r, grow)), trial.c.zz),
+            select(flows, fma(beta, trial.c.zz, fma(pull * j, j, grow)), trial.c.zz),
             select(flows, fma(beta, trial.c.xy, pull * cxy), trial.c.xy)};
-  next.eps = trial.eps + select(flows, sqrt_2_3 * excess * norm * (over * tangent), T{});
+  next.eps = fma(sqrt_2_3, dgamma, trial.eps);
   return next;
 }
 

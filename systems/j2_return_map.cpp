@@ -10,32 +10,39 @@ namespace pulvis {
 
 [[gnu::flatten]] void j2_return_map(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
                    Read<YieldStress> sigma_y, Read<HardeningModulus> hardening,
-                   Write<DeviatoricStress> s, Write<PlasticMetric> metric, Write<PlasticStrain> eps) {
+                   Read<IsochoricScale> isochoric, Write<DeviatoricStress> s,
+                   Write<PlasticMetric> metric, Write<PlasticStrain> eps) {
   const Row<Particle> particle;
-  const Lane shear = mu.chunk(chunk)(particle);
+  const Lane shear = mu.chunk(chunk)(particle), over_shear = 1.0 / shear;
   const kernels::LinearHardening<Lane> law{sigma_y.chunk(chunk)(particle),
                                            hardening.chunk(chunk)(particle)};
   const auto nodes = x.chunk(chunk);
   const auto stress = s.chunk(chunk);
   const auto c = metric.chunk(chunk);
   const auto strain = eps.chunk(chunk);
+  const auto scale = isochoric.chunk(chunk);
   const Shape& shape = bodies->shape_of_chunk(chunk);
 
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
-    LaneMask flows{};
-    for (int g = 0; g < gauss_points; ++g)
-      flows |= kernels::yields(deviator(stress, e, g), strain(e, g), law);
-    if (!any(flows)) continue;
+    LaneMask flows[gauss_points], some{};
+    for (int g = 0; g < gauss_points; ++g) {
+      flows[g] = kernels::yields(deviator(stress, e, g), strain(e, g), law);
+      some |= flows[g];
+    }
+    if (!any(some)) continue;
 
     const auto map = quad_map(nodes, shape.quads[static_cast<std::size_t>(i)]);
     const ElementGauss& gauss = shape.gauss[static_cast<std::size_t>(i)];
-    const Lane over_theta = 1.0 / dilatation(map, gauss);
+    const Lane theta = dilatation(map, gauss);
+    const Lane mu_over_theta = shear / theta, theta_over_mu = theta * over_shear;
     for (int g = 0; g < gauss_points; ++g) {
+      if (!any(flows[g])) continue;
       const auto f = kernels::deformation_gradient(map_gradient(map, g),
                                                    gauss[static_cast<std::size_t>(g)].inverse_jacobian);
       const auto next = kernels::radial_return<Lane>(
-          {deviator(stress, e, g), plastic_metric(c, e, g), strain(e, g)}, f, shear, over_theta, law);
+          {deviator(stress, e, g), plastic_metric(c, e, g), strain(e, g)}, f, scale(e, g),
+          mu_over_theta, theta_over_mu, law);
       store(stress, e, g, next.s);
       c(e, 4 * g) = next.c.xx;
       c(e, 4 * g + 1) = next.c.yy;

@@ -74,11 +74,11 @@ void elastic_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Rea
                     Write<DeviatoricStress>, Write<MeanStress>, Write<LeastJacobian>,
                     Write<WorstElement>);
 void trial_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                  Read<PlasticMetric>, Write<DeviatoricStress>, Write<MeanStress>,
+                  Read<PlasticMetric>, Write<IsochoricScale>, Write<DeviatoricStress>, Write<MeanStress>,
                   Write<LeastJacobian>, Write<WorstElement>);
 void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<YieldStress>,
-                   Read<HardeningModulus>, Write<DeviatoricStress>, Write<PlasticMetric>,
-                   Write<PlasticStrain>);
+                   Read<HardeningModulus>, Read<IsochoricScale>, Write<DeviatoricStress>,
+                   Write<PlasticMetric>, Write<PlasticStrain>);
 void internal_force(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress>, Read<MeanStress>,
                     Write<InternalForce>);
 

@@ -17,7 +17,7 @@ struct Views {
   Lane mu, bulk;
 };
 
-// `left(F, e, g)` gives F C_p^-1 F^T. Returns the least det F of the element's Gauss points.
+// `left(F, r2, e, g)` gives F C_p^-1 F^T, with r2 = J^(-2/3). Returns the least det F of the element's Gauss points.
 template <class LeftCauchyGreen>
 Lane element_stress(const Views& v, const Shape& shape, Row<Element> e, const LeftCauchyGreen& left) {
   const auto at = static_cast<std::size_t>(e.value);
@@ -32,7 +32,8 @@ Lane element_stress(const Views& v, const Shape& shape, Row<Element> e, const Le
                                                  gauss[static_cast<std::size_t>(g)].inverse_jacobian);
     const Lane j = determinant(f);
     const Lane r = kernels::inverse_cube_root(j);
-    store(v.s, e, g, kernels::scaled_deviator(left(f, e, g), v.mu * over_theta * (r * r)));
+    const Lane r2 = r * r;
+    store(v.s, e, g, kernels::scaled_deviator(left(f, r2, e, g), v.mu * over_theta * r2));
     least = j < least ? j : least;
   }
   return least;
@@ -59,14 +60,16 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views& v, Write<Least
 }  // namespace
 
 [[gnu::flatten]] void trial_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
-                  Read<BulkModulus> bulk, Read<PlasticMetric> metric, Write<DeviatoricStress> s,
-                  Write<MeanStress> p, Write<LeastJacobian> least, Write<WorstElement> worst) {
+                  Read<BulkModulus> bulk, Read<PlasticMetric> metric, Write<IsochoricScale> isochoric,
+                  Write<DeviatoricStress> s, Write<MeanStress> p, Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;
   const auto c = metric.chunk(chunk);
+  const auto scale = isochoric.chunk(chunk);
   chunk_stress(chunk, *bodies,
                {x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
                 bulk.chunk(chunk)(particle)},
-               least, worst, [&](const kernels::Matrix2<Lane>& f, Row<Element> e, int g) {
+               least, worst, [&](const kernels::Matrix2<Lane>& f, Lane r2, Row<Element> e, int g) {
+                 scale(e, g) = r2;
                  return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
                });
 }
@@ -78,7 +81,7 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views& v, Write<Least
   chunk_stress(chunk, *bodies,
                {x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
                 bulk.chunk(chunk)(particle)},
-               least, worst, [](const kernels::Matrix2<Lane>& f, Row<Element>, int) {
+               least, worst, [](const kernels::Matrix2<Lane>& f, Lane, Row<Element>, int) {
                  return kernels::left_cauchy_green(f);
                });
 }
