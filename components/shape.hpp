@@ -44,6 +44,7 @@ struct Shape {
   std::vector<CurveTerm> curve_terms;
   std::vector<Edge> edges;
   std::vector<double> contact_stiffness;             // 1/m^2, [elements]: sum of (edge length / area)^2
+  double mean_edge_stiffness = 0;                    // 1/m: of its edges, weighted with their length
   double area = 0;                                   // m^2, of the true outline
 
   int control_points() const { return static_cast<int>(curve_begin.size()) - 1; }

@@ -113,6 +113,7 @@ void measure_edges(Shape& shape) {
     control.push_back(y);
   }
   shape.contact_stiffness.assign(shape.quads.size(), 0);
+  double perimeter = 0;
   for (int i = 0; i < static_cast<int>(shape.edges.size()); ++i) {
     Shape::Edge& edge = shape.edges[static_cast<std::size_t>(i)];
     edge.length = 0;
@@ -131,7 +132,10 @@ void measure_edges(Shape& shape) {
     for (const Shape::GaussPoint& point : shape.gauss[element]) area += point.determinant;
     edge.stiffness = edge.length / area;
     shape.contact_stiffness[element] += edge.stiffness * edge.stiffness;
+    shape.mean_edge_stiffness += edge.stiffness * edge.length;
+    perimeter += edge.length;
   }
+  shape.mean_edge_stiffness /= perimeter;
 }
 
 }  // namespace pulvis

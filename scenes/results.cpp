@@ -101,6 +101,10 @@ Results::Results(const Scene& scene, const World& world)
     elements_ += shape.elements();
     nodes_ += static_cast<std::int64_t>(shape.nodes.size());
   });
+  const double modulus = *std::ranges::max_element(world.column<BulkModulus>().values(),
+                                                   world.column<BulkModulus>().values() +
+                                                       world.resource<Bodies>().slots.size());
+  round_off_energy_ = 1e-12 * modulus * particle_area_ * scene.thickness;
   for (const ToolSpec& tool : scene.tools) {
     const std::string name = "tool/" + tool.name + "/";
     add_series(name + "position_x", "m", "a point of the tool's surface");
@@ -174,7 +178,7 @@ void Results::take_energies() {
   first_ = false;
   e.balance = all - e.external - initial_energy_;
   worst_balance_ = std::max(worst_balance_, std::abs(e.balance));
-  largest_energy_ = std::max({largest_energy_, std::abs(e.external), initial_energy_});
+  largest_energy_ = std::max({largest_energy_, std::abs(e.external), std::abs(initial_energy_)});
   kinetic_internal_.emplace_back(e.kinetic, e.internal());
 }
 
@@ -249,7 +253,7 @@ std::vector<std::vector<double>> Results::frame() const {
 double Results::value(const std::string& series) const { return last_.at(position_.at(series)); }
 
 double Results::energy_balance_error() const {
-  return largest_energy_ > 0 ? worst_balance_ / largest_energy_ : 0;
+  return worst_balance_ / std::max(largest_energy_, round_off_energy_);
 }
 
 double Results::kinetic_ratio() const {

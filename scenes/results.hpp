@@ -66,6 +66,9 @@ class Results {
   std::map<std::string, std::size_t> position_;
   std::vector<double> last_;
   Energies energies_;
+  // Below this an energy is round-off of the stored energies (1e-12 of the bulk modulus times volume), and
+  // a balance says nothing.
+  double round_off_energy_ = 0;
   double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
   std::vector<std::pair<double, double>> kinetic_internal_;
   bool first_ = true;

@@ -64,12 +64,15 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
   if (c.damping) (*c.damping)(row) = law.damping;
 }
 
-// kappa = k K L/A of one side.
-double side_stiffness(const ContactRules& rules, std::span<const double> bulk, const Bodies& bodies,
-                      int slot, int edge) {
-  const Shape& shape = bodies.shape_of_slot(slot);
-  return rules.stiffness * bulk[static_cast<std::size_t>(slot)] *
-         shape.edges[static_cast<std::size_t>(edge)].stiffness;
+// kappa = k K L/A of the sampled edge in series with the other outline's mean. Not with the edge that
+// happens to be nearest: a kappa that changed while two bodies slide would make or eat energy.
+double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, const Bodies& bodies,
+                      const RowKey& key) {
+  const auto slot = static_cast<std::size_t>(key.slot), other = static_cast<std::size_t>(key.other);
+  const Shape& shape = bodies.shape_of_slot(key.slot);
+  const double a = bulk[slot] * shape.edges[static_cast<std::size_t>(key.edge)].stiffness;
+  const double b = bulk[other] * bodies.shape_of_slot(key.other).mean_edge_stiffness;
+  return rules.stiffness * 2 * a * b / (a + b);
 }
 
 // c = 2 xi sqrt(kappa rho h): the boundary element's mass per area on the contact spring.
@@ -99,9 +102,7 @@ void bin_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
     const Row<Contact> row(static_cast<std::int64_t>(r));
     const RowKey& key = keys[r];
     const auto& slots = bodies->slots;
-    const double own = side_stiffness(*rules, bulk.values(), *bodies, key.slot, key.edge);
-    const double other = side_stiffness(*rules, bulk.values(), *bodies, key.other, found[r].start);
-    const double kappa = 2 * own * other / (own + other);
+    const double kappa = pair_stiffness(*rules, bulk.values(), *bodies, key);
     const double rho = std::min(density.values()[static_cast<std::size_t>(key.slot)],
                                 density.values()[static_cast<std::size_t>(key.other)]);
     const Shape::Edge& edge =
@@ -174,9 +175,9 @@ void bin_tool_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
     const Row<ToolContact> row(static_cast<std::int64_t>(r));
     const RowKey& key = keys[r];
     const auto slot = static_cast<std::size_t>(key.slot);
-    const double kappa = side_stiffness(*rules, bulk.values(), *bodies, key.slot, key.edge);
     const Shape::Edge& edge =
         bodies->shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
+    const double kappa = rules->stiffness * bulk.values()[slot] * edge.stiffness;
     set_row(row, *bodies, key,
             {kappa, rules->friction_with_tool(key.other, bodies->slots[slot].material),
              damping_of(*rules, kappa, density.values()[slot], edge)},
