@@ -104,7 +104,7 @@ Results::Results(const Scene& scene, const World& world)
   const double modulus = *std::ranges::max_element(world.column<BulkModulus>().values(),
                                                    world.column<BulkModulus>().values() +
                                                        world.resource<Bodies>().slots.size());
-  round_off_energy_ = 1e-12 * modulus * particle_area_ * scene.thickness;
+  stiffness_energy_ = modulus * particle_area_ * scene.thickness;
   for (const ToolSpec& tool : scene.tools) {
     const std::string name = "tool/" + tool.name + "/";
     add_series(name + "position_x", "m", "a point of the tool's surface");
@@ -252,8 +252,8 @@ std::vector<std::vector<double>> Results::frame() const {
 
 double Results::value(const std::string& series) const { return last_.at(position_.at(series)); }
 
-double Results::energy_balance_error() const {
-  return worst_balance_ / std::max(largest_energy_, round_off_energy_);
+double Results::energy_balance_error(double negligible) const {
+  return worst_balance_ / std::max(largest_energy_, negligible * stiffness_energy_);
 }
 
 double Results::kinetic_ratio() const {

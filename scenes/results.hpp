@@ -43,8 +43,9 @@ class Results {
   double value(const std::string& series) const;
   bool has(const std::string& series) const { return position_.contains(series); }
   const Energies& energies() const { return energies_; }
-  // Largest |balance| of the run over the largest energy that came in or was there at the start.
-  double energy_balance_error() const;
+  // Largest |balance| of the run over the largest energy that came in or was there at the start. Energies
+  // below `negligible` (a share of bulk modulus times volume) do not count: the default is round-off.
+  double energy_balance_error(double negligible = 1e-12) const;
   // Largest kinetic over internal energy, while the internal one is above 1% of its final value.
   double kinetic_ratio() const;
   std::int64_t elements() const { return elements_; }
@@ -66,9 +67,7 @@ class Results {
   std::map<std::string, std::size_t> position_;
   std::vector<double> last_;
   Energies energies_;
-  // Below this an energy is round-off of the stored energies (1e-12 of the bulk modulus times volume), and
-  // a balance says nothing.
-  double round_off_energy_ = 0;
+  double stiffness_energy_ = 0;  // J, largest bulk modulus times volume of the particles
   double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
   std::vector<std::pair<double, double>> kinetic_internal_;
   bool first_ = true;
