@@ -201,7 +201,7 @@ const TableDeclaration<ContactSpec>& contact() {
        {{.name = "stiffness",
          .kind = Kind::number,
          .range = within(0.01, 100),
-         .fallback = value_of(1.0),
+         .fallback = value_of(0.5),
          .doc = "Contact stiffness over bulk modulus times edge length over element area."},
         to(&ContactSpec::stiffness)},
        {{.name = "damping",

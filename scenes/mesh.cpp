@@ -183,7 +183,7 @@ kernels::QuadMap<double> map_of(const std::vector<Point>& x, const Quad& q) {
 
 // Highest squared frequency of the mesh up to a factor, as systems/time_step bounds it: elements by their
 // half-width, those on the outline (the first `boundary` quads) with the contact springs on top; the 3
-// stands for steel's nu, the usual stiffness and a little damping.
+// stands for steel's nu and k = 2, which keeps the ring thick enough for the stiffest contact in use.
 double frequency_bound(const std::vector<Point>& nodes, const std::vector<Quad>& quads,
                        std::size_t boundary) {
   double highest = 0;

@@ -64,15 +64,15 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
   if (c.damping) (*c.damping)(row) = law.damping;
 }
 
-// kappa = k K L/A of the sampled edge in series with the other outline's mean. Not with the edge that
-// happens to be nearest: a kappa that changed while two bodies slide would make or eat energy.
+// kappa = k K L/A of the sampled edge in series with the other outline's mean, like two springs: a disc
+// on its mirror image feels what it feels on a rigid plane. Not with the edge that happens to be nearest: a kappa that changed while two bodies slide would make or eat energy.
 double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, const Bodies& bodies,
                       const RowKey& key) {
   const auto slot = static_cast<std::size_t>(key.slot), other = static_cast<std::size_t>(key.other);
   const Shape& shape = bodies.shape_of_slot(key.slot);
   const double a = bulk[slot] * shape.edges[static_cast<std::size_t>(key.edge)].stiffness;
   const double b = bulk[other] * bodies.shape_of_slot(key.other).mean_edge_stiffness;
-  return rules.stiffness * 2 * a * b / (a + b);
+  return rules.stiffness * a * b / (a + b);
 }
 
 // c = 2 xi sqrt(kappa rho h): the boundary element's mass per area on the contact spring.

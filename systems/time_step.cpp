@@ -5,7 +5,8 @@
 //          Belytschko 1984). Element with lumped mass m_e/4 a node and uniform gradient A^-1:
 //            omega^2 <= (K (1 + theta^2)/2 + 4/3 mu) / rho / s^2,   s = half-width (singular value of A)
 //          An element on the outline also bears the contact springs: two nodes of mass m_e/4 each on
-//          kappa L t, met by an equal body on the other side: + 4 k_c/rho, k_c = kappa L / A (shape).
+//          kappa L t (a tool's, or the half of it that two equal bodies share, moving against each other):
+//          + 2 kappa L / (rho A) = 2 k K (L/A)^2 / rho, (L/A)^2 from the shape.
 // Runs     stable_time_step every few steps (geometry changes little in a step); advance_clock last
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
@@ -24,7 +25,7 @@ void stable_time_step(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<
   const Lane k = bulk.chunk(chunk)(particle), rho = density.chunk(chunk)(particle);
   const Lane shear = (4.0 / 3.0) * mu.chunk(chunk)(particle);
   // Damping shortens the step of a spring by sqrt(1 + xi^2) - xi, about 1 - xi.
-  const double contact = rules ? 4 * (*rules)->stiffness * (1 + 2 * (*rules)->damping) : 0;
+  const double contact = rules ? 2 * (*rules)->stiffness * (1 + 2 * (*rules)->damping) : 0;
   Lane highest{};
   for (int i = 0; i < shape.elements(); ++i) {
     const auto at = static_cast<std::size_t>(i);

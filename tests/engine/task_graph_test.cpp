@@ -1,0 +1,217 @@
+// The task graph follows from what systems declare: edges and stages as data, then as they run.
+#include "engine/task_graph.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/workers.hpp"
+#include "tests/engine/test_places.hpp"
+
+namespace pulvis::engine_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr int chunks = 50;
+
+class TaskGraphTest : public ::testing::Test {
+ protected:
+  TaskGraphTest() {
+    world.add_table<Cell>(std::vector<std::int32_t>(chunks, 1));
+    world.add_table<Bead>(std::vector<std::int32_t>(chunks, 2));
+    world.add_table<Link>(3);
+    world.add<Heat>();
+    world.add<Flux>();
+    world.add<Weight>();
+    world.add<Force>();
+    world.add<Ends>();
+    world.emplace<Clockwork>();
+  }
+  template <class... Access>
+  System world_system(const char* name) {
+    return make_system(world, name, +[](Access...) {});
+  }
+  template <class... Access>
+  System chunk_system(const char* name) {
+    return make_system(world, name, +[](Chunk, Access...) {});
+  }
+  World world;
+  Workers workers{4};
+};
+
+template <class... Systems>
+GraphPlan plan_of(Systems... systems) {
+  return derive_plan(std::vector<System>{systems...});
+}
+
+TEST_F(TaskGraphTest, WriterComesBeforeLaterReaderAndReaderBeforeLaterWriter) {
+  const auto plan = plan_of(world_system<Write<Force>>("write"), world_system<Read<Force>>("read"),
+                            world_system<Write<Force>>("write_again"));
+  EXPECT_THAT(plan.edges, ElementsAre(std::pair(0, 1), std::pair(1, 2)));
+}
+
+TEST_F(TaskGraphTest, TwoReadersStandSideBySide) {
+  const auto plan = plan_of(world_system<Write<Force>>("write"), world_system<Read<Force>>("a"),
+                            world_system<Read<Force>>("b"));
+  EXPECT_THAT(plan.edges, ElementsAre(std::pair(0, 1), std::pair(0, 2)));
+}
+
+TEST_F(TaskGraphTest, StagesThatShareNothingHaveNoEdge) {
+  EXPECT_THAT(plan_of(world_system<Write<Force>>("a"), world_system<Write<Ends>>("b"),
+                      world_system<Write<Clockwork>>("c"))
+                  .edges,
+              IsEmpty());
+}
+
+TEST_F(TaskGraphTest, ResourcesOrderLikeComponents) {
+  const auto plan = plan_of(world_system<Read<Clockwork>>("a"), world_system<Write<Clockwork>>("b"));
+  EXPECT_THAT(plan.edges, ElementsAre(std::pair(0, 1)));
+}
+
+TEST_F(TaskGraphTest, ChangingTheRowsOfAPlaceExcludesEveryAccessToIt) {
+  const auto plan = plan_of(world_system<Read<Ends>>("read"), world_system<Structural<Link>>("grow"),
+                            world_system<Read<Force>>("read_other"), world_system<Write<Clockwork>>("away"));
+  EXPECT_THAT(plan.edges, ElementsAre(std::pair(0, 1), std::pair(1, 2)));
+  EXPECT_FALSE(conflict(Structural<Link>::info(), Read<Weight>::info()));
+  EXPECT_FALSE(conflict(Structural<Link>::info(), Write<Clockwork>::info()));
+  EXPECT_TRUE(conflict(Structural<Link>::info(), Structural<Link>::info()));
+}
+
+TEST_F(TaskGraphTest, AnEdgeThatALongerPathImpliesIsLeftOut) {
+  const auto plan =
+      plan_of(world_system<Write<Force>>("a"), world_system<Read<Force>, Write<Ends>>("b"),
+              world_system<Read<Force>, Read<Ends>, Write<Clockwork>>("c"),
+              world_system<Read<Force>, Read<Ends>, Read<Clockwork>>("d"));
+  EXPECT_THAT(plan.edges, ElementsAre(std::pair(0, 1), std::pair(1, 2), std::pair(2, 3)));
+}
+
+TEST_F(TaskGraphTest, ConsecutiveChunkSystemsBecomeOneStage) {
+  const auto plan =
+      plan_of(chunk_system<Write<Heat>>("a"), chunk_system<Read<Heat>, Write<Flux>>("b"),
+              world_system<Read<Flux>>("look"), chunk_system<Write<Weight>>("c"));
+  ASSERT_EQ(plan.stages.size(), 3u);
+  EXPECT_THAT(plan.stages[0].systems, ElementsAre("a", "b"));
+  EXPECT_TRUE(plan.stages[0].by_chunk);
+  EXPECT_FALSE(plan.stages[1].by_chunk);
+  EXPECT_THAT(plan.edges, ElementsAre(std::pair(0, 1)));
+}
+
+TEST_F(TaskGraphTest, WriteWinsOverReadInAFusedStage) {
+  for (const bool read_first : {true, false}) {
+    const System read = chunk_system<Read<Heat>>("read"), write = chunk_system<Write<Heat>>("write");
+    const auto plan = read_first ? plan_of(read, write) : plan_of(write, read);
+    ASSERT_EQ(plan.stages[0].accesses.size(), 1u);
+    EXPECT_EQ(plan.stages[0].accesses[0].mode, AccessMode::write);
+  }
+}
+
+template <class Action>
+std::string refusal_of(const Action& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+TEST_F(TaskGraphTest, ChunkSystemThatWritesAPlaceNotDividedByChunksIsRefused) {
+  EXPECT_THAT(refusal_of([&] { chunk_system<Read<Heat>, Write<Force>>("greedy"); }),
+              AllOf(HasSubstr("greedy"), HasSubstr("link/force")));
+  EXPECT_THAT(refusal_of([&] { chunk_system<Write<Clockwork>>("greedy"); }), HasSubstr("clockwork"));
+  EXPECT_THAT(refusal_of([&] { chunk_system<Structural<Link>>("greedy"); }), HasSubstr("link"));
+  EXPECT_NO_THROW((chunk_system<Read<Force>, Read<Clockwork>, Write<Heat>>("modest")));
+}
+
+struct Absent : Component<Link, double, 1> {
+  static constexpr ComponentInfo info{"absent", "-", "a column that nobody added"};
+};
+
+TEST_F(TaskGraphTest, OptionalAccessCountsOnlyWhereItIsPresent) {
+  EXPECT_THAT((world_system<Optional<Write<Absent>>>("a").accesses), IsEmpty());
+  EXPECT_EQ((world_system<Optional<Write<Force>>>("a").accesses.size()), 1u);
+  EXPECT_THAT(plan_of(world_system<Optional<Write<Absent>>>("a"), world_system<Optional<Read<Absent>>>("b"))
+                  .edges,
+              IsEmpty());
+  EXPECT_THAT(plan_of(world_system<Optional<Write<Force>>>("a"), world_system<Optional<Read<Force>>>("b"))
+                  .edges,
+              ElementsAre(std::pair(0, 1)));
+}
+
+TEST_F(TaskGraphTest, MissingColumnOfASystemNamesItself) {
+  EXPECT_THAT(refusal_of([&] { world_system<Read<Absent>>("a"); }), HasSubstr("absent"));
+}
+
+// Five stages: a chunk stage of two systems between world systems, one of them off the chain.
+struct CountedRun {
+  std::atomic<int> calls[6] = {};
+  std::atomic<int> out_of_order = 0;
+};
+
+TEST_F(TaskGraphTest, EveryStageRunsOncePerRunAndInOrder) {
+  std::vector<System> systems{
+      world_system<Write<Force>>("first"),
+      chunk_system<Read<Force>, Write<Heat>>("heat"),
+      chunk_system<Read<Heat>, Write<Flux>>("flux"),
+      world_system<Read<Flux>, Write<Ends>>("gather"),
+      world_system<Write<Clockwork>>("aside"),
+      world_system<Read<Ends>, Read<Clockwork>>("last")};
+  CountedRun count;
+  int runs = 0;
+  std::vector<std::atomic<int>> of_chunk(chunks);
+  const auto expect = [&](bool right) { count.out_of_order += right ? 0 : 1; };
+  systems[0].run = [&](Chunk) { expect(count.calls[5] == runs), ++count.calls[0]; };
+  systems[1].run = [&](Chunk c) {
+    expect(count.calls[0] == runs + 1 && of_chunk[static_cast<std::size_t>(c.index)]++ == 2 * runs);
+    ++count.calls[1];
+  };
+  systems[2].run = [&](Chunk c) {
+    expect(of_chunk[static_cast<std::size_t>(c.index)]++ == 2 * runs + 1), ++count.calls[2];
+  };
+  systems[3].run = [&](Chunk) { expect(count.calls[2] == (runs + 1) * chunks), ++count.calls[3]; };
+  systems[4].run = [&](Chunk) { ++count.calls[4]; };
+  systems[5].run = [&](Chunk) {
+    expect(count.calls[3] == runs + 1 && count.calls[4] == runs + 1), ++count.calls[5];
+  };
+  workers.run([&] {
+    TaskGraph graph(systems, chunks);
+    EXPECT_THAT(graph.plan().edges, ElementsAre(std::pair(0, 1), std::pair(1, 2), std::pair(2, 4),
+                                                std::pair(3, 4)));
+    for (; runs < 200; ++runs) graph.run();
+  });
+  EXPECT_EQ(count.out_of_order, 0);
+  for (const int world_wide : {0, 3, 4, 5}) EXPECT_EQ(count.calls[world_wide], 200) << world_wide;
+  for (const int by_chunk : {1, 2}) EXPECT_EQ(count.calls[by_chunk], 200 * chunks);
+}
+
+TEST_F(TaskGraphTest, ExceptionOfASystemComesOutOfRunAndStopsWhatFollows) {
+  std::vector<System> systems{chunk_system<Write<Heat>>("fails"), world_system<Read<Heat>>("after")};
+  bool went_on = false;
+  systems[0].run = [](Chunk c) {
+    if (c.index == 17) throw std::runtime_error("chunk 17 is bad");
+  };
+  systems[1].run = [&](Chunk) { went_on = true; };
+  workers.run([&] {
+    TaskGraph graph(systems, chunks);
+    EXPECT_EQ(refusal_of([&] { graph.run(); }), "chunk 17 is bad");
+  });
+  EXPECT_FALSE(went_on);
+}
+
+TEST_F(TaskGraphTest, GraphStillRunsAfterBeingMoved) {
+  std::atomic<int> calls = 0;
+  System system = world_system<Write<Force>>("count");
+  system.run = [&](Chunk) { ++calls; };
+  workers.run([&] {
+    TaskGraph graph({system}, chunks);
+    TaskGraph moved(std::move(graph));
+    moved.run();
+  });
+  EXPECT_EQ(calls, 1);
+}
+
+}  // namespace
+}  // namespace pulvis::engine_test

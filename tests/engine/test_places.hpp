@@ -1,0 +1,45 @@
+// Places, components and a resource of the engine's own tests: the engine knows no particles.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "engine/access.hpp"
+
+namespace pulvis::engine_test {
+
+struct Cell {  // laned, by chunk
+  static constexpr const char* name = "cell";
+  static constexpr bool laned = true, by_chunk = true;
+};
+struct Bead {  // plain, by chunk
+  static constexpr const char* name = "bead";
+  static constexpr bool laned = false, by_chunk = true;
+};
+struct Link {  // plain, not divided by chunks
+  static constexpr const char* name = "link";
+  static constexpr bool laned = false, by_chunk = false;
+};
+
+struct Heat : Component<Cell, double, 2> {
+  static constexpr ComponentInfo info{"heat", "J", "of a cell"};
+};
+struct Flux : Component<Cell, double, 1> {
+  static constexpr ComponentInfo info{"flux", "W", "into a cell"};
+};
+struct Weight : Component<Bead, double, 1> {
+  static constexpr ComponentInfo info{"weight", "N", "of a bead"};
+};
+struct Ends : Component<Link, std::int32_t, 2> {
+  static constexpr ComponentInfo info{"ends", "-", "beads that a link joins"};
+};
+struct Force : Component<Link, double, 1> {
+  static constexpr ComponentInfo info{"force", "N", "in a link"};
+};
+struct Clockwork {
+  static constexpr const char* resource_name = "clockwork";
+  double time = 0;
+};
+
+}  // namespace pulvis::engine_test

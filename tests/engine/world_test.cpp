@@ -1,0 +1,132 @@
+// The world: what is missing names itself, rows keep their values, lanes lie as declared.
+#include "engine/world.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/engine/test_places.hpp"
+
+namespace pulvis::engine_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+template <class Action>
+std::string refusal_of(const Action& action) {
+  try {
+    action();
+  } catch (const std::logic_error& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+TEST(World, MissingTableNamesItself) {
+  World world;
+  EXPECT_THAT(refusal_of([&] { world.table<Link>(); }), HasSubstr("link"));
+  EXPECT_THAT(refusal_of([&] { world.add<Force>(); }), HasSubstr("link"));
+  EXPECT_FALSE(world.has_table<Link>());
+}
+
+TEST(World, MissingColumnNamesItselfAndItsPlace) {
+  World world;
+  world.add_table<Link>(3);
+  EXPECT_FALSE(world.has<Force>());
+  EXPECT_THAT(refusal_of([&] { world.column<Force>(); }), AllOf(HasSubstr("force"), HasSubstr("link")));
+  EXPECT_THAT(refusal_of([&] { Read<Force>{world}; }), HasSubstr("force"));
+}
+
+TEST(World, MissingResourceNamesItself) {
+  World world;
+  EXPECT_FALSE(world.has<Clockwork>());
+  EXPECT_THAT(refusal_of([&] { world.resource<Clockwork>(); }), HasSubstr("clockwork"));
+}
+
+TEST(World, NewColumnIsZeroAndAligned) {
+  World world;
+  world.add_table<Cell>({5, 2});
+  world.add<Heat>();
+  const Column<Heat>& heat = world.column<Heat>();
+  ASSERT_EQ(heat.bytes(), 7u * 2 * 4 * sizeof(double));
+  for (std::size_t i = 0; i < 7 * 2 * 4; ++i) ASSERT_EQ(heat.values()[i], 0);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(heat.data()) % 64, 0u);
+}
+
+TEST(World, AddingAColumnAgainKeepsItsValues) {
+  World world;
+  world.add_table<Link>(1);
+  world.add<Force>();
+  world.column<Force>().values()[0] = 3;
+  world.add<Force>();
+  EXPECT_EQ(world.column<Force>().values()[0], 3);
+  EXPECT_EQ(world.columns().size(), 1u);
+}
+
+TEST(World, RebuildCarriesRowsBySourceAndZerosNewOnes) {
+  World world;
+  world.add_table<Link>(3);
+  world.add<Force>();
+  world.add<Ends>();
+  for (int r = 0; r < 3; ++r) {
+    world.column<Force>().values()[r] = 10 + r;
+    world.column<Ends>().values()[2 * r] = r;
+    world.column<Ends>().values()[2 * r + 1] = -r;
+  }
+  world.rebuild<Link>({2, -1, 0, 2});
+  ASSERT_EQ(world.table<Link>().rows, 4u);
+  const double force[4] = {12, 0, 10, 12};
+  const std::int32_t ends[8] = {2, -2, 0, 0, 0, 0, 2, -2};
+  for (int r = 0; r < 4; ++r) EXPECT_EQ(world.column<Force>().values()[r], force[r]) << r;
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(world.column<Ends>().values()[i], ends[i]) << i;
+}
+
+TEST(World, RebuildFromNothingAndToNothing) {
+  World world;
+  world.add_table<Link>(std::size_t{0});
+  world.add<Force>();
+  world.rebuild<Link>({-1, -1});
+  EXPECT_EQ(world.column<Force>().bytes(), 2 * sizeof(double));
+  world.rebuild<Link>({});
+  EXPECT_EQ(world.column<Force>().bytes(), 0u);
+  EXPECT_EQ(world.table<Link>().rows, 0u);
+}
+
+TEST(World, LanedRowsLieRowThenComponentThenLane) {
+  World world;
+  world.add_table<Cell>({1, 2});
+  world.add<Heat>();
+  Column<Heat>& heat = world.column<Heat>();
+  for (int i = 0; i < 3 * 2; ++i)
+    for (int lane = 0; lane < lane_count; ++lane) heat.lanes()[i][lane] = 4 * i + lane;
+  for (int i = 0; i < 3 * 2 * 4; ++i) ASSERT_EQ(heat.values()[i], i);
+  const auto second = Read<Heat>(world).chunk(Chunk{1});
+  EXPECT_EQ(second(Row<Cell>(0), 0)[0], 8);       // row 1 of the table, its first component
+  EXPECT_EQ(second(Row<Cell>(1), 1)[3], 4 * 5 + 3);
+}
+
+TEST(World, ChunksOfAPlainTableStartWhereTheLastOnesEnd) {
+  World world;
+  world.add_table<Bead>({2, 0, 3});
+  world.add<Weight>();
+  for (int r = 0; r < 5; ++r) world.column<Weight>().values()[r] = r;
+  EXPECT_EQ(Read<Weight>(world).chunk(Chunk{0})(Row<Bead>(1)), 1);
+  EXPECT_EQ(Read<Weight>(world).chunk(Chunk{2})(Row<Bead>(0)), 2);
+  EXPECT_EQ(world.chunks(), 3);
+}
+
+TEST(World, TableDividedByAnotherNumberOfChunksIsRefused) {
+  World world;
+  world.add_table<Cell>({1, 2});
+  EXPECT_THAT(refusal_of([&] { world.add_table<Bead>({1, 2, 3}); }), HasSubstr("bead"));
+  world.add_table<Link>(7);  // not divided at all: welcome
+}
+
+TEST(World, TableAddedTwiceIsRefused) {
+  World world;
+  world.add_table<Link>(1);
+  EXPECT_THAT(refusal_of([&] { world.add_table<Link>(2); }), HasSubstr("link"));
+}
+
+}  // namespace
+}  // namespace pulvis::engine_test

@@ -1,0 +1,179 @@
+// A run that goes bad stops in the step in which it does, and says where: system, entity, step, value.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "systems/run_failure.hpp"
+#include "tests/scenes/experiment.hpp"
+
+namespace pulvis {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// What the failing run says; the step at which it stopped stays in the clock.
+std::string failure_of(Simulation& simulation, std::int64_t most_steps) {
+  try {
+    simulation.run_steps(most_steps);
+  } catch (const RunFailure& failure) {
+    return failure.what();
+  }
+  return "did not fail";
+}
+
+std::string step_now(const Simulation& simulation) {
+  return "step " + std::to_string(simulation.clock().step) + ",";
+}
+
+// ---- too fast -------------------------------------------------------------------------------------
+// 2 km/s: the punch is through the first row before the particles can get out of its way.
+TEST(Health, AbsurdPunchIsNamedWithBothSides) {
+  Experiment e("compaction/regular-25.toml",
+               {"stage.press.duration=10 us", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]"},
+               2);
+  const std::string failure = failure_of(e.simulation, 10000);
+  EXPECT_THAT(failure, ContainsRegex("^tool_contact: particle 2[0-4], edge [0-9]+ against tool 3"));
+  EXPECT_THAT(failure, ContainsRegex("penetration [0-9.e-]+ m is 0\\.[5-9][0-9]* of the edge length"));
+  EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
+  EXPECT_THAT(failure, HasSubstr("allowed 0.5 (limits.penetration)"));
+}
+
+// With the limit out of the way the elements give in: the failure is the element's, not a NaN later.
+TEST(Health, ElementTurnedInsideOutIsNamed) {
+  Experiment e("compaction/regular-25.toml",
+               {"stage.press.duration=20 us", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]",
+                "limits.penetration=1e6"},
+               2);
+  const std::string failure = failure_of(e.simulation, 10000);
+  EXPECT_THAT(failure, ContainsRegex("^trial_stress: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
+  EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
+}
+
+// ---- not a number ---------------------------------------------------------------------------------
+// Puts a NaN into node `node` of particle `number` and steps on.
+template <class C>
+std::string failure_with_nan(Experiment& e, int number, int node, std::int64_t most_steps) {
+  World& world = e.simulation.world();
+  const int slot = world.resource<Bodies>().slot_of_number[static_cast<std::size_t>(number)];
+  Column<C>& column = world.column<C>();
+  const auto first = column.table.chunk_begin[static_cast<std::size_t>(slot / 4)];
+  column.lanes()[static_cast<std::size_t>(first + node) * C::count][slot % 4] =
+      std::numeric_limits<double>::quiet_NaN();
+  return failure_of(e.simulation, most_steps);
+}
+
+bool element_has_node(Experiment& e, const std::string& failure, int node) {
+  std::smatch match;
+  if (!std::regex_search(failure, match, std::regex("element ([0-9]+)"))) return false;
+  const auto& quads = e.simulation.world().resource<Bodies>().shapes[0].quads;
+  return std::ranges::count(quads.at(static_cast<std::size_t>(std::stoi(match[1]))),
+                            Row<Node>(node)) > 0;
+}
+
+class NotANumber : public ::testing::TestWithParam<int> {};
+
+TEST_P(NotANumber, InAPositionStopsTheRunInTheSameStep) {
+  const int node = GetParam();
+  Experiment e("compaction/regular-25.toml", {}, 2);
+  e.simulation.run_steps(10);
+  const std::int64_t step = e.simulation.clock().step;
+  const std::string failure = failure_with_nan<Position>(e, 7, node, 1);
+  EXPECT_THAT(failure, StartsWith("trial_stress: particle 7, element "));
+  EXPECT_THAT(failure, ContainsRegex("det F = -?nan at step " + std::to_string(step) + ","));
+  EXPECT_EQ(e.simulation.clock().step, step);
+  EXPECT_TRUE(element_has_node(e, failure, node)) << failure;
+}
+
+// A velocity reaches the positions at the end of the step and the elements in the next one.
+TEST_P(NotANumber, InAVelocityStopsTheRunOneStepLater) {
+  Experiment e("compaction/regular-25.toml", {}, 2);
+  e.simulation.run_steps(10);
+  const std::int64_t step = e.simulation.clock().step;
+  const std::string failure = failure_with_nan<Velocity>(e, 7, GetParam(), 2);
+  EXPECT_THAT(failure, StartsWith("trial_stress: particle 7, element "));
+  EXPECT_EQ(e.simulation.clock().step, step + 1);
+}
+
+// Amid touching outlines: the contact search meets the NaN before the elements do.
+TEST_P(NotANumber, AmidContactIsFoundWithoutHarm) {
+  Experiment e("compaction/regular-25.toml",
+               {"stage.press.duration=50 us", "stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]"},
+               2);
+  e.simulation.run_steps(500);
+  EXPECT_THAT(failure_with_nan<Velocity>(e, 17, GetParam(), 2), HasSubstr("particle 17, e"));
+}
+
+// The outline's nodes come first (40 of them); 150 lies inside.
+INSTANTIATE_TEST_SUITE_P(Nodes, NotANumber, ::testing::Values(0, 5, 10, 15, 20, 25, 30, 35, 150));
+
+TEST(Health, NotANumberInAnElasticSceneIsFoundToo) {
+  Experiment e("basic/spinning-disc.toml");
+  EXPECT_THAT(failure_with_nan<Position>(e, 0, 3, 1), HasSubstr("particle 0, element "));
+}
+
+// ---- limits of the scene --------------------------------------------------------------------------
+TEST(Health, PenetrationLimitNamesParticleAndTool) {
+  Experiment e("compaction/unit-cell.toml", {"limits.penetration=0.01"});
+  const std::string failure = failure_of(e.simulation, 100000);
+  EXPECT_THAT(failure, ContainsRegex("^tool_contact: particle 0, edge [0-9]+ against tool 3: "));
+  EXPECT_THAT(failure, HasSubstr("is 0.01 of the edge length at step "));
+  EXPECT_THAT(failure, HasSubstr("allowed 0.01 (limits.penetration)"));
+}
+
+TEST(Health, PenetrationLimitNamesBothParticles) {
+  Experiment e("basic/oblique-impact.toml", {"limits.penetration=0.001"});
+  const std::string failure = failure_of(e.simulation, 100000);
+  EXPECT_THAT(failure, ContainsRegex("^edge_contact: particle ([01]), edge [0-9]+ against particle [01]: "));
+  EXPECT_EQ(failure.find("particle 0") == std::string::npos, false) << failure;
+  EXPECT_EQ(failure.find("particle 1") == std::string::npos, false) << failure;
+  EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
+  EXPECT_THAT(failure, HasSubstr("limits.penetration"));
+}
+
+TEST(Health, LimitsThatAreKeptDoNotStopARun) {
+  Experiment e("basic/oblique-impact.toml", {"stage.impact.duration=0.02 ms"});
+  EXPECT_NO_THROW(e.simulation.run_until(e.simulation.clock().end));
+}
+
+// Energies are looked at when they are sampled: the program does it, with the recorder.
+nlohmann::json summary_of_a_bad_run(const std::string& limit) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("pulvis-health-" + std::to_string(getpid()) + limit);
+  const std::string command =
+      std::string("'") + PULVIS_PROGRAM + "' run '" + PULVIS_SOURCE_DIR +
+      "/scenes/compaction/regular-25.toml' -o '" + folder.string() +
+      "' --set 'stage.press.duration=50 us' --set output.frames=10 --set output.samples=50 --set "
+      "'stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]' --set limits." + limit;
+  const int status = std::system((command + " >/dev/null 2>&1").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 3) << command;
+  auto summary = nlohmann::json::parse(std::ifstream(folder / "summary.json"));
+  fs::remove_all(folder);
+  return summary;
+}
+
+TEST(Health, EnergyBalanceLimitStopsTheRun) {
+  const auto summary = summary_of_a_bad_run("energy_balance=1e-7");
+  EXPECT_THAT(summary["outcome"].get<std::string>(),
+              ContainsRegex("^failed: energies: energy_balance is [0-9.e-]+ at step [0-9]+, t = "
+                            "[0-9.e-]+ s; allowed 1e-07 \\(limits.energy_balance\\)$"));
+  EXPECT_LT(summary["time"], 50e-6);
+}
+
+TEST(Health, KineticEnergyLimitStopsTheRun) {
+  const auto summary = summary_of_a_bad_run("kinetic_energy=1e-3");
+  EXPECT_THAT(summary["outcome"].get<std::string>(),
+              ContainsRegex("^failed: energies: kinetic_energy is .* \\(limits.kinetic_energy\\)$"));
+}
+
+}  // namespace
+}  // namespace pulvis
