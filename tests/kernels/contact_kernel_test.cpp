@@ -194,7 +194,7 @@ TEST(CoulombReturn, SpendsLimitTimesSlipAroundALoop) {
   EXPECT_NEAR(spent, mu * p * (4 * reach - 5 * limit), 1e-12 * mu * p * reach);
 }
 
-TEST(CoulombReturn, LosingThePressureSpendsTheSpring) {
+TEST(CoulombReturn, LosingThePressureLosesTheSpring) {
   const auto f = coulomb_return(5e-8, 0.0, 0.0, 0.3, 3e15);
   EXPECT_EQ(f.traction, 0);
   EXPECT_EQ(f.elastic_slip, 0);
