@@ -81,9 +81,11 @@ std::size_t element_behind(const Shape& shape, int i) {
 void close_curve(Shape& shape, const std::vector<double>& smoothing) {
   const int n = shape.boundary_nodes;
   for (int c = 0; c < n + 3; ++c) {
-    const int i = (c + n - 1) % n;
-    push_control_point(shape, smoothed((i + n - 1) % n, i, (i + 1) % n,
-                                       smoothing[static_cast<std::size_t>(i)]));
+    const auto node = [&](int offset) { return (c + offset + 2 * n - 1) % n; };
+    Terms y = smoothed(node(-1), node(0), node(1), smoothing[static_cast<std::size_t>(node(0))]);
+    add(y, {{node(-2), 1}, {node(-1), -4}, {node(0), 6}, {node(1), -4}, {node(2), 1}},
+        short_wave_filter);
+    push_control_point(shape, y);
   }
   for (int e = 0; e < n; ++e) {
     Shape::Edge edge;

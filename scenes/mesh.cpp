@@ -100,7 +100,7 @@ struct DiscOutlineNodes {
 };
 
 // With half the angle to both neighbours theta, a curve with knots at the nodes passes at radius
-// r ((4 + 2 cos theta)/6) (1 + 2 c (1 - cos theta)), which is to be the circle's.
+// r ((4 + 2 cos theta)/6) (1 + 2 c (1 - cos theta) + 4 d (1 - cos theta)^2), which is to be the circle's.
 DiscOutlineNodes outline_nodes(const DiscPlan& plan) {
   const auto edges = static_cast<std::size_t>(4 * plan.side);
   std::vector<double> angle;
@@ -116,7 +116,8 @@ DiscOutlineNodes outline_nodes(const DiscPlan& plan) {
     const double r = plan.radius * std::sqrt(theta / std::sin(theta));
     outline.nodes.push_back({r * std::cos(angle[i]), r * std::sin(angle[i])});
     const double bare = r / plan.radius * (4 + 2 * std::cos(theta)) / 6;
-    outline.smoothing.push_back((1 / bare - 1) / (2 * (1 - std::cos(theta))));
+    const double w = 1 - std::cos(theta);
+    outline.smoothing.push_back((1 / bare - 1 - 4 * short_wave_filter * w * w) / (2 * w));
   }
   return outline;
 }

@@ -110,8 +110,8 @@ struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names 
 
 struct ContactSpec {
   double friction = 0;   // -, Coulomb coefficient of every pair that no [[friction]] names
-  // k of kappa = k K L/A (bulk modulus, boundary edge length, element area). 0.5: the force depends least
-  // on where the mesh nodes lie without the penetration delaying the lateral force (docs/accuracy.md).
+  // k of kappa = k K L/A (bulk modulus, boundary edge length, element area). 0.5: softer, the penetration
+  // delays the lateral force; stiffer, the force depends on where the mesh nodes lie (docs/accuracy.md).
   double stiffness = 0.5;
   double damping = 0;    // -, share of the critical damping of the contact spring (T 5.1, 5.2)
 };

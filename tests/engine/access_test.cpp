@@ -35,8 +35,10 @@ static_assert(std::is_assignable_v<decltype((std::declval<Write<Clockwork>>()->t
 static_assert(!std::is_assignable_v<decltype(*std::declval<Read<Clockwork>>()), Clockwork>);
 
 // An Optional gives no more than what it wraps.
-static_assert(!std::is_assignable_v<RowValue<decltype(*std::declval<Optional<Read<Weight>>>()), Bead>, double>);
-static_assert(std::is_assignable_v<RowValue<decltype(*std::declval<Optional<Write<Weight>>>()), Bead>, double>);
+static_assert(!std::is_assignable_v<
+              RowValue<decltype(*std::declval<Optional<Read<Weight>>>()), Bead>, double>);
+static_assert(std::is_assignable_v<
+              RowValue<decltype(*std::declval<Optional<Write<Weight>>>()), Bead>, double>);
 static_assert(!std::convertible_to<Optional<Read<Weight>>, bool>);  // only where a condition asks
 
 // The right to read never becomes the right to write.
@@ -58,7 +60,10 @@ static_assert(std::invocable<Read<Weight>, Row<Bead>>);
 
 // A place is neither a component nor a resource, so nothing reads it; only components have rows.
 template <class T>
-concept Readable = requires { typename Read<T>; } && (IsComponent<T> || IsResource<T>);
+concept Readable = requires {
+  typename Read<T>;
+}
+&&(IsComponent<T> || IsResource<T>);
 static_assert(Readable<Weight> && Readable<Clockwork>);
 static_assert(!Readable<Cell>);
 static_assert(!std::invocable<Structural<Link>, Row<Link>>);

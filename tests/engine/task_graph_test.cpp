@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <string>
+#include <vector>
+
 #include "engine/workers.hpp"
 #include "tests/engine/test_places.hpp"
 
@@ -32,11 +36,13 @@ class TaskGraphTest : public ::testing::Test {
   }
   template <class... Access>
   System world_system(const char* name) {
-    return make_system(world, name, +[](Access...) {});
+    return make_system(
+        world, name, +[](Access...) {});
   }
   template <class... Access>
   System chunk_system(const char* name) {
-    return make_system(world, name, +[](Chunk, Access...) {});
+    return make_system(
+        world, name, +[](Chunk, Access...) {});
   }
   World world;
   Workers workers{4};
@@ -67,13 +73,15 @@ TEST_F(TaskGraphTest, StagesThatShareNothingHaveNoEdge) {
 }
 
 TEST_F(TaskGraphTest, ResourcesOrderLikeComponents) {
-  const auto plan = plan_of(world_system<Read<Clockwork>>("a"), world_system<Write<Clockwork>>("b"));
+  const auto plan =
+      plan_of(world_system<Read<Clockwork>>("a"), world_system<Write<Clockwork>>("b"));
   EXPECT_THAT(plan.edges, ElementsAre(std::pair(0, 1)));
 }
 
 TEST_F(TaskGraphTest, ChangingTheRowsOfAPlaceExcludesEveryAccessToIt) {
-  const auto plan = plan_of(world_system<Read<Ends>>("read"), world_system<Structural<Link>>("grow"),
-                            world_system<Read<Force>>("read_other"), world_system<Write<Clockwork>>("away"));
+  const auto plan =
+      plan_of(world_system<Read<Ends>>("read"), world_system<Structural<Link>>("grow"),
+              world_system<Read<Force>>("read_other"), world_system<Write<Clockwork>>("away"));
   EXPECT_THAT(plan.edges, ElementsAre(std::pair(0, 1), std::pair(1, 2)));
   EXPECT_FALSE(conflict(Structural<Link>::info(), Read<Weight>::info()));
   EXPECT_FALSE(conflict(Structural<Link>::info(), Write<Clockwork>::info()));
@@ -101,7 +109,8 @@ TEST_F(TaskGraphTest, ConsecutiveChunkSystemsBecomeOneStage) {
 
 TEST_F(TaskGraphTest, WriteWinsOverReadInAFusedStage) {
   for (const bool read_first : {true, false}) {
-    const System read = chunk_system<Read<Heat>>("read"), write = chunk_system<Write<Heat>>("write");
+    const System read = chunk_system<Read<Heat>>("read"),
+                 write = chunk_system<Write<Heat>>("write");
     const auto plan = read_first ? plan_of(read, write) : plan_of(write, read);
     ASSERT_EQ(plan.stages[0].accesses.size(), 1u);
     EXPECT_EQ(plan.stages[0].accesses[0].mode, AccessMode::write);
@@ -121,7 +130,8 @@ std::string refusal_of(const Action& action) {
 TEST_F(TaskGraphTest, ChunkSystemThatWritesAPlaceNotDividedByChunksIsRefused) {
   EXPECT_THAT(refusal_of([&] { chunk_system<Read<Heat>, Write<Force>>("greedy"); }),
               AllOf(HasSubstr("greedy"), HasSubstr("link/force")));
-  EXPECT_THAT(refusal_of([&] { chunk_system<Write<Clockwork>>("greedy"); }), HasSubstr("clockwork"));
+  EXPECT_THAT(refusal_of([&] { chunk_system<Write<Clockwork>>("greedy"); }),
+              HasSubstr("clockwork"));
   EXPECT_THAT(refusal_of([&] { chunk_system<Structural<Link>>("greedy"); }), HasSubstr("link"));
   EXPECT_NO_THROW((chunk_system<Read<Force>, Read<Clockwork>, Write<Heat>>("modest")));
 }
@@ -133,12 +143,14 @@ struct Absent : Component<Link, double, 1> {
 TEST_F(TaskGraphTest, OptionalAccessCountsOnlyWhereItIsPresent) {
   EXPECT_THAT((world_system<Optional<Write<Absent>>>("a").accesses), IsEmpty());
   EXPECT_EQ((world_system<Optional<Write<Force>>>("a").accesses.size()), 1u);
-  EXPECT_THAT(plan_of(world_system<Optional<Write<Absent>>>("a"), world_system<Optional<Read<Absent>>>("b"))
-                  .edges,
-              IsEmpty());
-  EXPECT_THAT(plan_of(world_system<Optional<Write<Force>>>("a"), world_system<Optional<Read<Force>>>("b"))
-                  .edges,
-              ElementsAre(std::pair(0, 1)));
+  EXPECT_THAT(
+      plan_of(world_system<Optional<Write<Absent>>>("a"), world_system<Optional<Read<Absent>>>("b"))
+          .edges,
+      IsEmpty());
+  EXPECT_THAT(
+      plan_of(world_system<Optional<Write<Force>>>("a"), world_system<Optional<Read<Force>>>("b"))
+          .edges,
+      ElementsAre(std::pair(0, 1)));
 }
 
 TEST_F(TaskGraphTest, MissingColumnOfASystemNamesItself) {
@@ -152,15 +164,14 @@ struct CountedRun {
 };
 
 TEST_F(TaskGraphTest, EveryStageRunsOncePerRunAndInOrder) {
-  std::vector<System> systems{
-      world_system<Write<Force>>("first"),
-      chunk_system<Read<Force>, Write<Heat>>("heat"),
-      chunk_system<Read<Heat>, Write<Flux>>("flux"),
-      world_system<Read<Flux>, Write<Ends>>("gather"),
-      world_system<Write<Clockwork>>("aside"),
-      world_system<Read<Ends>, Read<Clockwork>>("last")};
+  std::vector<System> systems{world_system<Write<Force>>("first"),
+                              chunk_system<Read<Force>, Write<Heat>>("heat"),
+                              chunk_system<Read<Heat>, Write<Flux>>("flux"),
+                              world_system<Read<Flux>, Write<Ends>>("gather"),
+                              world_system<Write<Clockwork>>("aside"),
+                              world_system<Read<Ends>, Read<Clockwork>>("last")};
   CountedRun count;
-  int runs = 0;
+  std::atomic<int> runs = 0;
   std::vector<std::atomic<int>> of_chunk(chunks);
   const auto expect = [&](bool right) { count.out_of_order += right ? 0 : 1; };
   systems[0].run = [&](Chunk) { expect(count.calls[5] == runs), ++count.calls[0]; };
@@ -178,8 +189,8 @@ TEST_F(TaskGraphTest, EveryStageRunsOncePerRunAndInOrder) {
   };
   workers.run([&] {
     TaskGraph graph(systems, chunks);
-    EXPECT_THAT(graph.plan().edges, ElementsAre(std::pair(0, 1), std::pair(1, 2), std::pair(2, 4),
-                                                std::pair(3, 4)));
+    EXPECT_THAT(graph.plan().edges,
+                ElementsAre(std::pair(0, 1), std::pair(1, 2), std::pair(2, 4), std::pair(3, 4)));
     for (; runs < 200; ++runs) graph.run();
   });
   EXPECT_EQ(count.out_of_order, 0);
@@ -188,7 +199,8 @@ TEST_F(TaskGraphTest, EveryStageRunsOncePerRunAndInOrder) {
 }
 
 TEST_F(TaskGraphTest, ExceptionOfASystemComesOutOfRunAndStopsWhatFollows) {
-  std::vector<System> systems{chunk_system<Write<Heat>>("fails"), world_system<Read<Heat>>("after")};
+  std::vector<System> systems{chunk_system<Write<Heat>>("fails"),
+                              world_system<Read<Heat>>("after")};
   bool went_on = false;
   systems[0].run = [](Chunk c) {
     if (c.index == 17) throw std::runtime_error("chunk 17 is bad");

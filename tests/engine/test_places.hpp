@@ -1,10 +1,6 @@
 // Places, components and a resource of the engine's own tests: the engine knows no particles.
 #pragma once
 
-#include <atomic>
-#include <string>
-#include <vector>
-
 #include "engine/access.hpp"
 
 namespace pulvis::engine_test {

@@ -33,7 +33,8 @@ TEST(World, MissingColumnNamesItselfAndItsPlace) {
   World world;
   world.add_table<Link>(3);
   EXPECT_FALSE(world.has<Force>());
-  EXPECT_THAT(refusal_of([&] { world.column<Force>(); }), AllOf(HasSubstr("force"), HasSubstr("link")));
+  EXPECT_THAT(refusal_of([&] { world.column<Force>(); }),
+              AllOf(HasSubstr("force"), HasSubstr("link")));
   EXPECT_THAT(refusal_of([&] { Read<Force>{world}; }), HasSubstr("force"));
 }
 
@@ -101,7 +102,7 @@ TEST(World, LanedRowsLieRowThenComponentThenLane) {
     for (int lane = 0; lane < lane_count; ++lane) heat.lanes()[i][lane] = 4 * i + lane;
   for (int i = 0; i < 3 * 2 * 4; ++i) ASSERT_EQ(heat.values()[i], i);
   const auto second = Read<Heat>(world).chunk(Chunk{1});
-  EXPECT_EQ(second(Row<Cell>(0), 0)[0], 8);       // row 1 of the table, its first component
+  EXPECT_EQ(second(Row<Cell>(0), 0)[0], 8);  // row 1 of the table, its first component
   EXPECT_EQ(second(Row<Cell>(1), 1)[3], 4 * 5 + 3);
 }
 

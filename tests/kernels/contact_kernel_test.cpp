@@ -35,7 +35,8 @@ TEST(CurveBasis, ReproducesAStraightLine) {
 }
 
 TEST(CurveBasis, SlopeIsTheDerivative) {
-  const double h = 1e-4;  // a cubic: the error of central differences is h^2/6 times its third derivative
+  const double h =
+      1e-4;  // a cubic: the error of central differences is h^2/6 times its third derivative
   for (double u = 0; u <= 1; u += 1.0 / 64)
     for (std::size_t a = 0; a < 4; ++a)
       EXPECT_NEAR((basis(u + h)[a] - basis(u - h)[a]) / (2 * h), basis_slope(u)[a], 1e-8) << a;
@@ -107,18 +108,20 @@ TEST(ClosestPoint, IsPerpendicularToASpline) {
   const double px = 0.5, py = 0.3;
   double u = 0.2;
   for (int i = 0; i < 6; ++i)
-    u += closest_point_step(px - x.value(u), py - y.value(u), x.slope(u), y.slope(u), x.curvature(u),
-                            y.curvature(u));
+    u += closest_point_step(px - x.value(u), py - y.value(u), x.slope(u), y.slope(u),
+                            x.curvature(u), y.curvature(u));
   EXPECT_NEAR((px - x.value(u)) * x.slope(u) + (py - y.value(u)) * y.slope(u), 0, 4 * round_off);
 }
 
 TEST(NormalTraction, PressureIsTheDerivativeOfTheEnergy) {
   const double kappa = 3e15, h = 1e-9;
   for (const double g : {-1e-6, 1e-7, 2e-6}) {
-    const auto energy = [&](double gap) { return normal_traction(gap, 0.0, kappa, 0.0).spring_energy; };
+    const auto energy = [&](double gap) {
+      return normal_traction(gap, 0.0, kappa, 0.0).spring_energy;
+    };
     // Differences of a square are exact; the energies round at 1e-16 of kappa g^2, over h.
-    EXPECT_NEAR((energy(g + h) - energy(g - h)) / (2 * h), normal_traction(g, 0.0, kappa, 0.0).pressure,
-                1e-12 * kappa * 2e-6);
+    EXPECT_NEAR((energy(g + h) - energy(g - h)) / (2 * h),
+                normal_traction(g, 0.0, kappa, 0.0).pressure, 1e-12 * kappa * 2e-6);
   }
 }
 
@@ -203,9 +206,11 @@ TEST(CoulombReturn, LosingThePressureLosesTheSpring) {
 TEST(ContactKernels, LanesGiveTheBitsOfTheScalar) {
   Random random(5);
   for (int i = 0; i < 1000; ++i) {
-    const Lane g = random.lane(-1e-6, 1e-6), rate = random.lane(-1, 1), u = random.lane(-1e-7, 1e-7);
+    const Lane g = random.lane(-1e-6, 1e-6), rate = random.lane(-1, 1),
+               u = random.lane(-1e-7, 1e-7);
     const auto normal = normal_traction(g, rate, broadcast(3e15), broadcast(1e9));
-    const auto friction = coulomb_return(u, rate * 1e-7, normal.pressure, broadcast(0.3), broadcast(3e15));
+    const auto friction =
+        coulomb_return(u, rate * 1e-7, normal.pressure, broadcast(0.3), broadcast(3e15));
     for (int l = 0; l < lane_count; ++l) {
       const auto n = normal_traction(g[l], rate[l], 3e15, 1e9);
       const auto f = coulomb_return(u[l], rate[l] * 1e-7, n.pressure, 0.3, 3e15);

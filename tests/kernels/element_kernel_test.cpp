@@ -61,7 +61,8 @@ struct TestQuad {
   }
   double dilatation(const Coordinates& x) const {
     double now = 0;
-    for (int g = 0; g < 4; ++g) now += determinant(map_gradient(map_of(x), gauss_xi[g], gauss_eta[g]));
+    for (int g = 0; g < 4; ++g)
+      now += determinant(map_gradient(map_of(x), gauss_xi[g], gauss_eta[g]));
     return now / area;
   }
   double energy(const Coordinates& x) const {
@@ -167,7 +168,8 @@ TEST(ElementForces, AreMinusTheGradientOfTheStoredEnergy) {
       Coordinates up = c.x, down = c.x;
       up[i] += h;
       down[i] -= h;
-      ASSERT_NEAR(-(c.quad.energy(up) - c.quad.energy(down)) / (2 * h), f[i], 1e-8 * largest(f)) << i;
+      ASSERT_NEAR(-(c.quad.energy(up) - c.quad.energy(down)) / (2 * h), f[i], 1e-8 * largest(f))
+          << i;
     }
   }
 }
@@ -185,7 +187,8 @@ TEST(ElementForces, HaveNoMoment) {
     const Coordinates f = c.quad.forces(c.x);
     double moment = 0;
     for (std::size_t i = 0; i < 8; i += 2) moment += c.x[i] * f[i + 1] - c.x[i + 1] * f[i];
-    EXPECT_NEAR(moment, 0, 100 * round_off * largest(f));  // arms up to 5, eight terms, eight products each
+    EXPECT_NEAR(moment, 0,
+                100 * round_off * largest(f));  // arms up to 5, eight terms, eight products each
   }
 }
 
@@ -243,7 +246,8 @@ TEST(InverseCubeRoot, LanesGiveTheBitsOfTheScalarWhateverTheirNeighbours) {
     Lane a = i % 2 ? random.lane(0.8, 1.25) : random.lane(0.05, 3.0);
     if (i % 3 == 0) a[i % 4] = 17.0;
     const Lane y = inverse_cube_root(a);
-    for (int l = 0; l < lane_count; ++l) ASSERT_EQ(bits(y[l]), bits(inverse_cube_root(a[l]))) << a[l];
+    for (int l = 0; l < lane_count; ++l)
+      ASSERT_EQ(bits(y[l]), bits(inverse_cube_root(a[l]))) << a[l];
   }
 }
 
@@ -265,7 +269,8 @@ TEST(SquaredHalfWidth, OfAShearedSquareIsItsSmallSingularValue) {
 TEST(ElementKernels, LanesGiveTheBitsOfTheScalar) {
   Random random(8);
   for (int i = 0; i < 1000; ++i) {
-    const Matrix2<Lane> f{random.lane(0.5, 2), random.lane(-1, 1), random.lane(-1, 1), random.lane(0.5, 2)};
+    const Matrix2<Lane> f{random.lane(0.5, 2), random.lane(-1, 1), random.lane(-1, 1),
+                          random.lane(0.5, 2)};
     const Lane width = squared_half_width(f), det = determinant(f);
     for (int l = 0; l < lane_count; ++l) {
       const Matrix2<double> one{f.xx[l], f.xy[l], f.yx[l], f.yy[l]};

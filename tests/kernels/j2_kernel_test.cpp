@@ -78,8 +78,7 @@ using Gradient = Matrix2<double>;
 
 TEST(RadialReturn, StressComesBackOntoTheYieldSurface) {
   along_random_paths(steel, [](const Gradient&, const State& old, const State& next) {
-    const double ratio =
-        std::sqrt(1.5 * squared_norm(next.s)) / steel.law.flow_stress(next.eps);
+    const double ratio = std::sqrt(1.5 * squared_norm(next.s)) / steel.law.flow_stress(next.eps);
     ASSERT_LE(ratio, 1 + 1e-12);
     // Linear hardening makes the consistency condition linear: what is left is round-off.
     if (next.eps > old.eps) {
@@ -138,7 +137,8 @@ TEST(RadialReturn, FlowSpendsStoredEnergy) {
   // At fixed F the return lowers the stored energy, by at least the plastic work of the step: the stress
   // that does it lies between trial and flow stress. 5% for elastic strains of 2%; round-off of W: 1e-16 mu.
   along_random_paths(steel, [](const Gradient& f, const State& old, const State& next) {
-    const double spent = isochoric_energy(f, old.c, steel.mu) - isochoric_energy(f, next.c, steel.mu);
+    const double spent =
+        isochoric_energy(f, old.c, steel.mu) - isochoric_energy(f, next.c, steel.mu);
     const double work = steel.law.plastic_work(next.eps) - steel.law.plastic_work(old.eps);
     ASSERT_GE(spent, 0.95 * determinant(f) * work - 1e-15 * steel.mu);
   });
@@ -171,8 +171,8 @@ TEST(RadialReturn, SimpleShearHardensByTheClosedForm) {
   for (int i = 1; i <= 200; ++i) {
     const double gamma = 20 * gamma_y * i / 200;
     state = step(simple_shear(gamma), state, m);
-    const double tau = gamma < gamma_y ? m.mu * gamma
-                                       : tau_y + m.mu * h / (h + 3 * m.mu) * (gamma - gamma_y);
+    const double tau =
+        gamma < gamma_y ? m.mu * gamma : tau_y + m.mu * h / (h + 3 * m.mu) * (gamma - gamma_y);
     ASSERT_NEAR(state.s.xy, tau, 1e-4 * tau) << gamma;
   }
 }
@@ -184,7 +184,8 @@ TEST(RadialReturn, PlaneStrainTensionReachesTheClosedFormOfIdealPlasticity) {
     const double stretch = 1 + 1e-4 * i;
     state = step(Gradient{stretch, 0, 0, 1 / stretch}, state, ideal);
   }
-  EXPECT_NEAR(state.s.xx, 400e6 / std::sqrt(3.0), 1e-3 * 400e6);  // the elastic part is 0.3% of strain
+  EXPECT_NEAR(state.s.xx, 400e6 / std::sqrt(3.0),
+              1e-3 * 400e6);  // the elastic part is 0.3% of strain
   EXPECT_NEAR(state.s.yy, -400e6 / std::sqrt(3.0), 1e-3 * 400e6);
   // eps = 2/sqrt 3 ln(stretch), less its elastic share sigma_y/(3 mu).
   EXPECT_NEAR(state.eps, 2 / std::sqrt(3.0) * std::log(1.1) - 400e6 / (3 * 80e9), 1e-5);
@@ -223,7 +224,8 @@ TEST(RadialReturn, RotationOfTheSpaceTurnsTheStressOnly) {
     const double gxx = q.xx * s.xx + q.xy * s.xy, gxy = q.xx * s.xy + q.xy * s.yy;
     const double gyx = q.yx * s.xx + q.yy * s.xy, gyy = q.yx * s.xy + q.yy * s.yy;
     // Stress is mu times a difference from one: 1e-16 of mu, with b computed by a dozen operations.
-    const double tolerance = 1e-13 * std::sqrt(squared_norm(trial(f, state, steel.mu).s)) + 1e-15 * steel.mu;
+    const double tolerance =
+        1e-13 * std::sqrt(squared_norm(trial(f, state, steel.mu).s)) + 1e-15 * steel.mu;
     ASSERT_NEAR(turned.s.xx, gxx * q.xx + gxy * q.xy, tolerance);
     ASSERT_NEAR(turned.s.yy, gyx * q.yx + gyy * q.yy, tolerance);
     ASSERT_NEAR(turned.s.xy, gxx * q.yx + gxy * q.yy, tolerance);
@@ -236,7 +238,8 @@ TEST(RadialReturn, RotationOfTheSpaceTurnsTheStressOnly) {
 
 TEST(RadialReturn, InfiniteYieldStressNeverYields) {
   const Material<double> elastic{80e9, {std::numeric_limits<double>::infinity(), 0}};
-  for (const Gradient& f : {Gradient{1, 0, 0, 1}, Gradient{1.5, 0.7, -0.2, 0.8}, Gradient{0.1, 0, 0, 9}}) {
+  for (const Gradient& f :
+       {Gradient{1, 0, 0, 1}, Gradient{1.5, 0.7, -0.2, 0.8}, Gradient{0.1, 0, 0, 9}}) {
     const State before = trial(f, State{}, elastic.mu), after = step(f, State{}, elastic);
     EXPECT_EQ(bits(after.s.xx), bits(before.s.xx));
     EXPECT_EQ(bits(after.s.xy), bits(before.s.xy));
@@ -257,18 +260,21 @@ struct FourPoints {
 };
 
 State lane_of(const J2State<Lane>& a, int l) {
-  return {{a.s.xx[l], a.s.yy[l], a.s.xy[l]}, {a.c.xx[l], a.c.yy[l], a.c.zz[l], a.c.xy[l]}, a.eps[l]};
+  return {
+      {a.s.xx[l], a.s.yy[l], a.s.xy[l]}, {a.c.xx[l], a.c.yy[l], a.c.zz[l], a.c.xy[l]}, a.eps[l]};
 }
 
 bool same_bits(const State& a, const State& b) {
-  return bits(a.s.xx) == bits(b.s.xx) && bits(a.s.yy) == bits(b.s.yy) && bits(a.s.xy) == bits(b.s.xy) &&
-         bits(a.c.xx) == bits(b.c.xx) && bits(a.c.yy) == bits(b.c.yy) && bits(a.c.zz) == bits(b.c.zz) &&
+  return bits(a.s.xx) == bits(b.s.xx) && bits(a.s.yy) == bits(b.s.yy) &&
+         bits(a.s.xy) == bits(b.s.xy) && bits(a.c.xx) == bits(b.c.xx) &&
+         bits(a.c.yy) == bits(b.c.yy) && bits(a.c.zz) == bits(b.c.zz) &&
          bits(a.c.xy) == bits(b.c.xy) && bits(a.eps) == bits(b.eps);
 }
 
 // Lane materials: the last lane never yields.
 const Material<Lane> four_materials{
-    broadcast(80e9), {Lane{400e6, 400e6, 400e6, std::numeric_limits<double>::infinity()}, broadcast(2e9)}};
+    broadcast(80e9),
+    {Lane{400e6, 400e6, 400e6, std::numeric_limits<double>::infinity()}, broadcast(2e9)}};
 
 TEST(RadialReturn, LanesGiveTheBitsOfTheScalar) {
   Wander paths[4] = {Wander(1), Wander(2), Wander(3), Wander(4)};
@@ -303,7 +309,8 @@ TEST(MeanStress, IsTheDerivativeOfTheVolumetricEnergy) {
   const double h = 1e-5;  // truncation h^2 theta^-3, at most 1e-8
   for (const double theta : {0.3, 0.9, 1.0, 1.1, 2.0})
     EXPECT_NEAR((volumetric_energy(3.0, theta + h) - volumetric_energy(3.0, theta - h)) / (2 * h),
-                mean_stress(3.0, theta), 1e-8) << theta;
+                mean_stress(3.0, theta), 1e-8)
+        << theta;
   EXPECT_EQ(mean_stress(3.0, 1.0), 0);
   EXPECT_EQ(volumetric_energy(3.0, 1.0), 0);
 }

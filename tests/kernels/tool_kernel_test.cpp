@@ -24,7 +24,8 @@ TEST(SmoothTravel, GoesFromZeroToOneAndStaysThere) {
 TEST(SmoothTravel, NeverTurnsBack) {
   for (const double ramp : ramps)
     for (int i = 0; i < 10000; ++i)
-      ASSERT_GE(smooth_travel((i + 1) * 1e-4, ramp), smooth_travel(i * 1e-4, ramp)) << ramp << " " << i;
+      ASSERT_GE(smooth_travel((i + 1) * 1e-4, ramp), smooth_travel(i * 1e-4, ramp))
+          << ramp << " " << i;
 }
 
 TEST(SmoothTravel, IsSymmetricInTime) {
@@ -50,7 +51,8 @@ TEST(SmoothTravel, SpeedHasNoJump) {
     // Steepest rise of u^3 (10 - 15 u + 6 u^2): 15/8, at u = 1/2.
     const double steepest = 1.875 / ramp / (1 - ramp);
     for (int k = -2; k < 1002; ++k)
-      ASSERT_LE(std::abs(speed(k + 1, h, ramp) - speed(k, h, ramp)), steepest * h * (1 + 1e-9)) << k;
+      ASSERT_LE(std::abs(speed(k + 1, h, ramp) - speed(k, h, ramp)), steepest * h * (1 + 1e-9))
+          << k;
   }
 }
 
@@ -59,7 +61,9 @@ TEST(SmoothTravel, AccelerationHasNoJump) {
   for (const double ramp : {0.1, 0.25, 0.5}) {
     // Steepest change of 30 u^2 (1 - u)^2: 10/sqrt 3. Round-off of a second difference: 1e-16/h^2.
     const double steepest = 10 / std::sqrt(3.0) / (ramp * ramp * (1 - ramp));
-    const auto acceleration = [&](int k) { return (speed(k + 1, h, ramp) - speed(k, h, ramp)) / h; };
+    const auto acceleration = [&](int k) {
+      return (speed(k + 1, h, ramp) - speed(k, h, ramp)) / h;
+    };
     for (int k = -3; k < 1002; ++k)
       ASSERT_LE(std::abs(acceleration(k + 1) - acceleration(k)), steepest * h + 2e-9) << k;
   }
@@ -70,7 +74,8 @@ TEST(SmoothTravel, AccelerationStartsWithoutAKink) {
   const double ramp = 0.2, h = 1e-4, u = 0.01;
   const int k = static_cast<int>(u * ramp / h);
   const double acceleration = (speed(k + 1, h, ramp) - speed(k, h, ramp)) / h;
-  EXPECT_LT(acceleration * ramp * (1 - ramp), 1.2 * 30 * u * u);  // differences look half a step ahead
+  EXPECT_LT(acceleration * ramp * (1 - ramp),
+            1.2 * 30 * u * u);  // differences look half a step ahead
 }
 
 }  // namespace

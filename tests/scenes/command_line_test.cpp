@@ -207,6 +207,13 @@ TEST_F(CommandLine, SetChangesTheRun) {
   EXPECT_EQ(file.children("/frames").size(), 5U);
 }
 
+// Options may stand before the scene: --set takes one value, not all that follow.
+TEST_F(CommandLine, SceneMayFollowTheOptions) {
+  const Outcome end = pulvis({"check", "--set", "contact.friction=0.2", "--set", "time.safety=0.5",
+                              scene("compaction/regular-25.toml")});
+  EXPECT_EQ(end.code, 0) << end.err;
+}
+
 TEST_F(CommandLine, RunWithoutAFolderGoesBelowRuns) {
   const Outcome end = pulvis({"run", scene("basic/oblique-impact.toml"), "--set",
                               "stage.impact.duration=2 us", "--set", "output.samples=3", "--set",
@@ -335,7 +342,8 @@ TEST_F(CommandLine, TakenFolderIsRefusedAndStaysAsItWas) {
 // A punch at 400 m/s goes through the particles.
 TEST_F(CommandLine, RunGoneBadNamesTheCulpritAndKeepsWhatWasBefore) {
   const Outcome end =
-      short_run({"--set", "stage.press.move[0].displacement=[\"0 mm\", \"-8 mm\"]"});
+      short_run({"--set", "stage.press.move[0].displacement=[\"0 mm\", \"-8 mm\"]", "--set",
+                 "output.frames=40", "--set", "output.samples=80", "--set", "limits.energy_balance=100"});
   EXPECT_EQ(end.code, 3);
   EXPECT_THAT(end.err, HasSubstr("the run went bad"));
   EXPECT_THAT(end.err, HasSubstr(run.string()));
@@ -353,11 +361,16 @@ TEST_F(CommandLine, RunGoneBadNamesTheCulpritAndKeepsWhatWasBefore) {
   EXPECT_TRUE(fs::exists(run / "report.html"));
 }
 
-// Before the first sample there is nothing to keep, but the message and the code are the same.
+// Before the first sample there is nothing to keep, but the message and the code are the same. The block
+// stands a hair too low: not enough to be refused, enough to pass this limit at once.
 TEST_F(CommandLine, RunThatIsBadFromTheStartSaysSoToo) {
-  const Outcome end = short_run({"--set", "limits.penetration=1e-15"});
+  const Outcome end = pulvis({"run", scene("basic/patch-test.toml"), "-o", run.string(), "--set",
+                              "body[0].position=[\"5 mm\", \"2.499999999 mm\"]", "--set",
+                              "limits.penetration=1e-12"});
   EXPECT_EQ(end.code, 3) << end.err;
-  EXPECT_THAT(end.err, HasSubstr("limits.penetration"));
+  EXPECT_THAT(end.err, ContainsRegex("tool_contact: particle 0, edge [0-9]+ against tool 0: "));
+  EXPECT_THAT(end.err, HasSubstr("at step 0,"));
+  EXPECT_TRUE(fs::exists(run / "summary.json"));
 }
 
 // ---- 4: the machine -----------------------------------------------------------------------------

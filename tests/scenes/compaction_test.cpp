@@ -48,7 +48,7 @@ TEST(Compaction, UnitCellWith560Quads) {
   expect_reference(compact("compaction/unit-cell-fine.toml"), 0.03, 0.06);
 }
 
-// The lateral force, which converges slowest, comes nearer to the reference with every mesh.
+// The forces come nearer to the reference with every mesh.
 TEST(Compaction, UnitCellConvergesWithTheMesh) {
   double before = 1e9;
   for (const char* edges : {"20", "40", "80"}) {
@@ -58,8 +58,8 @@ TEST(Compaction, UnitCellConvergesWithTheMesh) {
     double sum = 0;
     for (const Reference& r : reference) {
       if (r.density <= 0.83) continue;
-      const double error = at(curve.density, curve.lateral, r.density) / r.lateral - 1;
-      sum += error * error;
+      sum += std::pow(at(curve.density, curve.lateral, r.density) / r.lateral - 1, 2);
+      sum += std::pow(at(curve.density, curve.axial, r.density) / r.axial - 1, 2);
     }
     EXPECT_LT(sum, before) << edges << " edges";
     before = sum;
@@ -123,8 +123,9 @@ TEST(Compaction, TopForceExceedsBottomForceByTheWallFriction) {
   });
   EXPECT_GT(difference, 0.01 * top);
   // Balance of the compact: what the walls carry is what the bottom lacks, but for the change of its
-  // momentum (25 discs of 0.63 g brought to 1 m/s in 0.5 ms: 30 N at the most).
-  EXPECT_NEAR(difference, -wall, 30);
+  // momentum (25 discs of 0.63 g, on average half as fast as the punch, whose 2.2 m/s come and go within
+  // the 0.5 ms: 35 N).
+  EXPECT_NEAR(difference, -wall, 40);
   EXPECT_LE(std::abs(e.value("tool/left/force_y")), 0.1 * std::abs(e.value("tool/left/force_x")) * (1 + 1e-9));
 }
 

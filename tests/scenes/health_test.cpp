@@ -120,11 +120,23 @@ TEST(Health, NotANumberInAnElasticSceneIsFoundToo) {
   EXPECT_THAT(failure_with_nan<Position>(e, 0, 3, 1), HasSubstr("particle 0, element "));
 }
 
+// The energies are the second net: a sample with a NaN in it keeps no limit.
+TEST(Health, NotANumberInTheEnergiesKeepsNoLimit) {
+  Experiment e("compaction/regular-25.toml");
+  e.simulation.run_steps(10);
+  e.simulation.observe();
+  e.results.sample();
+  Column<ElasticEnergy>& energy = e.simulation.world().column<ElasticEnergy>();
+  energy.values()[0] = std::numeric_limits<double>::quiet_NaN();
+  e.results.sample();
+  EXPECT_FALSE(e.results.energy_balance_error() <= 1);
+}
+
 // ---- limits of the scene --------------------------------------------------------------------------
 TEST(Health, PenetrationLimitNamesParticleAndTool) {
   Experiment e("compaction/unit-cell.toml", {"limits.penetration=0.01"});
   const std::string failure = failure_of(e.simulation, 100000);
-  EXPECT_THAT(failure, ContainsRegex("^tool_contact: particle 0, edge [0-9]+ against tool 3: "));
+  EXPECT_THAT(failure, ContainsRegex("^tool_contact: particle 0, edge [0-9]+ against tool [0-3]: "));
   EXPECT_THAT(failure, HasSubstr("is 0.01 of the edge length at step "));
   EXPECT_THAT(failure, HasSubstr("allowed 0.01 (limits.penetration)"));
 }
@@ -132,9 +144,8 @@ TEST(Health, PenetrationLimitNamesParticleAndTool) {
 TEST(Health, PenetrationLimitNamesBothParticles) {
   Experiment e("basic/oblique-impact.toml", {"limits.penetration=0.001"});
   const std::string failure = failure_of(e.simulation, 100000);
-  EXPECT_THAT(failure, ContainsRegex("^edge_contact: particle ([01]), edge [0-9]+ against particle [01]: "));
-  EXPECT_EQ(failure.find("particle 0") == std::string::npos, false) << failure;
-  EXPECT_EQ(failure.find("particle 1") == std::string::npos, false) << failure;
+  EXPECT_THAT(failure, ContainsRegex("^edge_contact: particle (0, edge [0-9]+ against particle 1|1, edge "
+                                     "[0-9]+ against particle 0): penetration [0-9.e-]+ m "));
   EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
   EXPECT_THAT(failure, HasSubstr("limits.penetration"));
 }

@@ -24,8 +24,10 @@ struct Heap {
 std::vector<Shape> shapes_of_all_sizes() {
   std::vector<Shape> shapes;
   for (const double diameter : {1e-3, 4e-3})
-    shapes.push_back(make_shape({"disc", 0, DiscOutline{diameter}, DiscMesh{8, 1, 1}, false, 0, {}}));
-  shapes.push_back(make_shape({"plate", 0, RectangleOutline{4e-3, 1e-3}, RectangleMesh{4, 2}, false, 0, {}}));
+    shapes.push_back(
+        make_shape({"disc", 0, DiscOutline{diameter}, DiscMesh{8, 1, 1}, false, 0, {}}));
+  shapes.push_back(
+      make_shape({"plate", 0, RectangleOutline{4e-3, 1e-3}, RectangleMesh{4, 2}, false, 0, {}}));
   return shapes;
 }
 
@@ -69,8 +71,9 @@ Heap random_heap(std::uint64_t seed, int chunks, double width) {
 using Key = std::tuple<int, int, int>;  // slot, edge, other
 
 Box edge_box(const Heap& heap, int slot, int edge) {
-  const int first = heap.bodies.slots[static_cast<std::size_t>(slot)].first_control +
-                    heap.bodies.shape_of_slot(slot).edges[static_cast<std::size_t>(edge)].first_control;
+  const int first =
+      heap.bodies.slots[static_cast<std::size_t>(slot)].first_control +
+      heap.bodies.shape_of_slot(slot).edges[static_cast<std::size_t>(edge)].first_control;
   return box_of(heap.control.data() + 2 * first, 4);
 }
 
@@ -84,7 +87,8 @@ std::set<Key> brute_force(const Heap& heap, double skin) {
     for (const int other : heap.bodies.slot_of_number)
       for (int e = 0; slot != other && e < edges_of(heap, slot); ++e)
         for (int f = 0; f < edges_of(heap, other); ++f)
-          if (near(edge_box(heap, slot, e), edge_box(heap, other, f), skin)) found.insert({slot, e, other});
+          if (near(edge_box(heap, slot, e), edge_box(heap, other, f), skin))
+            found.insert({slot, e, other});
   return found;
 }
 
@@ -109,7 +113,8 @@ TEST(BroadPhase, FindsAllWhereOneParticleFlewFarOff) {
   // The grid has at most 4096 cells a side: the heap then stands in the first of them.
   Heap heap = random_heap(4, 6, 8e-3);
   const int last = heap.bodies.slot_of_number.back();
-  const auto first = static_cast<std::size_t>(heap.bodies.slots[static_cast<std::size_t>(last)].first_control);
+  const auto first =
+      static_cast<std::size_t>(heap.bodies.slots[static_cast<std::size_t>(last)].first_control);
   for (std::size_t i = 2 * first; i < heap.control.size(); i += 2) heap.control[i] += 1e3;
   std::set<Key> found;
   for (const EdgeCandidate& c : candidates(heap, 1e-4)) found.insert(key_of(c));
@@ -145,7 +150,8 @@ TEST(BroadPhase, IsSortedAndFindsEachOnce) {
 TEST(BroadPhase, ReachesBothWays) {
   // Whoever samples another is sampled back: contact has no master.
   std::map<std::pair<int, int>, int> rows;
-  for (const EdgeCandidate& c : candidates(random_heap(7, 12, 15e-3), 1e-4)) ++rows[{c.slot, c.other}];
+  for (const EdgeCandidate& c : candidates(random_heap(7, 12, 15e-3), 1e-4))
+    ++rows[{c.slot, c.other}];
   EXPECT_GT(rows.size(), 20u);
   for (const auto& [pair, count] : rows) EXPECT_TRUE(rows.contains({pair.second, pair.first}));
 }
