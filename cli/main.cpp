@@ -58,6 +58,7 @@ void add_scene(CLI::App& command, Options& options, bool required = true) {
   if (required) scene->required();
   command.add_option("--set", options.run.overrides,
                      "change a key for this run: key.path=value, e.g. contact.friction=0.2")
+      ->allow_extra_args(false)
       ->take_all();
 }
 

@@ -30,8 +30,9 @@ inline bool any(bool mask) { return mask; }
 inline bool all(LaneMask mask) { return (mask[0] & mask[1] & mask[2] & mask[3]) != 0; }
 inline bool all(bool mask) { return mask; }
 
-inline Lane min(Lane a, Lane b) { return a < b ? a : b; }
-inline Lane max(Lane a, Lane b) { return a > b ? a : b; }
+// As std::min and std::max do it, so that a NaN in `a` stays one.
+inline Lane min(Lane a, Lane b) { return b < a ? b : a; }
+inline Lane max(Lane a, Lane b) { return a < b ? b : a; }
 inline double min(double a, double b) { return std::min(a, b); }
 inline double max(double a, double b) { return std::max(a, b); }
 

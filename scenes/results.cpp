@@ -177,7 +177,8 @@ void Results::take_energies() {
   if (first_) initial_energy_ = all;
   first_ = false;
   e.balance = all - e.external - initial_energy_;
-  worst_balance_ = std::max(worst_balance_, std::abs(e.balance));
+  // "Not smaller" instead of "larger": a NaN must come through to the limits.
+  if (!(std::abs(e.balance) <= worst_balance_)) worst_balance_ = std::abs(e.balance);
   largest_energy_ = std::max({largest_energy_, std::abs(e.external), std::abs(initial_energy_)});
   kinetic_internal_.emplace_back(e.kinetic, e.internal());
 }

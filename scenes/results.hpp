@@ -41,7 +41,7 @@ class Results {
 
   // Of the last sample.
   double value(const std::string& series) const;
-  bool has(const std::string& series) const { return position_.contains(series); }
+  bool has(const std::string& series) const { return !last_.empty() && position_.contains(series); }
   const Energies& energies() const { return energies_; }
   // Largest |balance| of the run over the largest energy that came in or was there at the start. Energies
   // below `negligible` (a share of bulk modulus times volume) do not count: the default is round-off.

@@ -95,7 +95,10 @@ Friction<T> coulomb_return(T elastic_slip, T slip, T pressure, T mu, T kappa) {
   const T trial = elastic_slip + slip;
   const T limit = mu * pressure / kappa;
   const T held = max(min(trial, limit), -limit);
-  return {-(kappa * held), held, kappa * held * (trial - held)};
+  // Mean traction of the step times what slipped: what the spring does not keep. (A reversal over the
+  // whole limit within one step would make it negative.)
+  const T work = 0.5 * kappa * (elastic_slip + held) * (trial - held);
+  return {-(kappa * held), held, max(work, T{})};
 }
 
 }  // namespace pulvis::kernels

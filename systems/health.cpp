@@ -5,6 +5,8 @@
 // Runs     every step, after the forces
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "systems/contact_row.hpp"
@@ -28,9 +30,12 @@ void element_health(Read<Bodies> bodies, Read<Clock> clock, Read<LeastJacobian> 
 
 namespace {
 
+// What a row's third key is called: "particle 7", "tool 'top'".
+using PartnerName = std::function<std::string(int)>;
+
 template <class At>
 void check_rows(const Bodies& bodies, const Clock& clock, double limit, const char* system,
-                const char* partner, const Read<ContactPair<At>>& pair,
+                const PartnerName& partner, const Read<ContactPair<At>>& pair,
                 const Read<Penetration<At>>& penetration, const Read<EdgeLength<At>>& length,
                 double& worst) {
   for (int r = 0; r < pair.rows(); ++r) {
@@ -38,13 +43,11 @@ void check_rows(const Bodies& bodies, const Clock& clock, double limit, const ch
     const double depth = penetration(row) / length(row);
     worst = std::max(worst, depth);
     if (depth <= limit) continue;
-    const auto number = [&](int slot) { return bodies.slots[static_cast<std::size_t>(slot)].number; };
-    const int other = partner == std::string("tool") ? pair(row, 2) : number(pair(row, 2));
     throw RunFailure(fmt::format(
-        "{}: particle {}, edge {} against {} {}: penetration {:.6g} m is {:.3g} of the edge length at "
+        "{}: particle {}, edge {} against {}: penetration {:.6g} m is {:.3g} of the edge length at "
         "step {}, t = {:.6g} s; allowed {:.3g} (limits.penetration)",
-        system, number(pair(row, 0)), pair(row, 1), partner, other, penetration(row), depth, clock.step,
-        clock.time, limit));
+        system, bodies.slots[static_cast<std::size_t>(pair(row, 0))].number, pair(row, 1),
+        partner(pair(row, 2)), penetration(row), depth, clock.step, clock.time, limit));
   }
 }
 
@@ -56,14 +59,23 @@ void contact_health(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
                     Optional<Read<EdgeLength<Contact>>> length,
                     Optional<Read<ContactPair<ToolContact>>> tool_pair,
                     Optional<Read<Penetration<ToolContact>>> tool_penetration,
-                    Optional<Read<EdgeLength<ToolContact>>> tool_length, Write<Totals> totals) {
+                    Optional<Read<EdgeLength<ToolContact>>> tool_length,
+                    Optional<Read<ToolProgram>> program, Write<Totals> totals) {
   const double limit = rules->penetration_limit;
   if (pair)
-    check_rows(*bodies, *clock, limit, "edge_contact", "particle", *pair, *penetration, *length,
-               totals->worst_penetration);
+    check_rows<Contact>(
+        *bodies, *clock, limit, "edge_contact",
+        [&](int slot) {
+          return fmt::format("particle {}", bodies->slots[static_cast<std::size_t>(slot)].number);
+        },
+        *pair, *penetration, *length, totals->worst_penetration);
   if (tool_pair)
-    check_rows(*bodies, *clock, limit, "tool_contact", "tool", *tool_pair, *tool_penetration,
-               *tool_length, totals->worst_penetration);
+    check_rows<ToolContact>(
+        *bodies, *clock, limit, "tool_contact",
+        [&](int tool) {
+          return fmt::format("tool '{}'", (*program)->names[static_cast<std::size_t>(tool)]);
+        },
+        *tool_pair, *tool_penetration, *tool_length, totals->worst_penetration);
 }
 
 }  // namespace pulvis

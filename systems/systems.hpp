@@ -63,7 +63,7 @@ void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
                     Optional<Read<ContactPair<Contact>>>, Optional<Read<Penetration<Contact>>>,
                     Optional<Read<EdgeLength<Contact>>>, Optional<Read<ContactPair<ToolContact>>>,
                     Optional<Read<Penetration<ToolContact>>>, Optional<Read<EdgeLength<ToolContact>>>,
-                    Write<Totals>);
+                    Optional<Read<ToolProgram>>, Write<Totals>);
 
 // ---- chunk by chunk: forces of the bodies -------------------------------------------------------
 void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<ContactPair<Contact>>>,

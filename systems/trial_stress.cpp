@@ -34,14 +34,14 @@ Lane element_stress(const Views& v, const Shape& shape, Row<Element> e, const Le
     const Lane r = kernels::inverse_cube_root(j);
     const Lane r2 = r * r;
     store(v.s, e, g, kernels::scaled_deviator(left(f, r2, e, g), v.mu * over_theta * r2));
-    least = j < least ? j : least;
+    least = least < j ? least : j;
   }
   return least;
 }
 
-// A NaN must win every comparison, so that it is seen: "not above" instead of "below".
+// A NaN wins every comparison and is not replaced by a later number, so that it is seen.
 void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
-  const LaneMask lower = ~(least >= worst);
+  const LaneMask lower = ~(least >= worst) & (worst == worst);
   worst_element = lower ? broadcast(e.value) : worst_element;
   worst = lower ? least : worst;
 }

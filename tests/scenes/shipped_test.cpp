@@ -1,0 +1,46 @@
+// Every shipped scene, run to its end: energies balance, dissipation never goes back, nothing goes deep.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "experiment.hpp"
+
+namespace pulvis {
+namespace {
+
+std::vector<std::string> shipped() {
+  const std::filesystem::path root = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
+  std::vector<std::string> scenes;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
+    if (entry.path().extension() == ".toml")
+      scenes.push_back(std::filesystem::relative(entry.path(), root).string());
+  std::ranges::sort(scenes);
+  return scenes;
+}
+
+class Shipped : public testing::TestWithParam<std::string> {};
+
+TEST_P(Shipped, KeepsItsEnergyBalance) {
+  Experiment e(GetParam());
+  Energies before;
+  e.run(200, [&] {
+    const Energies& now = e.results.energies();
+    EXPECT_GE(now.plastic, before.plastic);
+    EXPECT_GE(now.friction, before.friction);
+    EXPECT_GE(now.damping, before.damping);
+    before = now;
+  });
+  EXPECT_LT(e.results.energy_balance_error(), 0.01);
+  EXPECT_LT(e.value("penetration"), 0.1);  // two particles share theirs
+}
+
+std::string name_of(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, Shipped, testing::ValuesIn(shipped()), name_of);
+
+}  // namespace
+}  // namespace pulvis
