@@ -78,13 +78,13 @@ std::size_t element_behind(const Shape& shape, int i) {
 
 }  // namespace
 
-void close_curve(Shape& shape, const std::vector<double>& smoothing) {
+void close_curve(Shape& shape, const Smoothing& smoothing) {
   const int n = shape.boundary_nodes;
   for (int c = 0; c < n + 3; ++c) {
     const auto node = [&](int offset) { return (c + offset + 2 * n - 1) % n; };
-    Terms y = smoothed(node(-1), node(0), node(1), smoothing[static_cast<std::size_t>(node(0))]);
+    Terms y = smoothed(node(-1), node(0), node(1), smoothing.c[static_cast<std::size_t>(node(0))]);
     add(y, {{node(-2), 1}, {node(-1), -4}, {node(0), 6}, {node(1), -4}, {node(2), 1}},
-        short_wave_filter);
+        smoothing.d);
     push_control_point(shape, y);
   }
   for (int e = 0; e < n; ++e) {

@@ -11,14 +11,20 @@
 
 namespace pulvis {
 
-// On an outline without corners a fourth difference is added, d (x_(i-2) - 4 x_(i-1) + 6 x_i - ...), d < 0.
+// On an even outline without corners a fourth difference is added, d (x_(i-2) - 4 x_(i-1) + 6 x_i - ...), d < 0.
 // It leaves flat, round and slowly changing outlines alone and spreads what is as short as an edge, so
 // that the force depends less on where the nodes lie: with d = -1/24 the scatter over mesh phases of the
 // unit cell is 0.6 of that with d = 0; more (d = -1/16: 0.4) distorts the force curve itself.
 inline constexpr double short_wave_filter = -1.0 / 24;
 
-// One closed spline along all boundary nodes, without corners; `smoothing`: c of each, about 1/12.
-void close_curve(Shape& shape, const std::vector<double>& smoothing);
+// How a closed outline is smoothed: c of every node (about 1/12), and d of all.
+struct Smoothing {
+  std::vector<double> c;
+  double d = 0;
+};
+
+// One closed spline along all boundary nodes, without corners.
+void close_curve(Shape& shape, const Smoothing& smoothing);
 // A spline for every face between two corners (boundary node numbers, rising, first is 0). A curve ends
 // in its corner node; the rows next to it are such that a uniform pressure on an even face still gives
 // every node what its element edges carry: 1/2, 1, 1, ..., 1/2 edge lengths.

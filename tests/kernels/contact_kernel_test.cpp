@@ -194,7 +194,10 @@ TEST(CoulombReturn, SpendsLimitTimesSlipAroundALoop) {
     spent += f.work;
   }
   // 4 reach of travel; the spring takes `limit` once and 2 limit at each of the two turns.
-  EXPECT_NEAR(spent, mu * p * (4 * reach - 5 * limit), 1e-12 * mu * p * reach);
+  // The work of a step is that of its mean traction: exact while it slides, off by at most half a step's
+  // slip times the limit in each of the five steps in which it begins to.
+  const double step = reach * 2 * std::numbers::pi / steps;
+  EXPECT_NEAR(spent, mu * p * (4 * reach - 5 * limit), 2.5 * mu * p * step);
 }
 
 TEST(CoulombReturn, LosingThePressureLosesTheSpring) {

@@ -368,7 +368,7 @@ TEST_F(CommandLine, RunThatIsBadFromTheStartSaysSoToo) {
                               "body[0].position=[\"5 mm\", \"2.499999999 mm\"]", "--set",
                               "limits.penetration=1e-12"});
   EXPECT_EQ(end.code, 3) << end.err;
-  EXPECT_THAT(end.err, ContainsRegex("tool_contact: particle 0, edge [0-9]+ against tool 0: "));
+  EXPECT_THAT(end.err, ContainsRegex("tool_contact: particle 0, edge [0-9]+ against tool '[a-z]+': "));
   EXPECT_THAT(end.err, HasSubstr("at step 0,"));
   EXPECT_TRUE(fs::exists(run / "summary.json"));
 }

@@ -77,7 +77,7 @@ TEST(Read, ValuesReferencesAndMarks) {
   EXPECT_EQ(scene.bodies.at(0).position, Vec2(0.01, 0.005));
   EXPECT_EQ(scene.tools.at(2).name, "pusher");
   EXPECT_EQ(scene.stages.at(1).moves.at(0).tool, 2);
-  EXPECT_EQ(scene.stages.at(1).moves.at(0).displacement, Vec2(5e-4, 0));
+  EXPECT_EQ(scene.stages.at(1).moves.at(0).displacement, Vec2(1e-4, 0));
   EXPECT_EQ(scene.stages.at(1).kind, StageSpec::Kind::compact);
   EXPECT_EQ(scene.frictions.at(0).first, "steel");
   EXPECT_EQ(scene.frictions.at(0).second, "floor");
