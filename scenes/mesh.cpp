@@ -122,14 +122,6 @@ DiscOutlineNodes outline_nodes(const DiscPlan& plan) {
     outline.smoothing.c.push_back((6 / (r * (4 + 2 * std::cos(theta))) - 1 - 4 * outline.smoothing.d * w * w) /
                                   (2 * w));
   }
-  // On an even outline the area is right already.
-  double doubled_area = 0;
-  for (std::size_t i = 0; i < edges; ++i) {
-    const Point &p = outline.nodes[i], &q = outline.nodes[(i + 1) % edges];
-    doubled_area += p[0] * q[1] - p[1] * q[0];
-  }
-  const double scale = std::sqrt(2 * pi * plan.radius * plan.radius / doubled_area);
-  for (Point& p : outline.nodes) p = {scale * p[0], scale * p[1]};
   return outline;
 }
 
