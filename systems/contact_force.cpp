@@ -9,14 +9,26 @@
 namespace pulvis {
 namespace {
 
+// N_a at each of the four Gauss points: a lane is a control point here.
+std::array<Lane, 4> basis_by_point() {
+  std::array<Lane, 4> by_point;
+  for (std::size_t g = 0; g < 4; ++g) {
+    const auto n = kernels::basis(kernels::edge_u[g]);
+    by_point[g] = Lane{n[0], n[1], n[2], n[3]};
+  }
+  return by_point;
+}
+
 // Forces of a row's four points on the four control points of the sampled edge.
-void add_sampled(const double* point_force, double* control_force) {
-  static const auto n = kernels::basis(Lane{kernels::edge_u[0], kernels::edge_u[1],
-                                            kernels::edge_u[2], kernels::edge_u[3]});
-  const Lane fx = lane_of(point_force), fy = lane_of(point_force + edge_points);
-  for (std::size_t a = 0; a < 4; ++a) {
-    control_force[2 * a] += sum(n[a] * fx);
-    control_force[2 * a + 1] += sum(n[a] * fy);
+void add_sampled(const std::array<Lane, 4>& basis, const double* point_force, double* control_force) {
+  Lane x{}, y{};
+  for (std::size_t g = 0; g < 4; ++g) {
+    x += basis[g] * point_force[g];
+    y += basis[g] * point_force[g + edge_points];
+  }
+  for (int a = 0; a < 4; ++a) {
+    control_force[2 * a] += x[a];
+    control_force[2 * a + 1] += y[a];
   }
 }
 
@@ -24,6 +36,7 @@ void add_sampled(const double* point_force, double* control_force) {
 void add_other(const Shape& shape, const double* closest, const double* f, const double* couple,
                double* control_force) {
   for (int g = 0; g < edge_points; ++g) {
+    if (f[g] == 0 && f[g + edge_points] == 0) continue;  // this point is apart
     const int edge = static_cast<int>(closest[g]);
     const double u = closest[g] - edge;
     double* out = control_force + 2 * shape.edges[static_cast<std::size_t>(edge)].first_control;
@@ -63,13 +76,14 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
 
 }  // namespace
 
-void contact_force(Chunk chunk, Read<Bodies> bodies, Read<ContactIndex> index,
+[[gnu::flatten]] void contact_force(Chunk chunk, Read<Bodies> bodies, Read<ContactIndex> index,
                    Optional<Read<ContactPair<Contact>>> pair,
                    Optional<Read<PointForce<Contact>>> point_force,
                    Optional<Read<ClosestPoint>> closest, Optional<Read<FrictionCouple>> couple,
                    Optional<Read<ContactPair<ToolContact>>> tool_pair,
                    Optional<Read<PointForce<ToolContact>>> tool_force, Write<CurveForce> curve_force,
                    Write<ContactForce> node_force) {
+  static const std::array<Lane, 4> basis = basis_by_point();
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto control = curve_force.chunk(chunk);
   for (int c = 0; c < 4 * shape.control_points(); ++c)
@@ -84,7 +98,7 @@ void contact_force(Chunk chunk, Read<Bodies> bodies, Read<ContactIndex> index,
     if (pair) {
       for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
         const Row<Contact> row(r);
-        if ((*pair)(row, 3) != 0) add_sampled(&(*point_force)(row), edge((*pair)(row, 1)));
+        if ((*pair)(row, 3) != 0) add_sampled(basis, &(*point_force)(row), edge((*pair)(row, 1)));
       }
       for (int k = index->other_begin[slot]; k < index->other_begin[slot + 1]; ++k) {
         const Row<Contact> row(index->other_rows[static_cast<std::size_t>(k)]);
@@ -97,7 +111,7 @@ void contact_force(Chunk chunk, Read<Bodies> bodies, Read<ContactIndex> index,
       for (int r = index->tool_begin[slot]; r < index->tool_begin[slot + 1]; ++r) {
         const Row<ToolContact> row(r);
         if ((*tool_pair)(row, 3) != 0)
-          add_sampled(&(*tool_force)(row), edge((*tool_pair)(row, 1)));
+          add_sampled(basis, &(*tool_force)(row), edge((*tool_pair)(row, 1)));
       }
     }
   }

@@ -90,11 +90,13 @@ struct Closest {
     Lane du = kernels::closest_point_step(c.rx, c.ry, c.curve.x.slope(c.at.u), c.curve.y.slope(c.at.u),
                                           c.curve.x.curvature(c.at.u), c.curve.y.curvature(c.at.u));
     du = min(max(du, broadcast(-1)), broadcast(1));
-    // Done when every lane has converged or pushes against a corner that it stands at.
     const LaneMask small = abs(du) < step_tolerance;
+    if (all(small)) return c;
     const LaneEdges before = c.at;
     c.at.u += du;
+    if (!any((c.at.u < 0.0) | (c.at.u > 1.0)) && step < most_steps) continue;
     cross_edges(other.shape, c.at);
+    // Also done when every other lane pushes against a corner that it stands at.
     LaneMask stays{};
     for (std::size_t l = 0; l < 4; ++l) {
       const int i = static_cast<int>(l);

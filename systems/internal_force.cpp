@@ -26,10 +26,18 @@ namespace pulvis {
     const auto map = quad_map(nodes, quad);
     const Lane theta = dilatation(map, gauss);
     const Lane sigma_m = mean(e);
+    kernels::Matrix2<Lane> gradient[gauss_points];
+    Lane now[gauss_points];
+    for (int g = 0; g < gauss_points; ++g) {
+      gradient[g] = map_gradient(map, g);
+      now[g] = determinant(gradient[g]);
+    }
+    // A division for two points: it is the dearest operation of the loop.
+    const Lane over[2] = {theta / (now[0] * now[1]), theta / (now[2] * now[3])};
     kernels::QuadFlux<Lane> flux;
     for (int g = 0; g < gauss_points; ++g) {
-      const auto a = map_gradient(map, g);
-      const Lane kirchhoff = theta * gauss[static_cast<std::size_t>(g)].determinant / determinant(a);
+      const auto& a = gradient[g];
+      const Lane kirchhoff = over[g / 2] * now[g ^ 1] * gauss[static_cast<std::size_t>(g)].determinant;
       const auto d = deviator(stress, e, g);
       kernels::add_flux(flux, a, kirchhoff * d.xx + sigma_m, kirchhoff * d.yy + sigma_m,
                         kirchhoff * d.xy, kernels::gauss_xi[g], kernels::gauss_eta[g]);
