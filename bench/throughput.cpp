@@ -53,7 +53,9 @@ Scene shortened_scene() {
 
 struct Compaction {
   explicit Compaction(int workers)
-      : threads(workers), scene(shortened_scene()), simulation(scene, threads),
+      : threads(workers),
+        scene(shortened_scene()),
+        simulation(scene, threads),
         elements(Results(scene, simulation.world()).elements()) {
     // A little beyond the start of the second stage, where the punch has its speed again.
     simulation.run_until(scene.stages[0].duration + 0.02 * scene.stages[1].duration);
@@ -84,7 +86,8 @@ void whole_step(benchmark::State& state) {
     seconds += batch;
   }
   state.SetItemsProcessed(state.iterations() * batch_steps * c.elements);
-  state.counters["ns_per_element_step"] = ns_per_element_step(seconds, state.iterations(), c.elements);
+  state.counters["ns_per_element_step"] =
+      ns_per_element_step(seconds, state.iterations(), c.elements);
   state.counters["touching_rows"] = static_cast<double>(c.world().resource<Totals>().touching);
 }
 
@@ -114,7 +117,8 @@ class SystemTimes {
   }
   void run_step() {
     for (std::size_t first = 0, last; first < systems_.size(); first = last) {
-      for (last = first + 1; systems_[first].by_chunk && last < systems_.size() && systems_[last].by_chunk;)
+      for (last = first + 1;
+           systems_[first].by_chunk && last < systems_.size() && systems_[last].by_chunk;)
         ++last;
       const int chunks = systems_[first].by_chunk ? c_.world().chunks() : 1;
       for (int chunk = 0; chunk < chunks; ++chunk) run_fused(first, last, Chunk{chunk});
@@ -173,8 +177,8 @@ void memory(benchmark::State& state) {
   for (auto _ : state) {
     bodies = contact = 0;
     for (const ColumnBase* column : c.world().columns()) {
-      const bool of_bodies =
-          column->place == Node::name || column->place == Element::name || column->place == Particle::name;
+      const bool of_bodies = column->place == Node::name || column->place == Element::name ||
+                             column->place == Particle::name;
       (of_bodies ? bodies : contact) += static_cast<double>(column->bytes());
     }
     state.SetIterationTime(0);
@@ -198,14 +202,16 @@ void register_all() {
     b->UseManualTime()->Iterations(iterations)->Unit(benchmark::kMillisecond);
   };
   for (const int threads : {2, 1})  // one thread last: the systems go on with its state
-    in_batches(benchmark::RegisterBenchmark("step", whole_step)->ArgName("threads")->Arg(threads), 4);
+    in_batches(benchmark::RegisterBenchmark("step", whole_step)->ArgName("threads")->Arg(threads),
+               4);
   // By name from the world that a scene of this kind asks for; nothing is compressed for that.
   Simulation uncompressed(shortened_scene());
   const StepList list = step_list(uncompressed.world());
   std::size_t s = 0;
   for (const auto* part : {&list.forces, &list.motion})
     for (const System& system : *part)
-      in_batches(benchmark::RegisterBenchmark(("system/" + system.name).c_str(), one_system, s++), 1);
+      in_batches(benchmark::RegisterBenchmark(("system/" + system.name).c_str(), one_system, s++),
+                 1);
   in_batches(benchmark::RegisterBenchmark("memory", memory), 1);
 }
 

@@ -5,9 +5,9 @@ namespace pulvis {
 
 enum class ExitCode {
   done = 0,
-  usage = 2,        // bad command line or scene
-  run_failed = 3,   // the physics went bad: see systems/health
-  machine = 4,      // disk, memory
+  usage = 2,       // bad command line or scene
+  run_failed = 3,  // the physics went bad: see systems/health
+  machine = 4,     // disk, memory
   interrupted = 130,
 };
 

@@ -35,8 +35,8 @@ ExitCode check(const Options& options) {
   const Scene scene = read_scene(options.run.scene, options.run.overrides);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
-  fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(), bodies.size(),
-             scene.tools.size(), scene.stages.size());
+  fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(),
+             bodies.size(), scene.tools.size(), scene.stages.size());
   return ExitCode::done;
 }
 
@@ -56,8 +56,9 @@ ExitCode report(const Options& options) {
 void add_scene(CLI::App& command, Options& options, bool required = true) {
   auto* scene = command.add_option("scene", options.run.scene, "scene file (TOML)");
   if (required) scene->required();
-  command.add_option("--set", options.run.overrides,
-                     "change a key for this run: key.path=value, e.g. contact.friction=0.2")
+  command
+      .add_option("--set", options.run.overrides,
+                  "change a key for this run: key.path=value, e.g. contact.friction=0.2")
       ->allow_extra_args(false)
       ->take_all();
 }
@@ -74,20 +75,23 @@ int parse_and_run(int argc, char** argv) {
   run->add_option("-o,--output", options.run.folder, "results folder (default runs/<scene name>)");
   run->add_option("--threads", options.run.threads, "worker threads (default: all processors)")
       ->check(CLI::Range(1, 1024));
-  run->add_flag("--overwrite", options.run.overwrite, "replace a run that is already in the folder");
+  run->add_flag("--overwrite", options.run.overwrite,
+                "replace a run that is already in the folder");
   run->callback([&] { code = run_scene(options.run); });
 
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);
-  checks->add_option("--reference", options.reference, "print the scene language instead: text or schema")
+  checks
+      ->add_option("--reference", options.reference,
+                   "print the scene language instead: text or schema")
       ->check(CLI::IsMember({"text", "schema"}));
   checks->callback([&] {
-    if (options.run.scene.empty() && options.reference.empty())
-      throw CLI::RequiredError("scene");
+    if (options.run.scene.empty() && options.reference.empty()) throw CLI::RequiredError("scene");
     code = check(options);
   });
 
-  auto* plans = app.add_subcommand("plan", "print the systems, graph and columns that a scene asks for");
+  auto* plans =
+      app.add_subcommand("plan", "print the systems, graph and columns that a scene asks for");
   add_scene(*plans, options);
   plans->add_flag("--dot", options.dot, "the graph as Graphviz input");
   plans->callback([&] { code = plan(options); });
@@ -127,6 +131,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail("pulvis: out of memory", ExitCode::machine);
   } catch (const std::exception& error) {
-    return fail((std::string("pulvis: internal error: ") + error.what()).c_str(), ExitCode::machine);
+    return fail((std::string("pulvis: internal error: ") + error.what()).c_str(),
+                ExitCode::machine);
   }
 }

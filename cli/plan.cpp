@@ -32,7 +32,8 @@ std::string plan_text(const GraphPlan& plan, const World& world) {
         out += fmt::format("       {} {}\n", label, list);
   }
   out += "\nedges\n";
-  for (const auto& [earlier, later] : plan.edges) out += fmt::format("  {} -> {}\n", earlier, later);
+  for (const auto& [earlier, later] : plan.edges)
+    out += fmt::format("  {} -> {}\n", earlier, later);
 
   out += "\ncolumns\n";
   std::size_t total = 0;
@@ -42,7 +43,8 @@ std::string plan_text(const GraphPlan& plan, const World& world) {
                        column->info.meaning);
     total += column->bytes();
   }
-  return out + fmt::format("  {:>60} B in all (contact rows come and go with the contacts)\n", total);
+  return out +
+         fmt::format("  {:>60} B in all (contact rows come and go with the contacts)\n", total);
 }
 
 std::string plan_dot(const GraphPlan& plan) {
@@ -53,7 +55,8 @@ std::string plan_dot(const GraphPlan& plan) {
     out += fmt::format("  s{} [label=\"{}\"{}];\n", s, label,
                        plan.stages[s].by_chunk ? ", style=filled, fillcolor=lightgrey" : "");
   }
-  for (const auto& [earlier, later] : plan.edges) out += fmt::format("  s{} -> s{};\n", earlier, later);
+  for (const auto& [earlier, later] : plan.edges)
+    out += fmt::format("  s{} -> s{};\n", earlier, later);
   return out + "}\n";
 }
 

@@ -8,7 +8,10 @@
 namespace pulvis {
 
 Progress::Progress(double end, std::int64_t elements)
-    : end_(end), elements_(elements), terminal_(isatty(STDERR_FILENO) != 0), start_(Time::now()),
+    : end_(end),
+      elements_(elements),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(Time::now()),
       shown_(start_) {}
 
 double Progress::seconds() const {
@@ -17,14 +20,16 @@ double Progress::seconds() const {
 
 void Progress::show(double time, std::int64_t step) {
   const auto now = Time::now();
-  if (now - shown_ < (terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10))) return;
+  if (now - shown_ < (terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10)))
+    return;
   shown_ = now;
   const double wall = seconds(), share = time / end_;
   const double rate = static_cast<double>(step) / wall;
-  const std::string line =
-      fmt::format("{:5.1f}%  t = {:.4g} s of {:.4g} s, step {}, {:.0f} steps/s, {:.1f} M element-updates/s, {:.0f} s left",
-                  100 * share, time, end_, step, rate, rate * static_cast<double>(elements_) * 1e-6,
-                  share > 0 ? wall * (1 - share) / share : 0);
+  const std::string line = fmt::format(
+      "{:5.1f}%  t = {:.4g} s of {:.4g} s, step {}, {:.0f} steps/s, {:.1f} M element-updates/s, "
+      "{:.0f} s left",
+      100 * share, time, end_, step, rate, rate * static_cast<double>(elements_) * 1e-6,
+      share > 0 ? wall * (1 - share) / share : 0);
   fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
   std::fflush(stderr);
   line_open_ = terminal_;

@@ -34,7 +34,8 @@ void take_signals() {
 }
 
 std::filesystem::path folder_of(const RunOptions& options) {
-  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem() : options.folder;
+  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
+                                : options.folder;
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -62,8 +63,9 @@ class Timetable {
 // Quality that the scene set limits for, looked at on every sample.
 void check_limits(const Scene& scene, const Results& results, const Clock& clock) {
   const auto stop = [&](const char* key, double value, double limit) {
-    throw RunFailure(fmt::format("energies: {} is {:.4g} at step {}, t = {:.6g} s; allowed {:.4g} (limits.{})",
-                                 key, value, clock.step, clock.time, limit, key));
+    throw RunFailure(
+        fmt::format("energies: {} is {:.4g} at step {}, t = {:.6g} s; allowed {:.4g} (limits.{})",
+                    key, value, clock.step, clock.time, limit, key));
   };
   // At the first touch there is next to no energy to compare with; strains of 1e-4 are a start.
   const double balance = results.energy_balance_error(1e-8);
@@ -87,7 +89,10 @@ struct Run {
 
   Run(const LoadedScene& scene, const std::filesystem::path& where, int workers,
       std::unique_ptr<Simulation> built)
-      : loaded(scene), folder(where), threads(workers), simulation(std::move(built)),
+      : loaded(scene),
+        folder(where),
+        threads(workers),
+        simulation(std::move(built)),
         results(scene.scene, simulation->world()),
         recorder(where,
                  {program_version(), program_commit(), scene.scene.title,
@@ -138,8 +143,8 @@ void print_end(const Run& run) {
   const Results& r = run.results;
   const double seconds = run.progress.seconds();
   const std::int64_t steps = run.simulation->clock().step;
-  fmt::print("{} steps in {:.2f} s, {:.1f} M element-updates/s; energy balance error {:.3g}\n", steps,
-             seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
+  fmt::print("{} steps in {:.2f} s, {:.1f} M element-updates/s; energy balance error {:.3g}\n",
+             steps, seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
              r.energy_balance_error());
   if (r.has("stress_ratio/axial"))
     fmt::print("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",

@@ -5,7 +5,8 @@
 
 namespace pulvis {
 
-inline constexpr int gauss_points = 4;  // of an element, at (xi, eta) = (-,-) (+,-) (+,+) (-,+) / sqrt 3
+inline constexpr int gauss_points =
+    4;  // of an element, at (xi, eta) = (-,-) (+,-) (+,+) (-,+) / sqrt 3
 
 // ---- nodes ----------------------------------------------------------------------------------
 struct Position : Component<Node, double, 2> {
@@ -18,7 +19,8 @@ struct InternalForce : Component<Node, double, 2> {
   static constexpr ComponentInfo info{"internal_force", "N", "of the stresses, on the node"};
 };
 struct ContactForce : Component<BoundaryNode, double, 2> {
-  static constexpr ComponentInfo info{"contact_force", "N", "of other particles and tools, on the node"};
+  static constexpr ComponentInfo info{"contact_force", "N",
+                                      "of other particles and tools, on the node"};
 };
 
 // ---- elements -------------------------------------------------------------------------------
@@ -27,10 +29,12 @@ struct DeviatoricStress : Component<Element, double, 3 * gauss_points> {
                                       "Cauchy, xx yy xy at each Gauss point; zz = -xx-yy"};
 };
 struct MeanStress : Component<Element, double, 1> {
-  static constexpr ComponentInfo info{"mean_stress", "Pa", "Cauchy, one for the element; tension > 0"};
+  static constexpr ComponentInfo info{"mean_stress", "Pa",
+                                      "Cauchy, one for the element; tension > 0"};
 };
 struct IsochoricScale : Component<Element, double, gauss_points> {
-  static constexpr ComponentInfo info{"isochoric_scale", "-", "(det F)^(-2/3), kept for the return map"};
+  static constexpr ComponentInfo info{"isochoric_scale", "-",
+                                      "(det F)^(-2/3), kept for the return map"};
 };
 struct PlasticMetric : Component<Element, double, 4 * gauss_points> {
   static constexpr ComponentInfo info{
@@ -51,22 +55,27 @@ struct Density : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"density", "kg/m^3", "of the undeformed material"};
 };
 struct YieldStress : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"yield_stress", "Pa", "initial; infinite for elastic particles"};
+  static constexpr ComponentInfo info{"yield_stress", "Pa",
+                                      "initial; infinite for elastic particles"};
 };
 struct HardeningModulus : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"hardening_modulus", "Pa", "d sigma_y / d eps_p"};
 };
 struct LeastJacobian : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"least_jacobian", "-", "smallest det F of the particle this step"};
+  static constexpr ComponentInfo info{"least_jacobian", "-",
+                                      "smallest det F of the particle this step"};
 };
 struct WorstElement : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"worst_element", "-", "number of the element with the least det F"};
+  static constexpr ComponentInfo info{"worst_element", "-",
+                                      "number of the element with the least det F"};
 };
 struct StableTimeStep : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"stable_dt", "s", "2 / highest frequency bound of its elements"};
+  static constexpr ComponentInfo info{"stable_dt", "s",
+                                      "2 / highest frequency bound of its elements"};
 };
 struct MaximumSpeed : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"maximum_speed", "m/s", "of the contact curve's control points"};
+  static constexpr ComponentInfo info{"maximum_speed", "m/s",
+                                      "of the contact curve's control points"};
 };
 struct KineticEnergy : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"kinetic_energy", "J", "1/2 m v_(n-1/2) v_(n+1/2)"};

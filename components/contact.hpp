@@ -11,7 +11,8 @@ inline constexpr int edge_points = 4;  // Gauss points of a boundary edge: one S
 
 // ---- contact curves ---------------------------------------------------------------------------
 struct CurvePosition : Component<ControlPoint, double, 2> {
-  static constexpr ComponentInfo info{"position", "m", "control point of the cubic B-spline outline"};
+  static constexpr ComponentInfo info{"position", "m",
+                                      "control point of the cubic B-spline outline"};
 };
 struct CurveVelocity : Component<ControlPoint, double, 2> {
   static constexpr ComponentInfo info{"velocity", "m/s", "of the control point"};
@@ -39,11 +40,13 @@ struct ToolForce : Component<Tool, double, 2> {
 template <class At>
 struct ContactPair : Component<At, std::int32_t, 4> {
   static constexpr ComponentInfo info{
-      "pair", "-", "stable key: particle slot, its edge, other slot or tool; then 1 where it touches"};
+      "pair", "-",
+      "stable key: particle slot, its edge, other slot or tool; then 1 where it touches"};
 };
 template <class At>
 struct ContactReach : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"reach", "m", "travel at which the row must be looked at again"};
+  static constexpr ComponentInfo info{"reach", "m",
+                                      "travel at which the row must be looked at again"};
 };
 template <class At>
 struct ContactStiffness : Component<At, double, 1> {
@@ -51,7 +54,8 @@ struct ContactStiffness : Component<At, double, 1> {
 };
 template <class At>
 struct ContactWeight : Component<At, double, edge_points> {
-  static constexpr ComponentInfo info{"weight", "m^2", "undeformed area that a Gauss point stands for"};
+  static constexpr ComponentInfo info{"weight", "m^2",
+                                      "undeformed area that a Gauss point stands for"};
 };
 template <class At>
 struct EdgeLength : Component<At, double, 1> {
@@ -59,7 +63,8 @@ struct EdgeLength : Component<At, double, 1> {
 };
 template <class At>
 struct PointForce : Component<At, double, 2 * edge_points> {
-  static constexpr ComponentInfo info{"point_force", "N", "on the sampled edge: x, then y, of the points"};
+  static constexpr ComponentInfo info{"point_force", "N",
+                                      "on the sampled edge: x, then y, of the points"};
 };
 template <class At>
 struct Penetration : Component<At, double, 1> {
@@ -72,7 +77,8 @@ struct ContactEnergy : Component<At, double, 1> {
 
 // Closest point of each Gauss point on the other particle's curve: edge number + parameter in it.
 struct ClosestPoint : Component<Contact, double, edge_points> {
-  static constexpr ComponentInfo info{"closest_point", "-", "edge number + parameter on the other curve"};
+  static constexpr ComponentInfo info{"closest_point", "-",
+                                      "edge number + parameter on the other curve"};
 };
 
 // ---- only where the scene has friction -----------------------------------------------------------
@@ -82,7 +88,8 @@ struct FrictionCoefficient : Component<At, double, 1> {
 };
 template <class At>
 struct ElasticSlip : Component<At, double, edge_points> {
-  static constexpr ComponentInfo info{"elastic_slip", "m", "stretch of the tangential springs: history"};
+  static constexpr ComponentInfo info{"elastic_slip", "m",
+                                      "stretch of the tangential springs: history"};
 };
 template <class At>
 struct FrictionWork : Component<At, double, 1> {
@@ -90,7 +97,8 @@ struct FrictionWork : Component<At, double, 1> {
 };
 // Moment that keeps friction across a small gap from spinning the pair; see contact_kernel.hpp.
 struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
-  static constexpr ComponentInfo info{"friction_couple", "N", "on the other curve's slope: x, then y"};
+  static constexpr ComponentInfo info{"friction_couple", "N",
+                                      "on the other curve's slope: x, then y"};
 };
 
 // ---- only where the scene has contact damping ------------------------------------------------------
@@ -100,7 +108,8 @@ struct DampingCoefficient : Component<At, double, 1> {
 };
 template <class At>
 struct DampingWork : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"damping_work", "J", "spent by contact damping in the last step"};
+  static constexpr ComponentInfo info{"damping_work", "J",
+                                      "spent by contact damping in the last step"};
 };
 
 }  // namespace pulvis

@@ -13,12 +13,13 @@ namespace pulvis {
 struct Clock {
   static constexpr const char* resource_name = "clock";
   std::int64_t step = 0;
-  double time = 0;         // t_n, s
-  double dt_before = 0;    // t_n - t_(n-1)
-  double dt = 0;           // t_(n+1) - t_n
-  double end = 0;          // s
-  double safety = 0.9;     // share of the stable step that is used
-  double travel = 0;       // m, bound on how far any two surfaces have moved relative to each other so far
+  double time = 0;       // t_n, s
+  double dt_before = 0;  // t_n - t_(n-1)
+  double dt = 0;         // t_(n+1) - t_n
+  double end = 0;        // s
+  double safety = 0.9;   // share of the stable step that is used
+  double travel =
+      0;  // m, bound on how far any two surfaces have moved relative to each other so far
 };
 
 // Prescribed motion of the tools: every segment moves one tool by `displacement` over its duration.
@@ -37,13 +38,15 @@ struct ToolProgram {
 
 struct ContactRules {
   static constexpr const char* resource_name = "contact_rules";
-  double stiffness = 1;       // -, k of kappa = k K L/A
-  double damping = 0;         // -, share of critical
+  double stiffness = 1;            // -, k of kappa = k K L/A
+  double damping = 0;              // -, share of critical
   double penetration_limit = 0.5;  // -, of the edge length
   int materials = 0;
   std::vector<double> friction;       // [materials * materials]
   std::vector<double> tool_friction;  // [tools * materials]
-  double friction_between(int a, int b) const { return friction[static_cast<std::size_t>(a * materials + b)]; }
+  double friction_between(int a, int b) const {
+    return friction[static_cast<std::size_t>(a * materials + b)];
+  }
   double friction_with_tool(int tool, int material) const {
     return tool_friction[static_cast<std::size_t>(tool * materials + material)];
   }
@@ -52,22 +55,23 @@ struct ContactRules {
 // Where the rows of each particle are, rebuilt with the rows.
 struct ContactIndex {
   static constexpr const char* resource_name = "contact_index";
-  double skin = 0;             // m: rows are made for everything nearer than this
-  double travel_at_bin = -1;   // m, Clock::travel when the rows were made; < 0: never yet
-  std::int64_t bins = 0;       // how often so far
-  std::vector<std::int32_t> sampled_begin;       // [slots + 1] into contact rows: particle samples
-  std::vector<std::int32_t> other_begin;         // [slots + 1] into other_rows: particle is sampled against
+  double skin = 0;            // m: rows are made for everything nearer than this
+  double travel_at_bin = -1;  // m, Clock::travel when the rows were made; < 0: never yet
+  std::int64_t bins = 0;      // how often so far
+  std::vector<std::int32_t> sampled_begin;  // [slots + 1] into contact rows: particle samples
+  std::vector<std::int32_t>
+      other_begin;  // [slots + 1] into other_rows: particle is sampled against
   std::vector<std::int32_t> other_rows;
-  std::vector<std::int32_t> tool_begin;          // [slots + 1] into tool contact rows
+  std::vector<std::int32_t> tool_begin;  // [slots + 1] into tool contact rows
 };
 
 // Sums over the run and of the last step.
 struct Totals {
   static constexpr const char* resource_name = "totals";
-  double external_work = 0;   // J, of the tools on the particles
-  double friction_work = 0;   // J, dissipated
-  double damping_work = 0;    // J, dissipated by contact damping
-  double contact_energy = 0;  // J, stored in contact springs now
+  double external_work = 0;      // J, of the tools on the particles
+  double friction_work = 0;      // J, dissipated
+  double damping_work = 0;       // J, dissipated by contact damping
+  double contact_energy = 0;     // J, stored in contact springs now
   double worst_penetration = 0;  // -, penetration / edge length, largest of the run
   std::int64_t touching = 0;     // rows with a touching point now
 };

@@ -26,26 +26,26 @@ struct Shape {
     double weight;
   };
   struct Edge {  // of the contact curve, from one boundary node to the next, counter-clockwise
-    int first_control = 0;            // its four control points are first_control .. +3
-    int previous = no_edge;           // no_edge where the outline has a corner
+    int first_control = 0;   // its four control points are first_control .. +3
+    int previous = no_edge;  // no_edge where the outline has a corner
     int next = no_edge;
-    double length = 0;                // m, undeformed
-    double stiffness = 0;             // 1/m: edge length / area of the element behind it
-    std::array<double, 4> weight{};   // m: length that each of its Gauss points stands for
+    double length = 0;               // m, undeformed
+    double stiffness = 0;            // 1/m: edge length / area of the element behind it
+    std::array<double, 4> weight{};  // m: length that each of its Gauss points stands for
   };
 
   std::string name;
-  std::vector<Point> nodes;                          // m; outline first
-  std::vector<std::array<Row<Node>, 4>> quads;       // counter-clockwise
-  std::vector<std::array<GaussPoint, 4>> gauss;      // [elements]
-  std::vector<double> nodal_area;                    // m^2: a quarter of every element around
+  std::vector<Point> nodes;                      // m; outline first
+  std::vector<std::array<Row<Node>, 4>> quads;   // counter-clockwise
+  std::vector<std::array<GaussPoint, 4>> gauss;  // [elements]
+  std::vector<double> nodal_area;                // m^2: a quarter of every element around
   int boundary_nodes = 0;
-  std::vector<std::int32_t> curve_begin;             // [control points + 1] into curve_terms
+  std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;
   std::vector<Edge> edges;
-  std::vector<double> contact_stiffness;             // 1/m^2, [elements]: sum of (edge length / area)^2
-  double mean_edge_stiffness = 0;                    // 1/m: of its edges, weighted with their length
-  double area = 0;                                   // m^2, of the true outline
+  std::vector<double> contact_stiffness;  // 1/m^2, [elements]: sum of (edge length / area)^2
+  double mean_edge_stiffness = 0;         // 1/m: of its edges, weighted with their length
+  double area = 0;                        // m^2, of the true outline
 
   int control_points() const { return static_cast<int>(curve_begin.size()) - 1; }
   int elements() const { return static_cast<int>(quads.size()); }
@@ -58,16 +58,16 @@ struct Bodies {
   static constexpr int nobody = -1;
 
   struct Slot {
-    int number = nobody;     // of the particle in the scene, from 0
-    int shape = 0;           // position in `shapes`
-    int material = 0;        // of the scene
-    int first_control = 0;   // row of its first control point
+    int number = nobody;    // of the particle in the scene, from 0
+    int shape = 0;          // position in `shapes`
+    int material = 0;       // of the scene
+    int first_control = 0;  // row of its first control point
   };
 
   double thickness = 0;  // m
   std::vector<Shape> shapes;
-  std::vector<Slot> slots;           // [4 * chunks]
-  std::vector<int> slot_of_number;   // [particles]
+  std::vector<Slot> slots;          // [4 * chunks]
+  std::vector<int> slot_of_number;  // [particles]
 
   const Shape& shape_of_chunk(Chunk c) const {
     return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(c.index) * 4].shape)];

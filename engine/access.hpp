@@ -11,11 +11,11 @@ namespace pulvis {
 enum class AccessMode { read, write, structural };
 
 struct AccessInfo {
-  TypeKey key;           // of the component, resource, or (structural) place
-  TypeKey place;         // of the component's place; null for resources
-  std::string name;      // "node/velocity"; "clock"
+  TypeKey key;       // of the component, resource, or (structural) place
+  TypeKey place;     // of the component's place; null for resources
+  std::string name;  // "node/velocity"; "clock"
   AccessMode mode;
-  bool chunked;          // the place is divided by chunks, so a chunk system may write it
+  bool chunked;  // the place is divided by chunks, so a chunk system may write it
 };
 
 // The rows of one column that a chunk owns, addressed from zero: view(row, component).
@@ -150,14 +150,17 @@ class Optional;
 template <template <class> class Mode, class T>
 class Optional<Mode<T>> {
  public:
-  explicit Optional(World& world) : there_(world.has<T>()), access_(there_ ? new_access(world) : nullptr) {}
+  explicit Optional(World& world)
+      : there_(world.has<T>()), access_(there_ ? new_access(world) : nullptr) {}
   static AccessInfo info() { return Mode<T>::info(); }
   explicit operator bool() const { return there_; }
   const Mode<T>& operator*() const { return *access_; }
   const Mode<T>* operator->() const { return access_.get(); }
 
  private:
-  static std::shared_ptr<Mode<T>> new_access(World& world) { return std::make_shared<Mode<T>>(world); }
+  static std::shared_ptr<Mode<T>> new_access(World& world) {
+    return std::make_shared<Mode<T>>(world);
+  }
   bool there_;
   std::shared_ptr<Mode<T>> access_;
 };

@@ -47,7 +47,9 @@ concept IsComponent = requires {
 
 // Anything else that systems share by name: connectivity, the clock, totals.
 template <class R>
-concept IsResource = !IsComponent<R> && requires { R::resource_name; };
+concept IsResource = !IsComponent<R> && requires {
+  R::resource_name;
+};
 
 // One chunk of laned rows: the four particles that a chunk system works on.
 struct Chunk {

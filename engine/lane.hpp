@@ -62,8 +62,8 @@ inline Lane fused(Lane a, Lane b, Lane c) {
 }
 #endif
 template <class A, class B, class C>
-  requires(!(std::is_arithmetic_v<A> && std::is_arithmetic_v<B> && std::is_arithmetic_v<C>))
-Lane fma(A a, B b, C c) {
+requires(!(std::is_arithmetic_v<A> && std::is_arithmetic_v<B> && std::is_arithmetic_v<C>)) Lane
+    fma(A a, B b, C c) {
   return fused(broadcast(a), broadcast(b), broadcast(c));
 }
 

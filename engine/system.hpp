@@ -31,10 +31,8 @@ bool present(const World&) {
   return true;
 }
 template <class Access>
-  requires requires(World& w) { Access(w).operator bool(); }
-bool present(const World& world) {
-  return static_cast<bool>(Access(const_cast<World&>(world)));
-}
+requires requires(World& w) { Access(w).operator bool(); }
+bool present(const World& world) { return static_cast<bool>(Access(const_cast<World&>(world))); }
 
 template <class Access>
 void declare(const World& world, std::vector<AccessInfo>& accesses) {

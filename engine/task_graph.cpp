@@ -46,7 +46,8 @@ bool stages_conflict(const StagePlan& a, const StagePlan& b) {
 // Keeps an edge only where no longer path says the same.
 std::vector<std::pair<int, int>> reduced_edges(const std::vector<StagePlan>& stages) {
   const int n = static_cast<int>(stages.size());
-  std::vector<std::vector<bool>> reach(static_cast<std::size_t>(n), std::vector<bool>(stages.size()));
+  std::vector<std::vector<bool>> reach(static_cast<std::size_t>(n),
+                                       std::vector<bool>(stages.size()));
   std::vector<std::pair<int, int>> edges;
   for (int later = 0; later < n; ++later)
     for (int earlier = later - 1; earlier >= 0; --earlier) {

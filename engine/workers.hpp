@@ -13,7 +13,9 @@ namespace pulvis {
 // Denormal numbers halve the speed of a wave's fading tail and carry no physics.
 class DenormalsToZero : public tbb::task_scheduler_observer {
  public:
-  explicit DenormalsToZero(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) { observe(true); }
+  explicit DenormalsToZero(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) {
+    observe(true);
+  }
   ~DenormalsToZero() override { observe(false); }
   void on_scheduler_entry(bool) override { _mm_setcsr(_mm_getcsr() | 0x8040); }
 };
@@ -22,7 +24,8 @@ class Workers {
  public:
   explicit Workers(int threads)
       : limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
-        arena_(threads), denormals_(arena_) {}
+        arena_(threads),
+        denormals_(arena_) {}
 
   // Runs `body` inside the arena. The calling thread's own floating-point mode is put back after.
   void run(const std::function<void()>& body) {

@@ -25,7 +25,8 @@ Table& World::insert_table(TypeKey key, Table table) {
   if (!table.chunk_begin.empty()) {
     const int chunks = static_cast<int>(table.chunk_begin.size()) - 1;
     if (chunks_ != 0 && chunks != chunks_)
-      throw std::logic_error("table '" + table.place + "' is divided into another number of chunks");
+      throw std::logic_error("table '" + table.place +
+                             "' is divided into another number of chunks");
     chunks_ = chunks;
   }
   auto [place, inserted] = tables_.emplace(key, std::make_unique<Table>(std::move(table)));

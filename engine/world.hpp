@@ -75,17 +75,18 @@ class Column : public ColumnBase {
  public:
   using value_type = typename C::value_type;
   static constexpr bool laned = C::Place::laned;
-  static constexpr std::size_t bytes_a_row = sizeof(value_type) * C::count * (laned ? lane_count : 1);
+  static constexpr std::size_t bytes_a_row =
+      sizeof(value_type) * C::count * (laned ? lane_count : 1);
 
   explicit Column(const Table& owner)
       : ColumnBase(C::info, C::Place::name, C::count, bytes_a_row), table(owner) {}
 
   value_type* values() { return reinterpret_cast<value_type*>(data()); }
   const value_type* values() const { return reinterpret_cast<const value_type*>(data()); }
-  Lane* lanes() requires(laned && std::is_same_v<value_type, double>) {
+  Lane* lanes() requires(laned&& std::is_same_v<value_type, double>) {
     return reinterpret_cast<Lane*>(data());
   }
-  const Lane* lanes() const requires(laned && std::is_same_v<value_type, double>) {
+  const Lane* lanes() const requires(laned&& std::is_same_v<value_type, double>) {
     return reinterpret_cast<const Lane*>(data());
   }
 
@@ -107,19 +108,29 @@ class World {
   template <class Place>
   Table& table();
   template <class Place>
-  bool has_table() const { return tables_.contains(type_key<Place>()); }
+  bool has_table() const {
+    return tables_.contains(type_key<Place>());
+  }
   template <IsComponent C>
   Column<C>& column();
   template <IsComponent C>
-  const Column<C>& column() const { return const_cast<World*>(this)->column<C>(); }
+  const Column<C>& column() const {
+    return const_cast<World*>(this)->column<C>();
+  }
   template <IsComponent C>
-  bool has() const { return columns_.contains(type_key<C>()); }
+  bool has() const {
+    return columns_.contains(type_key<C>());
+  }
   template <IsResource R>
   R& resource();
   template <IsResource R>
-  const R& resource() const { return const_cast<World*>(this)->resource<R>(); }
+  const R& resource() const {
+    return const_cast<World*>(this)->resource<R>();
+  }
   template <IsResource R>
-  bool has() const { return resources_.contains(type_key<R>()); }
+  bool has() const {
+    return resources_.contains(type_key<R>());
+  }
 
   // Gives every column of the place new rows; see ColumnBase::rebuild.
   template <class Place>
@@ -142,7 +153,8 @@ class World {
 template <class Place>
 void World::add_table(const std::vector<std::int32_t>& rows_of_chunk) {
   Table table{Place::name, Place::laned, 0, {0}, {}};
-  for (const std::int32_t rows : rows_of_chunk) table.chunk_begin.push_back(table.chunk_begin.back() + rows);
+  for (const std::int32_t rows : rows_of_chunk)
+    table.chunk_begin.push_back(table.chunk_begin.back() + rows);
   table.rows = static_cast<std::size_t>(table.chunk_begin.back());
   insert_table(type_key<Place>(), std::move(table));
 }

@@ -28,8 +28,12 @@ double friction_of(const Scene& scene, const std::string& a, const std::string& 
 }
 
 ContactRules contact_rules(const Scene& scene) {
-  ContactRules rules{scene.contact.stiffness, scene.contact.damping, scene.limits.penetration,
-                     static_cast<int>(scene.materials.size()), {}, {}};
+  ContactRules rules{scene.contact.stiffness,
+                     scene.contact.damping,
+                     scene.limits.penetration,
+                     static_cast<int>(scene.materials.size()),
+                     {},
+                     {}};
   for (const MaterialSpec& a : scene.materials)
     for (const MaterialSpec& b : scene.materials)
       rules.friction.push_back(friction_of(scene, a.name, b.name));
@@ -183,7 +187,8 @@ void fill_bodies(World& world, const Layout& layout) {
     const int lane = static_cast<int>(slot % 4);
     const Placed* placed = layout.placed[slot];
     const Shape& shape = layout.bodies.shape_of_chunk(chunk);
-    const auto first = static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(chunk.index)]);
+    const auto first =
+        static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(chunk.index)]);
     const double c = placed ? std::cos(placed->turn) : 1, s = placed ? std::sin(placed->turn) : 0;
     for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
       const Point p = shape.nodes[n];
@@ -205,7 +210,8 @@ void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
   for (std::size_t slot = 0; slot < bodies.slots.size(); ++slot) {
     const MaterialSpec& m = scene.materials[static_cast<std::size_t>(bodies.slots[slot].material)];
     world.column<ShearModulus>().values()[slot] = m.youngs_modulus / (2 * (1 + m.poissons_ratio));
-    world.column<BulkModulus>().values()[slot] = m.youngs_modulus / (3 * (1 - 2 * m.poissons_ratio));
+    world.column<BulkModulus>().values()[slot] =
+        m.youngs_modulus / (3 * (1 - 2 * m.poissons_ratio));
     world.column<Density>().values()[slot] = m.density;
     if (!world.has<YieldStress>()) continue;
     world.column<YieldStress>().values()[slot] =
@@ -223,7 +229,10 @@ ToolProgram tool_program(const Scene& scene) {
   double begin = 0;
   for (const StageSpec& stage : scene.stages) {
     for (const MoveSpec& move : stage.moves)
-      program.segments.push_back({move.tool, begin, stage.duration, move.ramp,
+      program.segments.push_back({move.tool,
+                                  begin,
+                                  stage.duration,
+                                  move.ramp,
                                   {move.displacement.x(), move.displacement.y()}});
     begin += stage.duration;
   }

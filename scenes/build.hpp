@@ -10,8 +10,8 @@ namespace pulvis {
 
 // What a scene needs: decides which columns (and with them which systems) exist.
 struct Needs {
-  bool plastic = false;   // a material yields
-  bool pairs = false;     // more than one particle
+  bool plastic = false;  // a material yields
+  bool pairs = false;    // more than one particle
   bool tools = false;
   bool friction = false;  // a coefficient above zero can act
   bool damping = false;

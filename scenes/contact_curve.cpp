@@ -83,8 +83,7 @@ void close_curve(Shape& shape, const Smoothing& smoothing) {
   for (int c = 0; c < n + 3; ++c) {
     const auto node = [&](int offset) { return (c + offset + 2 * n - 1) % n; };
     Terms y = smoothed(node(-1), node(0), node(1), smoothing.c[static_cast<std::size_t>(node(0))]);
-    add(y, {{node(-2), 1}, {node(-1), -4}, {node(0), 6}, {node(1), -4}, {node(2), 1}},
-        smoothing.d);
+    add(y, {{node(-2), 1}, {node(-1), -4}, {node(0), 6}, {node(1), -4}, {node(2), 1}}, smoothing.d);
     push_control_point(shape, y);
   }
   for (int e = 0; e < n; ++e) {

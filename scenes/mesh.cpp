@@ -49,7 +49,8 @@ struct DiscPlan {
   double refinement;
   double core;   // circumradius of the core / radius
   double bulge;  // 0: straight sides, 1: a circle
-  std::vector<double> poles, flanks;  // stations of the sides that face the poles, and of the others
+  std::vector<double> poles,
+      flanks;  // stations of the sides that face the poles, and of the others
 };
 
 const std::vector<double>& stations(const DiscPlan& plan, int side) {
@@ -117,10 +118,11 @@ DiscOutlineNodes outline_nodes(const DiscPlan& plan) {
     const double before = i > 0 ? angle[i - 1] : angle[edges - 1] - 2 * pi;
     const double theta = 0.5 * (after - before);
     const double r = std::sqrt(theta / std::sin(theta));
-    outline.nodes.push_back({plan.radius * r * std::cos(angle[i]), plan.radius * r * std::sin(angle[i])});
+    outline.nodes.push_back(
+        {plan.radius * r * std::cos(angle[i]), plan.radius * r * std::sin(angle[i])});
     const double w = 1 - std::cos(theta);
-    outline.smoothing.c.push_back((6 / (r * (4 + 2 * std::cos(theta))) - 1 - 4 * outline.smoothing.d * w * w) /
-                                  (2 * w));
+    outline.smoothing.c.push_back(
+        (6 / (r * (4 + 2 * std::cos(theta))) - 1 - 4 * outline.smoothing.d * w * w) / (2 * w));
   }
   return outline;
 }
@@ -162,7 +164,9 @@ std::vector<Point> disc_nodes(const DiscPlan& plan) {
   return nodes;
 }
 
-Quad quad(int a, int b, int c, int d) { return {Row<Node>(a), Row<Node>(b), Row<Node>(c), Row<Node>(d)}; }
+Quad quad(int a, int b, int c, int d) {
+  return {Row<Node>(a), Row<Node>(b), Row<Node>(c), Row<Node>(d)};
+}
 
 // Quads of the outermost ring first: element e lies behind boundary edge e.
 std::vector<Quad> disc_quads(const DiscPlan& plan) {
@@ -208,7 +212,12 @@ double frequency_bound(const std::vector<Point>& nodes, const std::vector<Quad>&
 // The core is as large as gives the largest time step: its size trades the ring's thickness for the
 // corner elements' width.
 DiscPlan plan_disc(const DiscOutline& disc, const DiscMesh& mesh) {
-  DiscPlan plan{0.5 * disc.diameter, mesh.boundary_edges / 4, mesh.rings, mesh.refinement, 0.6, 0.15,
+  DiscPlan plan{0.5 * disc.diameter,
+                mesh.boundary_edges / 4,
+                mesh.rings,
+                mesh.refinement,
+                0.6,
+                0.15,
                 side_stations(mesh.boundary_edges / 4, mesh.refinement),
                 side_stations(mesh.boundary_edges / 4, 1)};
   const std::vector<Quad> quads = disc_quads(plan);
@@ -253,8 +262,8 @@ void mesh_rectangle(const RectangleOutline& outline, const RectangleMesh& mesh, 
   const auto node = [&](int c, int r) { return grid_node(mesh.columns, mesh.rows, c, r); };
   for (int row = 0; row < mesh.rows; ++row)
     for (int column = 0; column < mesh.columns; ++column)
-      shape.quads.push_back(quad(node(column, row), node(column + 1, row), node(column + 1, row + 1),
-                                 node(column, row + 1)));
+      shape.quads.push_back(quad(node(column, row), node(column + 1, row),
+                                 node(column + 1, row + 1), node(column, row + 1)));
   shape.boundary_nodes = 2 * (mesh.columns + mesh.rows);
   cornered_curve(shape, {0, mesh.columns, mesh.columns + mesh.rows, 2 * mesh.columns + mesh.rows});
 }
@@ -268,7 +277,8 @@ void set_gauss_points(Shape& shape) {
     for (int g = 0; g < gauss_points; ++g) {
       const auto a = kernels::map_gradient(map, kernels::gauss_xi[g], kernels::gauss_eta[g]);
       const double det = determinant(a);
-      gauss[static_cast<std::size_t>(g)] = {{a.yy / det, -a.xy / det, -a.yx / det, a.xx / det}, det};
+      gauss[static_cast<std::size_t>(g)] = {{a.yy / det, -a.xy / det, -a.yx / det, a.xx / det},
+                                            det};
       area += det;
     }
     shape.gauss.push_back(gauss);
@@ -285,15 +295,16 @@ Shape make_shape(const ParticleSpec& particle, double phase) {
   if (const auto* disc = std::get_if<DiscOutline>(&particle.outline))
     mesh_disc(*disc, std::get<DiscMesh>(particle.mesh), phase, shape);
   else
-    mesh_rectangle(std::get<RectangleOutline>(particle.outline), std::get<RectangleMesh>(particle.mesh),
-                   shape);
+    mesh_rectangle(std::get<RectangleOutline>(particle.outline),
+                   std::get<RectangleMesh>(particle.mesh), shape);
   set_gauss_points(shape);
   measure_edges(shape);
   return shape;
 }
 
 double outline_area(const Outline& outline) {
-  if (const auto* disc = std::get_if<DiscOutline>(&outline)) return pi / 4 * disc->diameter * disc->diameter;
+  if (const auto* disc = std::get_if<DiscOutline>(&outline))
+    return pi / 4 * disc->diameter * disc->diameter;
   const auto& r = std::get<RectangleOutline>(outline);
   return r.width * r.height;
 }

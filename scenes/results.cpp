@@ -94,16 +94,17 @@ CellStress cell_stress(const Lane* s, double mean, int lane) {
 }  // namespace
 
 Results::Results(const Scene& scene, const World& world)
-    : world_(world), cell_(die_cell(scene)),
+    : world_(world),
+      cell_(die_cell(scene)),
       yield_stress_(common_yield_stress(scene, world.resource<Bodies>())) {
   for_each_particle<Node>(world, [&](std::size_t, int, const Shape& shape) {
     particle_area_ += shape.area;
     elements_ += shape.elements();
     nodes_ += static_cast<std::int64_t>(shape.nodes.size());
   });
-  const double modulus = *std::ranges::max_element(world.column<BulkModulus>().values(),
-                                                   world.column<BulkModulus>().values() +
-                                                       world.resource<Bodies>().slots.size());
+  const double modulus = *std::ranges::max_element(
+      world.column<BulkModulus>().values(),
+      world.column<BulkModulus>().values() + world.resource<Bodies>().slots.size());
   stiffness_energy_ = modulus * particle_area_ * scene.thickness;
   for (const ToolSpec& tool : scene.tools) {
     const std::string name = "tool/" + tool.name + "/";
@@ -127,7 +128,8 @@ Results::Results(const Scene& scene, const World& world)
   add_series("energy/friction", "J", "dissipated by friction");
   add_series("energy/damping", "J", "dissipated by contact damping");
   add_series("energy/external", "J", "work of the tools");
-  add_series("energy/balance", "J", "all energies less the work of the tools and the energy at the start");
+  add_series("energy/balance", "J",
+             "all energies less the work of the tools and the energy at the start");
   add_series("contacts", "-", "boundary edges that touch another particle or a tool");
   add_series("penetration", "-", "deepest so far, of the boundary edge length");
   add_series("dt", "s", "time step");
@@ -138,10 +140,12 @@ Results::Results(const Scene& scene, const World& world)
              {"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
              {"stress", "Pa", "Cauchy: xx yy zz xy", FieldPlace::cell, 4}};
   if (world.has<PlasticStrain>())
-    fields_.push_back({"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
+    fields_.push_back(
+        {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
 }
 
-void Results::add_series(const std::string& name, const std::string& unit, const std::string& meaning) {
+void Results::add_series(const std::string& name, const std::string& unit,
+                         const std::string& meaning) {
   position_[name] = series_.size();
   series_.push_back({name, unit, meaning});
 }
@@ -233,7 +237,8 @@ std::vector<double> Results::sample() {
 }
 
 std::vector<std::vector<double>> Results::frame() const {
-  std::vector<std::vector<double>> fields{node_values<Position>(world_), node_values<Velocity>(world_)};
+  std::vector<std::vector<double>> fields{node_values<Position>(world_),
+                                          node_values<Velocity>(world_)};
   fields.resize(fields_.size());
   for_each_particle<Element>(world_, [&](std::size_t first, int lane, const Shape& shape) {
     const Lane* s = world_.column<DeviatoricStress>().lanes();

@@ -42,9 +42,11 @@ struct RectangleOutline {
 using Outline = std::variant<DiscOutline, RectangleOutline>;
 
 struct DiscMesh {
-  int boundary_edges = 40;  // a multiple of 4, >= 8: the O-grid's core has (boundary_edges/4)^2 quads
-  int rings = 1;            // rings of quads between the core and the outline, >= 1
-  double refinement = 1;    // >= 1: edges at the poles (top and bottom) are this much finer than at the equator
+  int boundary_edges =
+      40;         // a multiple of 4, >= 8: the O-grid's core has (boundary_edges/4)^2 quads
+  int rings = 1;  // rings of quads between the core and the outline, >= 1
+  double refinement =
+      1;  // >= 1: edges at the poles (top and bottom) are this much finer than at the equator
 };
 struct RectangleMesh {
   int columns = 8;  // quads along the width
@@ -57,13 +59,14 @@ struct ParticleSpec {  // a class of equal particles
   int material = 0;  // position in Scene::materials
   Outline outline;
   MeshSpec mesh;
-  bool random_mesh_phase = false;  // every particle's mesh turned by its own random angle (disc only)
-  double mesh_phase = 0;           // rad, the same turn for all when not random (disc only)
+  bool random_mesh_phase =
+      false;              // every particle's mesh turned by its own random angle (disc only)
+  double mesh_phase = 0;  // rad, the same turn for all when not random (disc only)
   SourceMark mark;
 };
 
-struct BodySpec {  // one particle, placed by hand
-  int particle = 0;  // position in Scene::particles
+struct BodySpec {                // one particle, placed by hand
+  int particle = 0;              // position in Scene::particles
   Vec2 position = Vec2::Zero();  // m, centre of the outline
   double angle = 0;              // rad, counter-clockwise
   Vec2 velocity = Vec2::Zero();  // m/s
@@ -75,14 +78,14 @@ struct SquarePacking {  // rows x columns on a square lattice
   int particle = 0;
   int rows = 1;
   int columns = 1;
-  double spacing = 0;            // m, centre to centre
-  Vec2 corner = Vec2::Zero();    // m, lower left corner of the first particle's lattice cell
+  double spacing = 0;          // m, centre to centre
+  Vec2 corner = Vec2::Zero();  // m, lower left corner of the first particle's lattice cell
   SourceMark mark;
 };
 
 struct ToolSpec {  // rigid; fills the half-plane behind `point`, its surface looks along `normal`
   std::string name;
-  Vec2 point = Vec2::Zero();   // m
+  Vec2 point = Vec2::Zero();    // m
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
 };
@@ -90,7 +93,8 @@ struct ToolSpec {  // rigid; fills the half-plane behind `point`, its surface lo
 struct MoveSpec {
   int tool = 0;                      // position in Scene::tools
   Vec2 displacement = Vec2::Zero();  // m, travelled over the stage
-  double ramp = 0.1;  // -, share of the stage in which the speed rises smoothly from zero, and falls again at its end
+  double ramp =
+      0.1;  // -, share of the stage in which the speed rises smoothly from zero, and falls again at its end
   SourceMark mark;
 };
 
@@ -109,15 +113,15 @@ struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names 
 };
 
 struct ContactSpec {
-  double friction = 0;   // -, Coulomb coefficient of every pair that no [[friction]] names
+  double friction = 0;  // -, Coulomb coefficient of every pair that no [[friction]] names
   // k of kappa = k K L/A (bulk modulus, boundary edge length, element area). 0.5: softer, the penetration
   // delays the lateral force; stiffer, the force depends on where the mesh nodes lie (docs/accuracy.md).
   double stiffness = 0.5;
-  double damping = 0;    // -, share of the critical damping of the contact spring (T 5.1, 5.2)
+  double damping = 0;  // -, share of the critical damping of the contact spring (T 5.1, 5.2)
 };
 
 struct TimeSpec {
-  double safety = 0.9;      // -, share of the stable time step that is used, in (0, 1)
+  double safety = 0.9;  // -, share of the stable time step that is used, in (0, 1)
 };
 
 struct OutputSpec {
@@ -125,10 +129,11 @@ struct OutputSpec {
   int samples = 1000;  // history rows over the run, besides the first
 };
 
-struct LimitSpec {  // health: a run that passes one of these stops
+struct LimitSpec {               // health: a run that passes one of these stops
   double energy_balance = 0.05;  // -, |balance| / largest energy of the run
   double penetration = 0.5;      // -, penetration / boundary edge length
-  std::optional<double> kinetic_energy;  // -, kinetic / internal energy, where the scene asks for quasi-statics
+  std::optional<double>
+      kinetic_energy;  // -, kinetic / internal energy, where the scene asks for quasi-statics
 };
 
 struct Scene {
@@ -138,11 +143,11 @@ struct Scene {
   std::uint64_t seed = 1;
   std::vector<MaterialSpec> materials;
   std::vector<ParticleSpec> particles;
-  std::vector<BodySpec> bodies;          // [[body]]
-  std::vector<SquarePacking> packings;   // [[packing]]
-  std::vector<ToolSpec> tools;           // [[tool]]
-  std::vector<StageSpec> stages;         // [[stage]]
-  std::vector<FrictionSpec> frictions;   // [[friction]]
+  std::vector<BodySpec> bodies;         // [[body]]
+  std::vector<SquarePacking> packings;  // [[packing]]
+  std::vector<ToolSpec> tools;          // [[tool]]
+  std::vector<StageSpec> stages;        // [[stage]]
+  std::vector<FrictionSpec> frictions;  // [[friction]]
   ContactSpec contact;
   TimeSpec time;
   OutputSpec output;

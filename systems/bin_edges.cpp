@@ -52,7 +52,8 @@ struct PairLaw {
 template <class At>
 void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw& law,
              const RowConstants<At>& c) {
-  const Shape::Edge& edge = bodies.shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
+  const Shape::Edge& edge =
+      bodies.shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
   c.pair(row, 0) = key.slot;
   c.pair(row, 1) = key.edge;
   c.pair(row, 2) = key.other;
@@ -132,13 +133,14 @@ namespace {
 
 // Edges within `skin` of a tool's surface, or behind it.
 std::vector<RowKey> tool_candidates(const Bodies& bodies, std::span<const double> control,
-                                    const Read<ToolPosition>& position, const Read<ToolNormal>& normal,
-                                    double skin) {
+                                    const Read<ToolPosition>& position,
+                                    const Read<ToolNormal>& normal, double skin) {
   std::vector<int> slots = bodies.slot_of_number;
   std::ranges::sort(slots);
   std::vector<RowKey> keys;
   for (const int s : slots) {
-    const double* points = control.data() + 2 * bodies.slots[static_cast<std::size_t>(s)].first_control;
+    const double* points =
+        control.data() + 2 * bodies.slots[static_cast<std::size_t>(s)].first_control;
     const auto& edges = bodies.shape_of_slot(s).edges;
     for (int e = 0; e < static_cast<int>(edges.size()); ++e)
       for (int t = 0; t < position.rows(); ++t) {
@@ -163,7 +165,8 @@ void bin_tool_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
                     Write<ContactIndex> index, Structural<ToolContact> structure,
                     Write<ContactPair<ToolContact>> pair, Write<EdgeLength<ToolContact>> length,
                     Write<ContactStiffness<ToolContact>> stiffness,
-                    Write<ContactWeight<ToolContact>> weight, Write<ContactReach<ToolContact>> reach,
+                    Write<ContactWeight<ToolContact>> weight,
+                    Write<ContactReach<ToolContact>> reach,
                     Optional<Write<FrictionCoefficient<ToolContact>>> friction,
                     Optional<Write<DampingCoefficient<ToolContact>>> damping) {
   if (!skin_used_up(*index, *clock)) return;

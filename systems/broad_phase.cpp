@@ -105,8 +105,8 @@ double squared_middle_distance(const Box& a, const Box& b) {
 }
 
 // The edges of `other` that come near `box`; the nearest, or no_edge.
-int nearest_edge(const Curves& curves, int other, const std::vector<Box>& other_edges, const Box& box,
-                 double skin) {
+int nearest_edge(const Curves& curves, int other, const std::vector<Box>& other_edges,
+                 const Box& box, double skin) {
   if (!near(box, curves.particle[static_cast<std::size_t>(other)], skin)) return Shape::no_edge;
   int nearest = Shape::no_edge;
   double least = std::numeric_limits<double>::max();
@@ -121,7 +121,8 @@ int nearest_edge(const Curves& curves, int other, const std::vector<Box>& other_
   return nearest;
 }
 
-std::vector<EdgeCandidate> candidates_of(const Curves& curves, const Grid& grid, int slot, double skin) {
+std::vector<EdgeCandidate> candidates_of(const Curves& curves, const Grid& grid, int slot,
+                                         double skin) {
   const Box& own = curves.particle[static_cast<std::size_t>(slot)];
   std::vector<int> others;
   grid.around(own, [&](int other) {

@@ -38,9 +38,10 @@ void put(const View& list, int control_points, int c, const ControlLanes& y) {
 
 }  // namespace
 
-[[gnu::flatten]] void contact_curve(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<Velocity> v,
-                   Write<CurvePosition> position, Optional<Write<CurveVelocity>> velocity,
-                   Write<MaximumSpeed> speed) {
+[[gnu::flatten]] void contact_curve(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                    Read<Velocity> v, Write<CurvePosition> position,
+                                    Optional<Write<CurveVelocity>> velocity,
+                                    Write<MaximumSpeed> speed) {
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto nodes = x.chunk(chunk);
   const auto rates = v.chunk(chunk);

@@ -20,7 +20,8 @@ std::array<Lane, 4> basis_by_point() {
 }
 
 // Forces of a row's four points on the four control points of the sampled edge.
-void add_sampled(const std::array<Lane, 4>& basis, const double* point_force, double* control_force) {
+void add_sampled(const std::array<Lane, 4>& basis, const double* point_force,
+                 double* control_force) {
   Lane x{}, y{};
   for (std::size_t g = 0; g < 4; ++g) {
     x += basis[g] * point_force[g];
@@ -63,9 +64,10 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
   for (int c = 0; c < n; ++c) {
     Lane f[2];
     for (int k = 0; k < 2; ++k)
-      f[k] = Lane{control_force(Row<ControlPoint>(c), k), control_force(Row<ControlPoint>(n + c), k),
-                  control_force(Row<ControlPoint>(2 * n + c), k),
-                  control_force(Row<ControlPoint>(3 * n + c), k)};
+      f[k] =
+          Lane{control_force(Row<ControlPoint>(c), k), control_force(Row<ControlPoint>(n + c), k),
+               control_force(Row<ControlPoint>(2 * n + c), k),
+               control_force(Row<ControlPoint>(3 * n + c), k)};
     for (std::int32_t t = shape.curve_begin[static_cast<std::size_t>(c)];
          t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
       const Shape::CurveTerm& term = shape.curve_terms[static_cast<std::size_t>(t)];
@@ -77,12 +79,13 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
 }  // namespace
 
 [[gnu::flatten]] void contact_force(Chunk chunk, Read<Bodies> bodies, Read<ContactIndex> index,
-                   Optional<Read<ContactPair<Contact>>> pair,
-                   Optional<Read<PointForce<Contact>>> point_force,
-                   Optional<Read<ClosestPoint>> closest, Optional<Read<FrictionCouple>> couple,
-                   Optional<Read<ContactPair<ToolContact>>> tool_pair,
-                   Optional<Read<PointForce<ToolContact>>> tool_force, Write<CurveForce> curve_force,
-                   Write<ContactForce> node_force) {
+                                    Optional<Read<ContactPair<Contact>>> pair,
+                                    Optional<Read<PointForce<Contact>>> point_force,
+                                    Optional<Read<ClosestPoint>> closest,
+                                    Optional<Read<FrictionCouple>> couple,
+                                    Optional<Read<ContactPair<ToolContact>>> tool_pair,
+                                    Optional<Read<PointForce<ToolContact>>> tool_force,
+                                    Write<CurveForce> curve_force, Write<ContactForce> node_force) {
   static const std::array<Lane, 4> basis = basis_by_point();
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto control = curve_force.chunk(chunk);

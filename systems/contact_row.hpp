@@ -15,8 +15,8 @@ struct PointLanes {
 
 // The Gauss points of an edge from its four control points, which lie one after the other.
 inline PointLanes edge_points_at(const double* control) {
-  static const auto n = kernels::basis(Lane{kernels::edge_u[0], kernels::edge_u[1],
-                                            kernels::edge_u[2], kernels::edge_u[3]});
+  static const auto n = kernels::basis(
+      Lane{kernels::edge_u[0], kernels::edge_u[1], kernels::edge_u[2], kernels::edge_u[3]});
   PointLanes p{};
   for (std::size_t a = 0; a < 4; ++a) {
     p.x += n[a] * control[2 * a];
@@ -32,10 +32,10 @@ inline void put(double* four, Lane value) {
 
 // Relative motion at the four points: how the surfaces stand and move against each other.
 struct RowMotion {
-  Lane gap;          // m, > 0 in penetration
-  Lane nx, ny;       // outward normal of the other surface
-  Lane gap_rate;     // m/s
-  Lane slip_rate;    // m/s, along t = (-ny, nx)
+  Lane gap;        // m, > 0 in penetration
+  Lane nx, ny;     // outward normal of the other surface
+  Lane gap_rate;   // m/s
+  Lane slip_rate;  // m/s, along t = (-ny, nx)
 };
 
 // Columns that every row has, and those that only scenes with friction or damping have.
@@ -88,7 +88,8 @@ void set_apart(const RowColumns<At>& c, Row<At> row, double reach) {
 // Forces of a touching row. `share` of kappa: one half where the other particle samples back. Returns
 // the friction traction times weight [N] (the couple of the other body needs it).
 template <class At>
-Lane set_touching(const RowColumns<At>& c, Row<At> row, const RowMotion& m, double share, double dt) {
+Lane set_touching(const RowColumns<At>& c, Row<At> row, const RowMotion& m, double share,
+                  double dt) {
   const Lane weight = lane_of(&c.weight(row));
   const Lane kappa = broadcast(share * c.stiffness(row));
   const Lane damping = c.damping ? broadcast(share * (*c.damping)(row)) : Lane{};
@@ -96,8 +97,8 @@ Lane set_touching(const RowColumns<At>& c, Row<At> row, const RowMotion& m, doub
   Lane along{}, work{};
   if (c.friction) {
     double* spring = &(*c.elastic_slip)(row);
-    const auto friction = kernels::coulomb_return(lane_of(spring), m.slip_rate * dt, normal.pressure,
-                                                  broadcast((*c.friction)(row)), kappa);
+    const auto friction = kernels::coulomb_return(
+        lane_of(spring), m.slip_rate * dt, normal.pressure, broadcast((*c.friction)(row)), kappa);
     put(spring, friction.elastic_slip);
     along = friction.traction * weight;
     work = friction.work * weight;

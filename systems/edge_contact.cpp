@@ -81,14 +81,16 @@ struct Closest {
   LaneMask beyond;
 };
 
-[[gnu::flatten]] Closest closest_points(const OtherCurve& other, const PointLanes& points, LaneEdges start) {
+[[gnu::flatten]] Closest closest_points(const OtherCurve& other, const PointLanes& points,
+                                        LaneEdges start) {
   Closest c{start, {}, {}, {}, {}};
   for (int step = 0;; ++step) {
     c.curve = gather(other.shape, other.position, c.at.edge);
     c.rx = points.x - c.curve.x.value(c.at.u);
     c.ry = points.y - c.curve.y.value(c.at.u);
-    Lane du = kernels::closest_point_step(c.rx, c.ry, c.curve.x.slope(c.at.u), c.curve.y.slope(c.at.u),
-                                          c.curve.x.curvature(c.at.u), c.curve.y.curvature(c.at.u));
+    Lane du =
+        kernels::closest_point_step(c.rx, c.ry, c.curve.x.slope(c.at.u), c.curve.y.slope(c.at.u),
+                                    c.curve.x.curvature(c.at.u), c.curve.y.curvature(c.at.u));
     du = min(max(du, broadcast(-1)), broadcast(1));
     const LaneMask small = abs(du) < step_tolerance;
     if (all(small)) return c;
@@ -111,7 +113,8 @@ struct Closest {
 }
 
 // How the points move against the curve; both rates vanish in a common rigid motion.
-[[gnu::flatten]] RowMotion row_motion(const OtherCurve& other, const Closest& c, const PointLanes& velocity) {
+[[gnu::flatten]] RowMotion row_motion(const OtherCurve& other, const Closest& c,
+                                      const PointLanes& velocity) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
   const Lane over_length = 1.0 / sqrt(sx * sx + sy * sy);
   RowMotion m{};
@@ -156,7 +159,8 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
   const auto control = [&](int slot) {
-    return 2 * static_cast<std::size_t>(bodies->slots[static_cast<std::size_t>(slot)].first_control);
+    return 2 *
+           static_cast<std::size_t>(bodies->slots[static_cast<std::size_t>(slot)].first_control);
   };
 
   const auto look_at = [&](Row<Contact> row) {

@@ -36,8 +36,12 @@ struct QuadMap {
 template <class T>
 QuadMap<T> quad_map(T x0, T y0, T x1, T y1, T x2, T y2, T x3, T y3) {
   const T sx = x2 - x0, dx = x1 - x3, sy = y2 - y0, dy = y1 - y3;
-  return {0.25 * (sx + dx), 0.25 * (sy + dy), 0.25 * (sx - dx), 0.25 * (sy - dy),
-          0.25 * ((x0 - x1) + (x2 - x3)), 0.25 * ((y0 - y1) + (y2 - y3))};
+  return {0.25 * (sx + dx),
+          0.25 * (sy + dy),
+          0.25 * (sx - dx),
+          0.25 * (sy - dy),
+          0.25 * ((x0 - x1) + (x2 - x3)),
+          0.25 * ((y0 - y1) + (y2 - y3))};
 }
 
 // A = [dx/dxi dx/deta; dy/dxi dy/deta]
@@ -112,7 +116,9 @@ inline double wide_inverse_cube_root(double a) {
 template <class T>
 T inverse_cube_root(T a) {
   const T x = a - 1.025, x2 = x * x;  // least relative error of degree 5 on [0.8, 1.25]: 4.3e-7
-  const T y = fma(x2, fma(x2, fma(-0.117564949399, x, 0.136975824411), fma(-0.158961779405, x, 0.209634704292)), fma(-0.322539066518, x, 0.991803323496));
+  const T y = fma(
+      x2, fma(x2, fma(-0.117564949399, x, 0.136975824411), fma(-0.158961779405, x, 0.209634704292)),
+      fma(-0.322539066518, x, 0.991803323496));
   const T near = refine_inverse_cube_root(a, y);
   if (!all((a > 0.8) & (a < 1.25))) return replace_far(a, near);
   return near;

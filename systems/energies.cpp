@@ -25,16 +25,18 @@ void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<De
     const Lane mass = mass_per_area * shape.nodal_area[static_cast<std::size_t>(i)];
     for (int k = 0; k < 2; ++k) {
       Lane force = f(n, k);
-      if (contact && i < shape.boundary_nodes) force += contact->chunk(chunk)(Row<BoundaryNode>(i), k);
+      if (contact && i < shape.boundary_nodes)
+        force += contact->chunk(chunk)(Row<BoundaryNode>(i), k);
       total += 0.5 * v(n, k) * (mass * v(n, k) + force * half);
     }
   }
   energy.chunk(chunk)(Row<Particle>()) = total;
 }
 
-[[gnu::flatten]] void elastic_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
-                    Read<BulkModulus> bulk, Optional<Read<PlasticMetric>> metric,
-                    Write<ElasticEnergy> energy) {
+[[gnu::flatten]] void elastic_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                     Read<ShearModulus> mu, Read<BulkModulus> bulk,
+                                     Optional<Read<PlasticMetric>> metric,
+                                     Write<ElasticEnergy> energy) {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto nodes = x.chunk(chunk);
@@ -49,17 +51,20 @@ void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<De
     for (int g = 0; g < gauss_points; ++g) {
       const auto& point = gauss[static_cast<std::size_t>(g)];
       const auto f = kernels::deformation_gradient(map_gradient(map, g), point.inverse_jacobian);
-      const auto c = metric ? plastic_metric(metric->chunk(chunk), e, g) : kernels::Symmetric3<Lane>{};
+      const auto c =
+          metric ? plastic_metric(metric->chunk(chunk), e, g) : kernels::Symmetric3<Lane>{};
       total += point.determinant * kernels::isochoric_energy(f, c, shear);
       area += point.determinant;
     }
-    for (int l = 0; l < lane_count; ++l) total[l] += area * kernels::volumetric_energy(k[l], theta[l]);
+    for (int l = 0; l < lane_count; ++l)
+      total[l] += area * kernels::volumetric_energy(k[l], theta[l]);
   }
   energy.chunk(chunk)(particle) = total * bodies->thickness;
 }
 
 void plastic_work(Chunk chunk, Read<Bodies> bodies, Read<YieldStress> sigma_y,
-                  Read<HardeningModulus> hardening, Read<PlasticStrain> eps, Write<PlasticWork> work) {
+                  Read<HardeningModulus> hardening, Read<PlasticStrain> eps,
+                  Write<PlasticWork> work) {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
   // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.

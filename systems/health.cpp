@@ -21,10 +21,11 @@ void element_health(Read<Bodies> bodies, Read<Clock> clock, Read<LeastJacobian> 
   for (std::size_t slot = 0; slot < values.size(); ++slot) {
     if (values[slot] > 0) continue;  // NaN is not
     throw RunFailure(fmt::format(
-        "trial_stress: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the element "
+        "trial_stress: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the "
+        "element "
         "turned inside out; allowed > 0 (is a tool too fast, or the mesh too coarse for the load?)",
-        bodies->slots[slot].number, static_cast<int>(worst.values()[slot]), values[slot], clock->step,
-        clock->time));
+        bodies->slots[slot].number, static_cast<int>(worst.values()[slot]), values[slot],
+        clock->step, clock->time));
   }
 }
 

@@ -9,18 +9,20 @@
 
 namespace pulvis {
 
-[[gnu::flatten]] void integrate(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Density> density,
-               Read<InternalForce> internal, Optional<Read<ContactForce>> contact,
-               Write<Velocity> velocity, Write<Position> position) {
+[[gnu::flatten]] void integrate(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
+                                Read<Density> density, Read<InternalForce> internal,
+                                Optional<Read<ContactForce>> contact, Write<Velocity> velocity,
+                                Write<Position> position) {
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto f = internal.chunk(chunk);
   const auto v = velocity.chunk(chunk);
   const auto x = position.chunk(chunk);
   const double dt = clock->dt;
-  const Lane kick = 0.5 * (clock->dt_before + dt) /
-                    (density.chunk(chunk)(Row<Particle>()) * bodies->thickness);
+  const Lane kick =
+      0.5 * (clock->dt_before + dt) / (density.chunk(chunk)(Row<Particle>()) * bodies->thickness);
   const auto move = [&](Row<Node> n, int k, Lane force) {
-    const Lane next = v(n, k) + force * (kick * (1.0 / shape.nodal_area[static_cast<std::size_t>(n.value)]));
+    const Lane next =
+        v(n, k) + force * (kick * (1.0 / shape.nodal_area[static_cast<std::size_t>(n.value)]));
     v(n, k) = next;
     x(n, k) += next * dt;
   };

@@ -9,8 +9,9 @@
 
 namespace pulvis {
 
-[[gnu::flatten]] void internal_force(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<DeviatoricStress> s,
-                    Read<MeanStress> p, Write<InternalForce> force) {
+[[gnu::flatten]] void internal_force(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                     Read<DeviatoricStress> s, Read<MeanStress> p,
+                                     Write<InternalForce> force) {
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto nodes = x.chunk(chunk);
   const auto stress = s.chunk(chunk);
@@ -37,7 +38,8 @@ namespace pulvis {
     kernels::QuadFlux<Lane> flux;
     for (int g = 0; g < gauss_points; ++g) {
       const auto& a = gradient[g];
-      const Lane kirchhoff = over[g / 2] * now[g ^ 1] * gauss[static_cast<std::size_t>(g)].determinant;
+      const Lane kirchhoff =
+          over[g / 2] * now[g ^ 1] * gauss[static_cast<std::size_t>(g)].determinant;
       const auto d = deviator(stress, e, g);
       kernels::add_flux(flux, a, kirchhoff * d.xx + sigma_m, kirchhoff * d.yy + sigma_m,
                         kirchhoff * d.xy, kernels::gauss_xi[g], kernels::gauss_eta[g]);

@@ -8,10 +8,11 @@
 
 namespace pulvis {
 
-[[gnu::flatten]] void j2_return_map(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
-                   Read<YieldStress> sigma_y, Read<HardeningModulus> hardening,
-                   Read<IsochoricScale> isochoric, Write<DeviatoricStress> s,
-                   Write<PlasticMetric> metric, Write<PlasticStrain> eps) {
+[[gnu::flatten]] void j2_return_map(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                    Read<ShearModulus> mu, Read<YieldStress> sigma_y,
+                                    Read<HardeningModulus> hardening,
+                                    Read<IsochoricScale> isochoric, Write<DeviatoricStress> s,
+                                    Write<PlasticMetric> metric, Write<PlasticStrain> eps) {
   const Row<Particle> particle;
   const Lane shear = mu.chunk(chunk)(particle), over_shear = 1.0 / shear;
   const kernels::LinearHardening<Lane> law{sigma_y.chunk(chunk)(particle),
@@ -38,8 +39,8 @@ namespace pulvis {
     const Lane mu_over_theta = shear / theta, theta_over_mu = theta * over_shear;
     for (int g = 0; g < gauss_points; ++g) {
       if (!any(flows[g])) continue;
-      const auto f = kernels::deformation_gradient(map_gradient(map, g),
-                                                   gauss[static_cast<std::size_t>(g)].inverse_jacobian);
+      const auto f = kernels::deformation_gradient(
+          map_gradient(map, g), gauss[static_cast<std::size_t>(g)].inverse_jacobian);
       const auto next = kernels::radial_return<Lane>(
           {deviator(stress, e, g), plastic_metric(c, e, g), strain(e, g)}, f, scale(e, g),
           mu_over_theta, theta_over_mu, law);

@@ -62,8 +62,9 @@ void tool_reaction(Read<Clock>, Read<ContactPair<ToolContact>>, Read<PointForce<
 void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
                     Optional<Read<ContactPair<Contact>>>, Optional<Read<Penetration<Contact>>>,
                     Optional<Read<EdgeLength<Contact>>>, Optional<Read<ContactPair<ToolContact>>>,
-                    Optional<Read<Penetration<ToolContact>>>, Optional<Read<EdgeLength<ToolContact>>>,
-                    Optional<Read<ToolProgram>>, Write<Totals>);
+                    Optional<Read<Penetration<ToolContact>>>,
+                    Optional<Read<EdgeLength<ToolContact>>>, Optional<Read<ToolProgram>>,
+                    Write<Totals>);
 
 // ---- chunk by chunk: forces of the bodies -------------------------------------------------------
 void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<ContactPair<Contact>>>,
@@ -74,8 +75,8 @@ void elastic_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Rea
                     Write<DeviatoricStress>, Write<MeanStress>, Write<LeastJacobian>,
                     Write<WorstElement>);
 void trial_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                  Read<PlasticMetric>, Write<IsochoricScale>, Write<DeviatoricStress>, Write<MeanStress>,
-                  Write<LeastJacobian>, Write<WorstElement>);
+                  Read<PlasticMetric>, Write<IsochoricScale>, Write<DeviatoricStress>,
+                  Write<MeanStress>, Write<LeastJacobian>, Write<WorstElement>);
 void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<YieldStress>,
                    Read<HardeningModulus>, Read<IsochoricScale>, Write<DeviatoricStress>,
                    Write<PlasticMetric>, Write<PlasticStrain>);

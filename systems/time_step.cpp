@@ -48,8 +48,8 @@ void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> spe
     double tool = 0;
     if (tool_velocity)
       for (int t = 0; t < tool_velocity->rows(); ++t)
-        tool = std::max(tool, std::hypot((*tool_velocity)(Row<Tool>(t), 0),
-                                         (*tool_velocity)(Row<Tool>(t), 1)));
+        tool = std::max(
+            tool, std::hypot((*tool_velocity)(Row<Tool>(t), 0), (*tool_velocity)(Row<Tool>(t), 1)));
     clock->travel += (fastest + std::max(fastest, tool)) * clock->dt;
   }
   clock->time += clock->dt;

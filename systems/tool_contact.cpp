@@ -44,8 +44,7 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     m.nx = broadcast(tool_normal(tool, 0));
     m.ny = broadcast(tool_normal(tool, 1));
     m.gap = -((at.x - tool_position(tool, 0)) * m.nx + (at.y - tool_position(tool, 1)) * m.ny);
-    if (!any(m.gap > 0.0))
-      return set_apart(columns, row, clock->travel - greatest(m.gap));
+    if (!any(m.gap > 0.0)) return set_apart(columns, row, clock->travel - greatest(m.gap));
     if (rates != nullptr) {
       const PointLanes speed = edge_points_at(rates + first);
       const Lane wx = speed.x - tool_velocity(tool, 0), wy = speed.y - tool_velocity(tool, 1);

@@ -19,7 +19,8 @@ struct Views {
 
 // `left(F, r2, e, g)` gives F C_p^-1 F^T, with r2 = J^(-2/3). Returns the least det F of the element's Gauss points.
 template <class LeftCauchyGreen>
-Lane element_stress(const Views& v, const Shape& shape, Row<Element> e, const LeftCauchyGreen& left) {
+Lane element_stress(const Views& v, const Shape& shape, Row<Element> e,
+                    const LeftCauchyGreen& left) {
   const auto at = static_cast<std::size_t>(e.value);
   const auto map = quad_map(v.x, shape.quads[at]);
   const ElementGauss& gauss = shape.gauss[at];
@@ -28,8 +29,8 @@ Lane element_stress(const Views& v, const Shape& shape, Row<Element> e, const Le
   v.p(e) = 0.5 * v.bulk * (theta - over_theta);
   Lane least = theta;
   for (int g = 0; g < gauss_points; ++g) {
-    const auto f = kernels::deformation_gradient(map_gradient(map, g),
-                                                 gauss[static_cast<std::size_t>(g)].inverse_jacobian);
+    const auto f = kernels::deformation_gradient(
+        map_gradient(map, g), gauss[static_cast<std::size_t>(g)].inverse_jacobian);
     const Lane j = determinant(f);
     const Lane r = kernels::inverse_cube_root(j);
     const Lane r2 = r * r;
@@ -47,8 +48,9 @@ void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
 }
 
 template <class LeftCauchyGreen>
-void chunk_stress(Chunk chunk, const Bodies& bodies, const Views& v, Write<LeastJacobian> least_jacobian,
-                  Write<WorstElement> worst_element, const LeftCauchyGreen& left) {
+void chunk_stress(Chunk chunk, const Bodies& bodies, const Views& v,
+                  Write<LeastJacobian> least_jacobian, Write<WorstElement> worst_element,
+                  const LeftCauchyGreen& left) {
   const Shape& shape = bodies.shape_of_chunk(chunk);
   Lane worst = broadcast(1e300), which{};
   for (int i = 0; i < shape.elements(); ++i)
@@ -59,9 +61,11 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views& v, Write<Least
 
 }  // namespace
 
-[[gnu::flatten]] void trial_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
-                  Read<BulkModulus> bulk, Read<PlasticMetric> metric, Write<IsochoricScale> isochoric,
-                  Write<DeviatoricStress> s, Write<MeanStress> p, Write<LeastJacobian> least, Write<WorstElement> worst) {
+[[gnu::flatten]] void trial_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                   Read<ShearModulus> mu, Read<BulkModulus> bulk,
+                                   Read<PlasticMetric> metric, Write<IsochoricScale> isochoric,
+                                   Write<DeviatoricStress> s, Write<MeanStress> p,
+                                   Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;
   const auto c = metric.chunk(chunk);
   const auto scale = isochoric.chunk(chunk);
@@ -74,9 +78,10 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views& v, Write<Least
                });
 }
 
-[[gnu::flatten]] void elastic_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
-                    Read<BulkModulus> bulk, Write<DeviatoricStress> s, Write<MeanStress> p,
-                    Write<LeastJacobian> least, Write<WorstElement> worst) {
+[[gnu::flatten]] void elastic_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                     Read<ShearModulus> mu, Read<BulkModulus> bulk,
+                                     Write<DeviatoricStress> s, Write<MeanStress> p,
+                                     Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;
   chunk_stress(chunk, *bodies,
                {x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),

@@ -41,7 +41,7 @@ TEST(SlidingBlock, StartsAndSlidesAtMuN) {
     EXPECT_LE(ratio, mu * (1 + 1e-9));
     const double moved = center() - start;
     if (moved < 2e-6) ratio_at_start = std::max(ratio_at_start, ratio);  // 1e-4 of its width
-    if (moved < 5e-6 || e.simulation.clock().time > 2.2e-3) return;      // the pusher stops at the end
+    if (moved < 5e-6 || e.simulation.clock().time > 2.2e-3) return;  // the pusher stops at the end
     EXPECT_NEAR(ratio, mu, 0.005 * mu) << e.simulation.clock().time;
     sum += ratio;
     ++sliding;

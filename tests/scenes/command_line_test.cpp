@@ -167,10 +167,10 @@ TEST_F(CommandLine, HistoryIsHeadedByNameAndUnit) {
   std::string header, column;
   std::getline(csv, header);
   EXPECT_THAT(header, StartsWith("time [s],tool/left/position_x [m],"));
-  for (const char* series :
-       {"tool/top/force_y [N]", "relative_density [-]", "energy/kinetic [J]", "energy/elastic [J]",
-        "energy/plastic [J]", "energy/hourglass [J]", "energy/contact [J]", "energy/friction [J]",
-        "energy/damping [J]", "energy/external [J]", "energy/balance [J]", "contacts [-]", "dt [s]"})
+  for (const char* series : {"tool/top/force_y [N]", "relative_density [-]", "energy/kinetic [J]",
+                             "energy/elastic [J]", "energy/plastic [J]", "energy/hourglass [J]",
+                             "energy/contact [J]", "energy/friction [J]", "energy/damping [J]",
+                             "energy/external [J]", "energy/balance [J]", "contacts [-]", "dt [s]"})
     EXPECT_THAT(header, HasSubstr(series));
 
   const auto file = hdf5::File::open(run / "run.h5");
@@ -215,9 +215,9 @@ TEST_F(CommandLine, SceneMayFollowTheOptions) {
 }
 
 TEST_F(CommandLine, RunWithoutAFolderGoesBelowRuns) {
-  const Outcome end = pulvis({"run", scene("basic/oblique-impact.toml"), "--set",
-                              "stage.impact.duration=2 us", "--set", "output.samples=3", "--set",
-                              "output.frames=1"});
+  const Outcome end =
+      pulvis({"run", scene("basic/oblique-impact.toml"), "--set", "stage.impact.duration=2 us",
+              "--set", "output.samples=3", "--set", "output.frames=1"});
   EXPECT_EQ(end.code, 0) << end.err;
   EXPECT_TRUE(fs::exists(place / "runs" / "oblique-impact" / "summary.json"));
 }
@@ -341,9 +341,9 @@ TEST_F(CommandLine, TakenFolderIsRefusedAndStaysAsItWas) {
 // ---- 3: the run went bad ------------------------------------------------------------------------
 // A punch at 400 m/s goes through the particles.
 TEST_F(CommandLine, RunGoneBadNamesTheCulpritAndKeepsWhatWasBefore) {
-  const Outcome end =
-      short_run({"--set", "stage.press.move[0].displacement=[\"0 mm\", \"-8 mm\"]", "--set",
-                 "output.frames=40", "--set", "output.samples=80", "--set", "limits.energy_balance=100"});
+  const Outcome end = short_run({"--set", "stage.press.move[0].displacement=[\"0 mm\", \"-8 mm\"]",
+                                 "--set", "output.frames=40", "--set", "output.samples=80", "--set",
+                                 "limits.energy_balance=100"});
   EXPECT_EQ(end.code, 3);
   EXPECT_THAT(end.err, HasSubstr("the run went bad"));
   EXPECT_THAT(end.err, HasSubstr(run.string()));
@@ -368,7 +368,8 @@ TEST_F(CommandLine, RunThatIsBadFromTheStartSaysSoToo) {
                               "body[0].position=[\"5 mm\", \"2.499999999 mm\"]", "--set",
                               "limits.penetration=1e-12"});
   EXPECT_EQ(end.code, 3) << end.err;
-  EXPECT_THAT(end.err, ContainsRegex("tool_contact: particle 0, edge [0-9]+ against tool '[a-z]+': "));
+  EXPECT_THAT(end.err,
+              ContainsRegex("tool_contact: particle 0, edge [0-9]+ against tool '[a-z]+': "));
   EXPECT_THAT(end.err, HasSubstr("at step 0,"));
   EXPECT_TRUE(fs::exists(run / "summary.json"));
 }
@@ -401,11 +402,11 @@ TEST_F(CommandLine, ReadOnlyFolderIsTheMachinesFault) {
 TEST_F(CommandLine, InterruptEndsBetweenTwoStepsWithReadableResults) {
   for (const int signal : {SIGINT, SIGTERM}) {
     fs::remove_all(run);
-    const pid_t child = start({"run", scene("basic/spinning-disc.toml"), "-o", run.string(),
-                               "--threads", "1", "--set", "output.frames=10000", "--set",
-                               "output.samples=20000"});
-    for (int tries = 0; tries < 3000 && text_of(run / "run.xdmf").find("000002") == std::string::npos;
-         ++tries) {
+    const pid_t child =
+        start({"run", scene("basic/spinning-disc.toml"), "-o", run.string(), "--threads", "1",
+               "--set", "output.frames=10000", "--set", "output.samples=20000"});
+    for (int tries = 0;
+         tries < 3000 && text_of(run / "run.xdmf").find("000002") == std::string::npos; ++tries) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     kill(child, signal);

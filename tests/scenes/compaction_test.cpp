@@ -27,12 +27,16 @@ Curve compact(const std::string& scene, const std::vector<std::string>& override
 struct Reference {
   double density, axial, lateral;
 };
-constexpr Reference reference[] = {
-    {0.80, 0.45, 0.10}, {0.82, 0.62, 0.30}, {0.85, 0.78, 0.47}, {0.90, 1.10, 0.73}, {0.95, 1.44, 1.00}};
+constexpr Reference reference[] = {{0.80, 0.45, 0.10},
+                                   {0.82, 0.62, 0.30},
+                                   {0.85, 0.78, 0.47},
+                                   {0.90, 1.10, 0.73},
+                                   {0.95, 1.44, 1.00}};
 
 void expect_reference(const Curve& curve, double axial, double lateral) {
   for (const Reference& r : reference) {
-    EXPECT_NEAR(at(curve.density, curve.axial, r.density) / r.axial, 1, axial) << "RD " << r.density;
+    EXPECT_NEAR(at(curve.density, curve.axial, r.density) / r.axial, 1, axial)
+        << "RD " << r.density;
     if (r.density > 0.83) {
       EXPECT_NEAR(at(curve.density, curve.lateral, r.density) / r.lateral, 1, lateral)
           << "RD " << r.density;
@@ -52,9 +56,10 @@ TEST(Compaction, UnitCellWith560Quads) {
 TEST(Compaction, UnitCellConvergesWithTheMesh) {
   double before = 1e9;
   for (const char* edges : {"20", "40", "80"}) {
-    const Curve curve = compact("compaction/unit-cell.toml",
-                                {std::string("particle.disc.mesh.boundary_edges=") + edges,
-                                 std::string("particle.disc.mesh.rings=") + (edges[0] == '8' ? "2" : "1")});
+    const Curve curve =
+        compact("compaction/unit-cell.toml",
+                {std::string("particle.disc.mesh.boundary_edges=") + edges,
+                 std::string("particle.disc.mesh.rings=") + (edges[0] == '8' ? "2" : "1")});
     double sum = 0;
     for (const Reference& r : reference) {
       if (r.density <= 0.83) continue;
@@ -85,9 +90,10 @@ std::string phase(double degrees) {
 TEST(Compaction, UnitCellDoesNotDependOnWhereTheNodesLie) {
   std::vector<Curve> curves;
   for (const double turn : {0.0, 2.25, 4.5, 6.75})
-    curves.push_back(compact("compaction/unit-cell.toml",
-                             {phase(turn), "stage.press.move.top.displacement=[\"0 mm\", \"-0.95 mm\"]",
-                              "stage.press.duration=\"0.6 ms\""}));
+    curves.push_back(
+        compact("compaction/unit-cell.toml",
+                {phase(turn), "stage.press.move.top.displacement=[\"0 mm\", \"-0.95 mm\"]",
+                 "stage.press.duration=\"0.6 ms\""}));
   Curve mean;
   for (double rd = 0.80; rd <= 0.8601; rd += 0.002) {
     mean.density.push_back(rd);
@@ -102,19 +108,22 @@ TEST(Compaction, UnitCellDoesNotDependOnWhereTheNodesLie) {
 
 // A frictionless matrix follows the unit cell until it buckles.
 TEST(Compaction, FrictionlessMatrixFollowsTheUnitCell) {
-  const std::vector<std::string> frictionless{"contact.friction=0", "material.316L.hardening_modulus=\"0 Pa\"",
-                                              "stage.press.move.top.displacement=[\"0 mm\", \"-2.5 mm\"]",
-                                              "stage.press.duration=\"6 ms\""};
+  const std::vector<std::string> frictionless{
+      "contact.friction=0", "material.316L.hardening_modulus=\"0 Pa\"",
+      "stage.press.move.top.displacement=[\"0 mm\", \"-2.5 mm\"]", "stage.press.duration=\"6 ms\""};
   const Curve matrix = compact("compaction/regular-25.toml", frictionless);
   const Curve cell = compact("compaction/unit-cell.toml");
   for (const double rd : {0.80, 0.805, 0.81, 0.82})
-    EXPECT_NEAR(at(matrix.density, matrix.axial, rd) / at(cell.density, cell.axial, rd), 1, 0.03) << rd;
+    EXPECT_NEAR(at(matrix.density, matrix.axial, rd) / at(cell.density, cell.axial, rd), 1, 0.03)
+        << rd;
 }
 
 TEST(Compaction, TopForceExceedsBottomForceByTheWallFriction) {
-  Experiment e("compaction/regular-25.toml", {"stage.press.duration=\"1 ms\"",
-                                              "stage.press.move.top.displacement=[\"0 mm\", \"-2 mm\"]"});
-  double wall = 0, difference = 0, top = 0;  // means over the second half: waves run through the compact
+  Experiment e(
+      "compaction/regular-25.toml",
+      {"stage.press.duration=\"1 ms\"", "stage.press.move.top.displacement=[\"0 mm\", \"-2 mm\"]"});
+  double wall = 0, difference = 0,
+         top = 0;  // means over the second half: waves run through the compact
   e.run(200, [&] {
     if (e.simulation.clock().time < 0.5e-3) return;
     wall += (e.value("tool/left/force_y") + e.value("tool/right/force_y")) / 100;
@@ -126,7 +135,8 @@ TEST(Compaction, TopForceExceedsBottomForceByTheWallFriction) {
   // momentum (25 discs of 0.63 g, on average half as fast as the punch, whose 2.2 m/s come and go within
   // the 0.5 ms: 35 N).
   EXPECT_NEAR(difference, -wall, 40);
-  EXPECT_LE(std::abs(e.value("tool/left/force_y")), 0.1 * std::abs(e.value("tool/left/force_x")) * (1 + 1e-9));
+  EXPECT_LE(std::abs(e.value("tool/left/force_y")),
+            0.1 * std::abs(e.value("tool/left/force_x")) * (1 + 1e-9));
 }
 
 }  // namespace

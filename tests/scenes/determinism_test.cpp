@@ -26,8 +26,8 @@ Bits bits_of(const World& world) {
   for (const ColumnBase* c : world.columns())
     bits[c->place + "/" + c->info.name] = {c->data(), c->data() + c->bytes()};
   const Totals& t = world.resource<Totals>();
-  const std::array sums{t.external_work, t.friction_work, t.damping_work, t.contact_energy,
-                        t.worst_penetration, world.resource<Clock>().time};
+  const std::array sums{t.external_work,  t.friction_work,     t.damping_work,
+                        t.contact_energy, t.worst_penetration, world.resource<Clock>().time};
   const auto bytes = std::as_bytes(std::span(sums));
   bits["totals and clock"] = {bytes.begin(), bytes.end()};
   return bits;

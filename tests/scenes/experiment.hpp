@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "components/contact.hpp"
-#include "systems/contact_kernel.hpp"
 #include "scenes/read.hpp"
 #include "scenes/results.hpp"
 #include "scenes/simulation.hpp"
+#include "systems/contact_kernel.hpp"
 
 namespace pulvis {
 

@@ -20,7 +20,8 @@ Momentum momentum(Experiment& e) {
   Momentum p;
   for (const int slot : bodies.slot_of_number) {
     const Shape& shape = bodies.shape_of_slot(slot);
-    const auto first = static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(slot / 4)]);
+    const auto first =
+        static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(slot / 4)]);
     const double rho = w.column<Density>().values()[static_cast<std::size_t>(slot)];
     for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
       const double m = rho * bodies.thickness * shape.nodal_area[n];
@@ -92,7 +93,8 @@ TEST(Objectivity, StressTurnsWithASuperposedRotation) {
     const double angle = turned != 0 ? 2.1 : 0, c = std::cos(angle), s = std::sin(angle);
     for (std::size_t n = 0; n < x.table.rows; ++n) {
       const double u = x.lanes()[2 * n][0], v = x.lanes()[2 * n + 1][0];
-      const double p = u * 1.02 + 0.01 * v + 3 * u * v, q = 0.97 * v - 2 * u * u;  // stretch, shear, bend
+      const double p = u * 1.02 + 0.01 * v + 3 * u * v,
+                   q = 0.97 * v - 2 * u * u;  // stretch, shear, bend
       x.lanes()[2 * n][0] = c * p - s * q;
       x.lanes()[2 * n + 1][0] = s * p + c * q;
     }

@@ -37,24 +37,28 @@ std::string step_now(const Simulation& simulation) {
 // ---- too fast -------------------------------------------------------------------------------------
 // 2 km/s: the punch is through the first row before the particles can get out of its way.
 TEST(Health, AbsurdPunchIsNamedWithBothSides) {
-  Experiment e("compaction/regular-25.toml",
-               {"stage.press.duration=10 us", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]"},
-               2);
+  Experiment e(
+      "compaction/regular-25.toml",
+      {"stage.press.duration=10 us", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]"}, 2);
   const std::string failure = failure_of(e.simulation, 10000);
-  EXPECT_THAT(failure, ContainsRegex("^tool_contact: particle 2[0-4], edge [0-9]+ against tool 'top'"));
-  EXPECT_THAT(failure, ContainsRegex("penetration [0-9.e-]+ m is 0\\.[5-9][0-9]* of the edge length"));
+  EXPECT_THAT(failure,
+              ContainsRegex("^tool_contact: particle 2[0-4], edge [0-9]+ against tool 'top'"));
+  EXPECT_THAT(failure,
+              ContainsRegex("penetration [0-9.e-]+ m is 0\\.[5-9][0-9]* of the edge length"));
   EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
   EXPECT_THAT(failure, HasSubstr("allowed 0.5 (limits.penetration)"));
 }
 
 // With the limit out of the way the elements give in: the failure is the element's, not a NaN later.
 TEST(Health, ElementTurnedInsideOutIsNamed) {
-  Experiment e("compaction/regular-25.toml",
-               {"stage.press.duration=20 us", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]",
-                "limits.penetration=1e6"},
-               2);
+  Experiment e(
+      "compaction/regular-25.toml",
+      {"stage.press.duration=20 us", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]",
+       "limits.penetration=1e6"},
+      2);
   const std::string failure = failure_of(e.simulation, 10000);
-  EXPECT_THAT(failure, ContainsRegex("^trial_stress: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
+  EXPECT_THAT(failure,
+              ContainsRegex("^trial_stress: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
   EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
 }
 
@@ -105,9 +109,10 @@ TEST_P(NotANumber, InAVelocityStopsTheRunOneStepLater) {
 
 // Amid touching outlines: the contact search meets the NaN before the elements do.
 TEST_P(NotANumber, AmidContactIsFoundWithoutHarm) {
-  Experiment e("compaction/regular-25.toml",
-               {"stage.press.duration=50 us", "stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]"},
-               2);
+  Experiment e(
+      "compaction/regular-25.toml",
+      {"stage.press.duration=50 us", "stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]"},
+      2);
   e.simulation.run_steps(500);
   EXPECT_THAT(failure_with_nan<Velocity>(e, 17, GetParam(), 2), HasSubstr("particle 17"));
 }
@@ -136,7 +141,8 @@ TEST(Health, NotANumberInTheEnergiesKeepsNoLimit) {
 TEST(Health, PenetrationLimitNamesParticleAndTool) {
   Experiment e("compaction/unit-cell.toml", {"limits.penetration=0.01"});
   const std::string failure = failure_of(e.simulation, 100000);
-  EXPECT_THAT(failure, ContainsRegex("^tool_contact: particle 0, edge [0-9]+ against tool '[a-z]+': "));
+  EXPECT_THAT(failure,
+              ContainsRegex("^tool_contact: particle 0, edge [0-9]+ against tool '[a-z]+': "));
   EXPECT_THAT(failure, HasSubstr("is 0.01 of the edge length at step "));
   EXPECT_THAT(failure, HasSubstr("allowed 0.01 (limits.penetration)"));
 }
@@ -144,8 +150,9 @@ TEST(Health, PenetrationLimitNamesParticleAndTool) {
 TEST(Health, PenetrationLimitNamesBothParticles) {
   Experiment e("basic/oblique-impact.toml", {"limits.penetration=0.001"});
   const std::string failure = failure_of(e.simulation, 100000);
-  EXPECT_THAT(failure, ContainsRegex("^edge_contact: particle (0, edge [0-9]+ against particle 1|1, edge "
-                                     "[0-9]+ against particle 0): penetration [0-9.e-]+ m "));
+  EXPECT_THAT(failure,
+              ContainsRegex("^edge_contact: particle (0, edge [0-9]+ against particle 1|1, edge "
+                            "[0-9]+ against particle 0): penetration [0-9.e-]+ m "));
   EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
   EXPECT_THAT(failure, HasSubstr("limits.penetration"));
 }
@@ -164,7 +171,8 @@ nlohmann::json summary_of_a_bad_run(const std::string& limit) {
       std::string("'") + PULVIS_PROGRAM + "' run '" + PULVIS_SOURCE_DIR +
       "/scenes/compaction/regular-25.toml' -o '" + folder.string() +
       "' --set 'stage.press.duration=50 us' --set output.frames=10 --set output.samples=50 --set "
-      "'stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]' --set limits." + limit;
+      "'stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]' --set limits." +
+      limit;
   const int status = std::system((command + " >/dev/null 2>&1").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 3) << command;
   auto summary = nlohmann::json::parse(std::ifstream(folder / "summary.json"));
@@ -182,8 +190,9 @@ TEST(Health, EnergyBalanceLimitStopsTheRun) {
 
 TEST(Health, KineticEnergyLimitStopsTheRun) {
   const auto summary = summary_of_a_bad_run("kinetic_energy=1e-3");
-  EXPECT_THAT(summary["outcome"].get<std::string>(),
-              ContainsRegex("^failed: energies: kinetic_energy is .* \\(limits.kinetic_energy\\)$"));
+  EXPECT_THAT(
+      summary["outcome"].get<std::string>(),
+      ContainsRegex("^failed: energies: kinetic_energy is .* \\(limits.kinetic_energy\\)$"));
 }
 
 }  // namespace

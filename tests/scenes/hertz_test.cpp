@@ -38,7 +38,8 @@ TEST(Hertz, LoadAndHalfWidthOfADiscBetweenPlatens) {
   e.run(10);
   const MaterialSpec& m = e.scene.materials[0];
   const double R = 5e-3, E = m.youngs_modulus / (1 - m.poissons_ratio * m.poissons_ratio);
-  const double P = 0.5 * (e.value("tool/top/force_y") - e.value("tool/bottom/force_y")) / e.scene.thickness;
+  const double P =
+      0.5 * (e.value("tool/top/force_y") - e.value("tool/bottom/force_y")) / e.scene.thickness;
   const double a = std::sqrt(4 * P * R / (std::numbers::pi * E));
   const double approach = 2 * P / (std::numbers::pi * E) * (2 * std::log(4 * R / a) - 1);
   const double moved = e.value("tool/bottom/position_y") - e.value("tool/top/position_y") + 2 * R;

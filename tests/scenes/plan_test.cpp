@@ -58,9 +58,9 @@ const Names plastic_columns{"plastic_metric",  "plastic_strain", "plastic_work",
 const Names friction_columns{"friction", "elastic_slip", "friction_work", "friction_couple"};
 const Names damping_columns{"damping", "damping_work"};
 const Names contact_places{"contact", "tool_contact", "curve", "boundary", "tool"};
-const Names contact_systems{"tool_motion",    "bin_edges",      "bin_tool_edges", "note_binning",
-                            "edge_contact",   "tool_contact",   "contact_totals", "contact_health",
-                            "tool_reaction",  "contact_force",  "contact_curve"};
+const Names contact_systems{"tool_motion",   "bin_edges",     "bin_tool_edges", "note_binning",
+                            "edge_contact",  "tool_contact",  "contact_totals", "contact_health",
+                            "tool_reaction", "contact_force", "contact_curve"};
 
 TEST(Plan, ElasticSceneHasNothingPlastic) {
   const Asked asked("basic/patch-test.toml");
@@ -88,9 +88,9 @@ TEST(Plan, VelocitiesOfTheOutlineOnlyWhereAContactLawAsksForThem) {
 TEST(Plan, PlasticSceneWithFrictionHasBoth) {
   const Asked asked("compaction/regular-25.toml");
   EXPECT_THAT(asked.called(plastic_columns),
-              UnorderedElementsAreArray(
-                  {"element/plastic_metric", "element/plastic_strain", "element/isochoric_scale",
-                   "particle/plastic_work", "particle/yield_stress", "particle/hardening_modulus"}));
+              UnorderedElementsAreArray({"element/plastic_metric", "element/plastic_strain",
+                                         "element/isochoric_scale", "particle/plastic_work",
+                                         "particle/yield_stress", "particle/hardening_modulus"}));
   EXPECT_THAT(asked.called(friction_columns),
               UnorderedElementsAreArray({"contact/friction", "contact/elastic_slip",
                                          "contact/friction_work", "contact/friction_couple",
@@ -111,9 +111,9 @@ TEST(Plan, DampingColumnsOnlyWithDamping) {
 TEST(Plan, FreeParticleHasNoContact) {
   const Asked asked("basic/spinning-disc.toml");
   EXPECT_THAT(asked.at(contact_places), IsEmpty());
-  EXPECT_THAT(asked.names, ElementsAre("advance_clock", "elastic_energy", "elastic_stress",
-                                       "element_health", "integrate", "internal_force",
-                                       "kinetic_energy", "stable_time_step"));
+  EXPECT_THAT(asked.names,
+              ElementsAre("advance_clock", "elastic_energy", "elastic_stress", "element_health",
+                          "integrate", "internal_force", "kinetic_energy", "stable_time_step"));
 }
 
 TEST(Plan, OneParticleBetweenToolsHasNoPairs) {
@@ -138,9 +138,12 @@ TEST(Plan, SceneWithEverythingHasEveryContactSystem) {
 
 // ---- the graph ----------------------------------------------------------------------------------
 std::vector<std::string> edges_by_name(const GraphPlan& plan) {
-  const auto name = [&](int stage) { return plan.stages[static_cast<std::size_t>(stage)].systems[0]; };
+  const auto name = [&](int stage) {
+    return plan.stages[static_cast<std::size_t>(stage)].systems[0];
+  };
   std::vector<std::string> edges;
-  for (const auto& [earlier, later] : plan.edges) edges.push_back(name(earlier) + " -> " + name(later));
+  for (const auto& [earlier, later] : plan.edges)
+    edges.push_back(name(earlier) + " -> " + name(later));
   return edges;
 }
 
@@ -149,16 +152,15 @@ TEST(Plan, EdgesOfACompactionStep) {
   const Asked asked("compaction/regular-25.toml");
   EXPECT_THAT(edges_by_name(asked.experiment.simulation.plan()),
               UnorderedElementsAreArray({
-                  "tool_motion -> bin_tool_edges",     // where the tools are
-                  "bin_edges -> bin_tool_edges",       // contact_index
-                  "bin_edges -> edge_contact",         // the rows
-                  "bin_tool_edges -> note_binning",    // contact_index
-                  "bin_tool_edges -> tool_contact",    // the rows
-                  "note_binning -> contact_force",     // contact_index
-                  "edge_contact -> contact_totals",    // energies of the rows
-                  "edge_contact -> contact_force",     // forces of the points
-                  "tool_contact -> contact_totals",
-                  "tool_contact -> contact_force",
+                  "tool_motion -> bin_tool_edges",   // where the tools are
+                  "bin_edges -> bin_tool_edges",     // contact_index
+                  "bin_edges -> edge_contact",       // the rows
+                  "bin_tool_edges -> note_binning",  // contact_index
+                  "bin_tool_edges -> tool_contact",  // the rows
+                  "note_binning -> contact_force",   // contact_index
+                  "edge_contact -> contact_totals",  // energies of the rows
+                  "edge_contact -> contact_force",   // forces of the points
+                  "tool_contact -> contact_totals", "tool_contact -> contact_force",
                   "contact_totals -> contact_health",  // totals
                   "contact_health -> tool_reaction",   // totals
                   "tool_reaction -> advance_clock",    // clock
@@ -194,22 +196,18 @@ TEST(Plan, BodiesAreComputedInOnePassOverTheChunks) {
   std::vector<std::vector<std::string>> passes;
   for (const StagePlan& stage : asked.experiment.simulation.plan().stages)
     if (stage.by_chunk) passes.push_back(stage.systems);
-  EXPECT_THAT(passes,
-              ElementsAre(ElementsAre("contact_force", "trial_stress", "j2_return_map",
-                                      "internal_force", "integrate", "contact_curve",
-                                      "stable_time_step")));
+  EXPECT_THAT(passes, ElementsAre(ElementsAre("contact_force", "trial_stress", "j2_return_map",
+                                              "internal_force", "integrate", "contact_curve",
+                                              "stable_time_step")));
 }
 
 // ---- no idle column -----------------------------------------------------------------------------
 // Read by the results: history, frames.
-const Names shown{"tool/force",
-                  "particle/kinetic_energy",
-                  "particle/elastic_energy",
+const Names shown{"tool/force", "particle/kinetic_energy", "particle/elastic_energy",
                   "particle/plastic_work"};
 // Read and written by one and the same system through Write: history of a contact row, sums.
-const Names kept_by_their_writer{"contact/reach",        "tool_contact/reach",
-                                 "contact/elastic_slip", "tool_contact/elastic_slip",
-                                 "curve/force"};
+const Names kept_by_their_writer{"contact/reach", "tool_contact/reach", "contact/elastic_slip",
+                                 "tool_contact/elastic_slip", "curve/force"};
 
 class NoIdleColumn : public ::testing::TestWithParam<const char*> {};
 
@@ -220,15 +218,16 @@ TEST_P(NoIdleColumn, EveryColumnIsReadBySomebody) {
     for (const AccessInfo& access : system->accesses)
       if (access.mode == AccessMode::read) read.insert(access.name);
   for (const std::string& column : asked.columns)
-    EXPECT_TRUE(read.contains(column) || shown.contains(column) || kept_by_their_writer.contains(column))
+    EXPECT_TRUE(read.contains(column) || shown.contains(column) ||
+                kept_by_their_writer.contains(column))
         << column;
 }
 
 // And none is only read: what nobody writes was set once by the scene.
 TEST_P(NoIdleColumn, EveryColumnIsWrittenBySomebodyOrByTheScene) {
-  const Names of_the_scene{"particle/shear_modulus",     "particle/bulk_modulus", "particle/density",
-                           "particle/yield_stress",      "tool/normal",
-                           "particle/hardening_modulus"};
+  const Names of_the_scene{
+      "particle/shear_modulus", "particle/bulk_modulus", "particle/density",
+      "particle/yield_stress",  "tool/normal",           "particle/hardening_modulus"};
   const Asked asked(GetParam());
   Names written;
   for (const System* system : asked.systems)
@@ -241,7 +240,8 @@ TEST_P(NoIdleColumn, EveryColumnIsWrittenBySomebodyOrByTheScene) {
 INSTANTIATE_TEST_SUITE_P(ShippedScenes, NoIdleColumn,
                          ::testing::Values("basic/spinning-disc.toml", "basic/oblique-impact.toml",
                                            "basic/patch-test.toml", "basic/sliding-block.toml",
-                                           "compaction/unit-cell.toml", "compaction/regular-25.toml"));
+                                           "compaction/unit-cell.toml",
+                                           "compaction/regular-25.toml"));
 
 }  // namespace
 }  // namespace pulvis

@@ -32,8 +32,9 @@ struct Contacts {
     world.resource<ContactIndex>().travel_at_bin = -1;  // positions were set by hand: bin anew
     std::vector<System> forces;
     for (System& system : step_list(world).forces)
-      if (system.name == "bin_edges" || system.name == "note_binning" || system.name == "edge_contact" ||
-          system.name == "contact_totals" || system.name == "contact_force")
+      if (system.name == "bin_edges" || system.name == "note_binning" ||
+          system.name == "edge_contact" || system.name == "contact_totals" ||
+          system.name == "contact_force")
         forces.push_back(std::move(system));
     TaskGraph(std::move(forces), world.chunks()).run();
   }
@@ -68,7 +69,8 @@ TEST(Contact, ForceIsMinusTheGradientOfTheEnergy) {
       const double down = contacts.energy();
       x.lanes()[i][l] = was;
       // Central differences of a quadratic energy with a kink where points touch: h / penetration.
-      EXPECT_NEAR(-(up - down) / (2 * h), force[i][l], 2e-4 * largest) << "node " << i / 2 << " lane " << l;
+      EXPECT_NEAR(-(up - down) / (2 * h), force[i][l], 2e-4 * largest)
+          << "node " << i / 2 << " lane " << l;
     }
 }
 
