@@ -386,17 +386,6 @@ TEST_F(CommandLine, UnwritableFolderIsTheMachinesFault) {
   EXPECT_EQ(pulvis({"report", (place / "nothing").string()}).code, 4);
 }
 
-TEST_F(CommandLine, ReadOnlyFolderIsTheMachinesFault) {
-  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
-  fs::create_directories(place / "locked");
-  fs::permissions(place / "locked", fs::perms::owner_read | fs::perms::owner_exec);
-  const Outcome end = pulvis(
-      {"run", scene("basic/oblique-impact.toml"), "-o", (place / "locked" / "run").string()});
-  fs::permissions(place / "locked", fs::perms::owner_all);
-  EXPECT_EQ(end.code, 4) << end.err;
-  EXPECT_FALSE(fs::exists(place / "locked" / "run"));
-}
-
 // ---- 130: interrupted ---------------------------------------------------------------------------
 // The spinning disc would take minutes; the first frames are there long before.
 TEST_F(CommandLine, InterruptEndsBetweenTwoStepsWithReadableResults) {
