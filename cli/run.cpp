@@ -13,6 +13,7 @@
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/summary.hpp"
+#include "components/body.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/read.hpp"
@@ -60,15 +61,28 @@ class Timetable {
   int count_, next_ = 0;
 };
 
+// Where to look first when the energies say that something is wrong: the most distorted element.
+std::string worst_element(const World& world) {
+  const double* least = world.column<LeastJacobian>().values();
+  const double* element = world.column<WorstElement>().values();
+  int slot = world.resource<Bodies>().slot_of_number.front();
+  for (const int s : world.resource<Bodies>().slot_of_number)
+    if (!(least[s] >= least[slot])) slot = s;
+  return fmt::format("most distorted: particle {}, element {}, det F = {:.4g}",
+                     world.resource<Bodies>().slots[static_cast<std::size_t>(slot)].number,
+                     static_cast<int>(element[slot]), least[slot]);
+}
+
 // Quality that the scene set limits for, looked at on every sample.
-void check_limits(const Scene& scene, const Results& results, const Clock& clock) {
+void check_limits(const Scene& scene, const Results& results, const World& world) {
+  const Clock& clock = world.resource<Clock>();
   const auto stop = [&](const char* key, double value, double limit) {
-    throw RunFailure(
-        fmt::format("energies: {} is {:.4g} at step {}, t = {:.6g} s; allowed {:.4g} (limits.{})",
-                    key, value, clock.step, clock.time, limit, key));
+    throw RunFailure(fmt::format(
+        "energies: {} is {:.4g} at step {}, t = {:.6g} s; allowed {:.4g} (limits.{}); {}", key,
+        value, clock.step, clock.time, limit, key, worst_element(world)));
   };
-  // At the first touch there is next to no energy to compare with; strains of 1e-4 are a start.
-  const double balance = results.energy_balance_error(1e-8);
+  // At the first touch there is next to no energy to compare with; strains of 1e-3 are a start.
+  const double balance = results.energy_balance_error(1e-6);
   if (!(balance <= scene.limits.energy_balance))
     stop("energy_balance", balance, scene.limits.energy_balance);
   const Energies& e = results.energies();
@@ -105,7 +119,7 @@ struct Run {
     simulation->observe();
     recorder.sample(clock.time, results.sample());
     samples.pass(clock.time);
-    check_limits(loaded.scene, results, clock);
+    check_limits(loaded.scene, results, simulation->world());
     if (!frames.due(clock.time)) return;
     recorder.frame(clock.time, clock.step, results.frame());
     frames.pass(clock.time);
