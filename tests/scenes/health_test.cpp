@@ -184,15 +184,16 @@ TEST(Health, EnergyBalanceLimitStopsTheRun) {
   const auto summary = summary_of_a_bad_run("energy_balance=1e-7");
   EXPECT_THAT(summary["outcome"].get<std::string>(),
               ContainsRegex("^failed: energies: energy_balance is [0-9.e-]+ at step [0-9]+, t = "
-                            "[0-9.e-]+ s; allowed 1e-07 \\(limits.energy_balance\\)$"));
+                            "[0-9.e-]+ s; allowed 1e-07 \\(limits.energy_balance\\); most "
+                            "distorted: particle [0-9]+, element [0-9]+, det F = .*$"));
   EXPECT_LT(summary["time"], 50e-6);
 }
 
 TEST(Health, KineticEnergyLimitStopsTheRun) {
   const auto summary = summary_of_a_bad_run("kinetic_energy=1e-3");
-  EXPECT_THAT(
-      summary["outcome"].get<std::string>(),
-      ContainsRegex("^failed: energies: kinetic_energy is .* \\(limits.kinetic_energy\\)$"));
+  EXPECT_THAT(summary["outcome"].get<std::string>(),
+              ContainsRegex("^failed: energies: kinetic_energy is .* \\(limits.kinetic_energy\\); "
+                            "most distorted: particle [0-9]+, element .*$"));
 }
 
 }  // namespace
