@@ -8,7 +8,8 @@
 #include <numeric>
 
 #include "scenes/contact_curve.hpp"
-#include "systems/element_kernel.hpp"
+#include "scenes/mass_shares.hpp"
+#include "systems/time_step_kernel.hpp"
 
 namespace pulvis {
 namespace {
@@ -189,20 +190,21 @@ kernels::QuadMap<double> map_of(const std::vector<Point>& x, const Quad& q) {
                            at(3)[1]);
 }
 
-// Highest squared frequency of the mesh up to a factor, as systems/time_step bounds it: elements by their
-// half-width, those on the outline (the first `boundary` quads) with the contact springs on top; the 3
-// stands for steel's nu and k = 2, which keeps the ring thick enough for the stiffest contact in use.
+// Highest squared frequency of the mesh up to a factor, of elements with a quarter of their mass at each
+// corner; those on the outline (the first `boundary` quads) with contact springs on top, k = 2, which keeps
+// the ring thick enough for the stiffest contact in use.
 double frequency_bound(const std::vector<Point>& nodes, const std::vector<Quad>& quads,
                        std::size_t boundary) {
+  constexpr double bulk = 13.0 / 6, mu = 1, springs = 2;  // nu = 0.3
   double highest = 0;
   for (std::size_t e = 0; e < quads.size(); ++e) {
     const auto a = kernels::map_gradient(map_of(nodes, quads[e]), 0, 0);
-    double bound = 1 / kernels::squared_half_width(a);
+    double bound = kernels::frequency_bound(kernels::mode_spread(a, {1, 0, 1}), bulk, mu, 1.0, 0.0);
     if (e < boundary) {
       const Point& p = nodes[static_cast<std::size_t>(quads[e][0].value)];
       const Point& q = nodes[static_cast<std::size_t>(quads[e][1].value)];
       const double slope = std::hypot(q[0] - p[0], q[1] - p[1]) / (4 * determinant(a));
-      bound += 3 * slope * slope;
+      bound += 2 * springs * bulk * slope * slope;
     }
     highest = std::max(highest, bound);
   }
@@ -299,6 +301,7 @@ Shape make_shape(const ParticleSpec& particle, double phase) {
                    std::get<RectangleMesh>(particle.mesh), shape);
   set_gauss_points(shape);
   measure_edges(shape);
+  share_mass(shape);
   return shape;
 }
 

@@ -4,17 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "components/body.hpp"
-#include "scenes/build.hpp"
 #include "systems/contact_kernel.hpp"
-#include "systems/step.hpp"
 
 namespace pulvis {
 namespace {
@@ -309,92 +304,6 @@ TEST(ContactCurve, EdgesKnowTheirLengthAndTheElementBehind) {
   for (const Shape::Edge& edge : round.edges)
     EXPECT_NEAR(edge.weight[0] + edge.weight[1] + edge.weight[2] + edge.weight[3], edge.length,
                 1e-18);
-}
-
-// ---- the time step that such a mesh stands -----------------------------------------------------------
-
-// One steel disc of 40 edges in the program's own world, with its internal forces as a function of the
-// node positions.
-class FreeDisc {
- public:
-  FreeDisc() {
-    Scene scene;
-    scene.materials = {{"steel", 7850, 200e9, 0.3, {}, 0, {}}};
-    scene.particles = {{"disc", 0, DiscOutline{2 * radius}, DiscMesh{40, 1, 1}, false, 0, {}}};
-    scene.bodies = {BodySpec{}};
-    scene.stages = {{"stage", StageSpec::Kind::settle, 1e-3, {}, {}}};
-    world_ = build_world(scene);
-    forces_ = std::make_unique<TaskGraph>(step_list(*world_).forces, world_->chunks());
-    for (const Point& p : shape().nodes) rest_.insert(rest_.end(), p.begin(), p.end());
-  }
-  const Shape& shape() const { return world_->resource<Bodies>().shapes[0]; }
-  Eigen::VectorXd moved(const Eigen::Matrix2d& f) const {
-    Eigen::VectorXd x(static_cast<Eigen::Index>(rest_.size()));
-    for (Eigen::Index i = 0; i < x.size(); i += 2)
-      x.segment<2>(i) = f * Eigen::Map<const Eigen::Vector2d>(rest_.data() + i);
-    return x;
-  }
-  // 2 / omega of the highest mode at `x`, from K by central differences: truncation and round-off 1e-9.
-  double true_time_step(Eigen::VectorXd x) {
-    const double h = 1e-8;
-    Eigen::MatrixXd k(x.size(), x.size());
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      const double was = x[i];
-      x[i] = was - h;
-      k.col(i) = force(x);
-      x[i] = was + h;
-      k.col(i) = (k.col(i) - force(x)) / (2 * h);
-      x[i] = was;
-    }
-    const Eigen::VectorXd scale = mass().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd a = scale.asDiagonal() * (0.5 * (k + k.transpose())) * scale.asDiagonal();
-    return 2 /
-           std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues().maxCoeff());
-  }
-  double bound(const Eigen::VectorXd& x) {
-    put(x);
-    TaskGraph(start_list(*world_), world_->chunks()).run();
-    return world_->column<StableTimeStep>().values()[0];
-  }
-
- private:
-  void put(const Eigen::VectorXd& x) {  // the disc stands in lane 0
-    for (Eigen::Index i = 0; i < x.size(); ++i) world_->column<Position>().lanes()[i][0] = x[i];
-  }
-  Eigen::VectorXd force(const Eigen::VectorXd& x) {
-    put(x);
-    forces_->run();
-    Eigen::VectorXd f(x.size());
-    for (Eigen::Index i = 0; i < f.size(); ++i)
-      f[i] = world_->column<InternalForce>().lanes()[i][0];
-    return f;
-  }
-  Eigen::VectorXd mass() const {
-    Eigen::VectorXd m(static_cast<Eigen::Index>(rest_.size()));
-    const double per_area = 7850 * world_->resource<Bodies>().thickness;
-    for (Eigen::Index i = 0; i < m.size(); ++i)
-      m[i] = per_area * shape().nodal_area[static_cast<std::size_t>(i / 2)];
-    return m;
-  }
-
-  std::unique_ptr<World> world_;
-  std::unique_ptr<TaskGraph> forces_;
-  std::vector<double> rest_;
-};
-
-TEST(StableTimeStep, IsBelowTheTrueOneAndWastesLessThanAThird) {
-  FreeDisc disc;
-  const auto of = [](double xx, double xy, double yx, double yy) {
-    return Eigen::Matrix2d{{xx, xy}, {yx, yy}};
-  };
-  for (const Eigen::Matrix2d& f :
-       {of(1, 0, 0, 1), of(0.8, 0, 0, 1), of(1.2, 0, 0, 1), of(0.8, 0, 0, 1.25), of(1, 0.2, 0.2, 1),
-        of(0.8, 0, 0, 0.8), of(1.2, 0, 0, 1.2)}) {
-    const Eigen::VectorXd x = disc.moved(f);
-    const double share = disc.bound(x) / disc.true_time_step(x);
-    EXPECT_LT(share, 1) << f;
-    EXPECT_GT(share, 0.7) << f;
-  }
 }
 
 }  // namespace
