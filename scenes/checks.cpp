@@ -39,8 +39,15 @@ class Checks {
     return found == origins_.end() ? document::Origin{{1, 1}, -1} : found->second;
   }
 
+  // A default has no place of its own: its table's is told, or the table's above.
+  document::Origin nearest_origin(std::string path) const {
+    while (origins_.count(path) == 0 && path.find('.') != std::string::npos)
+      path.erase(path.rfind('.'));
+    return origin(path);
+  }
+
   void refuse(const std::string& path, const std::string& message) {
-    problems_.add(origin(path), path, message);
+    problems_.add(nearest_origin(path), path, message);
   }
 
   void refuse_missing(const std::string& key, const std::string& what) {

@@ -42,10 +42,12 @@ double ratio_for(int edges, double first, double flat) {
   return 0.5 * (low + high);
 }
 
-// One side of `edges` edges, `on_arc` of them on its two half arcs, each `arc_edge` long.
+// One side of `edges` edges, `on_arc` of them on its two half arcs, each `arc_edge` long; empty when they
+// are too few.
 std::vector<double> side(double flat, int edges, int on_arc, double arc_edge) {
   const int on_flat = edges - on_arc;
-  if (on_flat < 1 || flat < on_flat * arc_edge)
+  if (on_flat < 0 || (on_flat == 0 && flat > arc_edge)) return {};
+  if (flat <= std::max(on_flat, 1) * arc_edge)
     return std::vector<double>(static_cast<std::size_t>(edges), (flat + on_arc * arc_edge) / edges);
   std::vector<double> lengths = growing(on_flat, arc_edge, ratio_for(on_flat, arc_edge, flat));
   const auto half = static_cast<std::size_t>(on_arc / 2);
@@ -70,11 +72,12 @@ RoundedSides share_edges(const RoundedRectangleOutline& rectangle, int boundary_
                           rectangle.height - 2 * rectangle.radius};
   const double arc = std::numbers::pi / 2 * rectangle.radius;
   const double mean = (2 * flat[0] + 2 * flat[1] + 4 * arc) / boundary_edges;
-  const int on_arc = std::max(least_arc_edges, 2 * static_cast<int>(std::lround(0.5 * arc / mean)));
+  const int on_arc = std::max(least_arc_edges, 2 * static_cast<int>(0.5 * arc / mean));
   RoundedSides best{{}, {}, std::numeric_limits<double>::max()};
   for (int columns = 1; columns < boundary_edges / 2; ++columns) {
     RoundedSides sides{side(flat[0], columns, on_arc, arc / on_arc),
                        side(flat[1], boundary_edges / 2 - columns, on_arc, arc / on_arc), 0};
+    if (sides.columns.empty() || sides.rows.empty()) continue;
     sides.growth = growth_of(sides.columns, sides.rows);
     if (sides.growth < best.growth) best = std::move(sides);
   }

@@ -10,7 +10,8 @@ namespace pulvis {
 // A side is everything from the middle of one arc to the middle of the next.
 struct RoundedSides {
   std::vector<double> columns, rows;  // m, edge lengths along the horizontal and vertical sides
-  double growth;                      // largest ratio of the lengths of two neighbours
+  double
+      growth;  // largest ratio of the lengths of two neighbours; huge when there are too few edges
 };
 
 RoundedSides share_edges(const RoundedRectangleOutline& rectangle, int boundary_edges);

@@ -37,10 +37,8 @@ Momentum momentum(Experiment& e) {
   return p;
 }
 
-class ObliqueImpact : public testing::TestWithParam<const char*> {};
-
-TEST_P(ObliqueImpact, KeepsMomentumAndEnergy) {
-  Experiment e("basic/oblique-impact.toml", {std::string("contact.friction=") + GetParam()});
+void expect_momentum_and_energy_kept(const std::vector<std::string>& overrides) {
+  Experiment e("basic/oblique-impact.toml", overrides);
   const Momentum before = momentum(e);
   double friction = 0, deepest = 0;
   e.run(400, [&] {
@@ -57,6 +55,19 @@ TEST_P(ObliqueImpact, KeepsMomentumAndEnergy) {
   // found to 1e-8 of an edge.
   EXPECT_NEAR(after.angular - before.angular, 0, 1e-10 * before.size * 5e-3);
   EXPECT_LT(e.results.energy_balance_error(), 0.01);
+}
+
+class ObliqueImpact : public testing::TestWithParam<const char*> {};
+
+TEST_P(ObliqueImpact, KeepsMomentumAndEnergy) {
+  expect_momentum_and_energy_kept({std::string("contact.friction=") + GetParam()});
+}
+
+TEST_P(ObliqueImpact, OfDiscsOfOneAndFourElementsKeepsThemToo) {
+  for (const char* edges : {"4", "8"})
+    expect_momentum_and_energy_kept({std::string("contact.friction=") + GetParam(),
+                                     std::string("particle.disc.mesh.boundary_edges=") + edges,
+                                     "particle.disc.mesh.rings=0"});
 }
 INSTANTIATE_TEST_SUITE_P(Frictions, ObliqueImpact, testing::Values("0", "0.2", "1"));
 

@@ -110,7 +110,7 @@ TEST(RoundedRectangle, EveryArcHasFourEdgesAndNeighboursDifferLittle) {
     EXPECT_LT(growth, 1.02 * most_edge_growth)
         << c.name;  // lengths of the curve, not of its chords
     const double arc = pi / 2 * c.outline.radius;
-    EXPECT_LT(least, 1.03 * arc / 4) << c.name;  // arcs are the finest part ...
+    EXPECT_LT(least, 1.1 * arc / 4) << c.name;  // four edges an arc, with the rest of a short flat ...
     // ... and no edge is thinner than a quarter of an arc, or than an even division would make it.
     double perimeter = 0;
     for (const Shape::Edge& edge : c.shape.edges) perimeter += edge.length;
@@ -134,7 +134,13 @@ double curve_error(const Case& c) {
 }
 
 TEST(RoundedRectangleCurve, FollowsTheOutlineToOnePercentOfTheRadius) {
-  for (const Case& c : all()) EXPECT_LT(curve_error(c), 0.01 * c.outline.radius) << c.name;
+  double worst = 0;
+  for (const Case& c : all()) {
+    const double error = curve_error(c) / c.outline.radius;
+    EXPECT_LT(error, 0.01) << c.name;
+    worst = std::max(worst, error);
+  }
+  RecordProperty("worst", std::to_string(worst));
 }
 
 TEST(RoundedRectangleCurve, ConvergesToTheOutline) {
@@ -167,13 +173,19 @@ TEST(RoundedRectangleCurve, IsFlatTwoEdgesFromTheCorners) {
 }
 
 TEST(RoundedRectangleCurve, HasTheOutlinesArea) {
+  double coarsest = 0, worst = 0;
   for (const Case& c : all()) {
     double twice = 0;  // Green: sum of x . dA/dx is twice the area, which is quadratic in x
     const auto load = pressure_loads(c.shape);
     for (std::size_t i = 0; i < load.size(); ++i)
       twice += c.shape.nodes[i][0] * load[i].curve[0] + c.shape.nodes[i][1] * load[i].curve[1];
-    EXPECT_NEAR(0.5 * twice / c.shape.area, 1, 3e-4) << c.name;
+    const double error = std::abs(0.5 * twice / c.shape.area - 1);
+    EXPECT_LT(error, c.mesh.boundary_edges < 48 ? 4e-4 : 1e-4) << c.name;
+    (c.mesh.boundary_edges < 48 ? coarsest : worst) =
+        std::max(c.mesh.boundary_edges < 48 ? coarsest : worst, error);
   }
+  RecordProperty("fewer_than_48_edges", std::to_string(coarsest));
+  RecordProperty("from_48_edges_on", std::to_string(worst));
 }
 
 // Largest difference of a node's load by a uniform pressure on the curve from that on its element edges.
@@ -190,7 +202,7 @@ TEST(RoundedRectangleCurve, UniformPressureLoadsTheNodesAsElementEdgesDo) {
   for (const Case& c : all())
     EXPECT_LT(load_error(c.shape), 0.05) << c.name;  // the steepest growth
   EXPECT_LT(load_error(rounded(1e-2, 1e-2, 5e-4, 48).shape), 0.02);
-  EXPECT_LT(load_error(rounded(1e-2, 1e-2, 5e-4, 96).shape), 0.005);
+  EXPECT_LT(load_error(rounded(1e-2, 1e-2, 5e-4, 96).shape), 0.006);
   EXPECT_LT(load_error(rounded(1e-2, 1e-2, 2e-3, 48).shape), 0.01);
 }
 
