@@ -109,7 +109,7 @@ const Wrong cases[] = {
      "rings = 1",
      "rings = @1.5",
      "particle[0].mesh.rings",
-     {"wrong type", "allowed: a whole number, >= 1"}},
+     {"wrong type", "allowed: a whole number, >= 0"}},
     {"TextForVector",
      "[\"10 mm\", \"25 mm\"]",
      "@\"10 mm\"",
