@@ -89,7 +89,8 @@ void close_curve(Shape& shape, const Smoothing& smoothing) {
   for (int c = 0; c < n + 3; ++c) {
     const auto node = [&](int offset) { return (c + offset + 2 * n - 1) % n; };
     Terms y = smoothed(node(-1), node(0), node(1), smoothing.c[static_cast<std::size_t>(node(0))]);
-    add(y, {{node(-2), 1}, {node(-1), -4}, {node(0), 6}, {node(1), -4}, {node(2), 1}}, smoothing.d);
+    for (const auto& [offset, factor] : {std::pair{-2, 1}, {-1, -4}, {0, 6}, {1, -4}, {2, 1}})
+      y[node(offset)] += factor * smoothing.d;  // of 4 nodes the first and the last are one
     push_control_point(shape, y);
   }
   for (int e = 0; e < n; ++e) {
