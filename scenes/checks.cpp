@@ -93,6 +93,16 @@ class Checks {
   // nearly 180 degrees there.
   void check(const std::string& path, const DiscOutline&, const MeshSpec& spec) {
     const auto& mesh = std::get<DiscMesh>(spec);
+    if (mesh.core == DiscMesh::Core::coarse) {
+      if (mesh.boundary_edges % 12 != 0)
+        refuse(
+            path + "mesh.boundary_edges",
+            fmt::format("{} edges cannot be dealt out to a coarse core, allowed: a multiple of 12",
+                        mesh.boundary_edges));
+      if (mesh.refinement > 1)
+        refuse(path + "mesh.refinement", "a refined outline needs an even core, allowed: 1");
+      return;
+    }
     if (mesh.rings == 0 && mesh.boundary_edges > most_edges_without_rings)
       refuse(
           path + "mesh.rings",
@@ -137,7 +147,8 @@ class Checks {
     return side * side + std::int64_t{rings} * boundary_edges;
   }
   static std::int64_t count(const DiscMesh& mesh) {
-    return with_core(mesh.boundary_edges, mesh.rings);
+    if (mesh.core == DiscMesh::Core::even) return with_core(mesh.boundary_edges, mesh.rings);
+    return with_core(mesh.boundary_edges / 3, 4) + std::int64_t{mesh.rings} * mesh.boundary_edges;
   }
   static std::int64_t count(const RectangleMesh& mesh) {
     return std::int64_t{mesh.columns} * mesh.rows;

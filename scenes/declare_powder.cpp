@@ -60,6 +60,15 @@ const TableDeclaration<Scene>& top_level() {
          .fallback = value_of(""),
          .doc = "Heading of the report."},
         to(&Scene::title)},
+       {{.name = "accuracy",
+         .kind = Kind::choice,
+         .choices = {{"draft", "a quick look"},
+                     {"standard", "where more costs much and brings little"},
+                     {"fine", "for figures to rely on"}},
+         .doc = "How fine the meshes are that do not say it themselves; the error to expect: "
+                "docs/accuracy.md.",
+         .fallback_doc = "`\"standard\"`"},
+        nothing<Scene>},
        {{.name = "thickness",
          .kind = Kind::quantity,
          .unit = "m",
@@ -203,10 +212,9 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .range = within(4, 4096),
          .multiple_of = 4,
          .only_for = {"disc", "rounded_rectangle", "ring"},
-         .doc = "Edges along the outline; the core of a disc has (boundary_edges/4)^2 quads. "
-                "Corners of "
+         .doc = "Edges along the outline; an even core has (boundary_edges/4)^2 quads. Corners of "
                 "a small radius get four edges each, which grow towards the middle of the flats.",
-         .fallback_doc = "40, of a rounded rectangle 48"},
+         .fallback_doc = "by `accuracy`; beside other sizes 40, of a rounded rectangle 48"},
         mesh_to(
             [](auto& mesh, int value) requires requires { mesh.boundary_edges; } {
               mesh.boundary_edges = value;
@@ -217,10 +225,22 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .only_for = {"disc", "rounded_rectangle", "ring"},
          .doc =
              "Rings of quads between the core and the outline, of a ring through its wall; 0: only "
-             "the core, for discs of at most 20 boundary edges.",
-         .fallback_doc = "1, of a ring 4"},
+             "the core, for discs of at most 20 boundary edges or with a coarse core.",
+         .fallback_doc = "by `accuracy`; beside other sizes 1, of a ring 4"},
         mesh_to(
             [](auto& mesh, int value) requires requires { mesh.rings; } { mesh.rings = value; })},
+       {{.name = "core",
+         .kind = Kind::choice,
+         .choices = {{"even", "as fine as the outline"},
+                     {"coarse",
+                      "one edge for three of the outline, joined by a ring of transition quads; "
+                      "boundary_edges is a multiple of 12"}},
+         .only_for = "disc",
+         .doc = "The inside of the rings.",
+         .fallback_doc = "by `accuracy`; beside other sizes `\"even\"`"},
+        [](ParticleSpec& spec, const Decoded& value) {
+          std::get<DiscMesh>(spec.mesh).core = static_cast<DiscMesh::Core>(value.index);
+        }},
        {{.name = "refinement",
          .kind = Kind::number,
          .range = within(1, 100),
@@ -246,18 +266,18 @@ const TableDeclaration<ParticleSpec>& mesh() {
        {{.name = "columns",
          .kind = Kind::integer,
          .range = within(1, 4096),
-         .fallback = value_of(8),
          .only_for = "rectangle",
-         .doc = "Quads along the width."},
+         .doc = "Quads along the width.",
+         .fallback_doc = "by `accuracy`; beside `rows` 8"},
         [](ParticleSpec& spec, const Decoded& value) {
           std::get<RectangleMesh>(spec.mesh).columns = static_cast<int>(value.integer);
         }},
        {{.name = "rows",
          .kind = Kind::integer,
          .range = within(1, 4096),
-         .fallback = value_of(8),
          .only_for = "rectangle",
-         .doc = "Quads along the height."},
+         .doc = "Quads along the height.",
+         .fallback_doc = "by `accuracy`; beside `columns` 8"},
         [](ParticleSpec& spec, const Decoded& value) {
           std::get<RectangleMesh>(spec.mesh).rows = static_cast<int>(value.integer);
         }}}};

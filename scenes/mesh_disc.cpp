@@ -50,7 +50,8 @@ void mesh_outline(const DiscOutline& disc, const DiscMesh& mesh, double phase, S
               stations_of(flank),
               mesh.rings,
               mesh.refinement,
-              mesh.refinement > 1 ? 0 : short_wave_filter},
+              mesh.refinement > 1 ? 0 : short_wave_filter,
+              mesh.core == DiscMesh::Core::coarse},
              phase, shape);
 }
 

@@ -57,8 +57,7 @@ double frequency_bound(const std::vector<Point>& nodes, const std::vector<Quad>&
     const auto map = kernels::quad_map(at(0)[0], at(0)[1], at(1)[0], at(1)[1], at(2)[0], at(2)[1],
                                        at(3)[0], at(3)[1]);
     const auto a = kernels::map_gradient(map, 0, 0);
-    double bound =
-        kernels::frequency_bound(kernels::mode_spread(a, {1, 0, 1}), bulk, mu, 1.0, 0.0);
+    double bound = kernels::frequency_bound(kernels::mode_spread(a, {1, 0, 1}), bulk, mu, 1.0, 0.0);
     if (e < boundary) {
       const double slope =
           std::hypot(at(1)[0] - at(0)[0], at(1)[1] - at(0)[1]) / (4 * determinant(a));
@@ -78,9 +77,36 @@ std::vector<double> insets() {
   return list;
 }
 
+double mean_edge(const std::vector<Point>& outline) {
+  double perimeter = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Point& a = outline[i];
+    const Point& b = outline[(i + 1) % outline.size()];
+    perimeter += std::hypot(b[0] - a[0], b[1] - a[1]);
+  }
+  return perimeter / static_cast<double>(outline.size());
+}
+
+// Rings as thick as their edges are long, and below them the transition, 0.8 times as thick as the edges of
+// the core are long: a core that starts deeper is coarse where the material flows, one that starts higher
+// has flat transition quads.
+std::vector<Point> coarse_nodes(const RoundGrid& round, const OGrid& grid,
+                                const std::vector<OutlinePoint>& points,
+                                const std::vector<Point>& outline) {
+  constexpr double transition = 0.8 * 3;  // edges of the outline
+  const double depth = round.rings + transition;
+  const double inset = depth * mean_edge(outline) / (0.5 * std::min(round.size[0], round.size[1]));
+  std::vector<double> shares;
+  for (int r = 0; r <= round.rings; ++r) shares.push_back(1 - r / depth);
+  shares.push_back(0.5 * shares.back());
+  return nodes_of(grid, outline, core_rim(round, points, std::min(inset, 0.6)), shares,
+                  round.columns, round.rows);
+}
+
 std::vector<Point> best_nodes(const RoundGrid& round, const OGrid& grid,
                               const std::vector<OutlinePoint>& points,
                               const std::vector<Point>& outline) {
+  if (round.coarse_core) return coarse_nodes(round, grid, points, outline);
   const std::vector<double> shares = ring_shares(round.rings, round.ring_refinement);
   if (round.rings == 0) return nodes_of(grid, outline, outline, shares, round.columns, round.rows);
   const std::vector<Quad> quads = quads_of(grid);
@@ -105,8 +131,10 @@ Point turned(const Point& p, double angle) {
 }
 
 void mesh_round(const RoundGrid& round, double phase, Shape& shape) {
-  const OGrid grid{static_cast<int>(round.columns.size()) - 1,
-                   static_cast<int>(round.rows.size()) - 1, round.rings};
+  const int stride = round.coarse_core ? 3 : 1;
+  const OGrid grid{(static_cast<int>(round.columns.size()) - 1) / stride,
+                   (static_cast<int>(round.rows.size()) - 1) / stride, round.rings,
+                   round.coarse_core};
   const std::vector<OutlinePoint> points =
       rounded_points(round.size, round.radius, round.columns, round.rows);
   const SmoothOutline outline = smooth_outline(points, shape.area, round.short_waves);

@@ -14,6 +14,7 @@ struct RoundGrid {
   int rings;                          // 0: the core's rim is the outline
   double ring_refinement = 1;         // the outermost ring is this much thinner than the innermost
   double short_waves = 0;             // fourth difference of the contact curve
+  bool coarse_core = false;           // one edge of the core for three of the outline
 };
 
 void mesh_round(const RoundGrid& round, double phase, Shape& shape);

@@ -28,13 +28,34 @@ Point core_point(const OGrid& grid, const std::vector<Point>& nodes, int column,
 
 }  // namespace
 
-int OGrid::core(int column, int row) const {
-  if (row == 0) return rim(rings, column);
-  if (column == columns) return rim(rings, columns + row);
-  if (row == rows) return rim(rings, 2 * columns + rows - column);
-  if (column == 0) return rim(rings, around() - row);
-  return (rings + 1) * around() + (row - 1) * (columns - 1) + column - 1;
+int OGrid::core_rim(int i) const {
+  const int at = (i + core_around()) % core_around();
+  return coarse_core ? (rings + 1) * around() + 2 * core_around() + at : rim(rings, at);
 }
+
+int OGrid::core(int column, int row) const {
+  if (row == 0) return core_rim(column);
+  if (column == columns) return core_rim(columns + row);
+  if (row == rows) return core_rim(2 * columns + rows - column);
+  if (column == 0) return core_rim(core_around() - row);
+  return first_inside() + (row - 1) * (columns - 1) + column - 1;
+}
+
+namespace {
+
+void add_transition(const OGrid& grid, std::vector<Quad>& quads) {
+  for (int i = 0; i < grid.core_around(); ++i) {
+    const auto p = [&](int k) { return grid.rim(grid.rings, 3 * i + k); };
+    const int q1 = grid.waist(i, 0), q2 = grid.waist(i, 1);
+    const int a = grid.core_rim(i), b = grid.core_rim(i + 1);
+    quads.push_back(quad(p(0), p(1), q1, a));
+    quads.push_back(quad(p(1), p(2), q2, q1));
+    quads.push_back(quad(p(2), p(3), b, q2));
+    quads.push_back(quad(q1, q2, b, a));
+  }
+}
+
+}  // namespace
 
 std::vector<Quad> quads_of(const OGrid& grid) {
   std::vector<Quad> quads;
@@ -42,6 +63,7 @@ std::vector<Quad> quads_of(const OGrid& grid) {
     for (int i = 0; i < grid.around(); ++i)
       quads.push_back(
           quad(grid.rim(r, i), grid.rim(r, i + 1), grid.rim(r + 1, i + 1), grid.rim(r + 1, i)));
+  if (grid.coarse_core) add_transition(grid, quads);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
       quads.push_back(quad(grid.core(column, row), grid.core(column + 1, row),
@@ -53,13 +75,23 @@ std::vector<Point> nodes_of(const OGrid& grid, const std::vector<Point>& outline
                             const std::vector<Point>& rim, const std::vector<double>& shares,
                             const std::vector<double>& columns, const std::vector<double>& rows) {
   std::vector<Point> nodes(at(grid.nodes()));
-  for (int i = 0; i < grid.around(); ++i)
-    for (int r = 0; r <= grid.rings; ++r)
-      nodes[at(grid.rim(r, i))] = between(rim[at(i)], outline[at(i)], shares[at(r)]);
+  const auto on_the_way = [&](int i, double share) {
+    return between(rim[at(i)], outline[at(i)], share);
+  };
+  for (int r = 0; r <= grid.rings; ++r)
+    for (int i = 0; i < grid.around(); ++i)
+      nodes[at(grid.rim(r, i))] = on_the_way(i, shares[at(r)]);
+  for (int i = 0; grid.coarse_core && i < grid.core_around(); ++i) {
+    nodes[at(grid.core_rim(i))] = rim[at(3 * i)];
+    for (int side = 0; side < 2; ++side)
+      nodes[at(grid.waist(i, side))] = on_the_way(3 * i + 1 + side, shares.back());
+  }
+  const int stride = grid.coarse_core ? 3 : 1;
   for (int row = 1; row < grid.rows; ++row)
     for (int column = 1; column < grid.columns; ++column)
-      nodes[at(grid.core(column, row))] = core_point(
-          grid, nodes, column, row, 0.5 * (columns[at(column)] + 1), 0.5 * (rows[at(row)] + 1));
+      nodes[at(grid.core(column, row))] =
+          core_point(grid, nodes, column, row, 0.5 * (columns[at(stride * column)] + 1),
+                     0.5 * (rows[at(stride * row)] + 1));
   return nodes;
 }
 

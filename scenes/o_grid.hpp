@@ -1,5 +1,12 @@
 // Quads inside a closed outline: a core of columns x rows, inside rings that end on the outline. Without
-// rings the core's rim is the outline: a plain grid.
+// rings the core's rim is the outline: a plain grid. With a coarse core, one edge of its rim stands for
+// three of the innermost ring, joined by four quads:
+//
+//   P0 --- P1 --- P2 --- P3      the innermost ring
+//    \     |      |     /
+//     \    Q1 --- Q2   /         the waist: two nodes for each edge of the rim
+//      \  /        \  /
+//       A ----------- B          rim of the core
 #pragma once
 
 #include <array>
@@ -11,24 +18,35 @@ namespace pulvis {
 
 using Quad = std::array<Row<Node>, 4>;
 
-// Node numbers: ring 0 is the outline, counter-clockwise from its lower left corner, ring `rings` the rim
-// of the core, then the core's inside by rows.
+// Node numbers: ring 0 is the outline, counter-clockwise from its lower left corner, and so on inwards; ring
+// `rings` is the rim of an even core. With a coarse core the waist and the rim follow. Last the core's inside
+// by rows.
 struct OGrid {
   int columns, rows;  // of the core: edges of the horizontal and vertical sides
   int rings;
+  bool coarse_core = false;
 
-  int around() const { return 2 * (columns + rows); }
+  int core_around() const { return 2 * (columns + rows); }
+  int around() const { return (coarse_core ? 3 : 1) * core_around(); }
   int rim(int ring, int i) const { return ring * around() + (i + around()) % around(); }
+  int waist(int i, int side) const { return (rings + 1) * around() + 2 * i + side; }  // side 0 or 1
+  int core_rim(int i) const;
   int core(int column, int row) const;
-  int nodes() const { return (rings + 1) * around() + (columns - 1) * (rows - 1); }
+  int nodes() const { return first_inside() + (columns - 1) * (rows - 1); }
+
+ private:
+  int first_inside() const {
+    return (rings + 1) * around() + (coarse_core ? 3 * core_around() : 0);
+  }
 };
 
 // Quads of the outermost ring first.
 std::vector<Quad> quads_of(const OGrid& grid);
 
-// Nodes from those of the outline and of the core's rim. `shares`: how far each ring lies on the way from
-// the core (0) to the outline (1), outline first. The inside of the core is interpolated between its sides,
-// at the stations (in [-1, 1]) of its columns and rows.
+// Nodes from those of the outline and, as many, of the core's rim (of which a coarse core takes every
+// third). `shares`: how far each ring lies on the way from the core (0) to the outline (1), outline first; of
+// a coarse core the waist's comes last. The inside of the core is interpolated between its sides, at the
+// stations (in [-1, 1]) of the outline's columns and rows.
 std::vector<Point> nodes_of(const OGrid& grid, const std::vector<Point>& outline,
                             const std::vector<Point>& rim, const std::vector<double>& shares,
                             const std::vector<double>& columns, const std::vector<double>& rows);

@@ -1,5 +1,6 @@
 #include "scenes/read.hpp"
 
+#include "scenes/accuracy.hpp"
 #include "scenes/checks.hpp"
 #include "scenes/override.hpp"
 #include "scenes/scene_text.hpp"
@@ -156,6 +157,7 @@ LoadedScene load_scene_text(const std::string& text, const std::filesystem::path
   Table root = parsed(text, problems);
   apply_overrides(root, overrides, problems);
   problems.throw_if_any();
+  fill_meshes(root, problems);
   schema::fill_defaults(root);
 
   LoadedScene loaded;

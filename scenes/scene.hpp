@@ -35,10 +35,13 @@ struct MaterialSpec {
 // Meshes and outlines. An outline names the mesh that goes with it; scenes/outline.cpp knows its geometry,
 // scenes/mesh_<outline>.cpp meshes it, scenes/declare_powder.cpp declares its keys.
 struct DiscMesh {
-  int boundary_edges =
-      40;         // a multiple of 4; the core of the O-grid has (boundary_edges/4)^2 quads
+  int boundary_edges = 40;  // a multiple of 4, with a coarse core of 12
   int rings = 1;  // of quads between the core and the outline; 0: the core's rim is the outline
   double refinement = 1;  // >= 1: edges at top and bottom are this much finer than at the sides
+  enum class Core {
+    even,  // (boundary_edges/4)^2 quads
+    coarse,  // (boundary_edges/12)^2, and a ring of transition quads: one edge for three of the outline
+  } core = Core::even;
 };
 struct RectangleMesh {
   int columns = 8;  // quads along the width

@@ -59,8 +59,6 @@ TEST(Read, DefaultsOfTheDeclarationsAreThoseOfTheStruct) {
   EXPECT_EQ(read.limits.kinetic_energy, std::nullopt);
   EXPECT_EQ(read.materials.at(0).yield_stress, std::nullopt);
   const auto& mesh = std::get<DiscMesh>(read.particles.at(0).mesh);
-  EXPECT_EQ(mesh.boundary_edges, DiscMesh{}.boundary_edges);
-  EXPECT_EQ(mesh.rings, DiscMesh{}.rings);
   EXPECT_EQ(mesh.refinement, DiscMesh{}.refinement);
 }
 
@@ -108,6 +106,42 @@ TEST(Read, MeshPhaseIsAnAngleOrRandom) {
   EXPECT_TRUE(particle("random").random_mesh_phase);
   EXPECT_FALSE(particle("45 deg").random_mesh_phase);
   EXPECT_DOUBLE_EQ(particle("45 deg").mesh_phase, std::numbers::pi / 4);
+}
+
+// A scene of one disc; `top` before, `mesh` in its mesh table.
+Scene disc_scene(const std::string& top, const std::string& mesh) {
+  return load_scene_text(top +
+                             "\nfamily = \"compaction\"\n[[material]]\nname = \"m\"\ndensity = "
+                             "\"1 kg/m^3\"\nyoungs_modulus = \"1 GPa\"\npoissons_ratio = 0.3\n"
+                             "[[particle]]\nname = \"p\"\nmaterial = \"m\"\noutline = \"disc\"\n"
+                             "diameter = \"1 mm\"\n" +
+                             (mesh.empty() ? "" : "[particle.mesh]\n" + mesh) +
+                             "\n[[body]]\nparticle = \"p\"\nposition = [\"0 m\", \"0 m\"]\n"
+                             "[[stage]]\nname = \"s\"\nkind = \"settle\"\nduration = \"1 s\"\n",
+                         "disc.toml")
+      .scene;
+}
+int edges_of(const Scene& scene) {
+  return std::get<DiscMesh>(scene.particles[0].mesh).boundary_edges;
+}
+
+TEST(Read, AccuracyMakesMeshesThatAreNotGiven) {
+  const int draft = edges_of(disc_scene("accuracy = \"draft\"", ""));
+  const int standard = edges_of(disc_scene("", ""));
+  const int fine = edges_of(disc_scene("accuracy = \"fine\"", "phase = \"1 deg\""));
+  EXPECT_LT(draft, standard);
+  EXPECT_LT(standard, fine);
+  EXPECT_EQ(edges_of(disc_scene("accuracy = \"standard\"", "")), standard);
+  EXPECT_EQ(edges_of(disc_scene("", "rings = 2")), DiscMesh{}.boundary_edges);
+}
+
+TEST(Read, AccuracyWithoutEffectIsRefused) {
+  try {
+    disc_scene("accuracy = \"fine\"", "boundary_edges = 24");
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("accuracy: has no effect"), std::string::npos);
+  }
 }
 
 TEST(Read, OverridesByKeyNameAndPosition) {
@@ -170,7 +204,7 @@ TEST(SceneText, HoldsOverridesAndDefaults) {
   const std::string text = load_scene_text(smallest, "s.toml", {"time.safety=0.5"}).text;
   EXPECT_THAT(text, HasSubstr("safety = 0.5"));
   EXPECT_THAT(text, HasSubstr("thickness = \"1 mm\""));
-  EXPECT_THAT(text, HasSubstr("boundary_edges = 40"));
+  EXPECT_THAT(text, HasSubstr("boundary_edges = 60\nrings = 1\ncore = \"coarse\""));
   EXPECT_THAT(text, testing::Not(HasSubstr("hardening_modulus")));
 }
 

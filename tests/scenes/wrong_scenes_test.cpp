@@ -279,6 +279,11 @@ const Wrong cases[] = {
      "rings = 1\n@columns = 3",
      "particle[0].mesh.columns",
      {"has no effect with outline = \"disc\""}},
+    {"CoarseCoreOfEdgesNotDealtOut",
+     "boundary_edges = 40",
+     "boundary_edges = @40\ncore = \"coarse\"",
+     "particle[0].mesh.boundary_edges",
+     {"allowed: a multiple of 12"}},
     {"PhaseOfARectangle",
      "height = \"10 mm\"",
      "height = \"10 mm\"\n[particle.mesh]\n@phase = \"random\"",
@@ -328,7 +333,7 @@ const Wrong cases[] = {
      "@[[particle]]\nname = \"block\"\nmaterial = \"316L\"\noutline = \"rounded_rectangle\"\n"
      "radius = \"0.01 mm\"",
      "particle[1].mesh.boundary_edges",
-     {"48 edges are too few for corners this sharp", "allowed: >= "}},
+     {"64 edges are too few for corners this sharp", "allowed: >= "}},
     {"RoundedRectangleWithoutRings",
      "\"rectangle\"\nwidth = \"20 mm\"\nheight = \"10 mm\"",
      "\"rounded_rectangle\"\nradius = \"1 mm\"\nwidth = \"20 mm\"\nheight = \"10 mm\"\n"

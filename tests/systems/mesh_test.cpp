@@ -17,14 +17,21 @@ namespace {
 struct DiscCase {
   int edges, rings;
   double refinement;
+  bool coarse_core = false;
 };
 constexpr double radius = 5e-3;
 constexpr double disc_area = std::numbers::pi * radius * radius;
 
 Shape disc(const DiscCase& c, double phase = 0) {
-  return make_shape(
-      {"disc", 0, DiscOutline{2 * radius}, DiscMesh{c.edges, c.rings, c.refinement}, false, 0, {}},
-      phase);
+  return make_shape({"disc",
+                     0,
+                     DiscOutline{2 * radius},
+                     DiscMesh{c.edges, c.rings, c.refinement,
+                              c.coarse_core ? DiscMesh::Core::coarse : DiscMesh::Core::even},
+                     false,
+                     0,
+                     {}},
+                    phase);
 }
 Shape plate(int columns, int rows, double width = 4e-3, double height = 1e-3) {
   return make_shape(
@@ -38,6 +45,8 @@ std::vector<DiscCase> disc_cases(std::initializer_list<double> refinements = {1,
       for (const int rings : {1, 2, 3, 4}) cases.push_back({edges, rings, refinement});
     for (const int edges : {4, 8, 12, 16, 20}) cases.push_back({edges, 0, refinement});
   }
+  for (const int edges : {12, 24, 48, 60, 96, 120})
+    for (const int rings : {0, 1, 2}) cases.push_back({edges, rings, 1, true});
   return cases;
 }
 std::vector<Shape> plates() {
@@ -46,7 +55,7 @@ std::vector<Shape> plates() {
 }
 std::string name_of(const DiscCase& c) {
   return std::to_string(c.edges) + " edges, " + std::to_string(c.rings) + " rings, refinement " +
-         std::to_string(c.refinement);
+         std::to_string(c.refinement) + (c.coarse_core ? ", coarse core" : "");
 }
 
 TEST(Mesh, EveryGaussPointHasAPositiveJacobian) {
@@ -57,6 +66,14 @@ TEST(Mesh, EveryGaussPointHasAPositiveJacobian) {
 TEST(Mesh, EveryCornerIsConvex) {  // stricter than the Jacobians at the Gauss points
   for (const DiscCase& c : disc_cases()) EXPECT_GT(least_corner_sine(disc(c)), 0.1) << name_of(c);
   for (const Shape& shape : plates()) EXPECT_DOUBLE_EQ(least_corner_sine(shape), 1);
+}
+
+TEST(Mesh, ACoarseCoreHasOneEdgeForThreeOfTheOutline) {
+  const Shape shape = disc({60, 1, 1, true});
+  EXPECT_EQ(shape.boundary_nodes, 60);
+  EXPECT_EQ(shape.elements(), 5 * 5 + 4 * 20 + 60);
+  EXPECT_EQ(shape.nodes.size(), 2U * 60 + 2 * 20 + 20 + 4 * 4);
+  EXPECT_GT(least_corner_sine(shape), 0.29);  // 163 degrees, at the waist
 }
 
 TEST(Mesh, AreasOfPolygonNodesAndGaussPointsAreOne) {
