@@ -85,7 +85,7 @@ outline = "disc"
 diameter = "10 mm"
 [[body]]
 particle = "disc"
-position = ["1 mm", "5.7 mm"]
+position = ["1 mm", "5.05 mm"]
 velocity = ["3 m/s", "-5 m/s"]
 [[stage]]
 name = "fall"
@@ -128,9 +128,19 @@ points = [["-3 mm", "0 mm"], ["3 mm", "0 mm"]])"));
 points = [["-9 mm", "-3 mm"], ["-5 mm", "0 mm"], ["0.3 mm", "0 mm"], ["1.1 mm", "0 mm"],
           ["1.2 mm", "0 mm"], ["8 mm", "0 mm"], ["9 mm", "4 mm"]]
 rounding = "1 mm")"));
-  for (Experiment* e : {&two, &many}) e->run(10);
-  EXPECT_GT(std::abs(two.value("tool/floor/force_y")), 100);
-  EXPECT_NEAR(many.value("tool/floor/force_y") / two.value("tool/floor/force_y"), 1, 1e-9);
+  double largest = 0;
+  for (int i = 1; i <= 20; ++i) {
+    for (Experiment* e : {&two, &many}) {
+      e->simulation.run_until(2e-6 * i);
+      e->simulation.observe();
+      e->results.sample();
+      e->simulation.move();
+    }
+    const double force = two.value("tool/floor/force_y");
+    largest = std::max(largest, std::abs(force));
+    EXPECT_NEAR(many.value("tool/floor/force_y"), force, 1e-9 * largest) << i;
+  }
+  EXPECT_GT(largest, 100);
 }
 
 // A disc that rolls and bounces over sharp and rounded ridges keeps its energy: every force comes from a
@@ -170,7 +180,8 @@ normal = [0, -1])"));
   EXPECT_LT(e.results.energy_balance_error(), 0.002);
 }
 
-// F_l / F_n = (s + mu) / (1 - mu s) on a flank of slope s, for a block that is drawn up the flank.
+// F_l / F_n = (s + mu) / (1 - mu s) on a flank of slope s, for a block that is drawn up the flank. It is held
+// down to a quarter of its height: one that can bend sticks and slips, as a sliding block does.
 TEST(Groove, BlockSlidesUpAFlankAsCoulombSays) {
   const double s = 0.2, mu = 0.3, wanted = (s + mu) / (1 - mu * s);
   Experiment e(scene_of(R"([[particle]]
@@ -194,7 +205,7 @@ rounding = "1 mm"
 [[tool]]
 name = "clamp"
 shape = "grip"
-low = ["10 mm", "8.5 mm"]
+low = ["10 mm", "5.8 mm"]
 high = ["30 mm", "20 mm"]
 holds = "both"
 [[stage]]
@@ -203,7 +214,7 @@ kind = "compact"
 duration = "0.1 ms"
 [[stage.move]]
 tool = "clamp"
-displacement = ["0.0004 mm", "-0.002 mm"]
+displacement = ["0.0002 mm", "-0.001 mm"]
 ramp = 0.5
 [[stage]]
 name = "drag"
@@ -334,7 +345,9 @@ duration = "0.1 ms"
 [[stage.move]]
 tool = "spread"
 displacement = ["0.0001 mm", "0 mm"]
-ramp = 0.5)"));
+ramp = 0.5
+[time]
+safety = 0.5)"));  // a free element breathes faster than the bound for meshes says
   e.run(20);
   const double radius = std::sqrt(2.0) * 1e-3, strain = 1e-7 / radius;
   const double force =
@@ -348,10 +361,17 @@ ramp = 0.5)"));
                 radius + 1e-7, 1e-15);
 }
 
-// A grip starts a body that flew: momentum is what its forces say, and the energy still balances.
+// Grips stop the ends of a bar that flew: the shock stays in it, and no energy is made or lost. (The last
+// step of a run is shorter, which the kinetic energy of the leapfrog shows: not asked here.)
 TEST(Grip, StopsAFlyingBar) {
   Experiment e("basic/tension.toml", {"body[0].velocity=[\"1 m/s\", \"0 m/s\"]"});
-  e.run(50);
+  for (int i = 0; i <= 50; ++i) {
+    e.simulation.run_until(1e-5 * i);
+    e.simulation.observe();
+    e.results.sample();
+    e.simulation.move();
+  }
+  EXPECT_GT(e.results.energies().elastic, 0.05 * e.results.energies().kinetic);
   EXPECT_LT(e.results.energy_balance_error(), 1e-3);
 }
 
