@@ -34,6 +34,12 @@ struct Shape {
     std::array<double, 4> weight{};  // m: length that each of its Gauss points stands for
   };
 
+  // D = V sum_I dN_I/dxi dN_I/dxi^T / a_I at the middle of an element of area V, a_I the part of node I's
+  // area that counts as the element's own: bounds its frequencies (systems/time_step_kernel).
+  struct CornerMoment {
+    double xixi, xieta, etaeta;
+  };
+
   std::string name;
   std::vector<Point> nodes;                      // m; outline first
   std::vector<std::array<Row<Node>, 4>> quads;   // counter-clockwise
@@ -43,9 +49,11 @@ struct Shape {
   std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;
   std::vector<Edge> edges;
-  std::vector<double> contact_stiffness;  // 1/m^2, [elements]: sum of (edge length / area)^2
-  double mean_edge_stiffness = 0;         // 1/m: of its edges, weighted with their length
-  double area = 0;                        // m^2, of the true outline
+  std::vector<CornerMoment> corner_moment;  // [elements]
+  std::vector<double>
+      contact_frequency;           // 1/m^2, [elements]: rho omega^2 / (k K) of its edges' springs
+  double mean_edge_stiffness = 0;  // 1/m: of its edges, weighted with their length
+  double area = 0;                 // m^2, of the true outline
 
   int control_points() const { return static_cast<int>(curve_begin.size()) - 1; }
   int elements() const { return static_cast<int>(quads.size()); }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "scenes/mesh_rounded_rectangle.hpp"
+#include "scenes/outline.hpp"
 #include "scenes/tool_checks.hpp"
 
 namespace pulvis {
@@ -12,6 +14,8 @@ namespace {
 
 constexpr std::int64_t most_particles = 1'000'000;
 constexpr std::int64_t most_quads_a_particle = 1'000'000;
+constexpr int most_edges_without_rings = 20;
+constexpr int least_edges_of_a_ring = 8;
 constexpr std::int64_t most_quads = 200'000'000;  // at 600 bytes each: 120 GB
 
 class Checks {
@@ -22,6 +26,7 @@ class Checks {
   void run() {
     something_is_there();
     materials();
+    outlines();
     counts();
     spacings();
     stages();
@@ -35,8 +40,15 @@ class Checks {
     return found == origins_.end() ? document::Origin{{1, 1}, -1} : found->second;
   }
 
+  // A default has no place of its own: its table's is told, or the table's above.
+  document::Origin nearest_origin(std::string path) const {
+    while (origins_.count(path) == 0 && path.find('.') != std::string::npos)
+      path.erase(path.rfind('.'));
+    return origin(path);
+  }
+
   void refuse(const std::string& path, const std::string& message) {
-    problems_.add(origin(path), path, message);
+    problems_.add(nearest_origin(path), path, message);
   }
 
   void refuse_missing(const std::string& key, const std::string& what) {
@@ -69,13 +81,76 @@ class Checks {
     }
   }
 
-  static std::int64_t quads(const MeshSpec& mesh) {
-    if (const auto* disc = std::get_if<DiscMesh>(&mesh)) {
-      const std::int64_t side = disc->boundary_edges / 4;
-      return side * side + std::int64_t{disc->rings} * disc->boundary_edges;
+  void outlines() {
+    for (std::size_t i = 0; i < scene_.particles.size(); ++i)
+      std::visit(
+          [&](const auto& outline) {
+            check(fmt::format("particle[{}].", i), outline, scene_.particles[i].mesh);
+          },
+          scene_.particles[i].outline);
+  }
+
+  // Without rings the two edges beside a corner of the core lie on the outline, and their element has
+  // nearly 180 degrees there.
+  void check(const std::string& path, const DiscOutline&, const MeshSpec& spec) {
+    const auto& mesh = std::get<DiscMesh>(spec);
+    if (mesh.rings == 0 && mesh.boundary_edges > most_edges_without_rings)
+      refuse(
+          path + "mesh.rings",
+          fmt::format("{} boundary edges without a ring make elements with a corner of nearly 180 "
+                      "degrees, allowed: 0 with at most {} boundary edges, otherwise >= 1",
+                      mesh.boundary_edges, most_edges_without_rings));
+  }
+  void check(const std::string&, const RectangleOutline&, const MeshSpec&) {}
+  void check(const std::string& path, const RoundedRectangleOutline& outline,
+             const MeshSpec& spec) {
+    const auto& mesh = std::get<RoundedRectangleMesh>(spec);
+    if (mesh.rings == 0)
+      refuse(path + "mesh.rings",
+             "a rounded rectangle needs a ring around its core, allowed: >= 1");
+    const double most = std::min(outline.width, outline.height) / 2;
+    if (outline.radius > most) {
+      refuse(path + "radius",
+             fmt::format("{:g} m is more than half of the shorter side, allowed: <= {:g} m",
+                         outline.radius, most));
+    } else if (mesh.boundary_edges < 4096 &&
+               share_edges(outline, mesh.boundary_edges).growth > most_edge_growth) {
+      refuse(path + "mesh.boundary_edges",
+             fmt::format("{} edges are too few for corners this sharp, neighbours would differ too "
+                         "much in length, allowed: >= {}",
+                         mesh.boundary_edges, fewest_edges(outline)));
     }
-    const auto& rectangle = std::get<RectangleMesh>(mesh);
-    return std::int64_t{rectangle.columns} * rectangle.rows;
+  }
+  void check(const std::string& path, const RingOutline& outline, const MeshSpec& spec) {
+    if (outline.hole >= outline.diameter)
+      refuse(path + "hole", fmt::format("{:g} m leaves no wall, allowed: < {:g} m", outline.hole,
+                                        outline.diameter));
+    if (std::get<RingMesh>(spec).boundary_edges < least_edges_of_a_ring)
+      refuse(path + "mesh.boundary_edges",
+             fmt::format("a ring needs more, allowed: >= {}", least_edges_of_a_ring));
+    if (std::get<RingMesh>(spec).rings == 0)
+      refuse(path + "mesh.rings", "a ring is made of rings, allowed: >= 1");
+  }
+
+  // Of the disc and the rounded rectangle: of all cores with as long a rim the square one has most.
+  static std::int64_t with_core(int boundary_edges, int rings) {
+    const std::int64_t side = boundary_edges / 4;
+    return side * side + std::int64_t{rings} * boundary_edges;
+  }
+  static std::int64_t count(const DiscMesh& mesh) {
+    return with_core(mesh.boundary_edges, mesh.rings);
+  }
+  static std::int64_t count(const RectangleMesh& mesh) {
+    return std::int64_t{mesh.columns} * mesh.rows;
+  }
+  static std::int64_t count(const RoundedRectangleMesh& mesh) {
+    return with_core(mesh.boundary_edges, mesh.rings);
+  }
+  static std::int64_t count(const RingMesh& mesh) {
+    return std::int64_t{mesh.rings} * mesh.boundary_edges;
+  }
+  static std::int64_t quads(const MeshSpec& mesh) {
+    return std::visit([](const auto& m) { return count(m); }, mesh);
   }
 
   static std::int64_t count(const SquarePacking& packing) {
@@ -117,12 +192,13 @@ class Checks {
       const std::string path = fmt::format("packing[{}]", i);
       if (origins_.count(path + ".spacing") != 0) continue;
       const Outline& outline = scene_.particles[static_cast<std::size_t>(packing.particle)].outline;
-      if (const auto* disc = std::get_if<DiscOutline>(&outline))
-        packing.spacing = disc->diameter;
+      if (const RoundedBox box = rounded_box(outline); box.half.isZero(0))
+        packing.spacing = 2 * box.radius;
       else
-        problems_.add(origin(path), path + ".spacing",
-                      "required key is missing: only discs have a spacing of their own, allowed: a "
-                      "quantity in m");
+        problems_.add(
+            origin(path), path + ".spacing",
+            "required key is missing: only discs and rings have a spacing of their own, allowed: a "
+            "quantity in m");
     }
   }
 

@@ -1,5 +1,6 @@
 #include "scenes/contact_curve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -67,23 +68,29 @@ Point node_of(const Shape& shape, int boundary_node) {
   return shape.nodes[static_cast<std::size_t>(boundary_node)];
 }
 
-// The element that has the boundary edge from node i to node i + 1.
-std::size_t element_behind(const Shape& shape, int i) {
-  const int j = (i + 1) % shape.boundary_nodes;
-  for (std::size_t e = 0; e < shape.quads.size(); ++e)
-    for (std::size_t k = 0; k < 4; ++k)
-      if (shape.quads[e][k].value == i && shape.quads[e][(k + 1) % 4].value == j) return e;
-  throw std::logic_error("boundary edge without an element");
-}
-
 }  // namespace
+
+std::vector<std::size_t> elements_behind(const Shape& shape) {
+  std::vector<std::size_t> behind(static_cast<std::size_t>(shape.boundary_nodes),
+                                  shape.quads.size());
+  for (std::size_t e = 0; e < shape.quads.size(); ++e)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int from = shape.quads[e][k].value, to = shape.quads[e][(k + 1) % 4].value;
+      if (from < shape.boundary_nodes && to == (from + 1) % shape.boundary_nodes)
+        behind[static_cast<std::size_t>(from)] = e;
+    }
+  if (std::ranges::find(behind, shape.quads.size()) != behind.end())
+    throw std::logic_error("boundary edge without an element");
+  return behind;
+}
 
 void close_curve(Shape& shape, const Smoothing& smoothing) {
   const int n = shape.boundary_nodes;
   for (int c = 0; c < n + 3; ++c) {
     const auto node = [&](int offset) { return (c + offset + 2 * n - 1) % n; };
     Terms y = smoothed(node(-1), node(0), node(1), smoothing.c[static_cast<std::size_t>(node(0))]);
-    add(y, {{node(-2), 1}, {node(-1), -4}, {node(0), 6}, {node(1), -4}, {node(2), 1}}, smoothing.d);
+    for (const auto& [offset, factor] : {std::pair{-2, 1}, {-1, -4}, {0, 6}, {1, -4}, {2, 1}})
+      y[node(offset)] += factor * smoothing.d;  // of 4 nodes the first and the last are one
     push_control_point(shape, y);
   }
   for (int e = 0; e < n; ++e) {
@@ -113,7 +120,7 @@ void measure_edges(Shape& shape) {
     }
     control.push_back(y);
   }
-  shape.contact_stiffness.assign(shape.quads.size(), 0);
+  const std::vector<std::size_t> behind = elements_behind(shape);
   double perimeter = 0;
   for (int i = 0; i < static_cast<int>(shape.edges.size()); ++i) {
     Shape::Edge& edge = shape.edges[static_cast<std::size_t>(i)];
@@ -128,11 +135,10 @@ void measure_edges(Shape& shape) {
       edge.weight[g] = kernels::edge_w[g] * std::hypot(tx, ty);
       edge.length += edge.weight[g];
     }
-    const std::size_t element = element_behind(shape, i);
+    const std::size_t element = behind[static_cast<std::size_t>(i)];
     double area = 0;
     for (const Shape::GaussPoint& point : shape.gauss[element]) area += point.determinant;
     edge.stiffness = edge.length / area;
-    shape.contact_stiffness[element] += edge.stiffness * edge.stiffness;
     shape.mean_edge_stiffness += edge.stiffness * edge.length;
     perimeter += edge.length;
   }

@@ -29,8 +29,9 @@ void close_curve(Shape& shape, const Smoothing& smoothing);
 // in its corner node; the rows next to it are such that a uniform pressure on an even face still gives
 // every node what its element edges carry: 1/2, 1, 1, ..., 1/2 edge lengths.
 void cornered_curve(Shape& shape, const std::vector<int>& corners);
-// Undeformed lengths, contact stiffness and Gauss weights of the edges, and the stiffness of the
-// elements behind them. Needs the mesh's Gauss points.
+// [boundary nodes] the element that has the edge from boundary node i to the next as a side.
+std::vector<std::size_t> elements_behind(const Shape& shape);
+// Undeformed lengths, contact stiffness and Gauss weights of the edges. Needs the mesh's Gauss points.
 void measure_edges(Shape& shape);
 
 }  // namespace pulvis

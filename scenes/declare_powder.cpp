@@ -1,27 +1,47 @@
 // Declarations of what a powder is made of: the top level, materials, particle classes.
+#include <concepts>
+
 #include "scenes/declare.hpp"
 
 namespace pulvis::schema {
 namespace {
 
-DiscOutline& disc(ParticleSpec& particle) { return std::get<DiscOutline>(particle.outline); }
-RectangleOutline& rectangle(ParticleSpec& particle) {
-  return std::get<RectangleOutline>(particle.outline);
-}
-DiscMesh& disc_mesh(ParticleSpec& particle) { return std::get<DiscMesh>(particle.mesh); }
-RectangleMesh& rectangle_mesh(ParticleSpec& particle) {
-  return std::get<RectangleMesh>(particle.mesh);
+template <class O>
+void choose(ParticleSpec& particle) {
+  particle.outline = O{};
+  particle.mesh = typename O::Mesh{};
 }
 
-// The first key of a particle: the keys after it find the outline and mesh they belong to.
+// The first key of a particle, its words in this order: the keys after it find the outline and mesh they
+// belong to.
 void choose_outline(ParticleSpec& particle, const Decoded& value) {
-  if (value.index == 0) {
-    particle.outline = DiscOutline{};
-    particle.mesh = DiscMesh{};
-  } else {
-    particle.outline = RectangleOutline{};
-    particle.mesh = RectangleMesh{};
-  }
+  constexpr void (*choices[])(ParticleSpec&) = {choose<DiscOutline>, choose<RectangleOutline>,
+                                                choose<RoundedRectangleOutline>,
+                                                choose<RingOutline>};
+  choices[value.index](particle);
+}
+
+// A key of every outline (or mesh) that has the member: the one chosen does, only_for sees to that.
+template <class Set>
+auto outline_to(Set set) {
+  return [set](ParticleSpec& particle, const Decoded& value) {
+    std::visit(
+        [&](auto& outline) {
+          if constexpr (std::invocable<Set, decltype(outline), double>) set(outline, value.number);
+        },
+        particle.outline);
+  };
+}
+template <class Set>
+auto mesh_to(Set set) {
+  return [set](ParticleSpec& particle, const Decoded& value) {
+    std::visit(
+        [&](auto& mesh) {
+          if constexpr (std::invocable<Set, decltype(mesh), int>)
+            set(mesh, static_cast<int>(value.integer));
+        },
+        particle.mesh);
+  };
 }
 
 }  // namespace
@@ -109,7 +129,10 @@ const TableDeclaration<ParticleSpec>& particle() {
       {"particle", true, "outline", "A class of equal particles; bodies and packings place them."},
       {{{.name = "outline",
          .kind = Kind::choice,
-         .choices = {{"disc", "a circle"}, {"rectangle", "sharp corners"}},
+         .choices = {{"disc", "a circle"},
+                     {"rectangle", "sharp corners"},
+                     {"rounded_rectangle", "corners are arcs"},
+                     {"ring", "a tube; its hole is empty, and nothing touches its inner surface"}},
          .required = true,
          .doc = "Shape of the particle."},
         choose_outline},
@@ -129,25 +152,46 @@ const TableDeclaration<ParticleSpec>& particle() {
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .required = true,
-         .only_for = "disc",
-         .doc = "Diameter of the disc."},
-        [](ParticleSpec& spec, const Decoded& value) { disc(spec).diameter = value.number; }},
+         .only_for = {"disc", "ring"},
+         .doc = "Outer diameter."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.diameter; } { o.diameter = value; })},
        {{.name = "width",
          .kind = Kind::quantity,
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .required = true,
-         .only_for = "rectangle",
+         .only_for = {"rectangle", "rounded_rectangle"},
          .doc = "Size along the particle's own x axis."},
-        [](ParticleSpec& spec, const Decoded& value) { rectangle(spec).width = value.number; }},
+        outline_to(
+            [](auto& o, double value) requires requires { o.width; } { o.width = value; })},
        {{.name = "height",
          .kind = Kind::quantity,
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .required = true,
-         .only_for = "rectangle",
+         .only_for = {"rectangle", "rounded_rectangle"},
          .doc = "Size along the particle's own y axis."},
-        [](ParticleSpec& spec, const Decoded& value) { rectangle(spec).height = value.number; }}}};
+        outline_to(
+            [](auto& o, double value) requires requires { o.height; } { o.height = value; })},
+       {{.name = "radius",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .required = true,
+         .only_for = {"rounded_rectangle"},
+         .doc = "Radius of the four corners, at most half of the shorter side."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.radius; } { o.radius = value; })},
+       {{.name = "hole",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .required = true,
+         .only_for = {"ring"},
+         .doc = "Diameter of the hole, below that of the ring."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.hole; } { o.hole = value; })}}};
   return declaration;
 }
 
@@ -156,23 +200,27 @@ const TableDeclaration<ParticleSpec>& mesh() {
       {"particle.mesh", false, "outline", "Finite elements of one particle."},
       {{{.name = "boundary_edges",
          .kind = Kind::integer,
-         .range = within(8, 4096),
+         .range = within(4, 4096),
          .multiple_of = 4,
-         .fallback = value_of(40),
-         .only_for = "disc",
-         .doc = "Edges along the outline; the core of the O-grid has (boundary_edges/4)^2 quads."},
-        [](ParticleSpec& spec, const Decoded& value) {
-          disc_mesh(spec).boundary_edges = static_cast<int>(value.integer);
-        }},
+         .only_for = {"disc", "rounded_rectangle", "ring"},
+         .doc = "Edges along the outline; the core of a disc has (boundary_edges/4)^2 quads. "
+                "Corners of "
+                "a small radius get four edges each, which grow towards the middle of the flats.",
+         .fallback_doc = "40, of a rounded rectangle 48"},
+        mesh_to(
+            [](auto& mesh, int value) requires requires { mesh.boundary_edges; } {
+              mesh.boundary_edges = value;
+            })},
        {{.name = "rings",
          .kind = Kind::integer,
-         .range = within(1, 1024),
-         .fallback = value_of(1),
-         .only_for = "disc",
-         .doc = "Rings of quads between the core and the outline."},
-        [](ParticleSpec& spec, const Decoded& value) {
-          disc_mesh(spec).rings = static_cast<int>(value.integer);
-        }},
+         .range = within(0, 1024),
+         .only_for = {"disc", "rounded_rectangle", "ring"},
+         .doc =
+             "Rings of quads between the core and the outline, of a ring through its wall; 0: only "
+             "the core, for discs of at most 20 boundary edges.",
+         .fallback_doc = "1, of a ring 4"},
+        mesh_to(
+            [](auto& mesh, int value) requires requires { mesh.rings; } { mesh.rings = value; })},
        {{.name = "refinement",
          .kind = Kind::number,
          .range = within(1, 100),
@@ -180,7 +228,7 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .only_for = "disc",
          .doc = "How much finer the edges at top and bottom are than those at the sides."},
         [](ParticleSpec& spec, const Decoded& value) {
-          disc_mesh(spec).refinement = value.number;
+          std::get<DiscMesh>(spec.mesh).refinement = value.number;
         }},
        {{.name = "phase",
          .kind = Kind::phase,
@@ -188,7 +236,7 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .range = within(-1000, 1000),
          .word = "random",
          .fallback = value_of("0 deg"),
-         .only_for = "disc",
+         .only_for = {"disc", "ring"},
          .doc =
              "Turn of the mesh inside the outline; \"random\" turns each particle's by its own."},
         [](ParticleSpec& spec, const Decoded& value) {
@@ -202,7 +250,7 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .only_for = "rectangle",
          .doc = "Quads along the width."},
         [](ParticleSpec& spec, const Decoded& value) {
-          rectangle_mesh(spec).columns = static_cast<int>(value.integer);
+          std::get<RectangleMesh>(spec.mesh).columns = static_cast<int>(value.integer);
         }},
        {{.name = "rows",
          .kind = Kind::integer,
@@ -211,7 +259,7 @@ const TableDeclaration<ParticleSpec>& mesh() {
          .only_for = "rectangle",
          .doc = "Quads along the height."},
         [](ParticleSpec& spec, const Decoded& value) {
-          rectangle_mesh(spec).rows = static_cast<int>(value.integer);
+          std::get<RectangleMesh>(spec.mesh).rows = static_cast<int>(value.integer);
         }}}};
   return declaration;
 }

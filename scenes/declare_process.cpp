@@ -76,7 +76,7 @@ const TableDeclaration<SquarePacking>& packing() {
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .doc = "Distance from centre to centre; must be given for rectangles.",
-         .fallback_doc = "the diameter of the discs: they touch"},
+         .fallback_doc = "the diameter of the discs or rings: they touch"},
         to(&SquarePacking::spacing)},
        {{.name = "corner",
          .kind = Kind::vector,

@@ -70,49 +70,66 @@ Key<ToolSpec> body_key() {
           integer_to(&ToolSpec::body)};
 }
 
+std::vector<Key<ToolSpec>> place_keys() {
+  return {{{.name = "name",
+            .kind = Kind::name,
+            .required = true,
+            .doc = "Moves, friction pairs and the results refer to it."},
+           to(&ToolSpec::name)},
+          {{.name = "shape",
+            .kind = Kind::choice,
+            .choices = {{"plane", "fills the half-plane behind its surface"},
+                        {"polyline", "fills what lies to the right of a chain of points"},
+                        {"grip", "holds the nodes of one particle in a box; nothing touches it"}},
+            .required = true,
+            .doc = "What it is."},
+           [](ToolSpec& spec, const Decoded& value) {
+             spec.shape = static_cast<ToolSpec::Shape>(value.index);
+           }},
+          {{.name = "point",
+            .kind = Kind::vector,
+            .unit = "m",
+            .range = within(-largest_size, largest_size),
+            .doc = "A point of a plane's surface, or the centre of a grip with holds = \"radial\".",
+            .fallback_doc = "required of those two, refused elsewhere"},
+           to(&ToolSpec::point)},
+          {{.name = "normal",
+            .kind = Kind::direction,
+            .required = true,
+            .only_for = "plane",
+            .doc = "Direction from the tool into the powder, of any length."},
+           to(&ToolSpec::normal)}};
+}
+
+std::vector<Key<ToolSpec>> keys() {
+  std::vector<Key<ToolSpec>> all = place_keys();
+  for (Key<ToolSpec> key :
+       {points_key(), rounding_key(), body_key(),
+        corner_key("low", &ToolSpec::low,
+                   "Lower left corner of the box; nodes on its border count, where they lie before "
+                   "the run."),
+        corner_key("high", &ToolSpec::high, "Upper right corner of the box."), holds_key()})
+    all.push_back(std::move(key));
+  return all;
+}
+
+// Member by member: g++ 12 takes the parts of one long initialiser for uninitialised.
+TableDeclaration<ToolSpec> declared() {
+  TableDeclaration<ToolSpec> table;
+  table.info.path = "tool";
+  table.info.repeated = true;
+  table.info.selector = "shape";
+  table.info.doc =
+      "A rigid punch, wall or surface, or a grip: supports, planes of symmetry and prescribed "
+      "displacements are grips. Without a move a tool stands still.";
+  table.keys = keys();
+  return table;
+}
+
 }  // namespace
 
 const TableDeclaration<ToolSpec>& tool() {
-  static const TableDeclaration<ToolSpec> declaration{
-      {"tool", true, "shape",
-       "A rigid punch, wall or surface, or a grip: supports, planes of symmetry and prescribed "
-       "displacements are grips. Without a move a tool stands still."},
-      {{{.name = "name",
-         .kind = Kind::name,
-         .required = true,
-         .doc = "Moves, friction pairs and the results refer to it."},
-        to(&ToolSpec::name)},
-       {{.name = "shape",
-         .kind = Kind::choice,
-         .choices = {{"plane", "fills the half-plane behind its surface"},
-                     {"polyline", "fills what lies to the right of a chain of points"},
-                     {"grip", "holds the nodes of one particle in a box; nothing touches it"}},
-         .required = true,
-         .doc = "What it is."},
-        [](ToolSpec& spec, const Decoded& value) {
-          spec.shape = static_cast<ToolSpec::Shape>(value.index);
-        }},
-       {{.name = "point",
-         .kind = Kind::vector,
-         .unit = "m",
-         .range = within(-largest_size, largest_size),
-         .doc = "A point of a plane's surface, or the centre of a grip with holds = \"radial\".",
-         .fallback_doc = "required of those two, refused elsewhere"},
-        to(&ToolSpec::point)},
-       {{.name = "normal",
-         .kind = Kind::direction,
-         .required = true,
-         .only_for = "plane",
-         .doc = "Direction from the tool into the powder, of any length."},
-        to(&ToolSpec::normal)},
-       points_key(),
-       rounding_key(),
-       body_key(),
-       corner_key("low", &ToolSpec::low,
-                  "Lower left corner of the box; nodes on its border count, where they lie before "
-                  "the run."),
-       corner_key("high", &ToolSpec::high, "Upper right corner of the box."),
-       holds_key()}};
+  static const TableDeclaration<ToolSpec> declaration = declared();
   return declaration;
 }
 

@@ -54,7 +54,8 @@ std::string meaning(const schema::KeyInfo& key, const std::string& selector) {
   std::string text = key.doc;
   for (const schema::Choice& choice : key.choices)
     text += fmt::format(" `\"{}\"`: {}.", choice.word, choice.doc);
-  if (!key.only_for.empty()) text += fmt::format(" Only with {} = \"{}\".", selector, key.only_for);
+  if (!key.only_for.empty())
+    text += fmt::format(" Only with {} = {}.", selector, schema::quoted(key.only_for));
   if (!key.needs.empty()) text += fmt::format(" Only together with `{}`.", key.needs);
   return text;
 }

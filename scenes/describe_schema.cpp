@@ -119,8 +119,8 @@ Json branch(const schema::TableView& view, const std::string& selected) {
   Json required = Json::array(), properties = Json::object();
   for (const schema::KeyInfo& key : view.keys) {
     if (key.only_for.empty()) continue;
-    if (key.only_for != selected) properties[key.name] = false;
-    if (key.only_for == selected && key.required) required.push_back(key.name);
+    if (!key.only_for.has(selected)) properties[key.name] = false;
+    if (key.only_for.has(selected) && key.required) required.push_back(key.name);
   }
   for (const schema::TableView* child : children(view.info.path))
     if (child->info.selector == view.info.selector)

@@ -7,12 +7,8 @@
 namespace pulvis {
 
 // The undeformed shape of a particle class: mesh, Gauss points, masses, contact curve. `phase` turns the
-// mesh of a disc inside its outline (rad).
+// mesh of a disc or ring inside its outline (rad).
 Shape make_shape(const ParticleSpec& particle, double phase = 0);
-
-// Area of the true outline, m^2, and the radius of the circle around it, m.
-double outline_area(const Outline& outline);
-double outline_radius(const Outline& outline);
 
 // How good the worst element is: least sine of its corner angles, 1 for a rectangle.
 double least_corner_sine(const Shape& shape);

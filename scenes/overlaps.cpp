@@ -1,6 +1,7 @@
-// check_overlaps: FCL's broad phase finds the pairs whose boxes meet. Where a disc is involved the
-// depth has a formula, which is exact where FCL's iterations (GJK, about 1e-6) would not tell
-// touching from overlapping; two rectangles are left to FCL's separating axes.
+// check_overlaps: FCL's broad phase finds the pairs whose boxes meet. Every outline is a rounded box, so
+// that the depth has a formula, which is exact where iterations (GJK, about 1e-6) would not tell touching
+// from overlapping.
+#include "scenes/outline.hpp"
 #include "scenes/place.hpp"
 #include "scenes/problem.hpp"
 #include "scenes/surface.hpp"
@@ -10,10 +11,11 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/halfspace.h>
-#include <fcl/narrowphase/collision.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <memory>
 
 namespace pulvis {
@@ -31,21 +33,17 @@ struct Overlap {
   double depth;       // m
 };
 
-bool is_disc(const Outline& outline) { return std::holds_alternative<DiscOutline>(outline); }
-
-double radius_of(const Outline& disc) { return std::get<DiscOutline>(disc).diameter / 2; }
-
 Vec2 half_size(const Outline& outline) {
-  if (is_disc(outline)) return Vec2::Constant(radius_of(outline));
-  const auto& rectangle = std::get<RectangleOutline>(outline);
-  return Vec2(rectangle.width, rectangle.height) / 2;
+  const RoundedBox box = rounded_box(outline);
+  return box.half + Vec2::Constant(box.radius);
 }
 
 double size_of(const Outline& outline) { return 2 * half_size(outline).minCoeff(); }
 
-// Far deeper than wide, so that FCL never finds the way out along z to be the shortest.
+// For the broad phase, which asks for its box only.
 Geometry geometry(const Outline& outline, double depth) {
-  if (is_disc(outline)) return std::make_shared<fcl::Cylinder<double>>(radius_of(outline), depth);
+  const RoundedBox box = rounded_box(outline);
+  if (box.half.isZero(0)) return std::make_shared<fcl::Cylinder<double>>(box.radius, depth);
   const Vec2 size = 2 * half_size(outline);
   return std::make_shared<fcl::Box<double>>(size.x(), size.y(), depth);
 }
@@ -57,32 +55,54 @@ Pose pose(const BodySpec& body) {
   return result;
 }
 
-double disc_rectangle(const BodySpec& disc, const Outline& disc_outline, const BodySpec& body,
-                      const Outline& outline) {
-  const double radius = radius_of(disc_outline);
-  const Vec2 centre = Eigen::Rotation2Dd(-body.angle) * (disc.position - body.position);
-  const Vec2 half = half_size(outline);
-  const Vec2 beyond = centre.cwiseAbs() - half;
-  if (beyond.maxCoeff() <= 0) return radius - beyond.maxCoeff();  // centre inside the rectangle
-  return radius - beyond.cwiseMax(0).norm();
-}
+// Half sizes of a box, and its corners and axes in space.
+struct TurnedBox {
+  Vec2 half, centre;
+  Eigen::Rotation2Dd turn;
+  TurnedBox(const BodySpec& body, const RoundedBox& box)
+      : half(box.half), centre(body.position), turn(body.angle) {}
+  std::array<Vec2, 4> corners() const {
+    std::array<Vec2, 4> list;
+    for (std::size_t i = 0; i < 4; ++i)
+      list[i] =
+          centre + turn * Vec2(i % 2 == 0 ? -half.x() : half.x(), i < 2 ? -half.y() : half.y());
+    return list;
+  }
+  // How far a point lies from the box; inside, how far from its nearest side, negative.
+  double distance(const Vec2& point) const {
+    const Vec2 beyond = (turn.inverse() * (point - centre)).cwiseAbs() - half;
+    return beyond.maxCoeff() <= 0 ? beyond.maxCoeff() : beyond.cwiseMax(0).norm();
+  }
+  // Largest gap between this box and points along one of its axes; negative where they overlap.
+  double gap(const std::array<Vec2, 4>& points) const {
+    Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
+    for (const Vec2& point : points) {
+      const Vec2 p = turn.inverse() * (point - centre);
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    return (low - half).cwiseMax(-half - high).maxCoeff();
+  }
+};
 
-double rectangle_rectangle(const Object& a, const Object& b) {
-  const fcl::CollisionRequest<double> request(16, true);
-  fcl::CollisionResult<double> result;
-  fcl::collide(&a, &b, request, result);
-  double deepest = 0;
-  for (std::size_t i = 0; i < result.numContacts(); ++i)
-    deepest = std::max(deepest, result.getContact(i).penetration_depth);
-  return deepest;
+// Distance of two boxes: apart, a corner of one is closest; overlapping, minus the way out (separating
+// axes, Gottschalk 1996).
+double box_distance(const TurnedBox& a, const TurnedBox& b) {
+  const auto of_a = a.corners(), of_b = b.corners();
+  const double gap = std::max(a.gap(of_b), b.gap(of_a));
+  if (gap <= 0) return gap;
+  double least = std::numeric_limits<double>::max();
+  for (const Vec2& corner : of_a) least = std::min(least, b.distance(corner));
+  for (const Vec2& corner : of_b) least = std::min(least, a.distance(corner));
+  return least;
 }
 
 // How far the outline reaches behind the tool's surface.
 double depth_behind(const ToolSpec& tool, const BodySpec& body, const Outline& outline) {
   const double centre = (body.position - tool.point).dot(tool.normal);
-  if (is_disc(outline)) return radius_of(outline) - centre;
+  const RoundedBox box = rounded_box(outline);
   const Vec2 normal = Eigen::Rotation2Dd(-body.angle) * tool.normal;
-  return normal.cwiseAbs().dot(half_size(outline)) - centre;
+  return box.radius + normal.cwiseAbs().dot(box.half) - centre;
 }
 
 class OverlapSearch {
@@ -154,12 +174,8 @@ class OverlapSearch {
   double depth(const Object& first, const Object& second) const {
     const BodySpec& a = bodies_[number(first)];
     const BodySpec& b = bodies_[number(second)];
-    const Outline& outline_a = outline(a);
-    const Outline& outline_b = outline(b);
-    if (!is_disc(outline_a) && !is_disc(outline_b)) return rectangle_rectangle(first, second);
-    if (!is_disc(outline_a)) return disc_rectangle(b, outline_b, a, outline_a);
-    if (!is_disc(outline_b)) return disc_rectangle(a, outline_a, b, outline_b);
-    return radius_of(outline_a) + radius_of(outline_b) - (a.position - b.position).norm();
+    const RoundedBox box_a = rounded_box(outline(a)), box_b = rounded_box(outline(b));
+    return box_a.radius + box_b.radius - box_distance({a, box_a}, {b, box_b});
   }
 
   void pair(const Object& first, const Object& second) {
@@ -182,10 +198,8 @@ class OverlapSearch {
     const ToolSurface surface = make_surface(tool.points, tool.rounding);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Outline& shape = outline(bodies_[i]);
-      const Vec2 centre = bodies_[i].position - tool.points.front();
-      const double overlap =
-          is_disc(shape) ? disc_depth(surface, centre, radius_of(shape))
-                         : rectangle_depth(surface, centre, bodies_[i].angle, half_size(shape));
+      const double overlap = depth_in_tool(surface, bodies_[i].position - tool.points.front(),
+                                           bodies_[i].angle, rounded_box(shape));
       if (overlap > touching_tolerance * size_of(shape)) found_.push_back({i, tool_, overlap});
     }
   }

@@ -32,27 +32,49 @@ struct MaterialSpec {
   SourceMark mark;
 };
 
-struct DiscOutline {
-  double diameter = 0;  // m
-};
-struct RectangleOutline {
-  double width = 0;   // m, along the particle's own x axis
-  double height = 0;  // m
-};
-using Outline = std::variant<DiscOutline, RectangleOutline>;
-
+// Meshes and outlines. An outline names the mesh that goes with it; scenes/outline.cpp knows its geometry,
+// scenes/mesh_<outline>.cpp meshes it, scenes/declare_powder.cpp declares its keys.
 struct DiscMesh {
   int boundary_edges =
-      40;         // a multiple of 4, >= 8: the O-grid's core has (boundary_edges/4)^2 quads
-  int rings = 1;  // rings of quads between the core and the outline, >= 1
-  double refinement =
-      1;  // >= 1: edges at the poles (top and bottom) are this much finer than at the equator
+      40;         // a multiple of 4; the core of the O-grid has (boundary_edges/4)^2 quads
+  int rings = 1;  // of quads between the core and the outline; 0: the core's rim is the outline
+  double refinement = 1;  // >= 1: edges at top and bottom are this much finer than at the sides
 };
 struct RectangleMesh {
   int columns = 8;  // quads along the width
   int rows = 8;     // quads along the height
 };
-using MeshSpec = std::variant<DiscMesh, RectangleMesh>;
+struct RoundedRectangleMesh {
+  int boundary_edges = 48;  // a multiple of 4
+  int rings = 1;            // >= 1
+};
+struct RingMesh {
+  int boundary_edges = 40;  // a multiple of 4
+  int rings = 4;            // layers of quads through the wall, >= 1
+};
+using MeshSpec = std::variant<DiscMesh, RectangleMesh, RoundedRectangleMesh, RingMesh>;
+
+struct DiscOutline {
+  using Mesh = DiscMesh;
+  double diameter = 0;  // m
+};
+struct RectangleOutline {
+  using Mesh = RectangleMesh;
+  double width = 0;   // m, along the particle's own x axis
+  double height = 0;  // m
+};
+struct RoundedRectangleOutline {
+  using Mesh = RoundedRectangleMesh;
+  double width = 0;   // m, along the particle's own x axis
+  double height = 0;  // m
+  double radius = 0;  // m, of the four corners; at most half of the shorter side
+};
+struct RingOutline {  // a tube; nothing touches its inner surface
+  using Mesh = RingMesh;
+  double diameter = 0;  // m
+  double hole = 0;      // m, diameter of the hole
+};
+using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline>;
 
 struct ParticleSpec {  // a class of equal particles
   std::string name;
@@ -60,8 +82,8 @@ struct ParticleSpec {  // a class of equal particles
   Outline outline;
   MeshSpec mesh;
   bool random_mesh_phase =
-      false;              // every particle's mesh turned by its own random angle (disc only)
-  double mesh_phase = 0;  // rad, the same turn for all when not random (disc only)
+      false;              // every particle's mesh turned by its own random angle (disc, ring)
+  double mesh_phase = 0;  // rad, the same turn for all when not random (disc, ring)
   SourceMark mark;
 };
 

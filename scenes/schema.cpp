@@ -128,6 +128,17 @@ std::vector<std::string> known_words(const TableView& table) {
   return words;
 }
 
+std::string quoted(const Words& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.list.size(); ++i)
+    text += fmt::format("{}\"{}\"",
+                        i == 0                      ? ""
+                        : i + 1 < words.list.size() ? ", "
+                                                    : " or ",
+                        words.list[i]);
+  return text;
+}
+
 std::string allowed(const KeyInfo& key) {
   const std::string quantity = fmt::format("in {}{}", key.unit, range_text(key.range));
   switch (key.kind) {
@@ -161,7 +172,7 @@ std::string allowed(const KeyInfo& key) {
 
 bool applies(const KeyInfo& key, const document::Table& table, const std::string& selected) {
   const bool has_company = key.needs.empty() || document::find(table, key.needs) != nullptr;
-  return has_company && (key.only_for.empty() || key.only_for == selected);
+  return has_company && (key.only_for.empty() || key.only_for.has(selected));
 }
 
 std::string selected_by(const TableInfo& info, const document::Table& table,

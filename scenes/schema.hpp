@@ -5,8 +5,10 @@
 
 #include "scenes/document.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -43,6 +45,18 @@ struct Choice {
   std::string doc;
 };
 
+// Values of a selector: one word, or several in braces.
+struct Words {
+  std::vector<std::string> list;
+  Words() = default;
+  Words(const char* word) : list{word} {}
+  Words(std::initializer_list<std::string> words) : list(words) {}
+  bool empty() const { return list.empty(); }
+  bool has(const std::string& word) const {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  }
+};
+
 struct KeyInfo {
   std::string name = {};
   Kind kind = Kind::text;
@@ -54,8 +68,8 @@ struct KeyInfo {
   std::string refers_to = {};  // Kind::reference: the table whose names are allowed
   std::optional<document::Value> fallback = {};  // the default
   bool required = false;
-  std::string only_for = {};  // the table's selector must have this value
-  std::string needs = {};     // another key without which this one has no effect
+  Words only_for = {};     // the table's selector must have one of these values
+  std::string needs = {};  // another key without which this one has no effect
   std::string doc = {};
   std::string fallback_doc = {};  // what happens without the key, where that is no value
 };
@@ -118,6 +132,7 @@ const KeyInfo* find_key(const TableView& table, const std::string& name);
 std::string joined_path(const std::string& path, const std::string& key);
 std::vector<std::string> known_words(const TableView& table);  // its keys and child tables
 
+std::string quoted(const Words& words);   // '"disc" or "ring"'
 std::string allowed(const KeyInfo& key);  // "a quantity in Pa, >= 1 and <= 1e+13"
 
 // Whether `key` has a meaning in `table`, whose selector has the value `selected`.

@@ -42,14 +42,11 @@ double signed_distance(const ToolSurface& surface, const Vec2& at) {
       .distance;
 }
 
-double disc_depth(const ToolSurface& surface, const Vec2& centre, double radius) {
-  return radius - signed_distance(surface, centre);
-}
-
-// Deepest of the rectangle's corners in the tool, the tool's corners in the rectangle, and straight pieces
-// that pass right through it.
-double rectangle_depth(const ToolSurface& surface, const Vec2& centre, double angle,
-                       const Vec2& half) {
+// Deepest of the box's corners in the tool, the tool's corners in the box, and straight pieces that pass right
+// through it; apart, minus the distance. A rounded box is its box, grown by its radius.
+double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
+                     const RoundedBox& outline) {
+  const Vec2& half = outline.half;
   const Eigen::Rotation2Dd turn(angle);
   double depth = nothing;
   for (const Vec2& corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
@@ -62,7 +59,7 @@ double rectangle_depth(const ToolSurface& surface, const Vec2& centre, double an
     const Vec2 corner = turn.inverse() * (Vec2(p.corner_x, p.corner_y) - centre);
     depth = std::max(depth, p.radius - distance_to_rectangle(corner, half));
   }
-  return depth;
+  return outline.radius + depth;
 }
 
 }  // namespace pulvis

@@ -2,15 +2,14 @@
 #pragma once
 
 #include "components/surface.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/outline.hpp"
 
 namespace pulvis {
 
 // Lengths in the tool's frame (see make_surface).
 double signed_distance(const ToolSurface& surface, const Vec2& at);  // > 0 in the powder
 
-double disc_depth(const ToolSurface& surface, const Vec2& centre, double radius);
-double rectangle_depth(const ToolSurface& surface, const Vec2& centre, double angle,
-                       const Vec2& half_size);
+double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
+                     const RoundedBox& outline);
 
 }  // namespace pulvis

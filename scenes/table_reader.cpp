@@ -116,11 +116,11 @@ void TableReader::missing(const KeyInfo& key) {
 
 void TableReader::without_effect(const KeyInfo& key, const document::Entry& entry) {
   const std::string path = joined_path(path_, key.name);
-  if (!key.only_for.empty() && key.only_for != selected_) {
+  if (!key.only_for.empty() && !key.only_for.has(selected_)) {
     if (selected_.empty()) return;  // the missing selector is reported already
     problems_.add(entry.origin, path,
-                  fmt::format("has no effect with {} = \"{}\", allowed: only with \"{}\"",
-                              view_->info.selector, selected_, key.only_for));
+                  fmt::format("has no effect with {} = \"{}\", allowed: only with {}",
+                              view_->info.selector, selected_, quoted(key.only_for)));
     return;
   }
   problems_.add(

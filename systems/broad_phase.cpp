@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -89,30 +90,38 @@ struct Curves {
   const double* points(int slot) const {
     return control.data() + 2 * bodies.slots[static_cast<std::size_t>(slot)].first_control;
   }
-  Box edge(int slot, int e) const {
+  const double* edge_points(int slot, int e) const {
     const Shape& shape = bodies.shape_of_slot(slot);
-    return box_of(points(slot) + 2 * shape.edges[static_cast<std::size_t>(e)].first_control, 4);
+    return points(slot) + 2 * shape.edges[static_cast<std::size_t>(e)].first_control;
   }
+  Box edge(int slot, int e) const { return box_of(edge_points(slot, e), 4); }
 };
 
-double squared_middle_distance(const Box& a, const Box& b) {
-  double sum = 0;
-  for (int k = 0; k < 2; ++k) {
-    const double d = 0.5 * ((a.low[k] + a.high[k]) - (b.low[k] + b.high[k]));
-    sum += d * d;
-  }
-  return sum;
+using Spot = std::array<double, 2>;
+
+// Where the edge with these four control points begins.
+Spot knot(const double* y) { return {(y[0] + 4 * y[2] + y[4]) / 6, (y[1] + 4 * y[3] + y[5]) / 6}; }
+
+double squared_distance_to_chord(const Spot& p, const double* control) {
+  const Spot a = knot(control), b = knot(control + 2);
+  const double cx = b[0] - a[0], cy = b[1] - a[1], rx = p[0] - a[0], ry = p[1] - a[1];
+  const double share = std::clamp((rx * cx + ry * cy) / (cx * cx + cy * cy), 0.0, 1.0);
+  const double dx = rx - share * cx, dy = ry - share * cy;
+  return dx * dx + dy * dy;
 }
 
-// The edges of `other` that come near `box`; the nearest, or no_edge.
+// The edge of `other` nearest to the middle of the sampled edge, of those that come near its box, or
+// no_edge. By the distance of chords, not of middles: beside the end of a long edge the middle of a short
+// one around the corner may be nearer, and from there no search leads back over the corner.
 int nearest_edge(const Curves& curves, int other, const std::vector<Box>& other_edges,
-                 const Box& box, double skin) {
+                 const Box& box, const Spot& middle, double skin) {
   if (!near(box, curves.particle[static_cast<std::size_t>(other)], skin)) return Shape::no_edge;
   int nearest = Shape::no_edge;
   double least = std::numeric_limits<double>::max();
   for (std::size_t e = 0; e < other_edges.size(); ++e) {
     if (!near(box, other_edges[e], skin)) continue;
-    const double distance = squared_middle_distance(box, other_edges[e]);
+    const double distance =
+        squared_distance_to_chord(middle, curves.edge_points(other, static_cast<int>(e)));
     if (distance < least) {
       least = distance;
       nearest = static_cast<int>(e);
@@ -139,8 +148,11 @@ std::vector<EdgeCandidate> candidates_of(const Curves& curves, const Grid& grid,
   std::vector<EdgeCandidate> found;
   for (int e = 0; e < static_cast<int>(curves.bodies.shape_of_slot(slot).edges.size()); ++e) {
     const Box box = curves.edge(slot, e);
+    const Spot begin = knot(curves.edge_points(slot, e)),
+               end = knot(curves.edge_points(slot, e) + 2);
+    const Spot middle{0.5 * (begin[0] + end[0]), 0.5 * (begin[1] + end[1])};
     for (std::size_t o = 0; o < others.size(); ++o) {
-      const int start = nearest_edge(curves, others[o], other_edges[o], box, skin);
+      const int start = nearest_edge(curves, others[o], other_edges[o], box, middle, skin);
       if (start != Shape::no_edge) found.push_back({slot, e, others[o], start});
     }
   }

@@ -124,12 +124,4 @@ T inverse_cube_root(T a) {
   return near;
 }
 
-// Square of the smaller singular value of A: the half-width of the element across its narrow side.
-template <class T>
-T squared_half_width(const Matrix2<T>& a) {
-  const T trace = (a.xx * a.xx + a.yy * a.yy) + (a.xy * a.xy + a.yx * a.yx);
-  const T det = determinant(a);
-  return 0.5 * (trace - sqrt(max(trace * trace - 4.0 * det * det, T{})));
-}
-
 }  // namespace pulvis::kernels

@@ -106,8 +106,8 @@ void integrate(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalFor
 void contact_curve(Chunk, Read<Bodies>, Read<Position>, Read<Velocity>, Write<CurvePosition>,
                    Optional<Write<CurveVelocity>>, Write<MaximumSpeed>);
 void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
-                      Read<BulkModulus>, Read<Density>, Optional<Read<ContactRules>>,
-                      Write<StableTimeStep>);
+                      Read<BulkModulus>, Read<Density>, Read<DeviatoricStress>,
+                      Optional<Read<ContactRules>>, Write<StableTimeStep>);
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>);
 void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolVelocity>>,
                    Write<Clock>);

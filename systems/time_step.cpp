@@ -1,43 +1,59 @@
 // stable_time_step: the greatest time step that every element (and the contact springs on the outline)
 // of a particle can stand. advance_clock: chooses the next step and moves time on.
 //
-// Source   The highest frequency of an assembly is at most that of its worst element (Irons; Flanagan &
-//          Belytschko 1984). Element with lumped mass m_e/4 a node and uniform gradient A^-1:
-//            omega^2 <= (K (1 + theta^2)/2 + 4/3 mu) / rho / s^2,   s = half-width (singular value of A)
-//          An element on the outline also bears the contact springs: two nodes of mass m_e/4 each on
-//          kappa L t (a tool's, or the half of it that two equal bodies share, moving against each other):
-//          + 2 kappa L / (rho A) = 2 k K (L/A)^2 / rho, (L/A)^2 from the shape.
+// Source   The highest frequency of an assembly is at most that of its worst element, however the masses of
+//          the nodes are dealt out among the elements around (Irons; Flanagan & Belytschko 1984); the
+//          shape deals them out so that the worst is least (scenes/mass_shares). Elements:
+//          systems/time_step_kernel.hpp. One on the outline also bears contact springs of k K L/A (a
+//          tool's, or the half of it that two equal bodies share, moving against each other).
 // Runs     stable_time_step every few steps (geometry changes little in a step); advance_clock last
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "systems/element_access.hpp"
 #include "systems/systems.hpp"
+#include "systems/time_step_kernel.hpp"
 
 namespace pulvis {
+namespace {
+
+// Largest norm of the deviatoric stress at the Gauss points of an element.
+template <class View>
+Lane largest_norm(const View& stress, Row<Element> e) {
+  Lane most{};
+  for (int g = 0; g < gauss_points; ++g) {
+    const auto s = deviator(stress, e, g);
+    most = max(most, s.xx * s.xx + s.yy * s.yy + (s.xx + s.yy) * (s.xx + s.yy) + 2.0 * s.xy * s.xy);
+  }
+  return sqrt(most);
+}
+
+}  // namespace
 
 void stable_time_step(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Position> x,
                       Read<ShearModulus> mu, Read<BulkModulus> bulk, Read<Density> density,
-                      Optional<Read<ContactRules>> rules, Write<StableTimeStep> stable) {
+                      Read<DeviatoricStress> s, Optional<Read<ContactRules>> rules,
+                      Write<StableTimeStep> stable) {
   if (clock->step % time_step_interval != 0) return;
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto nodes = x.chunk(chunk);
+  const auto stress = s.chunk(chunk);
   const Lane k = bulk.chunk(chunk)(particle), rho = density.chunk(chunk)(particle);
-  const Lane shear = (4.0 / 3.0) * mu.chunk(chunk)(particle);
+  const Lane shear = mu.chunk(chunk)(particle), over_shear = 1.0 / shear;
   // Damping shortens the step of a spring by sqrt(1 + xi^2) - xi, about 1 - xi.
-  const double contact = rules ? 2 * (*rules)->stiffness * (1 + 2 * (*rules)->damping) : 0;
+  const double contact = rules ? (*rules)->stiffness * (1 + 2 * (*rules)->damping) : 0;
   Lane highest{};
   for (int i = 0; i < shape.elements(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto map = quad_map(nodes, shape.quads[at]);
     const Lane theta = dilatation(map, shape.gauss[at]);
-    const Lane width2 = kernels::squared_half_width(kernels::map_gradient(map, 0, 0));
-    Lane omega2 = (0.5 * k * (1.0 + theta * theta) + shear) / (rho * width2);
-    if (contact > 0 && shape.contact_stiffness[at] > 0)
-      omega2 += contact * shape.contact_stiffness[at] * k / rho;
-    highest = max(highest, omega2);
+    const auto spread =
+        kernels::mode_spread(kernels::map_gradient(map, 0, 0), shape.corner_moment[at]);
+    const Lane distortion = theta * over_shear * largest_norm(stress, Row<Element>(i));
+    const Lane element = kernels::frequency_bound(spread, k, shear, theta, distortion);
+    highest = max(highest, element + contact * shape.contact_frequency[at] * k);
   }
-  stable.chunk(chunk)(particle) = 2.0 / sqrt(highest);
+  stable.chunk(chunk)(particle) = 2.0 * sqrt(rho / highest);
 }
 
 void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,

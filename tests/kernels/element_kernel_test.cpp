@@ -251,31 +251,15 @@ TEST(InverseCubeRoot, LanesGiveTheBitsOfTheScalarWhateverTheirNeighbours) {
   }
 }
 
-TEST(SquaredHalfWidth, OfARectangleIsItsShortSide) {
-  for (const double angle : {0.0, 0.3, 1.2}) {
-    // Rotated rectangle with half-sides 0.5 and 2; the difference of squares loses (2/0.5)^2 units.
-    const auto a = product(rotation(angle), Matrix2<double>{2.0, 0.0, 0.0, 0.5});
-    EXPECT_NEAR(squared_half_width(a), 0.25, 40 * round_off) << angle;
-  }
-  EXPECT_DOUBLE_EQ(squared_half_width(Matrix2<double>{3.0, 0.0, 0.0, 3.0}), 9);
-}
-
-TEST(SquaredHalfWidth, OfAShearedSquareIsItsSmallSingularValue) {
-  const double g = 0.7;  // singular values of [1 g; 0 1] are s and 1/s with s - 1/s = g
-  const double s = 0.5 * (g + std::sqrt(g * g + 4));
-  EXPECT_NEAR(squared_half_width(Matrix2<double>{1.0, g, 0.0, 1.0}), 1 / (s * s), 10 * round_off);
-}
-
 TEST(ElementKernels, LanesGiveTheBitsOfTheScalar) {
   Random random(8);
   for (int i = 0; i < 1000; ++i) {
     const Matrix2<Lane> f{random.lane(0.5, 2), random.lane(-1, 1), random.lane(-1, 1),
                           random.lane(0.5, 2)};
-    const Lane width = squared_half_width(f), det = determinant(f);
+    const Lane det = determinant(f);
     for (int l = 0; l < lane_count; ++l) {
       const Matrix2<double> one{f.xx[l], f.xy[l], f.yx[l], f.yy[l]};
       ASSERT_EQ(bits(det[l]), bits(determinant(one)));
-      ASSERT_EQ(bits(width[l]), bits(squared_half_width(one)));
     }
   }
 }

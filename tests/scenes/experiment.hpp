@@ -20,8 +20,8 @@ class Experiment {
                       int threads = 1)
       : Experiment(read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/" + scene_file, overrides),
                    threads) {}
-  explicit Experiment(Scene what, int threads = 1)
-      : scene(std::move(what)), simulation(scene, threads), results(scene, simulation.world()) {}
+  explicit Experiment(Scene given, int threads = 1)
+      : scene(std::move(given)), simulation(scene, threads), results(scene, simulation.world()) {}
 
   // Runs to the end with `samples` observations; `look` is called after each.
   template <class Look>

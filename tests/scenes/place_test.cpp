@@ -32,6 +32,24 @@ ParticleSpec square() {
   return particle;
 }
 
+constexpr double corner_radius = 2e-3;
+
+ParticleSpec rounded() {
+  ParticleSpec particle;
+  particle.name = "rounded";
+  particle.outline = RoundedRectangleOutline{2 * size, size, corner_radius};
+  particle.mesh = RoundedRectangleMesh{};
+  return particle;
+}
+
+ParticleSpec ring() {
+  ParticleSpec particle;
+  particle.name = "ring";
+  particle.outline = RingOutline{size, size / 2};
+  particle.mesh = RingMesh{};
+  return particle;
+}
+
 BodySpec at(double x, double y, int particle = 0, double angle = 0) {
   BodySpec body;
   body.particle = particle;
@@ -47,7 +65,7 @@ ToolSpec plane(const std::string& name, const Vec2& point, const Vec2& normal) {
 Scene scene_of(std::vector<BodySpec> bodies) {
   Scene scene;
   scene.file = "place.toml";
-  scene.particles = {disc(), square()};
+  scene.particles = {disc(), square(), rounded(), ring()};
   scene.bodies = std::move(bodies);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     scene.bodies[i].mark = {static_cast<int>(10 * (i + 1)), 1};
@@ -231,6 +249,58 @@ TEST(CheckOverlaps, DiscAgainstRectangle) {
               HasSubstr("by 1e-05 m"));
   EXPECT_THAT(problems_of(scene_of({at(0, 0), at(0.001, 0, 1)})).at(0).message,
               HasSubstr("by 0.009 m"));
+}
+
+// Depth of the one overlap of two particles, or 0.
+double depth_of(const BodySpec& a, const BodySpec& b) {
+  const auto problems = problems_of(scene_of({a, b}));
+  if (problems.empty()) return 0;
+  EXPECT_EQ(problems.size(), 1U);
+  const std::string& message = problems[0].message;
+  return std::stod(message.substr(message.find(" by ") + 4));
+}
+
+TEST(CheckOverlaps, RoundedRectanglesTouchAtSidesAndAtCorners) {
+  const double d = 1e-5;
+  EXPECT_EQ(depth_of(at(0, 0, 2), at(2 * size, 0, 2)), 0);  // side to side
+  EXPECT_NEAR(depth_of(at(0, 0, 2), at(2 * size - d, 1e-3, 2)), d, 1e-9);
+  // Corner to corner along the diagonal: the centres of the arcs are two radii apart.
+  const Vec2 corner =
+      Vec2(2 * size, size) + Vec2::Constant(-2 * corner_radius + sqrt2 * corner_radius);
+  const Vec2 back = Vec2::Constant(d / sqrt2);
+  EXPECT_EQ(depth_of(at(0, 0, 2), at(corner.x(), corner.y(), 2)), 0);
+  EXPECT_NEAR(depth_of(at(0, 0, 2), at(corner.x() - back.x(), corner.y() - back.y(), 2)), d, 1e-9);
+  // One turned by 45 degrees, its corner on the other's side.
+  const double reach = size / 2 + (size + size / 2 - 2 * corner_radius) / sqrt2 + corner_radius;
+  const double eighth = std::numbers::pi / 4;
+  EXPECT_EQ(depth_of(at(0, 0, 2), at(0, reach, 2, eighth)), 0);
+  EXPECT_NEAR(depth_of(at(0, 0, 2), at(0, reach - d, 2, eighth)), d, 1e-9);
+  // Deep inside: the way out is the height.
+  EXPECT_NEAR(depth_of(at(0, 0, 2), at(1e-4, 1e-3, 2)), size - 1e-3, 1e-8);
+}
+
+TEST(CheckOverlaps, RoundedRectangleAgainstDiscRectangleAndRing) {
+  const double d = 1e-5;
+  // A disc's centre stands beyond the arc's centre by both radii.
+  const Vec2 arc(size - corner_radius, size / 2 - corner_radius);
+  const Vec2 centre = arc + Vec2::Constant((size / 2 + corner_radius) / sqrt2);
+  EXPECT_EQ(depth_of(at(0, 0, 2), at(centre.x(), centre.y())), 0);
+  EXPECT_NEAR(depth_of(at(0, 0, 2), at(centre.x() - d / sqrt2, centre.y() - d / sqrt2)), d, 1e-9);
+  EXPECT_NEAR(depth_of(at(0, 0, 2), at(centre.x() - d / sqrt2, centre.y() - d / sqrt2, 3)), d,
+              1e-9);
+  EXPECT_EQ(depth_of(at(0, 0, 2), at(0, size, 1)), 0);
+  EXPECT_NEAR(depth_of(at(0, 0, 2), at(0, size - d, 1)), d, 1e-9);
+  // What lies in the hole lies in the ring: only its outer circle counts.
+  EXPECT_GT(depth_of(at(0, 0, 3), at(0, 0, 3)), 0.9 * size);
+}
+
+TEST(CheckOverlaps, RoundedCornerBehindATool) {
+  const double reach = (size + size / 2 - 2 * corner_radius) / sqrt2 + corner_radius;
+  Scene scene = scene_of({at(0, reach, 2, std::numbers::pi / 4)});
+  scene.tools = {plane("floor", Vec2::Zero(), Vec2::UnitY())};
+  EXPECT_TRUE(problems_of(scene).empty());
+  scene.bodies[0].position.y() -= 1e-5;
+  EXPECT_THAT(problems_of(scene).at(0).message, HasSubstr("1e-05 m behind tool 'floor'"));
 }
 
 TEST(CheckOverlaps, SizesThatDifferByManyOrders) {
