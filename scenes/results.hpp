@@ -26,6 +26,9 @@ struct DieCell {
 };
 std::optional<DieCell> die_cell(const Scene& scene);
 
+// The series that a run of the scene keeps, in the order of Results::sample().
+std::vector<SeriesInfo> history_series(const Scene& scene);
+
 class Results {
  public:
   Results(const Scene& scene, const World& world);
@@ -48,10 +51,12 @@ class Results {
   double energy_balance_error(double negligible = 1e-12) const;
   // Largest kinetic over internal energy, while the internal one is above 1% of its final value.
   double kinetic_ratio() const;
+  // Smallest det F of any element at any step so far.
+  double least_jacobian() const;
   std::int64_t elements() const { return elements_; }
+  double end_time() const { return world_.resource<Clock>().end; }
 
  private:
-  void add_series(const std::string& name, const std::string& unit, const std::string& meaning);
   void take_energies();
   void append_tools(std::vector<double>& row) const;
   void append_density(std::vector<double>& row) const;
