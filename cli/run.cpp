@@ -67,8 +67,7 @@ void check_limits(const Scene& scene, const Results& results, const World& world
         "energies: {} is {:.4g} at step {}, t = {:.6g} s; allowed {:.4g} (limits.{}); {}", key,
         value, clock.step, clock.time, limit, key, worst_element(world)));
   };
-  // At the first touch there is next to no energy to compare with; strains of 1e-3 are a start.
-  const double balance = results.energy_balance_error(1e-6);
+  const double balance = results.energy_balance_error_so_far();
   if (!(balance <= scene.limits.energy_balance))
     stop("energy_balance", balance, scene.limits.energy_balance);
   const Energies& e = results.energies();

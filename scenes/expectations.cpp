@@ -35,7 +35,8 @@ std::string unit_of(const std::vector<SeriesInfo>& all, const std::string& name)
 }
 
 std::string what_of(const ExpectSpec& expect) {
-  static constexpr const char* words[] = {"at the end", "always", "largest", "smallest", "mean"};
+  static constexpr const char* words[] = {"at the end", "always", "largest",
+                                          "smallest",   "mean",   "largest less smallest"};
   std::string text = expect.series;
   if (!is_figure_of_a_run(expect.series))
     text += fmt::format(", {}", words[static_cast<int>(when_of(expect))]);
@@ -87,6 +88,8 @@ double chosen(const ExpectSpec& expect, const Values& values) {
     case When::mean:
       for (const double value : values) sum += value;
       return sum / static_cast<double>(values.size());
+    case When::range:
+      return std::ranges::max(values) - std::ranges::min(values);
     case When::always:
       return *std::ranges::max_element(values, {},
                                        [&](double value) { return excess(expect, value); });

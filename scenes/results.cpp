@@ -91,6 +91,14 @@ CellStress cell_stress(const Lane* s, double mean, int lane) {
   return c;
 }
 
+double fastest_tool(const Scene& scene) {
+  double fastest = 0;
+  for (const StageSpec& stage : scene.stages)
+    for (const MoveSpec& move : stage.moves)
+      fastest = std::max(fastest, move.displacement.norm() / stage.duration / (1 - move.ramp));
+  return fastest;
+}
+
 }  // namespace
 
 std::vector<SeriesInfo> history_series(const Scene& scene) {
@@ -143,6 +151,11 @@ Results::Results(const Scene& scene, const World& world)
       world.column<BulkModulus>().values(),
       world.column<BulkModulus>().values() + world.resource<Bodies>().slots.size());
   stiffness_energy_ = modulus * particle_area_ * scene.thickness;
+  double mass_per_thickness = 0;
+  for (const int slot : world.resource<Bodies>().slot_of_number)
+    mass_per_thickness += world.column<Density>().values()[static_cast<std::size_t>(slot)] *
+                          world.resource<Bodies>().shape_of_slot(slot).area;
+  tool_energy_ = 0.5 * mass_per_thickness * scene.thickness * std::pow(fastest_tool(scene), 2);
   for (std::size_t i = 0; i < series_.size(); ++i) position_[series_[i].name] = i;
 
   fields_ = {{"position", "m", "of the node", FieldPlace::node, 2},
@@ -275,6 +288,11 @@ double Results::least_jacobian() const {
 
 double Results::energy_balance_error(double negligible) const {
   return worst_balance_ / std::max(largest_energy_, negligible * stiffness_energy_);
+}
+
+double Results::energy_balance_error_so_far() const {
+  const double floor = std::max(1e-6 * stiffness_energy_, 0.01 * tool_energy_);
+  return worst_balance_ / std::max(largest_energy_, floor);
 }
 
 double Results::kinetic_ratio() const {

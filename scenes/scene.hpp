@@ -138,7 +138,7 @@ struct LimitSpec {               // health: a run that passes one of these stops
 
 // What must hold of the run; `pulvis run` checks it at its end.
 struct ExpectSpec {
-  enum class When { end, always, max, min, mean };
+  enum class When { end, always, max, min, mean, range };
   struct Bound {
     double number = 0;  // in the SI unit of the series
     std::string
