@@ -14,7 +14,9 @@ std::vector<Key<ExpectSpec>> series_keys() {
   return {
       {{.name = "series",
         .kind = Kind::text,
-        .doc = "A series of `history.csv`, or a figure of the whole run: `energy_balance_error`, "
+        .doc = "A series of `history.csv`; `momentum/x`, `momentum/y` or `momentum/angular` (about "
+               "the origin) of the whole powder; or a figure of the whole run: "
+               "`energy_balance_error`, "
                "`kinetic_ratio`.",
         .fallback_doc = "none: the expectation is about the `outcome`"},
        to(&ExpectSpec::series)},

@@ -20,7 +20,7 @@ const SeriesInfo* find_series(const std::vector<SeriesInfo>& all, const std::str
 
 std::vector<std::string> known_series(const Scene& scene) {
   std::vector<std::string> names;
-  for (const SeriesInfo& series : history_series(scene)) names.push_back(series.name);
+  for (const SeriesInfo& series : expectable_series(scene)) names.push_back(series.name);
   names.insert(names.end(), std::begin(figures_of_a_run), std::end(figures_of_a_run));
   return names;
 }
@@ -77,7 +77,8 @@ class ExpectChecks {
                                    suggestion(expect.series, known), listed(known)));
       return;
     }
-    const SeriesInfo* info = find_series(history_series(scene_), expect.series);
+    const std::vector<SeriesInfo> all = expectable_series(scene_);
+    const SeriesInfo* info = find_series(all, expect.series);
     bounds(expect, info == nullptr ? "1" : info->unit == "-" ? "1" : info->unit);
     window(expect);
     if (!expect.like.empty()) other(expect);
@@ -153,6 +154,13 @@ class ExpectChecks {
 
 bool is_figure_of_a_run(const std::string& name) {
   return std::ranges::find(figures_of_a_run, name) != std::end(figures_of_a_run);
+}
+
+std::vector<SeriesInfo> expectable_series(const Scene& scene) {
+  std::vector<SeriesInfo> all = history_series(scene);
+  const std::vector<SeriesInfo> momentum = momentum_series();
+  all.insert(all.end(), momentum.begin(), momentum.end());
+  return all;
 }
 
 std::filesystem::path other_scene(const Scene& scene, const ExpectSpec& expect) {

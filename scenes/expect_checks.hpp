@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "engine/record.hpp"
 #include "scenes/problem.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/table_reader.hpp"
@@ -13,6 +14,9 @@ namespace pulvis {
 // Figures of a whole run that an expectation may name like a series.
 inline constexpr const char* figures_of_a_run[] = {"energy_balance_error", "kinetic_ratio"};
 bool is_figure_of_a_run(const std::string& name);
+
+// Every series of a run that an expectation may name: the history, and the momentum.
+std::vector<SeriesInfo> expectable_series(const Scene& scene);
 
 std::filesystem::path other_scene(const Scene& scene, const ExpectSpec& expect);
 

@@ -115,6 +115,9 @@ struct OtherRun {
 };
 
 double value_of(const std::string& name, const Results& results) {
+  const std::vector<SeriesInfo> momentum = momentum_series();
+  for (std::size_t i = 0; i < momentum.size(); ++i)
+    if (name == momentum[i].name) return results.momentum()[i];
   if (name == "energy_balance_error") return results.energy_balance_error();
   if (name == "kinetic_ratio") return results.kinetic_ratio();
   return results.value(name);
@@ -230,7 +233,8 @@ void Expectations::sample(double time, const Results& results) {
   times_.push_back(time);
   for (std::size_t i = 0; i < scene_.expects.size(); ++i) {
     const std::string& series = scene_.expects[i].series;
-    if (!series.empty() && !is_figure_of_a_run(series)) values_[i].push_back(results.value(series));
+    if (!series.empty() && !is_figure_of_a_run(series))
+      values_[i].push_back(value_of(series, results));
   }
 }
 
@@ -241,7 +245,7 @@ std::vector<Verdict> Expectations::judge(const Results& results,
   if (scene_.expects.empty()) return verdicts;
   verdicts.push_back(outcome_of(scene_, failure));
   const double end = results.end_time();
-  const std::vector<SeriesInfo>& series = results.series();
+  const std::vector<SeriesInfo> series = expectable_series(scene_);
   std::map<std::filesystem::path, std::vector<std::string>> wanted;
   for (const ExpectSpec& expect : scene_.expects)
     if (!expect.like.empty()) wanted[other_scene(scene_, expect)].push_back(expect.series);

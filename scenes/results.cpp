@@ -137,6 +137,12 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   return series;
 }
 
+std::vector<SeriesInfo> momentum_series() {
+  return {{"momentum/x", "kg m/s", "of all nodes"},
+          {"momentum/y", "kg m/s", "of all nodes"},
+          {"momentum/angular", "kg m^2/s", "of all nodes, about the origin"}};
+}
+
 Results::Results(const Scene& scene, const World& world)
     : world_(world),
       cell_(die_cell(scene)),
@@ -276,6 +282,26 @@ std::vector<std::vector<double>> Results::frame() const {
 }
 
 double Results::value(const std::string& series) const { return last_.at(position_.at(series)); }
+
+std::array<double, 3> Results::momentum() const {
+  std::array<double, 3> sum{};
+  const double thickness = world_.resource<Bodies>().thickness;
+  std::size_t i = 0;
+  for_each_particle<Node>(world_, [&](std::size_t first, int lane, const Shape& shape) {
+    const int slot = world_.resource<Bodies>().slot_of_number[i++];
+    const double density = world_.column<Density>().values()[static_cast<std::size_t>(slot)];
+    const Lane* x = world_.column<Position>().lanes() + 2 * first;
+    const Lane* v = world_.column<Velocity>().lanes() + 2 * first;
+    for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+      const double mass = density * thickness * shape.nodal_area[n];
+      const double vx = v[2 * n][lane], vy = v[2 * n + 1][lane];
+      sum[0] += mass * vx;
+      sum[1] += mass * vy;
+      sum[2] += mass * (x[2 * n][lane] * vy - x[2 * n + 1][lane] * vx);
+    }
+  });
+  return sum;
+}
 
 // The state that was just observed is the next step's to look at, if there is one.
 double Results::least_jacobian() const {

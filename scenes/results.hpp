@@ -1,6 +1,7 @@
 // What a run hands back: history series, frame fields and the mesh, taken from an observed world.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ std::optional<DieCell> die_cell(const Scene& scene);
 
 // The series that a run of the scene keeps, in the order of Results::sample().
 std::vector<SeriesInfo> history_series(const Scene& scene);
+// Of Results::momentum(), which the history leaves out: it costs a walk over all nodes.
+std::vector<SeriesInfo> momentum_series();
 
 class Results {
  public:
@@ -45,6 +48,9 @@ class Results {
   // Of the last sample.
   double value(const std::string& series) const;
   bool has(const std::string& series) const { return !last_.empty() && position_.contains(series); }
+  // Along x and y, and angular about the origin. Forces within the powder leave all three alone, step by
+  // step and not only in the limit: positions at t_n, velocities at t_(n-1/2).
+  std::array<double, 3> momentum() const;
   const Energies& energies() const { return energies_; }
   // Largest |balance| of the run over the largest energy that came in or was there at the start. Energies
   // below `negligible` (a share of bulk modulus times volume) do not count: the default is round-off.
