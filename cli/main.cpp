@@ -73,6 +73,10 @@ int parse_and_run(int argc, char** argv) {
   CLI::App app{"Pulvis: combined discrete/finite element method for powders", "pulvis"};
   app.set_version_flag("--version", program_version() + " (" + program_commit() + ")");
   app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done; 2 bad usage, or a scene that was refused; 3 the run went bad, or not "
+      "as\n"
+      "the scene's [[expect]] tables say; 4 disk or memory; 130 interrupted.");
 
   auto* run = app.add_subcommand("run", "run a scene and write its results");
   add_scene(*run, options);

@@ -16,9 +16,11 @@
 #include "components/body.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
+#include "scenes/expectations.hpp"
 #include "scenes/read.hpp"
 #include "scenes/results.hpp"
 #include "scenes/simulation.hpp"
+#include "scenes/timetable.hpp"
 #include "systems/run_failure.hpp"
 
 namespace pulvis {
@@ -45,22 +47,6 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
 }
 
-// Sampling times: evenly over the run, the first at 0, the last at its end.
-class Timetable {
- public:
-  Timetable(double end, int count) : end_(end), count_(count) {}
-  bool due(double time) const { return next_ <= count_ && time >= at(next_); }
-  double next() const { return next_ > count_ ? end_ : at(next_); }
-  void pass(double time) {
-    while (next_ <= count_ && time >= at(next_)) ++next_;
-  }
-
- private:
-  double at(int i) const { return i >= count_ ? end_ : end_ * i / count_; }
-  double end_;
-  int count_, next_ = 0;
-};
-
 // Where to look first when the energies say that something is wrong: the most distorted element.
 std::string worst_element(const World& world) {
   const double* least = world.column<LeastJacobian>().values();
@@ -81,8 +67,7 @@ void check_limits(const Scene& scene, const Results& results, const World& world
         "energies: {} is {:.4g} at step {}, t = {:.6g} s; allowed {:.4g} (limits.{}); {}", key,
         value, clock.step, clock.time, limit, key, worst_element(world)));
   };
-  // At the first touch there is next to no energy to compare with; strains of 1e-3 are a start.
-  const double balance = results.energy_balance_error(1e-6);
+  const double balance = results.energy_balance_error_so_far();
   if (!(balance <= scene.limits.energy_balance))
     stop("energy_balance", balance, scene.limits.energy_balance);
   const Energies& e = results.energies();
@@ -98,6 +83,8 @@ struct Run {
   int threads;
   std::unique_ptr<Simulation> simulation;
   Results results;
+  Expectations expectations;
+  std::vector<Verdict> verdicts;
   Recorder recorder;
   Progress progress;
 
@@ -108,6 +95,7 @@ struct Run {
         threads(workers),
         simulation(std::move(built)),
         results(scene.scene, simulation->world()),
+        expectations(scene.scene),
         recorder(where,
                  {program_version(), program_commit(), scene.scene.title,
                   fmt::format("{:016x}", scene.hash), scene.scene.seed, workers},
@@ -118,6 +106,7 @@ struct Run {
     const Clock& clock = simulation->clock();
     simulation->observe();
     recorder.sample(clock.time, results.sample());
+    expectations.sample(clock.time, results);
     samples.pass(clock.time);
     check_limits(loaded.scene, results, simulation->world());
     if (!frames.due(clock.time)) return;
@@ -143,12 +132,19 @@ struct Run {
     }
   }
 
+  // `failure` is what stopped the run, if anything did.
+  void judge(const std::optional<std::string>& failure) {
+    progress.finish();
+    verdicts = expectations.judge(results, failure, threads, [] { return interrupted.load(); });
+  }
+
   void finish(const std::string& outcome) {
     progress.finish();
     recorder.finish(outcome);
     write_summary(folder, loaded.scene, simulation->world(), results,
                   {progress.seconds(), simulation->clock().step, threads,
-                   fmt::format("{:016x}", loaded.hash), outcome});
+                   fmt::format("{:016x}", loaded.hash), outcome},
+                  verdicts);
     write_report(folder);
   }
 };
@@ -164,7 +160,21 @@ void print_end(const Run& run) {
     fmt::print("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",
                r.value("relative_density"), r.value("stress_ratio/axial"),
                r.value("stress_ratio/lateral"));
+  if (!run.verdicts.empty()) fmt::print("expectations\n");
+  for (const Verdict& verdict : run.verdicts) fmt::print("  {}\n", verdict.text());
   fmt::print("results in {}\n", run.folder.string());
+}
+
+// A health check or a limit ended the run: that may be what the scene is about.
+ExitCode stopped(Run& run, const std::string& message) {
+  run.judge(message);
+  const bool expected = ended_as_expected(run.loaded.scene, message);
+  run.finish((expected ? "stopped as expected: " : "failed: ") + message);
+  if (!expected)
+    fmt::print(stderr, "pulvis: the run went bad: {}\nwhat was written before is in {}\n", message,
+               run.folder.string());
+  if (!run.verdicts.empty()) print_end(run);
+  return expected && all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
 }
 
 }  // namespace
@@ -181,14 +191,13 @@ ExitCode run_scene(const RunOptions& options) {
   Run run(loaded, folder, threads, std::move(simulation));
   try {
     const bool done = run.go();
-    run.finish(done ? "done" : "interrupted");
+    if (done) run.judge({});
+    run.finish(done && !interrupted ? "done" : "interrupted");
     print_end(run);
-    return done ? ExitCode::done : ExitCode::interrupted;
+    if (!done || interrupted) return ExitCode::interrupted;
+    return all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
   } catch (const RunFailure& failure) {
-    run.finish(std::string("failed: ") + failure.what());
-    fmt::print(stderr, "pulvis: the run went bad: {}\nwhat was written before is in {}\n",
-               failure.what(), folder.string());
-    return ExitCode::run_failed;
+    return stopped(run, failure.what());
   }
 }
 

@@ -67,9 +67,23 @@ Json limits_json(const LimitSpec& limits) {
 void add_figures(Json& json, const Results& results) {
   json["energy_balance_error"] = results.energy_balance_error();
   json["kinetic_ratio"] = results.kinetic_ratio();
+  json["least_jacobian"] = results.least_jacobian();
   for (const char* name :
        {"penetration", "relative_density", "stress_ratio/axial", "stress_ratio/lateral"})
     if (results.has(name)) json[name] = results.value(name);
+}
+
+Json expectations_json(const std::vector<Verdict>& verdicts) {
+  Json list = Json::array();
+  for (const Verdict& verdict : verdicts) {
+    Json entry{{"what", verdict.what},
+               {"measured", verdict.measured},
+               {"expected", verdict.allowed},
+               {"met", verdict.met}};
+    if (verdict.value) entry["value"] = *verdict.value;
+    list.push_back(entry);
+  }
+  return list;
 }
 
 }  // namespace
@@ -78,7 +92,8 @@ std::string program_version() { return PULVIS_VERSION; }
 std::string program_commit() { return PULVIS_COMMIT; }
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
-                   const Results& results, const RunCost& cost) {
+                   const Results& results, const RunCost& cost,
+                   const std::vector<Verdict>& verdicts) {
   const double updates = static_cast<double>(cost.steps) * static_cast<double>(results.elements());
   Json json{{"title", scene.title},
             {"outcome", cost.outcome},
@@ -99,6 +114,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
   json["limits"] = limits_json(scene.limits);
   json["tools"] = tools_json(scene, world);
   json["materials"] = materials_json(scene);
+  if (!verdicts.empty()) json["expectations"] = expectations_json(verdicts);
   const std::filesystem::path path = folder / "summary.json";
   std::ofstream file(path);
   file << json.dump(2) << '\n';

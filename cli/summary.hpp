@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "scenes/expectations.hpp"
 #include "scenes/results.hpp"
 #include "scenes/scene.hpp"
 
@@ -17,7 +18,8 @@ struct RunCost {
 };
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
-                   const Results& results, const RunCost& cost);
+                   const Results& results, const RunCost& cost,
+                   const std::vector<Verdict>& verdicts);
 
 // Version and commit of this program, as results carry them.
 std::string program_version();

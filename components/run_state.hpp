@@ -73,6 +73,7 @@ struct Totals {
   double damping_work = 0;       // J, dissipated by contact damping
   double contact_energy = 0;     // J, stored in contact springs now
   double worst_penetration = 0;  // -, penetration / edge length, largest of the run
+  double least_jacobian = 1;     // -, smallest det F of the run
   std::int64_t touching = 0;     // rows with a touching point now
 };
 

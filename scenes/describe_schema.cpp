@@ -85,6 +85,9 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::name_pair:
       json = pair_of({{"type", "string"}});
       break;
+    case Kind::bound:
+      json["anyOf"] = Json::array({Json{{"type", "number"}}, quantity()});
+      break;
   }
   const bool bare = key.kind == Kind::number || key.kind == Kind::integer;
   if (bare) add_range(json, key.range);

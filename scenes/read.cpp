@@ -2,6 +2,7 @@
 
 #include "scenes/accuracy.hpp"
 #include "scenes/checks.hpp"
+#include "scenes/expect_checks.hpp"
 #include "scenes/override.hpp"
 #include "scenes/scene_text.hpp"
 #include "scenes/table_reader.hpp"
@@ -38,6 +39,7 @@ class SceneReader {
     read_one(schema::time(), scene.time);
     read_one(schema::output(), scene.output);
     read_one(schema::limits(), scene.limits);
+    scene.expects = read_all(schema::expect());
     return scene;
   }
 
@@ -149,10 +151,10 @@ Table parsed(const std::string& text, Problems& problems) {
   }
 }
 
-}  // namespace
+using ReadOther = std::function<Scene(const std::filesystem::path&)>;
 
-LoadedScene load_scene_text(const std::string& text, const std::filesystem::path& file,
-                            const std::vector<std::string>& overrides) {
+LoadedScene load(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<std::string>& overrides = {}, const ReadOther& read_other = {}) {
   Problems problems(file, overrides);
   Table root = parsed(text, problems);
   apply_overrides(root, overrides, problems);
@@ -166,9 +168,20 @@ LoadedScene load_scene_text(const std::string& text, const std::filesystem::path
   problems.throw_if_any();
   complete_and_check(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
+  if (read_other) {
+    complete_and_check_expectations(loaded.scene, read_other, reader.origins(), problems);
+    problems.throw_if_any();
+  }
   loaded.text = scene_text(root);
   loaded.hash = scene_hash(loaded.text);
   return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_scene_text(const std::string& text, const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides) {
+  return load(text, file, overrides, read_scene_alone);
 }
 
 LoadedScene load_scene(const std::filesystem::path& file,
@@ -178,6 +191,10 @@ LoadedScene load_scene(const std::filesystem::path& file,
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   return load_scene(file, overrides).scene;
+}
+
+Scene read_scene_alone(const std::filesystem::path& file) {
+  return load(text_of(file), file).scene;
 }
 
 std::uint64_t scene_hash(const std::string& text) {

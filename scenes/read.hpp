@@ -27,6 +27,9 @@ LoadedScene load_scene_text(const std::string& text, const std::filesystem::path
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
+// A scene that another one is compared with: its own comparisons are not followed.
+Scene read_scene_alone(const std::filesystem::path& file);
+
 // FNV-1a, 64 bits: the same on every machine.
 std::uint64_t scene_hash(const std::string& text);
 

@@ -30,13 +30,13 @@ std::optional<DieCell> die_cell(const Scene& scene) {
 
 namespace {
 
-std::optional<double> common_yield_stress(const Scene& scene, const Bodies& bodies) {
+// Every material of a scene is one of its particles: the reader refuses others.
+std::optional<double> common_yield_stress(const Scene& scene) {
   std::optional<double> common;
-  for (const int slot : bodies.slot_of_number) {
-    const int material = bodies.slots[static_cast<std::size_t>(slot)].material;
-    const auto& yield = scene.materials[static_cast<std::size_t>(material)].yield_stress;
-    if (!yield || (common && *common != *yield)) return std::nullopt;
-    common = yield;
+  for (const MaterialSpec& material : scene.materials) {
+    if (!material.yield_stress || (common && *common != *material.yield_stress))
+      return std::nullopt;
+    common = material.yield_stress;
   }
   return common;
 }
@@ -94,21 +94,21 @@ CellStress cell_stress(const Lane* s, double mean, int lane) {
   return c;
 }
 
+double fastest_tool(const Scene& scene) {
+  double fastest = 0;
+  for (const StageSpec& stage : scene.stages)
+    for (const MoveSpec& move : stage.moves)
+      fastest = std::max(fastest, move.displacement.norm() / stage.duration / (1 - move.ramp));
+  return fastest;
+}
+
 }  // namespace
 
-Results::Results(const Scene& scene, const World& world)
-    : world_(world),
-      cell_(die_cell(scene)),
-      yield_stress_(common_yield_stress(scene, world.resource<Bodies>())) {
-  for_each_particle<Node>(world, [&](std::size_t, int, const Shape& shape) {
-    particle_area_ += shape.area;
-    elements_ += shape.elements();
-    nodes_ += static_cast<std::int64_t>(shape.nodes.size());
-  });
-  const double modulus = *std::ranges::max_element(
-      world.column<BulkModulus>().values(),
-      world.column<BulkModulus>().values() + world.resource<Bodies>().slots.size());
-  stiffness_energy_ = modulus * particle_area_ * scene.thickness;
+std::vector<SeriesInfo> history_series(const Scene& scene) {
+  std::vector<SeriesInfo> series;
+  const auto add_series = [&](const std::string& name, const char* unit, const char* meaning) {
+    series.push_back({name, unit, meaning});
+  };
   for (const ToolSpec& tool : scene.tools) {
     const std::string name = "tool/" + tool.name + "/";
     const bool grip = tool.shape == ToolSpec::Shape::grip;
@@ -122,9 +122,9 @@ Results::Results(const Scene& scene, const World& world)
                radial ? "radial, of the particles, on the tool" : "of the particles, on the tool");
     add_series(name + "force_y", "N", "of the particles, on the tool");
   }
-  if (cell_) {
+  if (die_cell(scene)) {
     add_series("relative_density", "-", "undeformed particle area / area between the tools");
-    if (yield_stress_) {
+    if (common_yield_stress(scene)) {
       add_series("stress_ratio/axial", "-", "mean of top and bottom stress / yield stress");
       add_series("stress_ratio/lateral", "-", "mean of left and right stress / yield stress");
     }
@@ -141,7 +141,37 @@ Results::Results(const Scene& scene, const World& world)
              "all energies less the work of the tools and the energy at the start");
   add_series("contacts", "-", "boundary edges that touch another particle or a tool");
   add_series("penetration", "-", "deepest so far, of the boundary edge length");
+  add_series("least_jacobian", "-", "smallest det F so far");
   add_series("dt", "s", "time step");
+  return series;
+}
+
+std::vector<SeriesInfo> momentum_series() {
+  return {{"momentum/x", "kg m/s", "of all nodes"},
+          {"momentum/y", "kg m/s", "of all nodes"},
+          {"momentum/angular", "kg m^2/s", "of all nodes, about the origin"}};
+}
+
+Results::Results(const Scene& scene, const World& world)
+    : world_(world),
+      cell_(die_cell(scene)),
+      yield_stress_(common_yield_stress(scene)),
+      series_(history_series(scene)) {
+  for_each_particle<Node>(world, [&](std::size_t, int, const Shape& shape) {
+    particle_area_ += shape.area;
+    elements_ += shape.elements();
+    nodes_ += static_cast<std::int64_t>(shape.nodes.size());
+  });
+  const double modulus = *std::ranges::max_element(
+      world.column<BulkModulus>().values(),
+      world.column<BulkModulus>().values() + world.resource<Bodies>().slots.size());
+  stiffness_energy_ = modulus * particle_area_ * scene.thickness;
+  double mass_per_thickness = 0;
+  for (const int slot : world.resource<Bodies>().slot_of_number)
+    mass_per_thickness += world.column<Density>().values()[static_cast<std::size_t>(slot)] *
+                          world.resource<Bodies>().shape_of_slot(slot).area;
+  tool_energy_ = 0.5 * mass_per_thickness * scene.thickness * std::pow(fastest_tool(scene), 2);
+  for (std::size_t i = 0; i < series_.size(); ++i) position_[series_[i].name] = i;
 
   fields_ = {{"position", "m", "of the node", FieldPlace::node, 2},
              {"velocity", "m/s", "of the node, half a step later", FieldPlace::node, 2},
@@ -151,12 +181,6 @@ Results::Results(const Scene& scene, const World& world)
   if (world.has<PlasticStrain>())
     fields_.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
-}
-
-void Results::add_series(const std::string& name, const std::string& unit,
-                         const std::string& meaning) {
-  position_[name] = series_.size();
-  series_.push_back({name, unit, meaning});
 }
 
 RunMesh Results::mesh() const {
@@ -240,6 +264,7 @@ std::vector<double> Results::sample() {
   const Totals& totals = world_.resource<Totals>();
   row.push_back(static_cast<double>(totals.touching));
   row.push_back(totals.worst_penetration);
+  row.push_back(least_jacobian());
   row.push_back(world_.resource<Clock>().dt);
   last_ = row;
   return row;
@@ -267,8 +292,42 @@ std::vector<std::vector<double>> Results::frame() const {
 
 double Results::value(const std::string& series) const { return last_.at(position_.at(series)); }
 
+std::array<double, 3> Results::momentum() const {
+  std::array<double, 3> sum{};
+  const double thickness = world_.resource<Bodies>().thickness;
+  std::size_t i = 0;
+  for_each_particle<Node>(world_, [&](std::size_t first, int lane, const Shape& shape) {
+    const int slot = world_.resource<Bodies>().slot_of_number[i++];
+    const double density = world_.column<Density>().values()[static_cast<std::size_t>(slot)];
+    const Lane* x = world_.column<Position>().lanes() + 2 * first;
+    const Lane* v = world_.column<Velocity>().lanes() + 2 * first;
+    for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+      const double mass = density * thickness * shape.nodal_area[n];
+      const double vx = v[2 * n][lane], vy = v[2 * n + 1][lane];
+      sum[0] += mass * vx;
+      sum[1] += mass * vy;
+      sum[2] += mass * (x[2 * n][lane] * vy - x[2 * n + 1][lane] * vx);
+    }
+  });
+  return sum;
+}
+
+// The state that was just observed is the next step's to look at, if there is one.
+double Results::least_jacobian() const {
+  double least = world_.resource<Totals>().least_jacobian;
+  for (const int slot : world_.resource<Bodies>().slot_of_number)
+    least =
+        std::min(least, world_.column<LeastJacobian>().values()[static_cast<std::size_t>(slot)]);
+  return least;
+}
+
 double Results::energy_balance_error(double negligible) const {
   return worst_balance_ / std::max(largest_energy_, negligible * stiffness_energy_);
+}
+
+double Results::energy_balance_error_so_far() const {
+  const double floor = std::max(1e-6 * stiffness_energy_, 0.01 * tool_energy_);
+  return worst_balance_ / std::max(largest_energy_, floor);
 }
 
 double Results::kinetic_ratio() const {

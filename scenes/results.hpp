@@ -1,6 +1,7 @@
 // What a run hands back: history series, frame fields and the mesh, taken from an observed world.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,6 +27,11 @@ struct DieCell {
 };
 std::optional<DieCell> die_cell(const Scene& scene);
 
+// The series that a run of the scene keeps, in the order of Results::sample().
+std::vector<SeriesInfo> history_series(const Scene& scene);
+// Of Results::momentum(), which the history leaves out: it costs a walk over all nodes.
+std::vector<SeriesInfo> momentum_series();
+
 class Results {
  public:
   Results(const Scene& scene, const World& world);
@@ -42,16 +48,24 @@ class Results {
   // Of the last sample.
   double value(const std::string& series) const;
   bool has(const std::string& series) const { return !last_.empty() && position_.contains(series); }
+  // Along x and y, and angular about the origin. Forces within the powder leave all three alone, step by
+  // step and not only in the limit: positions at t_n, velocities at t_(n-1/2).
+  std::array<double, 3> momentum() const;
   const Energies& energies() const { return energies_; }
   // Largest |balance| of the run over the largest energy that came in or was there at the start. Energies
   // below `negligible` (a share of bulk modulus times volume) do not count: the default is round-off.
   double energy_balance_error(double negligible = 1e-12) const;
+  // The same for stopping a run at its first steps, where there is next to no energy to compare with:
+  // what strains of 1e-3 store, or a hundredth of the powder moving as fast as a tool, does not count.
+  double energy_balance_error_so_far() const;
   // Largest kinetic over internal energy, while the internal one is above 1% of its final value.
   double kinetic_ratio() const;
+  // Smallest det F of any element at any step so far.
+  double least_jacobian() const;
   std::int64_t elements() const { return elements_; }
+  double end_time() const { return world_.resource<Clock>().end; }
 
  private:
-  void add_series(const std::string& name, const std::string& unit, const std::string& meaning);
   void take_energies();
   void append_tools(std::vector<double>& row) const;
   void append_density(std::vector<double>& row) const;
@@ -68,6 +82,7 @@ class Results {
   std::vector<double> last_;
   Energies energies_;
   double stiffness_energy_ = 0;  // J, largest bulk modulus times volume of the particles
+  double tool_energy_ = 0;       // J, of all particles moving as fast as the fastest tool
   double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
   std::vector<std::pair<double, double>> kinetic_internal_;
   bool first_ = true;

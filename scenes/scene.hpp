@@ -172,6 +172,27 @@ struct LimitSpec {               // health: a run that passes one of these stops
       kinetic_energy;  // -, kinetic / internal energy, where the scene asks for quasi-statics
 };
 
+// What must hold of the run; `pulvis run` checks it at its end.
+struct ExpectSpec {
+  enum class When { end, always, max, min, mean, range };
+  struct Bound {
+    double number = 0;  // in the SI unit of the series
+    std::string
+        quantity;  // as written, until the unit of the series is known; empty: a bare number
+  };
+  std::string series;  // empty: the expectation is one of the outcome
+  std::optional<When> when;
+  std::optional<Bound> above, below, equals;
+  std::optional<double>
+      within;  // -, of |equals| or of the other series; absolute where equals is 0
+  std::optional<double> from, until;  // -, share of the run
+  std::string like;                   // another scene, relative to this one's folder
+  double scale = 1;                   // -, the other series times this
+  bool stops = false;                 // the run is to be stopped by a health check or limit
+  std::string message;                // regular expression that its message must contain
+  SourceMark mark;
+};
+
 struct Scene {
   std::filesystem::path file;
   std::string title;
@@ -188,6 +209,7 @@ struct Scene {
   TimeSpec time;
   OutputSpec output;
   LimitSpec limits;
+  std::vector<ExpectSpec> expects;  // [[expect]]
 };
 
 }  // namespace pulvis

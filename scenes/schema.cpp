@@ -97,9 +97,9 @@ bool Range::holds(double value) const {
 
 const std::vector<TableView>& all_tables() {
   static const std::vector<TableView> tables{
-      view(top_level()), view(material()), view(particle()), view(mesh()),  view(body()),
-      view(packing()),   view(tool()),     view(stage()),    view(move()),  view(friction()),
-      view(contact()),   view(time()),     view(output()),   view(limits())};
+      view(top_level()), view(material()), view(particle()), view(mesh()),   view(body()),
+      view(packing()),   view(tool()),     view(stage()),    view(move()),   view(friction()),
+      view(contact()),   view(time()),     view(output()),   view(limits()), view(expect())};
   return tables;
 }
 
@@ -166,6 +166,8 @@ std::string allowed(const KeyInfo& key) {
       return "the name of a " + key.refers_to;
     case Kind::name_pair:
       return "two names, each of a material or a tool";
+    case Kind::bound:
+      return "a number in the SI unit of the series, or a quantity in any unit of its dimension";
   }
   return "";
 }

@@ -29,6 +29,7 @@ enum class Kind {
   choice,     // one of a few words
   reference,  // the name of another table's element
   name_pair,  // two names of materials or tools
+  bound,      // a bare number, or a quantity in a unit that another key decides
 };
 
 struct Range {
@@ -125,6 +126,7 @@ const TableDeclaration<ContactSpec>& contact();
 const TableDeclaration<TimeSpec>& time();
 const TableDeclaration<OutputSpec>& output();
 const TableDeclaration<LimitSpec>& limits();
+const TableDeclaration<ExpectSpec>& expect();
 
 const std::vector<TableView>& all_tables();  // top level first, a parent before its children
 const TableView* find_table(const std::string& path);

@@ -5,6 +5,7 @@
 // Runs     every step, after the forces
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "components/run_state.hpp"
@@ -16,9 +17,10 @@
 namespace pulvis {
 
 void element_health(Read<Bodies> bodies, Read<Clock> clock, Read<LeastJacobian> least,
-                    Read<WorstElement> worst) {
+                    Read<WorstElement> worst, Write<Totals> totals) {
   const auto values = least.values();
   for (std::size_t slot = 0; slot < values.size(); ++slot) {
+    totals->least_jacobian = std::min(totals->least_jacobian, values[slot]);
     if (values[slot] > 0) continue;  // NaN is not
     throw RunFailure(fmt::format(
         "trial_stress: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the "

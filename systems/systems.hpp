@@ -108,7 +108,8 @@ void contact_curve(Chunk, Read<Bodies>, Read<Position>, Read<Velocity>, Write<Cu
 void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
                       Read<BulkModulus>, Read<Density>, Read<DeviatoricStress>,
                       Optional<Read<ContactRules>>, Write<StableTimeStep>);
-void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>);
+void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
+                    Write<Totals>);
 void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolVelocity>>,
                    Write<Clock>);
 

@@ -1,0 +1,267 @@
+#include "scenes/expectations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <regex>
+
+#include "scenes/expect_checks.hpp"
+#include "scenes/read.hpp"
+#include "scenes/simulation.hpp"
+#include "scenes/timetable.hpp"
+#include "systems/run_failure.hpp"
+
+namespace pulvis {
+namespace {
+
+using When = ExpectSpec::When;
+using Values = std::vector<double>;
+
+When when_of(const ExpectSpec& expect) {
+  return expect.when.value_or(expect.like.empty() ? When::end : When::always);
+}
+
+// "-0.012 N"; a bare number where the series has no unit.
+std::string with_unit(double value, const std::string& unit) {
+  return unit.empty() ? fmt::format("{:.6g}", value) : fmt::format("{:.6g} {}", value, unit);
+}
+
+std::string unit_of(const std::vector<SeriesInfo>& all, const std::string& name) {
+  for (const SeriesInfo& series : all)
+    if (series.name == name && series.unit != "-") return series.unit;
+  return "";
+}
+
+std::string what_of(const ExpectSpec& expect) {
+  static constexpr const char* words[] = {"at the end", "always", "largest",
+                                          "smallest",   "mean",   "largest less smallest"};
+  std::string text = expect.series;
+  if (!is_figure_of_a_run(expect.series))
+    text += fmt::format(", {}", words[static_cast<int>(when_of(expect))]);
+  if (expect.from || expect.until)
+    text += fmt::format(" from {:g} to {:g} of the run", expect.from.value_or(0),
+                        expect.until.value_or(1));
+  return text;
+}
+
+std::string allowed_of(const ExpectSpec& expect, const std::string& unit) {
+  const double within = expect.within.value_or(0);
+  if (!expect.like.empty() && expect.scale != 1)
+    return fmt::format("within {:g} of {:g} times that of {}", within, expect.scale, expect.like);
+  if (!expect.like.empty()) return fmt::format("within {:g} of that of {}", within, expect.like);
+  if (expect.equals && expect.equals->number == 0) return "0 within " + with_unit(within, unit);
+  if (expect.equals)
+    return fmt::format("{} within {:g} of it", with_unit(expect.equals->number, unit), within);
+  std::string text;
+  if (expect.above) text = "at least " + with_unit(expect.above->number, unit);
+  if (expect.above && expect.below) text += ", ";
+  if (expect.below) text += "at most " + with_unit(expect.below->number, unit);
+  return text;
+}
+
+// How far a value is outside of what is allowed; <= 0: it is inside. NaN stays NaN.
+double excess(const ExpectSpec& expect, double value) {
+  if (expect.equals) {
+    const double equals = expect.equals->number;
+    return std::abs(value - equals) - *expect.within * (equals == 0 ? 1 : std::abs(equals));
+  }
+  double worst = value * 0 - std::numeric_limits<double>::max();
+  if (expect.above) worst = std::max(worst, expect.above->number - value);
+  if (expect.below) worst = std::max(worst, value - expect.below->number);
+  return worst;
+}
+
+// The sample that `when` means; of "always" the one that is furthest from what is allowed.
+double chosen(const ExpectSpec& expect, const Values& values) {
+  for (const double value : values)
+    if (std::isnan(value)) return value;
+  double sum = 0;
+  switch (when_of(expect)) {
+    case When::end:
+      return values.back();
+    case When::max:
+      return std::ranges::max(values);
+    case When::min:
+      return std::ranges::min(values);
+    case When::mean:
+      for (const double value : values) sum += value;
+      return sum / static_cast<double>(values.size());
+    case When::range:
+      return std::ranges::max(values) - std::ranges::min(values);
+    case When::always:
+      return *std::ranges::max_element(values, {},
+                                       [&](double value) { return excess(expect, value); });
+  }
+  return values.back();
+}
+
+// The samples of a run that lie in the expectation's share of it.
+Values window(const ExpectSpec& expect, const Values& times, const Values& values, double end) {
+  Values inside;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (times[i] >= expect.from.value_or(0) * end && times[i] <= expect.until.value_or(1) * end)
+      inside.push_back(values[i]);
+  return inside;
+}
+
+// Another scene, run in memory: what its expected series were.
+struct OtherRun {
+  Values times;
+  double end = 0;
+  std::map<std::string, Values> series;
+  std::string failure;
+};
+
+double value_of(const std::string& name, const Results& results) {
+  const std::vector<SeriesInfo> momentum = momentum_series();
+  for (std::size_t i = 0; i < momentum.size(); ++i)
+    if (name == momentum[i].name) return results.momentum()[i];
+  if (name == "energy_balance_error") return results.energy_balance_error();
+  if (name == "kinetic_ratio") return results.kinetic_ratio();
+  return results.value(name);
+}
+
+OtherRun run_other(const Scene& scene, const std::vector<std::string>& names,
+                   const OutputSpec& output, int threads, const std::function<bool()>& stop) {
+  OtherRun run;
+  Simulation simulation(scene, threads);
+  Results results(scene, simulation.world());
+  const Clock& clock = simulation.clock();
+  run.end = clock.end;
+  Timetable samples(clock.end, std::max(output.samples, output.frames));
+  Timetable frames(clock.end, output.frames);
+  try {
+    while (!(stop && stop())) {
+      if (samples.due(clock.time) || frames.due(clock.time)) {
+        simulation.observe();
+        results.sample();
+        run.times.push_back(clock.time);
+        for (const std::string& name : names)
+          if (!is_figure_of_a_run(name)) run.series[name].push_back(value_of(name, results));
+        samples.pass(clock.time);
+        frames.pass(clock.time);
+      }
+      if (simulation.finished()) break;
+      simulation.move();
+      simulation.run_until(std::min(samples.next(), frames.next()), stop);
+    }
+  } catch (const RunFailure& failure) {
+    run.failure = failure.what();
+  }
+  for (const std::string& name : names)
+    if (is_figure_of_a_run(name)) run.series[name] = {value_of(name, results)};
+  return run;
+}
+
+// Largest difference over the largest value of the other scene's series; infinite where nothing can
+// be compared.
+double deviation(const ExpectSpec& expect, const Values& here, const Values& other) {
+  if (here.empty() || here.size() != other.size()) return std::numeric_limits<double>::infinity();
+  const bool last = when_of(expect) == When::end;
+  double largest = 0, difference = 0;
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    const double wanted = expect.scale * other[i];
+    largest = std::max(largest, std::abs(wanted));
+    const double off = std::abs(here[i] - wanted);
+    if (!last || i + 1 == here.size())
+      if (!(off <= difference)) difference = off;
+  }
+  return difference == 0 ? 0 : difference / largest;
+}
+
+Verdict compare(const ExpectSpec& expect, const Values& here, const OtherRun& other) {
+  Verdict verdict{what_of(expect), "", allowed_of(expect, ""), {}, false};
+  if (!other.failure.empty()) {
+    verdict.measured = "the other run went bad: " + other.failure;
+    return verdict;
+  }
+  const bool figure = is_figure_of_a_run(expect.series);
+  const Values& all = other.series.at(expect.series);
+  const Values there = figure ? all : window(expect, other.times, all, other.end);
+  verdict.value = deviation(expect, here, there);
+  verdict.measured = here.size() == there.size()
+                         ? fmt::format("{:.4g} off", *verdict.value)
+                         : fmt::format("{} samples against {}", here.size(), there.size());
+  verdict.met = *verdict.value <= *expect.within;
+  return verdict;
+}
+
+Verdict hold_against(const ExpectSpec& expect, const Values& values, const std::string& unit) {
+  Verdict verdict{what_of(expect), "no sample", allowed_of(expect, unit), {}, false};
+  if (values.empty()) return verdict;
+  verdict.value = chosen(expect, values);
+  verdict.measured = with_unit(*verdict.value, unit);
+  verdict.met = excess(expect, *verdict.value) <= 0;
+  return verdict;
+}
+
+const ExpectSpec* stop_of(const Scene& scene) {
+  const auto found = std::ranges::find(scene.expects, true, &ExpectSpec::stops);
+  return found == scene.expects.end() ? nullptr : &*found;
+}
+
+Verdict outcome_of(const Scene& scene, const std::optional<std::string>& failure) {
+  const ExpectSpec* stop = stop_of(scene);
+  return {"outcome",
+          failure ? "stopped: " + *failure : "reached its end",
+          stop == nullptr ? "reaches its end" : fmt::format("stops, saying '{}'", stop->message),
+          {},
+          ended_as_expected(scene, failure)};
+}
+
+}  // namespace
+
+std::string Verdict::text() const {
+  return fmt::format("{:<7}  {}: {}; expected: {}", met ? "met" : "NOT met", what, measured,
+                     allowed);
+}
+
+bool all_met(const std::vector<Verdict>& verdicts) {
+  return std::ranges::all_of(verdicts, &Verdict::met);
+}
+
+bool ended_as_expected(const Scene& scene, const std::optional<std::string>& failure) {
+  const ExpectSpec* stop = stop_of(scene);
+  if (stop == nullptr || !failure) return stop == nullptr && !failure;
+  return std::regex_search(*failure, std::regex(stop->message));
+}
+
+void Expectations::sample(double time, const Results& results) {
+  if (scene_.expects.empty()) return;
+  times_.push_back(time);
+  for (std::size_t i = 0; i < scene_.expects.size(); ++i) {
+    const std::string& series = scene_.expects[i].series;
+    if (!series.empty() && !is_figure_of_a_run(series))
+      values_[i].push_back(value_of(series, results));
+  }
+}
+
+std::vector<Verdict> Expectations::judge(const Results& results,
+                                         const std::optional<std::string>& failure, int threads,
+                                         const std::function<bool()>& stop) const {
+  std::vector<Verdict> verdicts;
+  if (scene_.expects.empty()) return verdicts;
+  verdicts.push_back(outcome_of(scene_, failure));
+  const double end = results.end_time();
+  const std::vector<SeriesInfo> series = expectable_series(scene_);
+  std::map<std::filesystem::path, std::vector<std::string>> wanted;
+  for (const ExpectSpec& expect : scene_.expects)
+    if (!expect.like.empty()) wanted[other_scene(scene_, expect)].push_back(expect.series);
+  std::map<std::filesystem::path, OtherRun> others;
+  for (const auto& [file, names] : wanted)
+    others[file] = run_other(read_scene_alone(file), names, scene_.output, threads, stop);
+  for (std::size_t i = 0; i < scene_.expects.size(); ++i) {
+    const ExpectSpec& expect = scene_.expects[i];
+    if (expect.stops) continue;
+    const Values here = is_figure_of_a_run(expect.series) ? Values{value_of(expect.series, results)}
+                                                          : window(expect, times_, values_[i], end);
+    verdicts.push_back(expect.like.empty()
+                           ? hold_against(expect, here, unit_of(series, expect.series))
+                           : compare(expect, here, others.at(other_scene(scene_, expect))));
+  }
+  return verdicts;
+}
+
+}  // namespace pulvis

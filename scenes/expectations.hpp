@@ -1,0 +1,47 @@
+// What a scene expects of its run, held against what was sampled.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/results.hpp"
+#include "scenes/scene.hpp"
+
+namespace pulvis {
+
+struct Verdict {
+  std::string what;             // "tool/top/force_y, smallest"
+  std::string measured;         // "-0.012 N"
+  std::string allowed;          // "at least 0 N"
+  std::optional<double> value;  // what was measured, where it is a number
+  bool met = false;
+
+  std::string text() const;  // one line
+};
+
+class Expectations {
+ public:
+  explicit Expectations(const Scene& scene) : scene_(scene), values_(scene.expects.size()) {}
+
+  // Keeps the series that are expected something of; nothing where the scene expects nothing.
+  void sample(double time, const Results& results);
+
+  // One verdict an expectation, and one on the outcome before them; none where the scene expects
+  // nothing. `failure` is what stopped the run, if anything did. Runs the scenes that this one is
+  // compared with, until `stop` says so.
+  std::vector<Verdict> judge(const Results& results, const std::optional<std::string>& failure,
+                             int threads, const std::function<bool()>& stop = {}) const;
+
+ private:
+  const Scene& scene_;
+  std::vector<double> times_;
+  std::vector<std::vector<double>> values_;  // [expectations][samples]
+};
+
+bool all_met(const std::vector<Verdict>& verdicts);
+// Whether the run, stopped or not, ended as the scene says.
+bool ended_as_expected(const Scene& scene, const std::optional<std::string>& failure);
+
+}  // namespace pulvis
