@@ -66,6 +66,7 @@ class Program:
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
+        self.only_cached = False
         self.commit = self._commit()
         # What runs, not which commit it was built at: the commit's name and the linker's build id go.
         data = re.sub(rb"GNU\0.{20}", b"", self.path.read_bytes(), count=1, flags=re.S)
@@ -73,7 +74,7 @@ class Program:
 
     def _commit(self):
         text = subprocess.run([self.path, "--version"], capture_output=True, text=True, check=True)
-        return re.search(r"\((\w+)\)", text.stdout)[1]
+        return re.search(r"\((.+)\)", text.stdout)[1]
 
     def key(self, scene, overrides):
         text = (ROOT / "scenes" / scene).read_text() + json.dumps(overrides, sort_keys=True)
@@ -140,16 +141,19 @@ class Series:
         overrides = {**self.problem.always, **setting.overrides}
         key = self.program.key(self.problem.scene, overrides)
         row = self.known.get(key)
-        if row is None:
+        if row is None and self.program.only_cached:
+            row = {"overrides": json.dumps(overrides), "key": key, "note": "not run yet"}
+        elif row is None:
             row = self.program.run(self.problem.scene, overrides, self.problem.observe)
             print(f"{self.problem.name}: {family} {setting.label}: "
                   f"{row['note'] or row['cpu_s'] + ' s'}", flush=True)
             self.fresh += float(row.get("cpu_s") or 0)
         named = {**row, "family": family, "setting": setting.label}
         with self.lock:
-            self.known[key] = row
             self.wanted[family, setting.label] = named
-            self._write(list(self.wanted.values()) + self._unused())
+            if not self.program.only_cached:
+                self.known[key] = row
+                self._write(list(self.wanted.values()) + self._unused())
         return named
 
     def observed(self, overrides):
@@ -157,7 +161,7 @@ class Series:
         from problems.problem import Setting
         row = self._row("reference", Setting(label or "as shipped", overrides))
         if row["note"]:
-            raise RuntimeError(f"{self.problem.name}: the reference run went wrong: {row['note']}")
+            raise RuntimeError(f"{self.problem.name}: no reference, a run of it is missing: {row['note']}")
         return {name: np.array(v) for name, v in json.loads(row["observed"]).items()}
 
     def finish(self, reference):
@@ -167,7 +171,7 @@ class Series:
                 row["errors"] = json.dumps({m: float(f"{e:.4g}") for m, e in
                                             self.problem.errors(values, reference.values).items()})
         rows = sorted(self.wanted.values(), key=lambda row: row["family"] == "reference")
-        self._write(rows)
+        self._write([row for row in rows if row["note"] != "not run yet"])
         return rows
 
     def _unused(self):
@@ -219,10 +223,15 @@ def solve(problem, program, folder, jobs):
     shipped = series.rows(settings[:1])[0]
     if shipped["note"]:
         print(f"{problem.name}: skipped, {shipped['note']}")
-        series.path.unlink()
+        if not program.only_cached:
+            series.path.unlink()
         return 0.0
     series.rows(settings[1:])
-    reference = problem.reference(series.observed)
+    try:
+        reference = problem.reference(series.observed)
+    except RuntimeError as missing:
+        print(missing)
+        return series.fresh
     rows = series.finish(reference)
     fronts_report.picture(problem, rows, reference, folder)
     fronts_report.section(problem, rows, reference, provenance(program), folder)
@@ -234,6 +243,7 @@ def main():
     parser.add_argument("problem", nargs="*", help="default: all standard ones")
     parser.add_argument("--jobs", type=int, default=1, help="runs side by side")
     parser.add_argument("--quick", action="store_true", help="coarse meshes: a check of this script")
+    parser.add_argument("--cached", action="store_true", help="run nothing, show what is there")
     parser.add_argument("--list", action="store_true", help="name the problems and stop")
     parser.add_argument("--program", default=ROOT / "build/release/cli/pulvis")
     parser.add_argument("--output", type=pathlib.Path,
@@ -251,6 +261,7 @@ def main():
     chosen = options.problem or [p.name for p in problems.values() if p.standard]
     options.output.mkdir(parents=True, exist_ok=True)
     program = Program(options.program)
+    program.only_cached = options.cached
     spent = sum(solve(problems[name], program, options.output, options.jobs) for name in chosen)
     fronts_report.summary(list(problems), options.output)
     print(f"{spent:.0f} s of CPU time in new runs; {options.output}/summary.md")

@@ -45,7 +45,7 @@ def draw(axis, runs, measure, uncertainty):
     for i, family in enumerate(f for f in families if f != "as shipped"):
         of = [(cpu, 100 * errors[measure], row["setting"]) for row, errors, cpu in runs
               if row["family"] == family]
-        axis.plot([p[0] for p in of], [p[1] for p in of], MARKERS[i % len(MARKERS)] + "-",
+        axis.plot([p[0] for p in of], [p[1] for p in of], MARKERS[i % len(MARKERS)] + ("" if "," in family else "-"),
                   color=f"C{i}", lw=0.6, ms=5, label=family)
         for cpu, error, label in of:
             axis.annotate(label, (cpu, error), fontsize=6, color=f"C{i}", xytext=(3, 3),

@@ -92,9 +92,9 @@ def extrapolated(coarse, middle, fine, ratio=2.0):
     return fine + (fine - middle) / (ratio**order - 1), order
 
 
-def own_series(observed, errors, settings, extra=None, ratio=2.0):
+def own_series(observed, errors, settings, ratio=2.0):
     """The scene's own three finest meshes, extrapolated; uncertain by the distance of the finest."""
-    runs = [observed({**s.overrides, **(extra or {})}) for s in settings]
+    runs = [observed(s.overrides) for s in settings]
     values, orders = {}, []
     for name in runs[0]:
         values[name], order = extrapolated(*(r[name] for r in runs), ratio=ratio)
