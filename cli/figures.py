@@ -134,15 +134,26 @@ def tool_shift(run, tool, time):
     return shift
 
 
+def endless(points, far):
+    """A chain of points that goes straight on for `far` at both ends."""
+    begin, end = points[0] - points[1], points[-1] - points[-2]
+    return np.vstack([points[0] + far * begin / np.hypot(*begin), points,
+                      points[-1] + far * end / np.hypot(*end)])
+
+
 def draw_tools(run, axes, time, limits):
     far = 4 * np.ptp(limits, axis=0).max()
     for tool in run.summary.get("tools", []):
-        if "point" not in tool or "normal" not in tool:
-            continue
-        point = np.array(tool["point"], float) + tool_shift(run, tool.get("name"), time)
-        along = np.array([-tool["normal"][1], tool["normal"][0]], float)
-        ends = 1e3 * np.array([point - far * along, point + far * along])
-        axes.plot(ends[:, 0], ends[:, 1], color="#6b7683", linewidth=1.8, zorder=3)
+        shift = tool_shift(run, tool.get("name"), time)
+        if "points" in tool:
+            points = np.array(tool["points"], float) + shift
+        elif "point" in tool and "normal" in tool:
+            along = np.array([-tool["normal"][1], tool["normal"][0]], float)
+            points = np.array(tool["point"], float) + shift + np.outer([0, 1], far * along)
+        else:
+            continue  # a grip touches nothing
+        line = 1e3 * endless(points, far)
+        axes.plot(line[:, 0], line[:, 1], color="#6b7683", linewidth=1.8, zorder=3)
 
 
 def outlines(quads):

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fstream>
 #include <new>
 
@@ -12,7 +13,9 @@
 #include "cli/summary.hpp"
 #include "engine/output_error.hpp"
 #include "engine/run_folder.hpp"
+#include "scenes/build.hpp"
 #include "scenes/describe.hpp"
+#include "scenes/grips.hpp"
 #include "scenes/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
@@ -35,6 +38,7 @@ ExitCode check(const Options& options) {
   const Scene scene = read_scene(options.run.scene, options.run.overrides);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
+  if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
   fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(),
              bodies.size(), scene.tools.size(), scene.stages.size());
   return ExitCode::done;

@@ -12,7 +12,8 @@ namespace pulvis {
 //   title, outcome, steps, elements, particles, wall_seconds, threads, element_updates_per_second,
 //   peak_memory_bytes, thickness, time, relative_density, version, commit, energy_balance_error,
 //   kinetic_ratio, materials [{name, density, ...}, SI],
-//   tools      [{name, point: [x, y], normal: [x, y]}] at the end of the run, m
+//   tools      [{name, point: [x, y], normal: [x, y]}] or [{name, points: [[x, y], ...]}], which lies to
+//              the right of its points, at the end of the run, m; one without a place is not drawn
 //   limits     {energy_balance, kinetic_energy, penetration}, dimensionless
 //   quality    [{name, value, limit, meaning}]: shown instead of the figures made from the history
 // Throws OutputError where the folder holds no readable run or the report cannot be written.

@@ -9,6 +9,7 @@
 
 #include "components/contact.hpp"
 #include "engine/output_error.hpp"
+#include "scenes/surface.hpp"
 
 namespace pulvis {
 namespace {
@@ -20,10 +21,17 @@ Json tools_json(const Scene& scene, const World& world) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const double* at = world.column<ToolPosition>().values() + 2 * t;
     const double* f = world.column<ToolForce>().values() + 2 * t;
-    tools.push_back({{"name", scene.tools[t].name},
-                     {"point", {at[0], at[1]}},
-                     {"normal", {scene.tools[t].normal.x(), scene.tools[t].normal.y()}},
-                     {"force", {f[0], f[1]}}});
+    const ToolSpec& spec = scene.tools[t];
+    Json tool{{"name", spec.name}};
+    if (spec.shape == ToolSpec::Shape::plane) {
+      tool["point"] = {at[0], at[1]};
+      tool["normal"] = {spec.normal.x(), spec.normal.y()};
+    }
+    if (spec.shape == ToolSpec::Shape::polyline)
+      for (const Vec2& p : drawn_points(make_surface(spec.points, spec.rounding)))
+        tool["points"].push_back({at[0] + p.x(), at[1] + p.y()});
+    tool["force"] = {f[0], f[1]};
+    tools.push_back(tool);
   }
   return tools;
 }

@@ -10,9 +10,12 @@
 
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
+#include "components/surface.hpp"
 #include "engine/access.hpp"
+#include "scenes/grips.hpp"
 #include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
+#include "scenes/surface.hpp"
 
 namespace pulvis {
 namespace {
@@ -35,7 +38,7 @@ ContactRules contact_rules(const Scene& scene) {
       rules.friction.push_back(friction_of(scene, a.name, b.name));
   for (const ToolSpec& tool : scene.tools)
     for (const MaterialSpec& m : scene.materials)
-      rules.tool_friction.push_back(friction_of(scene, tool.name, m.name));
+      rules.tool_friction.push_back(is_grip(tool) ? 0 : friction_of(scene, tool.name, m.name));
   return rules;
 }
 
@@ -173,6 +176,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
     if (needs.friction) world.add<FrictionCouple>();
   }
   if (needs.tools) add_row_columns<ToolContact>(world, needs);
+  if (needs.polylines) world.add<SurfaceRange>();
 }
 
 void fill_bodies(World& world, const Layout& layout) {
@@ -216,11 +220,31 @@ void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
   }
 }
 
+// What the history calls the tool's position; a grip's is the middle of its box, or its centre.
+Vec2 start_of(const ToolSpec& tool) {
+  if (tool.shape == ToolSpec::Shape::polyline) return tool.points.front();
+  if (is_grip(tool) && tool.holds != ToolSpec::Holds::radial) return (tool.low + tool.high) / 2;
+  return tool.point;
+}
+
+ToolShapes tool_shapes(const Scene& scene) {
+  ToolShapes shapes;
+  for (const ToolSpec& tool : scene.tools) {
+    const bool polyline = tool.shape == ToolSpec::Shape::polyline;
+    shapes.kind.push_back(polyline        ? ToolShapes::Kind::polyline
+                          : is_grip(tool) ? ToolShapes::Kind::grip
+                                          : ToolShapes::Kind::plane);
+    shapes.surface.push_back(polyline ? make_surface(tool.points, tool.rounding) : ToolSurface{});
+  }
+  return shapes;
+}
+
 ToolProgram tool_program(const Scene& scene) {
   ToolProgram program;
   for (const ToolSpec& tool : scene.tools) {
     program.names.push_back(tool.name);
-    program.start.push_back({tool.point.x(), tool.point.y()});
+    const Vec2 start = start_of(tool);
+    program.start.push_back({start.x(), start.y()});
   }
   double begin = 0;
   for (const StageSpec& stage : scene.stages) {
@@ -235,18 +259,19 @@ ToolProgram tool_program(const Scene& scene) {
   return program;
 }
 
-void add_tools(World& world, const Scene& scene) {
+void add_tools(World& world, const Scene& scene, const Needs& needs) {
   world.add_table<Tool>(scene.tools.size());
   world.add<ToolPosition>();
   world.add<ToolVelocity>();
-  world.add<ToolNormal>();
+  if (needs.tools) world.add<ToolNormal>();
   world.add<ToolForce>();
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     for (std::size_t k = 0; k < 2; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      world.column<ToolNormal>().values()[2 * t + k] = scene.tools[t].normal[axis];
-      world.column<ToolPosition>().values()[2 * t + k] = scene.tools[t].point[axis];
+      if (needs.tools) world.column<ToolNormal>().values()[2 * t + k] = scene.tools[t].normal[axis];
+      world.column<ToolPosition>().values()[2 * t + k] = start_of(scene.tools[t])[axis];
     }
+  if (needs.polylines || needs.grips) world.emplace<ToolShapes>(tool_shapes(scene));
   world.emplace<ToolProgram>(tool_program(scene));
 }
 
@@ -270,7 +295,12 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   needs.plastic = std::ranges::any_of(
       scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
   needs.pairs = particles > 1;
-  needs.tools = !scene.tools.empty();
+  const auto any = [&](ToolSpec::Shape shape) {
+    return std::ranges::any_of(scene.tools, [&](const ToolSpec& t) { return t.shape == shape; });
+  };
+  needs.polylines = any(ToolSpec::Shape::polyline);
+  needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
+  needs.grips = any(ToolSpec::Shape::grip);
   needs.friction = any_friction(contact_rules(scene), needs);
   needs.damping = needs.contact() && scene.contact.damping > 0;
   return needs;
@@ -285,7 +315,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
 
   auto world = std::make_unique<World>();
   add_body_columns(*world, layout.bodies, needs);
-  if (needs.tools) add_tools(*world, scene);
+  if (needs.tools || needs.grips) add_tools(*world, scene, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     world->emplace<ContactRules>(contact_rules(scene));
@@ -296,6 +326,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   add_clock(*world, scene);
   world->emplace<Totals>();
   world->emplace<Bodies>(std::move(layout.bodies));
+  if (needs.grips) add_grips(*world, scene);
   return world;
 }
 

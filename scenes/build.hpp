@@ -12,7 +12,9 @@ namespace pulvis {
 struct Needs {
   bool plastic = false;  // a material yields
   bool pairs = false;    // more than one particle
-  bool tools = false;
+  bool tools = false;    // something that particles touch
+  bool polylines = false;
+  bool grips = false;
   bool friction = false;  // a coefficient above zero can act
   bool damping = false;
   bool contact() const { return pairs || tools; }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "scenes/tool_checks.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -129,15 +131,15 @@ class Checks {
       const StageSpec& stage = scene_.stages[i];
       const std::string path = fmt::format("stage[{}]", i);
       const bool needs_moves =
-          stage.kind == StageSpec::Kind::compact || stage.kind == StageSpec::Kind::unload;
+          stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
       if (needs_moves && stage.moves.empty())
         refuse(path + ".kind",
                "no tool moves in this stage, allowed: at least one [[stage.move]], or kind = "
                "\"settle\" or \"hold\"");
       if (!needs_moves && !stage.moves.empty())
         refuse(path + ".move[0]",
-               "tools stand still in a stage of this kind, allowed: moves in kind = \"compact\" or "
-               "\"unload\"");
+               "tools stand still in a stage of this kind, allowed: moves in kind = \"compact\", "
+               "\"unload\", \"eject\" or \"shear\"");
       moves(stage, path);
     }
   }
@@ -203,6 +205,7 @@ class Checks {
 
 void complete_and_check(Scene& scene, const schema::Origins& origins, Problems& problems) {
   Checks(scene, origins, problems).run();
+  check_tools(scene, origins, problems);
 }
 
 }  // namespace pulvis

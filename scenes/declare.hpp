@@ -39,6 +39,10 @@ auto to(Vec2 Spec::*member) {
   return [member](Spec& spec, const Decoded& value) { spec.*member = value.vector; };
 }
 template <class Spec>
+auto to(std::vector<Vec2> Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.points; };
+}
+template <class Spec>
 auto integer_to(int Spec::*member) {
   return [member](Spec& spec, const Decoded& value) {
     spec.*member = static_cast<int>(value.integer);

@@ -1,4 +1,4 @@
-// Declarations of what happens to the powder: placement, tools, stages, friction, and the settings
+// Declarations of what happens to the powder: placement, stages, friction, and the settings
 // of a run.
 #include "scenes/declare.hpp"
 
@@ -88,35 +88,6 @@ const TableDeclaration<SquarePacking>& packing() {
   return declaration;
 }
 
-const TableDeclaration<ToolSpec>& tool() {
-  static const TableDeclaration<ToolSpec> declaration{
-      {"tool", true, "", "A rigid punch or wall."},
-      {{{.name = "name",
-         .kind = Kind::name,
-         .required = true,
-         .doc = "Moves, friction pairs and the results refer to it."},
-        to(&ToolSpec::name)},
-       {{.name = "shape",
-         .kind = Kind::choice,
-         .choices = {{"plane", "fills the half-plane behind its surface"}},
-         .required = true,
-         .doc = "Its surface."},
-        nothing<ToolSpec>},
-       {{.name = "point",
-         .kind = Kind::vector,
-         .unit = "m",
-         .range = within(-largest_size, largest_size),
-         .required = true,
-         .doc = "A point of the surface."},
-        to(&ToolSpec::point)},
-       {{.name = "normal",
-         .kind = Kind::direction,
-         .required = true,
-         .doc = "Direction from the tool into the powder, of any length."},
-        to(&ToolSpec::normal)}}};
-  return declaration;
-}
-
 const TableDeclaration<StageSpec>& stage() {
   static const TableDeclaration<StageSpec> declaration{
       {"stage", true, "", "A part of the run; stages follow each other in the order of the file."},
@@ -127,7 +98,9 @@ const TableDeclaration<StageSpec>& stage() {
          .choices = {{"settle", "no tool moves, the particles come to rest"},
                      {"compact", "tools move and load the powder"},
                      {"hold", "no tool moves, the load is kept"},
-                     {"unload", "tools move back"}},
+                     {"unload", "tools move back"},
+                     {"eject", "tools move and push the compact out of the die"},
+                     {"shear", "tools move and draw a surface along under the powder"}},
          .required = true,
          .doc = "What the stage is for."},
         [](StageSpec& spec, const Decoded& value) {

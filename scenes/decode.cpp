@@ -134,6 +134,16 @@ Vec2 vector(const KeyInfo& key, const Value& value) {
   return {quantity(key, parts[0]), quantity(key, parts[1])};
 }
 
+std::vector<Vec2> points(const KeyInfo& key, const Value& value) {
+  const auto* array = value.as<document::Array>();
+  if (array == nullptr) refuse_type(key, value);
+  if (array->size() < 2)
+    refuse(key, value, fmt::format("an array of length {} is given", array->size()));
+  std::vector<Vec2> result;
+  for (const Value& point : *array) result.push_back(vector(key, point));
+  return result;
+}
+
 Vec2 direction(const KeyInfo& key, const Value& value) {
   const document::Array& parts = pair(key, value);
   const Vec2 given{bare_number(key, parts[0]), bare_number(key, parts[1])};
@@ -167,6 +177,9 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       break;
     case Kind::vector:
       result.vector = vector(key, value);
+      break;
+    case Kind::points:
+      result.points = points(key, value);
       break;
     case Kind::phase:
       result.is_word = value.as<std::string>() != nullptr && *value.as<std::string>() == key.word;

@@ -55,6 +55,9 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::vector:
       json = pair_of(quantity());
       break;
+    case Kind::points:
+      json = {{"type", "array"}, {"items", pair_of(quantity())}, {"minItems", 2}};
+      break;
     case Kind::phase:
       json["anyOf"] = Json::array({Json{{"const", key.word}}, quantity()});
       break;

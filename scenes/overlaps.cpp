@@ -3,6 +3,8 @@
 // touching from overlapping; two rectangles are left to FCL's separating axes.
 #include "scenes/place.hpp"
 #include "scenes/problem.hpp"
+#include "scenes/surface.hpp"
+#include "scenes/surface_overlap.hpp"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
@@ -116,6 +118,9 @@ class OverlapSearch {
   std::vector<Overlap> with_tools() {
     found_.clear();
     for (tool_ = 0; tool_ < scene_.tools.size(); ++tool_) {
+      const ToolSpec::Shape shape = scene_.tools[tool_].shape;
+      if (shape == ToolSpec::Shape::polyline) behind_polyline(scene_.tools[tool_]);
+      if (shape != ToolSpec::Shape::plane) continue;
       Object plane = half_space(scene_.tools[tool_]);
       tree_.collide(&plane, this, [](Object* a, Object* b, void* self) {
         auto& search = *static_cast<OverlapSearch*>(self);
@@ -170,6 +175,19 @@ class OverlapSearch {
     const double overlap = depth_behind(scene_.tools[tool_], bodies_[i], outline(bodies_[i]));
     if (overlap > touching_tolerance * size_of(outline(bodies_[i])))
       found_.push_back({i, tool_, overlap});
+  }
+
+  // Every particle is asked: one that lies deep in the tool is near none of its pieces.
+  void behind_polyline(const ToolSpec& tool) {
+    const ToolSurface surface = make_surface(tool.points, tool.rounding);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Outline& shape = outline(bodies_[i]);
+      const Vec2 centre = bodies_[i].position - tool.points.front();
+      const double overlap =
+          is_disc(shape) ? disc_depth(surface, centre, radius_of(shape))
+                         : rectangle_depth(surface, centre, bodies_[i].angle, half_size(shape));
+      if (overlap > touching_tolerance * size_of(shape)) found_.push_back({i, tool_, overlap});
+    }
   }
 
   std::vector<Overlap> sorted() const {

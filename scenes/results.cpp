@@ -12,6 +12,9 @@ namespace pulvis {
 std::optional<DieCell> die_cell(const Scene& scene) {
   DieCell cell{-1, -1, -1, -1};
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (scene.tools[t].shape == ToolSpec::Shape::grip) continue;
+    if (scene.tools[t].shape != ToolSpec::Shape::plane)
+      return std::nullopt;  // takes space of its own
     const Vec2 n = scene.tools[t].normal;
     int* side = n.x() > 1 - 1e-12    ? &cell.left
                 : n.x() < -1 + 1e-12 ? &cell.right
@@ -108,9 +111,15 @@ Results::Results(const Scene& scene, const World& world)
   stiffness_energy_ = modulus * particle_area_ * scene.thickness;
   for (const ToolSpec& tool : scene.tools) {
     const std::string name = "tool/" + tool.name + "/";
-    add_series(name + "position_x", "m", "a point of the tool's surface");
-    add_series(name + "position_y", "m", "a point of the tool's surface");
-    add_series(name + "force_x", "N", "of the particles, on the tool");
+    const bool grip = tool.shape == ToolSpec::Shape::grip;
+    const bool radial = grip && tool.holds == ToolSpec::Holds::radial;
+    const char* place = radial ? "x: its centre's, and the way outwards of its nodes"
+                        : grip ? "of the middle of its box, moved with its nodes"
+                               : "a point of the tool's surface";
+    add_series(name + "position_x", "m", place);
+    add_series(name + "position_y", "m", place);
+    add_series(name + "force_x", "N",
+               radial ? "radial, of the particles, on the tool" : "of the particles, on the tool");
     add_series(name + "force_y", "N", "of the particles, on the tool");
   }
   if (cell_) {

@@ -83,11 +83,22 @@ struct SquarePacking {  // rows x columns on a square lattice
   SourceMark mark;
 };
 
-struct ToolSpec {  // rigid; fills the half-plane behind `point`, its surface looks along `normal`
+// Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
+// the right of its points; a grip touches nothing and holds the nodes of one body that lie in a box.
+struct ToolSpec {
+  enum class Shape { plane, polyline, grip };
+  enum class Holds { x, y, both, radial };
   std::string name;
-  Vec2 point = Vec2::Zero();    // m
+  Vec2 point = Vec2::Zero();    // m; of a radial grip: its centre
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
+  Shape shape = Shape::plane;
+  std::vector<Vec2> points;  // m, polyline
+  double rounding = 0;       // m, radius of a polyline's convex corners
+  int body = 0;              // of a grip, in the order of placement
+  Vec2 low = Vec2::Zero();   // m, corners of a grip's box
+  Vec2 high = Vec2::Zero();
+  Holds holds = Holds::both;
 };
 
 struct MoveSpec {
@@ -100,7 +111,7 @@ struct MoveSpec {
 
 struct StageSpec {
   std::string name;
-  enum class Kind { settle, compact, hold, unload } kind = Kind::hold;
+  enum class Kind { settle, compact, hold, unload, eject, shear } kind = Kind::hold;
   double duration = 0;  // s
   std::vector<MoveSpec> moves;
   SourceMark mark;

@@ -135,6 +135,8 @@ std::string allowed(const KeyInfo& key) {
       return "a quantity " + quantity;
     case Kind::vector:
       return "two quantities [x, y] " + quantity;
+    case Kind::points:
+      return "at least two points [[x, y], [x, y], ...] " + quantity;
     case Kind::phase:
       return fmt::format("\"{}\" or a quantity {}", key.word, quantity);
     case Kind::number:

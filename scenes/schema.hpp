@@ -17,6 +17,7 @@ namespace pulvis::schema {
 enum class Kind {
   quantity,   // a string: number and unit
   vector,     // two quantities: x and y
+  points,     // two or more vectors
   phase,      // a quantity, or the key's one word
   number,     // a bare number
   integer,    // a bare whole number
@@ -66,6 +67,7 @@ struct Decoded {
   int index = 0;         // choice, reference: position in the list
   bool is_word = false;  // phase
   Vec2 vector = Vec2::Zero();
+  std::vector<Vec2> points = {};
   std::string text = {};
   std::array<std::string, 2> names = {};
 };

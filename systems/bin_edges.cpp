@@ -7,6 +7,7 @@
 
 #include "systems/broad_phase.hpp"
 #include "systems/contact_row.hpp"
+#include "systems/surface_search.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -131,13 +132,33 @@ void bin_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
 
 namespace {
 
+struct ToolCandidates {
+  std::vector<RowKey> keys;
+  std::vector<PieceRange> ranges;  // of polylines; as many as keys where the scene has any
+};
+
+// The pieces of a polyline that an edge can touch, or stand behind by up to its
+// own length, before the skin is used up. (Deeper than that no force would be right.)
+void add_near_pieces(const ToolSurface& surface, Point at, const double* points, double reach,
+                     const RowKey& key, ToolCandidates& found) {
+  Box box = box_of(points, 4);
+  for (int k = 0; k < 2; ++k) {
+    box.low[k] -= at[static_cast<std::size_t>(k)];
+    box.high[k] -= at[static_cast<std::size_t>(k)];
+  }
+  const PieceRange range = pieces_near(surface, box, reach);
+  if (range.empty()) return;
+  found.keys.push_back(key);
+  found.ranges.push_back(range);
+}
+
 // Edges within `skin` of a tool's surface, or behind it.
-std::vector<RowKey> tool_candidates(const Bodies& bodies, std::span<const double> control,
-                                    const Read<ToolPosition>& position,
-                                    const Read<ToolNormal>& normal, double skin) {
+ToolCandidates tool_candidates(const Bodies& bodies, std::span<const double> control,
+                               const Read<ToolPosition>& position, const Read<ToolNormal>& normal,
+                               const Optional<Read<ToolShapes>>& shapes, double skin) {
   std::vector<int> slots = bodies.slot_of_number;
   std::ranges::sort(slots);
-  std::vector<RowKey> keys;
+  ToolCandidates found;
   for (const int s : slots) {
     const double* points =
         control.data() + 2 * bodies.slots[static_cast<std::size_t>(s)].first_control;
@@ -145,16 +166,25 @@ std::vector<RowKey> tool_candidates(const Bodies& bodies, std::span<const double
     for (int e = 0; e < static_cast<int>(edges.size()); ++e)
       for (int t = 0; t < position.rows(); ++t) {
         const Row<Tool> tool(t);
+        if (shapes && !(*shapes)->is(t, ToolShapes::Kind::plane)) {
+          const Shape::Edge& edge = edges[static_cast<std::size_t>(e)];
+          if ((*shapes)->is(t, ToolShapes::Kind::polyline))
+            add_near_pieces((*shapes)->surface_of(t), {position(tool, 0), position(tool, 1)},
+                            points + 2 * edge.first_control, skin + edge.length, {s, e, t}, found);
+          continue;
+        }
         double least = std::numeric_limits<double>::max();
         for (int a = 0; a < 4; ++a) {
           const double* y = points + 2 * (edges[static_cast<std::size_t>(e)].first_control + a);
           least = std::min(least, (y[0] - position(tool, 0)) * normal(tool, 0) +
                                       (y[1] - position(tool, 1)) * normal(tool, 1));
         }
-        if (least < skin) keys.push_back({s, e, t});
+        if (least >= skin) continue;
+        found.keys.push_back({s, e, t});
+        if (shapes) found.ranges.emplace_back();
       }
   }
-  return keys;
+  return found;
 }
 
 }  // namespace
@@ -168,10 +198,12 @@ void bin_tool_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
                     Write<ContactWeight<ToolContact>> weight,
                     Write<ContactReach<ToolContact>> reach,
                     Optional<Write<FrictionCoefficient<ToolContact>>> friction,
-                    Optional<Write<DampingCoefficient<ToolContact>>> damping) {
+                    Optional<Write<DampingCoefficient<ToolContact>>> damping,
+                    Optional<Read<ToolShapes>> shapes, Optional<Write<SurfaceRange>> range) {
   if (!skin_used_up(*index, *clock)) return;
-  const std::vector<RowKey> keys =
-      tool_candidates(*bodies, control.values(), tool_position, tool_normal, index->skin);
+  const auto found =
+      tool_candidates(*bodies, control.values(), tool_position, tool_normal, shapes, index->skin);
+  const std::vector<RowKey>& keys = found.keys;
   structure.rebuild(match(keys_of(pair), keys));
   const RowConstants<ToolContact> columns{pair, length, stiffness, weight, friction, damping};
   for (std::size_t r = 0; r < keys.size(); ++r) {
@@ -186,6 +218,9 @@ void bin_tool_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
              damping_of(*rules, kappa, density.values()[slot], edge)},
             columns);
     reach(row) = 0;
+    if (!range) continue;
+    (*range)(row, 0) = found.ranges[r].first;
+    (*range)(row, 1) = found.ranges[r].last;
   }
   index->tool_begin =
       offsets(bodies->slots.size(), keys.size(), [&](std::size_t r) { return keys[r].slot; });

@@ -10,6 +10,7 @@ StepList step_list(World& w) {
   const bool pairs = w.has<ContactPair<Contact>>();
   const bool tools = w.has<ContactPair<ToolContact>>();
   const bool touching = pairs || tools;
+  const bool grips = w.has<GripReaction>();
   StepList step;
   const auto force = [&](bool asked, const char* name, auto* function) {
     if (asked) step.forces.push_back(make_system(w, name, function));
@@ -22,7 +23,7 @@ StepList step_list(World& w) {
   };
 
   // clang-format off
-  force(tools,    "tool_motion",      tool_motion);
+  force(tools || grips, "tool_motion", tool_motion);
   force(pairs,    "bin_edges",        bin_edges);
   force(tools,    "bin_tool_edges",   bin_tool_edges);
   force(touching, "note_binning",     note_binning);
@@ -30,12 +31,14 @@ StepList step_list(World& w) {
   force(tools,    "tool_contact",     tool_contact);
   force(touching, "contact_totals",   contact_totals);
   force(touching, "contact_health",   contact_health);
-  force(tools,    "tool_reaction",    tool_reaction);
+  force(tools && !grips, "tool_reaction", tool_reaction);
   force(touching, "contact_force",    contact_force);
   force(!plastic, "elastic_stress",   elastic_stress);
   force(plastic,  "trial_stress",     trial_stress);
   force(plastic,  "j2_return_map",    j2_return_map);
   force(true,     "internal_force",   internal_force);
+  force(grips,    "hold_grips",       hold_grips);
+  force(grips,    "tool_reaction",    tool_reaction);  // theirs is known last
 
   observe(true,    "kinetic_energy",  kinetic_energy);
   observe(true,    "elastic_energy",  elastic_energy);

@@ -6,6 +6,7 @@
 
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
+#include "components/surface.hpp"
 #include "engine/access.hpp"
 
 namespace pulvis {
@@ -28,7 +29,8 @@ void bin_tool_edges(Read<Bodies>, Read<Clock>, Read<ContactRules>, Read<BulkModu
                     Write<EdgeLength<ToolContact>>, Write<ContactStiffness<ToolContact>>,
                     Write<ContactWeight<ToolContact>>, Write<ContactReach<ToolContact>>,
                     Optional<Write<FrictionCoefficient<ToolContact>>>,
-                    Optional<Write<DampingCoefficient<ToolContact>>>);
+                    Optional<Write<DampingCoefficient<ToolContact>>>, Optional<Read<ToolShapes>>,
+                    Optional<Write<SurfaceRange>>);
 void note_binning(Read<Clock>, Write<ContactIndex>);
 
 // ---- narrow phase -----------------------------------------------------------------------------
@@ -50,15 +52,18 @@ void tool_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<
                   Optional<Write<ElasticSlip<ToolContact>>>,
                   Optional<Write<FrictionWork<ToolContact>>>,
                   Optional<Read<DampingCoefficient<ToolContact>>>,
-                  Optional<Write<DampingWork<ToolContact>>>);
+                  Optional<Write<DampingWork<ToolContact>>>, Optional<Read<ToolShapes>>,
+                  Optional<Read<SurfaceRange>>);
 void contact_totals(Optional<Read<ContactPair<Contact>>>, Optional<Read<ContactEnergy<Contact>>>,
                     Optional<Read<FrictionWork<Contact>>>, Optional<Read<DampingWork<Contact>>>,
                     Optional<Read<ContactPair<ToolContact>>>,
                     Optional<Read<ContactEnergy<ToolContact>>>,
                     Optional<Read<FrictionWork<ToolContact>>>,
                     Optional<Read<DampingWork<ToolContact>>>, Write<Totals>);
-void tool_reaction(Read<Clock>, Read<ContactPair<ToolContact>>, Read<PointForce<ToolContact>>,
-                   Read<ToolVelocity>, Write<ToolForce>, Write<Totals>);
+void tool_reaction(Read<Clock>, Optional<Read<ContactPair<ToolContact>>>,
+                   Optional<Read<PointForce<ToolContact>>>, Optional<Read<GripTarget>>,
+                   Optional<Read<GripTravel>>, Optional<Read<GripReaction>>, Read<ToolVelocity>,
+                   Write<ToolForce>, Write<Totals>);
 void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
                     Optional<Read<ContactPair<Contact>>>, Optional<Read<Penetration<Contact>>>,
                     Optional<Read<EdgeLength<Contact>>>, Optional<Read<ContactPair<ToolContact>>>,
@@ -82,6 +87,10 @@ void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read
                    Write<PlasticMetric>, Write<PlasticStrain>);
 void internal_force(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress>, Read<MeanStress>,
                     Write<InternalForce>);
+void hold_grips(Chunk, Read<Bodies>, Read<Clock>, Read<ToolProgram>, Read<GripIndex>,
+                Read<GripTarget>, Read<GripDirection>, Read<GripTravel>, Read<GripOrigin>,
+                Read<Density>, Read<Position>, Read<Velocity>, Optional<Read<ContactForce>>,
+                Write<InternalForce>, Write<GripReaction>);
 
 // ---- on sampled steps ---------------------------------------------------------------------------
 void kinetic_energy(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalForce>,

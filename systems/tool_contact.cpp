@@ -1,5 +1,5 @@
 // tool_contact: narrow phase between particles and rigid tools: the Gauss points of every candidate
-// edge against the tool's surface.
+// edge against the tool's surface, a plane or a polyline.
 //
 // Source   systems/contact_kernel.hpp; one pass with the full stiffness, since a tool is not sampled
 // Runs     after bin_edges and tool_motion, before contact_force
@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "systems/contact_row.hpp"
+#include "systems/surface_kernel.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -23,7 +24,8 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
                   Optional<Write<ElasticSlip<ToolContact>>> elastic_slip,
                   Optional<Write<FrictionWork<ToolContact>>> friction_work,
                   Optional<Read<DampingCoefficient<ToolContact>>> damping,
-                  Optional<Write<DampingWork<ToolContact>>> damping_work) {
+                  Optional<Write<DampingWork<ToolContact>>> damping_work,
+                  Optional<Read<ToolShapes>> shapes, Optional<Read<SurfaceRange>> range) {
   const RowColumns<ToolContact> columns{pair,         reach,         stiffness, weight,
                                         force,        penetration,   energy,    friction,
                                         elastic_slip, friction_work, damping,   damping_work};
@@ -41,9 +43,19 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
 
     const PointLanes at = edge_points_at(points + first);
     RowMotion m{};
-    m.nx = broadcast(tool_normal(tool, 0));
-    m.ny = broadcast(tool_normal(tool, 1));
-    m.gap = -((at.x - tool_position(tool, 0)) * m.nx + (at.y - tool_position(tool, 1)) * m.ny);
+    if (range && (*shapes)->is(tool.value, ToolShapes::Kind::polyline)) {
+      // Farther than an edge the range of pieces tells nothing; see bin_tool_edges.
+      const auto nearest = kernels::nearest_on_surface(
+          (*shapes)->surface_of(tool.value), (*range)(row, 0), (*range)(row, 1),
+          at.x - tool_position(tool, 0), at.y - tool_position(tool, 1), edge.length);
+      m.nx = nearest.nx;
+      m.ny = nearest.ny;
+      m.gap = -nearest.distance;
+    } else {
+      m.nx = broadcast(tool_normal(tool, 0));
+      m.ny = broadcast(tool_normal(tool, 1));
+      m.gap = -((at.x - tool_position(tool, 0)) * m.nx + (at.y - tool_position(tool, 1)) * m.ny);
+    }
     if (!any(m.gap > 0.0)) return set_apart(columns, row, clock->travel - greatest(m.gap));
     if (rates != nullptr) {
       const PointLanes speed = edge_points_at(rates + first);

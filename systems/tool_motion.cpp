@@ -33,10 +33,38 @@ void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Write<ToolPositio
   }
 }
 
+namespace {
+
+void add_contacts(const Read<ContactPair<ToolContact>>& pair,
+                  const Read<PointForce<ToolContact>>& force, const Write<ToolForce>& tool_force) {
+  for (int r = 0; r < pair.rows(); ++r) {
+    const Row<ToolContact> row(r);
+    if (pair(row, 3) == 0) continue;
+    const Row<Tool> tool(pair(row, 2));
+    for (int g = 0; g < edge_points; ++g)
+      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= force(row, edge_points * k + g);
+  }
+}
+
+// A radial grip moves by x alone and has the sum of the radial forces as x: work is force times way
+// for every grip alike.
+void add_grips(const Read<GripTarget>& target, const Read<GripTravel>& travel,
+               const Read<GripReaction>& reaction, const Write<ToolForce>& tool_force) {
+  for (int r = 0; r < target.rows(); ++r) {
+    const Row<GrippedNode> row(r);
+    for (int k = 0; k < 2; ++k)
+      tool_force(Row<Tool>(target(row, 2)), k) -= travel(row, k) * reaction(row);
+  }
+}
+
+}  // namespace
+
 // Work by the trapezoidal rule: forces at both ends of the step, which is what keeps the energy balance
 // of the leapfrog to second order.
-void tool_reaction(Read<Clock> clock, Read<ContactPair<ToolContact>> pair,
-                   Read<PointForce<ToolContact>> force, Read<ToolVelocity> velocity,
+void tool_reaction(Read<Clock> clock, Optional<Read<ContactPair<ToolContact>>> pair,
+                   Optional<Read<PointForce<ToolContact>>> force, Optional<Read<GripTarget>> grip,
+                   Optional<Read<GripTravel>> grip_travel,
+                   Optional<Read<GripReaction>> grip_reaction, Read<ToolVelocity> velocity,
                    Write<ToolForce> tool_force, Write<Totals> totals) {
   const auto power = [&] {
     double sum = 0;
@@ -47,13 +75,8 @@ void tool_reaction(Read<Clock> clock, Read<ContactPair<ToolContact>> pair,
   const double power_before = power();
   for (int t = 0; t < tool_force.rows(); ++t)
     tool_force(Row<Tool>(t), 0) = tool_force(Row<Tool>(t), 1) = 0;
-  for (int r = 0; r < pair.rows(); ++r) {
-    const Row<ToolContact> row(r);
-    if (pair(row, 3) == 0) continue;
-    const Row<Tool> tool(pair(row, 2));
-    for (int g = 0; g < edge_points; ++g)
-      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= force(row, edge_points * k + g);
-  }
+  if (pair) add_contacts(*pair, *force, tool_force);
+  if (grip) add_grips(*grip, *grip_travel, *grip_reaction, tool_force);
   totals->external_work += 0.5 * (power_before + power()) * clock->dt_before;
 }
 

@@ -110,6 +110,7 @@ class Picture {
     ctx.clip();
     this.at = this.nodesOnCanvas();
     this.forTools(ctx, far => ctx.fillRect(-far, 0, 2 * far, far), "#e2e6eb");
+    this.drawPolylines(ctx, true);
     const drawn = this.drawQuads(ctx);
     this.drawOutlines(ctx);
     this.drawSurfaces(ctx);
@@ -198,7 +199,36 @@ class Picture {
       ctx.clip();
     });
     this.forTools(ctx, far => ctx.fillRect(-far, 0, 2 * far, thick), "#3d4855");
+    this.drawPolylines(ctx, false);
     ctx.restore();
+  }
+
+  // Tools given by points: filled to the right of the way along them, or as a line. Both ends go on
+  // straight.
+  drawPolylines(ctx, filled) {
+    const {scale, x, y, room, height} = this.place, far = 2 * (room + height);
+    for (const tool of this.head.summary.tools || []) {
+      if (!Array.isArray(tool.points)) continue;
+      const [px, py] = this.toolPoint({name: tool.name, point: [0, 0]});
+      const points = tool.points.map(p => [x + scale * (p[0] + px), y - scale * (p[1] + py)]);
+      const beyond = (end, inner) => {
+        const dx = end[0] - inner[0], dy = end[1] - inner[1], length = Math.hypot(dx, dy);
+        return [far * dx / length, far * dy / length];
+      };
+      const last = points.length - 1;
+      const [ax, ay] = beyond(points[0], points[1]), [bx, by] = beyond(points[last], points[last - 1]);
+      const from = [points[0][0] + ax, points[0][1] + ay];
+      const to = [points[last][0] + bx, points[last][1] + by];
+      ctx.beginPath();
+      for (const p of [from, ...points, to]) ctx.lineTo(p[0], p[1]);
+      ctx.strokeStyle = "#3d4855";
+      ctx.lineWidth = 2;
+      if (!filled) { ctx.stroke(); continue; }
+      ctx.lineTo(to[0] - by, to[1] + bx);
+      ctx.lineTo(from[0] + ay, from[1] - ax);
+      ctx.fillStyle = "#e2e6eb";
+      ctx.fill();
+    }
   }
 
   drawScaleBar(ctx) {

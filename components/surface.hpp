@@ -1,0 +1,71 @@
+// Tools that are no planes: polylines, which particles touch, and grips, which hold nodes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "components/places.hpp"
+
+namespace pulvis {
+
+// A chain of straight pieces with a corner after each, relative to the tool's position.
+struct ToolSurface {
+  struct Piece {
+    double x = 0, y = 0;       // m, a point of the straight part
+    double tx = 1, ty = 0;     // its direction; the powder lies to the left
+    double low = 0, high = 0;  // m, extent along t from (x, y); infinite at the chain's ends
+    double corner_x = 0, corner_y = 0;  // m, centre of the arc at its end
+    double radius = 0;                  // m, of the arc; 0 in valleys and at sharp corners
+    double next_tx = 1, next_ty = 0;    // direction of the piece after
+    double side = 0;  // +1 corner of the tool, -1 valley, 0: the chain goes straight on
+  };
+  using Box = std::array<double, 4>;  // m: x low, y low, x high, y high
+
+  std::vector<Piece> pieces;
+  std::vector<Box> tree;  // boxes of halves of halves of the chain; see systems/surface_search
+};
+
+struct ToolShapes {  // only where a tool is no plane
+  static constexpr const char* resource_name = "tool_shapes";
+  enum class Kind { plane, polyline, grip };
+  std::vector<Kind> kind;            // [tools]
+  std::vector<ToolSurface> surface;  // [tools]; empty unless a polyline
+  bool is(int tool, Kind wanted) const { return kind[static_cast<std::size_t>(tool)] == wanted; }
+  const ToolSurface& surface_of(int tool) const { return surface[static_cast<std::size_t>(tool)]; }
+};
+
+// ---- polylines ----------------------------------------------------------------------------------
+struct SurfaceRange : Component<ToolContact, std::int32_t, 2> {
+  static constexpr ComponentInfo info{"surface_range", "-",
+                                      "first and last piece of the polyline that can touch"};
+};
+
+// ---- grips ----------------------------------------------------------------------------------------
+struct GrippedNode {  // (node of a particle, direction in which a grip holds it)
+  static constexpr const char* name = "gripped_node";
+  static constexpr bool laned = false, by_chunk = true;
+};
+struct GripTarget : Component<GrippedNode, std::int32_t, 3> {
+  static constexpr ComponentInfo info{"target", "-", "node and lane in the chunk, tool"};
+};
+struct GripDirection : Component<GrippedNode, double, 2> {
+  static constexpr ComponentInfo info{"direction", "-", "in which the node is held"};
+};
+struct GripTravel : Component<GrippedNode, double, 2> {
+  static constexpr ComponentInfo info{"travel", "-",
+                                      "way of the node in its direction, of the tool's x and y"};
+};
+struct GripOrigin : Component<GrippedNode, double, 1> {
+  static constexpr ComponentInfo info{"origin", "m", "undeformed place of the node, in direction"};
+};
+struct GripReaction : Component<GrippedNode, double, 1> {
+  static constexpr ComponentInfo info{"reaction", "N", "of the grip on the node, in direction"};
+};
+
+struct GripIndex {
+  static constexpr const char* resource_name = "grip_index";
+  std::vector<std::int32_t> begin;  // [chunks + 1] into gripped nodes
+};
+
+}  // namespace pulvis

@@ -1,0 +1,99 @@
+#include "scenes/tool_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "scenes/surface.hpp"
+
+namespace pulvis {
+namespace {
+
+class ToolChecks {
+ public:
+  ToolChecks(const Scene& scene, const schema::Origins& origins, Problems& problems)
+      : scene_(scene), origins_(origins), problems_(problems) {}
+
+  void run() {
+    for (std::size_t t = 0; t < scene_.tools.size(); ++t) {
+      const std::string path = fmt::format("tool[{}]", t);
+      point(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::grip) box(scene_.tools[t], path);
+    }
+    for (std::size_t s = 0; s < scene_.stages.size(); ++s)
+      for (std::size_t m = 0; m < scene_.stages[s].moves.size(); ++m)
+        move(scene_.stages[s].moves[m], fmt::format("stage[{}].move[{}]", s, m));
+    for (std::size_t f = 0; f < scene_.frictions.size(); ++f) friction(scene_.frictions[f], f);
+  }
+
+ private:
+  bool given(const std::string& path) const { return origins_.contains(path); }
+
+  void refuse(const std::string& path, const std::string& key, const std::string& message) {
+    const std::string at = path + "." + key;
+    problems_.add(origins_.at(given(at) ? at : path), at, message);
+  }
+
+  void point(const ToolSpec& tool, const std::string& path) {
+    const bool radial =
+        tool.shape == ToolSpec::Shape::grip && tool.holds == ToolSpec::Holds::radial;
+    const bool wanted = tool.shape == ToolSpec::Shape::plane || radial;
+    if (wanted && !given(path + ".point"))
+      refuse(path, "point",
+             fmt::format("required key is missing: {}, allowed: two quantities [x, y] in m",
+                         radial ? "nodes move radially from it" : "the plane goes through it"));
+    if (!wanted && given(path + ".point"))
+      refuse(path, "point",
+             "has no effect, allowed: only with shape = \"plane\", or shape = \"grip\" and holds = "
+             "\"radial\"");
+  }
+
+  void polyline(const ToolSpec& tool, const std::string& path) {
+    const std::string sharp = fault_of_polyline(tool.points, 0);
+    const std::string rounded = fault_of_polyline(tool.points, tool.rounding);
+    if (!sharp.empty())
+      refuse(path, "points", sharp);
+    else if (!rounded.empty())
+      refuse(path, "rounding", rounded);
+  }
+
+  void box(const ToolSpec& tool, const std::string& path) {
+    if ((tool.low.array() <= tool.high.array()).all()) return;
+    refuse(path, "high", "the box is empty, allowed: not below and not left of low");
+  }
+
+  // Where a grip leaves a node free it has nothing to move.
+  void move(const MoveSpec& move, const std::string& path) {
+    const ToolSpec& tool = scene_.tools[static_cast<std::size_t>(move.tool)];
+    if (tool.shape != ToolSpec::Shape::grip) return;
+    using Holds = ToolSpec::Holds;
+    const bool x_free = tool.holds == Holds::y;
+    const bool y_free = tool.holds == Holds::x || tool.holds == Holds::radial;
+    if ((x_free && move.displacement.x() != 0) || (y_free && move.displacement.y() != 0))
+      refuse(path, "displacement",
+             fmt::format(
+                 "'{}' does not hold its nodes in {}, allowed: 0 m there{}", tool.name,
+                 x_free ? "x" : "y",
+                 tool.holds == Holds::radial ? ", the way outwards as the first component" : ""));
+  }
+
+  void friction(const FrictionSpec& friction, std::size_t number) {
+    for (const ToolSpec& tool : scene_.tools)
+      if (tool.shape == ToolSpec::Shape::grip &&
+          (tool.name == friction.first || tool.name == friction.second))
+        refuse(fmt::format("friction[{}]", number), "between",
+               fmt::format("nothing touches the grip '{}', allowed: tools that are no grips",
+                           tool.name));
+  }
+
+  const Scene& scene_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+void check_tools(const Scene& scene, const schema::Origins& origins, Problems& problems) {
+  ToolChecks(scene, origins, problems).run();
+}
+
+}  // namespace pulvis
