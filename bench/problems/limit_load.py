@@ -37,12 +37,12 @@ def problems(quick):
     rings = [Setting(f"{e}/{r}", {"particle.cylinder.mesh.boundary_edges": e,
                                   "particle.cylinder.mesh.rings": r})
              for e, r in ((16, 2), (24, 2), (80, 8), (160, 16))[:2 if quick else 4]]
-    grids = [Setting(f"{c} x {c * 3 // 5}", {"particle.quarter.mesh.columns": c,
-                                             "particle.quarter.mesh.rows": c * 3 // 5})
-             for c in ((10, 20) if quick else (10, 20, 80, 160))]
+    grids = [Setting(f"{c} x {c * 3 // 2}", {"particle.quarter.mesh.columns": c,
+                                             "particle.quarter.mesh.rows": c * 3 // 2})
+             for c in ((10, 20) if quick else (10, 20, 80))]
     cylinder = {"mesh": rings, "duration": durations("widen", 0.5), "safety": safeties((0.5, 0.99)),
                 "formulation": formulations()}
-    notch = {"mesh": grids, "duration": durations("pull", 0.4), "safety": safeties((0.5, 0.99)),
+    notch = {"mesh": grids, "duration": durations("pull", 0.4, (0.5, 2)), "safety": safeties((0.5, 0.99)),
              "formulation": formulations()}
     if quick:
         cylinder, notch = {"mesh": rings}, {"mesh": grids}
