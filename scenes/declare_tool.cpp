@@ -25,9 +25,9 @@ Key<ToolSpec> rounding_key() {
        .fallback = value_of("0 mm"),
        .only_for = "polyline",
        .doc = "Radius of the corners that point into the powder; valleys stay sharp, flat parts "
-              "stay where the points say. The powder feels a corner at the Gauss points of its "
-              "boundary edges, a third of an edge apart: a corner much sharper than that sinks in "
-              "until its flanks are felt."},
+              "stay where the points say. Take at least half a boundary edge of the powder's mesh: "
+              "a sharper corner can press in between the points where an edge is sampled "
+              "(docs/accuracy.md)."},
       to(&ToolSpec::rounding)};
 }
 

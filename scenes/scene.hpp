@@ -93,7 +93,7 @@ struct ToolSpec {
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
-  std::vector<Vec2> points;  // m, polyline
+  std::vector<Vec2> points = {};  // m, polyline
   double rounding = 0;       // m, radius of a polyline's convex corners
   int body = 0;              // of a grip, in the order of placement
   Vec2 low = Vec2::Zero();   // m, corners of a grip's box

@@ -18,9 +18,10 @@ class Experiment {
  public:
   explicit Experiment(const std::string& scene_file, const std::vector<std::string>& overrides = {},
                       int threads = 1)
-      : scene(read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/" + scene_file, overrides)),
-        simulation(scene, threads),
-        results(scene, simulation.world()) {}
+      : Experiment(read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/" + scene_file, overrides),
+                   threads) {}
+  explicit Experiment(Scene what, int threads = 1)
+      : scene(std::move(what)), simulation(scene, threads), results(scene, simulation.world()) {}
 
   // Runs to the end with `samples` observations; `look` is called after each.
   template <class Look>
