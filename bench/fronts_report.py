@@ -10,9 +10,10 @@ MARKERS = "osD^vP*Xdh<>"
 
 
 def usable(rows):
-    """[(row, errors, cpu)], those of the reference left out."""
-    return [(row, json.loads(row["errors"]), float(row["cpu_s"])) for row in rows
+    """[(row, errors, cpu)] without the reference, be it a run of its own or of a family."""
+    runs = [(row, json.loads(row["errors"]), float(row["cpu_s"])) for row in rows
             if not row["note"] and row["family"] != "reference"]
+    return [run for run in runs if any(run[1].values())]
 
 
 def front(points):

@@ -22,7 +22,7 @@ def theory(load, share):
 
 def observe(run):
     """Forces are means over both grips: between them runs the wave that shears the discs."""
-    shear = run.history("time") > 0.5 * run.history("time")[-1]
+    shear = run.history("time") > 0.2 * run.history("time")[-1]  # a fifth of it is for pressing
     load = 0.5 * (run.history("tool/head/force_y") - run.history("tool/base/force_y"))[shear]
     force = 0.5 * (run.history("tool/base/force_x") - run.history("tool/head/force_x"))[shear]
     share = np.maximum.accumulate(force / (FRICTION * load))
@@ -47,12 +47,12 @@ def meshes(sizes):
 def problems(quick):
     families = {"mesh (edges/rings/refinement)":
                 meshes([(32, 2, 8), (48, 4, 24)] if quick else
-                       [(32, 2, 16), (48, 4, 12), (48, 4, 24), (64, 4, 32), (96, 8, 24)])}
+                       [(32, 2, 16), (48, 4, 12), (48, 4, 24), (64, 4, 16), (96, 8, 48)])}
     if not quick:
         slower = [Setting(f"x {f}", {"stage.press.duration": f'"{0.02 * f} ms"',
-                                     "stage.shear.duration": f'"{0.02 * f} ms"'}) for f in (0.5, 2)]
-        families |= {"duration": slower, "safety": safeties((0.5, 0.99)),
-                     "stiffness": stiffnesses((0.5, 1, 2, 8)), "formulation": formulations()}
+                                     "stage.shear.duration": f'"{0.08 * f} ms"'}) for f in (0.5,)]
+        families |= {"duration": slower, "safety": safeties((0.5,)),
+                     "stiffness": stiffnesses((1, 8)), "formulation": formulations()}
     return [Problem("partial-slip", "partial slip of two pressed discs (Cattaneo, Mindlin)",
                     "benchmark/cattaneo-mindlin.toml", families, observe, exact, errors,
                     {"output.frames": 1, "output.samples": 2000})]

@@ -21,9 +21,8 @@ struct Moments {
 };
 
 struct Strip {
-  Moments pressure;   // mu p
-  Moments deficit;    // mu p - q: what friction could still carry, an ellipse over the stick zone
-  double excess = 0;  // largest (|q| - mu p)/(mu p) of a point that carries anything
+  Moments pressure;  // mu p
+  Moments deficit;   // mu p - q: what friction could still carry, an ellipse over the stick zone
 };
 
 // The contact as the lower disc samples it (half of every force: the other half is the upper one's).
@@ -47,7 +46,6 @@ Strip contact_of(const Experiment& e, double mu) {
       if (p <= 0) continue;
       strip.pressure.add(p, x);
       strip.deficit.add(p - q, x);
-      strip.excess = std::max(strip.excess, (std::abs(q) - p) / p);
     }
   }
   return strip;
@@ -62,11 +60,10 @@ TEST(PartialSlip, StickZoneOfCattaneoAndMindlin) {
     const double P = e.value("tool/base/force_y");
     const double Q = e.value("tool/base/force_x");
     const double share = std::abs(Q / (mu * P));
-    if (e.simulation.clock().time < 0.5 * end || share < 0.2 || share > 0.8) return;
+    if (e.simulation.clock().time < 0.2 * end || share < 0.2 || share > 0.6) return;
     const Strip strip = contact_of(e, mu);
     const double c_over_a = strip.deficit.half_width() / strip.pressure.half_width();
-    std::printf("%.3f %.4f %.4f a %.4g %g\n", share, c_over_a, std::sqrt(1 - share),
-                strip.pressure.half_width(), strip.excess);
+    // The edge of the stick zone is known to a Gauss point, some 0.1 a apart from the next.
     EXPECT_NEAR(c_over_a / std::sqrt(1 - share), 1, 0.05) << share;
     looks += 1;
   });
