@@ -20,10 +20,6 @@
 namespace pulvis {
 namespace {
 
-// Share of the shortest edge that surfaces may move towards each other before contact rows are made
-// anew: rows cost little while apart, re-binning costs several steps.
-constexpr double skin_share = 0.5;
-
 double friction_of(const Scene& scene, const std::string& a, const std::string& b) {
   for (const FrictionSpec& f : scene.frictions)
     if ((f.first == a && f.second == b) || (f.first == b && f.second == a)) return f.coefficient;
@@ -323,7 +319,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     world->emplace<ContactRules>(contact_rules(scene));
-    world->emplace<ContactIndex>().skin = skin_share * shortest_edge(layout.bodies);
+    world->emplace<ContactIndex>().skin = scene.contact.skin * shortest_edge(layout.bodies);
   }
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);

@@ -183,7 +183,15 @@ const TableDeclaration<ContactSpec>& contact() {
          .range = within(0, 1),
          .fallback = value_of(0.0),
          .doc = "Share of the critical damping of the contact spring."},
-        to(&ContactSpec::damping)}}};
+        to(&ContactSpec::damping)},
+       {{.name = "skin",
+         .kind = Kind::number,
+         .range = within(0.01, 10),
+         .fallback = value_of(0.5),
+         .doc = "Share of the shortest edge that surfaces may approach each other before the "
+                "search for "
+                "contacts is done anew. Costs time only, changes no result."},
+        to(&ContactSpec::skin)}}};
   return declaration;
 }
 

@@ -154,6 +154,9 @@ struct ContactSpec {
   // delays the lateral force; stiffer, the force depends on where the mesh nodes lie (docs/accuracy.md).
   double stiffness = 0.5;
   double damping = 0;  // -, share of the critical damping of the contact spring (T 5.1, 5.2)
+  // -, share of the shortest edge that surfaces may move towards each other before contact rows are made
+  // anew: rows cost little while apart, re-binning costs several steps.
+  double skin = 0.5;
 };
 
 struct TimeSpec {

@@ -1,0 +1,77 @@
+"""Compaction of a regular matrix by 10 %: force on the top punch over the punch's way."""
+import numpy as np
+
+from .problem import (Problem, Reference, densities, durations, formulations, interpolated, meshes,
+                      safeties, skins, stiffnesses, together)
+
+COMPRESSION = np.linspace(0.001, 0.10, 100)
+MATERIALS = {"": ("316L", 7990), "-cu": ("OFHC-Cu", 8940)}
+
+
+def observe(run):
+    y = run.history("tool/top/position_y")
+    return {"force": interpolated(1 - y / y[0], run.history("tool/top/force_y"), COMPRESSION)}
+
+
+def errors(values, reference):
+    """L2 norm over the whole way; the largest error beyond 1 % compression, of the local force."""
+    difference = values["force"] - reference["force"]
+    beyond = COMPRESSION > 0.01
+    return {"L2": float(np.linalg.norm(difference) / np.linalg.norm(reference["force"])),
+            "largest": float(np.max(np.abs(difference / reference["force"])[beyond]))}
+
+
+def finest(settings):
+    """The finest mesh that is affordable; uncertain by what a third of the change to it would be."""
+    def make(observed):
+        *_, middle, fine = [observed(s.overrides) for s in settings]
+        uncertain = {m: e / 3 for m, e in errors(middle, fine).items()}
+        return Reference(fine, uncertain, f"own mesh {settings[-1].label}, uncertain by a third of "
+                                          f"its distance from {settings[-2].label}")
+    return make
+
+
+# Safeties that give 100 discs (25: half as many) the numbers of steps of the thesis's Table 5.3.
+TABLE_5_3 = {"": (0.66, 0.38, 0.316), "-cu": (0.708, 0.454, 0.344)}
+
+
+def small(suffix, quick):
+    """25 discs: cheap enough for every family."""
+    material, rho = MATERIALS[suffix]
+    if quick:
+        families = {"mesh": meshes("disc", ((12, 1), (16, 1)))}
+        fine = ((12, 1), (16, 1))
+    else:
+        mesh = {s.label: s for s in meshes("disc", ((16, 1), (20, 1), (24, 1), (32, 1), (40, 1),
+                                                    (48, 1), (60, 2), (80, 2)))}
+        fine = ((60, 2), (80, 2))
+        families = {"mesh": list(mesh.values()), "duration": durations("press", 2.8, (0.25, 0.5, 2)),
+                    "density": densities(material, rho, (4, 16, 100)),
+                    "safety": safeties((*TABLE_5_3[suffix], 0.99))}
+        if not suffix:
+            families |= {"stiffness": stiffnesses((0.1, 0.25, 1, 2, 4)),
+                         "skin": skins((0.25, 1)), "formulation": formulations(),
+                         "mesh, density": [together(mesh[m], s) for m in ("24/1", "32/1", "60/2")
+                                           for s in densities(material, rho, (4, 16))]}
+    return Problem(f"matrix-25{suffix}", f"regular matrix of 25 discs, {material}",
+                   f"compaction/regular-25{suffix}.toml", families, observe,
+                   finest(meshes("disc", fine)), errors, {"output.frames": 1})
+
+
+def large(suffix, quick):
+    """100 discs: the thesis's case, and its time-step study."""
+    material, rho = MATERIALS[suffix]
+    sizes = ((12, 1),) if quick else ((16, 1), (20, 1), (24, 1), (32, 1), (40, 1), (60, 2), (80, 2))
+    families = {"mesh": meshes("disc", sizes)}
+    if not quick:
+        families |= {"duration": durations("press", 5.6, (0.25, 0.5, 2)),
+                     "density": densities(material, rho, (4, 16, 100)),
+                     "safety": safeties((*TABLE_5_3[suffix], 0.99)),
+                     "stiffness": stiffnesses((0.25, 1, 2)), "formulation": formulations()}
+    return Problem(f"matrix-100{suffix}", f"regular matrix of 100 discs, {material}",
+                   f"compaction/regular-100{suffix}.toml", families, observe,
+                   finest(meshes("disc", sizes[-2:])), errors, {"output.frames": 1}, standard=False)
+
+
+def problems(quick):
+    return [make(suffix, quick) for make in (small, large) for suffix in MATERIALS]
