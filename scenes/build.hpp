@@ -15,6 +15,7 @@ struct Needs {
   bool tools = false;
   bool friction = false;  // a coefficient above zero can act
   bool damping = false;
+  ElementSpec::Formulation formulation = ElementSpec::Formulation::four_point;
   bool contact() const { return pairs || tools; }
 };
 

@@ -124,6 +124,10 @@ struct TimeSpec {
   double safety = 0.9;  // -, share of the stable time step that is used, in (0, 1)
 };
 
+struct ElementSpec {
+  enum class Formulation { four_point, one_point, standard } formulation = Formulation::four_point;
+};
+
 struct OutputSpec {
   int frames = 50;     // fields written over the run, besides the first
   int samples = 1000;  // history rows over the run, besides the first
@@ -149,6 +153,7 @@ struct Scene {
   std::vector<StageSpec> stages;        // [[stage]]
   std::vector<FrictionSpec> frictions;  // [[friction]]
   ContactSpec contact;
+  ElementSpec element;
   TimeSpec time;
   OutputSpec output;
   LimitSpec limits;

@@ -30,7 +30,7 @@ void stable_time_step(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<
   for (int i = 0; i < shape.elements(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto map = quad_map(nodes, shape.quads[at]);
-    const Lane theta = dilatation(map, shape.gauss[at]);
+    const Lane theta = mean_dilatation(map, shape.centre[at]);
     const Lane width2 = kernels::squared_half_width(kernels::map_gradient(map, 0, 0));
     Lane omega2 = (0.5 * k * (1.0 + theta * theta) + shear) / (rho * width2);
     if (contact > 0 && shape.contact_stiffness[at] > 0)

@@ -1,0 +1,95 @@
+// The two modes that the one-point quad cannot see at its centre: bending of the fibres along xi and of
+// the fibres along eta. Physical stabilisation: elastic-plastic bending with the material's own constants.
+//
+// Source   Modes: Flanagan & Belytschko (1981). Bending stiffness: assumed stress of Pian & Sumihara
+//          (1984), which is the assumed strain of Belytschko & Bindeman (1991) on rectangles: uniaxial
+//          stress along the fibres, linear across them, no shear; right for nu -> 1/2 too. Limit:
+//          plastic moment of a rectangular section, joined to the centre's stress by Ilyushin's (1948)
+//          quadratic surface, (s_eq/sigma_y)^2 + (M_1/M_p)^2 + (M_2/M_p)^2 <= 1.
+// Symbols  x = centre + a xi + b eta + h xi eta, A = [a b];  w = A^-1 h, natural components of h [-];
+//          w_0 those of the undeformed element: w - w_0 is zero in every homogeneous deformation, and
+//          blind to rotation
+//          kappa  strain of the outermost fibre [-]: kappa_1 = (w - w_0)_1 + skew_1 (w - w_0)_2 along xi
+//                 (a.h/a.a where nothing but h moves), kappa_2 the same along eta; kappa_p its plastic part
+//          M      stress of the outermost fibre if it were linear across the element [Pa] = E' (kappa -
+//                 kappa_p);  E' = E/(1 - nu^2).  M_p = 3/2 * 2/sqrt 3 sigma_y = sqrt 3 sigma_y
+// Energy   per undeformed area: (M_1^2 + M_2^2) / (6 E')
+// Valid    elements that are not turned inside out; M is taken for a Cauchy stress, which is right to
+//          within theta - 1 (a percent in metals)
+#pragma once
+
+#include "systems/j2_kernel.hpp"
+
+namespace pulvis::kernels {
+
+template <class T>
+struct Hourglass {  // of the fibres along xi, along eta
+  T one, two;
+};
+
+// w = A^-1 h; over_det = 1 / det A.
+template <class T>
+Hourglass<T> natural_hourglass(const QuadMap<T>& m, T over_det) {
+  return {over_det * fma(m.hx, m.by, -(m.hy * m.bx)), over_det * fma(m.ax, m.hy, -(m.ay * m.hx))};
+}
+
+template <class T, class Reference>  // Shape::Hourglass
+Hourglass<T> bending_strain(const Hourglass<T>& w, const Reference& reference) {
+  const T one = w.one - reference.natural[0], two = w.two - reference.natural[1];
+  return {fma(reference.skew[0], two, one), fma(reference.skew[1], one, two)};
+}
+
+// E' = E/(1 - nu^2).
+template <class T>
+T plane_strain_modulus(T mu, T bulk) {
+  return 4.0 * mu * (3.0 * bulk + mu) / (3.0 * bulk + 4.0 * mu);
+}
+
+// Stored, per undeformed area.
+template <class T>
+T hourglass_energy(const Hourglass<T>& stress, T modulus) {
+  return fma(stress.one, stress.one, stress.two * stress.two) / (6.0 * modulus);
+}
+
+// Exact derivative of the stored energy: d(w) = A^-1 (dh - w_1 da - w_2 db). `third`: a third of the
+// undeformed area, which is the integral of xi^2.
+template <class T, class Reference>
+void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<T>& w, T over_det,
+                        const Hourglass<T>& stress, const Reference& reference, double third) {
+  const T scale = third * over_det;
+  const T one = scale * fma(reference.skew[1], stress.two, stress.one);
+  const T two = scale * fma(reference.skew[0], stress.one, stress.two);
+  const T qx = fma(m.by, one, -(m.ay * two)), qy = fma(m.ax, two, -(m.bx * one));
+  flux.h_x += qx;
+  flux.h_y += qy;
+  flux.xi_x = fma(-w.one, qx, flux.xi_x);
+  flux.xi_y = fma(-w.one, qy, flux.xi_y);
+  flux.eta_x = fma(-w.two, qx, flux.eta_x);
+  flux.eta_y = fma(-w.two, qy, flux.eta_y);
+}
+
+// The bending stress beside a deviator under the joint yield surface |s|^2 + t^2 <= 2/3 sigma_y^2, with
+// t^2 = 2/9 (M_1^2 + M_2^2): at M = M_p it fills the surface alone. The work of t has the compliance
+// 1/(2/3 E'), where that of s has 1/(2 mu); the flow is normal to the surface in both.
+template <class T>
+struct BendingBeside {
+  Hourglass<T> stress;  // trial, then returned
+  T softness;           // 2/3 E' / (2 mu): how much faster than s it gives way
+
+  T squared_norm() const {
+    return (2.0 / 9.0) * fma(stress.one, stress.one, stress.two * stress.two);
+  }
+  T joint_norm(T norm2) const { return norm2 + squared_norm(); }
+  // |S| times the slope of the consistency condition, weighted with what each part gives, and the
+  // excess in the same measure.
+  T slope(T norm2, T joint2, T, T modulus, T two_mu) const {
+    return fma((2.0 / 3.0) * joint2, modulus, two_mu * fma(softness, squared_norm(), norm2));
+  }
+  T push(T excess, T norm) const { return excess * norm; }
+  void give_way(T beta) {
+    const T left = max(fma(softness, beta - 1.0, 1.0), T{});
+    stress = {left * stress.one, left * stress.two};
+  }
+};
+
+}  // namespace pulvis::kernels
