@@ -37,7 +37,7 @@ struct MeanStress : Component<Element, double, Volumes> {
 template <int Points>
 struct IsochoricScale : Component<Element, double, Points> {
   static constexpr ComponentInfo info{"isochoric_scale", "-",
-                                      "(det F)^(-2/3), kept for the return map"};
+                                      "(det F)^(-1/3), kept for the return map"};
 };
 template <int Points>
 struct PlasticMetric : Component<Element, double, 4 * Points> {

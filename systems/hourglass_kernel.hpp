@@ -4,8 +4,8 @@
 // Source   Modes: Flanagan & Belytschko (1981). Bending stiffness: assumed stress of Pian & Sumihara
 //          (1984), which is the assumed strain of Belytschko & Bindeman (1991) on rectangles: uniaxial
 //          stress along the fibres, linear across them, no shear; right for nu -> 1/2 too. Limit:
-//          plastic moment of a rectangular section, joined to the centre's stress by Ilyushin's (1948)
-//          quadratic surface, (s_eq/sigma_y)^2 + (M_1/M_p)^2 + (M_2/M_p)^2 <= 1.
+//          plastic moment of a rectangular section beside the centre's stress, a yield surface as
+//          Ilyushin's (1948) for plates; see BendingBeside.
 // Symbols  x = centre + a xi + b eta + h xi eta, A = [a b];  w = A^-1 h, natural components of h [-];
 //          w_0 those of the undeformed element: w - w_0 is zero in every homogeneous deformation, and
 //          blind to rotation
@@ -21,6 +21,10 @@
 #include "systems/j2_kernel.hpp"
 
 namespace pulvis::kernels {
+
+// The least share of its limit that bending keeps beside fully plastic stretching, where it should have
+// none: results do not depend on it (docs/accuracy.md).
+inline constexpr double least_width = 0.1;
 
 template <class T>
 struct Hourglass {  // of the fibres along xi, along eta
@@ -68,28 +72,66 @@ void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<
   flux.eta_y = fma(-w.two, qy, flux.eta_y);
 }
 
-// The bending stress beside a deviator under the joint yield surface |s|^2 + t^2 <= 2/3 sigma_y^2, with
-// t^2 = 2/9 (M_1^2 + M_2^2): at M = M_p it fills the surface alone. The work of t has the compliance
-// 1/(2/3 E'), where that of s has 1/(2 mu); the flow is normal to the surface in both.
+// Squared part of a deviator that stretches the fibres (and shortens what lies across them), as numerator
+// and denominator: s:N with N = (e e - e' e')/sqrt 2, e along a or across b (between them in a rhomboid).
+template <class T>
+struct Ratio {
+  T numerator, denominator;
+};
+template <class T>
+Ratio<T> squared_stretching(const QuadMap<T>& m, const Deviator<T>& s) {
+  const T aa = fma(m.ax, m.ax, m.ay * m.ay), bb = fma(m.bx, m.bx, m.by * m.by);
+  // The direction with its angle doubled, as a complex number: a^2/|a|^2 - b^2/|b|^2.
+  const T real = fma(fma(m.ax, m.ax, -(m.ay * m.ay)), bb, -(fma(m.bx, m.bx, -(m.by * m.by)) * aa));
+  const T imaginary = 2.0 * fma(m.ax * m.ay, bb, -(m.bx * m.by * aa));
+  const T stretch = fma(0.5 * (s.xx - s.yy), real, s.xy * imaginary);
+  return {2.0 * stretch * stretch, fma(real, real, imaginary * imaginary)};
+}
+
+// 1/width: see BendingBeside. `limit2`: 2/3 sigma_y^2.
+template <class T>
+T inverse_width(const QuadMap<T>& m, const Deviator<T>& s, T limit2) {
+  const auto stretching = squared_stretching(m, s);
+  const T room = fma(stretching.denominator, fma(1.0 / 3.0, squared_norm(s), limit2),
+                     (-4.0 / 3.0) * stretching.numerator);
+  const T full = limit2 * stretching.denominator;
+  return full / max(room, least_width * full);
+}
+
+// The bending stress beside a deviator under the joint yield surface
+//   |s|^2 + t^2/width <= 2/3 sigma_y^2,   t^2 = 2/9 (M_1^2 + M_2^2),
+//   width = 1 - n_f^2 + n_s^2/3,  n = s / (sqrt(2/3) sigma_y), n_f the part along the fibres, n_s the rest.
+// What a fibre section bears exactly in three limits: M = M_p without s; M = M_p (1 - n_f^2) with
+// stretching; and small bending in fully plastic shear. Between them it is right to 1%. The work of t has
+// the compliance 1/(2/3 E'), where that of s has 1/(2 mu); both flow along s and t/width.
 template <class T>
 struct BendingBeside {
   Hourglass<T> stress;  // trial, then returned
   T softness;           // 2/3 E' / (2 mu): how much faster than s it gives way
+  T over_width;
 
   T squared_norm() const {
     return (2.0 / 9.0) * fma(stress.one, stress.one, stress.two * stress.two);
   }
-  T joint_norm(T norm2) const { return norm2 + squared_norm(); }
-  // |S| times the slope of the consistency condition, weighted with what each part gives, and the
-  // excess in the same measure.
+  T joint_norm(T norm2) const { return fma(over_width, squared_norm(), norm2); }
+  // Slope of the consistency condition and the excess, both times |S|^2.
   T slope(T norm2, T joint2, T, T modulus, T two_mu) const {
-    return fma((2.0 / 3.0) * joint2, modulus, two_mu * fma(softness, squared_norm(), norm2));
+    const T flow = over_width * over_width * squared_norm();
+    return fma((2.0 / 3.0) * joint2, modulus, two_mu * fma(softness, flow, norm2));
   }
   T push(T excess, T norm) const { return excess * norm; }
   void give_way(T beta) {
-    const T left = max(fma(softness, beta - 1.0, 1.0), T{});
+    const T left = max(fma(softness * over_width, beta - 1.0, 1.0), T{});
     stress = {left * stress.one, left * stress.two};
   }
 };
+
+// Whether s and t can yield at all, whatever the width: it is never below 1 - |n|^2.
+template <class T>
+auto may_yield(const Deviator<T>& s, const Hourglass<T>& m, T limit2) {
+  const T left = limit2 - squared_norm(s);
+  const T bending2 = (2.0 / 9.0) * fma(m.one, m.one, m.two * m.two);
+  return (left < T{}) | (left * left < bending2 * limit2);
+}
 
 }  // namespace pulvis::kernels

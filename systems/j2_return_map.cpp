@@ -11,33 +11,6 @@
 namespace pulvis {
 namespace {
 
-// What shares the yield surface with the deviator of an element's points, and where its flow is kept.
-struct NoBending {
-  kernels::NothingBeside at(Row<Element>) const { return {}; }
-  void keep(Row<Element>, const kernels::NothingBeside&, double) const {}
-};
-
-struct Bending {
-  ChunkView<HourglassStress, Lane*> stress;
-  ChunkView<PlasticHourglass, Lane*> plastic;
-  Lane softness, over_modulus;
-  Lane* work;  // J/m: of the chunk's particles in this step
-
-  kernels::BendingBeside<Lane> at(Row<Element> e) const {
-    return {{stress(e, 0), stress(e, 1)}, softness};
-  }
-  void keep(Row<Element> e, const kernels::BendingBeside<Lane>& returned, double area) const {
-    const auto& m = returned.stress;
-    const Lane one = over_modulus * (stress(e, 0) - m.one);
-    const Lane two = over_modulus * (stress(e, 1) - m.two);
-    *work = fma((1.0 / 3.0) * area, fma(m.one, one, m.two * two), *work);
-    plastic(e, 0) += one;
-    plastic(e, 1) += two;
-    stress(e, 0) = m.one;
-    stress(e, 1) = m.two;
-  }
-};
-
 template <class F>
 struct Views {
   ChunkView<Position, const Lane*> x;
@@ -51,10 +24,11 @@ struct Views {
 
 template <class F, class Beside>
 void return_point(const Views<F>& v, Row<Element> e, int g, const kernels::Matrix2<Lane>& f,
-                  Lane mu_over_theta, Lane theta_over_mu, Beside& beside) {
+                  Lane mu_over_theta, Lane theta, Beside&& beside) {
+  const Lane r = v.scale(e, g);
   const auto next = kernels::radial_return<Lane>(
-      {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), v.strain(e, g)}, f, v.scale(e, g),
-      mu_over_theta, theta_over_mu, v.law, beside);
+      {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), v.strain(e, g)}, f, r * r,
+      mu_over_theta, theta * v.over_mu, v.law, beside);
   store(v.stress, e, g, next.s);
   v.metric(e, 4 * g) = next.c.xx;
   v.metric(e, 4 * g + 1) = next.c.yy;
@@ -63,33 +37,64 @@ void return_point(const Views<F>& v, Row<Element> e, int g, const kernels::Matri
   v.strain(e, g) = next.eps;
 }
 
-template <class F, class BendingViews>
-void return_element(const Views<F>& v, const BendingViews& bending, const Shape& shape,
-                    Row<Element> e) {
-  auto beside = bending.at(e);
+template <class F>
+void return_element(const Views<F>& v, const Shape& shape, Row<Element> e) {
   LaneMask flows[F::points], some{};
   for (int g = 0; g < F::points; ++g) {
-    flows[g] = kernels::yields(deviator(v.stress, e, g), v.strain(e, g), v.law, beside);
+    flows[g] = kernels::yields(deviator(v.stress, e, g), v.strain(e, g), v.law);
     some |= flows[g];
   }
   if (!any(some)) return;
 
   const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
   const auto& points = points_of<F::points>(shape, e.value);
-  Lane mu_over_theta, theta_over_mu;
-  const auto dilate = [&](Lane theta) {
-    mu_over_theta = v.mu / theta;
-    theta_over_mu = theta * v.over_mu;
-  };
-  if constexpr (F::volumes < F::points) dilate(mean_dilatation(map, points));
+  Lane theta = mean_dilatation(map, points);
+  Lane mu_over_theta = v.mu / theta;
   for (int g = 0; g < F::points; ++g) {
-    if (F::points > 1 && !any(flows[g])) continue;
+    if (!any(flows[g])) continue;
     const auto f = kernels::deformation_gradient(
         map_gradient<F::points>(map, g), points[static_cast<std::size_t>(g)].inverse_jacobian);
-    if constexpr (F::volumes == F::points) dilate(determinant(f));
-    return_point<F>(v, e, g, f, mu_over_theta, theta_over_mu, beside);
+    if constexpr (F::volumes == F::points) {
+      theta = determinant(f);
+      mu_over_theta = v.mu / theta;
+    }
+    return_point(v, e, g, f, mu_over_theta, theta, kernels::NothingBeside{});
   }
-  bending.keep(e, beside, points[0].determinant);
+}
+
+// ---- one point: the stress of the hourglass modes goes with the deviator ---------------------------
+struct Bending {
+  ChunkView<HourglassStress, Lane*> stress;
+  ChunkView<PlasticHourglass, Lane*> plastic;
+  Lane softness, over_modulus;
+};
+
+// Returns the work spent in the hourglass modes, J/m.
+Lane keep_bending(const Bending& bending, Row<Element> e, const kernels::Hourglass<Lane>& returned,
+                  double area) {
+  const Lane one = bending.over_modulus * (bending.stress(e, 0) - returned.one);
+  const Lane two = bending.over_modulus * (bending.stress(e, 1) - returned.two);
+  bending.plastic(e, 0) += one;
+  bending.plastic(e, 1) += two;
+  bending.stress(e, 0) = returned.one;
+  bending.stress(e, 1) = returned.two;
+  return ((1.0 / 3.0) * area) * fma(returned.one, one, returned.two * two);
+}
+
+Lane return_element(const Views<OnePoint>& v, const Bending& bending, const Shape& shape,
+                    Row<Element> e) {
+  const auto s = deviator(v.stress, e, 0);
+  const kernels::Hourglass<Lane> m{bending.stress(e, 0), bending.stress(e, 1)};
+  const Lane yield = v.law.flow_stress(v.strain(e)), limit2 = (2.0 / 3.0) * yield * yield;
+  if (!any(kernels::may_yield(s, m, limit2))) return Lane{};
+
+  const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  kernels::BendingBeside<Lane> beside{m, bending.softness, kernels::inverse_width(map, s, limit2)};
+  const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
+  const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
+  const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
+  return_point(v, e, 0, f, v.mu * (r * r * r), determinant(f), beside);
+  return keep_bending(bending, e, beside.stress, point.determinant);
 }
 
 }  // namespace
@@ -112,15 +117,14 @@ template <class F>
   const Shape& shape = bodies->shape_of_chunk(chunk);
   if constexpr (F::stabilised) {
     const Lane modulus = kernels::plane_strain_modulus(shear, bulk.chunk(chunk)(particle));
-    Lane spent{};
     const Bending bending{hourglass->chunk(chunk), plastic->chunk(chunk),
-                          (1.0 / 3.0) * modulus / shear, 1.0 / modulus, &spent};
+                          (1.0 / 3.0) * modulus / shear, 1.0 / modulus};
+    Lane spent{};
     for (int i = 0; i < shape.elements(); ++i)
-      return_element<F>(v, bending, shape, Row<Element>(i));
+      spent += return_element(v, bending, shape, Row<Element>(i));
     work->chunk(chunk)(particle) += spent * bodies->thickness;
   } else {
-    for (int i = 0; i < shape.elements(); ++i)
-      return_element<F>(v, NoBending{}, shape, Row<Element>(i));
+    for (int i = 0; i < shape.elements(); ++i) return_element(v, shape, Row<Element>(i));
   }
 }
 template decltype(j2_return_map<FourPoint>) j2_return_map<FourPoint>;

@@ -41,37 +41,34 @@ Lane hourglass_stress(const HourglassViews& v, const kernels::QuadMap<Lane>& map
   return fma(-kernels::gauss, abs(w.one) + abs(w.two), 1.0);
 }
 
-struct Dilatation {
-  Lane theta, over;
-};
-
-// `left(F, r2, e, g)` gives F C_p^-1 F^T, with r2 = J^(-2/3). Returns the least det F of the element's
-// points.
+// `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the least det F of the element's points.
 template <class F, class LeftCauchyGreen>
 Lane element_stress(const Views<F>& v, const HourglassViews* hourglass, const Shape& shape,
                     Row<Element> e, const LeftCauchyGreen& left) {
   const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
   const auto& points = points_of<F::points>(shape, e.value);
-  Dilatation d{};
-  const auto dilate = [&](int volume, Lane theta) {
-    d = {theta, 1.0 / theta};
-    v.p(e, volume) = 0.5 * v.bulk * (d.theta - d.over);
-  };
-  if constexpr (F::volumes < F::points) dilate(0, mean_dilatation(map, points));
-  Lane least = F::volumes < F::points ? d.theta : broadcast(1e300);
+  Lane theta{}, over_theta{}, least = broadcast(1e300);
+  if constexpr (F::volumes < F::points) {
+    theta = least = mean_dilatation(map, points);
+    over_theta = 1.0 / theta;
+    v.p(e) = 0.5 * v.bulk * (theta - over_theta);
+  }
   for (int g = 0; g < F::points; ++g) {
     const auto& point = points[static_cast<std::size_t>(g)];
     const auto f =
         kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
     const Lane j = determinant(f);
-    if constexpr (F::volumes == F::points) dilate(g, j);
     const Lane r = kernels::inverse_cube_root(j);
     const Lane r2 = r * r;
-    store(v.s, e, g, kernels::scaled_deviator(left(f, r2, e, g), v.mu * d.over * r2));
+    if constexpr (F::volumes == F::points) {
+      over_theta = r2 * r;
+      v.p(e, g) = 0.5 * v.bulk * (j - over_theta);
+    }
+    store(v.s, e, g, kernels::scaled_deviator(left(f, r, e, g), v.mu * over_theta * r2));
     least = least < j ? least : j;
   }
   if constexpr (F::stabilised)
-    least *= hourglass_stress(*hourglass, map, d.over * (4 / points[0].determinant),
+    least *= hourglass_stress(*hourglass, map, over_theta * (4 / points[0].determinant),
                               shape.hourglass[static_cast<std::size_t>(e.value)], e);
   return least;
 }
@@ -113,8 +110,8 @@ template <class F>
                        bulk.chunk(chunk)(particle)};
   const auto c = metric.chunk(chunk);
   const auto scale = isochoric.chunk(chunk);
-  const auto left = [&](const kernels::Matrix2<Lane>& f, Lane r2, Row<Element> e, int g) {
-    scale(e, g) = r2;
+  const auto left = [&](const kernels::Matrix2<Lane>& f, Lane r, Row<Element> e, int g) {
+    scale(e, g) = r;
     return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
   };
   if constexpr (F::stabilised) {
