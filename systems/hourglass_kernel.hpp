@@ -23,8 +23,8 @@
 namespace pulvis::kernels {
 
 // The least share of its limit that bending keeps beside fully plastic stretching, where it should have
-// none: from 0.05 to 0.5 the force of
-// the unit cell changes by less than 1% (docs/accuracy.md); below, a step of the return is too coarse.
+// none. From 0.05 to 0.5 the force of the unit cell changes by 1% (docs/accuracy.md); at 0.01 and below
+// a step of the return is too coarse and energy is lost.
 inline constexpr double least_width = 0.1;
 
 template <class T>
