@@ -1,6 +1,6 @@
 """Error of the compaction scenes against run time, mesh and mesh phase; prints docs/accuracy.md's tables.
 
-  /usr/bin/python3 bench/accuracy.py [cells] [phases] [matrix]      (all three: some five minutes)
+  /usr/bin/python3 bench/accuracy.py [cells] [phases] [matrix] [formulations]      (all: some six minutes)
 
 The reference is the exact unit cell of the frictionless square packing (quarter disc between rigid
 planes, plane strain, perfectly plastic; axial +-3 %, lateral +-10 %).
@@ -59,6 +59,29 @@ def cells():
         print("| " + " | ".join(cells_of) + " |", flush=True)
 
 
+def formulations():
+    """The unit cell with every element formulation: errors, and the least wall time of three runs."""
+    print("| formulation | quads | wall s | " +
+          " | ".join(f"axial {d:.2f}" for d in REFERENCE) + " | " +
+          " | ".join(f"lateral {d:.2f}" for d in REFERENCE) + " |")
+    print("|" + "---|" * 13)
+    for edges, rings in ((20, 1), (40, 1), (80, 2)):
+        names = ("four-point", "one-point", "standard")
+        runs = {name: [] for name in names}
+        for _ in range(3):  # in turn: the machine's mood is the same for all
+            for name in names:
+                runs[name].append(run("unit-cell.toml", (
+                    f"particle.disc.mesh.boundary_edges={edges}",
+                    f"particle.disc.mesh.rings={rings}", f"element.formulation={name}")))
+        for name, of_name in runs.items():
+            curve, summary = of_name[0]
+            wall = min(s["wall_seconds"] for _, s in of_name)
+            errors = [f"{100 * (at(curve[0], curve[1 + k], d) / REFERENCE[d][k] - 1):+.1f}%"
+                      for k in (0, 1) for d in REFERENCE]
+            print(f"| {name} | {summary['elements']} | {wall:.2f} | " + " | ".join(errors) + " |",
+                  flush=True)
+
+
 def rms(curve, other):
     return math.sqrt(sum((a / b - 1) ** 2 for a, b in zip(curve, other)) / len(curve))
 
@@ -98,5 +121,6 @@ def matrix():
 
 
 if __name__ == "__main__":
-    for task in sys.argv[1:] or ["cells", "phases", "matrix"]:
-        {"cells": cells, "phases": phases, "matrix": matrix}[task]()
+    for task in sys.argv[1:] or ["cells", "phases", "matrix", "formulations"]:
+        {"cells": cells, "phases": phases, "matrix": matrix,
+         "formulations": formulations}[task]()

@@ -6,6 +6,7 @@
 //                       others keep the state moving and the caches as they are in a run, and only
 //                       the named one is timed. share: of the sum of all systems
 //   memory              bytes of all columns an element, contact rows included
+//   one-point/...       step and systems again with that element formulation
 //
 // One iteration is a batch of `batch_steps` steps. Repetitions go on from where the last one stopped: the
 // punch moves at the shipped scene's speed, so that the state stays plastic and hardly changes.
@@ -34,9 +35,12 @@ using Time = std::chrono::steady_clock;
 constexpr int batch_steps = 200;
 constexpr double compression = 0.03;  // of the height, before anything is timed
 
+using Formulation = ElementSpec::Formulation;
+
 // The shipped scene with its stage in two: fast to `compression`, then on at the speed it had.
-Scene shortened_scene() {
+Scene shortened_scene(Formulation formulation) {
   Scene scene = read_scene(PULVIS_SOURCE_DIR "/scenes/compaction/regular-100.toml");
+  scene.element.formulation = formulation;
   StageSpec& press = scene.stages.at(0);
   StageSpec rest = press;
   const double height = 2 * 50e-3, depth = std::abs(press.moves.at(0).displacement.y());
@@ -52,9 +56,10 @@ Scene shortened_scene() {
 }
 
 struct Compaction {
-  explicit Compaction(int workers)
-      : threads(workers),
-        scene(shortened_scene()),
+  Compaction(Formulation elements_as, int workers)
+      : formulation(elements_as),
+        threads(workers),
+        scene(shortened_scene(formulation)),
         simulation(scene, threads),
         elements(Results(scene, simulation.world()).elements()) {
     // A little beyond the start of the second stage, where the punch has its speed again.
@@ -62,6 +67,7 @@ struct Compaction {
   }
   World& world() { return simulation.world(); }
 
+  Formulation formulation;
   int threads;
   Scene scene;
   Simulation simulation;
@@ -72,11 +78,11 @@ double ns_per_element_step(double seconds, std::int64_t batches, std::int64_t el
   return 1e9 * seconds / static_cast<double>(batches * batch_steps * elements);
 }
 
-Compaction& compaction(int threads);
+Compaction& compaction(Formulation formulation, int threads);
 
 // ---- (a) the whole step ---------------------------------------------------------------------------
-void whole_step(benchmark::State& state) {
-  Compaction& c = compaction(static_cast<int>(state.range(0)));
+void whole_step(benchmark::State& state, Formulation formulation) {
+  Compaction& c = compaction(formulation, static_cast<int>(state.range(0)));
   double seconds = 0;
   for (auto _ : state) {
     const auto start = Time::now();
@@ -142,37 +148,40 @@ class SystemTimes {
 };
 
 // One at a time: a simulation limits the threads of the whole program to its own. Kept for the next
-// benchmark of as many threads, since compressing takes seconds.
+// benchmark of the same kind, since compressing takes seconds.
 std::unique_ptr<Compaction> kept_compaction;
 std::unique_ptr<SystemTimes> kept_times;
 
-Compaction& compaction(int threads) {
-  if (kept_compaction && kept_compaction->threads == threads) return *kept_compaction;
+Compaction& compaction(Formulation formulation, int threads) {
+  if (kept_compaction && kept_compaction->threads == threads &&
+      kept_compaction->formulation == formulation)
+    return *kept_compaction;
   kept_times.reset();
   kept_compaction.reset();
-  kept_compaction = std::make_unique<Compaction>(threads);
+  kept_compaction = std::make_unique<Compaction>(formulation, threads);
   return *kept_compaction;
 }
 
-SystemTimes& system_times() {
-  Compaction& c = compaction(1);
+SystemTimes& system_times(Formulation formulation) {
+  Compaction& c = compaction(formulation, 1);
   if (!kept_times) kept_times = std::make_unique<SystemTimes>(c);
   return *kept_times;
 }
 
 // Repetition r of every system reads from the same batch r, so that shares add up to one.
-void one_system(benchmark::State& state, std::size_t system) {
-  static std::map<std::size_t, std::size_t> repetition;
-  const std::vector<double>& seconds = system_times().batch(repetition[system]++);
+void one_system(benchmark::State& state, Formulation formulation, std::size_t system) {
+  static std::map<std::pair<Formulation, std::size_t>, std::size_t> repetition;
+  const std::vector<double>& seconds =
+      system_times(formulation).batch(repetition[{formulation, system}]++);
   for (auto _ : state) state.SetIterationTime(seconds[system]);
   state.counters["ns_per_element_step"] =
-      ns_per_element_step(seconds[system], 1, system_times().elements());
+      ns_per_element_step(seconds[system], 1, system_times(formulation).elements());
   state.counters["share"] = seconds[system] / std::accumulate(seconds.begin(), seconds.end(), 0.0);
 }
 
 // ---- (c) memory -----------------------------------------------------------------------------------
 void memory(benchmark::State& state) {
-  Compaction& c = compaction(1);
+  Compaction& c = compaction(Formulation::four_point, 1);
   double bodies = 0, contact = 0;
   for (auto _ : state) {
     bodies = contact = 0;
@@ -197,22 +206,31 @@ std::string compiler() {
 #endif
 }
 
-void register_all() {
-  const auto in_batches = [](benchmark::internal::Benchmark* b, int iterations) {
-    b->UseManualTime()->Iterations(iterations)->Unit(benchmark::kMillisecond);
-  };
+void in_batches(benchmark::internal::Benchmark* b, int iterations) {
+  b->UseManualTime()->Iterations(iterations)->Unit(benchmark::kMillisecond);
+}
+
+void register_formulation(const std::string& prefix, Formulation formulation) {
   for (const int threads : {2, 1})  // one thread last: the systems go on with its state
-    in_batches(benchmark::RegisterBenchmark("step", whole_step)->ArgName("threads")->Arg(threads),
+    in_batches(benchmark::RegisterBenchmark((prefix + "step").c_str(), whole_step, formulation)
+                   ->ArgName("threads")
+                   ->Arg(threads),
                4);
   // By name from the world that a scene of this kind asks for; nothing is compressed for that.
-  Simulation uncompressed(shortened_scene());
+  Simulation uncompressed(shortened_scene(formulation));
   const StepList list = step_list(uncompressed.world());
   std::size_t s = 0;
   for (const auto* part : {&list.forces, &list.motion})
     for (const System& system : *part)
-      in_batches(benchmark::RegisterBenchmark(("system/" + system.name).c_str(), one_system, s++),
+      in_batches(benchmark::RegisterBenchmark((prefix + "system/" + system.name).c_str(),
+                                              one_system, formulation, s++),
                  1);
+}
+
+void register_all() {
+  register_formulation("", Formulation::four_point);
   in_batches(benchmark::RegisterBenchmark("memory", memory), 1);
+  register_formulation("one-point/", Formulation::one_point);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
-// Columns of the deformable bodies: nodes, elements (2x2 Gauss points each) and particles.
+// Columns of the deformable bodies: nodes, elements and particles. An element has as many points as its
+// formulation says (components/formulation.hpp): four at (xi, eta) = (-,-) (+,-) (+,+) (-,+) / sqrt 3,
+// or one at its centre.
 #pragma once
 
+#include "components/formulation.hpp"
 #include "components/places.hpp"
 
 namespace pulvis {
-
-inline constexpr int gauss_points =
-    4;  // of an element, at (xi, eta) = (-,-) (+,-) (+,+) (-,+) / sqrt 3
 
 // ---- nodes ----------------------------------------------------------------------------------
 struct Position : Component<Node, double, 2> {
@@ -24,24 +24,39 @@ struct ContactForce : Component<BoundaryNode, double, 2> {
 };
 
 // ---- elements -------------------------------------------------------------------------------
-struct DeviatoricStress : Component<Element, double, 3 * gauss_points> {
+template <int Points>
+struct DeviatoricStress : Component<Element, double, 3 * Points> {
   static constexpr ComponentInfo info{"deviatoric_stress", "Pa",
-                                      "Cauchy, xx yy xy at each Gauss point; zz = -xx-yy"};
+                                      "Cauchy, xx yy xy at each point; zz = -xx-yy"};
 };
-struct MeanStress : Component<Element, double, 1> {
+template <int Volumes>
+struct MeanStress : Component<Element, double, Volumes> {
   static constexpr ComponentInfo info{"mean_stress", "Pa",
-                                      "Cauchy, one for the element; tension > 0"};
+                                      "Cauchy, one for each dilatation; tension > 0"};
 };
-struct IsochoricScale : Component<Element, double, gauss_points> {
+template <int Points>
+struct IsochoricScale : Component<Element, double, Points> {
   static constexpr ComponentInfo info{"isochoric_scale", "-",
-                                      "(det F)^(-2/3), kept for the return map"};
+                                      "(det F)^(-1/3), kept for the return map"};
 };
-struct PlasticMetric : Component<Element, double, 4 * gauss_points> {
+template <int Points>
+struct PlasticMetric : Component<Element, double, 4 * Points> {
   static constexpr ComponentInfo info{
       "plastic_metric", "-", "inverse plastic right Cauchy-Green tensor less one, xx yy zz xy"};
 };
-struct PlasticStrain : Component<Element, double, gauss_points> {
+template <int Points>
+struct PlasticStrain : Component<Element, double, Points> {
   static constexpr ComponentInfo info{"plastic_strain", "-", "accumulated; never decreases"};
+};
+
+// ---- only where elements have one point ---------------------------------------------------------
+struct HourglassStress : Component<Element, double, 2> {
+  static constexpr ComponentInfo info{"hourglass_stress", "Pa",
+                                      "of bending: at the edge of the fibres along xi, along eta"};
+};
+struct PlasticHourglass : Component<Element, double, 2> {
+  static constexpr ComponentInfo info{"plastic_hourglass", "-",
+                                      "plastic bending strain of the fibres along xi, along eta"};
 };
 
 // ---- particles (lane constants of a chunk, and per-particle results) --------------------------
@@ -85,5 +100,13 @@ struct ElasticEnergy : Component<Particle, double, 1> {
 };
 struct PlasticWork : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"plastic_work", "J", "spent in plastic flow so far"};
+};
+struct HourglassWork : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"hourglass_work", "J",
+                                      "spent in plastic hourglassing so far"};
+};
+struct HourglassEnergy : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"hourglass_energy", "J",
+                                      "stored in hourglass modes and spent in them so far"};
 };
 }  // namespace pulvis

@@ -14,7 +14,7 @@ struct BoundaryNode {  // the same nodes, outline only
   static constexpr const char* name = "boundary";
   static constexpr bool laned = true, by_chunk = true;
 };
-struct Element {  // four-node quad; its four Gauss points are components of a row
+struct Element {  // four-node quad; its points are components of a row
   static constexpr const char* name = "element";
   static constexpr bool laned = true, by_chunk = true;
 };

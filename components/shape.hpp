@@ -21,6 +21,12 @@ struct Shape {
     std::array<double, 4> inverse_jacobian;  // d(xi,eta)/d(X,Y): xi_X xi_Y eta_X eta_Y, 1/m
     double determinant;                      // of dX/dxi, m^2: the area that the point stands for
   };
+  // Of an element with one point: natural components of h in x = centre + a xi + b eta + h xi eta, and
+  // the skewness a.b / a.a, a.b / b.b.
+  struct Hourglass {
+    std::array<double, 2> natural;
+    std::array<double, 2> skew;
+  };
   struct CurveTerm {  // share of a boundary node in a control point
     Row<BoundaryNode> node;
     double weight;
@@ -41,10 +47,12 @@ struct Shape {
   };
 
   std::string name;
-  std::vector<Point> nodes;                      // m; outline first
-  std::vector<std::array<Row<Node>, 4>> quads;   // counter-clockwise
-  std::vector<std::array<GaussPoint, 4>> gauss;  // [elements]
-  std::vector<double> nodal_area;                // m^2: a quarter of every element around
+  std::vector<Point> nodes;                       // m; outline first
+  std::vector<std::array<Row<Node>, 4>> quads;    // counter-clockwise
+  std::vector<std::array<GaussPoint, 4>> gauss;   // [elements]
+  std::vector<std::array<GaussPoint, 1>> centre;  // [elements]: one point for the whole element
+  std::vector<Hourglass> hourglass;               // [elements]
+  std::vector<double> nodal_area;                 // m^2: a quarter of every element around
   int boundary_nodes = 0;
   std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;

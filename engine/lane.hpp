@@ -25,9 +25,14 @@ inline Lane broadcast(Lane value) { return value; }
 inline Lane select(LaneMask mask, Lane yes, Lane no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 
+#ifdef __AVX__
+inline bool any(LaneMask mask) { return _mm256_movemask_pd(__m256d(mask)) != 0; }
+inline bool all(LaneMask mask) { return _mm256_movemask_pd(__m256d(mask)) == 15; }
+#else
 inline bool any(LaneMask mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
-inline bool any(bool mask) { return mask; }
 inline bool all(LaneMask mask) { return (mask[0] & mask[1] & mask[2] & mask[3]) != 0; }
+#endif
+inline bool any(bool mask) { return mask; }
 inline bool all(bool mask) { return mask; }
 
 // As std::min and std::max do it, so that a NaN in `a` stays one.

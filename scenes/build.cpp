@@ -112,6 +112,35 @@ std::vector<std::int32_t> rows_by_chunk(const Bodies& bodies, const Count& count
   return rows;
 }
 
+template <class F>
+void add_element_columns(World& world, const Needs& needs) {
+  world.add<DeviatoricStress<F::points>>();
+  world.add<MeanStress<F::volumes>>();
+  if (F::stabilised) {
+    world.add<HourglassStress>();
+    world.add<HourglassEnergy>();
+  }
+  if (!needs.plastic) return;
+  world.add<IsochoricScale<F::points>>();
+  world.add<PlasticMetric<F::points>>();
+  world.add<PlasticStrain<F::points>>();
+  if (F::stabilised) {
+    world.add<PlasticHourglass>();
+    world.add<HourglassWork>();
+  }
+}
+
+void add_element_columns(World& world, const Needs& needs) {
+  switch (needs.formulation) {
+    case ElementSpec::Formulation::four_point:
+      return add_element_columns<FourPoint>(world, needs);
+    case ElementSpec::Formulation::one_point:
+      return add_element_columns<OnePoint>(world, needs);
+    case ElementSpec::Formulation::standard:
+      return add_element_columns<Standard>(world, needs);
+  }
+}
+
 void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add_table<Node>(rows_by_chunk(bodies, [](const Shape& s) { return s.nodes.size(); }));
   world.add_table<Element>(rows_by_chunk(bodies, [](const Shape& s) { return s.quads.size(); }));
@@ -119,8 +148,7 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add<Position>();
   world.add<Velocity>();
   world.add<InternalForce>();
-  world.add<DeviatoricStress>();
-  world.add<MeanStress>();
+  add_element_columns(world, needs);
   world.add<ShearModulus>();
   world.add<BulkModulus>();
   world.add<Density>();
@@ -132,9 +160,6 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   if (!needs.plastic) return;
   world.add<YieldStress>();
   world.add<HardeningModulus>();
-  world.add<IsochoricScale>();
-  world.add<PlasticMetric>();
-  world.add<PlasticStrain>();
   world.add<PlasticWork>();
 }
 
@@ -302,6 +327,7 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
   needs.grips = any(ToolSpec::Shape::grip);
   needs.friction = any_friction(contact_rules(scene), needs);
+  needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;
   return needs;
 }

@@ -17,6 +17,7 @@ struct Needs {
   bool grips = false;
   bool friction = false;  // a coefficient above zero can act
   bool damping = false;
+  ElementSpec::Formulation formulation = ElementSpec::Formulation::four_point;
   bool contact() const { return pairs || tools; }
 };
 

@@ -195,6 +195,24 @@ const TableDeclaration<ContactSpec>& contact() {
   return declaration;
 }
 
+const TableDeclaration<ElementSpec>& element() {
+  static const TableDeclaration<ElementSpec> declaration{
+      {"element", false, "", "The finite elements of all particles: quads."},
+      {{{.name = "formulation",
+         .kind = Kind::choice,
+         .choices = {{"four-point", "2x2 Gauss points, one dilatation (mean dilatation)"},
+                     {"one-point",
+                      "one point, hourglass modes held by elastic-plastic bending: faster"},
+                     {"standard",
+                      "2x2 Gauss points, each with its own dilatation: locks, for comparison"}},
+         .fallback = value_of("four-point"),
+         .doc = "Where an element takes its stresses."},
+        [](ElementSpec& spec, const Decoded& value) {
+          spec.formulation = static_cast<ElementSpec::Formulation>(value.index);
+        }}}};
+  return declaration;
+}
+
 const TableDeclaration<TimeSpec>& time() {
   static const TableDeclaration<TimeSpec> declaration{
       {"time", false, "", "Time integration."},

@@ -8,10 +8,25 @@
 #include "scenes/mass_shares.hpp"
 #include "scenes/mesh_outlines.hpp"
 #include "scenes/outline.hpp"
-#include "systems/element_kernel.hpp"
+#include "systems/hourglass_kernel.hpp"
 
 namespace pulvis {
 namespace {
+
+// `weight`: how much of the square (xi, eta) the point stands for.
+Shape::GaussPoint point_at(const kernels::QuadMap<double>& map, double xi, double eta,
+                           double weight) {
+  const auto a = kernels::map_gradient(map, xi, eta);
+  const double det = determinant(a);
+  return {{a.yy / det, -a.xy / det, -a.yx / det, a.xx / det}, weight * det};
+}
+
+Shape::Hourglass hourglass_of(const kernels::QuadMap<double>& m) {
+  const auto w = kernels::natural_hourglass(m, 1 / determinant(kernels::map_gradient(m, 0.0, 0.0)));
+  const double across = m.ax * m.bx + m.ay * m.by;
+  return {{w.one, w.two},
+          {across / (m.ax * m.ax + m.ay * m.ay), across / (m.bx * m.bx + m.by * m.by)}};
+}
 
 void set_gauss_points(Shape& shape) {
   shape.nodal_area.assign(shape.nodes.size(), 0);
@@ -23,14 +38,13 @@ void set_gauss_points(Shape& shape) {
                                        at(3)[0], at(3)[1]);
     std::array<Shape::GaussPoint, 4> gauss;
     double area = 0;
-    for (int g = 0; g < gauss_points; ++g) {
-      const auto a = kernels::map_gradient(map, kernels::gauss_xi[g], kernels::gauss_eta[g]);
-      const double det = determinant(a);
-      gauss[static_cast<std::size_t>(g)] = {{a.yy / det, -a.xy / det, -a.yx / det, a.xx / det},
-                                            det};
-      area += det;
+    for (std::size_t g = 0; g < 4; ++g) {
+      gauss[g] = point_at(map, kernels::gauss_xi[g], kernels::gauss_eta[g], 1);
+      area += gauss[g].determinant;
     }
     shape.gauss.push_back(gauss);
+    shape.centre.push_back({point_at(map, 0, 0, 4)});
+    shape.hourglass.push_back(hourglass_of(map));
     for (const Row<Node> n : q) shape.nodal_area[static_cast<std::size_t>(n.value)] += area / 4;
   }
 }

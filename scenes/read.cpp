@@ -36,6 +36,7 @@ class SceneReader {
     scene.stages = read_stages();
     scene.frictions = read_all(schema::friction());
     read_one(schema::contact(), scene.contact);
+    read_one(schema::element(), scene.element);
     read_one(schema::time(), scene.time);
     read_one(schema::output(), scene.output);
     read_one(schema::limits(), scene.limits);

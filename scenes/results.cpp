@@ -75,18 +75,49 @@ struct CellStress {
   double xx = 0, yy = 0, zz = 0, xy = 0, effective = 0, pressure = 0;
 };
 
-// Mean over the Gauss points of an element; the effective stress is the mean of theirs.
-CellStress cell_stress(const Lane* s, double mean, int lane) {
+// The element columns of whichever formulation the scene has.
+struct ElementColumns {
+  const Lane* deviator;
+  const Lane* mean_stress;
+  const Lane* plastic_strain;  // null: elastic
+  int points, volumes;
+};
+template <class F>
+ElementColumns columns_of(const World& world) {
+  const bool plastic = world.has<PlasticStrain<F::points>>();
+  return {world.column<DeviatoricStress<F::points>>().lanes(),
+          world.column<MeanStress<F::volumes>>().lanes(),
+          plastic ? world.column<PlasticStrain<F::points>>().lanes() : nullptr, F::points,
+          F::volumes};
+}
+ElementColumns element_columns(const World& world) {
+  if (world.has<DeviatoricStress<OnePoint::points>>()) return columns_of<OnePoint>(world);
+  if (world.has<MeanStress<Standard::volumes>>()) return columns_of<Standard>(world);
+  return columns_of<FourPoint>(world);
+}
+
+double mean_of(const Lane* values, int count, int lane) {
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += values[i][lane];
+  return sum / count;
+}
+
+// Mean over the points of an element; the effective stress is the mean of theirs.
+CellStress cell_stress(const ElementColumns& columns, std::size_t e, int lane) {
   CellStress c;
-  for (int g = 0; g < gauss_points; ++g) {
+  const int points = columns.points;
+  const Lane* s = columns.deviator + e * static_cast<std::size_t>(3 * points);
+  for (int g = 0; g < points; ++g) {
     const double xx = s[3 * g][lane], yy = s[3 * g + 1][lane], xy = s[3 * g + 2][lane];
     const double zz = -(xx + yy);
-    c.xx += xx / gauss_points;
-    c.yy += yy / gauss_points;
-    c.zz += zz / gauss_points;
-    c.xy += xy / gauss_points;
-    c.effective += std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * xy * xy)) / gauss_points;
+    c.xx += xx / points;
+    c.yy += yy / points;
+    c.zz += zz / points;
+    c.xy += xy / points;
+    c.effective += std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * xy * xy)) / points;
   }
+  const double mean = mean_of(columns.mean_stress + e * static_cast<std::size_t>(columns.volumes),
+                              columns.volumes, lane);
   c.xx += mean;
   c.yy += mean;
   c.zz += mean;
@@ -132,7 +163,8 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   add_series("energy/kinetic", "J", "of all nodes");
   add_series("energy/elastic", "J", "stored in the elements");
   add_series("energy/plastic", "J", "spent in plastic flow");
-  add_series("energy/hourglass", "J", "of hourglass control; none with four Gauss points");
+  add_series("energy/hourglass", "J",
+             "stored in hourglass modes and spent in them; none with four points");
   add_series("energy/contact", "J", "stored in the contact springs");
   add_series("energy/friction", "J", "dissipated by friction");
   add_series("energy/damping", "J", "dissipated by contact damping");
@@ -178,7 +210,7 @@ Results::Results(const Scene& scene, const World& world)
              {"effective_stress", "Pa", "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
              {"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
              {"stress", "Pa", "Cauchy: xx yy zz xy", FieldPlace::cell, 4}};
-  if (world.has<PlasticStrain>())
+  if (element_columns(world).plastic_strain != nullptr)
     fields_.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
 }
@@ -205,6 +237,7 @@ void Results::take_energies() {
   e.kinetic = total<KineticEnergy>(world_);
   e.elastic = total<ElasticEnergy>(world_);
   e.plastic = world_.has<PlasticWork>() ? total<PlasticWork>(world_) : 0;
+  e.hourglass = world_.has<HourglassEnergy>() ? total<HourglassEnergy>(world_) : 0;
   e.contact = totals.contact_energy;
   e.friction = totals.friction_work;
   e.damping = totals.damping_work;
@@ -250,9 +283,9 @@ void Results::append_density(std::vector<double>& row) const {
 
 void Results::append_energies(std::vector<double>& row) const {
   const Energies& e = energies_;
-  for (const double value : {e.kinetic, e.elastic, e.plastic, e.hourglass, e.contact, e.friction,
-                             e.damping, e.external, e.balance})
-    row.push_back(value);
+  row.insert(row.end(), {e.kinetic, e.elastic, e.plastic});
+  row.push_back(e.hourglass);
+  row.insert(row.end(), {e.contact, e.friction, e.damping, e.external, e.balance});
 }
 
 std::vector<double> Results::sample() {
@@ -275,16 +308,15 @@ std::vector<std::vector<double>> Results::frame() const {
                                           node_values<Velocity>(world_)};
   fields.resize(fields_.size());
   for_each_particle<Element>(world_, [&](std::size_t first, int lane, const Shape& shape) {
-    const Lane* s = world_.column<DeviatoricStress>().lanes();
-    const Lane* p = world_.column<MeanStress>().lanes();
+    const ElementColumns columns = element_columns(world_);
     for (std::size_t e = first; e < first + shape.quads.size(); ++e) {
-      const CellStress c = cell_stress(s + e * DeviatoricStress::count, p[e][lane], lane);
+      const CellStress c = cell_stress(columns, e, lane);
       fields[2].push_back(c.effective);
       fields[3].push_back(c.pressure);
       fields[4].insert(fields[4].end(), {c.xx, c.yy, c.zz, c.xy});
       if (fields.size() == 5) continue;
-      const Lane* eps = world_.column<PlasticStrain>().lanes() + e * gauss_points;
-      fields[5].push_back(0.25 * ((eps[0][lane] + eps[1][lane]) + (eps[2][lane] + eps[3][lane])));
+      const auto points = static_cast<std::size_t>(columns.points);
+      fields[5].push_back(mean_of(columns.plastic_strain + e * points, columns.points, lane));
     }
   });
   return fields;

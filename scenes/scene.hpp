@@ -119,9 +119,9 @@ struct ToolSpec {
   SourceMark mark;
   Shape shape = Shape::plane;
   std::vector<Vec2> points = {};  // m, polyline
-  double rounding = 0;       // m, radius of a polyline's convex corners
-  int body = 0;              // of a grip, in the order of placement
-  Vec2 low = Vec2::Zero();   // m, corners of a grip's box
+  double rounding = 0;            // m, radius of a polyline's convex corners
+  int body = 0;                   // of a grip, in the order of placement
+  Vec2 low = Vec2::Zero();        // m, corners of a grip's box
   Vec2 high = Vec2::Zero();
   Holds holds = Holds::both;
 };
@@ -161,6 +161,10 @@ struct ContactSpec {
 
 struct TimeSpec {
   double safety = 0.9;  // -, share of the stable time step that is used, in (0, 1)
+};
+
+struct ElementSpec {
+  enum class Formulation { four_point, one_point, standard } formulation = Formulation::four_point;
 };
 
 struct OutputSpec {
@@ -209,6 +213,7 @@ struct Scene {
   std::vector<StageSpec> stages;        // [[stage]]
   std::vector<FrictionSpec> frictions;  // [[friction]]
   ContactSpec contact;
+  ElementSpec element;
   TimeSpec time;
   OutputSpec output;
   LimitSpec limits;

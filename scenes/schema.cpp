@@ -97,9 +97,10 @@ bool Range::holds(double value) const {
 
 const std::vector<TableView>& all_tables() {
   static const std::vector<TableView> tables{
-      view(top_level()), view(material()), view(particle()), view(mesh()),   view(body()),
-      view(packing()),   view(tool()),     view(stage()),    view(move()),   view(friction()),
-      view(contact()),   view(time()),     view(output()),   view(limits()), view(expect())};
+      view(top_level()), view(material()), view(particle()), view(mesh()),
+      view(body()),      view(packing()),  view(tool()),     view(stage()),
+      view(move()),      view(friction()), view(contact()),  view(element()),
+      view(time()),      view(output()),   view(limits()),   view(expect())};
   return tables;
 }
 

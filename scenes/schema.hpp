@@ -123,6 +123,7 @@ const TableDeclaration<StageSpec>& stage();
 const TableDeclaration<MoveSpec>& move();
 const TableDeclaration<FrictionSpec>& friction();
 const TableDeclaration<ContactSpec>& contact();
+const TableDeclaration<ElementSpec>& element();
 const TableDeclaration<TimeSpec>& time();
 const TableDeclaration<OutputSpec>& output();
 const TableDeclaration<LimitSpec>& limits();

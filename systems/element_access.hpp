@@ -1,4 +1,4 @@
-// How the element systems reach an element of a chunk: its map, Gauss points and state. No physics.
+// How the element systems reach an element of a chunk: its map, points and state. No physics.
 #pragma once
 
 #include "components/shape.hpp"
@@ -8,7 +8,16 @@
 namespace pulvis {
 
 using Quad = std::array<Row<Node>, 4>;
-using ElementGauss = std::array<Shape::GaussPoint, 4>;
+template <int Points>
+using ElementPoints = std::array<Shape::GaussPoint, static_cast<std::size_t>(Points)>;
+
+template <int Points>
+const ElementPoints<Points>& points_of(const Shape& shape, int element) {
+  if constexpr (Points == 1)
+    return shape.centre[static_cast<std::size_t>(element)];
+  else
+    return shape.gauss[static_cast<std::size_t>(element)];
+}
 
 template <class Nodes>
 kernels::QuadMap<Lane> quad_map(const Nodes& x, const Quad& q) {
@@ -16,19 +25,28 @@ kernels::QuadMap<Lane> quad_map(const Nodes& x, const Quad& q) {
                            x(q[3], 0), x(q[3], 1));
 }
 
-inline kernels::Matrix2<Lane> map_gradient(const kernels::QuadMap<Lane>& map, int g) {
-  return kernels::map_gradient(map, kernels::gauss_xi[g], kernels::gauss_eta[g]);
+// At point g of an element with `Points`.
+template <int Points>
+kernels::Matrix2<Lane> map_gradient(const kernels::QuadMap<Lane>& map, int g) {
+  if constexpr (Points == 1)
+    return {map.ax, map.bx, map.ay, map.by};
+  else
+    return kernels::map_gradient(map, kernels::gauss_xi[g], kernels::gauss_eta[g]);
 }
 
 // theta: current over undeformed area of the element.
-inline Lane dilatation(const kernels::QuadMap<Lane>& map, const ElementGauss& gauss) {
+inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoints<4>& points) {
   Lane now{};
   double before = 0;
-  for (int g = 0; g < gauss_points; ++g) {
-    now += determinant(map_gradient(map, g));
-    before += gauss[static_cast<std::size_t>(g)].determinant;
+  for (int g = 0; g < 4; ++g) {
+    now += determinant(map_gradient<4>(map, g));
+    before += points[static_cast<std::size_t>(g)].determinant;
   }
   return now * (1 / before);
+}
+// A quad's area is that of its centre's parallelogram.
+inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoints<1>& points) {
+  return determinant(map_gradient<1>(map, 0)) * (4 / points[0].determinant);
 }
 
 template <class View>

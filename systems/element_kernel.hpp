@@ -77,6 +77,17 @@ void add_flux(QuadFlux<T>& flux, const Matrix2<T>& a, T sxx, T syy, T sxy, doubl
   flux.h_y = fma(eta, qxi_y, fma(xi, qeta_y, flux.h_y));
 }
 
+// The same for a stress at the centre alone: nothing for the moment with xi eta.
+template <class T>
+QuadFlux<T> central_flux(const Matrix2<T>& a, T sxx, T syy, T sxy) {
+  return {fma(sxx, a.yy, -(sxy * a.xy)),
+          fma(sxy, a.yy, -(syy * a.xy)),
+          fma(sxy, a.xx, -(sxx * a.yx)),
+          fma(syy, a.xx, -(sxy * a.yx)),
+          T{},
+          T{}};
+}
+
 // Force of the stresses on node I of the quad: -sum_g (sigma cof A) dN_I/dxi; factor = thickness / 4.
 template <class T>
 struct QuadForce {

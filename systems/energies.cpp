@@ -1,4 +1,4 @@
-// kinetic_energy, elastic_energy, plastic_work: per particle, on the steps that are sampled.
+// kinetic_energy, elastic_energy, plastic_work, hourglass_energy: per particle, on the steps that are sampled.
 // contact_totals: sums of the contact rows, every step, since dissipation adds up over steps.
 //
 // Kinetic energy is 1/2 m v_(n-1/2) . v_(n+1/2): together with the stored energy at t_n it is what the
@@ -7,6 +7,7 @@
 #include "engine/access.hpp"
 #include "systems/contact_row.hpp"
 #include "systems/element_access.hpp"
+#include "systems/hourglass_kernel.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -33,38 +34,47 @@ void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<De
   energy.chunk(chunk)(Row<Particle>()) = total;
 }
 
+template <class F>
 [[gnu::flatten]] void elastic_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
                                      Read<ShearModulus> mu, Read<BulkModulus> bulk,
-                                     Optional<Read<PlasticMetric>> metric,
+                                     Optional<Read<PlasticMetric<F::points>>> metric,
                                      Write<ElasticEnergy> energy) {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto nodes = x.chunk(chunk);
   const Lane shear = mu.chunk(chunk)(particle), k = bulk.chunk(chunk)(particle);
   Lane total{};
+  const auto add_volumetric = [&](double area, Lane theta) {
+    for (int l = 0; l < lane_count; ++l)
+      total[l] += area * kernels::volumetric_energy(k[l], theta[l]);
+  };
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
     const auto map = quad_map(nodes, shape.quads[static_cast<std::size_t>(i)]);
-    const ElementGauss& gauss = shape.gauss[static_cast<std::size_t>(i)];
-    const Lane theta = dilatation(map, gauss);
+    const auto& points = points_of<F::points>(shape, i);
     double area = 0;
-    for (int g = 0; g < gauss_points; ++g) {
-      const auto& point = gauss[static_cast<std::size_t>(g)];
-      const auto f = kernels::deformation_gradient(map_gradient(map, g), point.inverse_jacobian);
+    for (int g = 0; g < F::points; ++g) {
+      const auto& point = points[static_cast<std::size_t>(g)];
+      const auto f =
+          kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
       const auto c =
           metric ? plastic_metric(metric->chunk(chunk), e, g) : kernels::Symmetric3<Lane>{};
       total += point.determinant * kernels::isochoric_energy(f, c, shear);
+      if constexpr (F::volumes == F::points) add_volumetric(point.determinant, determinant(f));
       area += point.determinant;
     }
-    for (int l = 0; l < lane_count; ++l)
-      total[l] += area * kernels::volumetric_energy(k[l], theta[l]);
+    if constexpr (F::volumes < F::points) add_volumetric(area, mean_dilatation(map, points));
   }
   energy.chunk(chunk)(particle) = total * bodies->thickness;
 }
+template decltype(elastic_energy<FourPoint>) elastic_energy<FourPoint>;
+template decltype(elastic_energy<Standard>) elastic_energy<Standard>;
+template decltype(elastic_energy<OnePoint>) elastic_energy<OnePoint>;
 
+template <class F>
 void plastic_work(Chunk chunk, Read<Bodies> bodies, Read<YieldStress> sigma_y,
-                  Read<HardeningModulus> hardening, Read<PlasticStrain> eps,
-                  Write<PlasticWork> work) {
+                  Read<HardeningModulus> hardening, Read<PlasticStrain<F::points>> eps,
+                  Optional<Read<HourglassWork>> hourglass, Write<PlasticWork> work) {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
   // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
@@ -73,10 +83,35 @@ void plastic_work(Chunk chunk, Read<Bodies> bodies, Read<YieldStress> sigma_y,
   const auto strain = eps.chunk(chunk);
   Lane total{};
   for (int i = 0; i < shape.elements(); ++i)
-    for (int g = 0; g < gauss_points; ++g)
-      total += shape.gauss[static_cast<std::size_t>(i)][static_cast<std::size_t>(g)].determinant *
+    for (int g = 0; g < F::points; ++g)
+      total += points_of<F::points>(shape, i)[static_cast<std::size_t>(g)].determinant *
                law.plastic_work(strain(Row<Element>(i), g));
-  work.chunk(chunk)(particle) = total * bodies->thickness;
+  total *= bodies->thickness;
+  // The joint flow of stress and hourglass stress spends both; the latter is reported by itself.
+  if (hourglass) total -= hourglass->chunk(chunk)(particle);
+  work.chunk(chunk)(particle) = total;
+}
+template decltype(plastic_work<FourPoint>) plastic_work<FourPoint>;
+template decltype(plastic_work<Standard>) plastic_work<Standard>;
+template decltype(plastic_work<OnePoint>) plastic_work<OnePoint>;
+
+void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<ShearModulus> mu,
+                      Read<BulkModulus> bulk, Read<HourglassStress> stress,
+                      Optional<Read<HourglassWork>> spent, Write<HourglassEnergy> energy) {
+  const Row<Particle> particle;
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const Lane modulus =
+      kernels::plane_strain_modulus(mu.chunk(chunk)(particle), bulk.chunk(chunk)(particle));
+  const auto m = stress.chunk(chunk);
+  Lane total{};
+  for (int i = 0; i < shape.elements(); ++i) {
+    const Row<Element> e(i);
+    total += shape.centre[static_cast<std::size_t>(i)][0].determinant *
+             kernels::hourglass_energy<Lane>({m(e, 0), m(e, 1)}, modulus);
+  }
+  total *= bodies->thickness;
+  if (spent) total += spent->chunk(chunk)(particle);
+  energy.chunk(chunk)(particle) = total;
 }
 
 namespace {

@@ -1,55 +1,110 @@
 // internal_force: nodal forces of the stresses.
 //
-// Source   systems/element_kernel.hpp; the deviator acts pointwise, scaled theta/J to the Kirchhoff
-//          stress of the point; the mean stress acts on the element's area: both are the exact
-//          derivative of the element's stored energy (mean dilatation)
+// Source   systems/element_kernel.hpp. Mean dilatation: the deviator acts pointwise, scaled theta/J to the
+//          Kirchhoff stress of the point, the mean stress on the element's area. Else Cauchy stress acts
+//          at every point; with one point the bending of systems/hourglass_kernel.hpp too. All are the
+//          exact derivative of the element's stored energy
 // Runs     after the stresses are final, before integrate
 #include "systems/element_access.hpp"
+#include "systems/hourglass_kernel.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
+namespace {
 
-[[gnu::flatten]] void internal_force(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
-                                     Read<DeviatoricStress> s, Read<MeanStress> p,
-                                     Write<InternalForce> force) {
-  const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto nodes = x.chunk(chunk);
-  const auto stress = s.chunk(chunk);
-  const auto mean = p.chunk(chunk);
-  const auto f = force.chunk(chunk);
+using Map = kernels::QuadMap<Lane>;
+using Flux = kernels::QuadFlux<Lane>;
+
+template <class F>
+struct Views {
+  ChunkView<DeviatoricStress<F::points>, const Lane*> s;
+  ChunkView<MeanStress<F::volumes>, const Lane*> p;
+  const ChunkView<HourglassStress, const Lane*>* bending;  // null: not stabilised
+};
+
+Flux stress_flux(const Views<FourPoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
+  const auto& points = points_of<4>(shape, e.value);
+  const Lane theta = mean_dilatation(map, points), mean = v.p(e);
+  kernels::Matrix2<Lane> gradient[4];
+  Lane now[4];
+  for (int g = 0; g < 4; ++g) {
+    gradient[g] = map_gradient<4>(map, g);
+    now[g] = determinant(gradient[g]);
+  }
+  // A division for two points: it is the dearest operation of the loop.
+  const Lane over[2] = {theta / (now[0] * now[1]), theta / (now[2] * now[3])};
+  Flux flux;
+  for (int g = 0; g < 4; ++g) {
+    const auto& a = gradient[g];
+    const Lane kirchhoff =
+        over[g / 2] * now[g ^ 1] * points[static_cast<std::size_t>(g)].determinant;
+    const auto d = deviator(v.s, e, g);
+    kernels::add_flux(flux, a, kirchhoff * d.xx + mean, kirchhoff * d.yy + mean, kirchhoff * d.xy,
+                      kernels::gauss_xi[g], kernels::gauss_eta[g]);
+  }
+  return flux;
+}
+
+Flux stress_flux(const Views<Standard>& v, const Map& map, const Shape&, Row<Element> e) {
+  Flux flux;
+  for (int g = 0; g < 4; ++g) {
+    const auto d = deviator(v.s, e, g);
+    kernels::add_flux(flux, map_gradient<4>(map, g), d.xx + v.p(e, g), d.yy + v.p(e, g), d.xy,
+                      kernels::gauss_xi[g], kernels::gauss_eta[g]);
+  }
+  return flux;
+}
+
+Flux stress_flux(const Views<OnePoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
+  const auto a = map_gradient<1>(map, 0);
+  const auto d = deviator(v.s, e, 0);
+  const Lane mean = 4.0 * v.p(e);
+  auto flux = kernels::central_flux(a, fma(4.0, d.xx, mean), fma(4.0, d.yy, mean), 4.0 * d.xy);
+  const Lane over_det = 1.0 / determinant(a);
+  kernels::add_hourglass_flux(flux, map, kernels::natural_hourglass(map, over_det), over_det,
+                              {(*v.bending)(e, 0), (*v.bending)(e, 1)},
+                              shape.hourglass[static_cast<std::size_t>(e.value)],
+                              (1.0 / 3.0) * points_of<1>(shape, e.value)[0].determinant);
+  return flux;
+}
+
+template <class F>
+void chunk_force(const Views<F>& views, const ChunkView<Position, const Lane*>& x,
+                 const ChunkView<InternalForce, Lane*>& f, const Shape& shape, double thickness) {
   for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n)
     f(Row<Node>(n), 0) = f(Row<Node>(n), 1) = Lane{};
 
   for (int i = 0; i < shape.elements(); ++i) {
-    const Row<Element> e(i);
     const Quad& quad = shape.quads[static_cast<std::size_t>(i)];
-    const ElementGauss& gauss = shape.gauss[static_cast<std::size_t>(i)];
-    const auto map = quad_map(nodes, quad);
-    const Lane theta = dilatation(map, gauss);
-    const Lane sigma_m = mean(e);
-    kernels::Matrix2<Lane> gradient[gauss_points];
-    Lane now[gauss_points];
-    for (int g = 0; g < gauss_points; ++g) {
-      gradient[g] = map_gradient(map, g);
-      now[g] = determinant(gradient[g]);
-    }
-    // A division for two points: it is the dearest operation of the loop.
-    const Lane over[2] = {theta / (now[0] * now[1]), theta / (now[2] * now[3])};
-    kernels::QuadFlux<Lane> flux;
-    for (int g = 0; g < gauss_points; ++g) {
-      const auto& a = gradient[g];
-      const Lane kirchhoff =
-          over[g / 2] * now[g ^ 1] * gauss[static_cast<std::size_t>(g)].determinant;
-      const auto d = deviator(stress, e, g);
-      kernels::add_flux(flux, a, kirchhoff * d.xx + sigma_m, kirchhoff * d.yy + sigma_m,
-                        kirchhoff * d.xy, kernels::gauss_xi[g], kernels::gauss_eta[g]);
-    }
-    const auto out = kernels::node_forces(flux, 0.25 * bodies->thickness);
+    const auto flux = stress_flux(views, quad_map(x, quad), shape, Row<Element>(i));
+    const auto out = kernels::node_forces(flux, 0.25 * thickness);
     for (std::size_t k = 0; k < 4; ++k) {
       f(quad[k], 0) += out.x[k];
       f(quad[k], 1) += out.y[k];
     }
   }
 }
+
+}  // namespace
+
+template <class F>
+[[gnu::flatten]] void internal_force(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                     Read<DeviatoricStress<F::points>> s,
+                                     Read<MeanStress<F::volumes>> p,
+                                     Optional<Read<HourglassStress>> hourglass,
+                                     Write<InternalForce> force) {
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  Views<F> views{s.chunk(chunk), p.chunk(chunk), nullptr};
+  if constexpr (F::stabilised) {
+    const auto bending = hourglass->chunk(chunk);
+    views.bending = &bending;
+    chunk_force(views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+  } else {
+    chunk_force(views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+  }
+}
+template decltype(internal_force<FourPoint>) internal_force<FourPoint>;
+template decltype(internal_force<Standard>) internal_force<Standard>;
+template decltype(internal_force<OnePoint>) internal_force<OnePoint>;
 
 }  // namespace pulvis

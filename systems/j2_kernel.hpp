@@ -80,10 +80,32 @@ struct LinearHardening {
   T plastic_work(T eps) const { return eps * (sigma_y + 0.5 * H * eps); }  // J/m^3
 };
 
+// What stands beside the deviator under the yield surface: nothing. (Bending: hourglass_kernel.hpp.)
+struct NothingBeside {
+  template <class T>
+  T joint_norm(T norm2) const {
+    return norm2;
+  }
+  template <class T>
+  T slope(T, T, T norm, T modulus, T two_mu) const {
+    return norm * fma(2.0 / 3.0, modulus, two_mu);
+  }
+  template <class T>
+  T push(T excess, T) const {
+    return excess;
+  }
+  template <class T>
+  void give_way(T) const {}
+};
+
+template <class T, class Hardening>
+auto yields(const Deviator<T>& s, T eps, const Hardening& law, const auto& beside) {
+  const T limit = law.flow_stress(eps);
+  return beside.joint_norm(squared_norm(s)) > (2.0 / 3.0) * limit * limit;
+}
 template <class T, class Hardening>
 auto yields(const Deviator<T>& s, T eps, const Hardening& law) {
-  const T limit = law.flow_stress(eps);
-  return squared_norm(s) > (2.0 / 3.0) * limit * limit;
+  return yields(s, eps, law, NothingBeside{});
 }
 
 template <class T>
@@ -96,12 +118,13 @@ struct J2State {
 // Radial return of the trial state at a Gauss point. Lanes that do not yield come back unchanged.
 // `r2` = J^(-2/3). b_trial is not formed again: its deviator is theta s / mu, its mean follows from
 // det b = 1. One division serves the consistency condition and the roots of the determinant together.
-template <class T, class Hardening>
+// `beside` is returned with the deviator.
+template <class T, class Hardening, class Beside>
 J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
-                         T theta_over_mu, const Hardening& law) {
+                         T theta_over_mu, const Hardening& law, Beside&& beside) {
   constexpr double sqrt_2_3 = 0.81649658092772603273;
-  const auto flows = yields(trial.s, trial.eps, law);
-  const T norm2 = squared_norm(trial.s), norm = sqrt(norm2);
+  const auto flows = yields(trial.s, trial.eps, law, beside);
+  const T norm2 = squared_norm(trial.s), joint2 = beside.joint_norm(norm2), norm = sqrt(joint2);
   const T dxx = theta_over_mu * trial.s.xx, dyy = theta_over_mu * trial.s.yy;
   const T dxy = theta_over_mu * trial.s.xy;
   const T q = (0.5 * norm2) * (theta_over_mu * theta_over_mu);  // 1/2 d : d
@@ -115,8 +138,8 @@ J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T m
 
   // Consistency: |s| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps + sqrt(2/3) dgamma), mu_bar = mu tr b/3;
   // beta = |s_new| / |s_trial|.
-  const T excess = fma(-sqrt_2_3, law.flow_stress(trial.eps), norm);
-  const T slope = norm * fma(2.0 / 3.0, law.modulus(trial.eps), two_mu_bar_rough);
+  const T excess = beside.push(fma(-sqrt_2_3, law.flow_stress(trial.eps), norm), norm);
+  const T slope = beside.slope(norm2, joint2, norm, law.modulus(trial.eps), two_mu_bar_rough);
   const T over = 1.0 / (slope * rough);
   const T over_tangent = over * slope;
   const T dgamma = select(flows, excess * norm * (over * rough), T{});
@@ -136,6 +159,7 @@ J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T m
   const T cxx = fma(f.xy, f.xy, f.yy * f.yy), cyy = fma(f.xx, f.xx, f.yx * f.yx);
   const T cxy = -fma(f.xx, f.xy, f.yx * f.yy);
   const T grow = beta - 1.0;
+  beside.give_way(beta);
   J2State<T> next;
   next.s = {beta * trial.s.xx, beta * trial.s.yy, beta * trial.s.xy};
   next.c = {select(flows, fma(beta, trial.c.xx, fma(pull, cxx, grow)), trial.c.xx),
@@ -144,6 +168,12 @@ J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T m
             select(flows, fma(beta, trial.c.xy, pull * cxy), trial.c.xy)};
   next.eps = fma(sqrt_2_3, dgamma, trial.eps);
   return next;
+}
+
+template <class T, class Hardening>
+J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
+                         T theta_over_mu, const Hardening& law) {
+  return radial_return(trial, f, r2, mu_over_theta, theta_over_mu, law, NothingBeside{});
 }
 
 // Stored energy per undeformed volume, without the volumetric part (which the element has once).

@@ -1,57 +1,134 @@
-// j2_return_map: brings trial stresses that left the von Mises yield surface back onto it.
+// j2_return_map: brings trial stresses that left the von Mises yield surface back onto it; in elements
+// with one point together with the stress of the hourglass modes.
 //
-// Source   systems/j2_kernel.hpp (Simo & Hughes 1998, box 9.1)
+// Source   systems/j2_kernel.hpp (Simo & Hughes 1998, box 9.1); systems/hourglass_kernel.hpp
 // Runs     after trial_stress, before internal_force
 // Active   when a material of the scene declares a yield stress
 #include "systems/element_access.hpp"
+#include "systems/hourglass_kernel.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
+namespace {
 
-[[gnu::flatten]] void j2_return_map(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
-                                    Read<ShearModulus> mu, Read<YieldStress> sigma_y,
-                                    Read<HardeningModulus> hardening,
-                                    Read<IsochoricScale> isochoric, Write<DeviatoricStress> s,
-                                    Write<PlasticMetric> metric, Write<PlasticStrain> eps) {
-  const Row<Particle> particle;
-  const Lane shear = mu.chunk(chunk)(particle), over_shear = 1.0 / shear;
-  const kernels::LinearHardening<Lane> law{sigma_y.chunk(chunk)(particle),
-                                           hardening.chunk(chunk)(particle)};
-  const auto nodes = x.chunk(chunk);
-  const auto stress = s.chunk(chunk);
-  const auto c = metric.chunk(chunk);
-  const auto strain = eps.chunk(chunk);
-  const auto scale = isochoric.chunk(chunk);
-  const Shape& shape = bodies->shape_of_chunk(chunk);
+template <class F>
+struct Views {
+  ChunkView<Position, const Lane*> x;
+  ChunkView<IsochoricScale<F::points>, const Lane*> scale;
+  ChunkView<DeviatoricStress<F::points>, Lane*> stress;
+  ChunkView<PlasticMetric<F::points>, Lane*> metric;
+  ChunkView<PlasticStrain<F::points>, Lane*> strain;
+  Lane mu, over_mu;
+  kernels::LinearHardening<Lane> law;
+};
 
-  for (int i = 0; i < shape.elements(); ++i) {
-    const Row<Element> e(i);
-    LaneMask flows[gauss_points], some{};
-    for (int g = 0; g < gauss_points; ++g) {
-      flows[g] = kernels::yields(deviator(stress, e, g), strain(e, g), law);
-      some |= flows[g];
+template <class F, class Beside>
+void return_point(const Views<F>& v, Row<Element> e, int g, const kernels::Matrix2<Lane>& f,
+                  Lane mu_over_theta, Lane theta, Beside&& beside) {
+  const Lane r = v.scale(e, g);
+  const auto next = kernels::radial_return<Lane>(
+      {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), v.strain(e, g)}, f, r * r,
+      mu_over_theta, theta * v.over_mu, v.law, beside);
+  store(v.stress, e, g, next.s);
+  v.metric(e, 4 * g) = next.c.xx;
+  v.metric(e, 4 * g + 1) = next.c.yy;
+  v.metric(e, 4 * g + 2) = next.c.zz;
+  v.metric(e, 4 * g + 3) = next.c.xy;
+  v.strain(e, g) = next.eps;
+}
+
+template <class F>
+void return_element(const Views<F>& v, const Shape& shape, Row<Element> e) {
+  LaneMask flows[F::points], some{};
+  for (int g = 0; g < F::points; ++g) {
+    flows[g] = kernels::yields(deviator(v.stress, e, g), v.strain(e, g), v.law);
+    some |= flows[g];
+  }
+  if (!any(some)) return;
+
+  const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  const auto& points = points_of<F::points>(shape, e.value);
+  Lane theta = mean_dilatation(map, points);
+  Lane mu_over_theta = v.mu / theta;
+  for (int g = 0; g < F::points; ++g) {
+    if (!any(flows[g])) continue;
+    const auto f = kernels::deformation_gradient(
+        map_gradient<F::points>(map, g), points[static_cast<std::size_t>(g)].inverse_jacobian);
+    if constexpr (F::volumes == F::points) {
+      theta = determinant(f);
+      mu_over_theta = v.mu / theta;
     }
-    if (!any(some)) continue;
-
-    const auto map = quad_map(nodes, shape.quads[static_cast<std::size_t>(i)]);
-    const ElementGauss& gauss = shape.gauss[static_cast<std::size_t>(i)];
-    const Lane theta = dilatation(map, gauss);
-    const Lane mu_over_theta = shear / theta, theta_over_mu = theta * over_shear;
-    for (int g = 0; g < gauss_points; ++g) {
-      if (!any(flows[g])) continue;
-      const auto f = kernels::deformation_gradient(
-          map_gradient(map, g), gauss[static_cast<std::size_t>(g)].inverse_jacobian);
-      const auto next = kernels::radial_return<Lane>(
-          {deviator(stress, e, g), plastic_metric(c, e, g), strain(e, g)}, f, scale(e, g),
-          mu_over_theta, theta_over_mu, law);
-      store(stress, e, g, next.s);
-      c(e, 4 * g) = next.c.xx;
-      c(e, 4 * g + 1) = next.c.yy;
-      c(e, 4 * g + 2) = next.c.zz;
-      c(e, 4 * g + 3) = next.c.xy;
-      strain(e, g) = next.eps;
-    }
+    return_point(v, e, g, f, mu_over_theta, theta, kernels::NothingBeside{});
   }
 }
+
+// ---- one point: the stress of the hourglass modes goes with the deviator ---------------------------
+struct Bending {
+  ChunkView<HourglassStress, Lane*> stress;
+  ChunkView<PlasticHourglass, Lane*> plastic;
+  Lane softness, over_modulus;
+};
+
+// Returns the work spent in the hourglass modes, J/m.
+Lane keep_bending(const Bending& bending, Row<Element> e, const kernels::Hourglass<Lane>& returned,
+                  double area) {
+  const Lane one = bending.over_modulus * (bending.stress(e, 0) - returned.one);
+  const Lane two = bending.over_modulus * (bending.stress(e, 1) - returned.two);
+  bending.plastic(e, 0) += one;
+  bending.plastic(e, 1) += two;
+  bending.stress(e, 0) = returned.one;
+  bending.stress(e, 1) = returned.two;
+  return ((1.0 / 3.0) * area) * fma(returned.one, one, returned.two * two);
+}
+
+Lane return_element(const Views<OnePoint>& v, const Bending& bending, const Shape& shape,
+                    Row<Element> e) {
+  const auto s = deviator(v.stress, e, 0);
+  const kernels::Hourglass<Lane> m{bending.stress(e, 0), bending.stress(e, 1)};
+  const Lane yield = v.law.flow_stress(v.strain(e)), limit2 = (2.0 / 3.0) * yield * yield;
+  if (!any(kernels::may_yield(s, m, limit2))) return Lane{};
+
+  const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  kernels::BendingBeside<Lane> beside{m, bending.softness, kernels::inverse_width(map, s, limit2)};
+  const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
+  const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
+  const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
+  return_point(v, e, 0, f, v.mu * (r * r * r), determinant(f), beside);
+  return keep_bending(bending, e, beside.stress, point.determinant);
+}
+
+}  // namespace
+
+template <class F>
+[[gnu::flatten]] void j2_return_map(
+    Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+    Read<BulkModulus> bulk, Read<YieldStress> sigma_y, Read<HardeningModulus> hardening,
+    Read<IsochoricScale<F::points>> isochoric, Write<DeviatoricStress<F::points>> s,
+    Write<PlasticMetric<F::points>> metric, Write<PlasticStrain<F::points>> eps,
+    Optional<Write<HourglassStress>> hourglass, Optional<Write<PlasticHourglass>> plastic,
+    Optional<Write<HourglassWork>> work) {
+  const Row<Particle> particle;
+  const Lane shear = mu.chunk(chunk)(particle);
+  const Views<F> v{
+      x.chunk(chunk),   isochoric.chunk(chunk),
+      s.chunk(chunk),   metric.chunk(chunk),
+      eps.chunk(chunk), shear,
+      1.0 / shear,      {sigma_y.chunk(chunk)(particle), hardening.chunk(chunk)(particle)}};
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  if constexpr (F::stabilised) {
+    const Lane modulus = kernels::plane_strain_modulus(shear, bulk.chunk(chunk)(particle));
+    const Bending bending{hourglass->chunk(chunk), plastic->chunk(chunk),
+                          (1.0 / 3.0) * modulus / shear, 1.0 / modulus};
+    Lane spent{};
+    for (int i = 0; i < shape.elements(); ++i)
+      spent += return_element(v, bending, shape, Row<Element>(i));
+    work->chunk(chunk)(particle) += spent * bodies->thickness;
+  } else {
+    for (int i = 0; i < shape.elements(); ++i) return_element(v, shape, Row<Element>(i));
+  }
+}
+template decltype(j2_return_map<FourPoint>) j2_return_map<FourPoint>;
+template decltype(j2_return_map<Standard>) j2_return_map<Standard>;
+template decltype(j2_return_map<OnePoint>) j2_return_map<OnePoint>;
 
 }  // namespace pulvis

@@ -5,8 +5,10 @@
 namespace pulvis {
 
 // ---- the order of a step: a newcomer's first page ------------------------------------------------
-StepList step_list(World& w) {
-  const bool plastic = w.has<PlasticMetric>();
+// F: how the elements of the scene take their stresses (components/formulation.hpp).
+template <class F>
+StepList step_list_of(World& w) {
+  const bool plastic = w.has<PlasticStrain<F::points>>();
   const bool pairs = w.has<ContactPair<Contact>>();
   const bool tools = w.has<ContactPair<ToolContact>>();
   const bool touching = pairs || tools;
@@ -33,30 +35,39 @@ StepList step_list(World& w) {
   force(touching, "contact_health",   contact_health);
   force(tools && !grips, "tool_reaction", tool_reaction);
   force(touching, "contact_force",    contact_force);
-  force(!plastic, "elastic_stress",   elastic_stress);
-  force(plastic,  "trial_stress",     trial_stress);
-  force(plastic,  "j2_return_map",    j2_return_map);
-  force(true,     "internal_force",   internal_force);
+  force(!plastic, "elastic_stress",   elastic_stress<F>);
+  force(plastic,  "trial_stress",     trial_stress<F>);
+  force(plastic,  "j2_return_map",    j2_return_map<F>);
+  force(true,     "internal_force",   internal_force<F>);
   force(grips,    "hold_grips",       hold_grips);
   force(grips,    "tool_reaction",    tool_reaction);  // theirs is known last
 
   observe(true,    "kinetic_energy",  kinetic_energy);
-  observe(true,    "elastic_energy",  elastic_energy);
-  observe(plastic, "plastic_work",    plastic_work);
+  observe(true,    "elastic_energy",  elastic_energy<F>);
+  observe(plastic, "plastic_work",    plastic_work<F>);
+  observe(F::stabilised, "hourglass_energy", hourglass_energy);
 
   move(true,      "integrate",        integrate);
   move(touching,  "contact_curve",    contact_curve);
-  move(true,      "stable_time_step", stable_time_step);
+  move(true,      "stable_time_step", stable_time_step<F::points>);
   move(true,      "element_health",   element_health);
   move(true,      "advance_clock",    advance_clock);
   // clang-format on
   return step;
 }
 
+StepList step_list(World& w) {
+  if (w.has<DeviatoricStress<OnePoint::points>>()) return step_list_of<OnePoint>(w);
+  if (w.has<MeanStress<Standard::volumes>>()) return step_list_of<Standard>(w);
+  return step_list_of<FourPoint>(w);
+}
+
 std::vector<System> start_list(World& w) {
   std::vector<System> start;
   if (w.has<CurvePosition>()) start.push_back(make_system(w, "contact_curve", contact_curve));
-  start.push_back(make_system(w, "stable_time_step", stable_time_step));
+  start.push_back(w.has<DeviatoricStress<1>>()
+                      ? make_system(w, "stable_time_step", stable_time_step<1>)
+                      : make_system(w, "stable_time_step", stable_time_step<4>));
   return start;
 }
 

@@ -76,16 +76,26 @@ void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<Contac
                    Optional<Read<PointForce<Contact>>>, Optional<Read<ClosestPoint>>,
                    Optional<Read<FrictionCouple>>, Optional<Read<ContactPair<ToolContact>>>,
                    Optional<Read<PointForce<ToolContact>>>, Write<CurveForce>, Write<ContactForce>);
+// F: the formulation of the elements (components/formulation.hpp).
+template <class F>
 void elastic_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                    Write<DeviatoricStress>, Write<MeanStress>, Write<LeastJacobian>,
-                    Write<WorstElement>);
+                    Write<DeviatoricStress<F::points>>, Write<MeanStress<F::volumes>>,
+                    Optional<Write<HourglassStress>>, Write<LeastJacobian>, Write<WorstElement>);
+template <class F>
 void trial_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                  Read<PlasticMetric>, Write<IsochoricScale>, Write<DeviatoricStress>,
-                  Write<MeanStress>, Write<LeastJacobian>, Write<WorstElement>);
-void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<YieldStress>,
-                   Read<HardeningModulus>, Read<IsochoricScale>, Write<DeviatoricStress>,
-                   Write<PlasticMetric>, Write<PlasticStrain>);
-void internal_force(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress>, Read<MeanStress>,
+                  Read<PlasticMetric<F::points>>, Optional<Read<PlasticHourglass>>,
+                  Write<IsochoricScale<F::points>>, Write<DeviatoricStress<F::points>>,
+                  Write<MeanStress<F::volumes>>, Optional<Write<HourglassStress>>,
+                  Write<LeastJacobian>, Write<WorstElement>);
+template <class F>
+void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
+                   Read<YieldStress>, Read<HardeningModulus>, Read<IsochoricScale<F::points>>,
+                   Write<DeviatoricStress<F::points>>, Write<PlasticMetric<F::points>>,
+                   Write<PlasticStrain<F::points>>, Optional<Write<HourglassStress>>,
+                   Optional<Write<PlasticHourglass>>, Optional<Write<HourglassWork>>);
+template <class F>
+void internal_force(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<F::points>>,
+                    Read<MeanStress<F::volumes>>, Optional<Read<HourglassStress>>,
                     Write<InternalForce>);
 void hold_grips(Chunk, Read<Bodies>, Read<Clock>, Read<ToolProgram>, Read<GripIndex>,
                 Read<GripTarget>, Read<GripDirection>, Read<GripTravel>, Read<GripOrigin>,
@@ -95,18 +105,24 @@ void hold_grips(Chunk, Read<Bodies>, Read<Clock>, Read<ToolProgram>, Read<GripIn
 // ---- on sampled steps ---------------------------------------------------------------------------
 void kinetic_energy(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalForce>,
                     Optional<Read<ContactForce>>, Read<Velocity>, Write<KineticEnergy>);
+template <class F>
 void elastic_energy(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                    Optional<Read<PlasticMetric>>, Write<ElasticEnergy>);
+                    Optional<Read<PlasticMetric<F::points>>>, Write<ElasticEnergy>);
+template <class F>
 void plastic_work(Chunk, Read<Bodies>, Read<YieldStress>, Read<HardeningModulus>,
-                  Read<PlasticStrain>, Write<PlasticWork>);
+                  Read<PlasticStrain<F::points>>, Optional<Read<HourglassWork>>,
+                  Write<PlasticWork>);
+void hourglass_energy(Chunk, Read<Bodies>, Read<ShearModulus>, Read<BulkModulus>,
+                      Read<HourglassStress>, Optional<Read<HourglassWork>>, Write<HourglassEnergy>);
 
 // ---- motion ---------------------------------------------------------------------------------------
 void integrate(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalForce>,
                Optional<Read<ContactForce>>, Write<Velocity>, Write<Position>);
 void contact_curve(Chunk, Read<Bodies>, Read<Position>, Read<Velocity>, Write<CurvePosition>,
                    Optional<Write<CurveVelocity>>, Write<MaximumSpeed>);
+template <int Points>
 void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
-                      Read<BulkModulus>, Read<Density>, Read<DeviatoricStress>,
+                      Read<BulkModulus>, Read<Density>, Read<DeviatoricStress<Points>>,
                       Optional<Read<ContactRules>>, Write<StableTimeStep>);
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
                     Write<Totals>);

@@ -17,10 +17,10 @@ namespace pulvis {
 namespace {
 
 // Largest norm of the deviatoric stress at the Gauss points of an element.
-template <class View>
+template <int Points, class View>
 Lane largest_norm(const View& stress, Row<Element> e) {
   Lane most{};
-  for (int g = 0; g < gauss_points; ++g) {
+  for (int g = 0; g < Points; ++g) {
     const auto s = deviator(stress, e, g);
     most = max(most, s.xx * s.xx + s.yy * s.yy + (s.xx + s.yy) * (s.xx + s.yy) + 2.0 * s.xy * s.xy);
   }
@@ -29,9 +29,10 @@ Lane largest_norm(const View& stress, Row<Element> e) {
 
 }  // namespace
 
+template <int Points>
 void stable_time_step(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Position> x,
                       Read<ShearModulus> mu, Read<BulkModulus> bulk, Read<Density> density,
-                      Read<DeviatoricStress> s, Optional<Read<ContactRules>> rules,
+                      Read<DeviatoricStress<Points>> s, Optional<Read<ContactRules>> rules,
                       Write<StableTimeStep> stable) {
   if (clock->step % time_step_interval != 0) return;
   const Row<Particle> particle;
@@ -46,15 +47,24 @@ void stable_time_step(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<
   for (int i = 0; i < shape.elements(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto map = quad_map(nodes, shape.quads[at]);
-    const Lane theta = dilatation(map, shape.gauss[at]);
+    const Lane theta = mean_dilatation(map, shape.centre[at]);
     const auto spread =
         kernels::mode_spread(kernels::map_gradient(map, 0, 0), shape.corner_moment[at]);
-    const Lane distortion = theta * over_shear * largest_norm(stress, Row<Element>(i));
+    const Lane distortion = theta * over_shear * largest_norm<Points>(stress, Row<Element>(i));
     const Lane element = kernels::frequency_bound(spread, k, shear, theta, distortion);
     highest = max(highest, element + contact * shape.contact_frequency[at] * k);
   }
   stable.chunk(chunk)(particle) = 2.0 * sqrt(rho / highest);
 }
+
+template void stable_time_step<1>(Chunk, Read<Bodies>, Read<Clock>, Read<Position>,
+                                  Read<ShearModulus>, Read<BulkModulus>, Read<Density>,
+                                  Read<DeviatoricStress<1>>, Optional<Read<ContactRules>>,
+                                  Write<StableTimeStep>);
+template void stable_time_step<4>(Chunk, Read<Bodies>, Read<Clock>, Read<Position>,
+                                  Read<ShearModulus>, Read<BulkModulus>, Read<Density>,
+                                  Read<DeviatoricStress<4>>, Optional<Read<ContactRules>>,
+                                  Write<StableTimeStep>);
 
 void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
                    Optional<Read<ToolVelocity>> tool_velocity, Write<Clock> clock) {

@@ -1,42 +1,75 @@
-// trial_stress: Cauchy stress at every Gauss point as if no plastic flow happened in this step.
+// trial_stress: Cauchy stress at every point of an element as if no plastic flow happened in this step.
 // elastic_stress: the same for scenes without plasticity, where it is the stress.
 //
-// Source   systems/element_kernel.hpp, systems/j2_kernel.hpp
+// Source   systems/element_kernel.hpp, systems/j2_kernel.hpp; hourglass stress of elements with one point:
+//          systems/hourglass_kernel.hpp
 // Runs     after integrate of the step before; before j2_return_map and internal_force
 // Watches  least det F of every particle, for the health system
 #include "systems/element_access.hpp"
+#include "systems/hourglass_kernel.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
 namespace {
 
+template <class F>
 struct Views {
   ChunkView<Position, const Lane*> x;
-  ChunkView<DeviatoricStress, Lane*> s;
-  ChunkView<MeanStress, Lane*> p;
+  ChunkView<DeviatoricStress<F::points>, Lane*> s;
+  ChunkView<MeanStress<F::volumes>, Lane*> p;
   Lane mu, bulk;
 };
 
-// `left(F, r2, e, g)` gives F C_p^-1 F^T, with r2 = J^(-2/3). Returns the least det F of the element's Gauss points.
-template <class LeftCauchyGreen>
-Lane element_stress(const Views& v, const Shape& shape, Row<Element> e,
-                    const LeftCauchyGreen& left) {
-  const auto at = static_cast<std::size_t>(e.value);
-  const auto map = quad_map(v.x, shape.quads[at]);
-  const ElementGauss& gauss = shape.gauss[at];
-  const Lane theta = dilatation(map, gauss);
-  const Lane over_theta = 1.0 / theta;
-  v.p(e) = 0.5 * v.bulk * (theta - over_theta);
-  Lane least = theta;
-  for (int g = 0; g < gauss_points; ++g) {
-    const auto f = kernels::deformation_gradient(
-        map_gradient(map, g), gauss[static_cast<std::size_t>(g)].inverse_jacobian);
+// Elements with one point: the trial stress of their hourglass modes, over the plastic part `gone`.
+struct HourglassViews {
+  ChunkView<HourglassStress, Lane*> stress;
+  const ChunkView<PlasticHourglass, const Lane*>* gone;  // null: elastic
+  Lane modulus;
+};
+
+// Returns det F where a corner's Gauss point would be, over theta: the sign tells an element folded.
+Lane hourglass_stress(const HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane over_det,
+                      const Shape::Hourglass& reference, Row<Element> e) {
+  const auto w = kernels::natural_hourglass(map, over_det);
+  auto strain = kernels::bending_strain(w, reference);
+  if (v.gone != nullptr) {
+    strain.one -= (*v.gone)(e, 0);
+    strain.two -= (*v.gone)(e, 1);
+  }
+  v.stress(e, 0) = v.modulus * strain.one;
+  v.stress(e, 1) = v.modulus * strain.two;
+  return fma(-kernels::gauss, abs(w.one) + abs(w.two), 1.0);
+}
+
+// `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the least det F of the element's points.
+template <class F, class LeftCauchyGreen>
+Lane element_stress(const Views<F>& v, const HourglassViews* hourglass, const Shape& shape,
+                    Row<Element> e, const LeftCauchyGreen& left) {
+  const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  const auto& points = points_of<F::points>(shape, e.value);
+  Lane theta{}, over_theta{}, least = broadcast(1e300);
+  if constexpr (F::volumes < F::points) {
+    theta = least = mean_dilatation(map, points);
+    over_theta = 1.0 / theta;
+    v.p(e) = 0.5 * v.bulk * (theta - over_theta);
+  }
+  for (int g = 0; g < F::points; ++g) {
+    const auto& point = points[static_cast<std::size_t>(g)];
+    const auto f =
+        kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
     const Lane j = determinant(f);
     const Lane r = kernels::inverse_cube_root(j);
     const Lane r2 = r * r;
-    store(v.s, e, g, kernels::scaled_deviator(left(f, r2, e, g), v.mu * over_theta * r2));
+    if constexpr (F::volumes == F::points) {
+      over_theta = r2 * r;
+      v.p(e, g) = 0.5 * v.bulk * (j - over_theta);
+    }
+    store(v.s, e, g, kernels::scaled_deviator(left(f, r, e, g), v.mu * over_theta * r2));
     least = least < j ? least : j;
   }
+  if constexpr (F::stabilised)
+    least *= hourglass_stress(*hourglass, map, over_theta * (4 / points[0].determinant),
+                              shape.hourglass[static_cast<std::size_t>(e.value)], e);
   return least;
 }
 
@@ -47,48 +80,76 @@ void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
   worst = lower ? least : worst;
 }
 
-template <class LeftCauchyGreen>
-void chunk_stress(Chunk chunk, const Bodies& bodies, const Views& v,
-                  Write<LeastJacobian> least_jacobian, Write<WorstElement> worst_element,
-                  const LeftCauchyGreen& left) {
+template <class F, class LeftCauchyGreen>
+void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
+                  const HourglassViews* hourglass, Write<LeastJacobian> least_jacobian,
+                  Write<WorstElement> worst_element, const LeftCauchyGreen& left) {
   const Shape& shape = bodies.shape_of_chunk(chunk);
   Lane worst = broadcast(1e300), which{};
   for (int i = 0; i < shape.elements(); ++i)
-    keep_worst(element_stress(v, shape, Row<Element>(i), left), Row<Element>(i), worst, which);
+    keep_worst(element_stress<F>(v, hourglass, shape, Row<Element>(i), left), Row<Element>(i),
+               worst, which);
   least_jacobian.chunk(chunk)(Row<Particle>()) = worst;
   worst_element.chunk(chunk)(Row<Particle>()) = which;
 }
 
 }  // namespace
 
+template <class F>
 [[gnu::flatten]] void trial_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
                                    Read<ShearModulus> mu, Read<BulkModulus> bulk,
-                                   Read<PlasticMetric> metric, Write<IsochoricScale> isochoric,
-                                   Write<DeviatoricStress> s, Write<MeanStress> p,
+                                   Read<PlasticMetric<F::points>> metric,
+                                   Optional<Read<PlasticHourglass>> gone,
+                                   Write<IsochoricScale<F::points>> isochoric,
+                                   Write<DeviatoricStress<F::points>> s,
+                                   Write<MeanStress<F::volumes>> p,
+                                   Optional<Write<HourglassStress>> bending,
                                    Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;
+  const Views<F> views{x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
+                       bulk.chunk(chunk)(particle)};
   const auto c = metric.chunk(chunk);
   const auto scale = isochoric.chunk(chunk);
-  chunk_stress(chunk, *bodies,
-               {x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
-                bulk.chunk(chunk)(particle)},
-               least, worst, [&](const kernels::Matrix2<Lane>& f, Lane r2, Row<Element> e, int g) {
-                 scale(e, g) = r2;
-                 return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
-               });
+  const auto left = [&](const kernels::Matrix2<Lane>& f, Lane r, Row<Element> e, int g) {
+    scale(e, g) = r;
+    return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
+  };
+  if constexpr (F::stabilised) {
+    const auto plastic = gone->chunk(chunk);
+    const HourglassViews hourglass{bending->chunk(chunk), &plastic,
+                                   kernels::plane_strain_modulus(views.mu, views.bulk)};
+    chunk_stress<F>(chunk, *bodies, views, &hourglass, least, worst, left);
+  } else {
+    chunk_stress<F>(chunk, *bodies, views, nullptr, least, worst, left);
+  }
 }
+template decltype(trial_stress<FourPoint>) trial_stress<FourPoint>;
+template decltype(trial_stress<Standard>) trial_stress<Standard>;
+template decltype(trial_stress<OnePoint>) trial_stress<OnePoint>;
 
+template <class F>
 [[gnu::flatten]] void elastic_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
                                      Read<ShearModulus> mu, Read<BulkModulus> bulk,
-                                     Write<DeviatoricStress> s, Write<MeanStress> p,
+                                     Write<DeviatoricStress<F::points>> s,
+                                     Write<MeanStress<F::volumes>> p,
+                                     Optional<Write<HourglassStress>> bending,
                                      Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;
-  chunk_stress(chunk, *bodies,
-               {x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
-                bulk.chunk(chunk)(particle)},
-               least, worst, [](const kernels::Matrix2<Lane>& f, Lane, Row<Element>, int) {
-                 return kernels::left_cauchy_green(f);
-               });
+  const Views<F> views{x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
+                       bulk.chunk(chunk)(particle)};
+  const auto left = [](const kernels::Matrix2<Lane>& f, Lane, Row<Element>, int) {
+    return kernels::left_cauchy_green(f);
+  };
+  if constexpr (F::stabilised) {
+    const HourglassViews hourglass{bending->chunk(chunk), nullptr,
+                                   kernels::plane_strain_modulus(views.mu, views.bulk)};
+    chunk_stress<F>(chunk, *bodies, views, &hourglass, least, worst, left);
+  } else {
+    chunk_stress<F>(chunk, *bodies, views, nullptr, least, worst, left);
+  }
 }
+template decltype(elastic_stress<FourPoint>) elastic_stress<FourPoint>;
+template decltype(elastic_stress<Standard>) elastic_stress<Standard>;
+template decltype(elastic_stress<OnePoint>) elastic_stress<OnePoint>;
 
 }  // namespace pulvis

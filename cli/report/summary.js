@@ -126,7 +126,7 @@ function qualityFigures(head, history) {
      value: given("kinetic_ratio", most("energy/kinetic") / internal),
      meaning: "kinetic energy, of the internal energy"},
     {name: "Hourglass energy", value: most("energy/hourglass") / internal, limit: 0.03,
-     meaning: "largest energy of modes that no stress resists, of the largest internal energy"},
+     meaning: "largest energy of bending inside the elements, plastic work included, of the largest internal energy"},
     {name: "Penetration", value: most("penetration"), limit: limits.penetration,
      meaning: "deepest overlap of two surfaces, of the length of a boundary edge"},
   ].filter(figure => Number.isFinite(figure.value));

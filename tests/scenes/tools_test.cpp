@@ -345,9 +345,7 @@ duration = "0.1 ms"
 [[stage.move]]
 tool = "spread"
 displacement = ["0.0001 mm", "0 mm"]
-ramp = 0.5
-[time]
-safety = 0.5)"));  // a free element breathes faster than the bound for meshes says
+ramp = 0.5)"));
   e.run(20);
   const double radius = std::sqrt(2.0) * 1e-3, strain = 1e-7 / radius;
   const double force =

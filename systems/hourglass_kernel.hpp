@@ -1,0 +1,138 @@
+// The two modes that the one-point quad cannot see at its centre: bending of the fibres along xi and of
+// the fibres along eta. Physical stabilisation: elastic-plastic bending with the material's own constants.
+//
+// Source   Modes: Flanagan & Belytschko (1981). Bending stiffness: assumed stress of Pian & Sumihara
+//          (1984), which is the assumed strain of Belytschko & Bindeman (1991) on rectangles: uniaxial
+//          stress along the fibres, linear across them, no shear; right for nu -> 1/2 too. Limit:
+//          plastic moment of a rectangular section beside the centre's stress, a yield surface as
+//          Ilyushin's (1948) for plates; see BendingBeside.
+// Symbols  x = centre + a xi + b eta + h xi eta, A = [a b];  w = A^-1 h, natural components of h [-];
+//          w_0 those of the undeformed element: w - w_0 is zero in every homogeneous deformation, and
+//          blind to rotation
+//          kappa  strain of the outermost fibre [-]: kappa_1 = (w - w_0)_1 + skew_1 (w - w_0)_2 along xi
+//                 (a.h/a.a where nothing but h moves), kappa_2 the same along eta; kappa_p its plastic part
+//          M      stress of the outermost fibre if it were linear across the element [Pa] = E' (kappa -
+//                 kappa_p);  E' = E/(1 - nu^2).  M_p = 3/2 * 2/sqrt 3 sigma_y = sqrt 3 sigma_y
+// Energy   per undeformed area: (M_1^2 + M_2^2) / (6 E')
+// Valid    elements that are not turned inside out; M is taken for a Cauchy stress, which is right to
+//          within theta - 1 (a percent in metals)
+#pragma once
+
+#include "systems/j2_kernel.hpp"
+
+namespace pulvis::kernels {
+
+// The least share of its limit that bending keeps beside fully plastic stretching, where it should have
+// none. From 0.05 to 0.5 the force of the unit cell changes by 1% (docs/accuracy.md); at 0.01 and below
+// a step of the return is too coarse and energy is lost.
+inline constexpr double least_width = 0.1;
+
+template <class T>
+struct Hourglass {  // of the fibres along xi, along eta
+  T one, two;
+};
+
+// w = A^-1 h; over_det = 1 / det A.
+template <class T>
+Hourglass<T> natural_hourglass(const QuadMap<T>& m, T over_det) {
+  return {over_det * fma(m.hx, m.by, -(m.hy * m.bx)), over_det * fma(m.ax, m.hy, -(m.ay * m.hx))};
+}
+
+template <class T, class Reference>  // Shape::Hourglass
+Hourglass<T> bending_strain(const Hourglass<T>& w, const Reference& reference) {
+  const T one = w.one - reference.natural[0], two = w.two - reference.natural[1];
+  return {fma(reference.skew[0], two, one), fma(reference.skew[1], one, two)};
+}
+
+// E' = E/(1 - nu^2).
+template <class T>
+T plane_strain_modulus(T mu, T bulk) {
+  return 4.0 * mu * (3.0 * bulk + mu) / (3.0 * bulk + 4.0 * mu);
+}
+
+// Stored, per undeformed area.
+template <class T>
+T hourglass_energy(const Hourglass<T>& stress, T modulus) {
+  return fma(stress.one, stress.one, stress.two * stress.two) / (6.0 * modulus);
+}
+
+// Exact derivative of the stored energy: d(w) = A^-1 (dh - w_1 da - w_2 db). `third`: a third of the
+// undeformed area, which is the integral of xi^2.
+template <class T, class Reference>
+void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<T>& w, T over_det,
+                        const Hourglass<T>& stress, const Reference& reference, double third) {
+  const T scale = third * over_det;
+  const T one = scale * fma(reference.skew[1], stress.two, stress.one);
+  const T two = scale * fma(reference.skew[0], stress.one, stress.two);
+  const T qx = fma(m.by, one, -(m.ay * two)), qy = fma(m.ax, two, -(m.bx * one));
+  flux.h_x += qx;
+  flux.h_y += qy;
+  flux.xi_x = fma(-w.one, qx, flux.xi_x);
+  flux.xi_y = fma(-w.one, qy, flux.xi_y);
+  flux.eta_x = fma(-w.two, qx, flux.eta_x);
+  flux.eta_y = fma(-w.two, qy, flux.eta_y);
+}
+
+// Squared part of a deviator that stretches the fibres (and shortens what lies across them), as numerator
+// and denominator: s:N with N = (e e - e' e')/sqrt 2, e along a or across b (between them in a rhomboid).
+template <class T>
+struct Ratio {
+  T numerator, denominator;
+};
+template <class T>
+Ratio<T> squared_stretching(const QuadMap<T>& m, const Deviator<T>& s) {
+  const T aa = fma(m.ax, m.ax, m.ay * m.ay), bb = fma(m.bx, m.bx, m.by * m.by);
+  // The direction with its angle doubled, as a complex number: a^2/|a|^2 - b^2/|b|^2.
+  const T real = fma(fma(m.ax, m.ax, -(m.ay * m.ay)), bb, -(fma(m.bx, m.bx, -(m.by * m.by)) * aa));
+  const T imaginary = 2.0 * fma(m.ax * m.ay, bb, -(m.bx * m.by * aa));
+  const T stretch = fma(0.5 * (s.xx - s.yy), real, s.xy * imaginary);
+  return {2.0 * stretch * stretch, fma(real, real, imaginary * imaginary)};
+}
+
+// 1/width: see BendingBeside. `limit2`: 2/3 sigma_y^2.
+template <class T>
+T inverse_width(const QuadMap<T>& m, const Deviator<T>& s, T limit2) {
+  const auto stretching = squared_stretching(m, s);
+  const T room = fma(stretching.denominator, fma(1.0 / 3.0, squared_norm(s), limit2),
+                     (-4.0 / 3.0) * stretching.numerator);
+  const T full = limit2 * stretching.denominator;
+  return full / max(room, least_width * full);
+}
+
+// The bending stress beside a deviator under the joint yield surface
+//   |s|^2 + t^2/width <= 2/3 sigma_y^2,   t^2 = 2/9 (M_1^2 + M_2^2),
+//   width = 1 - n_f^2 + n_s^2/3,  n = s / (sqrt(2/3) sigma_y), n_f the part along the fibres, n_s the rest.
+// What a fibre section bears exactly in three limits: M = M_p without s; M = M_p (1 - n_f^2) with
+// stretching; and small bending in fully plastic shear. Between them it is right to 1%. The work of t has
+// the compliance 1/(2/3 E'), where that of s has 1/(2 mu); both flow along s and t/width.
+template <class T>
+struct BendingBeside {
+  Hourglass<T> stress;  // trial, then returned
+  T softness;           // 2/3 E' / (2 mu): how much faster than s it gives way
+  T over_width;
+
+  T squared_norm() const {
+    return (2.0 / 9.0) * fma(stress.one, stress.one, stress.two * stress.two);
+  }
+  T joint_norm(T norm2) const { return fma(over_width, squared_norm(), norm2); }
+  // Slope of the consistency condition and the excess, both times |S|^2.
+  T slope(T norm2, T joint2, T, T modulus, T two_mu) const {
+    const T flow = over_width * over_width * squared_norm();
+    return fma((2.0 / 3.0) * joint2, modulus, two_mu * fma(softness, flow, norm2));
+  }
+  T push(T excess, T norm) const { return excess * norm; }
+  void give_way(T beta) {
+    const T left = max(fma(softness * over_width, beta - 1.0, 1.0), T{});
+    stress = {left * stress.one, left * stress.two};
+  }
+};
+
+// Whether s and t can yield at all, whatever the width: it is never below 1 - |n|^2.
+template <class T>
+auto may_yield(const Deviator<T>& s, const Hourglass<T>& m, T limit2) {
+  const T left = limit2 - squared_norm(s);
+  const T bending2 = (2.0 / 9.0) * fma(m.one, m.one, m.two * m.two);
+  return (left < T{}) | (left * left < bending2 * limit2);
+}
+
+}  // namespace pulvis::kernels
