@@ -163,7 +163,7 @@ TEST(Plan, EdgesOfACompactionStep) {
                   "tool_contact -> contact_totals", "tool_contact -> contact_force",
                   "contact_totals -> contact_health",  // totals
                   "contact_health -> tool_reaction",   // totals
-                  "tool_reaction -> advance_clock",    // clock
+                  "tool_reaction -> element_health",    // clock
                   "contact_force -> element_health",   // least_jacobian
                   "element_health -> advance_clock",   // clock
               }));

@@ -192,7 +192,7 @@ TEST(SceneText, EveryShippedSceneReadsAndItsTextSaysTheSame) {
   for (const auto& file : shipped_scenes()) {
     SCOPED_TRACE(file);
     const LoadedScene first = load_scene(file);
-    const LoadedScene again = load_scene_text(first.text, "scene.toml");
+    const LoadedScene again = load_scene_text(first.text, file);
     EXPECT_EQ(again.text, first.text);
     EXPECT_EQ(again.hash, first.hash);
     EXPECT_EQ(again.scene.stages.size(), first.scene.stages.size());
