@@ -20,6 +20,8 @@ struct Clock {
   double safety = 0.9;   // share of the stable step that is used
   double travel =
       0;  // m, bound on how far any two surfaces have moved relative to each other so far
+  std::int64_t next_look = 0;  // step at which the stable time step is determined anew
+  double stiffening = 1;  // -, tangent of the stiffest contact spring over that of an untouched one
 };
 
 // Prescribed motion of the tools: every segment moves one tool by `displacement` over its duration.
@@ -41,6 +43,7 @@ struct ContactRules {
   double stiffness = 1;            // -, k of kappa = k K L/A
   double damping = 0;              // -, share of critical
   double penetration_limit = 0.5;  // -, of the edge length
+  double shortest_edge = 0;        // m
   int materials = 0;
   std::vector<double> friction;       // [materials * materials]
   std::vector<double> tool_friction;  // [tools * materials]
@@ -72,7 +75,8 @@ struct Totals {
   double friction_work = 0;      // J, dissipated
   double damping_work = 0;       // J, dissipated by contact damping
   double contact_energy = 0;     // J, stored in contact springs now
-  double worst_penetration = 0;  // -, penetration / edge length, largest of the run
+  double penetration = 0;        // -, penetration / edge length, largest of this step
+  double worst_penetration = 0;  // -, the same, of the run
   double least_jacobian = 1;     // -, smallest det F of the run
   std::int64_t touching = 0;     // rows with a touching point now
 };

@@ -25,7 +25,7 @@ struct Preset {
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all{
       {"disc",
-       {{"boundary_edges", {"48", "60", "96"}},
+       {{"boundary_edges", {"48", "72", "96"}},
         {"rings", {"0", "1", "2"}},
         {"core", {"\"coarse\"", "\"coarse\"", "\"coarse\""}}},
        {"refinement"}},

@@ -30,6 +30,7 @@ ContactRules contact_rules(const Scene& scene) {
   ContactRules rules{scene.contact.stiffness,
                      scene.contact.damping,
                      scene.limits.penetration,
+                     0,
                      static_cast<int>(scene.materials.size()),
                      {},
                      {}};
@@ -344,7 +345,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.tools || needs.grips) add_tools(*world, scene, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
-    world->emplace<ContactRules>(contact_rules(scene));
+    world->emplace<ContactRules>(contact_rules(scene)).shortest_edge = shortest_edge(layout.bodies);
     world->emplace<ContactIndex>().skin = scene.contact.skin * shortest_edge(layout.bodies);
   }
   fill_bodies(*world, layout);

@@ -174,7 +174,7 @@ const TableDeclaration<ContactSpec>& contact() {
        // Softer than 0.3, the punch force of the unit cell is more than 2% below that of the default.
        {{.name = "stiffness",
          .kind = Kind::number,
-         .range = within(0.3, 100),
+         .range = within(0.35, 100),
          .fallback = value_of(0.5),
          .doc = "Contact stiffness over bulk modulus times edge length over element area."},
         to(&ContactSpec::stiffness)},

@@ -6,8 +6,10 @@
 //          energy and momentum are kept. A corner ends a spline; see scenes/contact_curve.
 // Contact  the four Gauss points s of an edge of one body against the closest point m of the other's
 //          curve: (x_s - x_m) . x_m' = 0, gap g = (x_m - x_s) . n_m [m, > 0 in penetration], pressure
-//          p = kappa/2 g. Then the roles change: two half passes, no master. The forces are the
-//          derivative of sum w kappa/4 g^2.
+//          p = kappa/2 g (1 + (g/g_s)^2). Then the roles change: two half passes, no master. The forces are
+//          the derivative of sum w kappa/4 g^2 (1 + (g/g_s)^2/2). g_s, a twentieth of the edge, is beyond
+//          what metals that flow reach; the spring stiffens there, so that elastic bodies under large strain
+//          and corners do not sink into each other.
 // Friction Coulomb with a tangential spring u [m] per point, return-mapped (Cundall & Strack 1979, as
 //          plasticity: Wriggers 2006, ch. 5). The slip increment is objective: the rotation of the
 //          surface across the gap is taken out, and the same term acts on the other body, so that
@@ -72,14 +74,25 @@ struct Traction {
   T damping_power;  // W/m^2, >= 0
 };
 
-// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass.
+// Penetration over edge length at which the spring bears twice what a linear one does.
+inline constexpr double stiffening_depth = 0.05;
+
+// Tangent of the spring over kappa at a penetration of `depth` edge lengths.
+inline double stiffening(double depth) {
+  const double x = depth / stiffening_depth;
+  return 1 + 3 * x * x;
+}
+
+// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `edge` m, length of the edge.
 template <class T>
-Traction<T> normal_traction(T g, T g_rate, T kappa, T c) {
+Traction<T> normal_traction(T g, T g_rate, T kappa, T c, double edge) {
   const T zero{};
   const T touching = max(g, zero);
-  const T spring = kappa * touching;
+  const T depth = touching * (1 / (stiffening_depth * edge));
+  const T more = depth * depth;
+  const T spring = kappa * touching * (1.0 + more);
   const T total = select(g > 0.0, max(spring + c * g_rate, zero), zero);
-  return {total, 0.5 * spring * touching, (total - spring) * g_rate};
+  return {total, 0.5 * kappa * touching * touching * (1.0 + 0.5 * more), (total - spring) * g_rate};
 }
 
 template <class T>

@@ -45,6 +45,7 @@ struct RowColumns {
   Write<ContactReach<At>> reach;
   Read<ContactStiffness<At>> stiffness;
   Read<ContactWeight<At>> weight;
+  Read<EdgeLength<At>> length;
   Write<PointForce<At>> force;
   Write<Penetration<At>> penetration;
   Write<ContactEnergy<At>> energy;
@@ -93,7 +94,7 @@ Lane set_touching(const RowColumns<At>& c, Row<At> row, const RowMotion& m, doub
   const Lane weight = lane_of(&c.weight(row));
   const Lane kappa = broadcast(share * c.stiffness(row));
   const Lane damping = c.damping ? broadcast(share * (*c.damping)(row)) : Lane{};
-  const auto normal = kernels::normal_traction(m.gap, m.gap_rate, kappa, damping);
+  const auto normal = kernels::normal_traction(m.gap, m.gap_rate, kappa, damping, c.length(row));
   Lane along{}, work{};
   if (c.friction) {
     double* spring = &(*c.elastic_slip)(row);

@@ -145,17 +145,17 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
                   Optional<Read<CurveVelocity>> velocity, Write<ClosestPoint> closest,
                   Write<ContactPair<Contact>> pair, Write<ContactReach<Contact>> reach,
                   Read<ContactStiffness<Contact>> stiffness, Read<ContactWeight<Contact>> weight,
-                  Write<PointForce<Contact>> force, Write<Penetration<Contact>> penetration,
-                  Write<ContactEnergy<Contact>> energy,
+                  Read<EdgeLength<Contact>> length, Write<PointForce<Contact>> force,
+                  Write<Penetration<Contact>> penetration, Write<ContactEnergy<Contact>> energy,
                   Optional<Read<FrictionCoefficient<Contact>>> friction,
                   Optional<Write<ElasticSlip<Contact>>> elastic_slip,
                   Optional<Write<FrictionWork<Contact>>> friction_work,
                   Optional<Write<FrictionCouple>> couple,
                   Optional<Read<DampingCoefficient<Contact>>> damping,
                   Optional<Write<DampingWork<Contact>>> damping_work) {
-  const RowColumns<Contact> columns{pair,         reach,         stiffness, weight,
-                                    force,        penetration,   energy,    friction,
-                                    elastic_slip, friction_work, damping,   damping_work};
+  const RowColumns<Contact> columns{pair,          reach,       stiffness,   weight,   length,
+                                    force,         penetration, energy,      friction, elastic_slip,
+                                    friction_work, damping,     damping_work};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
   const auto control = [&](int slot) {

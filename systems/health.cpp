@@ -40,11 +40,11 @@ template <class At>
 void check_rows(const Bodies& bodies, const Clock& clock, double limit, const char* system,
                 const PartnerName& partner, const Read<ContactPair<At>>& pair,
                 const Read<Penetration<At>>& penetration, const Read<EdgeLength<At>>& length,
-                double& worst) {
+                double& deepest) {
   for (int r = 0; r < pair.rows(); ++r) {
     const Row<At> row(r);
     const double depth = penetration(row) / length(row);
-    worst = std::max(worst, depth);
+    deepest = std::max(deepest, depth);
     if (depth <= limit) continue;
     throw RunFailure(fmt::format(
         "{}: particle {}, edge {} against {}: penetration {:.6g} m is {:.3g} of the edge length at "
@@ -65,20 +65,22 @@ void contact_health(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
                     Optional<Read<EdgeLength<ToolContact>>> tool_length,
                     Optional<Read<ToolProgram>> program, Write<Totals> totals) {
   const double limit = rules->penetration_limit;
+  totals->penetration = 0;
   if (pair)
     check_rows<Contact>(
         *bodies, *clock, limit, "edge_contact",
         [&](int slot) {
           return fmt::format("particle {}", bodies->slots[static_cast<std::size_t>(slot)].number);
         },
-        *pair, *penetration, *length, totals->worst_penetration);
+        *pair, *penetration, *length, totals->penetration);
   if (tool_pair)
     check_rows<ToolContact>(
         *bodies, *clock, limit, "tool_contact",
         [&](int tool) {
           return fmt::format("tool '{}'", (*program)->names[static_cast<std::size_t>(tool)]);
         },
-        *tool_pair, *tool_penetration, *tool_length, totals->worst_penetration);
+        *tool_pair, *tool_penetration, *tool_length, totals->penetration);
+  totals->worst_penetration = std::max(totals->worst_penetration, totals->penetration);
 }
 
 }  // namespace pulvis

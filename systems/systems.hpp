@@ -12,7 +12,6 @@
 namespace pulvis {
 
 // Steps between two looks at the elements' frequencies: geometry changes by parts in 1e4 in a step.
-inline constexpr int time_step_interval = 8;
 
 // ---- tools and binning ------------------------------------------------------------------------
 void tool_motion(Read<Clock>, Read<ToolProgram>, Write<ToolPosition>, Write<ToolVelocity>);
@@ -37,8 +36,9 @@ void note_binning(Read<Clock>, Write<ContactIndex>);
 void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
                   Write<ClosestPoint>, Write<ContactPair<Contact>>, Write<ContactReach<Contact>>,
                   Read<ContactStiffness<Contact>>, Read<ContactWeight<Contact>>,
-                  Write<PointForce<Contact>>, Write<Penetration<Contact>>,
-                  Write<ContactEnergy<Contact>>, Optional<Read<FrictionCoefficient<Contact>>>,
+                  Read<EdgeLength<Contact>>, Write<PointForce<Contact>>,
+                  Write<Penetration<Contact>>, Write<ContactEnergy<Contact>>,
+                  Optional<Read<FrictionCoefficient<Contact>>>,
                   Optional<Write<ElasticSlip<Contact>>>, Optional<Write<FrictionWork<Contact>>>,
                   Optional<Write<FrictionCouple>>, Optional<Read<DampingCoefficient<Contact>>>,
                   Optional<Write<DampingWork<Contact>>>);
@@ -46,8 +46,8 @@ void tool_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<
                   Read<ToolPosition>, Read<ToolVelocity>, Read<ToolNormal>,
                   Write<ContactPair<ToolContact>>, Write<ContactReach<ToolContact>>,
                   Read<ContactStiffness<ToolContact>>, Read<ContactWeight<ToolContact>>,
-                  Write<PointForce<ToolContact>>, Write<Penetration<ToolContact>>,
-                  Write<ContactEnergy<ToolContact>>,
+                  Read<EdgeLength<ToolContact>>, Write<PointForce<ToolContact>>,
+                  Write<Penetration<ToolContact>>, Write<ContactEnergy<ToolContact>>,
                   Optional<Read<FrictionCoefficient<ToolContact>>>,
                   Optional<Write<ElasticSlip<ToolContact>>>,
                   Optional<Write<FrictionWork<ToolContact>>>,
@@ -127,7 +127,7 @@ void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<She
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
                     Write<Totals>);
 void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolVelocity>>,
-                   Write<Clock>);
+                   Read<Totals>, Optional<Read<ContactRules>>, Write<Clock>);
 
 // ---- used outside the step too --------------------------------------------------------------------
 // Where the programme puts a tool at `time`, m.

@@ -17,8 +17,8 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
                   Read<ToolVelocity> tool_velocity, Read<ToolNormal> tool_normal,
                   Write<ContactPair<ToolContact>> pair, Write<ContactReach<ToolContact>> reach,
                   Read<ContactStiffness<ToolContact>> stiffness,
-                  Read<ContactWeight<ToolContact>> weight, Write<PointForce<ToolContact>> force,
-                  Write<Penetration<ToolContact>> penetration,
+                  Read<ContactWeight<ToolContact>> weight, Read<EdgeLength<ToolContact>> length,
+                  Write<PointForce<ToolContact>> force, Write<Penetration<ToolContact>> penetration,
                   Write<ContactEnergy<ToolContact>> energy,
                   Optional<Read<FrictionCoefficient<ToolContact>>> friction,
                   Optional<Write<ElasticSlip<ToolContact>>> elastic_slip,
@@ -26,9 +26,9 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
                   Optional<Read<DampingCoefficient<ToolContact>>> damping,
                   Optional<Write<DampingWork<ToolContact>>> damping_work,
                   Optional<Read<ToolShapes>> shapes, Optional<Read<SurfaceRange>> range) {
-  const RowColumns<ToolContact> columns{pair,         reach,         stiffness, weight,
-                                        force,        penetration,   energy,    friction,
-                                        elastic_slip, friction_work, damping,   damping_work};
+  const RowColumns<ToolContact> columns{
+      pair,   reach,    stiffness,    weight,        length,  force,       penetration,
+      energy, friction, elastic_slip, friction_work, damping, damping_work};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
 

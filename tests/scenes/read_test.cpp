@@ -204,7 +204,7 @@ TEST(SceneText, HoldsOverridesAndDefaults) {
   const std::string text = load_scene_text(smallest, "s.toml", {"time.safety=0.5"}).text;
   EXPECT_THAT(text, HasSubstr("safety = 0.5"));
   EXPECT_THAT(text, HasSubstr("thickness = \"1 mm\""));
-  EXPECT_THAT(text, HasSubstr("boundary_edges = 60\nrings = 1\ncore = \"coarse\""));
+  EXPECT_THAT(text, HasSubstr("boundary_edges = 72\nrings = 1\ncore = \"coarse\""));
   EXPECT_THAT(text, testing::Not(HasSubstr("hardening_modulus")));
 }
 

@@ -401,7 +401,7 @@ const Wrong cases[] = {
      "[time]",
      "[contact]\nstiffness = @0.1\n[time]",
      "contact.stiffness",
-     {"0.1 is out of range", "allowed: a number, >= 0.3 and <= 100"}},
+     {"0.1 is out of range", "allowed: a number, >= 0.35 and <= 100"}},
     {"SpacingOfRectangles",
      "[[packing]]",
      "@[[packing]]\nkind = \"square\"\nparticle = \"block\"\nrows = 1\ncolumns = 1\n[[packing]]",
