@@ -1,7 +1,7 @@
 """A disc of 316L crushed by a tenth of its diameter between platens: force over compression."""
 import numpy as np
 
-from .problem import (Problem, densities, durations, formulations, interpolated, meshes, own_series,
+from .problem import (coarse_cores, Problem, densities, durations, formulations, interpolated, meshes, own_series,
                       relative_rms, safeties, skins, stiffnesses)
 
 COMPRESSION = np.linspace(0.01, 0.10, 61)
@@ -24,7 +24,7 @@ def problems(quick):
     finest = meshes("disc", ((12, 1), (16, 1), (20, 1)) if quick else ((40, 1), (80, 2), (160, 4)))
     families = {"mesh": meshes("disc", sizes)}
     if not quick:
-        families |= {"safety": safeties(), "duration": durations("press", 0.6),
+        families |= {"coarse core": coarse_cores("disc"), "safety": safeties(), "duration": durations("press", 0.6),
                      "density": densities("316L", 7990), "stiffness": stiffnesses(),
                      "skin": skins(), "formulation": formulations()}
     return [Problem(f"crushed-disc-mu{friction:g}",

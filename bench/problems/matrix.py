@@ -1,7 +1,7 @@
 """Compaction of a regular matrix by 10 %: force on the top punch over the punch's way."""
 import numpy as np
 
-from .problem import (Problem, Reference, densities, durations, formulations, interpolated, meshes,
+from .problem import (Problem, Reference, coarse_cores, densities, durations, formulations, interpolated, meshes,
                       safeties, skins, stiffnesses, together)
 
 COMPRESSION = np.linspace(0.001, 0.10, 100)
@@ -44,12 +44,13 @@ def small(suffix, quick):
     else:
         mesh = {s.label: s for s in meshes("disc", ((16, 1), (20, 1), (24, 1), (32, 1), (40, 1),
                                                     (48, 1), (60, 2), (80, 2)))}
-        fine = ((60, 2), (80, 2))
-        families = {"mesh": list(mesh.values()), "duration": durations("press", 2.8, (0.25, 0.5, 2)),
+        fine = ((80, 2), (120, 3)) if not suffix else ((60, 2), (80, 2))
+        families = {"mesh": list(mesh.values()), "coarse core": coarse_cores("disc"),
+                    "duration": durations("press", 2.8, (0.25, 0.5, 2)),
                     "density": densities(material, rho, (4, 16, 100)),
                     "safety": safeties((*TABLE_5_3[suffix], 0.99))}
         if not suffix:
-            families |= {"stiffness": stiffnesses((0.1, 0.25, 1, 2, 4)),
+            families |= {"stiffness": stiffnesses((0.35, 1, 2, 4)),
                          "skin": skins((0.25, 1)), "formulation": formulations(),
                          "mesh, density": [together(mesh[m], s) for m in ("24/1", "32/1", "60/2")
                                            for s in densities(material, rho, (4, 16))]}
@@ -61,13 +62,17 @@ def small(suffix, quick):
 def large(suffix, quick):
     """100 discs: the thesis's case, and its time-step study."""
     material, rho = MATERIALS[suffix]
-    sizes = ((12, 1),) if quick else ((16, 1), (20, 1), (24, 1), (32, 1), (40, 1), (60, 2), (80, 2))
+    sizes = ((12, 1), (16, 1)) if quick else ((24, 1), (32, 1), (40, 1), (60, 2), (80, 2))
     families = {"mesh": meshes("disc", sizes)}
     if not quick:
-        families |= {"duration": durations("press", 5.6, (0.25, 0.5, 2)),
-                     "density": densities(material, rho, (4, 16, 100)),
-                     "safety": safeties((*TABLE_5_3[suffix], 0.99)),
-                     "stiffness": stiffnesses((0.25, 1, 2)), "formulation": formulations()}
+        families["coarse core"] = coarse_cores("disc", ((48, 0), (60, 1), (72, 1)))
+        coarse = {s.label: s for s in families["coarse core"]}
+        faster = durations("press", 5.6, (0.5,))
+        families["coarse core, faster"] = [together(coarse[m], faster[0])
+                                           for m in ("48/0 coarse", "60/1 coarse")]
+        if not suffix:
+            families |= {"duration": durations("press", 5.6, (0.25, 0.5)),
+                         "density": densities(material, rho, (4,)), "formulation": formulations(("one-point",))}
     return Problem(f"matrix-100{suffix}", f"regular matrix of 100 discs, {material}",
                    f"compaction/regular-100{suffix}.toml", families, observe,
                    finest(meshes("disc", sizes[-2:])), errors, {"output.frames": 1}, standard=False)

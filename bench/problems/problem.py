@@ -34,11 +34,21 @@ class Problem:
     standard: bool = True      # part of the run without names; the others take long
 
 
-def meshes(particle, sizes):
+def meshes(particle, sizes, core="even"):
     """Of a disc: (edges, rings)."""
     key = f"particle.{particle}.mesh."
-    return [Setting(f"{edges}/{rings}", {key + "boundary_edges": edges, key + "rings": rings})
+    return [Setting(f"{edges}/{rings}" + (" coarse" if core == "coarse" else ""),
+                    {key + "boundary_edges": edges, key + "rings": rings, key + "core": f'"{core}"'})
             for edges, rings in sizes]
+
+
+# Of `accuracy` draft, standard and fine, with what lies between.
+COARSE_CORES = ((48, 0), (60, 0), (60, 1), (72, 1), (84, 1), (96, 2))
+
+
+def coarse_cores(particle, sizes=COARSE_CORES):
+    """A third of the outline's edges around the core."""
+    return meshes(particle, sizes, "coarse")
 
 
 def safeties(values=(0.25, 0.5, 0.75, 0.8, 0.95, 0.99)):
@@ -55,7 +65,7 @@ def densities(material, kg_per_m3, factors=(3, 10, 30, 100)):
             for f in factors]
 
 
-def stiffnesses(values=(0.1, 0.25, 1, 2, 4)):
+def stiffnesses(values=(0.35, 1, 2, 4, 10)):
     return [Setting(f"{v:g}", {"contact.stiffness": v}) for v in values]
 
 

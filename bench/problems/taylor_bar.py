@@ -25,7 +25,7 @@ def problems(quick):
     finest = meshes((6, 9, 12)) if quick else meshes((12, 24, 48))
     families = {"mesh": meshes((6, 9)) if quick else meshes((6, 9, 15, 18, 24, 36))}
     if not quick:
-        families |= {"safety": safeties(), "stiffness": stiffnesses((0.1, 0.25, 0.5, 1, 4)),
+        families |= {"safety": safeties(), "stiffness": stiffnesses((0.35, 0.5, 1, 4)),
                      "damping": [Setting(f"{v:g}", {"contact.damping": v}) for v in (0, 0.3, 1)],
                      "skin": skins(), "formulation": formulations(),
                      "mesh, safety": [together(m, s) for m in meshes((6, 9, 24))
