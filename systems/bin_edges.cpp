@@ -115,8 +115,11 @@ void bin_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
                                      slots[static_cast<std::size_t>(key.other)].material),
              damping_of(*rules, kappa, rho, edge)},
             columns);
-    reach(row) = 0;
-    if (source[r] < 0)
+    const bool known = source[r] >= 0;
+    // What was found to be the far side of a thin part stays that (edge_contact).
+    if (!(known && reach(row) == far_side))
+      reach(row) = known || key.slot != key.other ? 0 : unseen;
+    if (!known)
       for (int g = 0; g < edge_points; ++g) closest(row, g) = found[r].start + 0.5;
   }
 

@@ -110,18 +110,28 @@ double squared_distance_to_chord(const Spot& p, const double* control) {
   return dx * dx + dy * dy;
 }
 
+// The sampled side of a search.
+struct Sampled {
+  int slot, edge;
+  Box box;
+  Spot middle;
+};
+
 // The edge of `other` nearest to the middle of the sampled edge, of those that come near its box, or
-// no_edge. By the distance of chords, not of middles: beside the end of a long edge the middle of a short
+// no_edge. Of its own outline the neighbours are left out: there it is that the outline folds. By the distance of chords, not of middles: beside the end of a long edge the middle of a short
 // one around the corner may be nearer, and from there no search leads back over the corner.
 int nearest_edge(const Curves& curves, int other, const std::vector<Box>& other_edges,
-                 const Box& box, const Spot& middle, double skin) {
-  if (!near(box, curves.particle[static_cast<std::size_t>(other)], skin)) return Shape::no_edge;
+                 const Sampled& own, double skin) {
+  const int edges = static_cast<int>(other_edges.size());
+  if (!near(own.box, curves.particle[static_cast<std::size_t>(other)], skin)) return Shape::no_edge;
   int nearest = Shape::no_edge;
   double least = std::numeric_limits<double>::max();
   for (std::size_t e = 0; e < other_edges.size(); ++e) {
-    if (!near(box, other_edges[e], skin)) continue;
+    if (!near(own.box, other_edges[e], skin)) continue;
+    if (other == own.slot && edges_between(own.edge, static_cast<int>(e), edges) < least_fold)
+      continue;
     const double distance =
-        squared_distance_to_chord(middle, curves.edge_points(other, static_cast<int>(e)));
+        squared_distance_to_chord(own.middle, curves.edge_points(other, static_cast<int>(e)));
     if (distance < least) {
       least = distance;
       nearest = static_cast<int>(e);
@@ -135,8 +145,7 @@ std::vector<EdgeCandidate> candidates_of(const Curves& curves, const Grid& grid,
   const Box& own = curves.particle[static_cast<std::size_t>(slot)];
   std::vector<int> others;
   grid.around(own, [&](int other) {
-    if (other != slot && near(own, curves.particle[static_cast<std::size_t>(other)], skin))
-      others.push_back(other);
+    if (near(own, curves.particle[static_cast<std::size_t>(other)], skin)) others.push_back(other);
   });
   std::ranges::sort(others);
   std::vector<std::vector<Box>> other_edges(others.size());
@@ -147,12 +156,12 @@ std::vector<EdgeCandidate> candidates_of(const Curves& curves, const Grid& grid,
   }
   std::vector<EdgeCandidate> found;
   for (int e = 0; e < static_cast<int>(curves.bodies.shape_of_slot(slot).edges.size()); ++e) {
-    const Box box = curves.edge(slot, e);
     const Spot begin = knot(curves.edge_points(slot, e)),
                end = knot(curves.edge_points(slot, e) + 2);
-    const Spot middle{0.5 * (begin[0] + end[0]), 0.5 * (begin[1] + end[1])};
+    const Sampled sampled{
+        slot, e, curves.edge(slot, e), {0.5 * (begin[0] + end[0]), 0.5 * (begin[1] + end[1])}};
     for (std::size_t o = 0; o < others.size(); ++o) {
-      const int start = nearest_edge(curves, others[o], other_edges[o], box, middle, skin);
+      const int start = nearest_edge(curves, others[o], other_edges[o], sampled, skin);
       if (start != Shape::no_edge) found.push_back({slot, e, others[o], start});
     }
   }
@@ -160,6 +169,11 @@ std::vector<EdgeCandidate> candidates_of(const Curves& curves, const Grid& grid,
 }
 
 }  // namespace
+
+int edges_between(int a, int b, int edges) {
+  const int apart = std::abs(a - b);
+  return std::min(apart, edges - apart);
+}
 
 std::vector<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
                                            double skin) {

@@ -14,8 +14,13 @@ struct Box {
   double low[2], high[2];
 };
 
+// Edges of one outline that are nearer than this along it never touch each other.
+inline constexpr int least_fold = 4;
+// Along a closed outline of `edges`.
+int edges_between(int a, int b, int edges);
+
 // One candidate: an edge of the particle in `slot` within `skin` of the particle in `other`, whose edge
-// `start` is the nearest to it.
+// `start` is the nearest to it. `other` = `slot`: the outline comes near itself.
 struct EdgeCandidate {
   std::int32_t slot, edge, other, start;
 };

@@ -2,6 +2,8 @@
 // four Gauss points, turn gap and slip into forces, and book the energies.
 #pragma once
 
+#include <limits>
+
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
@@ -71,6 +73,9 @@ struct RowConstants {
 inline bool skin_used_up(const ContactIndex& index, const Clock& clock) {
   return index.travel_at_bin < 0 || clock.travel - index.travel_at_bin > index.skin;
 }
+
+// Reaches of rows of an outline against itself: not looked at yet; and seen from inside, which no touch is.
+inline constexpr double unseen = -1, far_side = std::numeric_limits<double>::infinity();
 
 // A row whose points are all apart: nothing acts, and nothing can until `clearance` has been travelled.
 template <class At>

@@ -6,6 +6,7 @@
 // Active   when the scene has more than one particle
 #include <oneapi/tbb/parallel_for.h>
 
+#include "systems/broad_phase.hpp"
 #include "systems/contact_row.hpp"
 #include "systems/run_failure.hpp"
 #include "systems/systems.hpp"
@@ -131,6 +132,16 @@ struct Closest {
   return m;
 }
 
+// An outline against itself: two parts of it that meet from outside, where it folds. From inside each point
+// is at some depth below the far side of its own body: a row that begins like that, or deeper than contacts
+// get, is none. Points whose closest point is their own neighbourhood do not touch.
+bool is_far_side(const Closest& c, int edge, int edges, double length, bool unseen, Lane& gap) {
+  for (std::size_t l = 0; l < 4; ++l)
+    if (edges_between(c.at.edge[l], edge, edges) < least_fold) gap[static_cast<int>(l)] = -1;
+  if (!any(gap > 0.0)) return unseen && any(c.beyond);
+  return unseen || greatest(gap) > 0.25 * length;
+}
+
 // The force on the other body's slope that makes friction free of torque: -T g/|x'| n.
 void set_couple(const Closest& c, const RowMotion& m, Lane along, double* couple) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
@@ -178,6 +189,13 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     const PointLanes speed = rates != nullptr ? edge_points_at(rates + first) : PointLanes{};
     RowMotion motion = row_motion(other, c, speed);
     motion.gap = c.beyond ? broadcast(-1) : motion.gap;  // past a corner: outside the other body
+    if (partner == slot) {
+      const int edges = static_cast<int>(other.shape.edges.size());
+      if (is_far_side(c, pair(row, 1), edges, edge.length, reach(row) == unseen, motion.gap)) {
+        set_apart(columns, row, far_side);
+        return;
+      }
+    }
     if (!any(motion.gap > 0.0)) {
       set_apart(columns, row, clock->travel + std::sqrt(least(c.rx * c.rx + c.ry * c.ry)));
       return;

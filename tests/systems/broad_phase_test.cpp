@@ -85,9 +85,10 @@ std::set<Key> brute_force(const Heap& heap, double skin) {
   std::set<Key> found;
   for (const int slot : heap.bodies.slot_of_number)
     for (const int other : heap.bodies.slot_of_number)
-      for (int e = 0; slot != other && e < edges_of(heap, slot); ++e)
+      for (int e = 0; e < edges_of(heap, slot); ++e)
         for (int f = 0; f < edges_of(heap, other); ++f)
-          if (near(edge_box(heap, slot, e), edge_box(heap, other, f), skin))
+          if ((slot != other || edges_between(e, f, edges_of(heap, slot)) >= least_fold) &&
+              near(edge_box(heap, slot, e), edge_box(heap, other, f), skin))
             found.insert({slot, e, other});
   return found;
 }
@@ -153,7 +154,8 @@ TEST(BroadPhase, StartsAtTheNearestOfTheOthersEdges) {
     EXPECT_TRUE(near(own, start, skin));
     const double nearest = distance(c, c.start);
     for (int f = 0; f < edges_of(heap, c.other); ++f)
-      if (near(own, edge_box(heap, c.other, f), skin)) {
+      if ((c.slot != c.other || edges_between(c.edge, f, edges_of(heap, c.slot)) >= least_fold) &&
+          near(own, edge_box(heap, c.other, f), skin)) {
         EXPECT_LE(nearest, distance(c, f) + 4e-3 / samples);  // half a step of the longest edges
       }
   }

@@ -1,6 +1,7 @@
 // Contact between two deformable particles: forces from an energy, momentum, patch test.
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
 #include "scenes/build.hpp"
@@ -72,6 +73,92 @@ TEST(Contact, ForceIsMinusTheGradientOfTheEnergy) {
       EXPECT_NEAR(-(up - down) / (2 * h), force[i][l], 2e-4 * largest)
           << "node " << i / 2 << " lane " << l;
     }
+}
+
+// A long bar bent to a ring whose ends meet: the same outline on both sides of the contact.
+class BentBar {
+ public:
+  BentBar() {
+    Scene scene;
+    scene.materials = {steel()};
+    scene.particles = {
+        {"bar", 0, RectangleOutline{length, 4e-3}, RectangleMesh{40, 4}, false, 0, {}}};
+    BodySpec bar, far;
+    far.position = Vec2(0, 0.2);
+    scene.bodies = {bar, far};
+    scene.stages = {{"stage", StageSpec::Kind::settle, 1e-3, {}, {}}};
+    scene.contact.friction = 0.3;
+    world = build_world(scene);
+    for (std::size_t i = 0; i < nodes(); ++i)
+      rest.push_back({world->column<Position>().lanes()[2 * i][0],
+                      world->column<Position>().lanes()[2 * i + 1][0]});
+  }
+  std::size_t nodes() const { return world->column<Position>().table.rows; }
+  // `gap` m between the ends, negative where they overlap.
+  void bend(double gap) {
+    const double radius = length / (2 * std::numbers::pi);
+    for (std::size_t i = 0; i < nodes(); ++i) {
+      const double angle = rest[i][0] / length * (2 * std::numbers::pi - gap / radius);
+      const double r = radius - rest[i][1];
+      world->column<Position>().lanes()[2 * i][0] = r * std::sin(angle);
+      world->column<Position>().lanes()[2 * i + 1][0] = -r * std::cos(angle);
+    }
+  }
+
+  static constexpr double length = 80e-3;
+  std::unique_ptr<World> world;
+  std::vector<Point> rest;
+};
+
+TEST(SelfContact, EndsOfABentBarPushEachOtherApart) {
+  BentBar bar;
+  Contacts contacts(*bar.world);
+  bar.bend(0.1e-3);  // near, and seen from outside
+  contacts.update();
+  EXPECT_EQ(contacts.energy(), 0);
+  bar.bend(-2e-6);
+  contacts.update();
+  ASSERT_GT(contacts.energy(), 0);
+  const auto& f = bar.world->column<ContactForce>();
+  const auto& x = bar.world->column<Position>();
+  double sum_x = 0, sum_y = 0, moment = 0, size = 0;
+  for (std::size_t i = 0; i < f.table.rows; ++i) {
+    const double fx = f.lanes()[2 * i][0], fy = f.lanes()[2 * i + 1][0];
+    sum_x += fx;
+    sum_y += fy;
+    moment += x.lanes()[2 * i][0] * fy - x.lanes()[2 * i + 1][0] * fx;
+    size += std::hypot(fx, fy);
+  }
+  EXPECT_NEAR(sum_x, 0, 1e-12 * size);
+  EXPECT_NEAR(sum_y, 0, 1e-12 * size);
+  EXPECT_NEAR(moment, 0, 1e-12 * size * bar.length);
+  // Both ends push over their height, each with half of the springs of two bodies.
+  const double h = 1e-8;
+  bar.bend(-2e-6 + h);
+  contacts.update();
+  const double less = contacts.energy();
+  bar.bend(-2e-6 - h);
+  contacts.update();
+  EXPECT_GT(contacts.energy(), less);
+}
+
+TEST(SelfContact, TheFarSideOfAThinPartIsNotTouched) {
+  Scene scene;
+  scene.materials = {steel()};
+  scene.particles = {
+      {"strip", 0, RectangleOutline{10e-3, 0.1e-3}, RectangleMesh{20, 1}, false, 0, {}}};
+  BodySpec one, other;
+  other.position = Vec2(0, 1e-3);
+  scene.bodies = {one, other};
+  scene.stages = {{"stage", StageSpec::Kind::settle, 1e-3, {}, {}}};
+  const auto world = build_world(scene);
+  Contacts contacts(*world);
+  contacts.update();
+  EXPECT_EQ(contacts.energy(), 0);
+  auto& x = world->column<Position>();
+  for (std::size_t i = 0; i < x.table.rows; ++i) x.lanes()[2 * i + 1][0] *= 0.2;  // squeezed flat
+  contacts.update();
+  EXPECT_EQ(contacts.energy(), 0);
 }
 
 }  // namespace

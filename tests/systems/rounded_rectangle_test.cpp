@@ -110,7 +110,8 @@ TEST(RoundedRectangle, EveryArcHasFourEdgesAndNeighboursDifferLittle) {
     EXPECT_LT(growth, 1.02 * most_edge_growth)
         << c.name;  // lengths of the curve, not of its chords
     const double arc = pi / 2 * c.outline.radius;
-    EXPECT_LT(least, 1.1 * arc / 4) << c.name;  // four edges an arc, with the rest of a short flat ...
+    EXPECT_LT(least, 1.1 * arc / 4)
+        << c.name;  // four edges an arc, with the rest of a short flat ...
     // ... and no edge is thinner than a quarter of an arc, or than an even division would make it.
     double perimeter = 0;
     for (const Shape::Edge& edge : c.shape.edges) perimeter += edge.length;
