@@ -70,7 +70,8 @@ class ToolChecks {
                "required key is missing, allowed: two quantities [x, y] in m, or radius instead of "
                "low and high");
     }
-    if ((tool.low.array() <= tool.high.array()).all()) return;
+    const bool box = !tool.radius && given(path + ".low") && given(path + ".high");
+    if (!box || (tool.low.array() <= tool.high.array()).all()) return;
     refuse(path, "high", "the box is empty, allowed: not below and not left of low");
   }
 
