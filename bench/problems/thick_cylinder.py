@@ -4,7 +4,9 @@ import numpy as np
 from .problem import Problem, Reference, durations, formulations, meshes, safeties
 
 YIELD, THICKNESS, BORE, OUTER = 24e6, 1e-3, 5e-3, 10e-3  # Pa, m, m, m (radii)
-WAY = np.linspace(0.5, 0.95, 46)  # of the way, where all of the wall flows
+# Of the way. All of the wall flows from a third of it, but the stress there still turns to that of plastic
+# flow, and the exact pressure comes up to its limit from 0.2% below.
+WAY = np.linspace(0.8, 0.97, 35)
 
 
 def observe(run):
