@@ -30,7 +30,7 @@ import fronts_report
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROBLEM_FILES = ("unit_cell", "crushed_disc", "taylor_bar", "hertz", "matrix", "limit_load",
-                 "shear_contact", "bar_wave")
+                 "shear_contact", "bar_wave", "thick_cylinder")
 COLUMNS = ("family", "setting", "overrides", "cpu_s", "wall_s", "steps", "elements", "dt_s",
            "energy_balance", "errors", "note", "observed", "key")
 REPEAT_BELOW = 0.5  # s of CPU time: shorter runs are repeated, the least time counts
@@ -97,7 +97,7 @@ class Program:
         row = {"overrides": json.dumps(overrides), "key": self.key(scene, overrides), "note": ""}
         with tempfile.TemporaryDirectory() as folder:
             code, cpu, log = self.once(scene, overrides, folder + "/run")
-            if code:
+            if code and not missed_only_expectations(code, folder + "/run"):
                 return row | {"note": ("refused: " if code == 2 else "failed: ") + last_line(log)}
             for _ in range(2 if cpu < REPEAT_BELOW else 0):
                 cpu = min(cpu, self.once(scene, overrides, folder + "/run")[1])
@@ -110,6 +110,11 @@ class Program:
                       "dt_s": f"{s['time'] / s['steps']:.4g}",
                       "energy_balance": f"{s['energy_balance_error']:.3g}",
                       "observed": json.dumps(observed)}
+
+
+def missed_only_expectations(code, folder):
+    """The run came to its end: how far it is off what the scene expects is what is measured here."""
+    return code == 3 and json.loads((pathlib.Path(folder) / "summary.json").read_text())["outcome"] == "done"
 
 
 def last_line(log):

@@ -249,7 +249,8 @@ void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
 // What the history calls the tool's position; a grip's is the middle of its box, or its centre.
 Vec2 start_of(const ToolSpec& tool) {
   if (tool.shape == ToolSpec::Shape::polyline) return tool.points.front();
-  if (is_grip(tool) && tool.holds != ToolSpec::Holds::radial) return (tool.low + tool.high) / 2;
+  if (is_grip(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
+    return (tool.low + tool.high) / 2;
   return tool.point;
 }
 

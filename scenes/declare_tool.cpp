@@ -54,10 +54,23 @@ Key<ToolSpec> corner_key(const char* name, Vec2 ToolSpec::*member, const char* d
            .kind = Kind::vector,
            .unit = "m",
            .range = within(-largest_size, largest_size),
-           .required = true,
            .only_for = "grip",
-           .doc = doc},
+           .doc = doc,
+           .fallback_doc = "required, unless there is a `radius`"},
           to(member)};
+}
+
+Key<ToolSpec> radius_key() {
+  return {{.name = "radius",
+           .kind = Kind::quantity,
+           .unit = "m",
+           .range = within(smallest_size, largest_size),
+           .only_for = "grip",
+           .doc = "Instead of the box: nodes no farther from `point` than this, before the run. "
+                  "The nodes of a hole lie a little outside of its circle, as their polygon has "
+                  "its area.",
+           .fallback_doc = "the box"},
+          to(&ToolSpec::radius)};
 }
 
 Key<ToolSpec> body_key() {
@@ -71,34 +84,37 @@ Key<ToolSpec> body_key() {
 }
 
 std::vector<Key<ToolSpec>> place_keys() {
-  return {{{.name = "name",
-            .kind = Kind::name,
-            .required = true,
-            .doc = "Moves, friction pairs and the results refer to it."},
-           to(&ToolSpec::name)},
-          {{.name = "shape",
-            .kind = Kind::choice,
-            .choices = {{"plane", "fills the half-plane behind its surface"},
-                        {"polyline", "fills what lies to the right of a chain of points"},
-                        {"grip", "holds the nodes of one particle in a box; nothing touches it"}},
-            .required = true,
-            .doc = "What it is."},
-           [](ToolSpec& spec, const Decoded& value) {
-             spec.shape = static_cast<ToolSpec::Shape>(value.index);
-           }},
-          {{.name = "point",
-            .kind = Kind::vector,
-            .unit = "m",
-            .range = within(-largest_size, largest_size),
-            .doc = "A point of a plane's surface, or the centre of a grip with holds = \"radial\".",
-            .fallback_doc = "required of those two, refused elsewhere"},
-           to(&ToolSpec::point)},
-          {{.name = "normal",
-            .kind = Kind::direction,
-            .required = true,
-            .only_for = "plane",
-            .doc = "Direction from the tool into the powder, of any length."},
-           to(&ToolSpec::normal)}};
+  return {
+      {{.name = "name",
+        .kind = Kind::name,
+        .required = true,
+        .doc = "Moves, friction pairs and the results refer to it."},
+       to(&ToolSpec::name)},
+      {{.name = "shape",
+        .kind = Kind::choice,
+        .choices = {{"plane", "fills the half-plane behind its surface"},
+                    {"polyline", "fills what lies to the right of a chain of points"},
+                    {"grip",
+                     "holds the nodes of one particle in a box or a circle; nothing touches it"}},
+        .required = true,
+        .doc = "What it is."},
+       [](ToolSpec& spec, const Decoded& value) {
+         spec.shape = static_cast<ToolSpec::Shape>(value.index);
+       }},
+      {{.name = "point",
+        .kind = Kind::vector,
+        .unit = "m",
+        .range = within(-largest_size, largest_size),
+        .doc = "A point of a plane's surface, or the centre of a grip with holds = \"radial\" or "
+               "a `radius`.",
+        .fallback_doc = "required of those, refused elsewhere"},
+       to(&ToolSpec::point)},
+      {{.name = "normal",
+        .kind = Kind::direction,
+        .required = true,
+        .only_for = "plane",
+        .doc = "Direction from the tool into the powder, of any length."},
+       to(&ToolSpec::normal)}};
 }
 
 std::vector<Key<ToolSpec>> keys() {
@@ -108,7 +124,8 @@ std::vector<Key<ToolSpec>> keys() {
         corner_key("low", &ToolSpec::low,
                    "Lower left corner of the box; nodes on its border count, where they lie before "
                    "the run."),
-        corner_key("high", &ToolSpec::high, "Upper right corner of the box."), holds_key()})
+        corner_key("high", &ToolSpec::high, "Upper right corner of the box."), radius_key(),
+        holds_key()})
     all.push_back(std::move(key));
   return all;
 }

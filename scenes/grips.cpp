@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "components/body.hpp"
@@ -14,7 +15,8 @@
 namespace pulvis {
 namespace {
 
-constexpr double round_off = 1e-9;  // of the body's size: how far outside of its box a node may lie
+constexpr double round_off =
+    1e-9;  // of the body's size: how far outside of its box or circle a node may lie
 
 struct Held {
   std::int32_t chunk, node, lane, tool;
@@ -62,9 +64,30 @@ void hold_node(const Scene& scene, const Held& node, double size, std::vector<He
   if (arm.norm() <= round_off * size)
     refuse(scene, node.tool, "point",
            fmt::format("node {} of particle {} lies at the centre, where no direction is radial, "
-                       "allowed: a box without its centre",
+                       "allowed: a point where the grip holds no node",
                        node.node, tool.body));
   add(arm.normalized(), Vec2::UnitX());
+}
+
+bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
+  if (tool.radius) return (place - tool.point).norm() <= *tool.radius + margin;
+  return (place.array() >= tool.low.array() - margin).all() &&
+         (place.array() <= tool.high.array() + margin).all();
+}
+
+[[noreturn]] void refuse_empty(const Scene& scene, int number, const std::vector<Vec2>& places) {
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
+  if (!tool.radius)
+    refuse(scene, number, "low",
+           fmt::format("no node of particle {} lies in the box, allowed: a box with at least one "
+                       "node in it",
+                       tool.body));
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec2& place : places) nearest = std::min(nearest, (place - tool.point).norm());
+  refuse(scene, number, "radius",
+         fmt::format("no node of particle {} lies within it, allowed: at least {:.6g} m, where the "
+                     "nearest is",
+                     tool.body, nearest));
 }
 
 std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
@@ -77,18 +100,12 @@ std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
   const int slot = bodies.slot_of_number[static_cast<std::size_t>(tool.body)];
   const std::vector<Vec2> places = places_of(world, slot);
   const double size = size_of(places);
-  const auto margin = Vec2::Constant(round_off * size).array();
   std::vector<Held> held;
   for (std::size_t n = 0; n < places.size(); ++n)
-    if ((places[n].array() >= tool.low.array() - margin).all() &&
-        (places[n].array() <= tool.high.array() + margin).all())
+    if (holds_place(tool, places[n], round_off * size))
       hold_node(scene, {slot / 4, static_cast<std::int32_t>(n), slot % 4, number, places[n]}, size,
                 held);
-  if (held.empty())
-    refuse(scene, number, "low",
-           fmt::format("no node of particle {} lies in the box, allowed: a box with at least one "
-                       "node in it",
-                       tool.body));
+  if (held.empty()) refuse_empty(scene, number, places);
   return held;
 }
 

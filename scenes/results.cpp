@@ -144,9 +144,10 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
     const std::string name = "tool/" + tool.name + "/";
     const bool grip = tool.shape == ToolSpec::Shape::grip;
     const bool radial = grip && tool.holds == ToolSpec::Holds::radial;
-    const char* place = radial ? "x: its centre's, and the way outwards of its nodes"
-                        : grip ? "of the middle of its box, moved with its nodes"
-                               : "a point of the tool's surface";
+    const char* place = radial        ? "x: its centre's, and the way outwards of its nodes"
+                        : tool.radius ? "of the middle of its circle, moved with its nodes"
+                        : grip        ? "of the middle of its box, moved with its nodes"
+                                      : "a point of the tool's surface";
     add_series(name + "position_x", "m", place);
     add_series(name + "position_y", "m", place);
     add_series(name + "force_x", "N",

@@ -109,12 +109,13 @@ struct SquarePacking {  // rows x columns on a square lattice
 };
 
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
-// the right of its points; a grip touches nothing and holds the nodes of one body that lie in a box.
+// the right of its points; a grip touches nothing and holds the nodes of one body that lie in a box, or
+// within a radius of `point`.
 struct ToolSpec {
   enum class Shape { plane, polyline, grip };
   enum class Holds { x, y, both, radial };
   std::string name;
-  Vec2 point = Vec2::Zero();    // m; of a radial grip: its centre
+  Vec2 point = Vec2::Zero();    // m; of a radial grip, and of one with a radius: its centre
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
@@ -123,6 +124,7 @@ struct ToolSpec {
   int body = 0;                   // of a grip, in the order of placement
   Vec2 low = Vec2::Zero();        // m, corners of a grip's box
   Vec2 high = Vec2::Zero();
+  std::optional<double> radius = {};  // m, about `point`, instead of the box
   Holds holds = Holds::both;
 };
 

@@ -17,7 +17,7 @@ class ToolChecks {
       const std::string path = fmt::format("tool[{}]", t);
       point(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
-      if (scene_.tools[t].shape == ToolSpec::Shape::grip) box(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::grip) region(scene_.tools[t], path);
     }
     for (std::size_t s = 0; s < scene_.stages.size(); ++s)
       for (std::size_t m = 0; m < scene_.stages[s].moves.size(); ++m)
@@ -34,17 +34,20 @@ class ToolChecks {
   }
 
   void point(const ToolSpec& tool, const std::string& path) {
+    const bool plane = tool.shape == ToolSpec::Shape::plane;
     const bool radial =
         tool.shape == ToolSpec::Shape::grip && tool.holds == ToolSpec::Holds::radial;
-    const bool wanted = tool.shape == ToolSpec::Shape::plane || radial;
+    const bool wanted = plane || radial || tool.radius;
     if (wanted && !given(path + ".point"))
       refuse(path, "point",
              fmt::format("required key is missing: {}, allowed: two quantities [x, y] in m",
-                         radial ? "nodes move radially from it" : "the plane goes through it"));
+                         plane    ? "the plane goes through it"
+                         : radial ? "nodes move radially from it"
+                                  : "it is the centre of the radius"));
     if (!wanted && given(path + ".point"))
       refuse(path, "point",
              "has no effect, allowed: only with shape = \"plane\", or shape = \"grip\" and holds = "
-             "\"radial\"");
+             "\"radial\" or a radius");
   }
 
   void polyline(const ToolSpec& tool, const std::string& path) {
@@ -56,8 +59,19 @@ class ToolChecks {
       refuse(path, "rounding", rounded);
   }
 
-  void box(const ToolSpec& tool, const std::string& path) {
-    if ((tool.low.array() <= tool.high.array()).all()) return;
+  // A grip says in one of two ways which nodes it holds.
+  void region(const ToolSpec& tool, const std::string& path) {
+    for (const char* corner : {"low", "high"}) {
+      const bool there = given(path + "." + corner);
+      if (tool.radius && there)
+        refuse(path, corner, "has no effect beside radius, allowed: low and high, or radius alone");
+      if (!tool.radius && !there)
+        refuse(path, corner,
+               "required key is missing, allowed: two quantities [x, y] in m, or radius instead of "
+               "low and high");
+    }
+    const bool box = !tool.radius && given(path + ".low") && given(path + ".high");
+    if (!box || (tool.low.array() <= tool.high.array()).all()) return;
     refuse(path, "high", "the box is empty, allowed: not below and not left of low");
   }
 

@@ -316,6 +316,23 @@ TEST(Grip, NodesFollowTheProgramWithoutDrift) {
   EXPECT_NEAR(e.value("tool/right/position_x"), 20.002e-3, 1e-15);
 }
 
+// The node in the middle of an end by a circle instead of a box: the same run.
+TEST(Grip, HoldsWithinARadius) {
+  Experiment box("basic/tension.toml");
+  Scene scene = box.scene;
+  ToolSpec& middle = scene.tools[2];
+  middle.radius = 1e-3;  // the next node is 1.25 mm away
+  Experiment circle(scene);
+  box.run(10);
+  circle.run(10);
+  EXPECT_EQ(box.column<GripTarget>().table.rows, circle.column<GripTarget>().table.rows);
+  EXPECT_EQ(box.value("tool/right/force_x"), circle.value("tool/right/force_x"));
+  EXPECT_EQ(circle.value("tool/middle/position_x"), middle.point.x());
+  middle.radius = 1.25e-3;  // and now it holds the next to the right, above and below
+  EXPECT_EQ(Experiment(scene).column<GripTarget>().table.rows,
+            box.column<GripTarget>().table.rows + 3);
+}
+
 // A square of one element whose corners move outwards: uniform strain e in x and y, U = K e^2 A t with
 // K = E / ((1 + nu) (1 - 2 nu)); the radial forces together are dU/du, u = e r.
 TEST(Grip, RadialStretchOfASquare) {

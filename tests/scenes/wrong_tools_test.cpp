@@ -24,6 +24,9 @@ std::string scene_with(const std::string& tool) {
   return std::string(right_scene) + "[[tool]]\nname = \"third\"\n" + tool + "\n";
 }
 
+const std::string grip_in_block =
+    "shape = \"grip\"\npoint = [\"10 mm\", \"25 mm\"]\nradius = \"6 mm\"\nholds = \"both\"\n";
+
 const std::string grip_on_block =
     "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = \"x\"\n";
 
@@ -41,7 +44,7 @@ TEST(RightTools, AreAccepted) {
   for (const std::string& tool :
        {std::string("shape = \"polyline\"\npoints = [[\"0 mm\", \"-1 mm\"], [\"9 mm\", \"-2 mm\"], "
                     "[\"20 mm\", \"-1 mm\"]]\nrounding = \"1 mm\""),
-        grip_on_block})
+        grip_on_block, grip_in_block})
     for (const SceneProblem& problem : problems_with(tool)) ADD_FAILURE() << problem.text();
 }
 
@@ -131,6 +134,46 @@ const WrongTool cases[] = {
      "shape = \"grip\"\nlow = [\"50 mm\", \"0 mm\"]\nhigh = [\"60 mm\", \"9 mm\"]\nholds = \"x\"",
      "tool[2].low",
      {"no node of particle 0 lies in the box"}},
+    {"NoNodeWithinTheRadius",
+     "shape = \"grip\"\npoint = [\"-1 mm\", \"20 mm\"]\nradius = \"0.9 mm\"\nholds = \"x\"",
+     "tool[2].radius",
+     {"no node of particle 0 lies within it", "allowed: at least 0.001 m"}},
+    {"RadiusBesideABox",
+     "shape = \"grip\"\npoint = [\"0 mm\", \"20 mm\"]\nradius = \"9 mm\"\nlow = [\"0 mm\", \"20 "
+     "mm\"]\n"
+     "holds = \"x\"",
+     "tool[2].low",
+     {"has no effect beside radius", "low and high, or radius alone"}},
+    {"NeitherBoxNorRadius",
+     "shape = \"grip\"\nholds = \"x\"",
+     "tool[2].low",
+     {"required key is missing", "or radius instead of low and high"}},
+    {"HalfABox",
+     "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nholds = \"x\"",
+     "tool[2].high",
+     {"required key is missing"}},
+    {"RadiusWithoutCentre",
+     "shape = \"grip\"\nradius = \"9 mm\"\nholds = \"x\"",
+     "tool[2].point",
+     {"required key is missing: it is the centre of the radius"}},
+    {"RadiusOfZero",
+     "shape = \"grip\"\npoint = [\"0 mm\", \"20 mm\"]\nradius = \"0 mm\"\nholds = \"x\"",
+     "tool[2].radius",
+     {}},
+    {"RadiusOfAPlane",
+     "shape = \"plane\"\npoint = [\"0 mm\", \"-9 mm\"]\nnormal = [0, 1]\nradius = \"9 mm\"",
+     "tool[2].radius",
+     {"has no effect with shape = \"plane\""}},
+    {"PointOfABoxThatHoldsX",
+     "shape = \"grip\"\npoint = [\"0 mm\", \"20 mm\"]\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 "
+     "mm\", "
+     "\"30 mm\"]\nholds = \"x\"",
+     "tool[2].point",
+     {"has no effect", "or a radius"}},
+    {"NodeAtTheCentreOfTheRadius",
+     "shape = \"grip\"\npoint = [\"10 mm\", \"25 mm\"]\nradius = \"6 mm\"\nholds = \"radial\"",
+     "tool[2].point",
+     {"lies at the centre"}},
     {"NoSuchBody",
      "shape = \"grip\"\nbody = 5\nlow = [\"0 mm\", \"0 mm\"]\nhigh = [\"60 mm\", \"9 mm\"]\nholds "
      "= "
