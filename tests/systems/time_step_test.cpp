@@ -29,7 +29,8 @@ class LoneParticle {
   Eigen::Index unknowns() const {
     return static_cast<Eigen::Index>(2 * world_->column<Position>().table.rows);
   }
-  double& position(Eigen::Index i) { return world_->column<Position>().lanes()[i][0]; }
+  double position(Eigen::Index i) const { return world_->column<Position>().lanes()[i][0]; }
+  void put(Eigen::Index i, double x) { world_->column<Position>().lanes()[i][0] = x; }
 
   Eigen::VectorXd force() {
     forces_->run();
@@ -44,11 +45,11 @@ class LoneParticle {
     Eigen::MatrixXd k(unknowns(), unknowns());
     for (Eigen::Index j = 0; j < unknowns(); ++j) {
       const double x = position(j);
-      position(j) = x + h;
+      put(j, x + h);
       const Eigen::VectorXd plus = force();
-      position(j) = x - h;
+      put(j, x - h);
       k.col(j) = (force() - plus) / (2 * h);
-      position(j) = x;
+      put(j, x);
     }
     Eigen::VectorXd m(unknowns());
     for (Eigen::Index i = 0; i < m.size(); ++i)
@@ -74,8 +75,8 @@ void expect_bound(const Outline& outline, const MeshSpec& mesh, double nu, doubl
   LoneParticle p(one_particle(outline, mesh, nu));
   for (Eigen::Index n = 0; n < p.unknowns(); n += 2) {
     const Eigen::Vector2d x = stretch * Eigen::Vector2d(p.position(n), p.position(n + 1));
-    p.position(n) = x[0];
-    p.position(n + 1) = x[1];
+    p.put(n, x[0]);
+    p.put(n + 1, x[1]);
   }
   const double share = p.stable_step() * p.highest_frequency() / 2;
   EXPECT_LE(share, 1 + 1e-6);
