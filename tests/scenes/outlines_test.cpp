@@ -11,14 +11,15 @@
 namespace pulvis {
 namespace {
 
-// A shipped scene with a part of its text replaced.
-Scene changed_scene(const std::string& file, const std::string& from, const std::string& to,
-                    const std::vector<std::string>& overrides = {}) {
+// A shipped scene whose first particle has another outline and mesh.
+Scene with_outline(const std::string& file, const std::string& outline,
+                   const std::vector<std::string>& overrides) {
   std::ifstream stream(std::string(PULVIS_SOURCE_DIR) + "/scenes/" + file);
   std::stringstream text;
   text << stream.rdbuf();
   std::string scene = text.str();
-  return load_scene_text(scene.replace(scene.find(from), from.size(), to), file, overrides).scene;
+  const std::size_t from = scene.find("outline = "), end = scene.find("\n\n[[", from);
+  return load_scene_text(scene.replace(from, end - from, outline), file, overrides).scene;
 }
 
 std::vector<Point> positions(const Experiment& e) {  // of the particle in lane 0
@@ -71,11 +72,10 @@ TEST(RoundedCorner, PressesSmoothlyOnAPlane) {
 // that, and nothing of it grows.
 TEST(SpinningRoundedRectangle, KeepsItsShape) {
   Experiment e(
-      changed_scene("basic/spinning-disc.toml", "outline = \"disc\"\ndiameter = \"10 mm\"",
-                    "outline = \"rounded_rectangle\"\nwidth = \"15 mm\"\nheight = \"10 mm\"\n"
-                    "radius = \"0.5 mm\"",
-                    {"particle.disc.mesh.boundary_edges=48", "stage.spin.duration=3 ms",
-                     "body[0].angular_velocity=1e4 rad/s"}));
+      with_outline("basic/spinning-disc.toml",
+                   "outline = \"rounded_rectangle\"\nwidth = \"15 mm\"\nheight = \"10 mm\"\n"
+                   "radius = \"0.5 mm\"\n\n[particle.mesh]\nboundary_edges = 48",
+                   {"stage.spin.duration=3 ms", "body[0].angular_velocity=1e4 rad/s"}));
   const std::vector<Point> start = positions(e);
   e.run(30);
   const std::vector<Point> end = positions(e);
@@ -96,12 +96,10 @@ TEST(SpinningRoundedRectangle, KeepsItsShape) {
 // A ring pressed between two platens: Timoshenko's curved beam, bending, tension and shear.
 TEST(Ring, IsAsStiffAsACurvedBeam) {
   const double hole = 8.5e-3;
-  Experiment e(changed_scene("basic/disc-platens.toml",
-                             "outline = \"disc\"\ndiameter = \"10 mm\"\n\n[particle.mesh]\n"
-                             "boundary_edges = 96\nrings = 8\nrefinement = 48",
-                             "outline = \"ring\"\ndiameter = \"10 mm\"\nhole = \"8.5 mm\"\n\n"
-                             "[particle.mesh]\nboundary_edges = 160\nrings = 4",
-                             {"stage.press.duration=0.6 ms", "contact.stiffness=1"}));
+  Experiment e(with_outline("basic/disc-platens.toml",
+                            "outline = \"ring\"\ndiameter = \"10 mm\"\nhole = \"8.5 mm\"\n\n"
+                            "[particle.mesh]\nboundary_edges = 160\nrings = 4",
+                            {"stage.press.duration=0.6 ms", "contact.stiffness=1"}));
   const std::vector<Point> start = positions(e);
   e.run(10);
   const std::vector<Point> end = positions(e);
