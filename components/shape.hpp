@@ -22,10 +22,12 @@ struct Shape {
     double determinant;                      // of dX/dxi, m^2: the area that the point stands for
   };
   // Of an element with one point: natural components of h in x = centre + a xi + b eta + h xi eta, and
-  // the skewness a.b / a.a, a.b / b.b.
+  // the skewness a.b / a.a, a.b / b.b, and what det dX/d(xi,eta) at the middle is over that at each of the
+  // four Gauss points.
   struct Hourglass {
     std::array<double, 2> natural;
     std::array<double, 2> skew;
+    std::array<double, 4> over_determinant;
   };
   struct CurveTerm {  // share of a boundary node in a control point
     Row<BoundaryNode> node;

@@ -24,8 +24,11 @@ Shape::GaussPoint point_at(const kernels::QuadMap<double>& map, double xi, doubl
 Shape::Hourglass hourglass_of(const kernels::QuadMap<double>& m) {
   const auto w = kernels::natural_hourglass(m, 1 / determinant(kernels::map_gradient(m, 0.0, 0.0)));
   const double across = m.ax * m.bx + m.ay * m.by;
+  auto over = kernels::corner_determinants(w);
+  for (double& corner : over) corner = 1 / corner;
   return {{w.one, w.two},
-          {across / (m.ax * m.ax + m.ay * m.ay), across / (m.bx * m.bx + m.by * m.by)}};
+          {across / (m.ax * m.ax + m.ay * m.ay), across / (m.bx * m.bx + m.by * m.by)},
+          over};
 }
 
 void set_gauss_points(Shape& shape) {

@@ -94,8 +94,8 @@ struct NothingBeside {
   T push(T excess, T) const {
     return excess;
   }
-  template <class T>
-  void give_way(T) const {}
+  template <class T, class Hardening>
+  void settle(const auto&, T&, T&, T, T, T, const Hardening&) const {}
 };
 
 template <class T, class Hardening>
@@ -115,10 +115,18 @@ struct J2State {
   T eps;
 };
 
+// Mean m of b = d + m 1 with det b = 1, from q = d:d / 2 and det d: m^3 - q m + det d = 1. The elastic
+// strain is small; the series leaves out its eighth order.
+template <class T>
+T mean_of_unit_determinant(T q, T det) {
+  const T a = (1.0 / 3.0) * q, e = (1.0 / 3.0) * det, t = a - e;
+  const T third_order = (1.0 / 3.0) * (a * a) * fma(-a, a, a);  // of q
+  return 1.0 + (fma(e, t, t) - third_order);
+}
+
 // Radial return of the trial state at a Gauss point. Lanes that do not yield come back unchanged.
 // `r2` = J^(-2/3). b_trial is not formed again: its deviator is theta s / mu, its mean follows from
-// det b = 1. One division serves the consistency condition and the roots of the determinant together.
-// `beside` is returned with the deviator.
+// det b = 1. `beside` is returned with the deviator.
 template <class T, class Hardening, class Beside>
 J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
                          T theta_over_mu, const Hardening& law, Beside&& beside) {
@@ -130,27 +138,20 @@ J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T m
   const T q = (0.5 * norm2) * (theta_over_mu * theta_over_mu);  // 1/2 d : d
   const T det = (dxx + dyy) * fma(dxy, dxy, -(dxx * dyy));      // det d
 
-  // Mean of b_trial = d + mean 1 from its unit determinant, mean^3 - q mean + det = 1: the elastic strain
-  // is small, so that a fixed slope converges; what is left over is of its eighth order.
-  T mean = fma(q - det, 1.0 / 3.0, 1.0);
-  const T rough = fma(3.0 * mean, mean, -q);
-  const T two_mu_bar_rough = 2.0 * mu_over_theta * mean;
+  const T mean = mean_of_unit_determinant(q, det);
+  const T two_mu_bar = 2.0 * mu_over_theta * mean;
 
   // Consistency: |s| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps + sqrt(2/3) dgamma), mu_bar = mu tr b/3;
   // beta = |s_new| / |s_trial|.
   const T excess = beside.push(fma(-sqrt_2_3, law.flow_stress(trial.eps), norm), norm);
-  const T slope = beside.slope(norm2, joint2, norm, law.modulus(trial.eps), two_mu_bar_rough);
-  const T over = 1.0 / (slope * rough);
-  const T over_tangent = over * slope;
-  const T dgamma = select(flows, excess * norm * (over * rough), T{});
-  const T beta = select(flows, fma(-two_mu_bar_rough * excess, over * rough, 1.0), T{} + 1.0);
+  const T slope = beside.slope(norm2, joint2, norm, law.modulus(trial.eps), two_mu_bar);
+  const T over = select(flows, excess / slope, T{});
+  T dgamma = norm * over;
+  T beta = fma(-two_mu_bar, over, 1.0);
+  beside.settle(flows, beta, dgamma, norm2, two_mu_bar, trial.eps, law);
 
-  const T beta2 = beta * beta, q_new = beta2 * q, det_new = fma(beta2 * beta, det, -1.0);
-  T m = mean;
-  for (int i = 0; i < 2; ++i) {
-    mean = fma(-over_tangent, fma(fma(mean, mean, -q), mean, det - 1.0), mean);
-    m = fma(-over_tangent, fma(fma(m, m, -q_new), m, det_new), m);
-  }
+  const T beta2 = beta * beta;
+  const T m = mean_of_unit_determinant(beta2 * q, beta2 * beta * det);
 
   // Pulled back: C_p^-1 = beta C_p^-1 + (m - beta mean) J^(2/3) (F^T F)^-1.
   const T shift = fma(-beta, mean, m);
@@ -159,13 +160,11 @@ J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T m
   const T cxx = fma(f.xy, f.xy, f.yy * f.yy), cyy = fma(f.xx, f.xx, f.yx * f.yx);
   const T cxy = -fma(f.xx, f.xy, f.yx * f.yy);
   const T grow = beta - 1.0;
-  beside.give_way(beta);
   J2State<T> next;
   next.s = {beta * trial.s.xx, beta * trial.s.yy, beta * trial.s.xy};
-  next.c = {select(flows, fma(beta, trial.c.xx, fma(pull, cxx, grow)), trial.c.xx),
-            select(flows, fma(beta, trial.c.yy, fma(pull, cyy, grow)), trial.c.yy),
-            select(flows, fma(beta, trial.c.zz, fma(pull * j, j, grow)), trial.c.zz),
-            select(flows, fma(beta, trial.c.xy, pull * cxy), trial.c.xy)};
+  next.c = {fma(beta, trial.c.xx, fma(pull, cxx, grow)),
+            fma(beta, trial.c.yy, fma(pull, cyy, grow)),
+            fma(beta, trial.c.zz, fma(pull * j, j, grow)), fma(beta, trial.c.xy, pull * cxy)};
   next.eps = fma(sqrt_2_3, dgamma, trial.eps);
   return next;
 }

@@ -27,7 +27,8 @@ struct HourglassViews {
   Lane modulus;
 };
 
-// Returns det F where a corner's Gauss point would be, over theta: the sign tells an element folded.
+// Returns the least det F of where the Gauss points of a four-point element would be, over theta: it tells
+// a folded element.
 Lane hourglass_stress(const HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane over_det,
                       const Shape::Hourglass& reference, Row<Element> e) {
   const auto w = kernels::natural_hourglass(map, over_det);
@@ -38,7 +39,10 @@ Lane hourglass_stress(const HourglassViews& v, const kernels::QuadMap<Lane>& map
   }
   v.stress(e, 0) = v.modulus * strain.one;
   v.stress(e, 1) = v.modulus * strain.two;
-  return fma(-kernels::gauss, abs(w.one) + abs(w.two), 1.0);
+  const auto corners = kernels::corner_determinants(w);
+  const auto& over = reference.over_determinant;
+  return min(min(corners[0] * over[0], corners[1] * over[1]),
+             min(corners[2] * over[2], corners[3] * over[3]));
 }
 
 // `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the least det F of the element's points.
