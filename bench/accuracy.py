@@ -43,14 +43,19 @@ def at(xs, ys, x):
 
 
 def cells():
-    print("| edges, rings | quads | wall s | dt ns | " +
+    print("| mesh: edges, rings | quads | wall s | dt ns | " +
           " | ".join(f"axial {d:.2f}" for d in REFERENCE) + " | " +
           " | ".join(f"lateral {d:.2f}" for d in REFERENCE) + " |")
     print("|" + "---|" * 14)
-    for edges, rings in ((20, 1), (40, 1), (80, 2), (160, 4)):
+    for name, edges, rings, core in (
+            ("", 20, 1, "even"), ("as shipped: ", 40, 1, "even"), ("", 80, 2, "even"),
+            ("", 160, 4, "even"), ("`draft`: ", 48, 0, "coarse"), ("`standard`: ", 72, 1, "coarse"),
+            ("`fine`: ", 96, 2, "coarse")):
         curve, summary = run("unit-cell.toml", (f"particle.disc.mesh.boundary_edges={edges}",
-                                                f"particle.disc.mesh.rings={rings}"))
-        cells_of = [f"{edges}, {rings}", str(summary["elements"]), f"{summary['wall_seconds']:.1f}",
+                                                f"particle.disc.mesh.rings={rings}",
+                                                f"particle.disc.mesh.core={core}"))
+        label = f"{name}{edges}, {rings}" + (", coarse core" if core == "coarse" else "")
+        cells_of = [label, str(summary["elements"]), f"{summary['wall_seconds']:.1f}",
                     f"{1e9 * summary['time'] / summary['steps']:.0f}"]
         for which in (1, 2):
             for density, reference in REFERENCE.items():

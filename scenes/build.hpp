@@ -17,7 +17,7 @@ struct Needs {
   bool grips = false;
   bool friction = false;  // a coefficient above zero can act
   bool damping = false;
-  ElementSpec::Formulation formulation = ElementSpec::Formulation::four_point;
+  ElementSpec::Formulation formulation = ElementSpec::Formulation::one_point;
   bool contact() const { return pairs || tools; }
 };
 

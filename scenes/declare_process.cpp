@@ -205,7 +205,7 @@ const TableDeclaration<ElementSpec>& element() {
                       "one point, hourglass modes held by elastic-plastic bending: faster"},
                      {"standard",
                       "2x2 Gauss points, each with its own dilatation: locks, for comparison"}},
-         .fallback = value_of("four-point"),
+         .fallback = value_of("one-point"),
          .doc = "Where an element takes its stresses."},
         [](ElementSpec& spec, const Decoded& value) {
           spec.formulation = static_cast<ElementSpec::Formulation>(value.index);

@@ -166,7 +166,7 @@ struct TimeSpec {
 };
 
 struct ElementSpec {
-  enum class Formulation { four_point, one_point, standard } formulation = Formulation::four_point;
+  enum class Formulation { four_point, one_point, standard } formulation = Formulation::one_point;
 };
 
 struct OutputSpec {

@@ -50,8 +50,15 @@ def small(suffix, quick):
                     "density": densities(material, rho, (4, 16, 100)),
                     "safety": safeties((*TABLE_5_3[suffix], 0.99))}
         if not suffix:
+            four_point = formulations(("four-point",))[0]
+            coarse = {s.label: s for s in families["coarse core"]}
+            families["coarse core, faster"] = [
+                together(coarse[m], s) for m in ("60/1 coarse", "72/1 coarse", "84/1 coarse")
+                for s in durations("press", 2.8, (0.5,))]
             families |= {"stiffness": stiffnesses((0.35, 1, 2, 4)),
                          "skin": skins((0.25, 1)), "formulation": formulations(),
+                         "mesh, formulation": [together(mesh[m], four_point) for m in ("48/1", "60/2")] +
+                         [together(coarse["72/1 coarse"], four_point)],
                          "mesh, density": [together(mesh[m], s) for m in ("24/1", "32/1", "60/2")
                                            for s in densities(material, rho, (4, 16))]}
     return Problem(f"matrix-25{suffix}", f"regular matrix of 25 discs, {material}",
@@ -66,13 +73,14 @@ def large(suffix, quick):
     families = {"mesh": meshes("disc", sizes)}
     if not quick:
         families["coarse core"] = coarse_cores("disc", ((48, 0), (60, 1), (72, 1)))
-        coarse = {s.label: s for s in families["coarse core"]}
         faster = durations("press", 5.6, (0.5,))
-        families["coarse core, faster"] = [together(coarse[m], faster[0])
-                                           for m in ("48/0 coarse", "60/1 coarse")]
+        families["coarse core, faster"] = [
+            together(s, faster[0]) for s in coarse_cores("disc", ((60, 1), (72, 1), (84, 1)))]
         if not suffix:
-            families |= {"duration": durations("press", 5.6, (0.5,)),
-                         "formulation": formulations(("one-point",))}
+            four_point = formulations(("four-point",))[0]
+            families["mesh, formulation"] = [
+                together(s, four_point) for s in (*meshes("disc", ((40, 1), (60, 2))),
+                                                  *coarse_cores("disc", ((72, 1),)))]
     return Problem(f"matrix-100{suffix}", f"regular matrix of 100 discs, {material}",
                    f"compaction/regular-100{suffix}.toml", families, observe,
                    finest(meshes("disc", sizes[-2:])), errors, {"output.frames": 1}, standard=False)

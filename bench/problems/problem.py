@@ -73,7 +73,7 @@ def skins(values=(0.1, 0.25, 1, 2)):
     return [Setting(f"{v:g}", {"contact.skin": v}) for v in values]
 
 
-def formulations(values=("one-point", "standard")):
+def formulations(values=("four-point", "standard")):
     return [Setting(v, {"element.formulation": f'"{v}"'}) for v in values]
 
 

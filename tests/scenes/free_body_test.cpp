@@ -38,7 +38,8 @@ Momentum momentum(Experiment& e) {
 }
 
 // `arm`: how far apart the lines of opposite forces may be, m.
-void expect_momentum_and_energy_kept(const std::vector<std::string>& overrides, double arm) {
+void expect_momentum_and_energy_kept(const std::vector<std::string>& overrides, double arm,
+                                     double energy = 0.01) {
   Experiment e("basic/oblique-impact.toml", overrides);
   const Momentum before = momentum(e);
   double friction = 0, deepest = 0;
@@ -53,7 +54,7 @@ void expect_momentum_and_energy_kept(const std::vector<std::string>& overrides, 
   EXPECT_NEAR(after.x - before.x, 0, 1e-12 * before.size);
   EXPECT_NEAR(after.y - before.y, 0, 1e-12 * before.size);
   EXPECT_NEAR(after.angular - before.angular, 0, arm * before.size);
-  EXPECT_LT(e.results.energy_balance_error(), 0.01);
+  EXPECT_LT(e.results.energy_balance_error(), energy);
 }
 
 class ObliqueImpact : public testing::TestWithParam<const char*> {};
@@ -68,7 +69,10 @@ TEST_P(ObliqueImpact, OfDiscsOfOneAndFourElementsKeepsThemToo) {
     expect_momentum_and_energy_kept(
         {std::string("contact.friction=") + GetParam(),
          std::string("particle.disc.mesh.boundary_edges=") + edges, "particle.disc.mesh.rings=0"},
-        1e-8 * 3.14 * 10e-3 / std::stod(edges));
+        1e-8 * 3.14 * 10e-3 / std::stod(edges),
+        // A blow that a single element answers lasts a few steps: 1.7% with friction 1, 0.1% at half the
+        // step.
+        *edges == '4' ? 0.02 : 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Frictions, ObliqueImpact, testing::Values("0", "0.2", "1"));
 

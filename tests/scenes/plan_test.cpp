@@ -111,9 +111,9 @@ TEST(Plan, DampingColumnsOnlyWithDamping) {
 TEST(Plan, FreeParticleHasNoContact) {
   const Asked asked("basic/spinning-disc.toml");
   EXPECT_THAT(asked.at(contact_places), IsEmpty());
-  EXPECT_THAT(asked.names,
-              ElementsAre("advance_clock", "elastic_energy", "elastic_stress", "element_health",
-                          "integrate", "internal_force", "kinetic_energy", "stable_time_step"));
+  EXPECT_THAT(asked.names, ElementsAre("advance_clock", "elastic_energy", "elastic_stress",
+                                       "element_health", "hourglass_energy", "integrate",
+                                       "internal_force", "kinetic_energy", "stable_time_step"));
 }
 
 TEST(Plan, OneParticleBetweenToolsHasNoPairs) {
@@ -163,7 +163,7 @@ TEST(Plan, EdgesOfACompactionStep) {
                   "tool_contact -> contact_totals", "tool_contact -> contact_force",
                   "contact_totals -> contact_health",  // totals
                   "contact_health -> tool_reaction",   // totals
-                  "tool_reaction -> element_health",    // clock
+                  "tool_reaction -> element_health",   // clock
                   "contact_force -> element_health",   // least_jacobian
                   "element_health -> advance_clock",   // clock
               }));
@@ -204,7 +204,7 @@ TEST(Plan, BodiesAreComputedInOnePassOverTheChunks) {
 // ---- no idle column -----------------------------------------------------------------------------
 // Read by the results: history, frames.
 const Names shown{"tool/force", "particle/kinetic_energy", "particle/elastic_energy",
-                  "particle/plastic_work"};
+                  "particle/plastic_work", "particle/hourglass_energy"};
 // Read and written by one and the same system through Write: history of a contact row, sums.
 const Names kept_by_their_writer{"contact/reach", "tool_contact/reach", "contact/elastic_slip",
                                  "tool_contact/elastic_slip", "curve/force"};
