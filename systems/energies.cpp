@@ -95,19 +95,24 @@ template decltype(plastic_work<FourPoint>) plastic_work<FourPoint>;
 template decltype(plastic_work<Standard>) plastic_work<Standard>;
 template decltype(plastic_work<OnePoint>) plastic_work<OnePoint>;
 
-void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<ShearModulus> mu,
+void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
                       Read<BulkModulus> bulk, Read<HourglassStress> stress,
                       Optional<Read<HourglassWork>> spent, Write<HourglassEnergy> energy) {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const Lane modulus =
-      kernels::plane_strain_modulus(mu.chunk(chunk)(particle), bulk.chunk(chunk)(particle));
+  const Lane shear = mu.chunk(chunk)(particle);
+  const Lane modulus = kernels::plane_strain_modulus(shear, bulk.chunk(chunk)(particle));
   const auto m = stress.chunk(chunk);
+  const auto nodes = x.chunk(chunk);
   Lane total{};
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
-    total += shape.centre[static_cast<std::size_t>(i)][0].determinant *
-             kernels::hourglass_energy<Lane>({m(e, 0), m(e, 1)}, modulus);
+    const auto at = static_cast<std::size_t>(i);
+    const auto map = quad_map(nodes, shape.quads[at]);
+    const auto w = kernels::natural_hourglass(map, 1.0 / determinant(map_gradient<1>(map, 0)));
+    total += shape.centre[at][0].determinant *
+             (kernels::hourglass_energy<Lane>({m(e, 0), m(e, 1)}, modulus) +
+              kernels::folding_energy(kernels::corner_ratios(w, shape.hourglass[at]), shear));
   }
   total *= bodies->thickness;
   if (spent) total += spent->chunk(chunk)(particle);

@@ -55,6 +55,40 @@ std::array<T, 4> corner_determinants(const Hourglass<T>& w) {
   return {1.0 - even, 1.0 - odd, 1.0 + even, 1.0 + odd};
 }
 
+// det F there over theta; 1 in every homogeneous deformation.
+template <class T, class Reference>
+std::array<T, 4> corner_ratios(const Hourglass<T>& w, const Reference& reference) {
+  auto ratio = corner_determinants(w);
+  for (std::size_t k = 0; k < 4; ++k) ratio[k] *= reference.over_determinant[k];
+  return ratio;
+}
+template <class T>
+T least_ratio(const std::array<T, 4>& ratio) {
+  return min(min(ratio[0], ratio[1]), min(ratio[2], ratio[3]));
+}
+
+// Bending that flows does not keep a corner from folding, as the four points of the other elements do,
+// whose isochoric stretch grows without bound there. So a corner with a ratio r below `folding` stores
+// mu/8 (r + folding^2/r - 2 folding) per undeformed area, which grows without bound too.
+inline constexpr double folding = 0.3;
+
+template <class T>
+T folding_energy(const std::array<T, 4>& ratio, T mu) {
+  T sum{};
+  for (const T& r : ratio) sum += select(r < folding, r + folding * folding / r - 2 * folding, T{});
+  return (1.0 / 8.0) * mu * sum;
+}
+// Its derivative by w.
+template <class T, class Reference>
+Hourglass<T> folding_moment(const std::array<T, 4>& ratio, const Reference& reference, T mu) {
+  std::array<T, 4> slope;
+  for (std::size_t k = 0; k < 4; ++k)
+    slope[k] =
+        reference.over_determinant[k] * min(1.0 - folding * folding / (ratio[k] * ratio[k]), T{});
+  const T scale = (1.0 / 8.0 * gauss) * mu, even = slope[2] - slope[0], odd = slope[3] - slope[1];
+  return {scale * (even + odd), scale * (even - odd)};
+}
+
 // E' = E/(1 - nu^2).
 template <class T>
 T plane_strain_modulus(T mu, T bulk) {
@@ -70,11 +104,14 @@ T hourglass_energy(const Hourglass<T>& stress, T modulus) {
 // Exact derivative of the stored energy: d(w) = A^-1 (dh - w_1 da - w_2 db). `third`: a third of the
 // undeformed area, which is the integral of xi^2.
 template <class T, class Reference>
+Hourglass<T> bending_moment(const Hourglass<T>& stress, const Reference& reference, double third) {
+  return {third * fma(reference.skew[1], stress.two, stress.one),
+          third * fma(reference.skew[0], stress.one, stress.two)};
+}
+template <class T>
 void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<T>& w, T over_det,
-                        const Hourglass<T>& stress, const Reference& reference, double third) {
-  const T scale = third * over_det;
-  const T one = scale * fma(reference.skew[1], stress.two, stress.one);
-  const T two = scale * fma(reference.skew[0], stress.one, stress.two);
+                        const Hourglass<T>& moment) {
+  const T one = over_det * moment.one, two = over_det * moment.two;
   const T qx = fma(m.by, one, -(m.ay * two)), qy = fma(m.ax, two, -(m.bx * one));
   flux.h_x += qx;
   flux.h_y += qy;

@@ -15,11 +15,16 @@ namespace {
 using Map = kernels::QuadMap<Lane>;
 using Flux = kernels::QuadFlux<Lane>;
 
+struct Bending {
+  ChunkView<HourglassStress, const Lane*> stress;
+  Lane mu;
+};
+
 template <class F>
 struct Views {
   ChunkView<DeviatoricStress<F::points>, const Lane*> s;
   ChunkView<MeanStress<F::volumes>, const Lane*> p;
-  const ChunkView<HourglassStress, const Lane*>* bending;  // null: not stabilised
+  const Bending* bending;  // null: not stabilised
 };
 
 Flux stress_flux(const Views<FourPoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
@@ -61,10 +66,18 @@ Flux stress_flux(const Views<OnePoint>& v, const Map& map, const Shape& shape, R
   const Lane mean = 4.0 * v.p(e);
   auto flux = kernels::central_flux(a, fma(4.0, d.xx, mean), fma(4.0, d.yy, mean), 4.0 * d.xy);
   const Lane over_det = 1.0 / determinant(a);
-  kernels::add_hourglass_flux(flux, map, kernels::natural_hourglass(map, over_det), over_det,
-                              {(*v.bending)(e, 0), (*v.bending)(e, 1)},
-                              shape.hourglass[static_cast<std::size_t>(e.value)],
-                              (1.0 / 3.0) * points_of<1>(shape, e.value)[0].determinant);
+  const auto& reference = shape.hourglass[static_cast<std::size_t>(e.value)];
+  const double area = points_of<1>(shape, e.value)[0].determinant;
+  const auto w = kernels::natural_hourglass(map, over_det);
+  auto moment = kernels::bending_moment<Lane>({v.bending->stress(e, 0), v.bending->stress(e, 1)},
+                                              reference, (1.0 / 3.0) * area);
+  const auto ratio = kernels::corner_ratios(w, reference);
+  if (any(kernels::least_ratio(ratio) < kernels::folding)) {
+    const auto more = kernels::folding_moment(ratio, reference, area * v.bending->mu);
+    moment.one += more.one;
+    moment.two += more.two;
+  }
+  kernels::add_hourglass_flux(flux, map, w, over_det, moment);
   return flux;
 }
 
@@ -90,13 +103,13 @@ void chunk_force(const Views<F>& views, const ChunkView<Position, const Lane*>& 
 template <class F>
 [[gnu::flatten]] void internal_force(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
                                      Read<DeviatoricStress<F::points>> s,
-                                     Read<MeanStress<F::volumes>> p,
+                                     Read<MeanStress<F::volumes>> p, Read<ShearModulus> mu,
                                      Optional<Read<HourglassStress>> hourglass,
                                      Write<InternalForce> force) {
   const Shape& shape = bodies->shape_of_chunk(chunk);
   Views<F> views{s.chunk(chunk), p.chunk(chunk), nullptr};
   if constexpr (F::stabilised) {
-    const auto bending = hourglass->chunk(chunk);
+    const Bending bending{hourglass->chunk(chunk), mu.chunk(chunk)(Row<Particle>())};
     views.bending = &bending;
     chunk_force(views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
   } else {

@@ -95,8 +95,8 @@ void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read
                    Optional<Write<PlasticHourglass>>, Optional<Write<HourglassWork>>);
 template <class F>
 void internal_force(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<F::points>>,
-                    Read<MeanStress<F::volumes>>, Optional<Read<HourglassStress>>,
-                    Write<InternalForce>);
+                    Read<MeanStress<F::volumes>>, Read<ShearModulus>,
+                    Optional<Read<HourglassStress>>, Write<InternalForce>);
 void hold_grips(Chunk, Read<Bodies>, Read<Clock>, Read<ToolProgram>, Read<GripIndex>,
                 Read<GripTarget>, Read<GripDirection>, Read<GripTravel>, Read<GripOrigin>,
                 Read<Density>, Read<Position>, Read<Velocity>, Optional<Read<ContactForce>>,
@@ -112,7 +112,7 @@ template <class F>
 void plastic_work(Chunk, Read<Bodies>, Read<YieldStress>, Read<HardeningModulus>,
                   Read<PlasticStrain<F::points>>, Optional<Read<HourglassWork>>,
                   Write<PlasticWork>);
-void hourglass_energy(Chunk, Read<Bodies>, Read<ShearModulus>, Read<BulkModulus>,
+void hourglass_energy(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
                       Read<HourglassStress>, Optional<Read<HourglassWork>>, Write<HourglassEnergy>);
 
 // ---- motion ---------------------------------------------------------------------------------------

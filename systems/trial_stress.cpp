@@ -39,10 +39,7 @@ Lane hourglass_stress(const HourglassViews& v, const kernels::QuadMap<Lane>& map
   }
   v.stress(e, 0) = v.modulus * strain.one;
   v.stress(e, 1) = v.modulus * strain.two;
-  const auto corners = kernels::corner_determinants(w);
-  const auto& over = reference.over_determinant;
-  return min(min(corners[0] * over[0], corners[1] * over[1]),
-             min(corners[2] * over[2], corners[3] * over[3]));
+  return kernels::least_ratio(kernels::corner_ratios(w, reference));
 }
 
 // `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the least det F of the element's points.

@@ -17,6 +17,7 @@ using Coordinates = std::array<double, 8>;  // x0 y0 x1 y1 ...
 
 struct Reference {
   double natural[2], skew[2];
+  std::array<double, 4> over_determinant;
 };
 
 QuadMap<double> map_of(const Coordinates& x) {
@@ -28,8 +29,11 @@ Reference reference_of(const Coordinates& x) {
   const auto m = map_of(x);
   const auto w = natural_hourglass(m, 1 / central_determinant(m));
   const double across = m.ax * m.bx + m.ay * m.by;
+  auto over = corner_determinants(w);
+  for (double& corner : over) corner = 1 / corner;
   return {{w.one, w.two},
-          {across / (m.ax * m.ax + m.ay * m.ay), across / (m.bx * m.bx + m.by * m.by)}};
+          {across / (m.ax * m.ax + m.ay * m.ay), across / (m.bx * m.bx + m.by * m.by)},
+          over};
 }
 
 Coordinates distorted_square(Random& random) {
@@ -52,22 +56,33 @@ Hourglass<double> strain(const Coordinates& undeformed, const Coordinates& now) 
   return bending_strain(natural_hourglass(m, 1 / central_determinant(m)), reference_of(undeformed));
 }
 
-constexpr double modulus = 2.3;
+constexpr double modulus = 2.3, shear_modulus = 0.8;
+
+std::array<double, 4> ratios(const Coordinates& undeformed, const Coordinates& now) {
+  const auto m = map_of(now);
+  return corner_ratios(natural_hourglass(m, 1 / central_determinant(m)), reference_of(undeformed));
+}
 
 double energy(const Coordinates& undeformed, const Coordinates& now) {
   const auto e = strain(undeformed, now);
   return 4 * central_determinant(map_of(undeformed)) *
-         hourglass_energy<double>({modulus * e.one, modulus * e.two}, modulus);
+         (hourglass_energy<double>({modulus * e.one, modulus * e.two}, modulus) +
+          folding_energy(ratios(undeformed, now), shear_modulus));
 }
 
 Coordinates forces(const Coordinates& undeformed, const Coordinates& now) {
   const auto m = map_of(now);
   const double over = 1 / central_determinant(m);
   const auto e = strain(undeformed, now);
+  const double area = 4 * central_determinant(map_of(undeformed));
+  const auto reference = reference_of(undeformed);
+  auto moment =
+      bending_moment<double>({modulus * e.one, modulus * e.two}, reference, 1.0 / 3.0 * area);
+  const auto folded = folding_moment(ratios(undeformed, now), reference, area * shear_modulus);
+  moment.one += folded.one;
+  moment.two += folded.two;
   QuadFlux<double> flux;
-  add_hourglass_flux<double>(flux, m, natural_hourglass(m, over), over,
-                             {modulus * e.one, modulus * e.two}, reference_of(undeformed),
-                             4.0 / 3.0 * central_determinant(map_of(undeformed)));
+  add_hourglass_flux<double>(flux, m, natural_hourglass(m, over), over, moment);
   const auto out = node_forces(flux, 0.25);
   return {out.x[0], out.y[0], out.x[1], out.y[1], out.x[2], out.y[2], out.x[3], out.y[3]};
 }
@@ -120,6 +135,55 @@ TEST(Hourglass, ForceIsTheDerivativeOfTheEnergy) {
       ASSERT_NEAR(f[i], -slope, 1e-8);  // h^2 times the third derivative
     }
   }
+}
+
+// The ratio of a corner is det F of the bilinear map there, over that of the middle.
+TEST(Folding, RatioIsThatOfTheMap) {
+  for (const Case& c : random_cases()) {
+    const auto ratio = ratios(c.undeformed, c.now);
+    const auto det = [](const Coordinates& x, double xi, double eta) {
+      return determinant(map_gradient(map_of(x), xi, eta));
+    };
+    for (std::size_t k = 0; k < 4; ++k)
+      ASSERT_NEAR(ratio[k],
+                  det(c.now, gauss_xi[k], gauss_eta[k]) /
+                      det(c.undeformed, gauss_xi[k], gauss_eta[k]) /
+                      (det(c.now, 0, 0) / det(c.undeformed, 0, 0)),
+                  1e-13);
+  }
+}
+
+// A corner pushed in, until its Gauss point has lost 90% of its share of the area: nothing is felt
+// before it has lost 70%, and from there the force is the derivative of an energy without jumps.
+TEST(Folding, CornerThatFoldsIsPushedBack) {
+  const Coordinates square{-1, -1, 1, -1, 1, 1, -1, 1};
+  constexpr double h = 1e-6;
+  double least = 1;
+  for (int corner = 0; corner < 4; ++corner) {
+    const auto n = static_cast<std::size_t>(2 * corner);
+    for (double in = 0; in < 1.3; in += 0.01) {
+      Coordinates now = square;
+      now[n] *= 1 - in;
+      now[n + 1] *= 1 - in;
+      const auto ratio = ratios(square, now);
+      const double r = least_ratio(ratio);
+      if (r < 0.05) break;
+      least = std::min(least, r);
+      const double stored = folding_energy(ratio, shear_modulus);
+      if (r >= folding)
+        ASSERT_EQ(stored, 0);
+      else
+        ASSERT_GT(stored, 0);
+      const Coordinates f = forces(square, now);
+      for (std::size_t i = 0; i < 8; ++i) {
+        Coordinates up = now, down = now;
+        up[i] += h;
+        down[i] -= h;
+        ASSERT_NEAR(f[i], -(energy(square, up) - energy(square, down)) / (2 * h), 2e-5) << in;
+      }
+    }
+  }
+  EXPECT_LT(least, 0.1);
 }
 
 TEST(Hourglass, ForcesHaveNoResultantAndNoMoment) {
