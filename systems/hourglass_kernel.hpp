@@ -137,15 +137,14 @@ Ratio<T> squared_stretching(const QuadMap<T>& m, const Deviator<T>& s) {
   return {2.0 * stretch * stretch, fma(real, real, imaginary * imaginary)};
 }
 
-// 1/width: see BendingBeside. `limit2`: 2/3 sigma_y^2.
+// 1/width: see BendingBeside; with s where it has come back to the surface. `limit2`: 2/3 sigma_y^2.
 template <class T>
 T inverse_width(const QuadMap<T>& m, const Deviator<T>& s, T limit2) {
   const auto stretching = squared_stretching(m, s);
   const T norm2 = squared_norm(s);
-  const T back = limit2 / max(norm2, limit2);  // n where s has come back to the surface
-  const T room = fma(stretching.denominator, fma(1.0 / 3.0 * back, norm2, limit2),
-                     (-4.0 / 3.0) * back * stretching.numerator);
-  const T full = limit2 * stretching.denominator;
+  const T full = stretching.denominator * max(norm2, limit2);
+  const T room = fma((-4.0 / 3.0), stretching.numerator,
+                     fma((1.0 / 3.0) * norm2, stretching.denominator, full));
   return full / max(room, least_width * full);
 }
 
@@ -159,6 +158,7 @@ template <class T>
 struct BendingBeside {
   Hourglass<T> stress;  // trial, then returned
   T softness;           // 2/3 E' / (2 mu): how much faster than s it gives way
+  T stiffness;          // 1 / softness
   T over_width;
 
   T squared_norm() const {
@@ -181,11 +181,13 @@ struct BendingBeside {
     T left = max(fma(softness * over_width, beta - 1.0, 1.0), T{});
     const T outside = fma(beta * beta, norm2, over_width * (left * left * t2));
     const T limit = sqrt_2_3 * law.flow_stress(fma(sqrt_2_3, dgamma, eps));
-    const T in = select(flows, min(limit / sqrt(outside), T{} + 1.0), T{} + 1.0);
+    const T root = sqrt(outside), cost = two_mu * limit;
+    const T over = 1.0 / (root * cost);  // one division for two
+    const T in = select(flows, min(limit * cost * over, T{} + 1.0), T{} + 1.0);
     beta *= in;
     left *= in;
-    const T spent = fma(beta * (1.0 - beta), norm2, left * (1.0 - left) * t2 / softness);
-    dgamma = select(flows, spent / (two_mu * limit), T{});
+    const T spent = fma(beta * (1.0 - beta), norm2, left * (1.0 - left) * (t2 * stiffness));
+    dgamma = select(flows, spent * (root * over), T{});
     stress = {left * stress.one, left * stress.two};
   }
 };

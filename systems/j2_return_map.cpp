@@ -66,7 +66,7 @@ void return_element(const Views<F>& v, const Shape& shape, Row<Element> e) {
 struct Bending {
   ChunkView<HourglassStress, Lane*> stress;
   ChunkView<PlasticHourglass, Lane*> plastic;
-  Lane softness, over_modulus;
+  Lane softness, stiffness, over_modulus;
 };
 
 // Returns the work spent in the hourglass modes, J/m.
@@ -89,7 +89,8 @@ Lane return_element(const Views<OnePoint>& v, const Bending& bending, const Shap
   if (!any(kernels::may_yield(s, m, limit2))) return Lane{};
 
   const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
-  kernels::BendingBeside<Lane> beside{m, bending.softness, kernels::inverse_width(map, s, limit2)};
+  kernels::BendingBeside<Lane> beside{m, bending.softness, bending.stiffness,
+                                      kernels::inverse_width(map, s, limit2)};
   const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
   const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
   const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
@@ -118,7 +119,7 @@ template <class F>
   if constexpr (F::stabilised) {
     const Lane modulus = kernels::plane_strain_modulus(shear, bulk.chunk(chunk)(particle));
     const Bending bending{hourglass->chunk(chunk), plastic->chunk(chunk),
-                          (1.0 / 3.0) * modulus / shear, 1.0 / modulus};
+                          (1.0 / 3.0) * modulus / shear, 3.0 * shear / modulus, 1.0 / modulus};
     Lane spent{};
     for (int i = 0; i < shape.elements(); ++i)
       spent += return_element(v, bending, shape, Row<Element>(i));

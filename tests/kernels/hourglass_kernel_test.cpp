@@ -284,7 +284,7 @@ double on_surface(const Section& s, double turn) {
   const QuadMap<double> map{2 * c, 2 * i, -i, c, 0, 0};
   const double limit2 = 2.0 / 3.0;
   const BendingBeside<double> beside{
-      {std::numbers::sqrt3 * yield * s.moment, 0}, 1, inverse_width(map, d, limit2)};
+      {std::numbers::sqrt3 * yield * s.moment, 0}, 1, 1, inverse_width(map, d, limit2)};
   return std::sqrt(beside.joint_norm(squared_norm(d)) / limit2);
 }
 
@@ -331,8 +331,10 @@ double limit_moment(int elements, double far) {
       m += modulus_of_fibre * curvature * part / 2;
       const QuadMap<double> map{1, 0, 0, part / 2, 0, 0};
       const double limit2 = 2.0 / 3.0 * yield * yield;
-      BendingBeside<double> beside{
-          {m, 0}, modulus_of_fibre / (3 * mu), inverse_width(map, state.s, limit2)};
+      BendingBeside<double> beside{{m, 0},
+                                   modulus_of_fibre / (3 * mu),
+                                   3 * mu / modulus_of_fibre,
+                                   inverse_width(map, state.s, limit2)};
       state = radial_return(state, f, 1.0, mu, 1 / mu, law, beside);
       m = beside.stress.one;
     }
@@ -357,7 +359,7 @@ TEST(BendingLimit, ReturnEndsOnTheSurfaceAndSpendsEnergy) {
     J2State<double> trial{};
     trial.s = scaled_deviator(left_cauchy_green(f), mu);
     const Hourglass<double> m{random.in(-8e8, 8e8), random.in(-8e8, 8e8)};
-    BendingBeside<double> beside{m, fibre / (3 * mu), 1.0};
+    BendingBeside<double> beside{m, fibre / (3 * mu), 3 * mu / fibre, 1.0};
     const auto next =
         radial_return(trial, f, 1.0, mu, 1 / mu, LinearHardening<double>{yield, 440e6}, beside);
     const auto& left = beside.stress;
