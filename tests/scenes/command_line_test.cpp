@@ -339,9 +339,9 @@ TEST_F(CommandLine, TakenFolderIsRefusedAndStaysAsItWas) {
 }
 
 // ---- 3: the run went bad ------------------------------------------------------------------------
-// A punch at 400 m/s goes through the particles.
+// A punch at 1000 m/s goes through the particles.
 TEST_F(CommandLine, RunGoneBadNamesTheCulpritAndKeepsWhatWasBefore) {
-  const Outcome end = short_run({"--set", "stage.press.move[0].displacement=[\"0 mm\", \"-8 mm\"]",
+  const Outcome end = short_run({"--set", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]",
                                  "--set", "output.frames=40", "--set", "output.samples=80", "--set",
                                  "limits.energy_balance=100"});
   EXPECT_EQ(end.code, 3);
