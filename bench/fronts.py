@@ -1,6 +1,7 @@
 """Error against run time: every benchmark problem with families of settings.
 
   /usr/bin/python3 bench/fronts.py                    every standard problem, some ten minutes
+  /usr/bin/python3 bench/fronts.py --all              all of them, an hour and a half
   /usr/bin/python3 bench/fronts.py unit-cell hertz    these only
   /usr/bin/python3 bench/fronts.py --list             what there is
 
@@ -246,6 +247,7 @@ def solve(problem, program, folder, jobs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("problem", nargs="*", help="default: all standard ones")
+    parser.add_argument("--all", action="store_true", help="those that take long, too")
     parser.add_argument("--jobs", type=int, default=1, help="runs side by side")
     parser.add_argument("--quick", action="store_true", help="coarse meshes: a check of this script")
     parser.add_argument("--cached", action="store_true", help="run nothing, show what is there")
@@ -263,7 +265,7 @@ def main():
         return
     for name in set(options.problem) - set(problems):
         parser.error(f"no problem {name}; there are: {', '.join(problems)}")
-    chosen = options.problem or [p.name for p in problems.values() if p.standard]
+    chosen = options.problem or [p.name for p in problems.values() if p.standard or options.all]
     options.output.mkdir(parents=True, exist_ok=True)
     program = Program(options.program)
     program.only_cached = options.cached
