@@ -5,6 +5,8 @@
 //          systems/hourglass_kernel.hpp
 // Runs     after integrate of the step before; before j2_return_map and internal_force
 // Watches  least det F of every particle, for the health system
+#include <optional>
+
 #include "systems/element_access.hpp"
 #include "systems/hourglass_kernel.hpp"
 #include "systems/systems.hpp"
@@ -81,15 +83,25 @@ void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
   worst = lower ? least : worst;
 }
 
+// `gone`: null for elastic material.
 template <class F, class LeftCauchyGreen>
 void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
-                  const HourglassViews* hourglass, Write<LeastJacobian> least_jacobian,
+                  const Optional<Write<HourglassStress>>& bending,
+                  const Optional<Read<PlasticHourglass>>* gone, Write<LeastJacobian> least_jacobian,
                   Write<WorstElement> worst_element, const LeftCauchyGreen& left) {
+  std::optional<ChunkView<PlasticHourglass, const Lane*>> plastic;
+  std::optional<HourglassViews> hourglass;
+  if constexpr (F::stabilised) {
+    if (gone != nullptr) plastic = (*gone)->chunk(chunk);
+    hourglass = {bending->chunk(chunk), plastic ? &*plastic : nullptr,
+                 kernels::plane_strain_modulus(v.mu, v.bulk)};
+  }
   const Shape& shape = bodies.shape_of_chunk(chunk);
   Lane worst = broadcast(1e300), which{};
   for (int i = 0; i < shape.elements(); ++i)
-    keep_worst(element_stress<F>(v, hourglass, shape, Row<Element>(i), left), Row<Element>(i),
-               worst, which);
+    keep_worst(
+        element_stress<F>(v, hourglass ? &*hourglass : nullptr, shape, Row<Element>(i), left),
+        Row<Element>(i), worst, which);
   least_jacobian.chunk(chunk)(Row<Particle>()) = worst;
   worst_element.chunk(chunk)(Row<Particle>()) = which;
 }
@@ -115,14 +127,7 @@ template <class F>
     scale(e, g) = r;
     return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
   };
-  if constexpr (F::stabilised) {
-    const auto plastic = gone->chunk(chunk);
-    const HourglassViews hourglass{bending->chunk(chunk), &plastic,
-                                   kernels::plane_strain_modulus(views.mu, views.bulk)};
-    chunk_stress<F>(chunk, *bodies, views, &hourglass, least, worst, left);
-  } else {
-    chunk_stress<F>(chunk, *bodies, views, nullptr, least, worst, left);
-  }
+  chunk_stress<F>(chunk, *bodies, views, bending, &gone, least, worst, left);
 }
 template decltype(trial_stress<FourPoint>) trial_stress<FourPoint>;
 template decltype(trial_stress<Standard>) trial_stress<Standard>;
@@ -141,13 +146,7 @@ template <class F>
   const auto left = [](const kernels::Matrix2<Lane>& f, Lane, Row<Element>, int) {
     return kernels::left_cauchy_green(f);
   };
-  if constexpr (F::stabilised) {
-    const HourglassViews hourglass{bending->chunk(chunk), nullptr,
-                                   kernels::plane_strain_modulus(views.mu, views.bulk)};
-    chunk_stress<F>(chunk, *bodies, views, &hourglass, least, worst, left);
-  } else {
-    chunk_stress<F>(chunk, *bodies, views, nullptr, least, worst, left);
-  }
+  chunk_stress<F>(chunk, *bodies, views, bending, nullptr, least, worst, left);
 }
 template decltype(elastic_stress<FourPoint>) elastic_stress<FourPoint>;
 template decltype(elastic_stress<Standard>) elastic_stress<Standard>;

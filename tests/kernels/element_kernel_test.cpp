@@ -8,33 +8,12 @@
 #include <vector>
 
 #include "systems/j2_kernel.hpp"
-#include "tests/kernels/random_values.hpp"
+#include "tests/kernels/quads.hpp"
 
 namespace pulvis::kernels {
 namespace {
 
 constexpr double round_off = 4e-16;  // a few units of the last place of numbers near one
-
-using Coordinates = std::array<double, 8>;  // x0 y0 x1 y1 ...
-
-QuadMap<double> map_of(const Coordinates& x) {
-  return quad_map(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]);
-}
-
-Coordinates distorted_square(Random& random) {
-  Coordinates x{-1, -1, 1, -1, 1, 1, -1, 1};
-  for (double& v : x) v += random.in(-0.3, 0.3);
-  return x;
-}
-
-Coordinates moved(const Coordinates& x, const Matrix2<double>& f) {
-  Coordinates to{};
-  for (std::size_t i = 0; i < 8; i += 2) {
-    to[i] = f.xx * x[i] + f.xy * x[i + 1] + 3.0;
-    to[i + 1] = f.yx * x[i] + f.yy * x[i + 1] - 2.0;
-  }
-  return to;
-}
 
 Matrix2<double> near_one(Random& random, double noise) {
   return {1 + random.in(-noise, noise), random.in(-noise, noise), random.in(-noise, noise),

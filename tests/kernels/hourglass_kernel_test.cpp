@@ -8,21 +8,16 @@
 #include <numbers>
 
 #include "systems/time_step_kernel.hpp"
-#include "tests/kernels/random_values.hpp"
+#include "tests/kernels/quads.hpp"
 
 namespace pulvis::kernels {
 namespace {
-
-using Coordinates = std::array<double, 8>;  // x0 y0 x1 y1 ...
 
 struct Reference {
   double natural[2], skew[2];
   std::array<double, 4> over_determinant;
 };
 
-QuadMap<double> map_of(const Coordinates& x) {
-  return quad_map(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]);
-}
 double central_determinant(const QuadMap<double>& m) { return m.ax * m.by - m.ay * m.bx; }
 
 Reference reference_of(const Coordinates& x) {
@@ -34,21 +29,6 @@ Reference reference_of(const Coordinates& x) {
   return {{w.one, w.two},
           {across / (m.ax * m.ax + m.ay * m.ay), across / (m.bx * m.bx + m.by * m.by)},
           over};
-}
-
-Coordinates distorted_square(Random& random) {
-  Coordinates x{-1, -1, 1, -1, 1, 1, -1, 1};
-  for (double& v : x) v += random.in(-0.3, 0.3);
-  return x;
-}
-
-Coordinates moved(const Coordinates& x, const Matrix2<double>& f) {
-  Coordinates to{};
-  for (std::size_t i = 0; i < 8; i += 2) {
-    to[i] = f.xx * x[i] + f.xy * x[i + 1] + 3.0;
-    to[i + 1] = f.yx * x[i] + f.yy * x[i + 1] - 2.0;
-  }
-  return to;
 }
 
 Hourglass<double> strain(const Coordinates& undeformed, const Coordinates& now) {

@@ -7,8 +7,10 @@
 namespace pulvis {
 namespace {
 
-TEST(PatchTest, UniformPressureCrossesANonMatchingInterface) {
-  Experiment e("basic/patch-test.toml");
+class PatchTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(PatchTest, UniformPressureCrossesANonMatchingInterface) {
+  Experiment e("basic/patch-test.toml", {std::string("element.formulation=") + GetParam()});
   e.run(20);
   const std::size_t stress = 4;  // field of Results::fields
   ASSERT_EQ(e.results.fields()[stress].name, "stress");
@@ -21,6 +23,8 @@ TEST(PatchTest, UniformPressureCrossesANonMatchingInterface) {
     EXPECT_NEAR(s[4 * c + 3] / pressure, 0, 0.002);
   }
 }
+INSTANTIATE_TEST_SUITE_P(Formulations, PatchTest,
+                         testing::Values("one-point", "four-point", "standard"));
 
 TEST(SlidingBlock, StartsAndSlidesAtMuN) {
   Experiment e("basic/sliding-block.toml");

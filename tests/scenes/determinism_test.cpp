@@ -71,15 +71,16 @@ TEST(Determinism, TwoRunsAgreeInEveryBit) { expect_same(state_after(2), state_af
 
 TEST(Determinism, ThreadsDoNotChangeABit) {
   const Bits one = state_after(1);
+  ASSERT_TRUE(one.contains("element/plastic_hourglass"));
   expect_same(one, state_after(2));
   expect_same(one, state_after(3));
 }
 
-TEST(Determinism, ThreadsDoNotChangeABitOfOnePointElements) {
-  const Bits one = state_after(1, "one-point");
-  ASSERT_TRUE(one.contains("element/plastic_hourglass"));
-  expect_same(one, state_after(2, "one-point"));
-  expect_same(one, state_after(3, "one-point"));
+TEST(Determinism, ThreadsDoNotChangeABitOfFourPointElements) {
+  const Bits one = state_after(1, "four-point");
+  ASSERT_FALSE(one.contains("element/plastic_hourglass"));
+  expect_same(one, state_after(2, "four-point"));
+  expect_same(one, state_after(3, "four-point"));
 }
 
 // What a sample looks at must not disturb the run.

@@ -66,13 +66,15 @@ TEST_P(ObliqueImpact, KeepsMomentumAndEnergy) {
 
 TEST_P(ObliqueImpact, OfDiscsOfOneAndFourElementsKeepsThemToo) {
   for (const char* edges : {"4", "8"})
-    expect_momentum_and_energy_kept(
-        {std::string("contact.friction=") + GetParam(),
-         std::string("particle.disc.mesh.boundary_edges=") + edges, "particle.disc.mesh.rings=0"},
-        1e-8 * 3.14 * 10e-3 / std::stod(edges),
-        // A blow that a single element answers lasts a few steps: 1.7% with friction 1, 0.1% at half the
-        // step.
-        *edges == '4' ? 0.02 : 0.01);
+    for (const char* formulation : {"one-point", "four-point"})
+      expect_momentum_and_energy_kept(
+          {std::string("contact.friction=") + GetParam(),
+           std::string("particle.disc.mesh.boundary_edges=") + edges, "particle.disc.mesh.rings=0",
+           std::string("element.formulation=") + formulation},
+          1e-8 * 3.14 * 10e-3 / std::stod(edges),
+          // A blow that single elements answer lasts a few steps, and sliding turns within them: with one
+          // point and friction 1 the balance is off by anything up to 1.7%, whatever the step.
+          *edges == '4' && *formulation == 'o' ? 0.02 : 0.01);
 }
 INSTANTIATE_TEST_SUITE_P(Frictions, ObliqueImpact, testing::Values("0", "0.2", "1"));
 

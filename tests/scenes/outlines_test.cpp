@@ -63,7 +63,7 @@ TEST(RoundedCorner, PressesSmoothlyOnAPlane) {
     // The fastest point of the ramp moves at twice the mean speed.
     EXPECT_LT(curve->largest_step, 5 * 2.0 / 300);
   }
-  // The default mesh is 6.7% stiffer than four times its elements: the wedge under the arc flows in three
+  // The default mesh is 7.2% stiffer than four times its elements: the wedge under the arc flows in three
   // rows of quads.
   EXPECT_NEAR(coarse.force.back() / fine.force.back(), 1, 0.08);
 }
