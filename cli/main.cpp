@@ -11,6 +11,7 @@
 #include "cli/report.hpp"
 #include "cli/run.hpp"
 #include "cli/summary.hpp"
+#include "engine/instruction_set.hpp"
 #include "engine/output_error.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/build.hpp"
@@ -71,7 +72,8 @@ int parse_and_run(int argc, char** argv) {
   Options options;
   ExitCode code = ExitCode::done;
   CLI::App app{"Pulvis: combined discrete/finite element method for powders", "pulvis"};
-  app.set_version_flag("--version", program_version() + " (" + program_commit() + ")");
+  app.set_version_flag(
+      "--version", program_version() + " (" + program_commit() + ", " + instruction_set() + ")");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done; 2 bad usage, or a scene that was refused; 3 the run went bad, or not "

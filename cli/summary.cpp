@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/contact.hpp"
+#include "engine/instruction_set.hpp"
 #include "engine/output_error.hpp"
 #include "scenes/surface.hpp"
 
@@ -102,6 +103,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"scene_hash", cost.scene_hash},
             {"seed", scene.seed},
             {"threads", cost.threads},
+            {"instruction_set", instruction_set()},
             {"wall_seconds", cost.wall_seconds},
             {"time", world.resource<Clock>().time},
             {"steps", cost.steps},

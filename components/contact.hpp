@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-inline constexpr int edge_points = 4;  // Gauss points of a boundary edge: one SIMD lane each
+inline constexpr int edge_points = 4;  // Gauss points of a boundary edge: one SIMD lane each, of two edges side by side
 
 // ---- contact curves ---------------------------------------------------------------------------
 struct CurvePosition : Component<ControlPoint, double, 2> {

@@ -69,7 +69,7 @@ struct Shape {
   int elements() const { return static_cast<int>(quads.size()); }
 };
 
-// Particles by slot: slot = 4 * chunk + lane. A slot without a particle has number -1; it is computed
+// Particles by slot: slot = lane_count * chunk + lane. A slot without a particle has number -1; it is computed
 // like the others (at rest, undeformed) and seen by no contact, no energy and no result.
 struct Bodies {
   static constexpr const char* resource_name = "bodies";
@@ -84,16 +84,16 @@ struct Bodies {
 
   double thickness = 0;  // m
   std::vector<Shape> shapes;
-  std::vector<Slot> slots;          // [4 * chunks]
+  std::vector<Slot> slots;          // [lane_count * chunks]
   std::vector<int> slot_of_number;  // [particles]
 
   const Shape& shape_of_chunk(Chunk c) const {
-    return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(c.index) * 4].shape)];
+    return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(c.index) * lane_count].shape)];
   }
   const Shape& shape_of_slot(int slot) const {
     return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(slot)].shape)];
   }
-  int chunks() const { return static_cast<int>(slots.size()) / 4; }
+  int chunks() const { return static_cast<int>(slots.size()) / lane_count; }
   int particles() const { return static_cast<int>(slot_of_number.size()); }
 };
 

@@ -65,7 +65,7 @@ class Read {
     else
       return ChunkView<T, const typename T::value_type*>(column_->values() + first);
   }
-  // The whole column as it lies in memory: [row][component], four lanes each where laned.
+  // The whole column as it lies in memory: [row][component], eight lanes each where laned.
   std::span<const typename T::value_type> values() const {
     return {column_->values(), column_->bytes() / sizeof(typename T::value_type)};
   }

@@ -2,7 +2,7 @@
 //
 // A place is where arrays live: nodes, elements, contacts... The places themselves are declared in
 // components/; the engine only knows that a place has rows, and that the rows of some places stand in
-// slots of four lanes, chunk by chunk (AoSoA), while others are plain lists.
+// slots of eight lanes, chunk by chunk (AoSoA), while others are plain lists.
 #pragma once
 
 #include <compare>
@@ -11,7 +11,10 @@
 
 namespace pulvis {
 
-// Row of a plain table, or slot (four lanes) of a laned one. Rows of different places do not mix.
+// Particles of a chunk, worked on side by side.
+inline constexpr int lane_count = 8;
+
+// Row of a plain table, or slot (eight lanes) of a laned one. Rows of different places do not mix.
 template <class Place>
 struct Row {
   std::int32_t value = 0;
@@ -51,7 +54,7 @@ concept IsResource = !IsComponent<R> && requires {
   R::resource_name;
 };
 
-// One chunk of laned rows: the four particles that a chunk system works on.
+// One chunk of laned rows: the eight particles that a chunk system works on.
 struct Chunk {
   std::int32_t index = 0;
 };

@@ -54,7 +54,7 @@ class ColumnBase {
   const ComponentInfo info;
   const std::string place;
   const int count;              // numbers in a row (in a lane of a slot)
-  const std::size_t row_bytes;  // of a row, or of a slot with its four lanes
+  const std::size_t row_bytes;  // of a row, or of a slot with its lanes
 
  private:
   Buffer buffer_;

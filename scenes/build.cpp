@@ -89,7 +89,7 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
     if (classes[c].empty()) continue;
     const int shape = static_cast<int>(layout.bodies.shapes.size());
     layout.bodies.shapes.push_back(make_shape(scene.particles[c]));
-    const std::size_t lanes = (classes[c].size() + 3) / 4 * 4;
+    const std::size_t lanes = (classes[c].size() + lane_count - 1) / lane_count * lane_count;
     for (std::size_t i = 0; i < lanes; ++i) {
       const bool there = i < classes[c].size();
       Bodies::Slot slot{there ? classes[c][i].number : Bodies::nobody, shape,
@@ -190,7 +190,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
   world.add_table<BoundaryNode>(
       rows_by_chunk(bodies, [](const Shape& s) { return s.boundary_nodes; }));
   world.add_table<ControlPoint>(
-      rows_by_chunk(bodies, [](const Shape& s) { return 4 * s.control_points(); }));
+      rows_by_chunk(bodies, [](const Shape& s) { return lane_count * s.control_points(); }));
   world.add<ContactForce>();
   world.add<CurvePosition>();
   world.add<CurveForce>();
@@ -209,8 +209,8 @@ void fill_bodies(World& world, const Layout& layout) {
   auto& x = world.column<Position>();
   auto& v = world.column<Velocity>();
   for (std::size_t slot = 0; slot < layout.placed.size(); ++slot) {
-    const Chunk chunk{static_cast<std::int32_t>(slot / 4)};
-    const int lane = static_cast<int>(slot % 4);
+    const Chunk chunk{static_cast<std::int32_t>(slot / lane_count)};
+    const int lane = static_cast<int>(slot % lane_count);
     const Placed* placed = layout.placed[slot];
     const Shape& shape = layout.bodies.shape_of_chunk(chunk);
     const auto first =

@@ -57,8 +57,8 @@ void for_each_particle(const World& world, const Visit& visit) {
   const Bodies& bodies = world.resource<Bodies>();
   const Table& table = const_cast<World&>(world).table<Place>();
   for (const int slot : bodies.slot_of_number)
-    visit(static_cast<std::size_t>(table.chunk_begin[static_cast<std::size_t>(slot / 4)]), slot % 4,
-          bodies.shape_of_slot(slot));
+    visit(static_cast<std::size_t>(table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]),
+          slot % lane_count, bodies.shape_of_slot(slot));
 }
 
 template <class C>

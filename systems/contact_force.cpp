@@ -9,53 +9,60 @@
 namespace pulvis {
 namespace {
 
-// N_a at each of the four Gauss points: a lane is a control point here.
-std::array<Lane, 4> basis_by_point() {
-  std::array<Lane, 4> by_point;
-  for (std::size_t g = 0; g < 4; ++g) {
-    const auto n = kernels::basis(kernels::edge_u[g]);
-    by_point[g] = Lane{n[0], n[1], n[2], n[3]};
-  }
+// x and y of four control points, as they lie in memory.
+using ControlForce = Lane;
+
+// N_a(u) for a = 0..3, each of them for x and for y, as polynomials of u.
+struct Polynomial {
+  ControlForce a, b, c, d;
+  ControlForce value(double u) const { return fma(u, fma(u, fma(u, d, c), b), a); }
+  ControlForce slope(double u) const { return fma(u, fma(3 * u, d, 2.0 * c), b); }
+};
+ControlForce of_control_points(double a, double b, double c, double d) {
+  return ControlForce::load(std::array{a, a, b, b, c, c, d, d}.data());
+}
+const Polynomial& basis() {
+  static const Polynomial n{of_control_points(1.0 / 6, 2.0 / 3, 1.0 / 6, 0),
+                            of_control_points(-0.5, 0, 0.5, 0), of_control_points(0.5, -1, 0.5, 0),
+                            of_control_points(-1.0 / 6, 0.5, -0.5, 1.0 / 6)};
+  return n;
+}
+std::array<ControlForce, edge_points> basis_by_point() {
+  std::array<ControlForce, edge_points> by_point;
+  for (std::size_t g = 0; g < edge_points; ++g) by_point[g] = basis().value(kernels::edge_u[g]);
   return by_point;
 }
 
+// A force on all control points, from the row's list: x of its points, then y.
+ControlForce force_at(const double* point_force, int g) {
+  const double x = point_force[g], y = point_force[g + edge_points];
+  return ControlForce::load(std::array{x, y, x, y, x, y, x, y}.data());
+}
+
 // Forces of a row's four points on the four control points of the sampled edge.
-void add_sampled(const std::array<Lane, 4>& basis, const double* point_force,
+void add_sampled(const std::array<ControlForce, edge_points>& by_point, const double* point_force,
                  double* control_force) {
-  Lane x{}, y{};
-  for (std::size_t g = 0; g < 4; ++g) {
-    x += basis[g] * point_force[g];
-    y += basis[g] * point_force[g + edge_points];
-  }
-  for (int a = 0; a < 4; ++a) {
-    control_force[2 * a] += x[a];
-    control_force[2 * a + 1] += y[a];
-  }
+  ControlForce sum = ControlForce::load(control_force);
+  for (int g = 0; g < edge_points; ++g)
+    sum = fma(by_point[static_cast<std::size_t>(g)], force_at(point_force, g), sum);
+  sum.store(control_force);
 }
 
 // The opposite forces on the other body, at the closest point of each Gauss point.
-void add_other(const Shape& shape, const double* closest, const double* f, const double* couple,
-               double* control_force) {
+void add_other(const Polynomial& n, const Shape& shape, const double* closest, const double* f,
+               const double* couple, double* control_force) {
   for (int g = 0; g < edge_points; ++g) {
     if (f[g] == 0 && f[g + edge_points] == 0) continue;  // this point is apart
     const int edge = static_cast<int>(closest[g]);
     const double u = closest[g] - edge;
     double* out = control_force + 2 * shape.edges[static_cast<std::size_t>(edge)].first_control;
-    const auto n = kernels::basis(u);
-    for (std::size_t a = 0; a < 4; ++a) {
-      out[2 * a] -= n[a] * f[g];
-      out[2 * a + 1] -= n[a] * f[g + edge_points];
-    }
-    if (couple == nullptr) continue;
-    const auto slope = kernels::basis_slope(u);
-    for (std::size_t a = 0; a < 4; ++a) {
-      out[2 * a] -= slope[a] * couple[g];
-      out[2 * a + 1] -= slope[a] * couple[g + edge_points];
-    }
+    ControlForce sum = fma(-n.value(u), force_at(f, g), ControlForce::load(out));
+    if (couple != nullptr) sum = fma(-n.slope(u), force_at(couple, g), sum);
+    sum.store(out);
   }
 }
 
-// Control point forces to boundary nodes: the transpose of y = S x, four particles at once.
+// Control point forces to boundary nodes: the transpose of y = S x, eight particles at once.
 template <class Forces, class Nodes>
 void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node_force) {
   const int n = shape.control_points();
@@ -64,10 +71,7 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
   for (int c = 0; c < n; ++c) {
     Lane f[2];
     for (int k = 0; k < 2; ++k)
-      f[k] =
-          Lane{control_force(Row<ControlPoint>(c), k), control_force(Row<ControlPoint>(n + c), k),
-               control_force(Row<ControlPoint>(2 * n + c), k),
-               control_force(Row<ControlPoint>(3 * n + c), k)};
+      f[k] = Lane::from([&](int l) { return control_force(Row<ControlPoint>(l * n + c), k); });
     for (std::int32_t t = shape.curve_begin[static_cast<std::size_t>(c)];
          t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
       const Shape::CurveTerm& term = shape.curve_terms[static_cast<std::size_t>(t)];
@@ -86,14 +90,15 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
                                     Optional<Read<ContactPair<ToolContact>>> tool_pair,
                                     Optional<Read<PointForce<ToolContact>>> tool_force,
                                     Write<CurveForce> curve_force, Write<ContactForce> node_force) {
-  static const std::array<Lane, 4> basis = basis_by_point();
+  static const auto by_point = basis_by_point();
+  const Polynomial& n = basis();
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto control = curve_force.chunk(chunk);
-  for (int c = 0; c < 4 * shape.control_points(); ++c)
+  for (int c = 0; c < lane_count * shape.control_points(); ++c)
     control(Row<ControlPoint>(c), 0) = control(Row<ControlPoint>(c), 1) = 0;
 
   for (int lane = 0; lane < lane_count; ++lane) {
-    const auto slot = static_cast<std::size_t>(4 * chunk.index + lane);
+    const auto slot = static_cast<std::size_t>(lane_count * chunk.index + lane);
     double* own = &control(Row<ControlPoint>(lane * shape.control_points()));
     const auto edge = [&](std::int32_t e) {
       return own + 2 * shape.edges[static_cast<std::size_t>(e)].first_control;
@@ -101,12 +106,13 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
     if (pair) {
       for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
         const Row<Contact> row(r);
-        if ((*pair)(row, 3) != 0) add_sampled(basis, &(*point_force)(row), edge((*pair)(row, 1)));
+        if ((*pair)(row, 3) != 0)
+          add_sampled(by_point, &(*point_force)(row), edge((*pair)(row, 1)));
       }
       for (int k = index->other_begin[slot]; k < index->other_begin[slot + 1]; ++k) {
         const Row<Contact> row(index->other_rows[static_cast<std::size_t>(k)]);
         if ((*pair)(row, 3) != 0)
-          add_other(shape, &(*closest)(row), &(*point_force)(row),
+          add_other(n, shape, &(*closest)(row), &(*point_force)(row),
                     couple ? &(*couple)(row) : nullptr, own);
       }
     }
@@ -114,7 +120,7 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
       for (int r = index->tool_begin[slot]; r < index->tool_begin[slot + 1]; ++r) {
         const Row<ToolContact> row(r);
         if ((*tool_pair)(row, 3) != 0)
-          add_sampled(basis, &(*tool_force)(row), edge((*tool_pair)(row, 1)));
+          add_sampled(by_point, &(*tool_force)(row), edge((*tool_pair)(row, 1)));
       }
     }
   }

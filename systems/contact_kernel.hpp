@@ -31,13 +31,13 @@ inline constexpr double edge_w[4] = {0.17392742256872692869, 0.32607257743127307
                                      0.32607257743127307131, 0.17392742256872692869};
 
 template <class T>
-std::array<T, 4> basis(T u) {
+constexpr std::array<T, 4> basis(T u) {
   const T v = 1.0 - u, u2 = u * u, v2 = v * v;
   return {v2 * v * (1.0 / 6.0), 0.5 * u2 * u - u2 + 2.0 / 3.0, 0.5 * v2 * v - v2 + 2.0 / 3.0,
           u2 * u * (1.0 / 6.0)};
 }
 template <class T>
-std::array<T, 4> basis_slope(T u) {
+constexpr std::array<T, 4> basis_slope(T u) {
   const T v = 1.0 - u;
   return {-0.5 * (v * v), u * (1.5 * u - 2.0), v * (2.0 - 1.5 * v), 0.5 * (u * u)};
 }
@@ -85,10 +85,10 @@ inline double stiffening(double depth) {
 
 // g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `edge` m, length of the edge.
 template <class T>
-Traction<T> normal_traction(T g, T g_rate, T kappa, T c, double edge) {
+Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T edge) {
   const T zero{};
   const T touching = max(g, zero);
-  const T depth = touching * (1 / (stiffening_depth * edge));
+  const T depth = touching / (stiffening_depth * edge);
   const T more = depth * depth;
   const T spring = kappa * touching * (1.0 + more);
   const T total = select(g > 0.0, max(spring + c * g_rate, zero), zero);

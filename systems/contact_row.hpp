@@ -2,37 +2,49 @@
 // four Gauss points, turn gap and slip into forces, and book the energies.
 #pragma once
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <limits>
 
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/lane_memory.hpp"
 #include "systems/contact_kernel.hpp"
 
 namespace pulvis {
+
+// Two rows at once, four Gauss points each: the lanes of the one, then those of the other. The same row
+// twice where one is left over.
+template <class At>
+using RowPair = std::array<Row<At>, 2>;
 
 struct PointLanes {
   Lane x, y;
 };
 
-// The Gauss points of an edge from its four control points, which lie one after the other.
-inline PointLanes edge_points_at(const double* control) {
-  static const auto n = kernels::basis(
-      Lane{kernels::edge_u[0], kernels::edge_u[1], kernels::edge_u[2], kernels::edge_u[3]});
+inline constexpr auto basis_at_points = [] {
+  std::array<std::array<double, lane_count>, 4> n{};  // [control point][Gauss point of both rows]
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const auto all = kernels::basis(kernels::edge_u[l % edge_points]);
+    for (std::size_t a = 0; a < 4; ++a) n[a][l] = all[a];
+  }
+  return n;
+}();
+
+// The Gauss points of two edges from their four control points each, which lie one after the other.
+inline PointLanes edge_points_at(const double* low, const double* high) {
+  const auto control = columns_of({low, low, low, low, high, high, high, high});
   PointLanes p{};
   for (std::size_t a = 0; a < 4; ++a) {
-    p.x += n[a] * control[2 * a];
-    p.y += n[a] * control[2 * a + 1];
+    const Lane n = Lane::load(basis_at_points[a].data());
+    p.x += n * control[2 * a];
+    p.y += n * control[2 * a + 1];
   }
   return p;
 }
 
-inline Lane lane_of(const double* four) { return Lane{four[0], four[1], four[2], four[3]}; }
-inline void put(double* four, Lane value) {
-  for (int i = 0; i < 4; ++i) four[i] = value[i];
-}
-
-// Relative motion at the four points: how the surfaces stand and move against each other.
+// Relative motion at the points: how the surfaces stand and move against each other.
 struct RowMotion {
   Lane gap;        // m, > 0 in penetration
   Lane nx, ny;     // outward normal of the other surface
@@ -91,38 +103,71 @@ void set_apart(const RowColumns<At>& c, Row<At> row, double reach) {
   if (c.damping_work) (*c.damping_work)(row) = 0;
 }
 
-// Forces of a touching row. `share` of kappa: one half where the other particle samples back. Returns
-// the friction traction times weight [N] (the couple of the other body needs it).
+// The numbers of a row at its four points, of two rows.
+template <class Access, class At>
+Lane at_points(const Access& column, const RowPair<At>& rows, int first = 0) {
+  return load_halves(&column(rows[0], first), &column(rows[1], first));
+}
+// A number of a row, of two rows.
+template <class Access, class At>
+Lane at_rows(const Access& column, const RowPair<At>& rows) {
+  return halves(column(rows[0]), column(rows[1]));
+}
+
+// Forces of the rows of a pair that touch (bit 0, bit 1). `share` of kappa: one half where the other
+// particle samples back. Returns the friction traction times weight [N] (the couple of the other body
+// needs it).
 template <class At>
-Lane set_touching(const RowColumns<At>& c, Row<At> row, const RowMotion& m, double share,
-                  double dt) {
-  const Lane weight = lane_of(&c.weight(row));
-  const Lane kappa = broadcast(share * c.stiffness(row));
-  const Lane damping = c.damping ? broadcast(share * (*c.damping)(row)) : Lane{};
-  const auto normal = kernels::normal_traction(m.gap, m.gap_rate, kappa, damping, c.length(row));
-  Lane along{}, work{};
+[[gnu::flatten]] Lane set_touching(const RowColumns<At>& c, const RowPair<At>& rows,
+                                   unsigned touching, const RowMotion& m, double share, double dt) {
+  const Lane weight = at_points(c.weight, rows);
+  const Lane kappa = share * at_rows(c.stiffness, rows);
+  const Lane damping = c.damping ? share * at_rows(*c.damping, rows) : Lane{};
+  const auto normal =
+      kernels::normal_traction(m.gap, m.gap_rate, kappa, damping, at_rows(c.length, rows));
+  Lane along{}, spring{}, friction_work{}, energy = normal.spring_energy;
   if (c.friction) {
-    double* spring = &(*c.elastic_slip)(row);
-    const auto friction = kernels::coulomb_return(
-        lane_of(spring), m.slip_rate * dt, normal.pressure, broadcast((*c.friction)(row)), kappa);
-    put(spring, friction.elastic_slip);
+    const auto friction =
+        kernels::coulomb_return(at_points(*c.elastic_slip, rows), m.slip_rate * dt, normal.pressure,
+                                at_rows(*c.friction, rows), kappa);
+    spring = friction.elastic_slip;
     along = friction.traction * weight;
-    work = friction.work * weight;
-    (*c.friction_work)(row) = sum(work);
+    friction_work = friction.work * weight;
+    energy += 0.5 * kappa * spring * spring;
   }
+  energy *= weight;
   const Lane push = normal.pressure * weight;
-  put(&c.force(row, 0), push * m.nx - along * m.ny);
-  put(&c.force(row, edge_points), push * m.ny + along * m.nx);
-  c.pair(row, 3) = 1;
-  c.reach(row) = 0;
-  c.penetration(row) = greatest(m.gap);
-  c.energy(row) = sum(normal.spring_energy * weight);
-  if (c.friction) {
-    const Lane u = lane_of(&(*c.elastic_slip)(row));
-    c.energy(row) += sum(0.5 * kappa * u * u * weight);
+  const Lane fx = push * m.nx - along * m.ny, fy = push * m.ny + along * m.nx;
+  const Lane damping_work = normal.damping_power * weight * dt;
+  for (int half = 0; half < 2; ++half) {
+    if ((touching >> half & 1) == 0) continue;
+    const Row<At> row = rows[static_cast<std::size_t>(half)];
+    c.pair(row, 3) = 1;
+    c.reach(row) = 0;
+    store_half(fx, half, &c.force(row, 0));
+    store_half(fy, half, &c.force(row, edge_points));
+    c.penetration(row) = greatest_of_half(m.gap, half);
+    c.energy(row) = sum_of_half(energy, half);
+    if (c.elastic_slip) store_half(spring, half, &(*c.elastic_slip)(row));
+    if (c.friction_work) (*c.friction_work)(row) = sum_of_half(friction_work, half);
+    if (c.damping_work) (*c.damping_work)(row) = sum_of_half(damping_work, half);
   }
-  if (c.damping_work) (*c.damping_work)(row) = sum(normal.damping_power * weight) * dt;
   return along;
+}
+
+// Calls look_at(pair) for all active rows, two by two. Which rows make a pair does not depend on threads.
+template <class At, class Active, class LookAt>
+void for_active_pairs(int rows, const Active& active, const LookAt& look_at) {
+  constexpr int rows_of_a_task = 128;
+  const int tasks = (rows + rows_of_a_task - 1) / rows_of_a_task;
+  tbb::parallel_for(0, tasks, [&](int task) {
+    std::array<Row<At>, rows_of_a_task + 1> found;
+    std::size_t count = 0;
+    for (int r = task * rows_of_a_task; r < std::min(rows, (task + 1) * rows_of_a_task); ++r)
+      if (active(Row<At>(r))) found[count++] = Row<At>(r);
+    if (count % 2 != 0) found[count] = found[count - 1];
+    for (std::size_t i = 0; i < count; i += 2) look_at(RowPair<At>{found[i], found[i + 1]});
+  });
 }
 
 }  // namespace pulvis

@@ -4,8 +4,6 @@
 // Source   systems/contact_kernel.hpp
 // Runs     after bin_edges, before contact_force
 // Active   when the scene has more than one particle
-#include <oneapi/tbb/parallel_for.h>
-
 #include "systems/broad_phase.hpp"
 #include "systems/contact_row.hpp"
 #include "systems/run_failure.hpp"
@@ -14,107 +12,114 @@
 namespace pulvis {
 namespace {
 
-// The other particle's curve as the closest-point search walks it: positions, velocities, edges.
-struct OtherCurve {
-  const Shape& shape;
-  const double* position;
-  const double* velocity;  // null where the scene needs none
+constexpr std::size_t lanes = lane_count;
+constexpr unsigned all_lanes = (1U << lane_count) - 1;
+constexpr unsigned half_of(unsigned bits, int half) { return bits >> (half * edge_points) & 15; }
+
+// The curves of the other particles as the closest-point search walks them, of both rows.
+struct OtherCurves {
+  std::array<const Shape*, 2> shape;
+  std::array<const double*, 2> position;
+  std::array<const double*, 2> velocity;  // null where the scene needs none
 };
 
 struct LaneEdges {
-  std::array<int, 4> edge;
+  std::array<std::int32_t, lanes> edge;
   Lane u;
 };
 
-LaneEdges unpack(const double* closest) {
+LaneEdges unpack(const Lane& closest) {
   LaneEdges at;
-  for (int l = 0; l < 4; ++l) {
-    at.edge[static_cast<std::size_t>(l)] = static_cast<int>(closest[l]);
-    at.u[l] = closest[l] - at.edge[static_cast<std::size_t>(l)];
+  std::array<double, lanes> from, u;
+  closest.store(from.data());
+  for (std::size_t l = 0; l < lanes; ++l) {
+    at.edge[l] = static_cast<std::int32_t>(from[l]);
+    u[l] = from[l] - at.edge[l];
   }
+  at.u = Lane::load(u.data());
   return at;
 }
 
-void pack(double* closest, const LaneEdges& at) {
-  for (int l = 0; l < 4; ++l) {
-    const double inside = std::min(at.u[l], 1 - 1e-12);  // an end belongs to its own edge
-    closest[l] = at.edge[static_cast<std::size_t>(l)] + inside;
-  }
+Lane pack(const LaneEdges& at) {
+  const Lane edge = Lane::from([&](int l) { return at.edge[static_cast<std::size_t>(l)]; });
+  return edge + min(at.u, 1 - 1e-12);  // an end belongs to its own edge
 }
 
 struct CurveLanes {
   kernels::Cubic<Lane> x, y;
 };
 
-CurveLanes gather(const Shape& shape, const double* points, const std::array<int, 4>& edge) {
-  const double* p[4];
-  for (std::size_t l = 0; l < 4; ++l)
-    p[l] = points + 2 * shape.edges[static_cast<std::size_t>(edge[l])].first_control;
-  const auto at = [&](int k) { return Lane{p[0][k], p[1][k], p[2][k], p[3][k]}; };
-  return {kernels::cubic(at(0), at(2), at(4), at(6)), kernels::cubic(at(1), at(3), at(5), at(7))};
+CurveLanes gather(const std::array<const Shape*, 2>& shape,
+                  const std::array<const double*, 2>& points,
+                  const std::array<std::int32_t, lanes>& edge) {
+  std::array<const double*, lanes> control;
+  for (std::size_t l = 0; l < lanes; ++l)
+    control[l] = points[l / edge_points] +
+                 2 * shape[l / edge_points]->edges[static_cast<std::size_t>(edge[l])].first_control;
+  const auto y = columns_of(control);
+  return {kernels::cubic(y[0], y[2], y[4], y[6]), kernels::cubic(y[1], y[3], y[5], y[7])};
 }
 
-// Points that leave their edge go on in the next one, or stop at a corner.
-void cross_edges(const Shape& shape, LaneEdges& at) {
-  for (std::size_t l = 0; l < 4; ++l) {
-    const int lane = static_cast<int>(l);
-    if (at.u[lane] >= 0 && at.u[lane] <= 1) continue;
-    const Shape::Edge& edge = shape.edges[static_cast<std::size_t>(at.edge[l])];
-    const bool forward = at.u[lane] > 1;
+// Points that leave their edge go on in the next one, or stop at a corner. Returns the lanes that stand
+// where they stood, at a corner.
+unsigned cross_edges(const std::array<const Shape*, 2>& shape, const Lane& before, LaneEdges& at) {
+  std::array<double, lanes> u, u_before;
+  at.u.store(u.data());
+  before.store(u_before.data());
+  unsigned stay = 0;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (u[l] >= 0 && u[l] <= 1) continue;
+    const Shape::Edge& edge = shape[l / edge_points]->edges[static_cast<std::size_t>(at.edge[l])];
+    const bool forward = u[l] > 1;
     const int neighbour = forward ? edge.next : edge.previous;
     if (neighbour == Shape::no_edge) {
-      at.u[lane] = forward ? 1 : 0;
+      u[l] = forward ? 1 : 0;
+      if (u[l] == u_before[l]) stay |= 1U << l;
     } else {
       at.edge[l] = neighbour;
-      at.u[lane] = std::clamp(at.u[lane] + (forward ? -1 : 1), 0.0, 1.0);
+      u[l] = std::clamp(u[l] + (forward ? -1 : 1), 0.0, 1.0);
     }
   }
+  at.u = Lane::load(u.data());
+  return stay;
 }
 
 constexpr int most_steps = 40;
 constexpr double step_tolerance = 1e-8;  // of an edge; the gap is then exact to its square
 
-// Where the four points stand against the curve. `beyond`: closest to a corner, from outside its edge.
+// Where the points stand against the curves. `beyond`: closest to a corner, from outside its edge.
 struct Closest {
   LaneEdges at;
   CurveLanes curve;
   Lane rx, ry;  // from the curve to the point, m
-  LaneMask beyond;
+  unsigned beyond = 0;
 };
 
-[[gnu::flatten]] Closest closest_points(const OtherCurve& other, const PointLanes& points,
-                                        LaneEdges start) {
-  Closest c{start, {}, {}, {}, {}};
+// Every lane stops by itself, so that no point depends on the others.
+[[gnu::flatten]] Closest closest_points(const OtherCurves& other, const PointLanes& points,
+                                        const LaneEdges& start) {
+  Closest c{start, gather(other.shape, other.position, start.edge), {}, {}};
+  unsigned done = 0;
   for (int step = 0;; ++step) {
-    c.curve = gather(other.shape, other.position, c.at.edge);
     c.rx = points.x - c.curve.x.value(c.at.u);
     c.ry = points.y - c.curve.y.value(c.at.u);
-    Lane du =
+    const Lane way =
         kernels::closest_point_step(c.rx, c.ry, c.curve.x.slope(c.at.u), c.curve.y.slope(c.at.u),
                                     c.curve.x.curvature(c.at.u), c.curve.y.curvature(c.at.u));
-    du = min(max(du, broadcast(-1)), broadcast(1));
-    const LaneMask small = abs(du) < step_tolerance;
-    if (all(small)) return c;
-    const LaneEdges before = c.at;
-    c.at.u += du;
-    if (!any((c.at.u < 0.0) | (c.at.u > 1.0)) && step < most_steps) continue;
-    cross_edges(other.shape, c.at);
-    // Also done when every other lane pushes against a corner that it stands at.
-    LaneMask stays{};
-    for (std::size_t l = 0; l < 4; ++l) {
-      const int i = static_cast<int>(l);
-      stays[i] = before.edge[l] == c.at.edge[l] && before.u[i] == c.at.u[i] ? -1 : 0;
-    }
-    c.beyond = stays & ~small;
-    if (all(small | stays) || step == most_steps) {
-      c.at = before;
-      return c;
-    }
+    const Lane du = min(max(way, -1.0), 1.0);
+    done |= (abs(du) < step_tolerance).bits();
+    if (done == all_lanes || step == most_steps) return c;
+    const Lane before = c.at.u;
+    c.at.u = select(LaneMask::of(done), before, before + du);
+    if (!any((c.at.u < 0.0) | (c.at.u > 1.0))) continue;
+    c.beyond |= cross_edges(other.shape, before, c.at);
+    done |= c.beyond;
+    c.curve = gather(other.shape, other.position, c.at.edge);
   }
 }
 
-// How the points move against the curve; both rates vanish in a common rigid motion.
-[[gnu::flatten]] RowMotion row_motion(const OtherCurve& other, const Closest& c,
+// How the points move against the curves; both rates vanish in a common rigid motion.
+[[gnu::flatten]] RowMotion row_motion(const OtherCurves& other, const Closest& c,
                                       const PointLanes& velocity) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
   const Lane over_length = 1.0 / sqrt(sx * sx + sy * sy);
@@ -122,7 +127,7 @@ struct Closest {
   m.nx = sy * over_length;
   m.ny = -sx * over_length;
   m.gap = -(c.rx * m.nx + c.ry * m.ny);
-  if (other.velocity != nullptr) {
+  if (other.velocity[0] != nullptr) {
     const CurveLanes v = gather(other.shape, other.velocity, c.at.edge);
     const Lane wx = velocity.x - v.x.value(c.at.u), wy = velocity.y - v.y.value(c.at.u);
     const Lane turn = (v.x.slope(c.at.u) * m.nx + v.y.slope(c.at.u) * m.ny) * over_length;
@@ -135,19 +140,29 @@ struct Closest {
 // An outline against itself: two parts of it that meet from outside, where it folds. From inside each point
 // is at some depth below the far side of its own body: a row that begins like that, or deeper than contacts
 // get, is none. Points whose closest point is their own neighbourhood do not touch.
-bool is_far_side(const Closest& c, int edge, int edges, double length, bool unseen, Lane& gap) {
-  for (std::size_t l = 0; l < 4; ++l)
-    if (edges_between(c.at.edge[l], edge, edges) < least_fold) gap[static_cast<int>(l)] = -1;
-  if (!any(gap > 0.0)) return unseen && any(c.beyond);
-  return unseen || greatest(gap) > 0.25 * length;
+bool is_far_side(const Closest& c, int half, int edge, const Shape& shape, bool unseen, Lane& gap) {
+  double deepest = -1;
+  for (int l = half * edge_points; l < (half + 1) * edge_points; ++l) {
+    const int there = c.at.edge[static_cast<std::size_t>(l)];
+    if (edges_between(there, edge, static_cast<int>(shape.edges.size())) < least_fold) gap[l] = -1;
+    deepest = std::max(deepest, gap[l]);
+  }
+  if (!(deepest > 0)) return unseen && half_of(c.beyond, half) != 0;
+  return unseen || deepest > 0.25 * shape.edges[static_cast<std::size_t>(edge)].length;
 }
 
-// The force on the other body's slope that makes friction free of torque: -T g/|x'| n.
-void set_couple(const Closest& c, const RowMotion& m, Lane along, double* couple) {
+// The force on the other bodies' slope that makes friction free of torque: -T g/|x'| n.
+void set_couple(const Closest& c, const RowMotion& m, const Lane& along, unsigned touching,
+                const RowPair<Contact>& rows, const Write<FrictionCouple>& couple) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
   const Lane size = along * m.gap / sqrt(sx * sx + sy * sy);
-  put(couple, size * m.nx);
-  put(couple + edge_points, size * m.ny);
+  const Lane x = size * m.nx, y = size * m.ny;
+  for (int half = 0; half < 2; ++half) {
+    if ((touching >> half & 1) == 0) continue;
+    double* out = &couple(rows[static_cast<std::size_t>(half)]);
+    store_half(x, half, out);
+    store_half(y, half, out + edge_points);
+  }
 }
 
 }  // namespace
@@ -169,41 +184,54 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
                                     friction_work, damping,     damping_work};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
-  const auto control = [&](int slot) {
+  const auto first_control = [&](int slot) {
     return 2 *
            static_cast<std::size_t>(bodies->slots[static_cast<std::size_t>(slot)].first_control);
   };
 
-  const auto look_at = [&](Row<Contact> row) {
-    if (clock->travel < reach(row)) return;
-    const int slot = pair(row, 0), partner = pair(row, 2);
-    const Shape::Edge& edge =
-        bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(pair(row, 1))];
-    const std::size_t first = control(slot) + 2 * static_cast<std::size_t>(edge.first_control);
-    const OtherCurve other{bodies->shape_of_slot(partner), points + control(partner),
-                           rates != nullptr ? rates + control(partner) : nullptr};
-    const PointLanes at = edge_points_at(points + first);
-    const Closest c = closest_points(other, at, unpack(&closest(row)));
-    pack(&closest(row), c.at);
+  const auto look_at = [&](const RowPair<Contact>& rows) {
+    OtherCurves other;
+    std::array<std::size_t, 2> own;  // first control point of the sampled edge
+    for (std::size_t i = 0; i < 2; ++i) {
+      const int slot = pair(rows[i], 0), partner = pair(rows[i], 2);
+      other.shape[i] = &bodies->shape_of_slot(partner);
+      other.position[i] = points + first_control(partner);
+      other.velocity[i] = rates != nullptr ? rates + first_control(partner) : nullptr;
+      own[i] = first_control(slot) +
+               2 * static_cast<std::size_t>(bodies->shape_of_slot(slot)
+                                                .edges[static_cast<std::size_t>(pair(rows[i], 1))]
+                                                .first_control);
+    }
+    const PointLanes at = edge_points_at(points + own[0], points + own[1]);
+    const Closest c = closest_points(other, at, unpack(at_points(closest, rows)));
+    const Lane found = pack(c.at);
+    for (int i = 0; i < 2; ++i) store_half(found, i, &closest(rows[static_cast<std::size_t>(i)]));
 
-    const PointLanes speed = rates != nullptr ? edge_points_at(rates + first) : PointLanes{};
+    const PointLanes speed =
+        rates != nullptr ? edge_points_at(rates + own[0], rates + own[1]) : PointLanes{};
     RowMotion motion = row_motion(other, c, speed);
-    motion.gap = c.beyond ? broadcast(-1) : motion.gap;  // past a corner: outside the other body
-    if (partner == slot) {
-      const int edges = static_cast<int>(other.shape.edges.size());
-      if (is_far_side(c, pair(row, 1), edges, edge.length, reach(row) == unseen, motion.gap)) {
+    // Past a corner: outside the other body.
+    motion.gap = select(LaneMask::of(c.beyond), -1.0, motion.gap);
+    unsigned touching = 0;
+    for (int i = 0; i < 2; ++i) {
+      const Row<Contact> row = rows[static_cast<std::size_t>(i)];
+      if (pair(row, 2) == pair(row, 0) &&
+          is_far_side(c, i, pair(row, 1), *other.shape[static_cast<std::size_t>(i)],
+                      reach(row) == unseen, motion.gap)) {
         set_apart(columns, row, far_side);
-        return;
+      } else if (half_of((motion.gap > 0.0).bits(), i) != 0) {
+        touching |= 1U << i;
+      } else {
+        const Lane square = c.rx * c.rx + c.ry * c.ry;
+        set_apart(columns, row, clock->travel + std::sqrt(least_of_half(square, i)));
       }
     }
-    if (!any(motion.gap > 0.0)) {
-      set_apart(columns, row, clock->travel + std::sqrt(least(c.rx * c.rx + c.ry * c.ry)));
-      return;
-    }
-    const Lane along = set_touching(columns, row, motion, 0.5, clock->dt_before);
-    if (couple) set_couple(c, motion, along, &(*couple)(row));
+    if (touching == 0) return;
+    const Lane along = set_touching(columns, rows, touching, motion, 0.5, clock->dt_before);
+    if (couple) set_couple(c, motion, along, touching, rows, *couple);
   };
-  tbb::parallel_for(0, pair.rows(), [&](int row) { look_at(Row<Contact>(row)); });
+  for_active_pairs<Contact>(
+      pair.rows(), [&](Row<Contact> row) { return clock->travel >= reach(row); }, look_at);
 }
 
 }  // namespace pulvis

@@ -78,7 +78,7 @@ void plastic_work(Chunk chunk, Read<Bodies> bodies, Read<YieldStress> sigma_y,
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
   // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
-  const Lane yield = min(sigma_y.chunk(chunk)(particle), broadcast(1e300));
+  const Lane yield = min(sigma_y.chunk(chunk)(particle), 1e300);
   const kernels::LinearHardening<Lane> law{yield, hardening.chunk(chunk)(particle)};
   const auto strain = eps.chunk(chunk);
   Lane total{};

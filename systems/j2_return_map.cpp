@@ -39,10 +39,10 @@ void return_point(const Views<F>& v, Row<Element> e, int g, const kernels::Matri
 
 template <class F>
 void return_element(const Views<F>& v, const Shape& shape, Row<Element> e) {
-  LaneMask flows[F::points], some{};
+  LaneMask flows[F::points], some = LaneMask::of(0);
   for (int g = 0; g < F::points; ++g) {
     flows[g] = kernels::yields(deviator(v.stress, e, g), v.strain(e, g), v.law);
-    some |= flows[g];
+    some = some | flows[g];
   }
   if (!any(some)) return;
 

@@ -39,17 +39,19 @@ Lane largest_norm(const View& stress, Row<Element> e) {
 Lane corner_factor(const kernels::QuadMap<Lane>& map) {
   Lane least = determinant(map_gradient<4>(map, 0));
   for (int g = 1; g < 4; ++g) least = min(least, determinant(map_gradient<4>(map, g)));
-  const Lane ratio = determinant(map_gradient<1>(map, 0)) / max(least, broadcast(1e-300));
-  return min(max(broadcast(1), 0.5 * ratio * ratio), broadcast(9));
+  const Lane ratio = determinant(map_gradient<1>(map, 0)) / max(least, 1e-300);
+  return min(max(1.0, 0.5 * ratio * ratio), 9.0);
 }
 
 }  // namespace
 
 template <int Points>
-void stable_time_step(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Position> x,
-                      Read<ShearModulus> mu, Read<BulkModulus> bulk, Read<Density> density,
-                      Read<DeviatoricStress<Points>> s, Optional<Read<ContactRules>> rules,
-                      Write<StableTimeStep> stable) {
+[[gnu::flatten]] void stable_time_step(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
+                                       Read<Position> x, Read<ShearModulus> mu,
+                                       Read<BulkModulus> bulk, Read<Density> density,
+                                       Read<DeviatoricStress<Points>> s,
+                                       Optional<Read<ContactRules>> rules,
+                                       Write<StableTimeStep> stable) {
   if (clock->step < clock->next_look) return;
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);

@@ -4,8 +4,6 @@
 // Source   systems/contact_kernel.hpp; one pass with the full stiffness, since a tool is not sampled
 // Runs     after bin_edges and tool_motion, before contact_force
 // Active   when the scene has tools
-#include <oneapi/tbb/parallel_for.h>
-
 #include "systems/contact_row.hpp"
 #include "systems/surface_kernel.hpp"
 #include "systems/systems.hpp"
@@ -32,40 +30,63 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
 
-  const auto look_at = [&](Row<ToolContact> row) {
-    if (clock->travel < reach(row)) return;
-    const int slot = pair(row, 0);
+  // Of both rows, as if `tool` were that of both.
+  const auto gap_to = [&](Row<ToolContact> row, const PointLanes& at, double farthest) {
     const Row<Tool> tool(pair(row, 2));
-    const Shape::Edge& edge =
-        bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(pair(row, 1))];
-    const int control = bodies->slots[static_cast<std::size_t>(slot)].first_control;
-    const std::size_t first = 2 * static_cast<std::size_t>(control + edge.first_control);
-
-    const PointLanes at = edge_points_at(points + first);
+    const Lane rx = at.x - tool_position(tool, 0), ry = at.y - tool_position(tool, 1);
     RowMotion m{};
     if (range && (*shapes)->is(tool.value, ToolShapes::Kind::polyline)) {
       // Farther than an edge the range of pieces tells nothing; see bin_tool_edges.
       const auto nearest = kernels::nearest_on_surface(
-          (*shapes)->surface_of(tool.value), (*range)(row, 0), (*range)(row, 1),
-          at.x - tool_position(tool, 0), at.y - tool_position(tool, 1), edge.length);
+          (*shapes)->surface_of(tool.value), (*range)(row, 0), (*range)(row, 1), rx, ry, farthest);
       m.nx = nearest.nx;
       m.ny = nearest.ny;
       m.gap = -nearest.distance;
     } else {
-      m.nx = broadcast(tool_normal(tool, 0));
-      m.ny = broadcast(tool_normal(tool, 1));
-      m.gap = -((at.x - tool_position(tool, 0)) * m.nx + (at.y - tool_position(tool, 1)) * m.ny);
+      m.nx = tool_normal(tool, 0);
+      m.ny = tool_normal(tool, 1);
+      m.gap = -(rx * m.nx + ry * m.ny);
     }
-    if (!any(m.gap > 0.0)) return set_apart(columns, row, clock->travel - greatest(m.gap));
+    return m;
+  };
+  const auto look_at = [&](const RowPair<ToolContact>& rows) {
+    std::array<const Shape::Edge*, 2> edge;
+    std::array<std::size_t, 2> first;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const int slot = pair(rows[i], 0);
+      edge[i] = &bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(pair(rows[i], 1))];
+      const int control = bodies->slots[static_cast<std::size_t>(slot)].first_control;
+      first[i] = 2 * static_cast<std::size_t>(control + edge[i]->first_control);
+    }
+    const PointLanes at = edge_points_at(points + first[0], points + first[1]);
+    RowMotion m = gap_to(rows[0], at, edge[0]->length);
+    const RowMotion other = gap_to(rows[1], at, edge[1]->length);
+    const LaneMask low = LaneMask::of(15);
+    m.nx = select(low, m.nx, other.nx);
+    m.ny = select(low, m.ny, other.ny);
+    m.gap = select(low, m.gap, other.gap);
+
+    unsigned touching = 0;
+    for (int i = 0; i < 2; ++i) {
+      const double deepest = greatest_of_half(m.gap, i);
+      if (deepest > 0)
+        touching |= 1U << i;
+      else
+        set_apart(columns, rows[static_cast<std::size_t>(i)], clock->travel - deepest);
+    }
+    if (touching == 0) return;
     if (rates != nullptr) {
-      const PointLanes speed = edge_points_at(rates + first);
-      const Lane wx = speed.x - tool_velocity(tool, 0), wy = speed.y - tool_velocity(tool, 1);
+      const PointLanes speed = edge_points_at(rates + first[0], rates + first[1]);
+      const Row<Tool> a(pair(rows[0], 2)), b(pair(rows[1], 2));
+      const Lane wx = speed.x - halves(tool_velocity(a, 0), tool_velocity(b, 0));
+      const Lane wy = speed.y - halves(tool_velocity(a, 1), tool_velocity(b, 1));
       m.gap_rate = -(wx * m.nx + wy * m.ny);
       m.slip_rate = wy * m.nx - wx * m.ny;
     }
-    set_touching(columns, row, m, 1.0, clock->dt_before);
+    set_touching(columns, rows, touching, m, 1.0, clock->dt_before);
   };
-  tbb::parallel_for(0, pair.rows(), [&](int row) { look_at(Row<ToolContact>(row)); });
+  for_active_pairs<ToolContact>(
+      pair.rows(), [&](Row<ToolContact> row) { return clock->travel >= reach(row); }, look_at);
 }
 
 }  // namespace pulvis

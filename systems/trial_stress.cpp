@@ -50,7 +50,7 @@ Lane element_stress(const Views<F>& v, const HourglassViews* hourglass, const Sh
                     Row<Element> e, const LeftCauchyGreen& left) {
   const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
   const auto& points = points_of<F::points>(shape, e.value);
-  Lane theta{}, over_theta{}, least = broadcast(1e300);
+  Lane theta{}, over_theta{}, least = 1e300;
   if constexpr (F::volumes < F::points) {
     theta = least = mean_dilatation(map, points);
     over_theta = 1.0 / theta;
@@ -68,7 +68,7 @@ Lane element_stress(const Views<F>& v, const HourglassViews* hourglass, const Sh
       v.p(e, g) = 0.5 * v.bulk * (j - over_theta);
     }
     store(v.s, e, g, kernels::scaled_deviator(left(f, r, e, g), v.mu * over_theta * r2));
-    least = least < j ? least : j;
+    least = min(j, least);
   }
   if constexpr (F::stabilised)
     least *= hourglass_stress(*hourglass, map, over_theta * (4 / points[0].determinant),
@@ -79,8 +79,8 @@ Lane element_stress(const Views<F>& v, const HourglassViews* hourglass, const Sh
 // A NaN wins every comparison and is not replaced by a later number, so that it is seen.
 void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
   const LaneMask lower = ~(least >= worst) & (worst == worst);
-  worst_element = lower ? broadcast(e.value) : worst_element;
-  worst = lower ? least : worst;
+  worst_element = select(lower, e.value, worst_element);
+  worst = select(lower, least, worst);
 }
 
 // `gone`: null for elastic material.
@@ -97,7 +97,7 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
                  kernels::plane_strain_modulus(v.mu, v.bulk)};
   }
   const Shape& shape = bodies.shape_of_chunk(chunk);
-  Lane worst = broadcast(1e300), which{};
+  Lane worst = 1e300, which{};
   for (int i = 0; i < shape.elements(); ++i)
     keep_worst(
         element_stress<F>(v, hourglass ? &*hourglass : nullptr, shape, Row<Element>(i), left),

@@ -49,8 +49,8 @@ TEST(World, NewColumnIsZeroAndAligned) {
   world.add_table<Cell>({5, 2});
   world.add<Heat>();
   const Column<Heat>& heat = world.column<Heat>();
-  ASSERT_EQ(heat.bytes(), 7u * 2 * 4 * sizeof(double));
-  for (std::size_t i = 0; i < 7 * 2 * 4; ++i) ASSERT_EQ(heat.values()[i], 0);
+  ASSERT_EQ(heat.bytes(), 7u * 2 * lane_count * sizeof(double));
+  for (std::size_t i = 0; i < 7 * 2 * lane_count; ++i) ASSERT_EQ(heat.values()[i], 0);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(heat.data()) % 64, 0u);
 }
 
@@ -99,11 +99,11 @@ TEST(World, LanedRowsLieRowThenComponentThenLane) {
   world.add<Heat>();
   Column<Heat>& heat = world.column<Heat>();
   for (int i = 0; i < 3 * 2; ++i)
-    for (int lane = 0; lane < lane_count; ++lane) heat.lanes()[i][lane] = 4 * i + lane;
-  for (int i = 0; i < 3 * 2 * 4; ++i) ASSERT_EQ(heat.values()[i], i);
+    for (int lane = 0; lane < lane_count; ++lane) heat.lanes()[i][lane] = lane_count * i + lane;
+  for (int i = 0; i < 3 * 2 * lane_count; ++i) ASSERT_EQ(heat.values()[i], i);
   const auto second = Read<Heat>(world).chunk(Chunk{1});
-  EXPECT_EQ(second(Row<Cell>(0), 0)[0], 8);  // row 1 of the table, its first component
-  EXPECT_EQ(second(Row<Cell>(1), 1)[3], 4 * 5 + 3);
+  EXPECT_EQ(second(Row<Cell>(0), 0)[0], 2 * lane_count);  // row 1 of the table, its first component
+  EXPECT_EQ(second(Row<Cell>(1), 1)[3], lane_count * 5 + 3);
 }
 
 TEST(World, ChunksOfAPlainTableStartWhereTheLastOnesEnd) {

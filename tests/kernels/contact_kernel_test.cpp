@@ -224,9 +224,8 @@ TEST(ContactKernels, LanesGiveTheBitsOfTheScalar) {
   for (int i = 0; i < 1000; ++i) {
     const Lane g = random.lane(-1e-6, 1e-6), rate = random.lane(-1, 1),
                u = random.lane(-1e-7, 1e-7);
-    const auto normal = normal_traction(g, rate, broadcast(3e15), broadcast(1e9), edge);
-    const auto friction =
-        coulomb_return(u, rate * 1e-7, normal.pressure, broadcast(0.3), broadcast(3e15));
+    const auto normal = normal_traction<Lane>(g, rate, 3e15, 1e9, edge);
+    const auto friction = coulomb_return<Lane>(u, rate * 1e-7, normal.pressure, 0.3, 3e15);
     for (int l = 0; l < lane_count; ++l) {
       const auto n = normal_traction(g[l], rate[l], 3e15, 1e9, edge);
       const auto f = coulomb_return(u[l], rate[l] * 1e-7, n.pressure, 0.3, 3e15);

@@ -249,7 +249,7 @@ TEST(RadialReturn, InfiniteYieldStressNeverYields) {
   }
 }
 
-struct FourPoints {
+struct PointsOfLanes {
   Matrix2<Lane> f{};
   J2State<Lane> state{};
   void set(int lane, const Gradient& one, const State& old) {
@@ -271,36 +271,42 @@ bool same_bits(const State& a, const State& b) {
          bits(a.c.xy) == bits(b.c.xy) && bits(a.eps) == bits(b.eps);
 }
 
-// Lane materials: the last lane never yields.
-const Material<Lane> four_materials{
-    broadcast(80e9),
-    {Lane{400e6, 400e6, 400e6, std::numeric_limits<double>::infinity()}, broadcast(2e9)}};
+// Lane materials: the fourth lane never yields.
+const Material<Lane> materials{
+    80e9,
+    {Lane::from([](int l) { return l == 3 ? std::numeric_limits<double>::infinity() : 400e6; }),
+     2e9}};
 
 TEST(RadialReturn, LanesGiveTheBitsOfTheScalar) {
-  Wander paths[4] = {Wander(1), Wander(2), Wander(3), Wander(4)};
-  State states[4]{};
+  std::vector<Wander> paths;
+  for (unsigned l = 0; l < lane_count; ++l) paths.emplace_back(l + 1);
+  std::vector<State> states(lane_count);
   for (int i = 0; i < 2000; ++i) {
-    FourPoints points;
-    Gradient f[4];
-    for (int l = 0; l < 4; ++l) points.set(l, f[l] = paths[l].next(), states[l]);
-    const auto lanes = step(points.f, points.state, four_materials);
-    for (int l = 0; l < 4; ++l) {
-      const Material<double> m{80e9, {four_materials.law.sigma_y[l], 2e9}};
-      states[l] = step(f[l], states[l], m);
-      ASSERT_TRUE(same_bits(lane_of(lanes, l), states[l])) << "step " << i << ", lane " << l;
+    PointsOfLanes points;
+    Gradient f[lane_count];
+    for (int l = 0; l < lane_count; ++l) {
+      const auto at = static_cast<std::size_t>(l);
+      points.set(l, f[l] = paths[at].next(), states[at]);
+    }
+    const auto lanes = step(points.f, points.state, materials);
+    for (int l = 0; l < lane_count; ++l) {
+      State& state = states[static_cast<std::size_t>(l)];
+      const Material<double> m{80e9, {materials.law.sigma_y[l], 2e9}};
+      state = step(f[l], state, m);
+      ASSERT_TRUE(same_bits(lane_of(lanes, l), state)) << "step " << i << ", lane " << l;
     }
   }
 }
 
 TEST(RadialReturn, LanesThatDoNotYieldIgnoreANeighbourThatDoes) {
-  FourPoints points;
+  PointsOfLanes points;
   const State old{{}, {1e-4, -1e-4, 1e-8, 2e-5}, 0.2};
   points.set(0, simple_shear(0.1), State{});     // yields
   points.set(1, Gradient{1, 0, 0, 1}, State{});  // at rest: |s| = 0
   points.set(2, simple_shear(1e-3), old);        // below yield
   points.set(3, simple_shear(0.5), old);         // elastic material
-  const auto before = trial(points.f, points.state, four_materials.mu);
-  const auto after = step(points.f, points.state, four_materials);
+  const auto before = trial(points.f, points.state, materials.mu);
+  const auto after = step(points.f, points.state, materials);
   EXPECT_GT(after.eps[0], 0);
   for (int l = 1; l < 4; ++l) EXPECT_TRUE(same_bits(lane_of(after, l), lane_of(before, l))) << l;
 }

@@ -1,9 +1,12 @@
-// Four lanes do what four doubles do: every function of a lane gives the bits of the scalar one.
+// Eight lanes do what eight doubles do: every function of a lane gives the bits of the scalar one.
 #include "engine/lane.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numeric>
+
+#include "engine/lane_memory.hpp"
 
 #include "tests/kernels/random_values.hpp"
 
@@ -14,8 +17,9 @@ using kernels::bits;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Signs, an integer, the ends of the range and a value that is no binary fraction.
-const Lane mixed{-2.5, 0.1, infinity, 1e-300};
-const Lane other{3.0, 0.1, -infinity, 7e-301};
+constexpr std::array<double, lane_count> mixed_values{-2.5, 0.1, infinity, 1e-300, 4, -0.3, 7, 0};
+constexpr std::array<double, lane_count> other_values{3.0, 0.1, -infinity, 7e-301, 4.5, -0.2, 6, 1};
+const Lane mixed = Lane::load(mixed_values.data()), other = Lane::load(other_values.data());
 
 template <class OfLanes, class OfDoubles>
 void expect_same_bits(const OfLanes& lanes, const OfDoubles& doubles) {
@@ -28,8 +32,8 @@ void expect_same_bits(const OfLanes& lanes, const OfDoubles& doubles) {
   }
 }
 
-TEST(Lane, BroadcastPutsTheValueInEveryLane) {
-  const Lane all = broadcast(0.1);
+TEST(Lane, ADoubleIsTheSameInEveryLane) {
+  const Lane all = 0.1;
   for (int l = 0; l < lane_count; ++l) EXPECT_EQ(all[l], 0.1);
 }
 
@@ -39,14 +43,29 @@ TEST(Lane, SelectTakesEachLaneByItsOwnMask) {
     EXPECT_EQ(chosen[l], select(mixed[l] < other[l], mixed[l], other[l])) << l;
 }
 
-TEST(Lane, AnyAndAllCountTheLanes) {
-  const auto masked = [](bool a, bool b, bool c, bool d) {
-    return Lane{double(a), double(b), double(c), double(d)} > 0.5;
-  };
-  for (int m = 0; m < 16; ++m) {
-    const LaneMask mask = masked(m & 1, m & 2, m & 4, m & 8);
+TEST(Lane, MasksAreTheirBits) {
+  for (unsigned m = 0; m < 256; ++m) {
+    const LaneMask mask = Lane::from([&](int l) { return m >> l & 1; }) > 0.5;
+    EXPECT_EQ(mask.bits(), m);
     EXPECT_EQ(any(mask), m != 0) << m;
-    EXPECT_EQ(all(mask), m == 15) << m;
+    EXPECT_EQ(all(mask), m == 255) << m;
+    EXPECT_EQ(LaneMask::of(m).bits(), m);
+    EXPECT_EQ((~mask).bits(), 255 - m);
+    EXPECT_EQ((mask & LaneMask::of(0x5a)).bits(), m & 0x5a);
+    EXPECT_EQ((mask | LaneMask::of(0x5a)).bits(), m | 0x5a);
+    for (int l = 0; l < lane_count; ++l) EXPECT_EQ(mask[l], (m >> l & 1) != 0);
+  }
+}
+
+TEST(Lane, ComparisonsAreTheScalarOnes) {
+  const Lane a = Lane::from([](int l) { return l == 7 ? std::nan("") : l % 3; });
+  const Lane b = Lane::from([](int l) { return 1 + 0 * l; });
+  for (int l = 0; l < lane_count; ++l) {
+    EXPECT_EQ((a < b)[l], a[l] < b[l]) << l;
+    EXPECT_EQ((a <= b)[l], a[l] <= b[l]) << l;
+    EXPECT_EQ((a > b)[l], a[l] > b[l]) << l;
+    EXPECT_EQ((a >= b)[l], a[l] >= b[l]) << l;
+    EXPECT_EQ((a == b)[l], a[l] == b[l]) << l;
   }
 }
 
@@ -73,7 +92,7 @@ TEST(Lane, FusedMultiplyAddIsRoundedOnce) {
                    [](double a, double b, double c) { return std::fma(a, b, c); });
   // (1 + e)(1 - e) - 1 = -e^2: lost wholly when the product is rounded by itself.
   constexpr double e = 0x1p-30;
-  EXPECT_EQ(fma(broadcast(1 + e), 1 - e, -1.0)[2], -e * e);
+  EXPECT_EQ(fma(Lane(1 + e), 1 - e, -1.0)[2], -e * e);
   EXPECT_EQ(fma(1 + e, 1 - e, -1.0), -e * e);
 }
 
@@ -84,21 +103,48 @@ TEST(Lane, FusedMultiplyAddTakesScalarsInEveryPlace) {
                    [](double, double b, double) { return std::fma(0.3, b, 0.7); });
 }
 
-TEST(Lane, SumIsPairwiseInFixedOrder) {
-  // Beside 1e16 a one is lost: in pairs both are, one after the other one is, crosswise none.
-  EXPECT_EQ(sum(Lane{1e16, 1, -1e16, 1}), 0);
-  EXPECT_EQ(sum(Lane{1e16, -1e16, 1, 1}), 2);
-  EXPECT_EQ(sum(Lane{1, 2, 4, 8}), 15);
+TEST(LaneMemory, HalvesComeAndGoByThemselves) {
+  const std::array<double, 4> low{1, 2, 3, 4}, high{5, 6, 7, 8};
+  const Lane a = load_halves(low.data(), high.data()), b = halves(0.1, 0.2);
+  std::array<double, 4> back{};
+  for (int l = 0; l < lane_count; ++l) {
+    EXPECT_EQ(a[l], l + 1);
+    EXPECT_EQ(b[l], l < 4 ? 0.1 : 0.2);
+  }
+  store_half(a, 0, back.data());
+  EXPECT_EQ(back, low);
+  store_half(a, 1, back.data());
+  EXPECT_EQ(back, high);
 }
 
-TEST(Lane, LeastAndGreatestLookAtAllLanes) {
+TEST(LaneMemory, SumsOfAHalfArePairwiseInFixedOrder) {
+  // Beside 1e16 a one is lost: in pairs both are, one after the other one is, crosswise none.
+  const std::array<double, 4> both_lost{1e16, 1, -1e16, 1}, kept{1e16, -1e16, 1, 1};
+  const Lane a = load_halves(both_lost.data(), kept.data());
+  EXPECT_EQ(sum_of_half(a, 0), 0);
+  EXPECT_EQ(sum_of_half(a, 1), 2);
+}
+
+TEST(LaneMemory, LeastAndGreatestLookAtAllLanesOfTheirHalf) {
   for (int l = 0; l < lane_count; ++l) {
-    Lane a = broadcast(1.0);
+    Lane a = 1.0;
     a[l] = -5;
-    EXPECT_EQ(least(a), -5) << l;
-    EXPECT_EQ(greatest(-a), 5) << l;
-    EXPECT_EQ(greatest(a), 1) << l;
+    EXPECT_EQ(least_of_half(a, l / 4), -5) << l;
+    EXPECT_EQ(least_of_half(a, 1 - l / 4), 1) << l;
+    EXPECT_EQ(greatest_of_half(-a, l / 4), 5) << l;
+    EXPECT_EQ(greatest_of_half(a, l / 4), 1) << l;
   }
+}
+
+TEST(LaneMemory, ColumnsOfEightRowsAreTheTransposed) {
+  std::array<double, 64> matrix;
+  std::iota(matrix.begin(), matrix.end(), 0.0);
+  std::array<const double*, lane_count> rows;
+  for (std::size_t l = 0; l < 8; ++l) rows[l] = matrix.data() + 8 * (7 - l);  // in any order
+  const auto columns = columns_of(rows);
+  for (std::size_t k = 0; k < 8; ++k)
+    for (int l = 0; l < lane_count; ++l)
+      EXPECT_EQ(columns[k][l], rows[static_cast<std::size_t>(l)][k]) << k << " " << l;
 }
 
 }  // namespace

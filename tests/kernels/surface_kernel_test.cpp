@@ -178,14 +178,14 @@ TEST(SurfaceDistance, LanesGiveWhatScalarsGive) {
   Places places(5);
   for (int i = 0; i < 1000; ++i) {
     Lane x{}, y{};
-    for (int l = 0; l < 4; ++l) {
+    for (int l = 0; l < lane_count; ++l) {
       const Vec2 at = places.next();
       x[l] = at.x();
       y[l] = at.y();
     }
     const int last = static_cast<int>(surface.pieces.size()) - 1;
     const auto lanes = kernels::nearest_on_surface(surface, 0, last, x, y, 1.0);
-    for (int l = 0; l < 4; ++l) {
+    for (int l = 0; l < lane_count; ++l) {
       const auto one =
           kernels::nearest_on_surface(surface, 0, last, double{x[l]}, double{y[l]}, 1.0);
       EXPECT_EQ(lanes.distance[l], one.distance);
