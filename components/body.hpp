@@ -80,6 +80,11 @@ struct LeastJacobian : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"least_jacobian", "-",
                                       "smallest det F of the particle this step"};
 };
+struct LeastCorner : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{
+      "least_corner", "-",
+      "smallest det F at a Gauss point of its elements over that of the middle"};
+};
 struct WorstElement : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"worst_element", "-",
                                       "number of the element with the least det F"};

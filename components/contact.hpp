@@ -7,7 +7,8 @@
 
 namespace pulvis {
 
-inline constexpr int edge_points = 4;  // Gauss points of a boundary edge: one SIMD lane each, of two edges side by side
+inline constexpr int edge_points =
+    4;  // Gauss points of a boundary edge: one SIMD lane each, of two edges side by side
 
 // ---- contact curves ---------------------------------------------------------------------------
 struct CurvePosition : Component<ControlPoint, double, 2> {
@@ -18,8 +19,10 @@ struct CurveVelocity : Component<ControlPoint, double, 2> {
   static constexpr ComponentInfo info{"velocity", "m/s", "of the control point"};
 };
 
-struct CurveForce : Component<ControlPoint, double, 2> {
-  static constexpr ComponentInfo info{"force", "N", "of all contacts, on the control point"};
+struct CurveForce : Component<ControlPoint, double, 8> {
+  static constexpr ComponentInfo info{"force", "N",
+                                      "of all contacts on the edge whose first control point this "
+                                      "is: x y of its four control points"};
 };
 
 // ---- tools ------------------------------------------------------------------------------------

@@ -49,12 +49,14 @@ struct Shape {
   };
 
   std::string name;
-  std::vector<Point> nodes;                       // m; outline first
-  std::vector<std::array<Row<Node>, 4>> quads;    // counter-clockwise
-  std::vector<std::array<GaussPoint, 4>> gauss;   // [elements]
-  std::vector<std::array<GaussPoint, 1>> centre;  // [elements]: one point for the whole element
-  std::vector<Hourglass> hourglass;               // [elements]
-  std::vector<double> nodal_area;                 // m^2: a quarter of every element around
+  std::vector<Point> nodes;                      // m; outline first
+  std::vector<std::array<Row<Node>, 4>> quads;   // counter-clockwise
+  std::vector<std::array<GaussPoint, 4>> gauss;  // [elements]
+  // [elements]: one point for the whole element; its inverse_jacobian belongs to four times the map
+  // (kernels::fourfold_map), which is what elements with one point work with.
+  std::vector<std::array<GaussPoint, 1>> centre;
+  std::vector<Hourglass> hourglass;  // [elements]
+  std::vector<double> nodal_area;    // m^2: a quarter of every element around
   int boundary_nodes = 0;
   std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;
@@ -88,7 +90,8 @@ struct Bodies {
   std::vector<int> slot_of_number;  // [particles]
 
   const Shape& shape_of_chunk(Chunk c) const {
-    return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(c.index) * lane_count].shape)];
+    return shapes[static_cast<std::size_t>(
+        slots[static_cast<std::size_t>(c.index) * lane_count].shape)];
   }
   const Shape& shape_of_slot(int slot) const {
     return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(slot)].shape)];

@@ -119,6 +119,7 @@ void add_element_columns(World& world, const Needs& needs) {
   world.add<MeanStress<F::volumes>>();
   if (F::stabilised) {
     world.add<HourglassStress>();
+    world.add<LeastCorner>();
     world.add<HourglassEnergy>();
   }
   if (!needs.plastic) return;

@@ -21,6 +21,11 @@ Shape::GaussPoint point_at(const kernels::QuadMap<double>& map, double xi, doubl
   return {{a.yy / det, -a.xy / det, -a.yx / det, a.xx / det}, weight * det};
 }
 
+Shape::GaussPoint fourfold(Shape::GaussPoint point) {
+  for (double& entry : point.inverse_jacobian) entry *= 0.25;
+  return point;
+}
+
 Shape::Hourglass hourglass_of(const kernels::QuadMap<double>& m) {
   const auto w = kernels::natural_hourglass(m, 1 / determinant(kernels::map_gradient(m, 0.0, 0.0)));
   const double across = m.ax * m.bx + m.ay * m.by;
@@ -46,7 +51,7 @@ void set_gauss_points(Shape& shape) {
       area += gauss[g].determinant;
     }
     shape.gauss.push_back(gauss);
-    shape.centre.push_back({point_at(map, 0, 0, 4)});
+    shape.centre.push_back({fourfold(point_at(map, 0, 0, 4))});
     shape.hourglass.push_back(hourglass_of(map));
     for (const Row<Node> n : q) shape.nodal_area[static_cast<std::size_t>(n.value)] += area / 4;
   }

@@ -41,41 +41,58 @@ ControlForce force_at(const double* point_force, int g) {
 
 // Forces of a row's four points on the four control points of the sampled edge.
 void add_sampled(const std::array<ControlForce, edge_points>& by_point, const double* point_force,
-                 double* control_force) {
-  ControlForce sum = ControlForce::load(control_force);
+                 double* edge_force) {
+  ControlForce sum = ControlForce::load(edge_force);
   for (int g = 0; g < edge_points; ++g)
     sum = fma(by_point[static_cast<std::size_t>(g)], force_at(point_force, g), sum);
-  sum.store(control_force);
+  sum.store(edge_force);
 }
 
-// The opposite forces on the other body, at the closest point of each Gauss point.
+// The opposite forces on the other body, at the closest point of each Gauss point. `edge_force`: of the
+// body's first edge.
 void add_other(const Polynomial& n, const Shape& shape, const double* closest, const double* f,
-               const double* couple, double* control_force) {
+               const double* couple, double* edge_force) {
   for (int g = 0; g < edge_points; ++g) {
     if (f[g] == 0 && f[g + edge_points] == 0) continue;  // this point is apart
     const int edge = static_cast<int>(closest[g]);
     const double u = closest[g] - edge;
-    double* out = control_force + 2 * shape.edges[static_cast<std::size_t>(edge)].first_control;
+    double* out =
+        edge_force + CurveForce::count * shape.edges[static_cast<std::size_t>(edge)].first_control;
     ControlForce sum = fma(-n.value(u), force_at(f, g), ControlForce::load(out));
     if (couple != nullptr) sum = fma(-n.slope(u), force_at(couple, g), sum);
     sum.store(out);
   }
 }
 
+// Force on control point c of a body: of the up to four edges that it is part of. `count`: of its points.
+std::array<double, 2> control_force(const double* edge_force, int c, int count) {
+  std::array<double, 2> f{};
+  for (int a = std::max(0, c - count + 4); a <= std::min(c, 3); ++a)
+    for (std::size_t k = 0; k < 2; ++k)
+      f[k] += edge_force[CurveForce::count * (c - a) + 2 * a + static_cast<int>(k)];
+  return f;
+}
+
 // Control point forces to boundary nodes: the transpose of y = S x, eight particles at once.
-template <class Forces, class Nodes>
-void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node_force) {
+template <class Nodes>
+void to_nodes(const Shape& shape, const double* edge_force, const Nodes& node_force) {
   const int n = shape.control_points();
   for (int node = 0; node < shape.boundary_nodes; ++node)
     node_force(Row<BoundaryNode>(node), 0) = node_force(Row<BoundaryNode>(node), 1) = Lane{};
   for (int c = 0; c < n; ++c) {
-    Lane f[2];
-    for (int k = 0; k < 2; ++k)
-      f[k] = Lane::from([&](int l) { return control_force(Row<ControlPoint>(l * n + c), k); });
+    std::array<std::array<double, lane_count>, 2> f;
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const auto one =
+          control_force(edge_force + static_cast<std::ptrdiff_t>(l) * CurveForce::count * n, c, n);
+      f[0][l] = one[0];
+      f[1][l] = one[1];
+    }
+    const Lane x = Lane::load(f[0].data()), y = Lane::load(f[1].data());
     for (std::int32_t t = shape.curve_begin[static_cast<std::size_t>(c)];
          t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
       const Shape::CurveTerm& term = shape.curve_terms[static_cast<std::size_t>(t)];
-      for (int k = 0; k < 2; ++k) node_force(term.node, k) += term.weight * f[k];
+      node_force(term.node, 0) += term.weight * x;
+      node_force(term.node, 1) += term.weight * y;
     }
   }
 }
@@ -93,15 +110,15 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
   static const auto by_point = basis_by_point();
   const Polynomial& n = basis();
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto control = curve_force.chunk(chunk);
-  for (int c = 0; c < lane_count * shape.control_points(); ++c)
-    control(Row<ControlPoint>(c), 0) = control(Row<ControlPoint>(c), 1) = 0;
+  double* all = &curve_force.chunk(chunk)(Row<ControlPoint>(0));
+  const int numbers = CurveForce::count * shape.control_points();  // of a particle
+  std::fill(all, all + lane_count * numbers, 0.0);
 
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto slot = static_cast<std::size_t>(lane_count * chunk.index + lane);
-    double* own = &control(Row<ControlPoint>(lane * shape.control_points()));
+    double* own = all + lane * numbers;
     const auto edge = [&](std::int32_t e) {
-      return own + 2 * shape.edges[static_cast<std::size_t>(e)].first_control;
+      return own + CurveForce::count * shape.edges[static_cast<std::size_t>(e)].first_control;
     };
     if (pair) {
       for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
@@ -124,7 +141,7 @@ void to_nodes(const Shape& shape, const Forces& control_force, const Nodes& node
       }
     }
   }
-  to_nodes(shape, control, node_force.chunk(chunk));
+  to_nodes(shape, all, node_force.chunk(chunk));
 }
 
 }  // namespace pulvis

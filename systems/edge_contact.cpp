@@ -85,7 +85,8 @@ unsigned cross_edges(const std::array<const Shape*, 2>& shape, const Lane& befor
 }
 
 constexpr int most_steps = 40;
-constexpr double step_tolerance = 1e-8;  // of an edge; the gap is then exact to its square
+// Of an edge. A Newton step that short leaves about its square, and the gap is exact to the square of that.
+constexpr double step_tolerance = 1e-5;
 
 // Where the points stand against the curves. `beyond`: closest to a corner, from outside its edge.
 struct Closest {
@@ -107,15 +108,19 @@ struct Closest {
         kernels::closest_point_step(c.rx, c.ry, c.curve.x.slope(c.at.u), c.curve.y.slope(c.at.u),
                                     c.curve.x.curvature(c.at.u), c.curve.y.curvature(c.at.u));
     const Lane du = min(max(way, -1.0), 1.0);
-    done |= (abs(du) < step_tolerance).bits();
-    if (done == all_lanes || step == most_steps) return c;
     const Lane before = c.at.u;
     c.at.u = select(LaneMask::of(done), before, before + du);
-    if (!any((c.at.u < 0.0) | (c.at.u > 1.0))) continue;
-    c.beyond |= cross_edges(other.shape, before, c.at);
-    done |= c.beyond;
-    c.curve = gather(other.shape, other.position, c.at.edge);
+    done |= (abs(du) < step_tolerance).bits();
+    if (any((c.at.u < 0.0) | (c.at.u > 1.0))) {
+      c.beyond |= cross_edges(other.shape, before, c.at);
+      done |= c.beyond;
+      c.curve = gather(other.shape, other.position, c.at.edge);
+    }
+    if (done == all_lanes || step == most_steps) break;
   }
+  c.rx = points.x - c.curve.x.value(c.at.u);
+  c.ry = points.y - c.curve.y.value(c.at.u);
+  return c;
 }
 
 // How the points move against the curves; both rates vanish in a common rigid motion.

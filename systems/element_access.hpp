@@ -19,10 +19,12 @@ const ElementPoints<Points>& points_of(const Shape& shape, int element) {
     return shape.gauss[static_cast<std::size_t>(element)];
 }
 
-template <class Nodes>
+// Of an element with one point: four times the map.
+template <int Points, class Nodes>
 kernels::QuadMap<Lane> quad_map(const Nodes& x, const Quad& q) {
-  return kernels::quad_map(x(q[0], 0), x(q[0], 1), x(q[1], 0), x(q[1], 1), x(q[2], 0), x(q[2], 1),
-                           x(q[3], 0), x(q[3], 1));
+  constexpr auto map = Points == 1 ? kernels::fourfold_map<Lane> : kernels::quad_map<Lane>;
+  return map(x(q[0], 0), x(q[0], 1), x(q[1], 0), x(q[1], 1), x(q[2], 0), x(q[2], 1), x(q[3], 0),
+             x(q[3], 1));
 }
 
 // At point g of an element with `Points`.
@@ -44,9 +46,9 @@ inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoin
   }
   return now * (1 / before);
 }
-// A quad's area is that of its centre's parallelogram.
+// A quad's area is that of its centre's parallelogram: 1/4 det of the fourfold map.
 inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoints<1>& points) {
-  return determinant(map_gradient<1>(map, 0)) * (4 / points[0].determinant);
+  return determinant(map_gradient<1>(map, 0)) * (0.25 / points[0].determinant);
 }
 
 template <class View>

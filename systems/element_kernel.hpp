@@ -33,15 +33,16 @@ struct QuadMap {
   T ax, ay, bx, by, hx, hy;
 };
 
+// Four times that: sums alone. What does not depend on the scale of a, b and h needs no more.
+template <class T>
+QuadMap<T> fourfold_map(T x0, T y0, T x1, T y1, T x2, T y2, T x3, T y3) {
+  const T sx = x2 - x0, dx = x1 - x3, sy = y2 - y0, dy = y1 - y3;
+  return {sx + dx, sy + dy, sx - dx, sy - dy, (x0 - x1) + (x2 - x3), (y0 - y1) + (y2 - y3)};
+}
 template <class T>
 QuadMap<T> quad_map(T x0, T y0, T x1, T y1, T x2, T y2, T x3, T y3) {
-  const T sx = x2 - x0, dx = x1 - x3, sy = y2 - y0, dy = y1 - y3;
-  return {0.25 * (sx + dx),
-          0.25 * (sy + dy),
-          0.25 * (sx - dx),
-          0.25 * (sy - dy),
-          0.25 * ((x0 - x1) + (x2 - x3)),
-          0.25 * ((y0 - y1) + (y2 - y3))};
+  const auto m = fourfold_map(x0, y0, x1, y1, x2, y2, x3, y3);
+  return {0.25 * m.ax, 0.25 * m.ay, 0.25 * m.bx, 0.25 * m.by, 0.25 * m.hx, 0.25 * m.hy};
 }
 
 // A = [dx/dxi dx/deta; dy/dxi dy/deta]

@@ -50,7 +50,7 @@ template <class F>
   };
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
-    const auto map = quad_map(nodes, shape.quads[static_cast<std::size_t>(i)]);
+    const auto map = quad_map<F::points>(nodes, shape.quads[static_cast<std::size_t>(i)]);
     const auto& points = points_of<F::points>(shape, i);
     double area = 0;
     for (int g = 0; g < F::points; ++g) {
@@ -108,7 +108,7 @@ void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<S
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
     const auto at = static_cast<std::size_t>(i);
-    const auto map = quad_map(nodes, shape.quads[at]);
+    const auto map = quad_map<1>(nodes, shape.quads[at]);
     const auto w = kernels::natural_hourglass(map, 1.0 / determinant(map_gradient<1>(map, 0)));
     total += shape.centre[at][0].determinant *
              (kernels::hourglass_energy<Lane>({m(e, 0), m(e, 1)}, modulus) +

@@ -122,19 +122,19 @@ void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<
 }
 
 // Squared part of a deviator that stretches the fibres (and shortens what lies across them), as numerator
-// and denominator: s:N with N = (e e - e' e')/sqrt 2, e along a or across b (between them in a rhomboid).
+// and denominator: s:N with N = (e e - e' e')/sqrt 2. e: the direction of a, which in a rectangle is that
+// of b turned back by a right angle; in others, that of the sum of both.
 template <class T>
 struct Ratio {
   T numerator, denominator;
 };
 template <class T>
 Ratio<T> squared_stretching(const QuadMap<T>& m, const Deviator<T>& s) {
-  const T aa = fma(m.ax, m.ax, m.ay * m.ay), bb = fma(m.bx, m.bx, m.by * m.by);
-  // The direction with its angle doubled, as a complex number: a^2/|a|^2 - b^2/|b|^2.
-  const T real = fma(fma(m.ax, m.ax, -(m.ay * m.ay)), bb, -(fma(m.bx, m.bx, -(m.by * m.by)) * aa));
-  const T imaginary = 2.0 * fma(m.ax * m.ay, bb, -(m.bx * m.by * aa));
-  const T stretch = fma(0.5 * (s.xx - s.yy), real, s.xy * imaginary);
-  return {2.0 * stretch * stretch, fma(real, real, imaginary * imaginary)};
+  const T x = m.ax + m.by, y = m.ay - m.bx;
+  const T xx = x * x, yy = y * y, length2 = xx + yy;
+  // e with its angle doubled is (x^2 - y^2, 2 x y) / length2.
+  const T stretch = fma(0.5 * (s.xx - s.yy), xx - yy, s.xy * (2.0 * x * y));
+  return {2.0 * stretch * stretch, length2 * length2};
 }
 
 // 1/width: see BendingBeside; with s where it has come back to the surface. `limit2`: 2/3 sigma_y^2.
@@ -156,10 +156,11 @@ T inverse_width(const QuadMap<T>& m, const Deviator<T>& s, T limit2) {
 // the compliance 1/(2/3 E'), where that of s has 1/(2 mu); both flow along s and t/width.
 template <class T>
 struct BendingBeside {
-  Hourglass<T> stress;  // trial, then returned
+  Hourglass<T> stress;  // trial
   T softness;           // 2/3 E' / (2 mu): how much faster than s it gives way
   T stiffness;          // 1 / softness
   T over_width;
+  T left;  // share of the stress that the return leaves
 
   T squared_norm() const {
     return (2.0 / 9.0) * fma(stress.one, stress.one, stress.two * stress.two);
@@ -172,23 +173,25 @@ struct BendingBeside {
   }
   T push(T excess, T norm) const { return excess * norm; }
   // The linear step leaves stresses outside the surface where the stretching is large against the elastic
-  // strain: both are pulled straight in. The work that is spent then is that of the stresses left.
+  // strain: where it is by more than a ten-thousandth (of the squares), both are pulled straight in. The
+  // work that is spent then is that of the stresses left.
   template <class Mask, class Hardening>
   void settle(const Mask& flows, T& beta, T& dgamma, T norm2, T two_mu, T eps,
               const Hardening& law) {
     constexpr double sqrt_2_3 = 0.81649658092772603273;
     const T t2 = squared_norm();
-    T left = max(fma(softness * over_width, beta - 1.0, 1.0), T{});
+    left = max(fma(softness * over_width, beta - 1.0, 1.0), T{});
     const T outside = fma(beta * beta, norm2, over_width * (left * left * t2));
     const T limit = sqrt_2_3 * law.flow_stress(fma(sqrt_2_3, dgamma, eps));
+    const auto beyond = flows & (outside > (1 + 1e-4) * (limit * limit));
+    if (!any(beyond)) return;
     const T root = sqrt(outside), cost = two_mu * limit;
     const T over = 1.0 / (root * cost);  // one division for two
-    const T in = select(flows, min(limit * cost * over, T{} + 1.0), T{} + 1.0);
+    const T in = select(beyond, limit * cost * over, T{} + 1.0);
     beta *= in;
     left *= in;
     const T spent = fma(beta * (1.0 - beta), norm2, left * (1.0 - left) * (t2 * stiffness));
-    dgamma = select(flows, spent * (root * over), T{});
-    stress = {left * stress.one, left * stress.two};
+    dgamma = select(beyond, spent * (root * over), dgamma);
   }
 };
 

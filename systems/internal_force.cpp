@@ -18,6 +18,7 @@ using Flux = kernels::QuadFlux<Lane>;
 struct Bending {
   ChunkView<HourglassStress, const Lane*> stress;
   Lane mu;
+  bool folding;  // some corner of the chunk's elements is about to fold
 };
 
 template <class F>
@@ -63,17 +64,18 @@ Flux stress_flux(const Views<Standard>& v, const Map& map, const Shape&, Row<Ele
 Flux stress_flux(const Views<OnePoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
   const auto a = map_gradient<1>(map, 0);
   const auto d = deviator(v.s, e, 0);
-  const Lane mean = 4.0 * v.p(e);
-  auto flux = kernels::central_flux(a, fma(4.0, d.xx, mean), fma(4.0, d.yy, mean), 4.0 * d.xy);
+  const Lane mean = v.p(e);
+  // Of four times the map, which stands for the four quarters of (xi, eta).
+  auto flux = kernels::central_flux(a, d.xx + mean, d.yy + mean, d.xy);
   const Lane over_det = 1.0 / determinant(a);
   const auto& reference = shape.hourglass[static_cast<std::size_t>(e.value)];
-  const double area = points_of<1>(shape, e.value)[0].determinant;
+  const double area = 4 * points_of<1>(shape, e.value)[0].determinant;  // by scale / over_det
   const auto w = kernels::natural_hourglass(map, over_det);
   auto moment = kernels::bending_moment<Lane>({v.bending->stress(e, 0), v.bending->stress(e, 1)},
                                               reference, (1.0 / 3.0) * area);
-  const auto ratio = kernels::corner_ratios(w, reference);
-  if (any(kernels::least_ratio(ratio) < kernels::folding)) {
-    const auto more = kernels::folding_moment(ratio, reference, area * v.bending->mu);
+  if (v.bending->folding) {
+    const auto more = kernels::folding_moment(kernels::corner_ratios(w, reference), reference,
+                                              area * v.bending->mu);
     moment.one += more.one;
     moment.two += more.two;
   }
@@ -89,7 +91,7 @@ void chunk_force(const Views<F>& views, const ChunkView<Position, const Lane*>& 
 
   for (int i = 0; i < shape.elements(); ++i) {
     const Quad& quad = shape.quads[static_cast<std::size_t>(i)];
-    const auto flux = stress_flux(views, quad_map(x, quad), shape, Row<Element>(i));
+    const auto flux = stress_flux(views, quad_map<F::points>(x, quad), shape, Row<Element>(i));
     const auto out = kernels::node_forces(flux, 0.25 * thickness);
     for (std::size_t k = 0; k < 4; ++k) {
       f(quad[k], 0) += out.x[k];
@@ -105,11 +107,14 @@ template <class F>
                                      Read<DeviatoricStress<F::points>> s,
                                      Read<MeanStress<F::volumes>> p, Read<ShearModulus> mu,
                                      Optional<Read<HourglassStress>> hourglass,
+                                     Optional<Read<LeastCorner>> least_corner,
                                      Write<InternalForce> force) {
   const Shape& shape = bodies->shape_of_chunk(chunk);
   Views<F> views{s.chunk(chunk), p.chunk(chunk), nullptr};
   if constexpr (F::stabilised) {
-    const Bending bending{hourglass->chunk(chunk), mu.chunk(chunk)(Row<Particle>())};
+    const Row<Particle> particle;
+    const Bending bending{hourglass->chunk(chunk), mu.chunk(chunk)(particle),
+                          any(least_corner->chunk(chunk)(particle) < kernels::folding)};
     views.bending = &bending;
     chunk_force(views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
   } else {

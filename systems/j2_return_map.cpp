@@ -46,7 +46,7 @@ void return_element(const Views<F>& v, const Shape& shape, Row<Element> e) {
   }
   if (!any(some)) return;
 
-  const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  const auto map = quad_map<F::points>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
   const auto& points = points_of<F::points>(shape, e.value);
   Lane theta = mean_dilatation(map, points);
   Lane mu_over_theta = v.mu / theta;
@@ -69,16 +69,17 @@ struct Bending {
   Lane softness, stiffness, over_modulus;
 };
 
-// Returns the work spent in the hourglass modes, J/m.
-Lane keep_bending(const Bending& bending, Row<Element> e, const kernels::Hourglass<Lane>& returned,
-                  double area) {
-  const Lane one = bending.over_modulus * (bending.stress(e, 0) - returned.one);
-  const Lane two = bending.over_modulus * (bending.stress(e, 1) - returned.two);
-  bending.plastic(e, 0) += one;
-  bending.plastic(e, 1) += two;
-  bending.stress(e, 0) = returned.one;
-  bending.stress(e, 1) = returned.two;
-  return ((1.0 / 3.0) * area) * fma(returned.one, one, returned.two * two);
+// Keeps the share `left` of the bending stress; the rest has become plastic. Returns the work spent in
+// the hourglass modes, J/m.
+Lane keep_bending(const Bending& bending, Row<Element> e, const kernels::Hourglass<Lane>& stress,
+                  Lane left, double area) {
+  const Lane gone = fma(-left, bending.over_modulus, bending.over_modulus);
+  bending.plastic(e, 0) = fma(gone, stress.one, bending.plastic(e, 0));
+  bending.plastic(e, 1) = fma(gone, stress.two, bending.plastic(e, 1));
+  bending.stress(e, 0) = left * stress.one;
+  bending.stress(e, 1) = left * stress.two;
+  return ((1.0 / 3.0) * area) * (left * gone) *
+         fma(stress.one, stress.one, stress.two * stress.two);
 }
 
 Lane return_element(const Views<OnePoint>& v, const Bending& bending, const Shape& shape,
@@ -88,14 +89,14 @@ Lane return_element(const Views<OnePoint>& v, const Bending& bending, const Shap
   const Lane yield = v.law.flow_stress(v.strain(e)), limit2 = (2.0 / 3.0) * yield * yield;
   if (!any(kernels::may_yield(s, m, limit2))) return Lane{};
 
-  const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  const auto map = quad_map<1>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
   kernels::BendingBeside<Lane> beside{m, bending.softness, bending.stiffness,
-                                      kernels::inverse_width(map, s, limit2)};
+                                      kernels::inverse_width(map, s, limit2), 1.0};
   const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
   const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
   const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
   return_point(v, e, 0, f, v.mu * (r * r * r), determinant(f), beside);
-  return keep_bending(bending, e, beside.stress, point.determinant);
+  return keep_bending(bending, e, m, beside.left, point.determinant);
 }
 
 }  // namespace

@@ -80,13 +80,14 @@ void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<Contac
 template <class F>
 void elastic_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
                     Write<DeviatoricStress<F::points>>, Write<MeanStress<F::volumes>>,
-                    Optional<Write<HourglassStress>>, Write<LeastJacobian>, Write<WorstElement>);
+                    Optional<Write<HourglassStress>>, Optional<Write<LeastCorner>>,
+                    Write<LeastJacobian>, Write<WorstElement>);
 template <class F>
 void trial_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
                   Read<PlasticMetric<F::points>>, Optional<Read<PlasticHourglass>>,
                   Write<IsochoricScale<F::points>>, Write<DeviatoricStress<F::points>>,
                   Write<MeanStress<F::volumes>>, Optional<Write<HourglassStress>>,
-                  Write<LeastJacobian>, Write<WorstElement>);
+                  Optional<Write<LeastCorner>>, Write<LeastJacobian>, Write<WorstElement>);
 template <class F>
 void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
                    Read<YieldStress>, Read<HardeningModulus>, Read<IsochoricScale<F::points>>,
@@ -96,7 +97,8 @@ void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read
 template <class F>
 void internal_force(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<F::points>>,
                     Read<MeanStress<F::volumes>>, Read<ShearModulus>,
-                    Optional<Read<HourglassStress>>, Write<InternalForce>);
+                    Optional<Read<HourglassStress>>, Optional<Read<LeastCorner>>,
+                    Write<InternalForce>);
 void hold_grips(Chunk, Read<Bodies>, Read<Clock>, Read<ToolProgram>, Read<GripIndex>,
                 Read<GripTarget>, Read<GripDirection>, Read<GripTravel>, Read<GripOrigin>,
                 Read<Density>, Read<Position>, Read<Velocity>, Optional<Read<ContactForce>>,

@@ -65,8 +65,8 @@ template <int Points>
   Lane highest{};
   for (int i = 0; i < shape.elements(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const auto map = quad_map(nodes, shape.quads[at]);
-    const Lane theta = mean_dilatation(map, shape.centre[at]);
+    const auto map = quad_map<4>(nodes, shape.quads[at]);
+    const Lane theta = determinant(map_gradient<1>(map, 0)) * (4 / shape.centre[at][0].determinant);
     const auto spread =
         kernels::mode_spread(kernels::map_gradient(map, 0, 0), shape.corner_moment[at]);
     const Lane distortion = theta * over_shear * largest_norm<Points>(stress, Row<Element>(i));

@@ -27,11 +27,12 @@ struct HourglassViews {
   ChunkView<HourglassStress, Lane*> stress;
   const ChunkView<PlasticHourglass, const Lane*>* gone;  // null: elastic
   Lane modulus;
+  Lane least_corner;  // of the chunk's elements so far
 };
 
 // Returns the least det F of where the Gauss points of a four-point element would be, over theta: it tells
 // a folded element.
-Lane hourglass_stress(const HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane over_det,
+Lane hourglass_stress(HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane over_det,
                       const Shape::Hourglass& reference, Row<Element> e) {
   const auto w = kernels::natural_hourglass(map, over_det);
   auto strain = kernels::bending_strain(w, reference);
@@ -41,14 +42,16 @@ Lane hourglass_stress(const HourglassViews& v, const kernels::QuadMap<Lane>& map
   }
   v.stress(e, 0) = v.modulus * strain.one;
   v.stress(e, 1) = v.modulus * strain.two;
-  return kernels::least_ratio(kernels::corner_ratios(w, reference));
+  const Lane corner = kernels::least_ratio(kernels::corner_ratios(w, reference));
+  v.least_corner = min(corner, v.least_corner);
+  return corner;
 }
 
 // `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the least det F of the element's points.
 template <class F, class LeftCauchyGreen>
-Lane element_stress(const Views<F>& v, const HourglassViews* hourglass, const Shape& shape,
+Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& shape,
                     Row<Element> e, const LeftCauchyGreen& left) {
-  const auto map = quad_map(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  const auto map = quad_map<F::points>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
   const auto& points = points_of<F::points>(shape, e.value);
   Lane theta{}, over_theta{}, least = 1e300;
   if constexpr (F::volumes < F::points) {
@@ -71,7 +74,7 @@ Lane element_stress(const Views<F>& v, const HourglassViews* hourglass, const Sh
     least = min(j, least);
   }
   if constexpr (F::stabilised)
-    least *= hourglass_stress(*hourglass, map, over_theta * (4 / points[0].determinant),
+    least *= hourglass_stress(*hourglass, map, over_theta * (0.25 / points[0].determinant),
                               shape.hourglass[static_cast<std::size_t>(e.value)], e);
   return least;
 }
@@ -87,14 +90,16 @@ void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
 template <class F, class LeftCauchyGreen>
 void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
                   const Optional<Write<HourglassStress>>& bending,
-                  const Optional<Read<PlasticHourglass>>* gone, Write<LeastJacobian> least_jacobian,
-                  Write<WorstElement> worst_element, const LeftCauchyGreen& left) {
+                  const Optional<Read<PlasticHourglass>>* gone,
+                  const Optional<Write<LeastCorner>>& least_corner,
+                  Write<LeastJacobian> least_jacobian, Write<WorstElement> worst_element,
+                  const LeftCauchyGreen& left) {
   std::optional<ChunkView<PlasticHourglass, const Lane*>> plastic;
   std::optional<HourglassViews> hourglass;
   if constexpr (F::stabilised) {
     if (gone != nullptr) plastic = (*gone)->chunk(chunk);
     hourglass = {bending->chunk(chunk), plastic ? &*plastic : nullptr,
-                 kernels::plane_strain_modulus(v.mu, v.bulk)};
+                 kernels::plane_strain_modulus(v.mu, v.bulk), 1e300};
   }
   const Shape& shape = bodies.shape_of_chunk(chunk);
   Lane worst = 1e300, which{};
@@ -102,6 +107,8 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
     keep_worst(
         element_stress<F>(v, hourglass ? &*hourglass : nullptr, shape, Row<Element>(i), left),
         Row<Element>(i), worst, which);
+  if constexpr (F::stabilised)
+    least_corner->chunk(chunk)(Row<Particle>()) = hourglass->least_corner;
   least_jacobian.chunk(chunk)(Row<Particle>()) = worst;
   worst_element.chunk(chunk)(Row<Particle>()) = which;
 }
@@ -109,15 +116,13 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
 }  // namespace
 
 template <class F>
-[[gnu::flatten]] void trial_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
-                                   Read<ShearModulus> mu, Read<BulkModulus> bulk,
-                                   Read<PlasticMetric<F::points>> metric,
-                                   Optional<Read<PlasticHourglass>> gone,
-                                   Write<IsochoricScale<F::points>> isochoric,
-                                   Write<DeviatoricStress<F::points>> s,
-                                   Write<MeanStress<F::volumes>> p,
-                                   Optional<Write<HourglassStress>> bending,
-                                   Write<LeastJacobian> least, Write<WorstElement> worst) {
+[[gnu::flatten]] void trial_stress(
+    Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+    Read<BulkModulus> bulk, Read<PlasticMetric<F::points>> metric,
+    Optional<Read<PlasticHourglass>> gone, Write<IsochoricScale<F::points>> isochoric,
+    Write<DeviatoricStress<F::points>> s, Write<MeanStress<F::volumes>> p,
+    Optional<Write<HourglassStress>> bending, Optional<Write<LeastCorner>> least_corner,
+    Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;
   const Views<F> views{x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
                        bulk.chunk(chunk)(particle)};
@@ -127,7 +132,7 @@ template <class F>
     scale(e, g) = r;
     return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
   };
-  chunk_stress<F>(chunk, *bodies, views, bending, &gone, least, worst, left);
+  chunk_stress<F>(chunk, *bodies, views, bending, &gone, least_corner, least, worst, left);
 }
 template decltype(trial_stress<FourPoint>) trial_stress<FourPoint>;
 template decltype(trial_stress<Standard>) trial_stress<Standard>;
@@ -139,6 +144,7 @@ template <class F>
                                      Write<DeviatoricStress<F::points>> s,
                                      Write<MeanStress<F::volumes>> p,
                                      Optional<Write<HourglassStress>> bending,
+                                     Optional<Write<LeastCorner>> least_corner,
                                      Write<LeastJacobian> least, Write<WorstElement> worst) {
   const Row<Particle> particle;
   const Views<F> views{x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
@@ -146,7 +152,7 @@ template <class F>
   const auto left = [](const kernels::Matrix2<Lane>& f, Lane, Row<Element>, int) {
     return kernels::left_cauchy_green(f);
   };
-  chunk_stress<F>(chunk, *bodies, views, bending, nullptr, least, worst, left);
+  chunk_stress<F>(chunk, *bodies, views, bending, nullptr, least_corner, least, worst, left);
 }
 template decltype(elastic_stress<FourPoint>) elastic_stress<FourPoint>;
 template decltype(elastic_stress<Standard>) elastic_stress<Standard>;
