@@ -67,7 +67,7 @@ struct EdgeLength : Component<At, double, 1> {
 template <class At>
 struct PointForce : Component<At, double, 2 * edge_points> {
   static constexpr ComponentInfo info{"point_force", "N",
-                                      "on the sampled edge: x, then y, of the points"};
+                                      "on the sampled edge: x y of every point"};
 };
 template <class At>
 struct Penetration : Component<At, double, 1> {
@@ -101,7 +101,7 @@ struct FrictionWork : Component<At, double, 1> {
 // Moment that keeps friction across a small gap from spinning the pair; see contact_kernel.hpp.
 struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
   static constexpr ComponentInfo info{"friction_couple", "N",
-                                      "on the other curve's slope: x, then y"};
+                                      "on the other curve's slope: x y of every point"};
 };
 
 // ---- only where the scene has contact damping ------------------------------------------------------

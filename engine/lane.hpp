@@ -31,7 +31,7 @@ struct LaneMask {
 struct alignas(64) Lane {
   simd::Register part[simd::registers];
 
-  Lane() : Lane(0.0) {}
+  Lane() = default;  // as a double: Lane{} is zero, a plain declaration nothing yet
   Lane(double all) {
     for (auto& p : part) p = simd::broadcast(all);
   }

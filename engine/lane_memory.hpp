@@ -23,8 +23,14 @@ inline Lane load_halves(const double* low, const double* high) {
 #endif
 }
 inline Lane halves(double low, double high) {
+#ifdef __AVX512F__
+  Lane a;
+  a.part[0] = _mm512_mask_broadcastsd_pd(_mm512_set1_pd(low), 0xf0, _mm_set_sd(high));
+  return a;
+#else
   const std::array<double, 4> a{low, low, low, low}, b{high, high, high, high};
   return load_halves(a.data(), b.data());
+#endif
 }
 
 // Half 0 or 1 of a lane.
@@ -40,12 +46,56 @@ inline void store_half(const Lane& a, int half, double* four) {
 #endif
 }
 
-// Of a half, in a fixed order: the same bits on every machine.
-inline double sum_of_half(const Lane& a, int half) {
-  std::array<double, 4> v;
-  store_half(a, half, v.data());
-  return (v[0] + v[1]) + (v[2] + v[3]);
+// The four lanes of a half of x and y in turn: x y x y ...
+inline void store_pairs_of_half(const Lane& x, const Lane& y, int half, double* eight) {
+  std::array<double, 4> a, b;
+  store_half(x, half, a.data());
+  store_half(y, half, b.data());
+  for (std::size_t i = 0; i < 4; ++i) {
+    eight[2 * i] = a[i];
+    eight[2 * i + 1] = b[i];
+  }
 }
+
+// x y x y x y x y
+inline Lane repeat_pair(const double* xy) {
+#if defined(__AVX512F__)
+  Lane a;
+  a.part[0] = _mm512_broadcast_f64x2(_mm_loadu_pd(xy));
+  return a;
+#elif defined(__AVX2__)
+  Lane a;
+  for (auto& part : a.part) part = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(xy));
+  return a;
+#else
+  return Lane::from([xy](int l) { return xy[l % 2]; });
+#endif
+}
+
+// (v0 + v1) + (v2 + v3) of both halves of `a` and `b`: the same order, and bits, on every machine.
+struct SumsOfHalves {
+  std::array<double, 2> a, b;
+};
+inline SumsOfHalves sums_of_halves(const Lane& a, const Lane& b) {
+  std::array<double, lane_count> s;
+#if defined(__AVX512F__)
+  const __m512d pairs = _mm512_unpacklo_pd(a.part[0], b.part[0]) +
+                        _mm512_unpackhi_pd(a.part[0], b.part[0]);  // a01 b01 a23 b23, twice
+  _mm512_storeu_pd(s.data(), pairs + _mm512_permutex_pd(pairs, 0x4e));
+#elif defined(__AVX2__)
+  for (std::size_t i = 0; i < 2; ++i) {
+    const __m256d pairs = _mm256_hadd_pd(a.part[i], b.part[i]);
+    _mm256_storeu_pd(s.data() + 4 * i, pairs + _mm256_permute4x64_pd(pairs, 0x4e));
+  }
+#else
+  for (int i = 0; i < lane_count; i += 4) {
+    s[static_cast<std::size_t>(i)] = (a[i] + a[i + 1]) + (a[i + 2] + a[i + 3]);
+    s[static_cast<std::size_t>(i) + 1] = (b[i] + b[i + 1]) + (b[i + 2] + b[i + 3]);
+  }
+#endif
+  return {{s[0], s[4]}, {s[1], s[5]}};
+}
+
 inline double least_of_half(const Lane& a, int half) {
   std::array<double, 4> v;
   store_half(a, half, v.data());
@@ -55,24 +105,22 @@ inline double greatest_of_half(const Lane& a, int half) { return -least_of_half(
 
 namespace simd {
 #if defined(__AVX512F__)
+// Loads put rows i and i + 4 into the halves of a register; then a 4 x 4 transpose in both halves at once.
 inline std::array<Lane, 8> columns_of(const std::array<const double*, 8>& row) {
-  __m512d r[8], t[8];
-  for (std::size_t i = 0; i < 8; ++i) r[i] = _mm512_loadu_pd(row[i]);
-  for (std::size_t i = 0; i < 8; i += 2) {
-    t[i] = _mm512_unpacklo_pd(r[i], r[i + 1]);
-    t[i + 1] = _mm512_unpackhi_pd(r[i], r[i + 1]);
-  }
-  // 128-bit pieces of four rows, then of all.
-  const auto low = [](__m512d a, __m512d b) { return _mm512_shuffle_f64x2(a, b, 0x88); };
-  const auto high = [](__m512d a, __m512d b) { return _mm512_shuffle_f64x2(a, b, 0xdd); };
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+  const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
   std::array<Lane, 8> column;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const __m512d a = low(t[k], t[k + 2]), b = high(t[k], t[k + 2]);
-    const __m512d c = low(t[k + 4], t[k + 6]), d = high(t[k + 4], t[k + 6]);
-    column[k].part[0] = low(a, c);
-    column[k + 4].part[0] = high(a, c);
-    column[k + 2].part[0] = low(b, d);
-    column[k + 6].part[0] = high(b, d);
+  for (std::size_t k = 0; k < 8; k += 4) {
+    __m512d r[4];
+    for (std::size_t i = 0; i < 4; ++i)
+      r[i] = _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(row[i] + k)), 0xf0,
+                                         _mm256_loadu_pd(row[i + 4] + k));
+    const __m512d a = _mm512_unpacklo_pd(r[0], r[1]), b = _mm512_unpackhi_pd(r[0], r[1]);
+    const __m512d c = _mm512_unpacklo_pd(r[2], r[3]), d = _mm512_unpackhi_pd(r[2], r[3]);
+    column[k].part[0] = _mm512_permutex2var_pd(a, low, c);
+    column[k + 1].part[0] = _mm512_permutex2var_pd(b, low, d);
+    column[k + 2].part[0] = _mm512_permutex2var_pd(a, high, c);
+    column[k + 3].part[0] = _mm512_permutex2var_pd(b, high, d);
   }
   return column;
 }

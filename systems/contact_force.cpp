@@ -33,11 +33,8 @@ std::array<ControlForce, edge_points> basis_by_point() {
   return by_point;
 }
 
-// A force on all control points, from the row's list: x of its points, then y.
-ControlForce force_at(const double* point_force, int g) {
-  const double x = point_force[g], y = point_force[g + edge_points];
-  return ControlForce::load(std::array{x, y, x, y, x, y, x, y}.data());
-}
+// The force of a point for all control points, from the row's list.
+ControlForce force_at(const double* point_force, int g) { return repeat_pair(point_force + 2 * g); }
 
 // Forces of a row's four points on the four control points of the sampled edge.
 void add_sampled(const std::array<ControlForce, edge_points>& by_point, const double* point_force,
@@ -52,48 +49,58 @@ void add_sampled(const std::array<ControlForce, edge_points>& by_point, const do
 // body's first edge.
 void add_other(const Polynomial& n, const Shape& shape, const double* closest, const double* f,
                const double* couple, double* edge_force) {
+  std::array<int, edge_points> edge;
+  std::array<ControlForce, edge_points> force;
   for (int g = 0; g < edge_points; ++g) {
-    if (f[g] == 0 && f[g + edge_points] == 0) continue;  // this point is apart
-    const int edge = static_cast<int>(closest[g]);
-    const double u = closest[g] - edge;
+    const auto at = static_cast<std::size_t>(g);
+    edge[at] = static_cast<int>(closest[g]);
+    const double u = closest[g] - edge[at];
+    force[at] = n.value(u) * force_at(f, g);
+    if (couple != nullptr) force[at] = fma(n.slope(u), force_at(couple, g), force[at]);
+  }
+  const auto subtract = [&](int e, const ControlForce& sum) {
     double* out =
-        edge_force + CurveForce::count * shape.edges[static_cast<std::size_t>(edge)].first_control;
-    ControlForce sum = fma(-n.value(u), force_at(f, g), ControlForce::load(out));
-    if (couple != nullptr) sum = fma(-n.slope(u), force_at(couple, g), sum);
-    sum.store(out);
+        edge_force + CurveForce::count * shape.edges[static_cast<std::size_t>(e)].first_control;
+    (ControlForce::load(out) - sum).store(out);
+  };
+  // The points of an edge stand against one or two of the other's as a rule: no waiting for memory then.
+  const int first = edge[0], last = edge[3];
+  if ((edge[1] == first || edge[1] == last) && (edge[2] == first || edge[2] == last)) {
+    ControlForce on_first = force[0], on_last = first == last ? ControlForce{} : force[3];
+    if (first == last) on_first += force[3];
+    for (std::size_t g = 1; g < 3; ++g) {
+      const double share = edge[g] == first ? 1 : 0;
+      on_first = fma(share, force[g], on_first);
+      on_last = fma(1 - share, force[g], on_last);
+    }
+    subtract(first, on_first);
+    if (last != first) subtract(last, on_last);
+  } else {
+    for (std::size_t g = 0; g < edge_points; ++g) subtract(edge[g], force[g]);
   }
 }
 
-// Force on control point c of a body: of the up to four edges that it is part of. `count`: of its points.
-std::array<double, 2> control_force(const double* edge_force, int c, int count) {
-  std::array<double, 2> f{};
-  for (int a = std::max(0, c - count + 4); a <= std::min(c, 3); ++a)
-    for (std::size_t k = 0; k < 2; ++k)
-      f[k] += edge_force[CurveForce::count * (c - a) + 2 * a + static_cast<int>(k)];
-  return f;
-}
-
-// Control point forces to boundary nodes: the transpose of y = S x, eight particles at once.
+// Forces of edges to boundary nodes, eight particles at once: an edge's four control points each, then the
+// transpose of y = S x. `edge_force`: of the first particle's first edge, `numbers` a particle.
 template <class Nodes>
-void to_nodes(const Shape& shape, const double* edge_force, const Nodes& node_force) {
-  const int n = shape.control_points();
+void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
+              const Nodes& node_force) {
   for (int node = 0; node < shape.boundary_nodes; ++node)
     node_force(Row<BoundaryNode>(node), 0) = node_force(Row<BoundaryNode>(node), 1) = Lane{};
-  for (int c = 0; c < n; ++c) {
-    std::array<std::array<double, lane_count>, 2> f;
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const auto one =
-          control_force(edge_force + static_cast<std::ptrdiff_t>(l) * CurveForce::count * n, c, n);
-      f[0][l] = one[0];
-      f[1][l] = one[1];
-    }
-    const Lane x = Lane::load(f[0].data()), y = Lane::load(f[1].data());
+  std::array<Lane, 8> sum{};  // x y of control points c ... c + 3, of the edges up to c
+  for (int c = 0; c < shape.control_points(); ++c) {
+    std::array<const double*, lane_count> rows;
+    for (std::size_t l = 0; l < lane_count; ++l)
+      rows[l] = edge_force + l * numbers + static_cast<std::size_t>(c) * CurveForce::count;
+    const auto of_edge = columns_of(rows);
+    for (std::size_t k = 0; k < 8; ++k) sum[k] += of_edge[k];
     for (std::int32_t t = shape.curve_begin[static_cast<std::size_t>(c)];
          t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
       const Shape::CurveTerm& term = shape.curve_terms[static_cast<std::size_t>(t)];
-      node_force(term.node, 0) += term.weight * x;
-      node_force(term.node, 1) += term.weight * y;
+      node_force(term.node, 0) += term.weight * sum[0];
+      node_force(term.node, 1) += term.weight * sum[1];
     }
+    sum = {sum[2], sum[3], sum[4], sum[5], sum[6], sum[7], Lane{}, Lane{}};
   }
 }
 
@@ -111,12 +118,13 @@ void to_nodes(const Shape& shape, const double* edge_force, const Nodes& node_fo
   const Polynomial& n = basis();
   const Shape& shape = bodies->shape_of_chunk(chunk);
   double* all = &curve_force.chunk(chunk)(Row<ControlPoint>(0));
-  const int numbers = CurveForce::count * shape.control_points();  // of a particle
+  const std::size_t numbers =  // of a particle
+      CurveForce::count * static_cast<std::size_t>(shape.control_points());
   std::fill(all, all + lane_count * numbers, 0.0);
 
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto slot = static_cast<std::size_t>(lane_count * chunk.index + lane);
-    double* own = all + lane * numbers;
+    double* own = all + static_cast<std::size_t>(lane) * numbers;
     const auto edge = [&](std::int32_t e) {
       return own + CurveForce::count * shape.edges[static_cast<std::size_t>(e)].first_control;
     };
@@ -141,7 +149,7 @@ void to_nodes(const Shape& shape, const double* edge_force, const Nodes& node_fo
       }
     }
   }
-  to_nodes(shape, all, node_force.chunk(chunk));
+  to_nodes(shape, all, numbers, node_force.chunk(chunk));
 }
 
 }  // namespace pulvis

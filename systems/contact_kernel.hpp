@@ -46,24 +46,24 @@ constexpr std::array<T, 4> basis_slope(T u) {
 template <class T>
 struct Cubic {
   T a, b, c, d;
-  T value(T u) const { return a + u * (b + u * (c + u * d)); }
-  T slope(T u) const { return b + u * (2.0 * c + u * (3.0 * d)); }
-  T curvature(T u) const { return 2.0 * c + u * (6.0 * d); }
+  T value(T u) const { return fma(u, fma(u, fma(u, d, c), b), a); }
+  T slope(T u) const { return fma(u, fma(u, 3.0 * d, 2.0 * c), b); }
+  T curvature(T u) const { return fma(u, 6.0 * d, 2.0 * c); }
 };
 template <class T>
 Cubic<T> cubic(T y0, T y1, T y2, T y3) {
-  const T third = 1.0 / 3.0 * y1;
-  return {(y0 + y2) * (1.0 / 6.0) + 2.0 * third, 0.5 * (y2 - y0), 0.5 * (y0 + y2) - y1,
-          (y3 - y0) * (1.0 / 6.0) + 0.5 * (y1 - y2)};
+  const T outer = y0 + y2;
+  return {fma(1.0 / 6.0, outer, (2.0 / 3.0) * y1), 0.5 * (y2 - y0), fma(0.5, outer, -y1),
+          fma(1.0 / 6.0, y3 - y0, 0.5 * (y1 - y2))};
 }
 
 // Newton step of the parameter towards the closest point; where the distance is not convex (the far
 // side of the outline) the sign of the slope still leads downhill.
 template <class T>
 T closest_point_step(T rx, T ry, T sx, T sy, T cx, T cy) {
-  const T slope = rx * sx + ry * sy;  // (x_s - x_m) . x_m'
-  const T length2 = sx * sx + sy * sy;
-  const T curvature = length2 - (rx * cx + ry * cy);
+  const T slope = fma(rx, sx, ry * sy);  // (x_s - x_m) . x_m'
+  const T length2 = fma(sx, sx, sy * sy);
+  const T curvature = length2 - fma(rx, cx, ry * cy);
   return slope / max(curvature, 0.25 * length2);
 }
 
@@ -83,12 +83,13 @@ inline double stiffening(double depth) {
   return 1 + 3 * x * x;
 }
 
-// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `edge` m, length of the edge.
+// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `over_edge` 1/m, over the length of
+// the edge.
 template <class T>
-Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T edge) {
+Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T over_edge) {
   const T zero{};
   const T touching = max(g, zero);
-  const T depth = touching / (stiffening_depth * edge);
+  const T depth = touching * ((1 / stiffening_depth) * over_edge);
   const T more = depth * depth;
   const T spring = kappa * touching * (1.0 + more);
   const T total = select(g > 0.0, max(spring + c * g_rate, zero), zero);
@@ -102,11 +103,11 @@ struct Friction {
   T work;          // J/m^2, dissipated in this step, >= 0
 };
 
-// `slip` m: how far the sampled body slid along t in the last step.
+// `slip` m: how far the sampled body slid along t in the last step; `over_kappa` = 1 / kappa.
 template <class T>
-Friction<T> coulomb_return(T elastic_slip, T slip, T pressure, T mu, T kappa) {
+Friction<T> coulomb_return(T elastic_slip, T slip, T pressure, T mu, T kappa, T over_kappa) {
   const T trial = elastic_slip + slip;
-  const T limit = mu * pressure / kappa;
+  const T limit = mu * pressure * over_kappa;
   const T held = max(min(trial, limit), -limit);
   // Mean traction of the step times what slipped: what the spring does not keep. (A reversal over the
   // whole limit within one step would make it negative.)

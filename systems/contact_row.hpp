@@ -34,22 +34,22 @@ inline constexpr auto basis_at_points = [] {
 
 // The Gauss points of two edges from their four control points each, which lie one after the other.
 inline PointLanes edge_points_at(const double* low, const double* high) {
-  const auto control = columns_of({low, low, low, low, high, high, high, high});
   PointLanes p{};
   for (std::size_t a = 0; a < 4; ++a) {
     const Lane n = Lane::load(basis_at_points[a].data());
-    p.x += n * control[2 * a];
-    p.y += n * control[2 * a + 1];
+    p.x = fma(n, halves(low[2 * a], high[2 * a]), p.x);
+    p.y = fma(n, halves(low[2 * a + 1], high[2 * a + 1]), p.y);
   }
   return p;
 }
 
 // Relative motion at the points: how the surfaces stand and move against each other.
 struct RowMotion {
-  Lane gap;        // m, > 0 in penetration
-  Lane nx, ny;     // outward normal of the other surface
-  Lane gap_rate;   // m/s
-  Lane slip_rate;  // m/s, along t = (-ny, nx)
+  Lane gap;         // m, > 0 in penetration
+  Lane nx, ny;      // outward normal of the other surface
+  Lane gap_rate;    // m/s
+  Lane slip_rate;   // m/s, along t = (-ny, nx)
+  Lane over_slope;  // 1/m, 1/|x'| of the other curve; where it has one
 };
 
 // Columns that every row has, and those that only scenes with friction or damping have.
@@ -121,36 +121,38 @@ template <class At>
 [[gnu::flatten]] Lane set_touching(const RowColumns<At>& c, const RowPair<At>& rows,
                                    unsigned touching, const RowMotion& m, double share, double dt) {
   const Lane weight = at_points(c.weight, rows);
-  const Lane kappa = share * at_rows(c.stiffness, rows);
+  const std::array<double, 2> stiffness{share * c.stiffness(rows[0]), share * c.stiffness(rows[1])};
+  const Lane kappa = halves(stiffness[0], stiffness[1]);
   const Lane damping = c.damping ? share * at_rows(*c.damping, rows) : Lane{};
-  const auto normal =
-      kernels::normal_traction(m.gap, m.gap_rate, kappa, damping, at_rows(c.length, rows));
+  const auto normal = kernels::normal_traction(
+      m.gap, m.gap_rate, kappa, damping, halves(1 / c.length(rows[0]), 1 / c.length(rows[1])));
   Lane along{}, spring{}, friction_work{}, energy = normal.spring_energy;
   if (c.friction) {
-    const auto friction =
-        kernels::coulomb_return(at_points(*c.elastic_slip, rows), m.slip_rate * dt, normal.pressure,
-                                at_rows(*c.friction, rows), kappa);
+    const auto friction = kernels::coulomb_return(
+        at_points(*c.elastic_slip, rows), m.slip_rate * dt, normal.pressure,
+        at_rows(*c.friction, rows), kappa, halves(1 / stiffness[0], 1 / stiffness[1]));
     spring = friction.elastic_slip;
     along = friction.traction * weight;
     friction_work = friction.work * weight;
-    energy += 0.5 * kappa * spring * spring;
+    energy = fma(0.5 * kappa * spring, spring, energy);
   }
   energy *= weight;
   const Lane push = normal.pressure * weight;
-  const Lane fx = push * m.nx - along * m.ny, fy = push * m.ny + along * m.nx;
+  const Lane fx = fma(push, m.nx, -(along * m.ny)), fy = fma(push, m.ny, along * m.nx);
   const Lane damping_work = normal.damping_power * weight * dt;
+  const SumsOfHalves sums = sums_of_halves(energy, friction_work);
+  const SumsOfHalves damped = sums_of_halves(damping_work, Lane{});
   for (int half = 0; half < 2; ++half) {
     if ((touching >> half & 1) == 0) continue;
     const Row<At> row = rows[static_cast<std::size_t>(half)];
     c.pair(row, 3) = 1;
     c.reach(row) = 0;
-    store_half(fx, half, &c.force(row, 0));
-    store_half(fy, half, &c.force(row, edge_points));
+    store_pairs_of_half(fx, fy, half, &c.force(row));
     c.penetration(row) = greatest_of_half(m.gap, half);
-    c.energy(row) = sum_of_half(energy, half);
+    c.energy(row) = sums.a[static_cast<std::size_t>(half)];
     if (c.elastic_slip) store_half(spring, half, &(*c.elastic_slip)(row));
-    if (c.friction_work) (*c.friction_work)(row) = sum_of_half(friction_work, half);
-    if (c.damping_work) (*c.damping_work)(row) = sum_of_half(damping_work, half);
+    if (c.friction_work) (*c.friction_work)(row) = sums.b[static_cast<std::size_t>(half)];
+    if (c.damping_work) (*c.damping_work)(row) = damped.a[static_cast<std::size_t>(half)];
   }
   return along;
 }

@@ -127,17 +127,18 @@ struct Closest {
 [[gnu::flatten]] RowMotion row_motion(const OtherCurves& other, const Closest& c,
                                       const PointLanes& velocity) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
-  const Lane over_length = 1.0 / sqrt(sx * sx + sy * sy);
+  const Lane over_length = 1.0 / sqrt(fma(sx, sx, sy * sy));
   RowMotion m{};
+  m.over_slope = over_length;
   m.nx = sy * over_length;
   m.ny = -sx * over_length;
-  m.gap = -(c.rx * m.nx + c.ry * m.ny);
+  m.gap = -fma(c.rx, m.nx, c.ry * m.ny);
   if (other.velocity[0] != nullptr) {
     const CurveLanes v = gather(other.shape, other.velocity, c.at.edge);
     const Lane wx = velocity.x - v.x.value(c.at.u), wy = velocity.y - v.y.value(c.at.u);
-    const Lane turn = (v.x.slope(c.at.u) * m.nx + v.y.slope(c.at.u) * m.ny) * over_length;
-    m.gap_rate = -(wx * m.nx + wy * m.ny);
-    m.slip_rate = (wy * m.nx - wx * m.ny) - m.gap * turn;
+    const Lane turn = fma(v.x.slope(c.at.u), m.nx, v.y.slope(c.at.u) * m.ny) * over_length;
+    m.gap_rate = -fma(wx, m.nx, wy * m.ny);
+    m.slip_rate = fma(wy, m.nx, -(wx * m.ny)) - m.gap * turn;
   }
   return m;
 }
@@ -157,16 +158,13 @@ bool is_far_side(const Closest& c, int half, int edge, const Shape& shape, bool 
 }
 
 // The force on the other bodies' slope that makes friction free of torque: -T g/|x'| n.
-void set_couple(const Closest& c, const RowMotion& m, const Lane& along, unsigned touching,
+void set_couple(const RowMotion& m, const Lane& along, unsigned touching,
                 const RowPair<Contact>& rows, const Write<FrictionCouple>& couple) {
-  const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
-  const Lane size = along * m.gap / sqrt(sx * sx + sy * sy);
+  const Lane size = along * m.gap * m.over_slope;
   const Lane x = size * m.nx, y = size * m.ny;
   for (int half = 0; half < 2; ++half) {
     if ((touching >> half & 1) == 0) continue;
-    double* out = &couple(rows[static_cast<std::size_t>(half)]);
-    store_half(x, half, out);
-    store_half(y, half, out + edge_points);
+    store_pairs_of_half(x, y, half, &couple(rows[static_cast<std::size_t>(half)]));
   }
 }
 
@@ -233,7 +231,7 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     }
     if (touching == 0) return;
     const Lane along = set_touching(columns, rows, touching, motion, 0.5, clock->dt_before);
-    if (couple) set_couple(c, motion, along, touching, rows, *couple);
+    if (couple) set_couple(motion, along, touching, rows, *couple);
   };
   for_active_pairs<Contact>(
       pair.rows(), [&](Row<Contact> row) { return clock->travel >= reach(row); }, look_at);

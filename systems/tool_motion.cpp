@@ -42,7 +42,7 @@ void add_contacts(const Read<ContactPair<ToolContact>>& pair,
     if (pair(row, 3) == 0) continue;
     const Row<Tool> tool(pair(row, 2));
     for (int g = 0; g < edge_points; ++g)
-      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= force(row, edge_points * k + g);
+      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= force(row, 2 * g + k);
   }
 }
 

@@ -119,29 +119,30 @@ TEST(NormalTraction, PressureIsTheDerivativeOfTheEnergy) {
   const double kappa = 3e15, h = 1e-9;
   for (const double g : {-1e-6, 1e-7, 2e-6}) {
     const auto energy = [&](double gap) {
-      return normal_traction(gap, 0.0, kappa, 0.0, edge).spring_energy;
+      return normal_traction(gap, 0.0, kappa, 0.0, 1 / edge).spring_energy;
     };
     // The third derivative of the energy leaves kappa h^2/g_s^2; energies round at 1e-16 of theirs, over h.
     EXPECT_NEAR((energy(g + h) - energy(g - h)) / (2 * h),
-                normal_traction(g, 0.0, kappa, 0.0, edge).pressure, 1e-7 * kappa * 2e-6);
+                normal_traction(g, 0.0, kappa, 0.0, 1 / edge).pressure, 1e-7 * kappa * 2e-6);
   }
 }
 
 TEST(NormalTraction, StiffensAsItsTangentSays) {
   const double kappa = 3e15, h = 1e-10;
   for (const double g : {1e-7, 5e-6, 2e-5}) {
-    const double slope = (normal_traction(g + h, 0.0, kappa, 0.0, edge).pressure -
-                          normal_traction(g - h, 0.0, kappa, 0.0, edge).pressure) /
+    const double slope = (normal_traction(g + h, 0.0, kappa, 0.0, 1 / edge).pressure -
+                          normal_traction(g - h, 0.0, kappa, 0.0, 1 / edge).pressure) /
                          (2 * h);
     EXPECT_NEAR(slope / kappa / stiffening(g / edge), 1, 1e-6);
   }
-  EXPECT_DOUBLE_EQ(normal_traction(5e-6, 0.0, kappa, 0.0, edge).pressure, 2 * kappa * 5e-6);
+  EXPECT_DOUBLE_EQ(normal_traction(5e-6, 0.0, kappa, 0.0, 1 / edge).pressure, 2 * kappa * 5e-6);
 }
 
 TEST(NormalTraction, NeverPullsAndItsDampingNeverGives) {
   Random random(3);
   for (int i = 0; i < 10000; ++i) {
-    const auto t = normal_traction(random.in(-1e-6, 1e-6), random.in(-10.0, 10.0), 3e15, 1e9, edge);
+    const auto t =
+        normal_traction(random.in(-1e-6, 1e-6), random.in(-10.0, 10.0), 3e15, 1e9, 1 / edge);
     ASSERT_GE(t.pressure, 0);
     ASSERT_GE(t.damping_power, 0);
     ASSERT_GE(t.spring_energy, 0);
@@ -150,7 +151,7 @@ TEST(NormalTraction, NeverPullsAndItsDampingNeverGives) {
 
 TEST(NormalTraction, IsNothingWhereNothingTouches) {
   for (const double rate : {-10.0, 0.0, 10.0}) {
-    const auto t = normal_traction(-1e-9, rate, 3e15, 1e9, edge);
+    const auto t = normal_traction(-1e-9, rate, 3e15, 1e9, 1 / edge);
     EXPECT_EQ(t.pressure, 0);
     EXPECT_EQ(t.spring_energy, 0);
     EXPECT_EQ(t.damping_power, 0);
@@ -158,7 +159,7 @@ TEST(NormalTraction, IsNothingWhereNothingTouches) {
 }
 
 TEST(NormalTraction, DampingAddsItsShareOfTheRate) {
-  const auto t = normal_traction(1e-6, 2.0, 3e15, 1e8, edge);
+  const auto t = normal_traction(1e-6, 2.0, 3e15, 1e8, 1 / edge);
   EXPECT_DOUBLE_EQ(t.pressure, 3e9 * (1 + 0.2 * 0.2) + 2e8);
   // The difference of spring and whole carries the round-off of the whole: 16 times its own.
   EXPECT_NEAR(t.damping_power, 2 * 2e8, 1e-14 * 3.2e9);
@@ -180,9 +181,9 @@ TEST(CoulombReturn, TractionStaysInTheConeAndWorkIsNeverGiven) {
 }
 
 TEST(CoulombReturn, PullsAgainstTheSlip) {
-  EXPECT_DOUBLE_EQ(coulomb_return(0.0, 1e-8, 1e9, 0.3, 3e15).traction, -3e7);
-  EXPECT_DOUBLE_EQ(coulomb_return(0.0, -1e-8, 1e9, 0.3, 3e15).traction, 3e7);
-  EXPECT_DOUBLE_EQ(coulomb_return(0.0, 1.0, 1e9, 0.3, 3e15).traction, -3e8);
+  EXPECT_DOUBLE_EQ(coulomb_return(0.0, 1e-8, 1e9, 0.3, 3e15, 1 / 3e15).traction, -3e7);
+  EXPECT_DOUBLE_EQ(coulomb_return(0.0, -1e-8, 1e9, 0.3, 3e15, 1 / 3e15).traction, 3e7);
+  EXPECT_DOUBLE_EQ(coulomb_return(0.0, 1.0, 1e9, 0.3, 3e15, 1 / 3e15).traction, -3e8);
 }
 
 TEST(CoulombReturn, GivesAllEnergyBackBelowTheLimit) {
@@ -214,7 +215,7 @@ TEST(CoulombReturn, SpendsLimitTimesSlipAroundALoop) {
 }
 
 TEST(CoulombReturn, LosingThePressureLosesTheSpring) {
-  const auto f = coulomb_return(5e-8, 0.0, 0.0, 0.3, 3e15);
+  const auto f = coulomb_return(5e-8, 0.0, 0.0, 0.3, 3e15, 1 / 3e15);
   EXPECT_EQ(f.traction, 0);
   EXPECT_EQ(f.elastic_slip, 0);
 }
@@ -224,11 +225,12 @@ TEST(ContactKernels, LanesGiveTheBitsOfTheScalar) {
   for (int i = 0; i < 1000; ++i) {
     const Lane g = random.lane(-1e-6, 1e-6), rate = random.lane(-1, 1),
                u = random.lane(-1e-7, 1e-7);
-    const auto normal = normal_traction<Lane>(g, rate, 3e15, 1e9, edge);
-    const auto friction = coulomb_return<Lane>(u, rate * 1e-7, normal.pressure, 0.3, 3e15);
+    const auto normal = normal_traction<Lane>(g, rate, 3e15, 1e9, 1 / edge);
+    const auto friction =
+        coulomb_return<Lane>(u, rate * 1e-7, normal.pressure, 0.3, 3e15, 1 / 3e15);
     for (int l = 0; l < lane_count; ++l) {
-      const auto n = normal_traction(g[l], rate[l], 3e15, 1e9, edge);
-      const auto f = coulomb_return(u[l], rate[l] * 1e-7, n.pressure, 0.3, 3e15);
+      const auto n = normal_traction(g[l], rate[l], 3e15, 1e9, 1 / edge);
+      const auto f = coulomb_return(u[l], rate[l] * 1e-7, n.pressure, 0.3, 3e15, 1 / 3e15);
       // Every bit but the sign of a zero, which a lane's max may take from its other operand.
       ASSERT_EQ(normal.pressure[l], n.pressure);
       ASSERT_EQ(normal.damping_power[l], n.damping_power);

@@ -117,12 +117,23 @@ TEST(LaneMemory, HalvesComeAndGoByThemselves) {
   EXPECT_EQ(back, high);
 }
 
+TEST(LaneMemory, PairsTakeTurns) {
+  const std::array<double, 2> xy{3, -4};
+  const Lane pairs = repeat_pair(xy.data());
+  for (int l = 0; l < lane_count; ++l) EXPECT_EQ(pairs[l], xy[static_cast<std::size_t>(l % 2)]);
+  const Lane x = Lane::from([](int l) { return l; }), y = Lane::from([](int l) { return 10 + l; });
+  std::array<double, 8> out{};
+  store_pairs_of_half(x, y, 1, out.data());
+  EXPECT_EQ(out, (std::array<double, 8>{4, 14, 5, 15, 6, 16, 7, 17}));
+}
+
 TEST(LaneMemory, SumsOfAHalfArePairwiseInFixedOrder) {
   // Beside 1e16 a one is lost: in pairs both are, one after the other one is, crosswise none.
   const std::array<double, 4> both_lost{1e16, 1, -1e16, 1}, kept{1e16, -1e16, 1, 1};
-  const Lane a = load_halves(both_lost.data(), kept.data());
-  EXPECT_EQ(sum_of_half(a, 0), 0);
-  EXPECT_EQ(sum_of_half(a, 1), 2);
+  const SumsOfHalves sums = sums_of_halves(load_halves(both_lost.data(), kept.data()),
+                                           load_halves(kept.data(), both_lost.data()));
+  EXPECT_EQ(sums.a, (std::array<double, 2>{0, 2}));
+  EXPECT_EQ(sums.b, (std::array<double, 2>{2, 0}));
 }
 
 TEST(LaneMemory, LeastAndGreatestLookAtAllLanesOfTheirHalf) {

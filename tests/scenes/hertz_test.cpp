@@ -25,7 +25,7 @@ double half_width(const Experiment& e, int tool) {
     for (std::size_t g = 0; g < 4; ++g) {
       const auto n = kernels::basis(kernels::edge_u[g]);
       const double x = n[0] * y[0] + n[1] * y[2] + n[2] * y[4] + n[3] * y[6];
-      const double f = std::abs(force.values()[8 * r + 4 + g]);
+      const double f = std::abs(force.values()[8 * r + 2 * g + 1]);
       sum += f;
       moment += f * x * x;
     }

@@ -41,8 +41,8 @@ Strip contact_of(const Experiment& e, double mu) {
     for (std::size_t g = 0; g < 4; ++g) {
       const auto n = kernels::basis(kernels::edge_u[g]);
       const double x = n[0] * y[0] + n[1] * y[2] + n[2] * y[4] + n[3] * y[6];
-      const double q = force.values()[8 * r + g];  // the contact is level to 0.04 rad
-      const double p = mu * std::abs(force.values()[8 * r + 4 + g]);
+      const double q = force.values()[8 * r + 2 * g];  // the contact is level to 0.04 rad
+      const double p = mu * std::abs(force.values()[8 * r + 2 * g + 1]);
       if (p <= 0) continue;
       strip.pressure.add(p, x);
       strip.deficit.add(p - q, x);

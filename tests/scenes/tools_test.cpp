@@ -39,7 +39,7 @@ Force flank_force(const Experiment& e, int tool, bool to_the_left) {
   for (std::size_t r = 0; r < pair.table.rows; ++r) {
     if (pair.values()[4 * r + 2] != tool || pair.values()[4 * r + 3] == 0) continue;
     for (std::size_t g = 0; g < edge_points; ++g) {
-      const double x = -force.values()[8 * r + g], y = -force.values()[8 * r + 4 + g];
+      const double x = -force.values()[8 * r + 2 * g], y = -force.values()[8 * r + 2 * g + 1];
       if ((x < 0) != to_the_left) continue;
       sum.x += x;
       sum.y += y;
