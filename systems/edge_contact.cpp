@@ -23,8 +23,10 @@ struct OtherCurves {
   std::array<const double*, 2> velocity;  // null where the scene needs none
 };
 
+using Indices = std::array<std::int64_t, lanes>;
+
 struct LaneEdges {
-  std::array<std::int32_t, lanes> edge;
+  Indices edge;
   Lane u;
 };
 
@@ -33,15 +35,16 @@ LaneEdges unpack(const Lane& closest) {
   std::array<double, lanes> from, u;
   closest.store(from.data());
   for (std::size_t l = 0; l < lanes; ++l) {
-    at.edge[l] = static_cast<std::int32_t>(from[l]);
-    u[l] = from[l] - at.edge[l];
+    at.edge[l] = static_cast<std::int64_t>(from[l]);
+    u[l] = from[l] - static_cast<double>(at.edge[l]);
   }
   at.u = Lane::load(u.data());
   return at;
 }
 
 Lane pack(const LaneEdges& at) {
-  const Lane edge = Lane::from([&](int l) { return at.edge[static_cast<std::size_t>(l)]; });
+  const Lane edge =
+      Lane::from([&](int l) { return static_cast<double>(at.edge[static_cast<std::size_t>(l)]); });
   return edge + min(at.u, 1 - 1e-12);  // an end belongs to its own edge
 }
 
@@ -49,13 +52,16 @@ struct CurveLanes {
   kernels::Cubic<Lane> x, y;
 };
 
-CurveLanes gather(const std::array<const Shape*, 2>& shape,
-                  const std::array<const double*, 2>& points,
-                  const std::array<std::int32_t, lanes>& edge) {
-  std::array<const double*, lanes> control;
+// Where the control points of each lane's edge begin in the list of the other particle's coordinates.
+Indices places(const std::array<const Shape*, 2>& shape, const Indices& edge) {
+  Indices first;
   for (std::size_t l = 0; l < lanes; ++l)
-    control[l] = points[l / edge_points] +
-                 2 * shape[l / edge_points]->edges[static_cast<std::size_t>(edge[l])].first_control;
+    first[l] = 2 * shape[l / edge_points]->edges[static_cast<std::size_t>(edge[l])].first_control;
+  return first;
+}
+CurveLanes gather(const std::array<const double*, 2>& points, const Indices& first) {
+  std::array<const double*, lanes> control;
+  for (std::size_t l = 0; l < lanes; ++l) control[l] = points[l / edge_points] + first[l];
   const auto y = columns_of(control);
   return {kernels::cubic(y[0], y[2], y[4], y[6]), kernels::cubic(y[1], y[3], y[5], y[7])};
 }
@@ -91,6 +97,7 @@ constexpr double step_tolerance = 1e-5;
 // Where the points stand against the curves. `beyond`: closest to a corner, from outside its edge.
 struct Closest {
   LaneEdges at;
+  Indices first;  // see places()
   CurveLanes curve;
   Lane rx, ry;  // from the curve to the point, m
   unsigned beyond = 0;
@@ -99,7 +106,10 @@ struct Closest {
 // Every lane stops by itself, so that no point depends on the others.
 [[gnu::flatten]] Closest closest_points(const OtherCurves& other, const PointLanes& points,
                                         const LaneEdges& start) {
-  Closest c{start, gather(other.shape, other.position, start.edge), {}, {}};
+  Closest c;
+  c.at = start;
+  c.first = places(other.shape, start.edge);
+  c.curve = gather(other.position, c.first);
   unsigned done = 0;
   for (int step = 0;; ++step) {
     c.rx = points.x - c.curve.x.value(c.at.u);
@@ -114,7 +124,8 @@ struct Closest {
     if (any((c.at.u < 0.0) | (c.at.u > 1.0))) {
       c.beyond |= cross_edges(other.shape, before, c.at);
       done |= c.beyond;
-      c.curve = gather(other.shape, other.position, c.at.edge);
+      c.first = places(other.shape, c.at.edge);
+      c.curve = gather(other.position, c.first);
     }
     if (done == all_lanes || step == most_steps) break;
   }
@@ -134,7 +145,7 @@ struct Closest {
   m.ny = -sx * over_length;
   m.gap = -fma(c.rx, m.nx, c.ry * m.ny);
   if (other.velocity[0] != nullptr) {
-    const CurveLanes v = gather(other.shape, other.velocity, c.at.edge);
+    const CurveLanes v = gather(other.velocity, c.first);
     const Lane wx = velocity.x - v.x.value(c.at.u), wy = velocity.y - v.y.value(c.at.u);
     const Lane turn = fma(v.x.slope(c.at.u), m.nx, v.y.slope(c.at.u) * m.ny) * over_length;
     m.gap_rate = -fma(wx, m.nx, wy * m.ny);
@@ -149,7 +160,7 @@ struct Closest {
 bool is_far_side(const Closest& c, int half, int edge, const Shape& shape, bool unseen, Lane& gap) {
   double deepest = -1;
   for (int l = half * edge_points; l < (half + 1) * edge_points; ++l) {
-    const int there = c.at.edge[static_cast<std::size_t>(l)];
+    const auto there = static_cast<int>(c.at.edge[static_cast<std::size_t>(l)]);
     if (edges_between(there, edge, static_cast<int>(shape.edges.size())) < least_fold) gap[l] = -1;
     deepest = std::max(deepest, gap[l]);
   }
