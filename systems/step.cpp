@@ -31,14 +31,16 @@ StepList step_list_of(World& w) {
   force(touching, "note_binning",     note_binning);
   force(pairs,    "edge_contact",     edge_contact);
   force(tools,    "tool_contact",     tool_contact);
-  force(touching, "contact_totals",   contact_totals);
-  force(touching, "contact_health",   contact_health);
-  force(tools && !grips, "tool_reaction", tool_reaction);
-  force(touching, "contact_force",    contact_force);
+  // Needs nothing of the above: runs beside the narrow phase.
   force(!plastic, "elastic_stress",   elastic_stress<F>);
   force(plastic,  "trial_stress",     trial_stress<F>);
   force(plastic,  "j2_return_map",    j2_return_map<F>);
   force(true,     "internal_force",   internal_force<F>);
+  force(touching, "contact_totals",   contact_totals);
+  force(touching, "contact_health",   contact_health);
+  force(tools && !grips, "tool_reaction", tool_reaction);
+  // One pass over the chunks from here to the end of the step.
+  force(touching, "contact_force",    contact_force);
   force(grips,    "hold_grips",       hold_grips);
   force(grips,    "tool_reaction",    tool_reaction);  // theirs is known last
 
