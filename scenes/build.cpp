@@ -20,6 +20,10 @@
 namespace pulvis {
 namespace {
 
+// Surfaces move by this many skins against each other before they can have come near who were no
+// neighbours: more than neighbours do, and few enough to keep lists short.
+constexpr double skins_of_neighbourhood = 8;
+
 double friction_of(const Scene& scene, const std::string& a, const std::string& b) {
   for (const FrictionSpec& f : scene.frictions)
     if ((f.first == a && f.second == b) || (f.first == b && f.second == a)) return f.coefficient;
@@ -193,6 +197,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
       rows_by_chunk(bodies, [](const Shape& s) { return 4 * s.control_points(); }));
   world.add<ContactForce>();
   world.add<CurvePosition>();
+  world.add<CurveBefore>();
   world.add<CurveForce>();
   world.add<MaximumSpeed>();
   if (needs.friction || needs.damping) world.add<CurveVelocity>();
@@ -347,7 +352,9 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     world->emplace<ContactRules>(contact_rules(scene)).shortest_edge = shortest_edge(layout.bodies);
-    world->emplace<ContactIndex>().skin = scene.contact.skin * shortest_edge(layout.bodies);
+    ContactIndex& index = world->emplace<ContactIndex>();
+    index.skin = scene.contact.skin * shortest_edge(layout.bodies);
+    index.neighbourhood = skins_of_neighbourhood * index.skin;
   }
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);

@@ -164,7 +164,7 @@ TEST(PlaceBodies, CountsWithoutPlacing) {
 }
 
 TEST(CheckOverlaps, AHexagonalPackingTouchesAndFitsItsDie) {
-  for (const Vec2 corner : {Vec2(0, 0), Vec2(-0.3, 7.7)}) {
+  for (const Vec2& corner : {Vec2(0, 0), Vec2(-0.3, 7.7)}) {
     Scene scene = hexagonal(9, 11, corner);
     EXPECT_TRUE(problems_of(scene).empty());
     scene.tools[3].point.y() -= 1e-5;

@@ -58,7 +58,7 @@ const Names plastic_columns{"plastic_metric",  "plastic_strain", "plastic_work",
 const Names friction_columns{"friction", "elastic_slip", "friction_work", "friction_couple"};
 const Names damping_columns{"damping", "damping_work"};
 const Names contact_places{"contact", "tool_contact", "curve", "boundary", "tool"};
-const Names contact_systems{"tool_motion",   "bin_edges",     "bin_tool_edges", "note_binning",
+const Names contact_systems{"tool_motion",   "bin_edges",     "bin_tool_edges", "skin_check",
                             "edge_contact",  "tool_contact",  "contact_totals", "contact_health",
                             "tool_reaction", "contact_force", "contact_curve"};
 
