@@ -152,12 +152,11 @@ TEST(Plan, EdgesOfACompactionStep) {
   const Asked asked("compaction/regular-25.toml");
   EXPECT_THAT(edges_by_name(asked.experiment.simulation.plan()),
               UnorderedElementsAreArray({
-                  "tool_motion -> bin_tool_edges",   // where the tools are
+                  "tool_motion -> skin_check",       // where the tools are
+                  "skin_check -> bin_edges",         // contact_index
                   "bin_edges -> bin_tool_edges",     // contact_index
                   "bin_edges -> edge_contact",       // the rows
-                  "bin_tool_edges -> note_binning",  // contact_index
                   "bin_tool_edges -> tool_contact",  // the rows
-                  "note_binning -> contact_force",   // contact_index
                   "edge_contact -> contact_totals",  // energies of the rows
                   "edge_contact -> contact_force",   // forces of the points
                   "tool_contact -> contact_totals", "tool_contact -> contact_force",
