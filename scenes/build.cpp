@@ -13,6 +13,7 @@
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 #include "scenes/grips.hpp"
+#include "scenes/hilbert.hpp"
 #include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
 #include "scenes/surface.hpp"
@@ -63,7 +64,30 @@ struct Placed {
   double turn;  // rad, of the mesh in space: the body's angle and the mesh phase
 };
 
-// Particles of one class after the other, four to a chunk; a mesh phase turns the mesh, not the shape
+// In which order particles follow each other in memory: neighbours in space are near each other there, whatever
+// the order of the scene.
+class MemoryOrder {
+ public:
+  explicit MemoryOrder(const std::vector<BodySpec>& bodies) {
+    for (const BodySpec& body : bodies) {
+      low_ = low_.cwiseMin(body.position);
+      high_ = high_.cwiseMax(body.position);
+    }
+  }
+  std::uint64_t operator()(const BodySpec& body) const {
+    constexpr int order = 16;  // cells far smaller than particles
+    const double size = std::max((high_ - low_).maxCoeff(), std::numeric_limits<double>::min());
+    const Vec2 share = (body.position - low_) / size;
+    const auto cell = [](double s) { return static_cast<std::uint32_t>(s * ((1 << order) - 1)); };
+    return hilbert_number(order, cell(share.x()), cell(share.y()));
+  }
+
+ private:
+  Vec2 low_ = Vec2::Constant(std::numeric_limits<double>::max());
+  Vec2 high_ = Vec2::Constant(std::numeric_limits<double>::lowest());
+};
+
+// Particles of one class after the other, so many to a chunk as it has lanes; a mesh phase turns the mesh, not the shape
 // (a disc's outline does not care), so that all particles of a class share one undeformed mesh.
 std::vector<std::vector<Placed>> by_class(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::mt19937_64 random(scene.seed);
@@ -75,6 +99,9 @@ std::vector<std::vector<Placed>> by_class(const Scene& scene, const std::vector<
         spec.random_mesh_phase ? 2 * std::numbers::pi * uniform(random) : spec.mesh_phase;
     classes[which].push_back({&bodies[i], static_cast<int>(i), bodies[i].angle + phase});
   }
+  const MemoryOrder order(bodies);
+  for (std::vector<Placed>& placed : classes)
+    std::ranges::stable_sort(placed, {}, [&](const Placed& p) { return order(*p.body); });
   return classes;
 }
 
@@ -93,7 +120,7 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
     if (classes[c].empty()) continue;
     const int shape = static_cast<int>(layout.bodies.shapes.size());
     layout.bodies.shapes.push_back(make_shape(scene.particles[c]));
-    const std::size_t lanes = (classes[c].size() + 3) / 4 * 4;
+    const std::size_t lanes = (classes[c].size() + lane_count - 1) / lane_count * lane_count;
     for (std::size_t i = 0; i < lanes; ++i) {
       const bool there = i < classes[c].size();
       Bodies::Slot slot{there ? classes[c][i].number : Bodies::nobody, shape,
