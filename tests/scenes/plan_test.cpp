@@ -205,8 +205,9 @@ TEST(Plan, BodiesAreComputedInOnePassOverTheChunks) {
 const Names shown{"tool/force", "particle/kinetic_energy", "particle/elastic_energy",
                   "particle/plastic_work", "particle/hourglass_energy"};
 // Read and written by one and the same system through Write: history of a contact row, sums.
-const Names kept_by_their_writer{"contact/reach", "tool_contact/reach", "contact/elastic_slip",
-                                 "tool_contact/elastic_slip", "curve/force"};
+const Names kept_by_their_writer{"contact/reach",        "tool_contact/reach",
+                                 "contact/elastic_slip", "tool_contact/elastic_slip",
+                                 "curve/force",          "curve/before"};
 
 class NoIdleColumn : public ::testing::TestWithParam<const char*> {};
 
