@@ -193,7 +193,7 @@ const TableDeclaration<ContactSpec>& contact() {
        {{.name = "skin",
          .kind = Kind::number,
          .range = within(0.01, 10),
-         .fallback = value_of(0.5),
+         .fallback = value_of(0.2),
          .doc = "Share of the shortest edge that surfaces may approach each other before the "
                 "search for "
                 "contacts is done anew. Costs time only, changes no result."},
