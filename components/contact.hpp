@@ -19,6 +19,11 @@ struct CurveVelocity : Component<ControlPoint, double, 2> {
   static constexpr ComponentInfo info{"velocity", "m/s", "of the control point"};
 };
 
+struct CurveBefore : Component<ControlPoint, double, 2> {
+  static constexpr ComponentInfo info{"before", "m",
+                                      "where it was when the contact rows were made"};
+};
+
 struct CurveForce : Component<ControlPoint, double, 8> {
   static constexpr ComponentInfo info{"force", "N",
                                       "of all contacts on the edge whose first control point this "

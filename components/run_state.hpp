@@ -59,8 +59,14 @@ struct ContactRules {
 struct ContactIndex {
   static constexpr const char* resource_name = "contact_index";
   double skin = 0;            // m: rows are made for everything nearer than this
+  double neighbourhood = 0;   // m, > skin: particles nearer than this to each other are neighbours
   double travel_at_bin = -1;  // m, Clock::travel when the rows were made; < 0: never yet
+  double look_at = 0;         // m, Clock::travel at which the skin may be used up
+  bool due = false;           // the rows are made anew in this step
   std::int64_t bins = 0;      // how often so far
+  std::vector<std::int32_t> neighbour_begin;  // [slots + 1] into neighbours
+  std::vector<std::int32_t> neighbours;  // slots, itself included, when the rows were made; sorted
+  std::vector<Point> tools_before;       // m, [tools]: where they stood then
   std::vector<std::int32_t> sampled_begin;  // [slots + 1] into contact rows: particle samples
   std::vector<std::int32_t>
       other_begin;  // [slots + 1] into other_rows: particle is sampled against

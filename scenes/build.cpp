@@ -13,12 +13,17 @@
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 #include "scenes/grips.hpp"
+#include "scenes/hilbert.hpp"
 #include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
 #include "scenes/surface.hpp"
 
 namespace pulvis {
 namespace {
+
+// Surfaces move by this many skins against each other before they can have come near who were no
+// neighbours: more than neighbours do, and few enough to keep lists short.
+constexpr double skins_of_neighbourhood = 8;
 
 double friction_of(const Scene& scene, const std::string& a, const std::string& b) {
   for (const FrictionSpec& f : scene.frictions)
@@ -59,7 +64,30 @@ struct Placed {
   double turn;  // rad, of the mesh in space: the body's angle and the mesh phase
 };
 
-// Particles of one class after the other, four to a chunk; a mesh phase turns the mesh, not the shape
+// In which order particles follow each other in memory: neighbours in space are near each other there, whatever
+// the order of the scene.
+class MemoryOrder {
+ public:
+  explicit MemoryOrder(const std::vector<BodySpec>& bodies) {
+    for (const BodySpec& body : bodies) {
+      low_ = low_.cwiseMin(body.position);
+      high_ = high_.cwiseMax(body.position);
+    }
+  }
+  std::uint64_t operator()(const BodySpec& body) const {
+    constexpr int order = 16;  // cells far smaller than particles
+    const double size = std::max((high_ - low_).maxCoeff(), std::numeric_limits<double>::min());
+    const Vec2 share = (body.position - low_) / size;
+    const auto cell = [](double s) { return static_cast<std::uint32_t>(s * ((1 << order) - 1)); };
+    return hilbert_number(order, cell(share.x()), cell(share.y()));
+  }
+
+ private:
+  Vec2 low_ = Vec2::Constant(std::numeric_limits<double>::max());
+  Vec2 high_ = Vec2::Constant(std::numeric_limits<double>::lowest());
+};
+
+// Particles of one class after the other, so many to a chunk as it has lanes; a mesh phase turns the mesh, not the shape
 // (a disc's outline does not care), so that all particles of a class share one undeformed mesh.
 std::vector<std::vector<Placed>> by_class(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::mt19937_64 random(scene.seed);
@@ -71,6 +99,9 @@ std::vector<std::vector<Placed>> by_class(const Scene& scene, const std::vector<
         spec.random_mesh_phase ? 2 * std::numbers::pi * uniform(random) : spec.mesh_phase;
     classes[which].push_back({&bodies[i], static_cast<int>(i), bodies[i].angle + phase});
   }
+  const MemoryOrder order(bodies);
+  for (std::vector<Placed>& placed : classes)
+    std::ranges::stable_sort(placed, {}, [&](const Placed& p) { return order(*p.body); });
   return classes;
 }
 
@@ -194,6 +225,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
       rows_by_chunk(bodies, [](const Shape& s) { return lane_count * s.control_points(); }));
   world.add<ContactForce>();
   world.add<CurvePosition>();
+  world.add<CurveBefore>();
   world.add<CurveForce>();
   world.add<MaximumSpeed>();
   if (needs.friction || needs.damping) world.add<CurveVelocity>();
@@ -348,7 +380,9 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     world->emplace<ContactRules>(contact_rules(scene)).shortest_edge = shortest_edge(layout.bodies);
-    world->emplace<ContactIndex>().skin = scene.contact.skin * shortest_edge(layout.bodies);
+    ContactIndex& index = world->emplace<ContactIndex>();
+    index.skin = scene.contact.skin * shortest_edge(layout.bodies);
+    index.neighbourhood = skins_of_neighbourhood * index.skin;
   }
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);

@@ -7,6 +7,7 @@
 
 #include "scenes/mesh_rounded_rectangle.hpp"
 #include "scenes/outline.hpp"
+#include "scenes/place.hpp"
 #include "scenes/tool_checks.hpp"
 
 namespace pulvis {
@@ -28,7 +29,7 @@ class Checks {
     materials();
     outlines();
     counts();
-    spacings();
+    packings();
     stages();
     frictions();
     everything_is_used();
@@ -164,10 +165,6 @@ class Checks {
     return std::visit([](const auto& m) { return count(m); }, mesh);
   }
 
-  static std::int64_t count(const SquarePacking& packing) {
-    return std::int64_t{packing.rows} * packing.columns;
-  }
-
   std::int64_t quads_of(int particle) const {
     return quads(scene_.particles[static_cast<std::size_t>(particle)].mesh);
   }
@@ -183,13 +180,13 @@ class Checks {
     for (const BodySpec& body : scene_.bodies) total += quads_of(body.particle);
     for (std::size_t i = 0; i < scene_.packings.size(); ++i) {
       const std::string path = fmt::format("packing[{}]", i);
-      particles += count(scene_.packings[i]);
+      particles += particle_count(scene_.packings[i]);
       if (particles > most_particles) {
         refuse(path, fmt::format("the scene has {} particles up to here, allowed: at most {}",
                                  particles, most_particles));
         return;  // the product below could overflow
       }
-      total += count(scene_.packings[i]) * quads_of(scene_.packings[i].particle);
+      total += particle_count(scene_.packings[i]) * quads_of(scene_.packings[i].particle);
     }
     if (total > most_quads)
       problems_.add(
@@ -197,10 +194,13 @@ class Checks {
           fmt::format("all meshes together have {} quads, allowed: at most {}", total, most_quads));
   }
 
-  void spacings() {
+  void packings() {
     for (std::size_t i = 0; i < scene_.packings.size(); ++i) {
-      SquarePacking& packing = scene_.packings[i];
+      LatticePacking& packing = scene_.packings[i];
       const std::string path = fmt::format("packing[{}]", i);
+      if (packing.kind == LatticePacking::Kind::hexagonal && packing.columns == 1)
+        refuse(path + ".columns",
+               "every second row would be empty, allowed: >= 2 with kind = \"hexagonal\"");
       if (origins_.count(path + ".spacing") != 0) continue;
       const Outline& outline = scene_.particles[static_cast<std::size_t>(packing.particle)].outline;
       if (const RoundedBox box = rounded_box(outline); box.half.isZero(0))
@@ -267,7 +267,7 @@ class Checks {
   void everything_is_used() {
     std::set<int> particles, materials;
     for (const BodySpec& body : scene_.bodies) particles.insert(body.particle);
-    for (const SquarePacking& packing : scene_.packings) particles.insert(packing.particle);
+    for (const LatticePacking& packing : scene_.packings) particles.insert(packing.particle);
     for (const ParticleSpec& particle : scene_.particles) materials.insert(particle.material);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
       if (materials.count(static_cast<int>(i)) == 0)

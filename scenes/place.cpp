@@ -1,6 +1,7 @@
 #include "scenes/place.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace pulvis {
 namespace {
@@ -8,13 +9,13 @@ namespace {
 struct Source {  // one [[body]] or [[packing]]
   SourceMark mark;
   const BodySpec* body;
-  const SquarePacking* packing;
+  const LatticePacking* packing;
 };
 
 std::vector<Source> sources_in_file_order(const Scene& scene) {
   std::vector<Source> sources;
   for (const BodySpec& body : scene.bodies) sources.push_back({body.mark, &body, nullptr});
-  for (const SquarePacking& packing : scene.packings)
+  for (const LatticePacking& packing : scene.packings)
     sources.push_back({packing.mark, nullptr, &packing});
   std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
     return std::pair(a.mark.line, a.mark.column) < std::pair(b.mark.line, b.mark.column);
@@ -22,12 +23,16 @@ std::vector<Source> sources_in_file_order(const Scene& scene) {
   return sources;
 }
 
-void add_packing(const SquarePacking& packing, std::vector<BodySpec>& bodies) {
+void add_packing(const LatticePacking& packing, std::vector<BodySpec>& bodies) {
+  const bool hexagonal = packing.kind == LatticePacking::Kind::hexagonal;
+  const double rise = hexagonal ? std::numbers::sqrt3 / 2 : 1;
   for (int row = 0; row < packing.rows; ++row) {
-    for (int column = 0; column < packing.columns; ++column) {
+    const int fewer = packing.columns - particles_in_row(packing, row);
+    for (int column = 0; column < packing.columns - fewer; ++column) {
       BodySpec body;
       body.particle = packing.particle;
-      body.position = packing.corner + packing.spacing * Vec2(column + 0.5, row + 0.5);
+      body.position =
+          packing.corner + packing.spacing * Vec2(column + 0.5 + 0.5 * fewer, rise * row + 0.5);
       body.mark = packing.mark;
       bodies.push_back(body);
     }
@@ -35,6 +40,17 @@ void add_packing(const SquarePacking& packing, std::vector<BodySpec>& bodies) {
 }
 
 }  // namespace
+
+int particles_in_row(const LatticePacking& packing, int row) {
+  const bool shifted = packing.kind == LatticePacking::Kind::hexagonal && row % 2 == 1;
+  return packing.columns - (shifted ? 1 : 0);
+}
+
+std::int64_t particle_count(const LatticePacking& packing) {
+  const std::int64_t pairs = packing.rows / 2, odd = packing.rows % 2;
+  return pairs * (particles_in_row(packing, 0) + particles_in_row(packing, 1)) +
+         odd * particles_in_row(packing, 0);
+}
 
 std::vector<BodySpec> place_bodies(const Scene& scene) {
   std::vector<BodySpec> bodies;

@@ -11,6 +11,10 @@ namespace pulvis {
 // exactly, as in a square packing, are meant to.
 inline constexpr double touching_tolerance = 1e-9;
 
+// Rows count from the bottom, from 0.
+int particles_in_row(const LatticePacking& packing, int row);
+std::int64_t particle_count(const LatticePacking& packing);
+
 // Every particle of the scene. Bodies and packings come in the order of the file, a packing row by
 // row from the bottom, each row from the left; the position in the list is the particle's number.
 std::vector<BodySpec> place_bodies(const Scene& scene);

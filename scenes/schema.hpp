@@ -117,7 +117,7 @@ const TableDeclaration<MaterialSpec>& material();
 const TableDeclaration<ParticleSpec>& particle();
 const TableDeclaration<ParticleSpec>& mesh();
 const TableDeclaration<BodySpec>& body();
-const TableDeclaration<SquarePacking>& packing();
+const TableDeclaration<LatticePacking>& packing();
 const TableDeclaration<ToolSpec>& tool();
 const TableDeclaration<StageSpec>& stage();
 const TableDeclaration<MoveSpec>& move();

@@ -1,9 +1,13 @@
-// bin_edges: broad phase: makes the contact rows anew when the surfaces have moved through the skin.
+// bin_edges, bin_tool_edges: broad phase: make the contact rows anew when the surfaces have moved through the
+// skin.
 //
 // History (closest points, friction springs) is carried by the key (particle, edge, other): rows are
-// sorted by it, so that old and new lists are merged in one pass.
-// Runs     first in the step; a sync point (rows change); does nothing while the skin lasts
+// sorted by it, so that old and new rows of a particle are merged in one pass.
+// Runs     after skin_check, which says when; a sync point (rows change)
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
+#include <numeric>
 
 #include "systems/broad_phase.hpp"
 #include "systems/contact_row.hpp"
@@ -18,32 +22,50 @@ struct RowKey {
   auto operator<=>(const RowKey&) const = default;
 };
 
-template <class At>
-std::vector<RowKey> keys_of(const Write<ContactPair<At>>& pair) {
-  std::vector<RowKey> keys;
-  for (int r = 0; r < pair.rows(); ++r)
-    keys.push_back({pair(Row<At>(r), 0), pair(Row<At>(r), 1), pair(Row<At>(r), 2)});
-  return keys;
-}
+struct ToolCandidate {
+  std::int32_t slot, edge, tool;
+  PieceRange range;  // of a polyline
+};
 
-// For every new key the old row with the same key, or -1. Both lists sorted.
-std::vector<std::int32_t> match(const std::vector<RowKey>& before, const std::vector<RowKey>& now) {
-  std::vector<std::int32_t> source(now.size(), -1);
-  std::size_t b = 0;
-  for (std::size_t n = 0; n < now.size(); ++n) {
-    while (b < before.size() && before[b] < now[n]) ++b;
-    if (b < before.size() && before[b] == now[n]) source[n] = static_cast<std::int32_t>(b);
-  }
+RowKey key_of(const EdgeCandidate& c) { return {c.slot, c.edge, c.other}; }
+RowKey key_of(const ToolCandidate& c) { return {c.slot, c.edge, c.tool}; }
+
+// For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, as they were
+// made; empty when none were.
+template <class At, class Candidate>
+std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin,
+                                const Write<ContactPair<At>>& before,
+                                const BySlot<Candidate>& now) {
+  std::vector<std::int32_t> source(now.all.size(), -1);
+  if (before_begin.empty()) return source;
+  for_slots(static_cast<int>(now.begin.size()) - 1, [&](int slot) {
+    const auto s = static_cast<std::size_t>(slot);
+    std::int32_t b = before_begin[s];
+    const auto old_key = [&] {
+      const Row<At> row(b);
+      return RowKey{before(row, 0), before(row, 1), before(row, 2)};
+    };
+    for (auto n = now.begin[s]; n < now.begin[s + 1]; ++n) {
+      const RowKey key = key_of(now.all[static_cast<std::size_t>(n)]);
+      while (b < before_begin[s + 1] && old_key() < key) ++b;
+      if (b < before_begin[s + 1] && old_key() == key) source[static_cast<std::size_t>(n)] = b;
+    }
+  });
   return source;
 }
 
-// Offsets of each slot's share of a list sorted by slot.
-template <class SlotOf>
-std::vector<std::int32_t> offsets(std::size_t slots, std::size_t rows, const SlotOf& slot_of) {
-  std::vector<std::int32_t> begin(slots + 1, 0);
-  for (std::size_t r = 0; r < rows; ++r) begin[static_cast<std::size_t>(slot_of(r)) + 1] += 1;
-  for (std::size_t s = 0; s < slots; ++s) begin[s + 1] += begin[s];
-  return begin;
+// The rows of each slot as the other body.
+void list_other_rows(const BySlot<EdgeCandidate>& rows, ContactIndex& index) {
+  std::vector<std::int32_t>& begin = index.other_begin;
+  begin.assign(rows.begin.size(), 0);
+  for (const EdgeCandidate& c : rows.all) begin[static_cast<std::size_t>(c.other) + 1] += 1;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::int32_t> next = begin;
+  index.other_rows.resize(rows.all.size());
+  for (std::size_t r = 0; r < rows.all.size(); ++r)
+    index
+        .other_rows[static_cast<std::size_t>(next[static_cast<std::size_t>(rows.all[r].other)]++)] =
+        static_cast<std::int32_t>(r);
 }
 
 struct PairLaw {
@@ -84,25 +106,24 @@ double damping_of(const ContactRules& rules, double kappa, double rho, const Sha
 
 }  // namespace
 
-void bin_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
-               Read<BulkModulus> bulk, Read<Density> density, Read<CurvePosition> control,
-               Write<ContactIndex> index, Structural<Contact> structure,
-               Write<ContactPair<Contact>> pair, Write<EdgeLength<Contact>> length,
-               Write<ContactStiffness<Contact>> stiffness, Write<ContactWeight<Contact>> weight,
-               Write<ContactReach<Contact>> reach, Write<ClosestPoint> closest,
-               Optional<Write<FrictionCoefficient<Contact>>> friction,
+void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
+               Read<Density> density, Read<CurvePosition> control, Write<ContactIndex> index,
+               Structural<Contact> structure, Write<ContactPair<Contact>> pair,
+               Write<EdgeLength<Contact>> length, Write<ContactStiffness<Contact>> stiffness,
+               Write<ContactWeight<Contact>> weight, Write<ContactReach<Contact>> reach,
+               Write<ClosestPoint> closest, Optional<Write<FrictionCoefficient<Contact>>> friction,
                Optional<Write<DampingCoefficient<Contact>>> damping) {
-  if (!skin_used_up(*index, *clock)) return;
-  const std::vector<EdgeCandidate> found = edge_candidates(*bodies, control.values(), index->skin);
-  std::vector<RowKey> keys;
-  for (const EdgeCandidate& c : found) keys.push_back({c.slot, c.edge, c.other});
-  const std::vector<std::int32_t> source = match(keys_of(pair), keys);
+  if (!index->due) return;
+  BySlot<std::int32_t> neighbours =
+      particle_neighbours(*bodies, control.values(), index->neighbourhood);
+  BySlot<EdgeCandidate> found = edge_candidates(*bodies, control.values(), neighbours, index->skin);
+  const std::vector<std::int32_t> source = match(index->sampled_begin, pair, found);
   structure.rebuild(source);
 
   const RowConstants<Contact> columns{pair, length, stiffness, weight, friction, damping};
-  for (std::size_t r = 0; r < keys.size(); ++r) {
+  tbb::parallel_for(std::size_t{0}, found.all.size(), [&](std::size_t r) {
     const Row<Contact> row(static_cast<std::int64_t>(r));
-    const RowKey& key = keys[r];
+    const RowKey key = key_of(found.all[r]);
     const auto& slots = bodies->slots;
     const double kappa = pair_stiffness(*rules, bulk.values(), *bodies, key);
     const double rho = std::min(density.values()[static_cast<std::size_t>(key.slot)],
@@ -120,80 +141,70 @@ void bin_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
     if (!(known && reach(row) == far_side))
       reach(row) = known || key.slot != key.other ? 0 : unseen;
     if (!known)
-      for (int g = 0; g < edge_points; ++g) closest(row, g) = found[r].start + 0.5;
-  }
-
-  const std::size_t slots = bodies->slots.size();
-  index->sampled_begin = offsets(slots, keys.size(), [&](std::size_t r) { return keys[r].slot; });
-  index->other_begin = offsets(slots, keys.size(), [&](std::size_t r) { return keys[r].other; });
-  index->other_rows.resize(keys.size());
-  std::vector<std::int32_t> next = index->other_begin;
-  for (std::size_t r = 0; r < keys.size(); ++r)
-    index->other_rows[static_cast<std::size_t>(next[static_cast<std::size_t>(keys[r].other)]++)] =
-        static_cast<std::int32_t>(r);
+      for (int g = 0; g < edge_points; ++g) closest(row, g) = found.all[r].start + 0.5;
+  });
+  list_other_rows(found, *index);
+  index->sampled_begin = std::move(found.begin);
+  index->neighbour_begin = std::move(neighbours.begin);
+  index->neighbours = std::move(neighbours.all);
 }
 
 namespace {
 
-struct ToolCandidates {
-  std::vector<RowKey> keys;
-  std::vector<PieceRange> ranges;  // of polylines; as many as keys where the scene has any
-};
-
-// The pieces of a polyline that an edge can touch, or stand behind by up to its
-// own length, before the skin is used up. (Deeper than that no force would be right.)
-void add_near_pieces(const ToolSurface& surface, Point at, const double* points, double reach,
-                     const RowKey& key, ToolCandidates& found) {
+// The pieces of a polyline that an edge can touch, or stand behind by up to its own length, before the skin
+// is used up. (Deeper than that no force would be right.)
+PieceRange near_pieces(const ToolSurface& surface, Point at, const double* points, double reach) {
   Box box = box_of(points, 4);
   for (int k = 0; k < 2; ++k) {
     box.low[k] -= at[static_cast<std::size_t>(k)];
     box.high[k] -= at[static_cast<std::size_t>(k)];
   }
-  const PieceRange range = pieces_near(surface, box, reach);
-  if (range.empty()) return;
-  found.keys.push_back(key);
-  found.ranges.push_back(range);
+  return pieces_near(surface, box, reach);
+}
+
+double least_distance(const double* points, Point at, Point normal) {
+  double least = std::numeric_limits<double>::max();
+  for (int a = 0; a < 4; ++a)
+    least = std::min(least,
+                     (points[2 * a] - at[0]) * normal[0] + (points[2 * a + 1] - at[1]) * normal[1]);
+  return least;
 }
 
 // Edges within `skin` of a tool's surface, or behind it.
-ToolCandidates tool_candidates(const Bodies& bodies, std::span<const double> control,
-                               const Read<ToolPosition>& position, const Read<ToolNormal>& normal,
-                               const Optional<Read<ToolShapes>>& shapes, double skin) {
-  std::vector<int> slots = bodies.slot_of_number;
-  std::ranges::sort(slots);
-  ToolCandidates found;
-  for (const int s : slots) {
-    const double* points =
-        control.data() + 2 * bodies.slots[static_cast<std::size_t>(s)].first_control;
-    const auto& edges = bodies.shape_of_slot(s).edges;
-    for (int e = 0; e < static_cast<int>(edges.size()); ++e)
-      for (int t = 0; t < position.rows(); ++t) {
-        const Row<Tool> tool(t);
-        if (shapes && !(*shapes)->is(t, ToolShapes::Kind::plane)) {
-          const Shape::Edge& edge = edges[static_cast<std::size_t>(e)];
-          if ((*shapes)->is(t, ToolShapes::Kind::polyline))
-            add_near_pieces((*shapes)->surface_of(t), {position(tool, 0), position(tool, 1)},
-                            points + 2 * edge.first_control, skin + edge.length, {s, e, t}, found);
-          continue;
-        }
-        double least = std::numeric_limits<double>::max();
-        for (int a = 0; a < 4; ++a) {
-          const double* y = points + 2 * (edges[static_cast<std::size_t>(e)].first_control + a);
-          least = std::min(least, (y[0] - position(tool, 0)) * normal(tool, 0) +
-                                      (y[1] - position(tool, 1)) * normal(tool, 1));
-        }
-        if (least >= skin) continue;
-        found.keys.push_back({s, e, t});
-        if (shapes) found.ranges.emplace_back();
-      }
-  }
-  return found;
+BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const double> control,
+                                      const Read<ToolPosition>& position,
+                                      const Read<ToolNormal>& normal,
+                                      const Optional<Read<ToolShapes>>& shapes, double skin) {
+  const auto is = [&](int tool, ToolShapes::Kind kind) {
+    return shapes ? (*shapes)->is(tool, kind) : kind == ToolShapes::Kind::plane;
+  };
+  return list_by_slot<ToolCandidate>(
+      static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ToolCandidate>& found) {
+        const Bodies::Slot& s = bodies.slots[static_cast<std::size_t>(slot)];
+        if (s.number == Bodies::nobody) return;
+        const auto& edges = bodies.shape_of_slot(slot).edges;
+        for (std::int32_t e = 0; e < static_cast<std::int32_t>(edges.size()); ++e)
+          for (int t = 0; t < position.rows(); ++t) {
+            const Row<Tool> tool(t);
+            const Shape::Edge& edge = edges[static_cast<std::size_t>(e)];
+            const double* points = control.data() + 2 * (s.first_control + edge.first_control);
+            const Point at{position(tool, 0), position(tool, 1)};
+            if (is(t, ToolShapes::Kind::plane)) {
+              if (least_distance(points, at, {normal(tool, 0), normal(tool, 1)}) < skin)
+                found.push_back({slot, e, t, {}});
+            } else if (is(t, ToolShapes::Kind::polyline)) {
+              const PieceRange range =
+                  near_pieces((*shapes)->surface_of(t), at, points, skin + edge.length);
+              if (!range.empty()) found.push_back({slot, e, t, range});
+            }
+          }
+      });
 }
 
 }  // namespace
 
-void bin_tool_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
-                    Read<BulkModulus> bulk, Read<Density> density, Read<CurvePosition> control,
+void bin_tool_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
+                    Read<Density> density, Read<CurvePosition> control,
                     Read<ToolPosition> tool_position, Read<ToolNormal> tool_normal,
                     Write<ContactIndex> index, Structural<ToolContact> structure,
                     Write<ContactPair<ToolContact>> pair, Write<EdgeLength<ToolContact>> length,
@@ -203,15 +214,14 @@ void bin_tool_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
                     Optional<Write<FrictionCoefficient<ToolContact>>> friction,
                     Optional<Write<DampingCoefficient<ToolContact>>> damping,
                     Optional<Read<ToolShapes>> shapes, Optional<Write<SurfaceRange>> range) {
-  if (!skin_used_up(*index, *clock)) return;
-  const auto found =
+  if (!index->due) return;
+  BySlot<ToolCandidate> found =
       tool_candidates(*bodies, control.values(), tool_position, tool_normal, shapes, index->skin);
-  const std::vector<RowKey>& keys = found.keys;
-  structure.rebuild(match(keys_of(pair), keys));
+  structure.rebuild(match(index->tool_begin, pair, found));
   const RowConstants<ToolContact> columns{pair, length, stiffness, weight, friction, damping};
-  for (std::size_t r = 0; r < keys.size(); ++r) {
+  for (std::size_t r = 0; r < found.all.size(); ++r) {
     const Row<ToolContact> row(static_cast<std::int64_t>(r));
-    const RowKey& key = keys[r];
+    const RowKey key = key_of(found.all[r]);
     const auto slot = static_cast<std::size_t>(key.slot);
     const Shape::Edge& edge =
         bodies->shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
@@ -222,17 +232,10 @@ void bin_tool_edges(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
             columns);
     reach(row) = 0;
     if (!range) continue;
-    (*range)(row, 0) = found.ranges[r].first;
-    (*range)(row, 1) = found.ranges[r].last;
+    (*range)(row, 0) = found.all[r].range.first;
+    (*range)(row, 1) = found.all[r].range.last;
   }
-  index->tool_begin =
-      offsets(bodies->slots.size(), keys.size(), [&](std::size_t r) { return keys[r].slot; });
-}
-
-void note_binning(Read<Clock> clock, Write<ContactIndex> index) {
-  if (!skin_used_up(*index, *clock)) return;
-  index->travel_at_bin = clock->travel;
-  index->bins += 1;
+  index->tool_begin = std::move(found.begin);
 }
 
 }  // namespace pulvis

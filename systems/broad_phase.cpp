@@ -1,7 +1,5 @@
 #include "systems/broad_phase.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,14 +30,14 @@ namespace {
 // stand in the cells around.
 class Grid {
  public:
-  Grid(const std::vector<Box>& boxes, const std::vector<int>& slots, double skin) {
+  Grid(const std::vector<Box>& boxes, const std::vector<int>& slots, double distance) {
     Box all = boxes[static_cast<std::size_t>(slots.front())];
     for (const int s : slots) {
       const Box& b = boxes[static_cast<std::size_t>(s)];
       for (int k = 0; k < 2; ++k) {
         all.low[k] = std::min(all.low[k], b.low[k]);
         all.high[k] = std::max(all.high[k], b.high[k]);
-        size_ = std::max(size_, b.high[k] - b.low[k] + skin);
+        size_ = std::max(size_, b.high[k] - b.low[k] + distance);
       }
     }
     for (int k = 0; k < 2; ++k) {
@@ -82,11 +80,22 @@ class Grid {
   std::vector<std::int32_t> cell_begin_, members_;
 };
 
+// Of one outline after the other: boxes of the whole, and of its edges.
+struct Boxes {
+  std::vector<Box> particle;             // [slots]; undefined where nobody is
+  std::vector<std::int32_t> edge_begin;  // [slots] into edge
+  std::vector<Box> edge;
+};
+
 struct Curves {
   const Bodies& bodies;
   std::span<const double> control;
-  std::vector<Box> particle;  // [slots]
 
+  int slots() const { return static_cast<int>(bodies.slots.size()); }
+  bool nobody(int slot) const {
+    return bodies.slots[static_cast<std::size_t>(slot)].number == Bodies::nobody;
+  }
+  int edges(int slot) const { return static_cast<int>(bodies.shape_of_slot(slot).edges.size()); }
   const double* points(int slot) const {
     return control.data() + 2 * bodies.slots[static_cast<std::size_t>(slot)].first_control;
   }
@@ -94,7 +103,29 @@ struct Curves {
     const Shape& shape = bodies.shape_of_slot(slot);
     return points(slot) + 2 * shape.edges[static_cast<std::size_t>(e)].first_control;
   }
-  Box edge(int slot, int e) const { return box_of(edge_points(slot, e), 4); }
+
+  std::vector<Box> particle_boxes() const {
+    std::vector<Box> boxes(bodies.slots.size());
+    for_slots(slots(), [&](int s) {
+      boxes[static_cast<std::size_t>(s)] =
+          box_of(points(s), bodies.shape_of_slot(s).control_points());
+    });
+    return boxes;
+  }
+  Boxes boxes() const {
+    Boxes all{particle_boxes(), {}, {}};
+    std::int32_t count = 0;
+    for (int s = 0; s < slots(); ++s) {
+      all.edge_begin.push_back(count);
+      count += edges(s);
+    }
+    all.edge.resize(static_cast<std::size_t>(count));
+    for_slots(slots(), [&](int s) {
+      Box* box = &all.edge[static_cast<std::size_t>(all.edge_begin[static_cast<std::size_t>(s)])];
+      for (int e = 0; e < edges(s); ++e) box[e] = box_of(edge_points(s, e), 4);
+    });
+    return all;
+  }
 };
 
 using Spot = std::array<double, 2>;
@@ -110,63 +141,90 @@ double squared_distance_to_chord(const Spot& p, const double* control) {
   return dx * dx + dy * dy;
 }
 
-// The sampled side of a search.
-struct Sampled {
-  int slot, edge;
-  Box box;
-  Spot middle;
+// The search for candidates of one slot after the other.
+class EdgeSearch {
+ public:
+  EdgeSearch(const Curves& curves, const Boxes& boxes, const BySlot<std::int32_t>& neighbours,
+             double skin)
+      : curves_(curves), boxes_(boxes), neighbours_(neighbours), skin_(skin) {}
+
+  void operator()(int slot, std::vector<EdgeCandidate>& found) const {
+    const std::vector<Other> others = others_of(slot);
+    if (others.empty()) return;
+    for (int e = 0; e < curves_.edges(slot); ++e) {
+      const Sampled sampled{slot, e, edge_box(slot, e), middle_of(slot, e)};
+      for (const Other& other : others) {
+        const int start = nearest_edge(other, sampled);
+        if (start != Shape::no_edge) found.push_back({slot, e, other.slot, start});
+      }
+    }
+  }
+
+ private:
+  struct Sampled {
+    int slot, edge;
+    Box box;
+    Spot middle;
+  };
+  struct Other {
+    int slot;
+    std::vector<int> edges;  // those that come near the sampled particle's box
+  };
+
+  const Box& edge_box(int slot, int e) const {
+    return boxes_
+        .edge[static_cast<std::size_t>(boxes_.edge_begin[static_cast<std::size_t>(slot)] + e)];
+  }
+
+  Spot middle_of(int slot, int e) const {
+    const Spot begin = knot(curves_.edge_points(slot, e)),
+               end = knot(curves_.edge_points(slot, e) + 2);
+    return {0.5 * (begin[0] + end[0]), 0.5 * (begin[1] + end[1])};
+  }
+
+  std::vector<Other> others_of(int slot) const {
+    const auto s = static_cast<std::size_t>(slot);
+    const Box& own = boxes_.particle[s];
+    std::vector<Other> others;
+    for (auto k = neighbours_.begin[s]; k < neighbours_.begin[s + 1]; ++k) {
+      Other other{neighbours_.all[static_cast<std::size_t>(k)], {}};
+      if (!near(own, boxes_.particle[static_cast<std::size_t>(other.slot)], skin_)) continue;
+      for (int e = 0; e < curves_.edges(other.slot); ++e)
+        if (near(own, edge_box(other.slot, e), skin_)) other.edges.push_back(e);
+      if (!other.edges.empty()) others.push_back(std::move(other));
+    }
+    return others;
+  }
+
+  // The edge of `other` nearest to the middle of the sampled edge, of those that come near its box, or
+  // no_edge. Of its own outline the neighbours are left out: there it is that the outline folds. By the
+  // distance of chords, not of middles: beside the end of a long edge the middle of a short one around the
+  // corner may be nearer, and from there no search leads back over the corner.
+  int nearest_edge(const Other& other, const Sampled& own) const {
+    if (!near(own.box, boxes_.particle[static_cast<std::size_t>(other.slot)], skin_))
+      return Shape::no_edge;
+    int nearest = Shape::no_edge;
+    double least = std::numeric_limits<double>::max();
+    for (const int e : other.edges) {
+      if (!near(own.box, edge_box(other.slot, e), skin_)) continue;
+      if (other.slot == own.slot &&
+          edges_between(own.edge, e, curves_.edges(own.slot)) < least_fold)
+        continue;
+      const double distance =
+          squared_distance_to_chord(own.middle, curves_.edge_points(other.slot, e));
+      if (distance < least) {
+        least = distance;
+        nearest = e;
+      }
+    }
+    return nearest;
+  }
+
+  const Curves& curves_;
+  const Boxes& boxes_;
+  const BySlot<std::int32_t>& neighbours_;
+  double skin_;
 };
-
-// The edge of `other` nearest to the middle of the sampled edge, of those that come near its box, or
-// no_edge. Of its own outline the neighbours are left out: there it is that the outline folds. By the distance of chords, not of middles: beside the end of a long edge the middle of a short
-// one around the corner may be nearer, and from there no search leads back over the corner.
-int nearest_edge(const Curves& curves, int other, const std::vector<Box>& other_edges,
-                 const Sampled& own, double skin) {
-  const int edges = static_cast<int>(other_edges.size());
-  if (!near(own.box, curves.particle[static_cast<std::size_t>(other)], skin)) return Shape::no_edge;
-  int nearest = Shape::no_edge;
-  double least = std::numeric_limits<double>::max();
-  for (std::size_t e = 0; e < other_edges.size(); ++e) {
-    if (!near(own.box, other_edges[e], skin)) continue;
-    if (other == own.slot && edges_between(own.edge, static_cast<int>(e), edges) < least_fold)
-      continue;
-    const double distance =
-        squared_distance_to_chord(own.middle, curves.edge_points(other, static_cast<int>(e)));
-    if (distance < least) {
-      least = distance;
-      nearest = static_cast<int>(e);
-    }
-  }
-  return nearest;
-}
-
-std::vector<EdgeCandidate> candidates_of(const Curves& curves, const Grid& grid, int slot,
-                                         double skin) {
-  const Box& own = curves.particle[static_cast<std::size_t>(slot)];
-  std::vector<int> others;
-  grid.around(own, [&](int other) {
-    if (near(own, curves.particle[static_cast<std::size_t>(other)], skin)) others.push_back(other);
-  });
-  std::ranges::sort(others);
-  std::vector<std::vector<Box>> other_edges(others.size());
-  for (std::size_t o = 0; o < others.size(); ++o) {
-    const auto count = curves.bodies.shape_of_slot(others[o]).edges.size();
-    for (std::size_t e = 0; e < count; ++e)
-      other_edges[o].push_back(curves.edge(others[o], static_cast<int>(e)));
-  }
-  std::vector<EdgeCandidate> found;
-  for (int e = 0; e < static_cast<int>(curves.bodies.shape_of_slot(slot).edges.size()); ++e) {
-    const Spot begin = knot(curves.edge_points(slot, e)),
-               end = knot(curves.edge_points(slot, e) + 2);
-    const Sampled sampled{
-        slot, e, curves.edge(slot, e), {0.5 * (begin[0] + end[0]), 0.5 * (begin[1] + end[1])}};
-    for (std::size_t o = 0; o < others.size(); ++o) {
-      const int start = nearest_edge(curves, others[o], other_edges[o], sampled, skin);
-      if (start != Shape::no_edge) found.push_back({slot, e, others[o], start});
-    }
-  }
-  return found;
-}
 
 }  // namespace
 
@@ -175,23 +233,32 @@ int edges_between(int a, int b, int edges) {
   return std::min(apart, edges - apart);
 }
 
-std::vector<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
-                                           double skin) {
-  if (bodies.slot_of_number.empty()) return {};
+BySlot<std::int32_t> particle_neighbours(const Bodies& bodies, std::span<const double> control,
+                                         double distance) {
+  if (bodies.slot_of_number.empty()) return {{0}, {}};
   std::vector<int> slots = bodies.slot_of_number;
   std::ranges::sort(slots);
-  Curves curves{bodies, control, std::vector<Box>(bodies.slots.size())};
-  for (const int s : slots)
-    curves.particle[static_cast<std::size_t>(s)] =
-        box_of(curves.points(s), bodies.shape_of_slot(s).control_points());
-  const Grid grid(curves.particle, slots, skin);
+  const Curves curves{bodies, control};
+  const std::vector<Box> boxes = curves.particle_boxes();
+  const Grid grid(boxes, slots, distance);
+  return list_by_slot<std::int32_t>(
+      curves.slots(), [&](int slot, std::vector<std::int32_t>& found) {
+        if (curves.nobody(slot)) return;
+        const auto first = static_cast<std::ptrdiff_t>(found.size());
+        const Box& own = boxes[static_cast<std::size_t>(slot)];
+        grid.around(own, [&](int other) {
+          if (near(own, boxes[static_cast<std::size_t>(other)], distance)) found.push_back(other);
+        });
+        std::sort(found.begin() + first, found.end());
+      });
+}
 
-  std::vector<std::vector<EdgeCandidate>> found(slots.size());
-  tbb::parallel_for(std::size_t{0}, slots.size(),
-                    [&](std::size_t i) { found[i] = candidates_of(curves, grid, slots[i], skin); });
-  std::vector<EdgeCandidate> all;
-  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-  return all;
+BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
+                                      const BySlot<std::int32_t>& neighbours, double skin) {
+  if (bodies.slot_of_number.empty()) return {{0}, {}};
+  const Curves curves{bodies, control};
+  const Boxes boxes = curves.boxes();
+  return list_by_slot<EdgeCandidate>(curves.slots(), EdgeSearch(curves, boxes, neighbours, skin));
 }
 
 }  // namespace pulvis

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/shape.hpp"
+#include "systems/by_slot.hpp"
 
 namespace pulvis {
 
@@ -28,8 +29,13 @@ struct EdgeCandidate {
 Box box_of(const double* points, int count);
 bool near(const Box& a, const Box& b, double skin);
 
-// All candidates, sorted by (slot, edge, other). `control`: x y of every control point.
-std::vector<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
-                                           double skin);
+// Of every slot the slots of the particles within `distance` (of boxes), itself included, ascending. `control`:
+// x y of every control point.
+BySlot<std::int32_t> particle_neighbours(const Bodies& bodies, std::span<const double> control,
+                                         double distance);
+
+// All candidates, sorted by (slot, edge, other). `neighbours`: within `skin` or more.
+BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
+                                      const BySlot<std::int32_t>& neighbours, double skin);
 
 }  // namespace pulvis

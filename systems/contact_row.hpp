@@ -81,11 +81,6 @@ struct RowConstants {
   Optional<Write<DampingCoefficient<At>>> damping;
 };
 
-// True when the surfaces may have come nearer by the skin since the rows were made, or will in this step.
-inline bool skin_used_up(const ContactIndex& index, const Clock& clock) {
-  return index.travel_at_bin < 0 || clock.travel - index.travel_at_bin > index.skin;
-}
-
 // Reaches of rows of an outline against itself: not looked at yet; and seen from inside, which no touch is.
 inline constexpr double unseen = -1, far_side = std::numeric_limits<double>::infinity();
 

@@ -8,6 +8,7 @@
 #include "systems/contact_row.hpp"
 #include "systems/element_access.hpp"
 #include "systems/hourglass_kernel.hpp"
+#include "systems/row_sum.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -121,18 +122,33 @@ void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<S
 
 namespace {
 
+struct RowTotals {
+  std::int64_t touching = 0;
+  double energy = 0, friction = 0, damping = 0;
+  void operator+=(const RowTotals& other) {
+    touching += other.touching;
+    energy += other.energy;
+    friction += other.friction;
+    damping += other.damping;
+  }
+};
+
 template <class At>
 void add_rows(const Read<ContactPair<At>>& pair, const Read<ContactEnergy<At>>& energy,
               const Optional<Read<FrictionWork<At>>>& friction,
               const Optional<Read<DampingWork<At>>>& damping, Totals& totals) {
-  for (int r = 0; r < pair.rows(); ++r) {
+  const auto sum = sum_over_rows<RowTotals>(pair.rows(), [&](int r, RowTotals& part) {
     const Row<At> row(r);
-    if (pair(row, 3) == 0) continue;
-    totals.touching += 1;
-    totals.contact_energy += energy(row);
-    if (friction) totals.friction_work += (*friction)(row);
-    if (damping) totals.damping_work += (*damping)(row);
-  }
+    if (pair(row, 3) == 0) return;
+    part.touching += 1;
+    part.energy += energy(row);
+    if (friction) part.friction += (*friction)(row);
+    if (damping) part.damping += (*damping)(row);
+  });
+  totals.touching += sum.touching;
+  totals.contact_energy += sum.energy;
+  totals.friction_work += sum.friction;
+  totals.damping_work += sum.damping;
 }
 
 }  // namespace

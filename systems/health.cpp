@@ -11,6 +11,7 @@
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "systems/contact_row.hpp"
+#include "systems/row_sum.hpp"
 #include "systems/run_failure.hpp"
 #include "systems/systems.hpp"
 
@@ -36,22 +37,34 @@ namespace {
 // What a row's third key is called: "particle 7", "tool 'top'".
 using PartnerName = std::function<std::string(int)>;
 
+struct Depths {
+  double deepest = 0;     // -, of the edge length
+  std::int32_t bad = -1;  // first row beyond the limit, or NaN
+  void operator+=(const Depths& later) {
+    deepest = std::max(deepest, later.deepest);
+    if (bad < 0) bad = later.bad;
+  }
+};
+
 template <class At>
 void check_rows(const Bodies& bodies, const Clock& clock, double limit, const char* system,
                 const PartnerName& partner, const Read<ContactPair<At>>& pair,
                 const Read<Penetration<At>>& penetration, const Read<EdgeLength<At>>& length,
                 double& deepest) {
-  for (int r = 0; r < pair.rows(); ++r) {
-    const Row<At> row(r);
-    const double depth = penetration(row) / length(row);
-    deepest = std::max(deepest, depth);
-    if (depth <= limit) continue;
-    throw RunFailure(fmt::format(
-        "{}: particle {}, edge {} against {}: penetration {:.6g} m is {:.3g} of the edge length at "
-        "step {}, t = {:.6g} s; allowed {:.3g} (limits.penetration)",
-        system, bodies.slots[static_cast<std::size_t>(pair(row, 0))].number, pair(row, 1),
-        partner(pair(row, 2)), penetration(row), depth, clock.step, clock.time, limit));
-  }
+  const auto depth = [&](int r) { return penetration(Row<At>(r)) / length(Row<At>(r)); };
+  const auto depths = sum_over_rows<Depths>(pair.rows(), [&](int r, Depths& part) {
+    const double deep = depth(r);
+    part.deepest = std::max(part.deepest, deep);
+    if (!(deep <= limit) && part.bad < 0) part.bad = r;
+  });
+  deepest = std::max(deepest, depths.deepest);
+  if (depths.bad < 0) return;
+  const Row<At> row(depths.bad);
+  throw RunFailure(fmt::format(
+      "{}: particle {}, edge {} against {}: penetration {:.6g} m is {:.3g} of the edge length at "
+      "step {}, t = {:.6g} s; allowed {:.3g} (limits.penetration)",
+      system, bodies.slots[static_cast<std::size_t>(pair(row, 0))].number, pair(row, 1),
+      partner(pair(row, 2)), penetration(row), depth(depths.bad), clock.step, clock.time, limit));
 }
 
 }  // namespace

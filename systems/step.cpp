@@ -26,9 +26,9 @@ StepList step_list_of(World& w) {
 
   // clang-format off
   force(tools || grips, "tool_motion", tool_motion);
+  force(touching, "skin_check",       skin_check);
   force(pairs,    "bin_edges",        bin_edges);
   force(tools,    "bin_tool_edges",   bin_tool_edges);
-  force(touching, "note_binning",     note_binning);
   force(pairs,    "edge_contact",     edge_contact);
   force(tools,    "tool_contact",     tool_contact);
   // Needs nothing of the above: runs beside the narrow phase.

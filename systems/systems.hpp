@@ -15,14 +15,17 @@ namespace pulvis {
 
 // ---- tools and binning ------------------------------------------------------------------------
 void tool_motion(Read<Clock>, Read<ToolProgram>, Write<ToolPosition>, Write<ToolVelocity>);
-void bin_edges(Read<Bodies>, Read<Clock>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
+void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<ToolPosition>>,
+                Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>, Write<CurveBefore>,
+                Write<ContactIndex>);
+void bin_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                Read<CurvePosition>, Write<ContactIndex>, Structural<Contact>,
                Write<ContactPair<Contact>>, Write<EdgeLength<Contact>>,
                Write<ContactStiffness<Contact>>, Write<ContactWeight<Contact>>,
                Write<ContactReach<Contact>>, Write<ClosestPoint>,
                Optional<Write<FrictionCoefficient<Contact>>>,
                Optional<Write<DampingCoefficient<Contact>>>);
-void bin_tool_edges(Read<Bodies>, Read<Clock>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
+void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                     Read<CurvePosition>, Read<ToolPosition>, Read<ToolNormal>, Write<ContactIndex>,
                     Structural<ToolContact>, Write<ContactPair<ToolContact>>,
                     Write<EdgeLength<ToolContact>>, Write<ContactStiffness<ToolContact>>,
@@ -30,7 +33,6 @@ void bin_tool_edges(Read<Bodies>, Read<Clock>, Read<ContactRules>, Read<BulkModu
                     Optional<Write<FrictionCoefficient<ToolContact>>>,
                     Optional<Write<DampingCoefficient<ToolContact>>>, Optional<Read<ToolShapes>>,
                     Optional<Write<SurfaceRange>>);
-void note_binning(Read<Clock>, Write<ContactIndex>);
 
 // ---- narrow phase -----------------------------------------------------------------------------
 void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
@@ -128,7 +130,7 @@ void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<She
                       Optional<Read<ContactRules>>, Write<StableTimeStep>);
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
                     Write<Totals>);
-void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolVelocity>>,
+void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolProgram>>,
                    Read<Totals>, Optional<Read<ContactRules>>, Write<Clock>);
 
 // ---- used outside the step too --------------------------------------------------------------------

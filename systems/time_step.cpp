@@ -86,20 +86,33 @@ template void stable_time_step<4>(Chunk, Read<Bodies>, Read<Clock>, Read<Positio
                                   Read<DeviatoricStress<4>>, Optional<Read<ContactRules>>,
                                   Write<StableTimeStep>);
 
+namespace {
+
+// Of all tools, from `time` on. Their velocities are those of the step before: too little while they speed up.
+double farthest_way(const ToolProgram& program, double time, double dt) {
+  double farthest = 0;
+  for (int t = 0; t < static_cast<int>(program.names.size()); ++t) {
+    const Point now = tool_position_at(program, t, time);
+    const Point next = tool_position_at(program, t, time + dt);
+    farthest = std::max(farthest, std::hypot(next[0] - now[0], next[1] - now[1]));
+  }
+  return farthest;
+}
+
+}  // namespace
+
 void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
-                   Optional<Read<ToolVelocity>> tool_velocity, Read<Totals> totals,
+                   Optional<Read<ToolProgram>> program, Read<Totals> totals,
                    Optional<Read<ContactRules>> rules, Write<Clock> clock) {
   const bool looked = clock->step >= clock->next_look;
   std::int64_t interval = most_steps_between_looks;
   if (speed) {
     double fastest = 0;
     for (const double v : speed->values()) fastest = std::max(fastest, v);
-    double tool = 0;
-    if (tool_velocity)
-      for (int t = 0; t < tool_velocity->rows(); ++t)
-        tool = std::max(
-            tool, std::hypot((*tool_velocity)(Row<Tool>(t), 0), (*tool_velocity)(Row<Tool>(t), 1)));
-    const double way = (fastest + std::max(fastest, tool)) * clock->dt;
+    fastest *= clock->dt;
+    const double way =
+        fastest +
+        std::max(fastest, program ? farthest_way(**program, clock->time, clock->dt) : 0.0);
     clock->travel += way;
     const double strain = way / (*rules)->shortest_edge;  // of an edge in a step, at most
     if (looked) {

@@ -83,7 +83,7 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
 
 Scene die(int rows, int columns, Vec2 corner) {
   Scene scene = scene_of({});
-  SquarePacking packing;
+  LatticePacking packing;
   packing.rows = rows;
   packing.columns = columns;
   packing.spacing = size;
@@ -105,9 +105,76 @@ TEST(PlaceBodies, APackingIsFilledRowByRowFromTheBottom) {
   EXPECT_EQ(bodies[5].mark.line, 7);
 }
 
+Scene hexagonal(int rows, int columns, Vec2 corner) {
+  Scene scene = die(rows, columns, corner);
+  scene.packings[0].kind = LatticePacking::Kind::hexagonal;
+  const double height = size * (1 + (rows - 1) * std::numbers::sqrt3 / 2);
+  scene.tools[3].point = corner + Vec2(columns * size, height);
+  return scene;
+}
+
+TEST(PlaceBodies, HexagonalRowsLieInTheGapsOfThoseBelow) {
+  const Vec2 corner(1, 2);
+  const auto bodies = place_bodies(hexagonal(4, 3, corner));
+  ASSERT_EQ(bodies.size(), 10U);  // 3 + 2 + 3 + 2
+  const auto position = [&](std::size_t i) { return Vec2((bodies[i].position - corner) / size); };
+  const double rise = std::sqrt(0.75);
+  EXPECT_TRUE(position(0).isApprox(Vec2(0.5, 0.5), 1e-12));
+  EXPECT_TRUE(position(3).isApprox(Vec2(1, 0.5 + rise), 1e-12));
+  EXPECT_TRUE(position(5).isApprox(Vec2(0.5, 0.5 + 2 * rise), 1e-12));
+  EXPECT_TRUE(position(9).isApprox(Vec2(2, 0.5 + 3 * rise), 1e-12));
+}
+
+TEST(PlaceBodies, AHexagonalPackingIsItsOwnMirrorImageBetweenTheWalls) {
+  const int columns = 7;
+  const auto bodies = place_bodies(hexagonal(5, columns, Vec2::Zero()));
+  for (const BodySpec& body : bodies) {
+    const Vec2 mirrored(columns * size - body.position.x(), body.position.y());
+    EXPECT_TRUE(std::ranges::any_of(
+        bodies, [&](const BodySpec& b) { return (b.position - mirrored).norm() < 1e-12; }));
+  }
+}
+
+// Inside a hexagonal packing everybody touches six others, and nobody stands nearer.
+TEST(PlaceBodies, InAHexagonalPackingEverybodyInsideTouchesSix) {
+  const auto bodies = place_bodies(hexagonal(34, 50, Vec2::Zero()));
+  ASSERT_EQ(bodies.size(), 1683U);
+  int inside = 0;
+  for (const BodySpec& a : bodies) {
+    int touching = 0;
+    for (const BodySpec& b : bodies) {
+      const double distance = (a.position - b.position).norm();
+      if (&a == &b || distance > 1.5 * size) continue;
+      EXPECT_NEAR(distance, size, 1e-12);
+      ++touching;
+    }
+    EXPECT_LE(touching, 6);
+    inside += touching == 6 ? 1 : 0;
+  }
+  EXPECT_EQ(inside, 16 * (50 - 2) + 16 * (49 - 2));  // all but the outermost rows and ends
+}
+
+TEST(PlaceBodies, CountsWithoutPlacing) {
+  for (int rows = 1; rows <= 4; ++rows) {
+    const Scene scene = hexagonal(rows, 5, Vec2::Zero());
+    EXPECT_EQ(particle_count(scene.packings[0]),
+              static_cast<std::int64_t>(place_bodies(scene).size()));
+  }
+  EXPECT_EQ(particle_count(die(3, 5, Vec2::Zero()).packings[0]), 15);
+}
+
+TEST(CheckOverlaps, AHexagonalPackingTouchesAndFitsItsDie) {
+  for (const Vec2& corner : {Vec2(0, 0), Vec2(-0.3, 7.7)}) {
+    Scene scene = hexagonal(9, 11, corner);
+    EXPECT_TRUE(problems_of(scene).empty());
+    scene.tools[3].point.y() -= 1e-5;
+    EXPECT_THAT(problems_of(scene).at(0).message, HasSubstr("1e-05 m behind tool 'top'"));
+  }
+}
+
 TEST(PlaceBodies, BodiesAndPackingsKeepTheOrderOfTheFile) {
   Scene scene = scene_of({at(1, 1), at(2, 2)});
-  SquarePacking packing;
+  LatticePacking packing;
   packing.spacing = size;
   packing.mark = {15, 1};
   scene.packings = {packing};

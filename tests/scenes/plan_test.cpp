@@ -58,7 +58,7 @@ const Names plastic_columns{"plastic_metric",  "plastic_strain", "plastic_work",
 const Names friction_columns{"friction", "elastic_slip", "friction_work", "friction_couple"};
 const Names damping_columns{"damping", "damping_work"};
 const Names contact_places{"contact", "tool_contact", "curve", "boundary", "tool"};
-const Names contact_systems{"tool_motion",   "bin_edges",     "bin_tool_edges", "note_binning",
+const Names contact_systems{"tool_motion",   "bin_edges",     "bin_tool_edges", "skin_check",
                             "edge_contact",  "tool_contact",  "contact_totals", "contact_health",
                             "tool_reaction", "contact_force", "contact_curve"};
 
@@ -152,12 +152,11 @@ TEST(Plan, EdgesOfACompactionStep) {
   const Asked asked("compaction/regular-25.toml");
   EXPECT_THAT(edges_by_name(asked.experiment.simulation.plan()),
               UnorderedElementsAreArray({
-                  "tool_motion -> bin_tool_edges",   // where the tools are
+                  "tool_motion -> skin_check",       // where the tools are
+                  "skin_check -> bin_edges",         // contact_index
                   "bin_edges -> bin_tool_edges",     // contact_index
                   "bin_edges -> edge_contact",       // the rows
-                  "bin_tool_edges -> note_binning",  // contact_index
                   "bin_tool_edges -> tool_contact",  // the rows
-                  "note_binning -> contact_force",   // contact_index
                   "edge_contact -> contact_totals",  // energies of the rows
                   "edge_contact -> contact_force",   // forces of the points
                   "tool_contact -> contact_totals", "tool_contact -> contact_force",
@@ -206,8 +205,9 @@ TEST(Plan, BodiesAreComputedInOnePassOverTheChunks) {
 const Names shown{"tool/force", "particle/kinetic_energy", "particle/elastic_energy",
                   "particle/plastic_work", "particle/hourglass_energy"};
 // Read and written by one and the same system through Write: history of a contact row, sums.
-const Names kept_by_their_writer{"contact/reach", "tool_contact/reach", "contact/elastic_slip",
-                                 "tool_contact/elastic_slip", "curve/force"};
+const Names kept_by_their_writer{"contact/reach",        "tool_contact/reach",
+                                 "contact/elastic_slip", "tool_contact/elastic_slip",
+                                 "curve/force",          "curve/before"};
 
 class NoIdleColumn : public ::testing::TestWithParam<const char*> {};
 

@@ -94,7 +94,9 @@ std::set<Key> brute_force(const Heap& heap, double skin) {
 }
 
 std::vector<EdgeCandidate> candidates(const Heap& heap, double skin) {
-  return edge_candidates(heap.bodies, heap.control, skin);
+  return edge_candidates(heap.bodies, heap.control,
+                         particle_neighbours(heap.bodies, heap.control, skin), skin)
+      .all;
 }
 
 Key key_of(const EdgeCandidate& c) { return {c.slot, c.edge, c.other}; }
@@ -193,7 +195,8 @@ TEST(BroadPhase, EmptySlotsTouchNobody) {
     EXPECT_NE(heap.bodies.slots[static_cast<std::size_t>(c.slot)].number, Bodies::nobody);
     EXPECT_NE(heap.bodies.slots[static_cast<std::size_t>(c.other)].number, Bodies::nobody);
   }
-  EXPECT_TRUE(edge_candidates(Bodies{}, {}, 1e-3).empty());
+  EXPECT_TRUE(particle_neighbours(Bodies{}, {}, 1e-3).all.empty());
+  EXPECT_TRUE(edge_candidates(Bodies{}, {}, {{0}, {}}, 1e-3).all.empty());
 }
 
 TEST(BroadPhase, SkinIsADistanceBetweenBoxes) {

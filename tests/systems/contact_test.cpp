@@ -33,7 +33,7 @@ struct Contacts {
     world.resource<ContactIndex>().travel_at_bin = -1;  // positions were set by hand: bin anew
     std::vector<System> forces;
     for (System& system : step_list(world).forces)
-      if (system.name == "bin_edges" || system.name == "note_binning" ||
+      if (system.name == "bin_edges" || system.name == "skin_check" ||
           system.name == "edge_contact" || system.name == "contact_totals" ||
           system.name == "contact_force")
         forces.push_back(std::move(system));
