@@ -171,7 +171,7 @@ TEST(CoulombReturn, TractionStaysInTheConeAndWorkIsNeverGiven) {
   double slip = 0, spent = 0;
   for (int i = 0; i < 10000; ++i) {
     const double pressure = std::max(random.in(-1e8, 1e9), 0.0);
-    const auto f = coulomb_return(slip, random.in(-2e-7, 2e-7), pressure, mu, kappa);
+    const auto f = coulomb_return(slip, random.in(-2e-7, 2e-7), pressure, mu, kappa, 1 / kappa);
     ASSERT_LE(std::abs(f.traction), mu * pressure * (1 + round_off));
     ASSERT_GE(f.work, 0);
     slip = f.elastic_slip;
@@ -188,8 +188,8 @@ TEST(CoulombReturn, PullsAgainstTheSlip) {
 
 TEST(CoulombReturn, GivesAllEnergyBackBelowTheLimit) {
   const double kappa = 3e15, limit = 0.3 * 1e9 / kappa;
-  const auto there = coulomb_return(0.0, 0.9 * limit, 1e9, 0.3, kappa);
-  const auto back = coulomb_return(there.elastic_slip, -0.9 * limit, 1e9, 0.3, kappa);
+  const auto there = coulomb_return(0.0, 0.9 * limit, 1e9, 0.3, kappa, 1 / kappa);
+  const auto back = coulomb_return(there.elastic_slip, -0.9 * limit, 1e9, 0.3, kappa, 1 / kappa);
   EXPECT_EQ(there.work, 0);
   EXPECT_EQ(back.work, 0);
   EXPECT_EQ(back.elastic_slip, 0);
@@ -202,7 +202,7 @@ TEST(CoulombReturn, SpendsLimitTimesSlipAroundALoop) {
   double slip = 0, spent = 0, at = 0;
   for (int i = 1; i <= steps; ++i) {
     const double next = reach * std::sin(2 * std::numbers::pi * i / steps);
-    const auto f = coulomb_return(slip, next - at, p, mu, kappa);
+    const auto f = coulomb_return(slip, next - at, p, mu, kappa, 1 / kappa);
     at = next;
     slip = f.elastic_slip;
     spent += f.work;
