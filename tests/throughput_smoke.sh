@@ -32,6 +32,24 @@ grep -q "^throughput.py: 100: .* the state is $hash, recorded is 0123456789abcde
 [[ $(rows) == $((2 * first - 1)) ]]
 grep -q ,0123456789abcdef, "$output/hashes.csv"
 
+# What bench/counts.py reads from a disassembly and from callgrind.
+printf '%s\n' ob=/x/program 'fn=void pulvis::j2_return_map<A>()' '0x10 0 5' 'calls=1 0x99 0' '0x14 0 900' \
+  '0x14 0 5' >"$output/callgrind.out"
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/bench /usr/bin/python3 - "$output/callgrind.out" <<'PYTHON'
+import sys
+import counts
+of = counts.operations
+assert of("vfmadd231pd", "%ymm1,%ymm2,%ymm3") == 8 and of("vfnmsub132pd", "(%rax),%zmm2,%zmm3") == 16
+assert of("vmulsd", "0x8(%rax),%xmm1,%xmm1") == 1 and of("vfmadd213sd", "%xmm1,%xmm2,%xmm3") == 2
+assert of("sqrtpd", "%xmm0,%xmm1") == 2 and of("vdivpd", "%ymm0,%ymm1,%ymm2") == 4
+assert of("vmaxpd", "%ymm0,%ymm1,%ymm2") == of("vmovapd", "%ymm0,%ymm1") == of("sub", "$8,%rsp") == 0
+name = ("/x/program", "void pulvis::j2_return_map<A>()")
+executed = counts.executions(sys.argv[1])
+assert executed == {(*name, 0x10): 5, (*name, 0x14): 5}, executed
+assert counts.figures(executed, 2) == {"instructions": 5, "flops": 0, "kernels/instructions": 5,
+                                       "kernels/flops": 0}
+PYTHON
+
 throughput --accept-hash >"$output.log"
 [[ $(rows) == $((3 * first - 2)) ]]
 grep -q "^100,.*,$hash," "$output/hashes.csv"

@@ -16,7 +16,7 @@ constexpr double thesis_rate = 0.1 / 5.6e-3;  // 1/s: a tenth of the height in 5
 constexpr double crushing_rate = 20 * thesis_rate;
 constexpr double most_pressing =
     0.05;  // of the height; a benchmark takes less than a hundredth of it
-constexpr int settling_steps = 200;
+constexpr int settling_steps = 600;
 
 void resize(Scene& scene, int rows, int columns) {
   auto& packing = scene.packings.at(0);
@@ -80,11 +80,11 @@ const std::vector<Case>& cases() {
   using enum ElementSpec::Formulation;
   constexpr const char* regular = "compaction/regular-100.toml";
   static const std::vector<Case> all{
-      {"100", regular, 0, 0, 0.03, 400, one_point},
+      {"100", regular, 0, 0, 0.03, 240, one_point},
       {"1683", regular, 33, 51, 0.03, 48, one_point},
       {"10000", regular, 100, 100, 0.03, 24, one_point},
-      {"100-dense", regular, 0, 0, 0.1733, 400, one_point},  // relative density 0.95
-      {"100-four-point", regular, 0, 0, 0.03, 400, four_point},
+      {"100-dense", regular, 0, 0, 0.1733, 240, one_point},  // relative density 0.95
+      {"100-four-point", regular, 0, 0, 0.03, 240, four_point},
   };
   return all;
 }

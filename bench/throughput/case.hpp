@@ -34,7 +34,7 @@ Scene scene_of(const Case& c);
 // A fast punch alone would crush the upper rows and leave the rest untouched, and a slow one takes minutes.
 // So the particles fall with it, each with the punch's speed times its height over the punch's: all rows are
 // crushed alike, in as many steps for 10,000 particles as for 100. Then all velocities are slowed down
-// alike, without a shock, and 200 steps pass at the final speed.
+// alike, without a shock, and 600 steps pass at the final speed.
 class State {
  public:
   State(const Case& c, int threads);

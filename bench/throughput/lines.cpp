@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <span>
 
+#include "components/body.hpp"
 #include "systems/step.hpp"
 
 namespace pulvis::bench {
@@ -88,6 +90,14 @@ class TimedSystems {
   std::vector<double> seconds_;
 };
 
+std::span<const double> plastic_strains(const World& world) {
+  const auto of = [](const auto& column) {
+    return std::span(column.values(), column.bytes() / sizeof(double));
+  };
+  return world.has<PlasticStrain<1>>() ? of(world.column<PlasticStrain<1>>())
+                                       : of(world.column<PlasticStrain<4>>());
+}
+
 }  // namespace
 
 double step_seconds(State& state, int threads) {
@@ -140,6 +150,16 @@ std::vector<std::string> system_names(World& world) {
   std::vector<std::string> names;
   for (const System& system : all_systems(world)) names.push_back(system.name);
   return names;
+}
+
+double flowing_share(State& state) {
+  const auto strains = plastic_strains(state.world());
+  const std::vector<double> before(strains.begin(), strains.end());
+  Workers(1).run([&] { Step(state.world()).run(); });
+  double flowing = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) flowing += strains[i] > before[i] ? 1 : 0;
+  const double points = state.world().has<PlasticStrain<1>>() ? 1 : 4;
+  return flowing / (points * static_cast<double>(state.elements()));
 }
 
 Memory column_bytes(const World& world) {

@@ -27,6 +27,9 @@ std::vector<double> system_seconds(State& state);
 // Names for system_seconds, in its order.
 std::vector<std::string> system_names(World& world);
 
+// Share of the stress points that flow plastically in the next step, which it runs.
+double flowing_share(State& state);
+
 // Bytes of all columns now.
 struct Memory {
   double bodies = 0, contact = 0;

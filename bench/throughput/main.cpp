@@ -122,6 +122,12 @@ void add_memory(const Case& c, double resident_before) {
 
 void add_state(const Case& c) {
   add(c.name + "/startup", [&c] { return Line{state_of(c).startup(), "s"}; });
+  add(c.name + "/state/flowing", [&c] { return Line{flowing_share(state_of(c)), "1"}; });
+  add(c.name + "/state/touching", [&c] {
+    State& state = state_of(c);
+    const auto rows = static_cast<double>(state.world().resource<Totals>().touching);
+    return Line{rows / state.world().resource<Bodies>().particles(), "edges/particle"};
+  });
   add(c.name + "/hash", [&c] {
     State& state = state_of(c);
     return Line{static_cast<double>(state.steps()), "", 0, 0, state_hash_text(state.world())};
