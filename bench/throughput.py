@@ -1,6 +1,6 @@
 """Throughput: measures every case several times, keeps the results, and holds them against the aims.
 
-  /usr/bin/python3 bench/throughput.py                      everything, about half an hour: leave it alone
+  /usr/bin/python3 bench/throughput.py                      everything, a quarter of an hour: leave it alone
   /usr/bin/python3 bench/throughput.py --cases 100,1683     these cases, and the run of the thesis
   /usr/bin/python3 bench/throughput.py --quick              does it work? seconds; times mean nothing
 
@@ -125,10 +125,9 @@ def keep_state(measured, case, state):
         raise Refused(f"{case}: two runs ended differently: {measured.states[case]}, {state}")
 
 
-def measure_counts(measured, build, cases):
-    for case in cases:
-        for name, value in counts.count(build / "bench/throughput", case, 40).items():
-            measured.line(case, name, 1, "1/element-update").add(value)
+def measure_counts(measured, build, case):
+    for name, value in counts.count(build / "bench/throughput", case, 40).items():
+        measured.line(case, name, 1, "1/element-update").add(value)
 
 
 # ---- final states ---------------------------------------------------------------------------------
@@ -216,7 +215,7 @@ def parsed(arguments):
 
 def measure(options):
     if not options.no_counts:
-        counts.require_tools()  # before half an hour is spent
+        counts.require_tools()  # before minutes are spent
     measured = Measured()
     cases = options.cases.split(",")
     for case in cases:
@@ -224,7 +223,7 @@ def measure(options):
         measure_case(measured, options.build, case, options.rounds)
     measure_thesis(measured, options.build, options.rounds, options.quick)
     if not options.no_counts:
-        measure_counts(measured, options.build, [c for c in ("100", "100-four-point") if c in cases])
+        measure_counts(measured, options.build, throughput_report.COUNTED)
     return measured
 
 

@@ -3,6 +3,7 @@ import re
 
 CONTACT = re.compile(r"^system/.*(contact|bin|tool_reaction)")
 LARGER = ("1683", "10000")  # than 100 particles, else alike
+COUNTED = "100"  # whose instructions and operations are counted: those of the larger cases too
 THESIS_STEPS = 94_000
 
 # what, case, line, threads, must, aim; at least where the first is "M/s" or "x", at most elsewhere.
@@ -76,12 +77,12 @@ def derive_memory(measured, case):
 
 
 def derive_fractions(measured, case, threads):
-    """Of the measured peaks. Operations are counted for some cases only."""
+    """Of the measured peaks; of arithmetic only where the counted operations are the case's own."""
     per_ns = {name: 1 / value(measured, case, name, threads) for name in ("step", "kernels")}
     peak = measured.lines["machine", "fma", threads].best
     for name, prefix in (("step", ""), ("kernels", "kernels/")):
-        flops = value(measured, case, prefix + "flops")
-        if flops is not None:
+        flops = value(measured, COUNTED, prefix + "flops")
+        if flops is not None and case in (COUNTED, *LARGER):
             measured.line(case, name + "/of_peak_flops", threads, "1").add(flops * per_ns[name] / peak)
     moved = value(measured, case, "memory/moved_a_step") * per_ns["step"]
     bandwidth = measured.lines["machine", "triad", threads].best

@@ -14,8 +14,7 @@ namespace {
 
 constexpr double thesis_rate = 0.1 / 5.6e-3;  // 1/s: a tenth of the height in 5.6 ms
 constexpr double crushing_rate = 20 * thesis_rate;
-constexpr double most_pressing =
-    0.05;  // of the height; a benchmark takes less than a hundredth of it
+constexpr double most_pressing = 0.2;  // of the height: enough for a hundred rounds
 constexpr int settling_steps = 600;
 
 void resize(Scene& scene, int rows, int columns) {

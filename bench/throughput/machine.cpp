@@ -86,9 +86,8 @@ struct Triad {
   void pass(int thread, int threads) {
     const double s = 3;
     const double *from = b.get(), *other = c.get();
-    double* to = a.get();
+    double* __restrict to = a.get();
     const std::int64_t end = length * (thread + 1) / threads;
-#pragma GCC ivdep
     for (std::int64_t i = length * thread / threads; i < end; ++i) to[i] = from[i] + s * other[i];
     benchmark::ClobberMemory();
   }
