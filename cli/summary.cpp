@@ -10,6 +10,7 @@
 #include "components/contact.hpp"
 #include "engine/instruction_set.hpp"
 #include "engine/output_error.hpp"
+#include "scenes/state_hash.hpp"
 #include "scenes/surface.hpp"
 
 namespace pulvis {
@@ -107,6 +108,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"wall_seconds", cost.wall_seconds},
             {"time", world.resource<Clock>().time},
             {"steps", cost.steps},
+            {"state_hash", state_hash_text(world)},
             {"particles", world.resource<Bodies>().particles()},
             {"elements", results.elements()},
             {"element_updates_per_second", cost.wall_seconds > 0 ? updates / cost.wall_seconds : 0},

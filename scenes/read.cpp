@@ -1,5 +1,6 @@
 #include "scenes/read.hpp"
 
+#include "engine/fnv1a.hpp"
 #include "scenes/accuracy.hpp"
 #include "scenes/checks.hpp"
 #include "scenes/expect_checks.hpp"
@@ -198,13 +199,6 @@ Scene read_scene_alone(const std::filesystem::path& file) {
   return load(text_of(file), file).scene;
 }
 
-std::uint64_t scene_hash(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3U;
-  }
-  return hash;
-}
+std::uint64_t scene_hash(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
 
 }  // namespace pulvis

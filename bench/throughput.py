@@ -1,0 +1,245 @@
+"""Throughput: measures every case several times, keeps the results, and holds them against the aims.
+
+  /usr/bin/python3 bench/throughput.py                      everything, a quarter of an hour: leave it alone
+  /usr/bin/python3 bench/throughput.py --cases 100,1683     these cases, and the run of the thesis
+  /usr/bin/python3 bench/throughput.py --quick              does it work? seconds; times mean nothing
+
+Adds rows to bench/results/throughput/<machine>.csv. A case whose final state is not, bit by bit, the one in
+hashes.csv beside it was not the same computation: its times are refused and the exit code is 1, unless
+--accept-hash says that the physics has changed on purpose. docs/performance.md says what the lines mean.
+"""
+import argparse
+import csv
+import datetime
+import json
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import counts
+import throughput_report
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+CASES = ("100", "1683", "10000", "100-dense", "100-four-point")
+COLUMNS = ("case", "threads", "line", "unit", "best", "median", "rounds", "updates_per_s", "share",
+           "steps", "hash", "version", "commit", "compiler", "instruction_set", "date")
+HASH_COLUMNS = ("case", "steps", "version", "hash", "commit", "date")
+THESIS_SCENE = "scenes/compaction/regular-100.toml"
+THESIS_DURATION = "7.45 ms"  # of the pressing, for some 94,000 steps
+UPDATES = ("step", "kernels")  # lines that stand for a whole element-update, or the bodies' part of it
+RATES = ("GFLOP/s", "GB/s")  # where more is better
+
+
+class Refused(Exception):
+    pass
+
+
+class Failed(Exception):
+    pass
+
+
+def run(command):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Failed(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+# ---- measuring ------------------------------------------------------------------------------------
+class Line:
+    """Every value that a line had, in its unit."""
+
+    def __init__(self, unit):
+        self.unit, self.values, self.shares = unit, [], []
+
+    def add(self, value, share=None):
+        self.values.append(value)
+        if share is not None:
+            self.shares.append(share)
+        return self
+
+    @property
+    def best(self):
+        return (max if self.unit in RATES else min)(self.values)
+
+    @property
+    def median(self):
+        return statistics.median(self.values)
+
+
+class Measured:
+    """What was measured: lines by (case, name, threads), final states by case, the program's context."""
+
+    def __init__(self):
+        self.lines, self.states, self.context = {}, {}, {}
+
+    def line(self, case, name, threads, unit):
+        return self.lines.setdefault((case, name, threads), Line(unit))
+
+    def add(self, benchmark):
+        path = [part for part in benchmark["name"].split("/")
+                if part != "manual_time" and not part.startswith("iterations:")]
+        threads = int(path.pop().split(":")[1]) if path[-1].startswith("threads:") else 1
+        case, name = path[0], "/".join(path[1:])
+        if name == "hash":
+            self.states[case] = (int(benchmark["value"]), benchmark["label"])
+        else:
+            self.line(case, name, threads, benchmark["label"]).add(benchmark["value"],
+                                                                   benchmark.get("share"))
+
+
+def measure_case(measured, build, case, rounds):
+    with tempfile.NamedTemporaryFile(suffix=".json") as file:
+        run([build / "bench/throughput", f"--cases={case}", f"--rounds={rounds}",
+             "--benchmark_out_format=json", f"--benchmark_out={file.name}"])
+        output = json.load(file)
+    measured.context = output["context"]
+    for benchmark in output["benchmarks"]:
+        measured.add(benchmark)
+
+
+def measure_thesis(measured, build, rounds, quick):
+    """100 particles, pressed by a tenth of the height, from the command line to the report."""
+    changes = ("stage.press.duration=20 us", 'stage.press.move[0].displacement=["0 mm", "-0.1 mm"]')
+    changes = changes if quick else (f"stage.press.duration={THESIS_DURATION}",)
+    line = measured.line("thesis", "run", 2, "s")
+    for _ in range(rounds):
+        with tempfile.TemporaryDirectory() as folder:
+            start = time.perf_counter()
+            run([build / "cli/pulvis", "run", ROOT / THESIS_SCENE, "-o", f"{folder}/run",
+                 "--threads", "2", *(word for c in changes for word in ("--set", c))])
+            line.add(time.perf_counter() - start)
+            summary = json.loads(pathlib.Path(f"{folder}/run/summary.json").read_text())
+        keep_state(measured, "thesis", (summary["steps"], summary["state_hash"]))
+    measured.line("thesis", "memory/peak", 2, "B/element").add(
+        summary["peak_memory_bytes"] / summary["elements"])
+
+
+def keep_state(measured, case, state):
+    if measured.states.setdefault(case, state) != state:
+        raise Refused(f"{case}: two runs ended differently: {measured.states[case]}, {state}")
+
+
+def measure_counts(measured, build, case):
+    for name, value in counts.count(build / "bench/throughput", case, 40).items():
+        measured.line(case, name, 1, "1/element-update").add(value)
+
+
+# ---- final states ---------------------------------------------------------------------------------
+def read_rows(file):
+    if not file.exists():
+        return []
+    with open(file, newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def checked_states(measured, file, accept, stamp):
+    """Rows for hashes.csv; refuses a state other than the recorded one."""
+    known = {(r["case"], r["steps"], r["version"]): r for r in read_rows(file)}
+    for case, (steps, state) in measured.states.items():
+        key = (case, str(steps), measured.context["version"])
+        old = known.get(key)
+        if old and old["hash"] != state and not accept:
+            raise Refused(f"{case}: after {steps} steps the state is {state}, recorded is "
+                          f"{old['hash']} (commit {old['commit']}, {old['date']}): not the same "
+                          "computation, its times are refused; --accept-hash if that is meant")
+        if not old or old["hash"] != state:
+            known[key] = dict(zip(HASH_COLUMNS, (*key, state, measured.context["commit"], stamp)))
+    return list(known.values())
+
+
+# ---- keeping --------------------------------------------------------------------------------------
+def machine():
+    """Name of the results' file: processor and how many of them."""
+    info = pathlib.Path("/proc/cpuinfo").read_text()
+    value = {name: re.search(rf"^{name}\s*: (.*)$", info, re.M) for name in
+             ("model name", "cpu family", "model")}
+    name, family, model = (m.group(1) if m else "unknown" for m in value.values())
+    text = f"{name} family {family} model {model} {os.cpu_count()} cores"
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
+
+
+def rows_of(measured, stamp):
+    for (case, name, threads), line in measured.lines.items():
+        steps, state = measured.states.get(case, ("", ""))
+        context = {key: measured.context[key]
+                   for key in ("version", "commit", "compiler", "instruction_set")}
+        yield {"case": case, "threads": threads, "line": name, "unit": line.unit,
+               "best": f"{line.best:.6g}", "median": f"{line.median:.6g}",
+               "rounds": len(line.values),
+               "updates_per_s": f"{1e9 / line.median:.4g}" if name in UPDATES else "",
+               "share": f"{statistics.median(line.shares):.4g}" if line.shares else "",
+               "steps": steps, "hash": state, **context, "date": stamp}
+
+
+def write_rows(file, columns, rows):
+    new = file.with_suffix(".new")
+    with open(new, "w", newline="") as stream:
+        writer = csv.DictWriter(stream, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    new.replace(file)
+
+
+def keep(measured, folder, accept):
+    """Checks before it writes anything."""
+    stamp = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%MZ")
+    states = checked_states(measured, folder / "hashes.csv", accept, stamp)
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / f"{machine()}.csv"
+    write_rows(file, COLUMNS, read_rows(file) + list(rows_of(measured, stamp)))
+    write_rows(folder / "hashes.csv", HASH_COLUMNS, states)
+    return file
+
+
+# ---- the command line -----------------------------------------------------------------------------
+def parsed(arguments):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cases", default=",".join(CASES), help="default: %(default)s")
+    parser.add_argument("--rounds", type=int, default=5, help="default: %(default)s")
+    parser.add_argument("--quick", action="store_true", help="one round of one case, nothing counted")
+    parser.add_argument("--no-counts", action="store_true", help="leave callgrind out")
+    parser.add_argument("--accept-hash", action="store_true", help="record other final states")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
+    parser.add_argument("--output", type=pathlib.Path, default=ROOT / "bench/results/throughput")
+    options = parser.parse_args(arguments)
+    if options.quick:
+        options.cases, options.rounds, options.no_counts = "100", 1, True
+    return options
+
+
+def measure(options):
+    if not options.no_counts:
+        counts.require_tools()  # before minutes are spent
+    measured = Measured()
+    cases = options.cases.split(",")
+    for case in cases:
+        print(f"{case}: {options.rounds} rounds, load {os.getloadavg()[0]:.2f}", file=sys.stderr)
+        measure_case(measured, options.build, case, options.rounds)
+    measure_thesis(measured, options.build, options.rounds, options.quick)
+    if not options.no_counts:
+        measure_counts(measured, options.build, throughput_report.COUNTED)
+    return measured
+
+
+def main(arguments):
+    options = parsed(arguments)
+    try:
+        measured = measure(options)
+        throughput_report.derive(measured)
+        file = keep(measured, options.output, options.accept_hash)
+    except (Refused, Failed, counts.CannotCount) as error:
+        print(f"throughput.py: {error}", file=sys.stderr)
+        return 1
+    throughput_report.show(measured)
+    print(f"\nrows added to {file}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,21 @@
+// FNV-1a, 64 bits: a hash that is the same on every machine. Not against malice.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace pulvis {
+
+inline constexpr std::uint64_t fnv1a_start = 0xcbf29ce484222325U;
+
+// Goes on from `hash`, so that data in pieces hash as in one.
+inline std::uint64_t fnv1a(std::span<const std::byte> bytes, std::uint64_t hash = fnv1a_start) {
+  for (const std::byte byte : bytes) {
+    hash ^= static_cast<std::uint64_t>(byte);
+    hash *= 0x100000001b3U;
+  }
+  return hash;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,21 @@
+// One number for the state of a run: two runs with the same hash agree in every bit of what the next step
+// starts from. It tells a change of speed from a change of physics.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/world.hpp"
+
+namespace pulvis {
+
+// FNV-1a over the clock; over positions, velocities and plastic state, particle by particle in the order of
+// the scene; and over the edges that touch, with their elastic slip, in the order of their particles'
+// numbers. Chunks, lanes, threads and contact rows that do not touch have no part in it, nor have columns
+// that a step makes anew from these.
+std::uint64_t state_hash(const World& world);
+
+// As files write it: 16 hexadecimal digits.
+std::string state_hash_text(const World& world);
+
+}  // namespace pulvis
