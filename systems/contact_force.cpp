@@ -135,7 +135,19 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
           add_sampled(by_point, &(*point_force)(row), edge((*pair)(row, 1)));
       }
       for (int k = index->other_begin[slot]; k < index->other_begin[slot + 1]; ++k) {
-        const Row<Contact> row(index->other_rows[static_cast<std::size_t>(k)]);
+        const std::int32_t* other = index->other_rows.data() + k;
+        const Row<Contact> row(*other);
+        // These rows stand anywhere: their lines are asked for before they are needed.
+        const auto rows_ahead = static_cast<std::size_t>(index->other_begin[slot + 1] - k);
+        if (rows_ahead > 8) __builtin_prefetch(&(*pair)(Row<Contact>(other[8]), 3));
+        if (rows_ahead > 4) {
+          const Row<Contact> soon(other[4]);
+          if ((*pair)(soon, 3) != 0) {
+            __builtin_prefetch(&(*closest)(soon));
+            __builtin_prefetch(&(*point_force)(soon));
+            if (couple) __builtin_prefetch(&(*couple)(soon));
+          }
+        }
         if ((*pair)(row, 3) != 0)
           add_other(n, shape, &(*closest)(row), &(*point_force)(row),
                     couple ? &(*couple)(row) : nullptr, own);

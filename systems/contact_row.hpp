@@ -152,9 +152,24 @@ template <class At>
   return along;
 }
 
-// Calls look_at(pair) for all active rows, two by two. Which rows make a pair does not depend on threads.
-template <class At, class Active, class LookAt>
-void for_active_pairs(int rows, const Active& active, const LookAt& look_at) {
+// Asks for a row's numbers before they are needed: in a large powder they come from memory, a line a column.
+template <class At>
+void fetch(const RowColumns<At>& c, Row<At> row) {
+  const auto line = [row](const auto& column) { __builtin_prefetch(&column(row)); };
+  const auto line_if = [&line](const auto& column) {
+    if (column) line(*column);
+  };
+  line(c.pair), line(c.stiffness), line(c.weight), line(c.length), line(c.force);
+  line(c.penetration), line(c.energy);
+  line_if(c.friction), line_if(c.elastic_slip), line_if(c.friction_work);
+  line_if(c.damping), line_if(c.damping_work);
+}
+
+// Calls look_at(pair) for all active rows, two by two, and `ahead` some rows before. Which rows make a pair
+// does not depend on threads.
+template <class At, class Active, class Ahead, class LookAt>
+void for_active_pairs(int rows, const Active& active, const Ahead& ahead, const LookAt& look_at) {
+  constexpr std::size_t rows_ahead = 6;
   constexpr int rows_of_a_task = 128;
   const int tasks = (rows + rows_of_a_task - 1) / rows_of_a_task;
   tbb::parallel_for(0, tasks, [&](int task) {
@@ -163,7 +178,12 @@ void for_active_pairs(int rows, const Active& active, const LookAt& look_at) {
     for (int r = task * rows_of_a_task; r < std::min(rows, (task + 1) * rows_of_a_task); ++r)
       if (active(Row<At>(r))) found[count++] = Row<At>(r);
     if (count % 2 != 0) found[count] = found[count - 1];
-    for (std::size_t i = 0; i < count; i += 2) look_at(RowPair<At>{found[i], found[i + 1]});
+    for (std::size_t i = 0; i < std::min(count, rows_ahead); ++i) ahead(found[i]);
+    for (std::size_t i = 0; i < count; i += 2) {
+      for (std::size_t k = i + rows_ahead; k < std::min(count, i + rows_ahead + 2); ++k)
+        ahead(found[k]);
+      look_at(RowPair<At>{found[i], found[i + 1]});
+    }
   });
 }
 

@@ -92,7 +92,7 @@ unsigned cross_edges(const std::array<const Shape*, 2>& shape, const Lane& befor
 
 constexpr int most_steps = 40;
 // Of an edge. A Newton step that short leaves about its square, and the gap is exact to the square of that.
-constexpr double step_tolerance = 1e-5;
+constexpr double step_tolerance = 2e-6;
 
 // Where the points stand against the curves. `beyond`: closest to a corner, from outside its edge.
 struct Closest {
@@ -245,7 +245,13 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     if (couple) set_couple(motion, along, touching, rows, *couple);
   };
   for_active_pairs<Contact>(
-      pair.rows(), [&](Row<Contact> row) { return clock->travel >= reach(row); }, look_at);
+      pair.rows(), [&](Row<Contact> row) { return clock->travel >= reach(row); },
+      [&](Row<Contact> row) {
+        fetch(columns, row);
+        __builtin_prefetch(&closest(row));
+        if (couple) __builtin_prefetch(&(*couple)(row));
+      },
+      look_at);
 }
 
 }  // namespace pulvis

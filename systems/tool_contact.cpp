@@ -86,7 +86,8 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     set_touching(columns, rows, touching, m, 1.0, clock->dt_before);
   };
   for_active_pairs<ToolContact>(
-      pair.rows(), [&](Row<ToolContact> row) { return clock->travel >= reach(row); }, look_at);
+      pair.rows(), [&](Row<ToolContact> row) { return clock->travel >= reach(row); },
+      [&](Row<ToolContact> row) { fetch(columns, row); }, look_at);
 }
 
 }  // namespace pulvis

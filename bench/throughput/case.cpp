@@ -81,6 +81,7 @@ const std::vector<Case>& cases() {
   static const std::vector<Case> all{
       {"100", regular, 0, 0, 0.03, 240, one_point},
       {"1683", regular, 33, 51, 0.03, 48, one_point},
+      {"1683-hexagonal", "compaction/hexagonal-1683.toml", 0, 0, 0.03, 48, one_point},
       {"10000", regular, 100, 100, 0.03, 24, one_point},
       {"100-dense", regular, 0, 0, 0.1733, 240, one_point},  // relative density 0.95
       {"100-four-point", regular, 0, 0, 0.03, 240, four_point},

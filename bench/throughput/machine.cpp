@@ -121,23 +121,6 @@ std::string compiler() {
 #endif
 }
 
-std::string instruction_set() {
-  std::ifstream maps("/proc/self/maps");
-  const std::string folder = "/glibc-hwcaps/", library = "/libpulvis";
-  for (std::string line; std::getline(maps, line);) {
-    const std::size_t begin = line.find(folder), end = line.find(library);
-    if (begin != std::string::npos && end != std::string::npos)
-      return line.substr(begin + folder.size(), end - begin - folder.size());
-  }
-#if defined(__AVX512F__)
-  return "x86-64-v4";
-#elif defined(__AVX2__)
-  return "x86-64-v3";
-#else
-  return "x86-64";
-#endif
-}
-
 double resident_bytes() {
   std::ifstream statm("/proc/self/statm");
   double all = 0, resident = 0;

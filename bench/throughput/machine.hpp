@@ -15,9 +15,6 @@ double triad_bandwidth(int threads);
 
 std::string compiler();
 
-// Of the kernels in use: what the library that holds them was found as, or what they were built for.
-std::string instruction_set();
-
 // Bytes of this process in memory now.
 double resident_bytes();
 

@@ -19,6 +19,7 @@
 #include "bench/throughput/lines.hpp"
 #include "bench/throughput/machine.hpp"
 #include "cli/summary.hpp"
+#include "engine/instruction_set.hpp"
 #include "scenes/build.hpp"
 #include "scenes/state_hash.hpp"
 #include "systems/step.hpp"

@@ -143,8 +143,8 @@ TEST_F(CommandLine, SummaryHoldsTheFiguresPeopleLookUpFirst) {
   ASSERT_EQ(short_run({"--threads", "2"}).code, 0);
   const auto summary = nlohmann::json::parse(text_of(run / "summary.json"));
   for (const char* key :
-       {"title", "outcome", "version", "commit", "scene_hash", "state_hash", "seed", "wall_seconds", "time",
-        "element_updates_per_second", "peak_memory_bytes", "energy_balance_error",
+       {"title", "outcome", "version", "commit", "scene_hash", "state_hash", "seed", "wall_seconds",
+        "time", "element_updates_per_second", "peak_memory_bytes", "energy_balance_error",
         "relative_density", "stress_ratio/axial", "stress_ratio/lateral"}) {
     EXPECT_TRUE(summary.contains(key)) << key;
   }

@@ -21,13 +21,13 @@ Momentum momentum(Experiment& e) {
   for (const int slot : bodies.slot_of_number) {
     const Shape& shape = bodies.shape_of_slot(slot);
     const auto first =
-        static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(slot / 4)]);
+        static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
     const double rho = w.column<Density>().values()[static_cast<std::size_t>(slot)];
     for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
       const double m = rho * bodies.thickness * shape.nodal_area[n];
       const Lane* at = x.lanes() + 2 * (first + n);
       const Lane* vel = v.lanes() + 2 * (first + n);
-      const int l = slot % 4;
+      const int l = slot % lane_count;
       p.x += m * vel[0][l];
       p.y += m * vel[1][l];
       p.angular += m * (at[0][l] * vel[1][l] - at[1][l] * vel[0][l]);

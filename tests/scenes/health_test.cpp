@@ -70,8 +70,8 @@ std::string failure_with_nan(Experiment& e, int number, int node, std::int64_t m
   World& world = e.simulation.world();
   const int slot = world.resource<Bodies>().slot_of_number[static_cast<std::size_t>(number)];
   Column<C>& column = world.column<C>();
-  const auto first = column.table.chunk_begin[static_cast<std::size_t>(slot / 4)];
-  column.lanes()[static_cast<std::size_t>(first + node) * C::count][slot % 4] =
+  const auto first = column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)];
+  column.lanes()[static_cast<std::size_t>(first + node) * C::count][slot % lane_count] =
       std::numeric_limits<double>::quiet_NaN();
   return failure_of(e.simulation, most_steps);
 }
