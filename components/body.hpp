@@ -28,16 +28,19 @@ template <int Points>
 struct DeviatoricStress : Component<Element, double, 3 * Points> {
   static constexpr ComponentInfo info{"deviatoric_stress", "Pa",
                                       "Cauchy, xx yy xy at each point; zz = -xx-yy"};
+  static constexpr bool transient = true;
 };
 template <int Volumes>
 struct MeanStress : Component<Element, double, Volumes> {
   static constexpr ComponentInfo info{"mean_stress", "Pa",
                                       "Cauchy, one for each dilatation; tension > 0"};
+  static constexpr bool transient = true;
 };
 template <int Points>
 struct IsochoricScale : Component<Element, double, Points> {
   static constexpr ComponentInfo info{"isochoric_scale", "-",
                                       "(det F)^(-1/3), kept for the return map"};
+  static constexpr bool transient = true;
 };
 template <int Points>
 struct PlasticMetric : Component<Element, double, 4 * Points> {
@@ -53,6 +56,7 @@ struct PlasticStrain : Component<Element, double, Points> {
 struct HourglassStress : Component<Element, double, 2> {
   static constexpr ComponentInfo info{"hourglass_stress", "Pa",
                                       "of bending: at the edge of the fibres along xi, along eta"};
+  static constexpr bool transient = true;
 };
 struct PlasticHourglass : Component<Element, double, 2> {
   static constexpr ComponentInfo info{"plastic_hourglass", "-",

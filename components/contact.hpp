@@ -28,6 +28,7 @@ struct CurveForce : Component<ControlPoint, double, 8> {
   static constexpr ComponentInfo info{"force", "N",
                                       "of all contacts on the edge whose first control point this "
                                       "is: x y of its four control points"};
+  static constexpr bool transient = true;
 };
 
 // ---- tools ------------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ struct AccessInfo {
   std::string name;  // "node/velocity"; "clock"
   AccessMode mode;
   bool chunked;  // the place is divided by chunks, so a chunk system may write it
+  bool transient = false;
 };
 
 // The rows of one column that a chunk owns, addressed from zero: view(row, component).
@@ -37,11 +38,25 @@ std::int32_t first_row(const Column<C>& column, Chunk chunk) {
   return column.table.chunk_begin[static_cast<std::size_t>(chunk.index)];
 }
 
+// Where the rows of a chunk begin; of a transient column the worker's, if the graph drops them.
+template <class C>
+auto* rows_of(Column<C>& column, Chunk chunk) {
+  using Number = std::conditional_t<C::Place::laned, Lane, typename C::value_type>;
+  if constexpr (C::transient)
+    if (chunk.worker >= 0) return reinterpret_cast<Number*>(column.transient(chunk.worker));
+  return reinterpret_cast<Number*>(column.data()) +
+         static_cast<std::size_t>(first_row(column, chunk)) * C::count;
+}
+
 template <class T>
 AccessInfo access_info(AccessMode mode) {
   if constexpr (IsComponent<T>)
-    return {type_key<T>(), type_key<typename T::Place>(),
-            std::string(T::Place::name) + "/" + T::info.name, mode, T::Place::by_chunk};
+    return {type_key<T>(),
+            type_key<typename T::Place>(),
+            std::string(T::Place::name) + "/" + T::info.name,
+            mode,
+            T::Place::by_chunk,
+            T::transient};
   else
     return {type_key<T>(), nullptr, T::resource_name, mode, false};
 }
@@ -59,11 +74,8 @@ class Read {
     return column_->values()[static_cast<std::size_t>(row.value) * T::count + component];
   }
   auto chunk(Chunk c) const {
-    const std::size_t first = static_cast<std::size_t>(detail::first_row(*column_, c)) * T::count;
-    if constexpr (T::Place::laned)
-      return ChunkView<T, const Lane*>(column_->lanes() + first);
-    else
-      return ChunkView<T, const typename T::value_type*>(column_->values() + first);
+    const auto* first = detail::rows_of(*column_, c);
+    return ChunkView<T, decltype(first)>(first);
   }
   // The whole column as it lies in memory: [row][component], eight lanes each where laned.
   std::span<const typename T::value_type> values() const {
@@ -72,7 +84,7 @@ class Read {
   int rows() const { return static_cast<int>(column_->table.rows); }
 
  private:
-  const Column<T>* column_;
+  Column<T>* column_;
 };
 
 template <class T>
@@ -86,11 +98,8 @@ class Write {
     return column_->values()[static_cast<std::size_t>(row.value) * T::count + component];
   }
   auto chunk(Chunk c) const {
-    const std::size_t first = static_cast<std::size_t>(detail::first_row(*column_, c)) * T::count;
-    if constexpr (T::Place::laned)
-      return ChunkView<T, Lane*>(column_->lanes() + first);
-    else
-      return ChunkView<T, typename T::value_type*>(column_->values() + first);
+    auto* first = detail::rows_of(*column_, c);
+    return ChunkView<T, decltype(first)>(first);
   }
   std::span<typename T::value_type> values() const {
     return {column_->values(), column_->bytes() / sizeof(typename T::value_type)};

@@ -38,6 +38,9 @@ struct Component {
   using Place = PlaceTag;
   using value_type = Value;
   static constexpr int count = Count;
+  // A declaration may set this: what one system of a pass over the chunks leaves for the next ones, and
+  // nobody needs later. A graph may then keep it for one chunk a worker only, in cache; see TaskGraph.
+  static constexpr bool transient = false;
 };
 
 template <class C>
@@ -57,6 +60,7 @@ concept IsResource = !IsComponent<R> && requires {
 // One chunk of laned rows: the eight particles that a chunk system works on.
 struct Chunk {
   std::int32_t index = 0;
+  std::int32_t worker = -1;  // whose transient rows are used; -1: the chunk's own
 };
 
 // Identity of a component, resource or place type at run time.

@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/flow_graph.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <optional>
@@ -72,6 +73,20 @@ std::vector<std::vector<std::size_t>> group(const std::vector<System>& systems) 
   return stages;
 }
 
+// A dropped component lives as long as the pass over a chunk.
+void check_transients(const std::vector<System>& systems, const std::vector<std::size_t>& stage) {
+  std::vector<TypeKey> written;
+  for (const std::size_t i : stage)
+    for (const AccessInfo& access : systems[i].accesses) {
+      if (!access.transient) continue;
+      if (access.mode == AccessMode::write && systems[i].by_chunk)
+        written.push_back(access.key);
+      else if (std::ranges::find(written, access.key) == written.end())
+        throw std::logic_error("system '" + systems[i].name + "' reads '" + access.name +
+                               "', which no system of its pass has left there");
+    }
+}
+
 }  // namespace
 
 GraphPlan derive_plan(const std::vector<System>& systems) {
@@ -98,17 +113,22 @@ struct TaskGraph::Flow {
   std::vector<std::unique_ptr<Node>> nodes;
 };
 
-TaskGraph::TaskGraph(std::vector<System> systems, int chunks)
+TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transients)
     : plan_(derive_plan(systems)), flow_(std::make_unique<Flow>()) {
   flow_->systems = std::move(systems);
   const auto stages = group(flow_->systems);
+  const bool dropped = transients == Transients::dropped;
+  if (dropped)
+    for (const auto& stage : stages) check_transients(flow_->systems, stage);
   for (std::size_t s = 0; s < stages.size(); ++s) {
     std::vector<const System*> members;
     for (const std::size_t i : stages[s]) members.push_back(&flow_->systems[i]);
-    auto body = [members, chunks, by_chunk = plan_.stages[s].by_chunk](tbb::flow::continue_msg) {
+    auto body = [members, chunks, dropped,
+                 by_chunk = plan_.stages[s].by_chunk](tbb::flow::continue_msg) {
       if (!by_chunk) return members.front()->run(Chunk{});
-      tbb::parallel_for(0, chunks, [&](int chunk) {
-        for (const System* system : members) system->run(Chunk{chunk});
+      tbb::parallel_for(0, chunks, [&](int index) {
+        const Chunk chunk{index, dropped ? tbb::this_task_arena::current_thread_index() : -1};
+        for (const System* system : members) system->run(chunk);
       });
     };
     flow_->nodes.push_back(std::make_unique<Flow::Node>(flow_->graph, body));

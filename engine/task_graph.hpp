@@ -28,10 +28,16 @@ struct GraphPlan {
 // True when the two accesses may not run side by side.
 bool conflict(const AccessInfo& a, const AccessInfo& b);
 
+// What a graph does with transient components: keep all of them, or those of one chunk a worker, which stay
+// in cache. Their columns then hold whatever a graph that keeps them left.
+enum class Transients { kept, dropped };
+
 class TaskGraph {
  public:
-  // `systems` in the order of the step list. Must be built and run inside the arena it will use.
-  TaskGraph(std::vector<System> systems, int chunks);
+  // `systems` in the order of the step list. Must be built and run inside the arena it will use; where
+  // transients are dropped the world must have room for those of its workers (World::allocate_transient).
+  // Throws std::logic_error where a pass would read a dropped component that it has not written.
+  TaskGraph(std::vector<System> systems, int chunks, Transients transients = Transients::kept);
   ~TaskGraph();
   TaskGraph(TaskGraph&&) noexcept;
 

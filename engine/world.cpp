@@ -1,13 +1,25 @@
 #include "engine/world.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 
 namespace pulvis {
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{2} << 20;
+
+}  // namespace
 
 Buffer::Buffer(std::size_t bytes) : bytes_(bytes) {
   // A little more than asked for, so that an empty table still has an address to point at.
   const std::size_t rounded = (bytes + 64) / 64 * 64;
-  data_.reset(static_cast<std::byte*>(::operator new[](rounded, std::align_val_t{64})));
+  const bool huge = rounded >= huge_page;
+  const std::align_val_t alignment{huge ? huge_page : 64};
+  data_ = decltype(data_)(static_cast<std::byte*>(::operator new[](rounded, alignment)),
+                          AlignedDelete{alignment});
+  // Large columns are walked from end to end: fewer pages, fewer misses. Advice, so failing is no error.
+  if (huge) ::madvise(data_.get(), rounded, MADV_HUGEPAGE);
   std::memset(data_.get(), 0, rounded);
 }
 
@@ -19,6 +31,20 @@ void ColumnBase::rebuild(const std::vector<std::int32_t>& sources) {
     std::copy_n(from, row_bytes, next.data() + row * row_bytes);
   }
   buffer_ = std::move(next);
+}
+
+void ColumnBase::allocate_transient(std::size_t rows_of_worker, int workers) {
+  bytes_of_worker_ = (rows_of_worker * row_bytes + 63) / 64 * 64;
+  transient_ = Buffer(bytes_of_worker_ * static_cast<std::size_t>(workers));
+}
+
+void World::allocate_transient(int workers) {
+  for (const auto& [column, table] : transient_) {
+    std::int32_t most = 0;
+    for (std::size_t c = 0; c + 1 < table->chunk_begin.size(); ++c)
+      most = std::max(most, table->chunk_begin[c + 1] - table->chunk_begin[c]);
+    column->allocate_transient(static_cast<std::size_t>(most), workers);
+  }
 }
 
 Table& World::insert_table(TypeKey key, Table table) {

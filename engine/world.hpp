@@ -18,7 +18,12 @@
 
 namespace pulvis {
 
-// Zeroed memory on a cache-line boundary.
+struct AlignedDelete {
+  std::align_val_t alignment{64};
+  void operator()(std::byte* p) const { ::operator delete[](p, alignment); }
+};
+
+// Zeroed memory on a cache-line boundary; in huge pages where it is large.
 class Buffer {
  public:
   Buffer() = default;
@@ -28,10 +33,7 @@ class Buffer {
   std::size_t bytes() const { return bytes_; }
 
  private:
-  struct Free {
-    void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t{64}); }
-  };
-  std::unique_ptr<std::byte[], Free> data_;
+  std::unique_ptr<std::byte[], AlignedDelete> data_;
   std::size_t bytes_ = 0;
 };
 
@@ -44,6 +46,11 @@ class ColumnBase {
   ColumnBase& operator=(const ColumnBase&) = delete;
 
   void allocate(std::size_t rows) { buffer_ = Buffer(rows * row_bytes); }
+  // Transient rows: as many for each worker.
+  void allocate_transient(std::size_t rows_of_worker, int workers);
+  std::byte* transient(int worker) {
+    return transient_.data() + static_cast<std::size_t>(worker) * bytes_of_worker_;
+  }
   // New row r takes what old row sources[r] held; a negative source gives zeros.
   void rebuild(const std::vector<std::int32_t>& sources);
 
@@ -57,7 +64,8 @@ class ColumnBase {
   const std::size_t row_bytes;  // of a row, or of a slot with its lanes
 
  private:
-  Buffer buffer_;
+  Buffer buffer_, transient_;
+  std::size_t bytes_of_worker_ = 0;
 };
 
 // The rows of one place. `chunk_begin` (chunks + 1 entries) says which rows belong to which chunk;
@@ -139,6 +147,8 @@ class World {
   // In the order in which they were added.
   const std::vector<const ColumnBase*>& columns() const { return ordered_; }
   int chunks() const { return chunks_; }
+  // Room for what transient columns hold of a chunk, for every worker.
+  void allocate_transient(int workers);
 
  private:
   Table& insert_table(TypeKey key, Table table);
@@ -147,6 +157,7 @@ class World {
   std::map<TypeKey, std::unique_ptr<ColumnBase>> columns_;
   std::map<TypeKey, std::shared_ptr<void>> resources_;
   std::vector<const ColumnBase*> ordered_;
+  std::vector<std::pair<ColumnBase*, const Table*>> transient_;
   int chunks_ = 0;
 };
 
@@ -172,6 +183,7 @@ void World::add() {
   column->allocate(owner.rows);
   owner.columns.push_back(column.get());
   ordered_.push_back(column.get());
+  if constexpr (C::transient) transient_.emplace_back(column.get(), &owner);
   columns_.emplace(type_key<C>(), std::move(column));
 }
 

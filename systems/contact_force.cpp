@@ -139,9 +139,9 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
         const Row<Contact> row(*other);
         // These rows stand anywhere: their lines are asked for before they are needed.
         const auto rows_ahead = static_cast<std::size_t>(index->other_begin[slot + 1] - k);
-        if (rows_ahead > 8) __builtin_prefetch(&(*pair)(Row<Contact>(other[8]), 3));
-        if (rows_ahead > 4) {
-          const Row<Contact> soon(other[4]);
+        if (rows_ahead > 32) __builtin_prefetch(&(*pair)(Row<Contact>(other[32]), 3));
+        if (rows_ahead > 16) {
+          const Row<Contact> soon(other[16]);
           if ((*pair)(soon, 3) != 0) {
             __builtin_prefetch(&(*closest)(soon));
             __builtin_prefetch(&(*point_force)(soon));

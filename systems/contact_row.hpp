@@ -165,12 +165,13 @@ void fetch(const RowColumns<At>& c, Row<At> row) {
   line_if(c.damping), line_if(c.damping_work);
 }
 
-// Calls look_at(pair) for all active rows, two by two, and `ahead` some rows before. Which rows make a pair
-// does not depend on threads.
-template <class At, class Active, class Ahead, class LookAt>
-void for_active_pairs(int rows, const Active& active, const Ahead& ahead, const LookAt& look_at) {
-  constexpr std::size_t rows_ahead = 6;
+// Calls look_at(pair) for all active rows, two by two. Which rows make a pair does not depend on threads.
+// `fetch(row)` and then `fetch_other(row)`, which may use what the first has asked for, come some rows before.
+template <class At, class Active, class Fetch, class FetchOther, class LookAt>
+void for_active_pairs(int rows, const Active& active, const Fetch& fetch,
+                      const FetchOther& fetch_other, const LookAt& look_at) {
   constexpr int rows_of_a_task = 128;
+  constexpr std::size_t rows_before = 16, rows_before_other = 8;
   const int tasks = (rows + rows_of_a_task - 1) / rows_of_a_task;
   tbb::parallel_for(0, tasks, [&](int task) {
     std::array<Row<At>, rows_of_a_task + 1> found;
@@ -178,10 +179,19 @@ void for_active_pairs(int rows, const Active& active, const Ahead& ahead, const 
     for (int r = task * rows_of_a_task; r < std::min(rows, (task + 1) * rows_of_a_task); ++r)
       if (active(Row<At>(r))) found[count++] = Row<At>(r);
     if (count % 2 != 0) found[count] = found[count - 1];
-    for (std::size_t i = 0; i < std::min(count, rows_ahead); ++i) ahead(found[i]);
+    const auto ask = [&](std::size_t i) {
+      if (i < count) fetch(found[i]);
+    };
+    const auto ask_other = [&](std::size_t i) {
+      if (i < count) fetch_other(found[i]);
+    };
+    for (std::size_t i = 0; i < rows_before; ++i) ask(i);
+    for (std::size_t i = 0; i < rows_before_other; ++i) ask_other(i);
     for (std::size_t i = 0; i < count; i += 2) {
-      for (std::size_t k = i + rows_ahead; k < std::min(count, i + rows_ahead + 2); ++k)
-        ahead(found[k]);
+      for (std::size_t k = 0; k < 2; ++k) {
+        ask(i + k + rows_before);
+        ask_other(i + k + rows_before_other);
+      }
       look_at(RowPair<At>{found[i], found[i + 1]});
     }
   });

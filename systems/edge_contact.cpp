@@ -251,6 +251,16 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
         __builtin_prefetch(&closest(row));
         if (couple) __builtin_prefetch(&(*couple)(row));
       },
+      [&](Row<Contact> row) {  // the other outline, where it was met last
+        const int partner = pair(row, 2);
+        const std::size_t at =
+            first_control(partner) + 2 * static_cast<std::size_t>(closest(row, 1));
+        __builtin_prefetch(points + at);
+        __builtin_prefetch(points + at + 8);
+        if (rates == nullptr) return;
+        __builtin_prefetch(rates + at);
+        __builtin_prefetch(rates + at + 8);
+      },
       look_at);
 }
 

@@ -1,5 +1,7 @@
 #include "systems/step.hpp"
 
+#include <oneapi/tbb/task_arena.h>
+
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -36,6 +38,7 @@ StepList step_list_of(World& w) {
   force(plastic,  "trial_stress",     trial_stress<F>);
   force(plastic,  "j2_return_map",    j2_return_map<F>);
   force(true,     "internal_force",   internal_force<F>);
+  force(true,     "stable_time_step", stable_time_step<F::points>);
   force(touching, "contact_totals",   contact_totals);
   force(touching, "contact_health",   contact_health);
   force(tools && !grips, "tool_reaction", tool_reaction);
@@ -51,7 +54,6 @@ StepList step_list_of(World& w) {
 
   move(true,      "integrate",        integrate);
   move(touching,  "contact_curve",    contact_curve);
-  move(true,      "stable_time_step", stable_time_step<F::points>);
   move(true,      "element_health",   element_health);
   move(true,      "advance_clock",    advance_clock);
   // clang-format on
@@ -81,11 +83,18 @@ std::vector<System> joined(std::vector<System> first, std::vector<System> second
   return first;
 }
 
+// Room for the transient components of every thread that may run the step.
+World& with_transients(World& world) {
+  world.allocate_transient(tbb::this_task_arena::max_concurrency());
+  return world;
+}
+
 }  // namespace
 
 Step::Step(World& world)
-    : world_(world),
-      whole_(joined(step_list(world).forces, step_list(world).motion), world.chunks()),
+    : world_(with_transients(world)),
+      whole_(joined(step_list(world).forces, step_list(world).motion), world.chunks(),
+             Transients::dropped),
       observed_(joined(step_list(world).forces, step_list(world).observe), world.chunks()),
       motion_(step_list(world).motion, world.chunks()) {}
 

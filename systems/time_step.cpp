@@ -6,7 +6,7 @@
 //          shape deals them out so that the worst is least (scenes/mass_shares). Elements:
 //          systems/time_step_kernel.hpp. One on the outline also bears contact springs of k K L/A (a
 //          tool's, or the half of it that two equal bodies share, moving against each other).
-// Runs     stable_time_step every few steps; advance_clock last
+// Runs     stable_time_step every few steps, while the stresses of a chunk are at hand; advance_clock last
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "systems/contact_kernel.hpp"

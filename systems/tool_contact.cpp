@@ -87,7 +87,7 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
   };
   for_active_pairs<ToolContact>(
       pair.rows(), [&](Row<ToolContact> row) { return clock->travel >= reach(row); },
-      [&](Row<ToolContact> row) { fetch(columns, row); }, look_at);
+      [&](Row<ToolContact> row) { fetch(columns, row); }, [](Row<ToolContact>) {}, look_at);
 }
 
 }  // namespace pulvis
