@@ -17,6 +17,7 @@ struct Velocity : Component<Node, double, 2> {
 };
 struct InternalForce : Component<Node, double, 2> {
   static constexpr ComponentInfo info{"internal_force", "N", "of the stresses, on the node"};
+  static constexpr bool transient = true;
 };
 struct ContactForce : Component<BoundaryNode, double, 2> {
   static constexpr ComponentInfo info{"contact_force", "N",

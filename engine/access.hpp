@@ -43,7 +43,8 @@ template <class C>
 auto* rows_of(Column<C>& column, Chunk chunk) {
   using Number = std::conditional_t<C::Place::laned, Lane, typename C::value_type>;
   if constexpr (C::transient)
-    if (chunk.worker >= 0) return reinterpret_cast<Number*>(column.transient(chunk.worker));
+    if (chunk.worker >= 0 && column.has_transient())
+      return reinterpret_cast<Number*>(column.transient(chunk.worker));
   return reinterpret_cast<Number*>(column.data()) +
          static_cast<std::size_t>(first_row(column, chunk)) * C::count;
 }

@@ -73,20 +73,6 @@ std::vector<std::vector<std::size_t>> group(const std::vector<System>& systems) 
   return stages;
 }
 
-// A dropped component lives as long as the pass over a chunk.
-void check_transients(const std::vector<System>& systems, const std::vector<std::size_t>& stage) {
-  std::vector<TypeKey> written;
-  for (const std::size_t i : stage)
-    for (const AccessInfo& access : systems[i].accesses) {
-      if (!access.transient) continue;
-      if (access.mode == AccessMode::write && systems[i].by_chunk)
-        written.push_back(access.key);
-      else if (std::ranges::find(written, access.key) == written.end())
-        throw std::logic_error("system '" + systems[i].name + "' reads '" + access.name +
-                               "', which no system of its pass has left there");
-    }
-}
-
 }  // namespace
 
 GraphPlan derive_plan(const std::vector<System>& systems) {
@@ -104,6 +90,30 @@ GraphPlan derive_plan(const std::vector<System>& systems) {
   return plan;
 }
 
+std::vector<TypeKey> droppable_components(const std::vector<System>& systems) {
+  struct Use {
+    TypeKey key;
+    std::size_t stage;
+    bool droppable;  // written first, by a pass over the chunks, and touched by no other
+  };
+  std::vector<Use> uses;
+  const auto stages = group(systems);
+  for (std::size_t s = 0; s < stages.size(); ++s)
+    for (const std::size_t i : stages[s])
+      for (const AccessInfo& access : systems[i].accesses) {
+        if (!access.transient) continue;
+        const auto known = std::ranges::find(uses, access.key, &Use::key);
+        if (known == uses.end())
+          uses.push_back({access.key, s, systems[i].by_chunk && access.mode == AccessMode::write});
+        else if (known->stage != s)
+          known->droppable = false;
+      }
+  std::vector<TypeKey> keys;
+  for (const Use& use : uses)
+    if (use.droppable) keys.push_back(use.key);
+  return keys;
+}
+
 struct TaskGraph::Flow {
   using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
 
@@ -118,8 +128,6 @@ TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transie
   flow_->systems = std::move(systems);
   const auto stages = group(flow_->systems);
   const bool dropped = transients == Transients::dropped;
-  if (dropped)
-    for (const auto& stage : stages) check_transients(flow_->systems, stage);
   for (std::size_t s = 0; s < stages.size(); ++s) {
     std::vector<const System*> members;
     for (const std::size_t i : stages[s]) members.push_back(&flow_->systems[i]);

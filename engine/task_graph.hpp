@@ -28,15 +28,18 @@ struct GraphPlan {
 // True when the two accesses may not run side by side.
 bool conflict(const AccessInfo& a, const AccessInfo& b);
 
-// What a graph does with transient components: keep all of them, or those of one chunk a worker, which stay
-// in cache. Their columns then hold whatever a graph that keeps them left.
+// What a graph does with the transient components that can be dropped: keep all of them, or those of one
+// chunk a worker, which stay in cache. Their columns then hold whatever a graph that keeps them left.
 enum class Transients { kept, dropped };
+
+// The transient components that one pass over the chunks writes first and no other system touches.
+std::vector<TypeKey> droppable_components(const std::vector<System>& systems);
 
 class TaskGraph {
  public:
   // `systems` in the order of the step list. Must be built and run inside the arena it will use; where
-  // transients are dropped the world must have room for those of its workers (World::allocate_transient).
-  // Throws std::logic_error where a pass would read a dropped component that it has not written.
+  // transients are dropped, those that the world has room for, a chunk's a worker, use it
+  // (World::allocate_transient).
   TaskGraph(std::vector<System> systems, int chunks, Transients transients = Transients::kept);
   ~TaskGraph();
   TaskGraph(TaskGraph&&) noexcept;

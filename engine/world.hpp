@@ -48,6 +48,7 @@ class ColumnBase {
   void allocate(std::size_t rows) { buffer_ = Buffer(rows * row_bytes); }
   // Transient rows: as many for each worker.
   void allocate_transient(std::size_t rows_of_worker, int workers);
+  bool has_transient() const { return bytes_of_worker_ > 0; }
   std::byte* transient(int worker) {
     return transient_.data() + static_cast<std::size_t>(worker) * bytes_of_worker_;
   }
@@ -147,8 +148,8 @@ class World {
   // In the order in which they were added.
   const std::vector<const ColumnBase*>& columns() const { return ordered_; }
   int chunks() const { return chunks_; }
-  // Room for what transient columns hold of a chunk, for every worker.
-  void allocate_transient(int workers);
+  // Room for what these transient columns hold of a chunk, for every worker.
+  void allocate_transient(const std::vector<TypeKey>& components, int workers);
 
  private:
   Table& insert_table(TypeKey key, Table table);
@@ -157,7 +158,6 @@ class World {
   std::map<TypeKey, std::unique_ptr<ColumnBase>> columns_;
   std::map<TypeKey, std::shared_ptr<void>> resources_;
   std::vector<const ColumnBase*> ordered_;
-  std::vector<std::pair<ColumnBase*, const Table*>> transient_;
   int chunks_ = 0;
 };
 
@@ -183,7 +183,6 @@ void World::add() {
   column->allocate(owner.rows);
   owner.columns.push_back(column.get());
   ordered_.push_back(column.get());
-  if constexpr (C::transient) transient_.emplace_back(column.get(), &owner);
   columns_.emplace(type_key<C>(), std::move(column));
 }
 

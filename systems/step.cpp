@@ -6,6 +6,10 @@
 
 namespace pulvis {
 
+// Chunks (of eight particles, some 200 kB of state where each has 140 elements) that stay in a processor's
+// last cache from one step to the next.
+constexpr int chunks_in_cache = 64;
+
 // ---- the order of a step: a newcomer's first page ------------------------------------------------
 // F: how the elements of the scene take their stresses (components/formulation.hpp).
 template <class F>
@@ -27,23 +31,30 @@ StepList step_list_of(World& w) {
   };
 
   // clang-format off
+  // Forces of the bodies need no contact. Beside the narrow phase they keep all threads busy to the end of
+  // it; but then bodies are passed over twice in a step, which costs where they come from memory each time.
+  const bool one_pass = w.chunks() > chunks_in_cache;
+  const auto bodies = [&] {
+    force(!plastic, "elastic_stress",   elastic_stress<F>);
+    force(plastic,  "trial_stress",     trial_stress<F>);
+    force(plastic,  "j2_return_map",    j2_return_map<F>);
+    force(true,     "internal_force",   internal_force<F>);
+    force(true,     "stable_time_step", stable_time_step<F::points>);
+  };
+
   force(tools || grips, "tool_motion", tool_motion);
   force(touching, "skin_check",       skin_check);
   force(pairs,    "bin_edges",        bin_edges);
   force(tools,    "bin_tool_edges",   bin_tool_edges);
   force(pairs,    "edge_contact",     edge_contact);
   force(tools,    "tool_contact",     tool_contact);
-  // Needs nothing of the above: runs beside the narrow phase.
-  force(!plastic, "elastic_stress",   elastic_stress<F>);
-  force(plastic,  "trial_stress",     trial_stress<F>);
-  force(plastic,  "j2_return_map",    j2_return_map<F>);
-  force(true,     "internal_force",   internal_force<F>);
-  force(true,     "stable_time_step", stable_time_step<F::points>);
+  if (!one_pass) bodies();
   force(touching, "contact_totals",   contact_totals);
   force(touching, "contact_health",   contact_health);
   force(tools && !grips, "tool_reaction", tool_reaction);
   // One pass over the chunks from here to the end of the step.
   force(touching, "contact_force",    contact_force);
+  if (one_pass) bodies();
   force(grips,    "hold_grips",       hold_grips);
   force(grips,    "tool_reaction",    tool_reaction);  // theirs is known last
 
@@ -83,9 +94,14 @@ std::vector<System> joined(std::vector<System> first, std::vector<System> second
   return first;
 }
 
+std::vector<System> whole_step(World& world) {
+  return joined(step_list(world).forces, step_list(world).motion);
+}
+
 // Room for the transient components of every thread that may run the step.
 World& with_transients(World& world) {
-  world.allocate_transient(tbb::this_task_arena::max_concurrency());
+  world.allocate_transient(droppable_components(whole_step(world)),
+                           tbb::this_task_arena::max_concurrency());
   return world;
 }
 
@@ -93,8 +109,7 @@ World& with_transients(World& world) {
 
 Step::Step(World& world)
     : world_(with_transients(world)),
-      whole_(joined(step_list(world).forces, step_list(world).motion), world.chunks(),
-             Transients::dropped),
+      whole_(whole_step(world), world.chunks(), Transients::dropped),
       observed_(joined(step_list(world).forces, step_list(world).observe), world.chunks()),
       motion_(step_list(world).motion, world.chunks()) {}
 
