@@ -3,6 +3,10 @@
 // other particle or tool. Both particles of a pair sample each other: the contact is unbiased.
 #pragma once
 
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
 #include "components/places.hpp"
 
 namespace pulvis {
@@ -57,31 +61,23 @@ struct ContactReach : Component<At, double, 1> {
   static constexpr ComponentInfo info{"reach", "m",
                                       "travel at which the row must be looked at again"};
 };
+// What the broad phase sets and the narrow phase reads, all of it at once: one cache line of a row.
 template <class At>
-struct ContactStiffness : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"stiffness", "Pa/m", "kappa of the pair"};
-};
-template <class At>
-struct ContactWeight : Component<At, double, edge_points> {
-  static constexpr ComponentInfo info{"weight", "m^2",
-                                      "undeformed area that a Gauss point stands for"};
-};
-template <class At>
-struct EdgeLength : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"edge_length", "m", "undeformed length of the sampled edge"};
+struct ContactLaw : Component<At, double, 4 + edge_points> {
+  static constexpr ComponentInfo info{
+      "law", "SI", "kappa, Coulomb's mu, damping, 1/edge length; area of every point"};
+  enum Number {
+    stiffness,    // Pa/m, kappa of the pair
+    friction,     // -, Coulomb coefficient of the pair; 0 where the scene has none
+    damping,      // Pa s/m, of the contact (T 5.1); 0 where the scene has none
+    over_length,  // 1/m, 1/undeformed length of the sampled edge
+    weight        // m^2, undeformed area that a Gauss point stands for: of the first of them
+  };
 };
 template <class At>
 struct PointForce : Component<At, double, 2 * edge_points> {
   static constexpr ComponentInfo info{"point_force", "N",
                                       "on the sampled edge: x y of every point"};
-};
-template <class At>
-struct Penetration : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"penetration", "m", "deepest of the row's points"};
-};
-template <class At>
-struct ContactEnergy : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"energy", "J", "stored in the row's contact springs"};
 };
 
 // Closest point of each Gauss point on the other particle's curve: edge number + parameter in it.
@@ -92,17 +88,9 @@ struct ClosestPoint : Component<Contact, double, edge_points> {
 
 // ---- only where the scene has friction -----------------------------------------------------------
 template <class At>
-struct FrictionCoefficient : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"friction", "-", "Coulomb coefficient of the pair"};
-};
-template <class At>
 struct ElasticSlip : Component<At, double, edge_points> {
   static constexpr ComponentInfo info{"elastic_slip", "m",
                                       "stretch of the tangential springs: history"};
-};
-template <class At>
-struct FrictionWork : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"friction_work", "J", "spent in sliding in the last step"};
 };
 // Moment that keeps friction across a small gap from spinning the pair; see contact_kernel.hpp.
 struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
@@ -110,15 +98,25 @@ struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
                                       "on the other curve's slope: x y of every point"};
 };
 
-// ---- only where the scene has contact damping ------------------------------------------------------
-template <class At>
-struct DampingCoefficient : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"damping", "Pa s/m", "of the contact (T 5.1)"};
+// ---- sums over the rows -----------------------------------------------------------------------------
+// Of a block of rows, by the narrow phase while it has the rows at hand. Which rows make a block does not
+// depend on threads, and blocks are added up in order: nor do the bits of a sum.
+inline constexpr int rows_of_a_block = 128;
+
+struct alignas(64) BlockSums {
+  double energy = 0;          // J, stored in the contact springs
+  double friction_work = 0;   // J, spent in sliding in the last step
+  double damping_work = 0;    // J, spent by contact damping in the last step
+  double depth = 0;           // -, largest penetration over edge length; NaN where one is
+  std::int32_t deepest = -1;  // its row; none where nothing touches
+  std::int32_t touching = 0;  // rows with a touching point
 };
+
 template <class At>
-struct DampingWork : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"damping_work", "J",
-                                      "spent by contact damping in the last step"};
+struct ContactSums {
+  static constexpr const char* resource_name =
+      std::is_same_v<At, Contact> ? "contact_sums" : "tool_contact_sums";
+  std::vector<BlockSums> blocks;
 };
 
 }  // namespace pulvis

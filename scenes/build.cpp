@@ -201,21 +201,10 @@ void add_row_columns(World& world, const Needs& needs) {
   world.add_table<At>(std::size_t{0});
   world.add<ContactPair<At>>();
   world.add<ContactReach<At>>();
-  world.add<EdgeLength<At>>();
-  world.add<ContactStiffness<At>>();
-  world.add<ContactWeight<At>>();
+  world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();
-  world.add<Penetration<At>>();
-  world.add<ContactEnergy<At>>();
-  if (needs.friction) {
-    world.add<FrictionCoefficient<At>>();
-    world.add<ElasticSlip<At>>();
-    world.add<FrictionWork<At>>();
-  }
-  if (needs.damping) {
-    world.add<DampingCoefficient<At>>();
-    world.add<DampingWork<At>>();
-  }
+  if (needs.friction) world.add<ElasticSlip<At>>();
+  world.emplace<ContactSums<At>>();
 }
 
 void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs) {

@@ -74,18 +74,19 @@ struct PairLaw {
 
 template <class At>
 void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw& law,
-             const RowConstants<At>& c) {
+             const Write<ContactPair<At>>& pair, const Write<ContactLaw<At>>& of_row) {
   const Shape::Edge& edge =
       bodies.shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
-  c.pair(row, 0) = key.slot;
-  c.pair(row, 1) = key.edge;
-  c.pair(row, 2) = key.other;
-  c.length(row) = edge.length;
-  c.stiffness(row) = law.kappa;
+  using Law = ContactLaw<At>;
+  pair(row, 0) = key.slot;
+  pair(row, 1) = key.edge;
+  pair(row, 2) = key.other;
+  of_row(row, Law::stiffness) = law.kappa;
+  of_row(row, Law::friction) = law.friction;
+  of_row(row, Law::damping) = law.damping;
+  of_row(row, Law::over_length) = 1 / edge.length;
   for (std::size_t g = 0; g < edge_points; ++g)
-    c.weight(row, static_cast<int>(g)) = edge.weight[g] * bodies.thickness;
-  if (c.friction) (*c.friction)(row) = law.friction;
-  if (c.damping) (*c.damping)(row) = law.damping;
+    of_row(row, Law::weight + static_cast<int>(g)) = edge.weight[g] * bodies.thickness;
 }
 
 // kappa = k K L/A of the sampled edge in series with the other outline's mean, like two springs: a disc
@@ -109,10 +110,8 @@ double damping_of(const ContactRules& rules, double kappa, double rho, const Sha
 void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
                Read<Density> density, Read<CurvePosition> control, Write<ContactIndex> index,
                Structural<Contact> structure, Write<ContactPair<Contact>> pair,
-               Write<EdgeLength<Contact>> length, Write<ContactStiffness<Contact>> stiffness,
-               Write<ContactWeight<Contact>> weight, Write<ContactReach<Contact>> reach,
-               Write<ClosestPoint> closest, Optional<Write<FrictionCoefficient<Contact>>> friction,
-               Optional<Write<DampingCoefficient<Contact>>> damping) {
+               Write<ContactLaw<Contact>> law, Write<ContactReach<Contact>> reach,
+               Write<ClosestPoint> closest) {
   if (!index->due) return;
   BySlot<std::int32_t> neighbours =
       particle_neighbours(*bodies, control.values(), index->neighbourhood);
@@ -120,7 +119,6 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
   const std::vector<std::int32_t> source = match(index->sampled_begin, pair, found);
   structure.rebuild(source);
 
-  const RowConstants<Contact> columns{pair, length, stiffness, weight, friction, damping};
   tbb::parallel_for(std::size_t{0}, found.all.size(), [&](std::size_t r) {
     const Row<Contact> row(static_cast<std::int64_t>(r));
     const RowKey key = key_of(found.all[r]);
@@ -135,7 +133,7 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
              rules->friction_between(slots[static_cast<std::size_t>(key.slot)].material,
                                      slots[static_cast<std::size_t>(key.other)].material),
              damping_of(*rules, kappa, rho, edge)},
-            columns);
+            pair, law);
     const bool known = source[r] >= 0;
     // What was found to be the far side of a thin part stays that (edge_contact).
     if (!(known && reach(row) == far_side))
@@ -207,18 +205,13 @@ void bin_tool_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModu
                     Read<Density> density, Read<CurvePosition> control,
                     Read<ToolPosition> tool_position, Read<ToolNormal> tool_normal,
                     Write<ContactIndex> index, Structural<ToolContact> structure,
-                    Write<ContactPair<ToolContact>> pair, Write<EdgeLength<ToolContact>> length,
-                    Write<ContactStiffness<ToolContact>> stiffness,
-                    Write<ContactWeight<ToolContact>> weight,
-                    Write<ContactReach<ToolContact>> reach,
-                    Optional<Write<FrictionCoefficient<ToolContact>>> friction,
-                    Optional<Write<DampingCoefficient<ToolContact>>> damping,
-                    Optional<Read<ToolShapes>> shapes, Optional<Write<SurfaceRange>> range) {
+                    Write<ContactPair<ToolContact>> pair, Write<ContactLaw<ToolContact>> law,
+                    Write<ContactReach<ToolContact>> reach, Optional<Read<ToolShapes>> shapes,
+                    Optional<Write<SurfaceRange>> range) {
   if (!index->due) return;
   BySlot<ToolCandidate> found =
       tool_candidates(*bodies, control.values(), tool_position, tool_normal, shapes, index->skin);
   structure.rebuild(match(index->tool_begin, pair, found));
-  const RowConstants<ToolContact> columns{pair, length, stiffness, weight, friction, damping};
   for (std::size_t r = 0; r < found.all.size(); ++r) {
     const Row<ToolContact> row(static_cast<std::int64_t>(r));
     const RowKey key = key_of(found.all[r]);
@@ -229,7 +222,7 @@ void bin_tool_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModu
     set_row(row, *bodies, key,
             {kappa, rules->friction_with_tool(key.other, bodies->slots[slot].material),
              damping_of(*rules, kappa, density.values()[slot], edge)},
-            columns);
+            pair, law);
     reach(row) = 0;
     if (!range) continue;
     (*range)(row, 0) = found.all[r].range.first;

@@ -4,6 +4,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <cmath>
 #include <limits>
 
 #include "components/contact.hpp"
@@ -18,6 +19,10 @@ namespace pulvis {
 // twice where one is left over.
 template <class At>
 using RowPair = std::array<Row<At>, 2>;
+template <class At>
+int rows_in(const RowPair<At>& rows) {
+  return rows[0] == rows[1] ? 1 : 2;
+}
 
 struct PointLanes {
   Lane x, y;
@@ -52,33 +57,14 @@ struct RowMotion {
   Lane over_slope;  // 1/m, 1/|x'| of the other curve; where it has one
 };
 
-// Columns that every row has, and those that only scenes with friction or damping have.
+// The columns of a row; elastic slip only in scenes with friction.
 template <class At>
 struct RowColumns {
   Write<ContactPair<At>> pair;
   Write<ContactReach<At>> reach;
-  Read<ContactStiffness<At>> stiffness;
-  Read<ContactWeight<At>> weight;
-  Read<EdgeLength<At>> length;
+  Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
-  Write<Penetration<At>> penetration;
-  Write<ContactEnergy<At>> energy;
-  Optional<Read<FrictionCoefficient<At>>> friction;
   Optional<Write<ElasticSlip<At>>> elastic_slip;
-  Optional<Write<FrictionWork<At>>> friction_work;
-  Optional<Read<DampingCoefficient<At>>> damping;
-  Optional<Write<DampingWork<At>>> damping_work;
-};
-
-// Columns of a row that stay as the broad phase set them.
-template <class At>
-struct RowConstants {
-  Write<ContactPair<At>> pair;
-  Write<EdgeLength<At>> length;
-  Write<ContactStiffness<At>> stiffness;
-  Write<ContactWeight<At>> weight;
-  Optional<Write<FrictionCoefficient<At>>> friction;
-  Optional<Write<DampingCoefficient<At>>> damping;
 };
 
 // Reaches of rows of an outline against itself: not looked at yet; and seen from inside, which no touch is.
@@ -89,13 +75,9 @@ template <class At>
 void set_apart(const RowColumns<At>& c, Row<At> row, double reach) {
   c.pair(row, 3) = 0;
   c.reach(row) = reach;
-  c.penetration(row) = 0;
-  c.energy(row) = 0;
   for (int k = 0; k < 2 * edge_points; ++k) c.force(row, k) = 0;
   if (c.elastic_slip)
     for (int k = 0; k < edge_points; ++k) (*c.elastic_slip)(row, k) = 0;
-  if (c.friction_work) (*c.friction_work)(row) = 0;
-  if (c.damping_work) (*c.damping_work)(row) = 0;
 }
 
 // The numbers of a row at its four points, of two rows.
@@ -105,27 +87,38 @@ Lane at_points(const Access& column, const RowPair<At>& rows, int first = 0) {
 }
 // A number of a row, of two rows.
 template <class Access, class At>
-Lane at_rows(const Access& column, const RowPair<At>& rows) {
-  return halves(column(rows[0]), column(rows[1]));
+Lane at_rows(const Access& column, const RowPair<At>& rows, int number) {
+  return halves(column(rows[0], number), column(rows[1], number));
 }
 
-// Forces of the rows of a pair that touch (bit 0, bit 1). `share` of kappa: one half where the other
-// particle samples back. Returns the friction traction times weight [N] (the couple of the other body
-// needs it).
+// Books the depth of a row: the first NaN, or the deepest.
+template <class At>
+void book_depth(Row<At> row, double depth, BlockSums& sums) {
+  if (depth <= sums.depth || std::isnan(sums.depth)) return;
+  sums.depth = depth;
+  sums.deepest = row.value;
+}
+
+// Forces of the rows of a pair that touch (bit 0, bit 1), and what they add to the sums of their block.
+// `share` of kappa: one half where the other particle samples back. Returns the friction traction times
+// weight [N] (the couple of the other body needs it).
 template <class At>
 [[gnu::flatten]] Lane set_touching(const RowColumns<At>& c, const RowPair<At>& rows,
-                                   unsigned touching, const RowMotion& m, double share, double dt) {
-  const Lane weight = at_points(c.weight, rows);
-  const std::array<double, 2> stiffness{share * c.stiffness(rows[0]), share * c.stiffness(rows[1])};
+                                   unsigned touching, const RowMotion& m, double share, double dt,
+                                   BlockSums& block) {
+  using Law = ContactLaw<At>;
+  const Lane weight = at_points(c.law, rows, Law::weight);
+  const std::array<double, 2> stiffness{share * c.law(rows[0], Law::stiffness),
+                                        share * c.law(rows[1], Law::stiffness)};
   const Lane kappa = halves(stiffness[0], stiffness[1]);
-  const Lane damping = c.damping ? share * at_rows(*c.damping, rows) : Lane{};
-  const auto normal = kernels::normal_traction(
-      m.gap, m.gap_rate, kappa, damping, halves(1 / c.length(rows[0]), 1 / c.length(rows[1])));
+  const auto normal =
+      kernels::normal_traction(m.gap, m.gap_rate, kappa, share * at_rows(c.law, rows, Law::damping),
+                               at_rows(c.law, rows, Law::over_length));
   Lane along{}, spring{}, friction_work{}, energy = normal.spring_energy;
-  if (c.friction) {
+  if (c.elastic_slip) {
     const auto friction = kernels::coulomb_return(
         at_points(*c.elastic_slip, rows), m.slip_rate * dt, normal.pressure,
-        at_rows(*c.friction, rows), kappa, halves(1 / stiffness[0], 1 / stiffness[1]));
+        at_rows(c.law, rows, Law::friction), kappa, halves(1 / stiffness[0], 1 / stiffness[1]));
     spring = friction.elastic_slip;
     along = friction.traction * weight;
     friction_work = friction.work * weight;
@@ -139,15 +132,17 @@ template <class At>
   const SumsOfHalves damped = sums_of_halves(damping_work, Lane{});
   for (int half = 0; half < 2; ++half) {
     if ((touching >> half & 1) == 0) continue;
-    const Row<At> row = rows[static_cast<std::size_t>(half)];
+    const auto at = static_cast<std::size_t>(half);
+    const Row<At> row = rows[at];
     c.pair(row, 3) = 1;
     c.reach(row) = 0;
     store_pairs_of_half(fx, fy, half, &c.force(row));
-    c.penetration(row) = greatest_of_half(m.gap, half);
-    c.energy(row) = sums.a[static_cast<std::size_t>(half)];
     if (c.elastic_slip) store_half(spring, half, &(*c.elastic_slip)(row));
-    if (c.friction_work) (*c.friction_work)(row) = sums.b[static_cast<std::size_t>(half)];
-    if (c.damping_work) (*c.damping_work)(row) = damped.a[static_cast<std::size_t>(half)];
+    block.touching += 1;
+    block.energy += sums.a[at];
+    block.friction_work += sums.b[at];
+    block.damping_work += damped.a[at];
+    book_depth(row, greatest_of_half(m.gap, half) * c.law(row, Law::over_length), block);
   }
   return along;
 }
@@ -156,27 +151,23 @@ template <class At>
 template <class At>
 void fetch(const RowColumns<At>& c, Row<At> row) {
   const auto line = [row](const auto& column) { __builtin_prefetch(&column(row)); };
-  const auto line_if = [&line](const auto& column) {
-    if (column) line(*column);
-  };
-  line(c.pair), line(c.stiffness), line(c.weight), line(c.length), line(c.force);
-  line(c.penetration), line(c.energy);
-  line_if(c.friction), line_if(c.elastic_slip), line_if(c.friction_work);
-  line_if(c.damping), line_if(c.damping_work);
+  line(c.pair), line(c.law), line(c.force);
+  if (c.elastic_slip) line(*c.elastic_slip);
 }
 
-// Calls look_at(pair) for all active rows, two by two. Which rows make a pair does not depend on threads.
-// `fetch(row)` and then `fetch_other(row)`, which may use what the first has asked for, come some rows before.
+// Calls look_at(pair, sums of its block) for all active rows, two by two. Which rows make a pair does not
+// depend on threads. Rows that are not active are apart and add nothing. `fetch(row)` and then
+// `fetch_other(row)`, which may use what the first has asked for, come some rows before.
 template <class At, class Active, class Fetch, class FetchOther, class LookAt>
-void for_active_pairs(int rows, const Active& active, const Fetch& fetch,
+void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, const Fetch& fetch,
                       const FetchOther& fetch_other, const LookAt& look_at) {
-  constexpr int rows_of_a_task = 128;
   constexpr std::size_t rows_before = 16, rows_before_other = 8;
-  const int tasks = (rows + rows_of_a_task - 1) / rows_of_a_task;
-  tbb::parallel_for(0, tasks, [&](int task) {
-    std::array<Row<At>, rows_of_a_task + 1> found;
+  const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
+  sums.blocks.resize(static_cast<std::size_t>(blocks));
+  tbb::parallel_for(0, blocks, [&](int block) {
+    std::array<Row<At>, rows_of_a_block + 1> found;
     std::size_t count = 0;
-    for (int r = task * rows_of_a_task; r < std::min(rows, (task + 1) * rows_of_a_task); ++r)
+    for (int r = block * rows_of_a_block; r < std::min(rows, (block + 1) * rows_of_a_block); ++r)
       if (active(Row<At>(r))) found[count++] = Row<At>(r);
     if (count % 2 != 0) found[count] = found[count - 1];
     const auto ask = [&](std::size_t i) {
@@ -187,13 +178,15 @@ void for_active_pairs(int rows, const Active& active, const Fetch& fetch,
     };
     for (std::size_t i = 0; i < rows_before; ++i) ask(i);
     for (std::size_t i = 0; i < rows_before_other; ++i) ask_other(i);
+    BlockSums sum;
     for (std::size_t i = 0; i < count; i += 2) {
       for (std::size_t k = 0; k < 2; ++k) {
         ask(i + k + rows_before);
         ask_other(i + k + rows_before_other);
       }
-      look_at(RowPair<At>{found[i], found[i + 1]});
+      look_at(RowPair<At>{found[i], found[i + 1]}, sum);
     }
+    sums.blocks[static_cast<std::size_t>(block)] = sum;
   });
 }
 

@@ -184,18 +184,10 @@ void set_couple(const RowMotion& m, const Lane& along, unsigned touching,
 void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
                   Optional<Read<CurveVelocity>> velocity, Write<ClosestPoint> closest,
                   Write<ContactPair<Contact>> pair, Write<ContactReach<Contact>> reach,
-                  Read<ContactStiffness<Contact>> stiffness, Read<ContactWeight<Contact>> weight,
-                  Read<EdgeLength<Contact>> length, Write<PointForce<Contact>> force,
-                  Write<Penetration<Contact>> penetration, Write<ContactEnergy<Contact>> energy,
-                  Optional<Read<FrictionCoefficient<Contact>>> friction,
+                  Read<ContactLaw<Contact>> law, Write<PointForce<Contact>> force,
                   Optional<Write<ElasticSlip<Contact>>> elastic_slip,
-                  Optional<Write<FrictionWork<Contact>>> friction_work,
-                  Optional<Write<FrictionCouple>> couple,
-                  Optional<Read<DampingCoefficient<Contact>>> damping,
-                  Optional<Write<DampingWork<Contact>>> damping_work) {
-  const RowColumns<Contact> columns{pair,          reach,       stiffness,   weight,   length,
-                                    force,         penetration, energy,      friction, elastic_slip,
-                                    friction_work, damping,     damping_work};
+                  Optional<Write<FrictionCouple>> couple, Write<ContactSums<Contact>> sums) {
+  const RowColumns<Contact> columns{pair, reach, law, force, elastic_slip};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
   const auto first_control = [&](int slot) {
@@ -203,7 +195,7 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
            static_cast<std::size_t>(bodies->slots[static_cast<std::size_t>(slot)].first_control);
   };
 
-  const auto look_at = [&](const RowPair<Contact>& rows) {
+  const auto look_at = [&](const RowPair<Contact>& rows, BlockSums& block) {
     OtherCurves other;
     std::array<std::size_t, 2> own;  // first control point of the sampled edge
     for (std::size_t i = 0; i < 2; ++i) {
@@ -227,7 +219,7 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     // Past a corner: outside the other body.
     motion.gap = select(LaneMask::of(c.beyond), -1.0, motion.gap);
     unsigned touching = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < rows_in(rows); ++i) {
       const Row<Contact> row = rows[static_cast<std::size_t>(i)];
       if (pair(row, 2) == pair(row, 0) &&
           is_far_side(c, i, pair(row, 1), *other.shape[static_cast<std::size_t>(i)],
@@ -241,11 +233,11 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
       }
     }
     if (touching == 0) return;
-    const Lane along = set_touching(columns, rows, touching, motion, 0.5, clock->dt_before);
+    const Lane along = set_touching(columns, rows, touching, motion, 0.5, clock->dt_before, block);
     if (couple) set_couple(motion, along, touching, rows, *couple);
   };
   for_active_pairs<Contact>(
-      pair.rows(), [&](Row<Contact> row) { return clock->travel >= reach(row); },
+      pair.rows(), *sums, [&](Row<Contact> row) { return clock->travel >= reach(row); },
       [&](Row<Contact> row) {
         fetch(columns, row);
         __builtin_prefetch(&closest(row));

@@ -5,10 +5,8 @@
 // leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors and not phase.
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
-#include "systems/contact_row.hpp"
 #include "systems/element_access.hpp"
 #include "systems/hourglass_kernel.hpp"
-#include "systems/row_sum.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -122,49 +120,27 @@ void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<S
 
 namespace {
 
-struct RowTotals {
-  std::int64_t touching = 0;
-  double energy = 0, friction = 0, damping = 0;
-  void operator+=(const RowTotals& other) {
-    touching += other.touching;
-    energy += other.energy;
-    friction += other.friction;
-    damping += other.damping;
+void add_blocks(const std::vector<BlockSums>& blocks, Totals& totals) {
+  BlockSums sum;
+  for (const BlockSums& block : blocks) {
+    totals.touching += block.touching;
+    sum.energy += block.energy;
+    sum.friction_work += block.friction_work;
+    sum.damping_work += block.damping_work;
   }
-};
-
-template <class At>
-void add_rows(const Read<ContactPair<At>>& pair, const Read<ContactEnergy<At>>& energy,
-              const Optional<Read<FrictionWork<At>>>& friction,
-              const Optional<Read<DampingWork<At>>>& damping, Totals& totals) {
-  const auto sum = sum_over_rows<RowTotals>(pair.rows(), [&](int r, RowTotals& part) {
-    const Row<At> row(r);
-    if (pair(row, 3) == 0) return;
-    part.touching += 1;
-    part.energy += energy(row);
-    if (friction) part.friction += (*friction)(row);
-    if (damping) part.damping += (*damping)(row);
-  });
-  totals.touching += sum.touching;
   totals.contact_energy += sum.energy;
-  totals.friction_work += sum.friction;
-  totals.damping_work += sum.damping;
+  totals.friction_work += sum.friction_work;
+  totals.damping_work += sum.damping_work;
 }
 
 }  // namespace
 
-void contact_totals(Optional<Read<ContactPair<Contact>>> pair,
-                    Optional<Read<ContactEnergy<Contact>>> energy,
-                    Optional<Read<FrictionWork<Contact>>> friction,
-                    Optional<Read<DampingWork<Contact>>> damping,
-                    Optional<Read<ContactPair<ToolContact>>> tool_pair,
-                    Optional<Read<ContactEnergy<ToolContact>>> tool_energy,
-                    Optional<Read<FrictionWork<ToolContact>>> tool_friction,
-                    Optional<Read<DampingWork<ToolContact>>> tool_damping, Write<Totals> totals) {
+void contact_totals(Optional<Read<ContactSums<Contact>>> sums,
+                    Optional<Read<ContactSums<ToolContact>>> tool_sums, Write<Totals> totals) {
   totals->touching = 0;
   totals->contact_energy = 0;
-  if (pair) add_rows(*pair, *energy, friction, damping, *totals);
-  if (tool_pair) add_rows(*tool_pair, *tool_energy, tool_friction, tool_damping, *totals);
+  if (sums) add_blocks((*sums)->blocks, *totals);
+  if (tool_sums) add_blocks((*tool_sums)->blocks, *totals);
 }
 
 }  // namespace pulvis

@@ -11,7 +11,6 @@
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "systems/contact_row.hpp"
-#include "systems/row_sum.hpp"
 #include "systems/run_failure.hpp"
 #include "systems/systems.hpp"
 
@@ -37,45 +36,33 @@ namespace {
 // What a row's third key is called: "particle 7", "tool 'top'".
 using PartnerName = std::function<std::string(int)>;
 
-struct Depths {
-  double deepest = 0;     // -, of the edge length
-  std::int32_t bad = -1;  // first row beyond the limit, or NaN
-  void operator+=(const Depths& later) {
-    deepest = std::max(deepest, later.deepest);
-    if (bad < 0) bad = later.bad;
-  }
-};
-
 template <class At>
 void check_rows(const Bodies& bodies, const Clock& clock, double limit, const char* system,
                 const PartnerName& partner, const Read<ContactPair<At>>& pair,
-                const Read<Penetration<At>>& penetration, const Read<EdgeLength<At>>& length,
-                double& deepest) {
-  const auto depth = [&](int r) { return penetration(Row<At>(r)) / length(Row<At>(r)); };
-  const auto depths = sum_over_rows<Depths>(pair.rows(), [&](int r, Depths& part) {
-    const double deep = depth(r);
-    part.deepest = std::max(part.deepest, deep);
-    if (!(deep <= limit) && part.bad < 0) part.bad = r;
-  });
-  deepest = std::max(deepest, depths.deepest);
-  if (depths.bad < 0) return;
-  const Row<At> row(depths.bad);
+                const ContactSums<At>& sums, double& deepest) {
+  BlockSums worst;
+  for (const BlockSums& block : sums.blocks)
+    if (block.deepest >= 0) book_depth(Row<At>(block.deepest), block.depth, worst);
+  deepest = std::max(deepest, worst.depth);
+  if (worst.depth <= limit) return;  // NaN is not
+  const Row<At> row(worst.deepest);
+  const Bodies::Slot& slot = bodies.slots[static_cast<std::size_t>(pair(row, 0))];
+  const Shape::Edge& edge =
+      bodies.shape_of_slot(pair(row, 0)).edges[static_cast<std::size_t>(pair(row, 1))];
   throw RunFailure(fmt::format(
       "{}: particle {}, edge {} against {}: penetration {:.6g} m is {:.3g} of the edge length at "
       "step {}, t = {:.6g} s; allowed {:.3g} (limits.penetration)",
-      system, bodies.slots[static_cast<std::size_t>(pair(row, 0))].number, pair(row, 1),
-      partner(pair(row, 2)), penetration(row), depth(depths.bad), clock.step, clock.time, limit));
+      system, slot.number, pair(row, 1), partner(pair(row, 2)), worst.depth * edge.length,
+      worst.depth, clock.step, clock.time, limit));
 }
 
 }  // namespace
 
 void contact_health(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
                     Optional<Read<ContactPair<Contact>>> pair,
-                    Optional<Read<Penetration<Contact>>> penetration,
-                    Optional<Read<EdgeLength<Contact>>> length,
+                    Optional<Read<ContactSums<Contact>>> sums,
                     Optional<Read<ContactPair<ToolContact>>> tool_pair,
-                    Optional<Read<Penetration<ToolContact>>> tool_penetration,
-                    Optional<Read<EdgeLength<ToolContact>>> tool_length,
+                    Optional<Read<ContactSums<ToolContact>>> tool_sums,
                     Optional<Read<ToolProgram>> program, Write<Totals> totals) {
   const double limit = rules->penetration_limit;
   totals->penetration = 0;
@@ -85,14 +72,14 @@ void contact_health(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> r
         [&](int slot) {
           return fmt::format("particle {}", bodies->slots[static_cast<std::size_t>(slot)].number);
         },
-        *pair, *penetration, *length, totals->penetration);
+        *pair, **sums, totals->penetration);
   if (tool_pair)
     check_rows<ToolContact>(
         *bodies, *clock, limit, "tool_contact",
         [&](int tool) {
           return fmt::format("tool '{}'", (*program)->names[static_cast<std::size_t>(tool)]);
         },
-        *tool_pair, *tool_penetration, *tool_length, totals->penetration);
+        *tool_pair, **tool_sums, totals->penetration);
   totals->worst_penetration = std::max(totals->worst_penetration, totals->penetration);
 }
 

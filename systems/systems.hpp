@@ -20,57 +20,36 @@ void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<To
                 Write<ContactIndex>);
 void bin_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                Read<CurvePosition>, Write<ContactIndex>, Structural<Contact>,
-               Write<ContactPair<Contact>>, Write<EdgeLength<Contact>>,
-               Write<ContactStiffness<Contact>>, Write<ContactWeight<Contact>>,
-               Write<ContactReach<Contact>>, Write<ClosestPoint>,
-               Optional<Write<FrictionCoefficient<Contact>>>,
-               Optional<Write<DampingCoefficient<Contact>>>);
+               Write<ContactPair<Contact>>, Write<ContactLaw<Contact>>,
+               Write<ContactReach<Contact>>, Write<ClosestPoint>);
 void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                     Read<CurvePosition>, Read<ToolPosition>, Read<ToolNormal>, Write<ContactIndex>,
                     Structural<ToolContact>, Write<ContactPair<ToolContact>>,
-                    Write<EdgeLength<ToolContact>>, Write<ContactStiffness<ToolContact>>,
-                    Write<ContactWeight<ToolContact>>, Write<ContactReach<ToolContact>>,
-                    Optional<Write<FrictionCoefficient<ToolContact>>>,
-                    Optional<Write<DampingCoefficient<ToolContact>>>, Optional<Read<ToolShapes>>,
-                    Optional<Write<SurfaceRange>>);
+                    Write<ContactLaw<ToolContact>>, Write<ContactReach<ToolContact>>,
+                    Optional<Read<ToolShapes>>, Optional<Write<SurfaceRange>>);
 
 // ---- narrow phase -----------------------------------------------------------------------------
 void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
                   Write<ClosestPoint>, Write<ContactPair<Contact>>, Write<ContactReach<Contact>>,
-                  Read<ContactStiffness<Contact>>, Read<ContactWeight<Contact>>,
-                  Read<EdgeLength<Contact>>, Write<PointForce<Contact>>,
-                  Write<Penetration<Contact>>, Write<ContactEnergy<Contact>>,
-                  Optional<Read<FrictionCoefficient<Contact>>>,
-                  Optional<Write<ElasticSlip<Contact>>>, Optional<Write<FrictionWork<Contact>>>,
-                  Optional<Write<FrictionCouple>>, Optional<Read<DampingCoefficient<Contact>>>,
-                  Optional<Write<DampingWork<Contact>>>);
+                  Read<ContactLaw<Contact>>, Write<PointForce<Contact>>,
+                  Optional<Write<ElasticSlip<Contact>>>, Optional<Write<FrictionCouple>>,
+                  Write<ContactSums<Contact>>);
 void tool_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
                   Read<ToolPosition>, Read<ToolVelocity>, Read<ToolNormal>,
                   Write<ContactPair<ToolContact>>, Write<ContactReach<ToolContact>>,
-                  Read<ContactStiffness<ToolContact>>, Read<ContactWeight<ToolContact>>,
-                  Read<EdgeLength<ToolContact>>, Write<PointForce<ToolContact>>,
-                  Write<Penetration<ToolContact>>, Write<ContactEnergy<ToolContact>>,
-                  Optional<Read<FrictionCoefficient<ToolContact>>>,
-                  Optional<Write<ElasticSlip<ToolContact>>>,
-                  Optional<Write<FrictionWork<ToolContact>>>,
-                  Optional<Read<DampingCoefficient<ToolContact>>>,
-                  Optional<Write<DampingWork<ToolContact>>>, Optional<Read<ToolShapes>>,
-                  Optional<Read<SurfaceRange>>);
-void contact_totals(Optional<Read<ContactPair<Contact>>>, Optional<Read<ContactEnergy<Contact>>>,
-                    Optional<Read<FrictionWork<Contact>>>, Optional<Read<DampingWork<Contact>>>,
-                    Optional<Read<ContactPair<ToolContact>>>,
-                    Optional<Read<ContactEnergy<ToolContact>>>,
-                    Optional<Read<FrictionWork<ToolContact>>>,
-                    Optional<Read<DampingWork<ToolContact>>>, Write<Totals>);
+                  Read<ContactLaw<ToolContact>>, Write<PointForce<ToolContact>>,
+                  Optional<Write<ElasticSlip<ToolContact>>>, Optional<Read<ToolShapes>>,
+                  Optional<Read<SurfaceRange>>, Write<ContactSums<ToolContact>>);
+void contact_totals(Optional<Read<ContactSums<Contact>>>, Optional<Read<ContactSums<ToolContact>>>,
+                    Write<Totals>);
 void tool_reaction(Read<Clock>, Optional<Read<ContactPair<ToolContact>>>,
                    Optional<Read<PointForce<ToolContact>>>, Optional<Read<GripTarget>>,
                    Optional<Read<GripTravel>>, Optional<Read<GripReaction>>, Read<ToolVelocity>,
                    Write<ToolForce>, Write<Totals>);
 void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
-                    Optional<Read<ContactPair<Contact>>>, Optional<Read<Penetration<Contact>>>,
-                    Optional<Read<EdgeLength<Contact>>>, Optional<Read<ContactPair<ToolContact>>>,
-                    Optional<Read<Penetration<ToolContact>>>,
-                    Optional<Read<EdgeLength<ToolContact>>>, Optional<Read<ToolProgram>>,
+                    Optional<Read<ContactPair<Contact>>>, Optional<Read<ContactSums<Contact>>>,
+                    Optional<Read<ContactPair<ToolContact>>>,
+                    Optional<Read<ContactSums<ToolContact>>>, Optional<Read<ToolProgram>>,
                     Write<Totals>);
 
 // ---- chunk by chunk: forces of the bodies -------------------------------------------------------

@@ -14,19 +14,11 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
                   Optional<Read<CurveVelocity>> velocity, Read<ToolPosition> tool_position,
                   Read<ToolVelocity> tool_velocity, Read<ToolNormal> tool_normal,
                   Write<ContactPair<ToolContact>> pair, Write<ContactReach<ToolContact>> reach,
-                  Read<ContactStiffness<ToolContact>> stiffness,
-                  Read<ContactWeight<ToolContact>> weight, Read<EdgeLength<ToolContact>> length,
-                  Write<PointForce<ToolContact>> force, Write<Penetration<ToolContact>> penetration,
-                  Write<ContactEnergy<ToolContact>> energy,
-                  Optional<Read<FrictionCoefficient<ToolContact>>> friction,
+                  Read<ContactLaw<ToolContact>> law, Write<PointForce<ToolContact>> force,
                   Optional<Write<ElasticSlip<ToolContact>>> elastic_slip,
-                  Optional<Write<FrictionWork<ToolContact>>> friction_work,
-                  Optional<Read<DampingCoefficient<ToolContact>>> damping,
-                  Optional<Write<DampingWork<ToolContact>>> damping_work,
-                  Optional<Read<ToolShapes>> shapes, Optional<Read<SurfaceRange>> range) {
-  const RowColumns<ToolContact> columns{
-      pair,   reach,    stiffness,    weight,        length,  force,       penetration,
-      energy, friction, elastic_slip, friction_work, damping, damping_work};
+                  Optional<Read<ToolShapes>> shapes, Optional<Read<SurfaceRange>> range,
+                  Write<ContactSums<ToolContact>> sums) {
+  const RowColumns<ToolContact> columns{pair, reach, law, force, elastic_slip};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
 
@@ -49,7 +41,7 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     }
     return m;
   };
-  const auto look_at = [&](const RowPair<ToolContact>& rows) {
+  const auto look_at = [&](const RowPair<ToolContact>& rows, BlockSums& block) {
     std::array<const Shape::Edge*, 2> edge;
     std::array<std::size_t, 2> first;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -67,7 +59,7 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     m.gap = select(low, m.gap, other.gap);
 
     unsigned touching = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < rows_in(rows); ++i) {
       const double deepest = greatest_of_half(m.gap, i);
       if (deepest > 0)
         touching |= 1U << i;
@@ -83,10 +75,10 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
       m.gap_rate = -(wx * m.nx + wy * m.ny);
       m.slip_rate = wy * m.nx - wx * m.ny;
     }
-    set_touching(columns, rows, touching, m, 1.0, clock->dt_before);
+    set_touching(columns, rows, touching, m, 1.0, clock->dt_before, block);
   };
   for_active_pairs<ToolContact>(
-      pair.rows(), [&](Row<ToolContact> row) { return clock->travel >= reach(row); },
+      pair.rows(), *sums, [&](Row<ToolContact> row) { return clock->travel >= reach(row); },
       [&](Row<ToolContact> row) { fetch(columns, row); }, [](Row<ToolContact>) {}, look_at);
 }
 

@@ -55,8 +55,7 @@ struct Asked {
 
 const Names plastic_columns{"plastic_metric",  "plastic_strain", "plastic_work",
                             "isochoric_scale", "yield_stress",   "hardening_modulus"};
-const Names friction_columns{"friction", "elastic_slip", "friction_work", "friction_couple"};
-const Names damping_columns{"damping", "damping_work"};
+const Names friction_columns{"elastic_slip", "friction_couple"};
 const Names contact_places{"contact", "tool_contact", "curve", "boundary", "tool"};
 const Names contact_systems{"tool_motion",   "bin_edges",     "bin_tool_edges", "skin_check",
                             "edge_contact",  "tool_contact",  "contact_totals", "contact_health",
@@ -92,20 +91,18 @@ TEST(Plan, PlasticSceneWithFrictionHasBoth) {
                                          "element/isochoric_scale", "particle/plastic_work",
                                          "particle/yield_stress", "particle/hardening_modulus"}));
   EXPECT_THAT(asked.called(friction_columns),
-              UnorderedElementsAreArray({"contact/friction", "contact/elastic_slip",
-                                         "contact/friction_work", "contact/friction_couple",
-                                         "tool_contact/friction", "tool_contact/elastic_slip",
-                                         "tool_contact/friction_work"}));
+              UnorderedElementsAreArray({"contact/elastic_slip", "contact/friction_couple",
+                                         "tool_contact/elastic_slip"}));
   EXPECT_THAT(asked.names, IsSupersetOf({"trial_stress", "j2_return_map", "plastic_work"}));
   EXPECT_THAT(asked.names, Not(Contains("elastic_stress")));
 }
 
-TEST(Plan, DampingColumnsOnlyWithDamping) {
-  EXPECT_THAT(Asked("compaction/regular-25.toml", {"contact.damping=0"}).called(damping_columns),
-              IsEmpty());
-  EXPECT_THAT(Asked("compaction/regular-25.toml").called(damping_columns),
-              UnorderedElementsAreArray({"contact/damping", "contact/damping_work",
-                                         "tool_contact/damping", "tool_contact/damping_work"}));
+// The coefficient lies with the other constants of a row: damping asks for the velocities and nothing else.
+TEST(Plan, DampingAsksForTheVelocitiesOfTheOutlineOnly) {
+  Names expected =
+      Asked("compaction/regular-25.toml", {"contact.friction=0", "contact.damping=0"}).columns;
+  expected.insert("curve/velocity");
+  EXPECT_EQ(Asked("compaction/regular-25.toml", {"contact.friction=0"}).columns, expected);
 }
 
 TEST(Plan, FreeParticleHasNoContact) {
