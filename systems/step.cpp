@@ -1,5 +1,6 @@
 #include "systems/step.hpp"
 
+#include "systems/highest_mode.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -52,6 +53,7 @@ StepList step_list_of(World& w) {
   move(true,      "integrate",        integrate);
   move(touching,  "contact_curve",    contact_curve);
   move(true,      "stable_time_step", stable_time_step<F::points>);
+  move(w.has<HighestMode>(), "highest_mode", highest_mode<F::points>);
   move(true,      "element_health",   element_health);
   move(true,      "advance_clock",    advance_clock);
   // clang-format on
@@ -70,6 +72,9 @@ std::vector<System> start_list(World& w) {
   start.push_back(w.has<DeviatoricStress<1>>()
                       ? make_system(w, "stable_time_step", stable_time_step<1>)
                       : make_system(w, "stable_time_step", stable_time_step<4>));
+  if (w.has<HighestMode>())
+    start.push_back(w.has<DeviatoricStress<1>>() ? make_system(w, "highest_mode", highest_mode<1>)
+                                                 : make_system(w, "highest_mode", highest_mode<4>));
   return start;
 }
 
