@@ -38,6 +38,7 @@ void guess(const Shape& shape, Lane* mode) {
 
 void add_highest_mode(World& world, const Bodies& bodies, const Needs& needs) {
   world.add<HighestMode>();
+  world.add<ModeGain>();
   auto& mode = world.column<HighestMode>();
   if (needs.contact()) world.add<ContactSupport>();
   for (std::int32_t c = 0; c < bodies.chunks(); ++c) {

@@ -1,11 +1,11 @@
 // highest_mode: the time step that each particle as a whole can stand, in place of its worst element's.
 //
-// Source   Power iteration on M^-1 K (Rayleigh quotient), as in Abaqus/Explicit's global estimator and
-//          Benson (1998), Comput. Methods Appl. Mech. Eng. 151. K of highest_mode_kernel.hpp at the
-//          current positions, with every edge of the outline in contact: none of it is softer than what
-//          the step integrates, so that contact may come and go between two looks. The quotient comes from
-//          below, hence a margin; the mode is followed from look to look, since it changes slowly. An
-//          element that grows fast on its own shortens its own bound at once, which caps the gain
+// Source   Power iteration on M^-1 K (Rayleigh quotient), the idea of Abaqus/Explicit's global estimator.
+//          K of highest_mode_kernel.hpp at the current positions, with every edge of the outline in
+//          contact: none of it is softer than what the step integrates, so that contact may come and go
+//          between two looks. The quotient comes from below, hence a margin. What is kept is the ratio to
+//          the elements' bound, which itself follows the geometry at every look; the mode changes slowly,
+//          an iteration every fourth look follows it
 // Runs     after stable_time_step, when that does
 // Active   where the scene says time.estimate = "highest-mode"
 #include "systems/highest_mode.hpp"
@@ -17,6 +17,7 @@ namespace pulvis {
 namespace {
 
 constexpr int first_iterations = 300;
+constexpr double looks_between_iterations = 4;
 constexpr double margin = 0.98;  // what 300 iterations leave of the frequency is half a percent
 constexpr double longest_gain = 1.3;  // over the elements' bound; undeformed discs reach 1.2
 
@@ -93,9 +94,16 @@ template <int Points>
                                    Read<Density> density, Read<DeviatoricStress<Points>> s,
                                    Optional<Read<ContactRules>> rules,
                                    Optional<Read<ContactSupport>> support, Write<HighestMode> mode,
-                                   Write<StableTimeStep> stable) {
+                                   Write<ModeGain> gain, Write<StableTimeStep> stable) {
   if (clock->step < clock->next_look) return;
+  const auto known = gain.chunk(chunk);
   const Row<Particle> particle;
+  Lane& step = stable.chunk(chunk)(particle);
+  if (clock->step > 0 && known(particle, 1)[0] < looks_between_iterations) {
+    known(particle, 1) += 1.0;
+    step *= known(particle, 0);
+    return;
+  }
   const Lane k = bulk.chunk(chunk)(particle);
   const double contact =
       rules ? (*rules)->stiffness * (clock->stiffening + 2 * (*rules)->damping) : 0;
@@ -108,9 +116,10 @@ template <int Points>
   Lane highest{};
   for (int i = 0; i < (clock->step == 0 ? first_iterations : 1); ++i)
     highest = iterate(body, mode.chunk(chunk));
-  Lane& step = stable.chunk(chunk)(particle);
   const Lane estimate = (2 * margin) * sqrt(density.chunk(chunk)(particle) / highest);
-  step = max(step, min(estimate, longest_gain * step));
+  known(particle, 0) = max(1.0, min(estimate / step, longest_gain));
+  known(particle, 1) = 1.0;
+  step *= known(particle, 0);
 }
 
 template decltype(highest_mode<1>) highest_mode<1>;

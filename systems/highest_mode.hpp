@@ -12,6 +12,6 @@ template <int Points>
 void highest_mode(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
                   Read<BulkModulus>, Read<Density>, Read<DeviatoricStress<Points>>,
                   Optional<Read<ContactRules>>, Optional<Read<ContactSupport>>, Write<HighestMode>,
-                  Write<StableTimeStep>);
+                  Write<ModeGain>, Write<StableTimeStep>);
 
 }  // namespace pulvis
