@@ -13,6 +13,7 @@
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 #include "scenes/grips.hpp"
+#include "scenes/highest_mode.hpp"
 #include "scenes/hilbert.hpp"
 #include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
@@ -373,6 +374,8 @@ std::unique_ptr<World> build_world(const Scene& scene) {
     index.skin = scene.contact.skin * shortest_edge(layout.bodies);
     index.neighbourhood = skins_of_neighbourhood * index.skin;
   }
+  if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
+    add_highest_mode(*world, layout.bodies, needs);
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);
   add_clock(*world, scene);

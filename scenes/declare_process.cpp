@@ -227,7 +227,18 @@ const TableDeclaration<TimeSpec>& time() {
          .range = between(0, 1),
          .fallback = value_of(0.9),
          .doc = "Share of the stable time step that is used."},
-        to(&TimeSpec::safety)}}};
+        to(&TimeSpec::safety)},
+       {{.name = "estimate",
+         .kind = Kind::choice,
+         .choices = {{"element", "that of the fastest element, as if it swung alone: a bound"},
+                     {"highest-mode",
+                      "that of each particle's fastest oscillation as a whole, followed by power "
+                      "iteration: up to a quarter longer"}},
+         .fallback = value_of("element"),
+         .doc = "What the stable time step is taken from."},
+        [](TimeSpec& spec, const Decoded& value) {
+          spec.estimate = static_cast<TimeSpec::Estimate>(value.index);
+        }}}};
   return declaration;
 }
 

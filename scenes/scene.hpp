@@ -166,7 +166,9 @@ struct ContactSpec {
 };
 
 struct TimeSpec {
+  enum class Estimate { element, highest_mode };
   double safety = 0.9;  // -, share of the stable time step that is used, in (0, 1)
+  Estimate estimate = Estimate::element;
 };
 
 struct ElementSpec {

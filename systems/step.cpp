@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/task_arena.h>
 
+#include "systems/highest_mode.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -40,6 +41,7 @@ StepList step_list_of(World& w) {
     force(plastic,  "j2_return_map",    j2_return_map<F>);
     force(true,     "internal_force",   internal_force<F>);
     force(true,     "stable_time_step", stable_time_step<F::points>);
+    force(w.has<HighestMode>(), "highest_mode", highest_mode<F::points>);
   };
 
   force(tools || grips, "tool_motion", tool_motion);
@@ -83,6 +85,9 @@ std::vector<System> start_list(World& w) {
   start.push_back(w.has<DeviatoricStress<1>>()
                       ? make_system(w, "stable_time_step", stable_time_step<1>)
                       : make_system(w, "stable_time_step", stable_time_step<4>));
+  if (w.has<HighestMode>())
+    start.push_back(w.has<DeviatoricStress<1>>() ? make_system(w, "highest_mode", highest_mode<1>)
+                                                 : make_system(w, "highest_mode", highest_mode<4>));
   return start;
 }
 

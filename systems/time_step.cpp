@@ -10,7 +10,7 @@
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "systems/contact_kernel.hpp"
-#include "systems/element_access.hpp"
+#include "systems/element_bound.hpp"
 #include "systems/systems.hpp"
 #include "systems/time_step_kernel.hpp"
 
@@ -20,28 +20,6 @@ namespace {
 // Geometry changes little in a step; where it does, at impact, the stable step is looked at more often.
 constexpr std::int64_t most_steps_between_looks = 8;
 constexpr double most_strain_between_looks = 0.01;
-
-// Largest norm of the deviatoric stress at the Gauss points of an element.
-template <int Points, class View>
-Lane largest_norm(const View& stress, Row<Element> e) {
-  Lane most{};
-  for (int g = 0; g < Points; ++g) {
-    const auto s = deviator(stress, e, g);
-    most = max(most, s.xx * s.xx + s.yy * s.yy + (s.xx + s.yy) * (s.xx + s.yy) + 2.0 * s.xy * s.xy);
-  }
-  return sqrt(most);
-}
-
-// A quad with a corner that closes swings faster there than its middle says: about by the square of how much
-// smaller the map is at that Gauss point, which bears a quarter of the energy (half, to be safe). One for all
-// elements that are not badly distorted; at most 9, so that a corner that is about to turn inside out does so
-// (and is named) instead of stopping the clock.
-Lane corner_factor(const kernels::QuadMap<Lane>& map) {
-  Lane least = determinant(map_gradient<4>(map, 0));
-  for (int g = 1; g < 4; ++g) least = min(least, determinant(map_gradient<4>(map, g)));
-  const Lane ratio = determinant(map_gradient<1>(map, 0)) / max(least, 1e-300);
-  return min(max(1.0, 0.5 * ratio * ratio), 9.0);
-}
 
 }  // namespace
 

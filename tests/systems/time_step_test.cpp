@@ -32,6 +32,14 @@ class LoneParticle {
   double position(Eigen::Index i) const { return world_->column<Position>().lanes()[i][0]; }
   void put(Eigen::Index i, double x) { world_->column<Position>().lanes()[i][0] = x; }
 
+  void deform(const Eigen::Matrix2d& stretch) {
+    for (Eigen::Index n = 0; n < unknowns(); n += 2) {
+      const Eigen::Vector2d x = stretch * Eigen::Vector2d(position(n), position(n + 1));
+      put(n, x[0]);
+      put(n + 1, x[1]);
+    }
+  }
+
   Eigen::VectorXd force() {
     forces_->run();
     Eigen::VectorXd f(unknowns());
@@ -73,11 +81,7 @@ class LoneParticle {
 void expect_bound(const Outline& outline, const MeshSpec& mesh, double nu, double at_least,
                   const Eigen::Matrix2d& stretch = Eigen::Matrix2d::Identity()) {
   LoneParticle p(one_particle(outline, mesh, nu));
-  for (Eigen::Index n = 0; n < p.unknowns(); n += 2) {
-    const Eigen::Vector2d x = stretch * Eigen::Vector2d(p.position(n), p.position(n + 1));
-    p.put(n, x[0]);
-    p.put(n + 1, x[1]);
-  }
+  p.deform(stretch);
   const double share = p.stable_step() * p.highest_frequency() / 2;
   EXPECT_LE(share, 1 + 1e-6);
   EXPECT_GE(share, at_least);
@@ -113,6 +117,50 @@ TEST(StableTimeStep, HoldsForStrainedParticles) {
     expect_bound(DiscOutline{1}, DiscMesh{24, 1, 1}, 0.3, 0.6, f);
     expect_bound(RectangleOutline{1, 1}, RectangleMesh{2, 2}, 0.3, 0.6, f);
   }
+}
+
+// The estimate of the whole particle: below the exact limit too, and nearer to it than the elements' bound.
+void expect_estimate(const Outline& outline, const MeshSpec& mesh, double nu,
+                     ElementSpec::Formulation formulation, double at_least,
+                     const Eigen::Matrix2d& stretch = Eigen::Matrix2d::Identity()) {
+  Scene scene = one_particle(outline, mesh, nu);
+  scene.element.formulation = formulation;
+  LoneParticle bounded(scene);
+  scene.time.estimate = TimeSpec::Estimate::highest_mode;
+  LoneParticle p(scene);
+  for (LoneParticle* of : {&bounded, &p}) of->deform(stretch);
+  const double limit = 2 / p.highest_frequency();
+  const double step = p.stable_step();
+  EXPECT_LE(step, limit);
+  EXPECT_GE(step, at_least * limit);
+  EXPECT_GE(step, bounded.stable_step());
+}
+
+constexpr auto four_point = ElementSpec::Formulation::four_point;
+constexpr auto one_point = ElementSpec::Formulation::one_point;
+constexpr auto standard = ElementSpec::Formulation::standard;
+
+TEST(HighestMode, StepOfAWholeParticleIsWithinFourPercent) {
+  DiscMesh coarse{48, 0, 1};
+  coarse.core = DiscMesh::Core::coarse;
+  for (const double nu : {0.0, 0.3})
+    for (const auto formulation : {one_point, four_point, standard}) {
+      expect_estimate(DiscOutline{1}, DiscMesh{24, 1, 1}, nu, formulation, 0.96);
+      expect_estimate(DiscOutline{1}, coarse, nu, formulation, 0.94);
+      expect_estimate(RectangleOutline{2, 1}, RectangleMesh{6, 3}, nu, formulation, 0.96);
+    }
+}
+
+TEST(HighestMode, IsSafeForStrainedParticles) {
+  Eigen::Matrix2d squeezed, sheared, swollen;
+  squeezed << 1.2, 0, 0, 0.6;
+  sheared << 1, 0.5, 0, 0.9;
+  swollen << 1.2, 0, 0, 1.2;
+  for (const auto& f : {squeezed, sheared, swollen})
+    for (const auto formulation : {one_point, four_point, standard}) {
+      expect_estimate(DiscOutline{1}, DiscMesh{24, 1, 1}, 0.3, formulation, 0.6, f);
+      expect_estimate(RectangleOutline{1, 1}, RectangleMesh{2, 2}, 0.3, formulation, 0.6, f);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+// Columns of the estimate of each particle's highest frequency (systems/highest_mode): there are none unless
+// the scene takes its time step from it.
+#pragma once
+
+#include "components/places.hpp"
+
+namespace pulvis {
+
+struct HighestMode : Component<Node, double, 4> {
+  static constexpr ComponentInfo info{
+      "highest_mode", "-", "fastest oscillation as known so far, x y; room for the elastic forces"};
+};
+struct ModeGain : Component<Particle, double, 2> {
+  static constexpr ComponentInfo info{
+      "mode_gain", "-", "stable step over its elements' bound; looks since that was determined"};
+};
+struct ContactSupport : Component<BoundaryNode, double, 1> {
+  static constexpr ComponentInfo info{"contact_support", "-",
+                                      "spring over k K of a node whose edges are all in contact"};
+};
+
+}  // namespace pulvis
