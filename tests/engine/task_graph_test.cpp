@@ -213,6 +213,55 @@ TEST_F(TaskGraphTest, ExceptionOfASystemComesOutOfRunAndStopsWhatFollows) {
   EXPECT_FALSE(went_on);
 }
 
+// ---- transient components -----------------------------------------------------------------------
+void leave(Chunk c, Write<Passing> passing) {
+  passing.chunk(c)(Row<Cell>(0)) = Lane(c.index + 1.0);
+}
+void take(Chunk c, Read<Passing> passing, Write<Heat> heat) {
+  heat.chunk(c)(Row<Cell>(0), 0) = passing.chunk(c)(Row<Cell>(0));
+}
+void look(Read<Passing>) {}
+
+TEST(Transients, AreDroppedOnlyWhereOnePassTouchesThem) {
+  World world;
+  world.add_table<Cell>({1, 1});
+  world.add<Passing>();
+  world.add<Heat>();
+  const System left = make_system(world, "leave", leave), taken = make_system(world, "take", take);
+  const System looked = make_system(world, "look", look);
+  EXPECT_THAT(droppable_components({left, taken}), ElementsAre(type_key<Passing>()));
+  EXPECT_THAT(droppable_components({taken, left}), ElementsAre());          // read first
+  EXPECT_THAT(droppable_components({left, looked, taken}), ElementsAre());  // two passes
+  EXPECT_THAT(droppable_components({left, taken, looked}), ElementsAre());  // read later
+}
+
+TEST(Transients, ReachTheNextSystemOfThePassAndLeaveTheColumnAlone) {
+  World world;
+  world.add_table<Cell>(std::vector<std::int32_t>(chunks, 1));
+  world.add<Passing>();
+  world.add<Heat>();
+  const std::vector<System> systems{make_system(world, "leave", leave),
+                                    make_system(world, "take", take)};
+  Workers workers(3);
+  const auto heat = [&](int chunk) {
+    return Read<Heat>(world).chunk(Chunk{chunk})(Row<Cell>(0), 0)[5];
+  };
+  const auto kept = [&](int chunk) {
+    return Read<Passing>(world).chunk(Chunk{chunk})(Row<Cell>(0))[5];
+  };
+  workers.run([&] {
+    world.allocate_transient(droppable_components(systems), 3);
+    TaskGraph dropping(systems, chunks, Transients::dropped);
+    for (int i = 0; i < 20; ++i) dropping.run();
+  });
+  for (int c = 0; c < chunks; ++c) {
+    EXPECT_EQ(heat(c), c + 1.0);
+    EXPECT_EQ(kept(c), 0);
+  }
+  workers.run([&] { TaskGraph(systems, chunks).run(); });
+  for (int c = 0; c < chunks; ++c) EXPECT_EQ(kept(c), c + 1.0);
+}
+
 TEST_F(TaskGraphTest, GraphStillRunsAfterBeingMoved) {
   std::atomic<int> calls = 0;
   System system = world_system<Write<Force>>("count");

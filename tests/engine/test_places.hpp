@@ -24,6 +24,10 @@ struct Heat : Component<Cell, double, 2> {
 struct Flux : Component<Cell, double, 1> {
   static constexpr ComponentInfo info{"flux", "W", "into a cell"};
 };
+struct Passing : Component<Cell, double, 1> {
+  static constexpr ComponentInfo info{"passing", "J", "left by one system for the next"};
+  static constexpr bool transient = true;
+};
 struct Weight : Component<Bead, double, 1> {
   static constexpr ComponentInfo info{"weight", "N", "of a bead"};
 };
