@@ -7,15 +7,15 @@
 namespace pulvis {
 namespace {
 
-constexpr std::size_t huge_page = std::size_t{2} << 20;
+constexpr std::size_t huge_page = std::size_t{2} << 20, least_in_huge_pages = huge_page / 4;
 
 }  // namespace
 
 Buffer::Buffer(std::size_t bytes) : bytes_(bytes) {
   // A little more than asked for, so that an empty table still has an address to point at.
-  const std::size_t rounded = (bytes + 64) / 64 * 64;
-  const bool huge = rounded >= huge_page;
-  const std::align_val_t alignment{huge ? huge_page : 64};
+  const bool huge = bytes >= least_in_huge_pages;
+  const std::size_t unit = huge ? huge_page : 64, rounded = (bytes + unit) / unit * unit;
+  const std::align_val_t alignment{unit};
   data_ = decltype(data_)(static_cast<std::byte*>(::operator new[](rounded, alignment)),
                           AlignedDelete{alignment});
   // Large columns are walked from end to end: fewer pages, fewer misses. Advice, so failing is no error.

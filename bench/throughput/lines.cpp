@@ -63,17 +63,23 @@ class SplitStep {
 class TimedSystems {
  public:
   explicit TimedSystems(World& world)
-      : chunks_(world.chunks()), systems_(all_systems(world)), seconds_(systems_.size()) {}
+      : chunks_(world.chunks()), systems_(all_systems(world)), seconds_(systems_.size()) {
+    world.allocate_transient(droppable_components(systems_), 1);
+  }
 
   void run() {
     for (std::size_t first = 0, last; first < systems_.size(); first = last) {
       const bool by_chunk = systems_[first].by_chunk;
       for (last = first + 1; by_chunk && last < systems_.size() && systems_[last].by_chunk;) ++last;
       for (int chunk = 0; chunk < (by_chunk ? chunks_ : 1); ++chunk)
-        run_fused(first, last, Chunk{chunk});
+        run_fused(first, last, Chunk{chunk, 0});
     }
   }
-  const std::vector<double>& seconds() const { return seconds_; }
+  std::map<std::string, double> seconds() const {
+    std::map<std::string, double> by_name;
+    for (std::size_t s = 0; s < systems_.size(); ++s) by_name[systems_[s].name] += seconds_[s];
+    return by_name;
+  }
 
  private:
   void run_fused(std::size_t first, std::size_t last, Chunk chunk) {
@@ -136,8 +142,8 @@ double graph_seconds(State& state, int threads) {
   return seconds;
 }
 
-std::vector<double> system_seconds(State& state) {
-  std::vector<double> seconds;
+std::map<std::string, double> system_seconds(State& state) {
+  std::map<std::string, double> seconds;
   Workers(1).run([&] {
     TimedSystems step(state.world());
     for (int i = 0; i < state.of().batch; ++i) step.run();
@@ -176,11 +182,14 @@ double bytes_a_step(World& world) {
   std::map<std::string, double> bytes;
   for (const ColumnBase* column : world.columns())
     bytes[column->place + "/" + column->info.name] = static_cast<double>(column->bytes());
+  const std::vector<System> systems = all_systems(world);
+  const std::vector<TypeKey> in_cache = droppable_components(systems);
   double sum = 0;
-  for (const StagePlan& stage : derive_plan(all_systems(world)).stages)
+  for (const StagePlan& stage : derive_plan(systems).stages)
     for (const AccessInfo& access : stage.accesses) {
       const auto column = bytes.find(access.name);
-      if (column == bytes.end()) continue;
+      if (column == bytes.end() || std::ranges::find(in_cache, access.key) != in_cache.end())
+        continue;
       sum += column->second * (access.mode == AccessMode::write ? 2 : 1);
     }
   return sum;

@@ -2,6 +2,7 @@
 // returns seconds of one batch of steps.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,9 @@ double graph_seconds(State& state, int threads);
 
 // Every system at its place between the others, on one thread; systems that a run fuses chunk by chunk are
 // fused here too. The clock is read once a system and chunk, so the sum is a few percent above a step's.
-std::vector<double> system_seconds(State& state);
+std::map<std::string, double> system_seconds(State& state);
 
-// Names for system_seconds, in its order.
+// Names for system_seconds, in the order of the step.
 std::vector<std::string> system_names(World& world);
 
 // Share of the stress points that flow plastically in the next step, which it runs.

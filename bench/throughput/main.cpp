@@ -12,7 +12,6 @@
 #include <functional>
 #include <iostream>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <thread>
 
@@ -97,13 +96,15 @@ void add_times(const Case& c, int threads) {
 
 // All systems of a round are timed by the first of their lines.
 void add_systems(const Case& c, const std::vector<std::string>& names) {
-  const auto seconds = std::make_shared<std::vector<double>>();
+  const auto seconds = std::make_shared<std::map<std::string, double>>();
   for (std::size_t s = 0; s < names.size(); ++s)
-    add(fmt::format("{}/system/{}/threads:1", c.name, names[s]), [&c, seconds, s] {
+    add(fmt::format("{}/system/{}/threads:1", c.name, names[s]), [&c, seconds, s, name = names[s]] {
       State& state = state_of(c);
       if (s == 0 || seconds->empty()) *seconds = system_seconds(state);
-      Line line = time_line(state, (*seconds)[s]);
-      line.share = (*seconds)[s] / std::accumulate(seconds->begin(), seconds->end(), 0.0);
+      Line line = time_line(state, seconds->at(name));
+      double all = 0;
+      for (const auto& [system, its] : *seconds) all += its;
+      line.share = seconds->at(name) / all;
       return line;
     });
 }
