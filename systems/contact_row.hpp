@@ -161,7 +161,7 @@ void fetch(const RowColumns<At>& c, Row<At> row) {
 template <class At, class Active, class Fetch, class FetchOther, class LookAt>
 void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, const Fetch& fetch,
                       const FetchOther& fetch_other, const LookAt& look_at) {
-  constexpr std::size_t rows_before = 16, rows_before_other = 8;
+  constexpr std::size_t rows_before = 24, rows_before_other = 12;
   const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
   sums.blocks.resize(static_cast<std::size_t>(blocks));
   tbb::parallel_for(0, blocks, [&](int block) {

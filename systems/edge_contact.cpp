@@ -243,15 +243,18 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
         __builtin_prefetch(&closest(row));
         if (couple) __builtin_prefetch(&(*couple)(row));
       },
-      [&](Row<Contact> row) {  // the other outline, where it was met last
-        const int partner = pair(row, 2);
-        const std::size_t at =
-            first_control(partner) + 2 * static_cast<std::size_t>(closest(row, 1));
-        __builtin_prefetch(points + at);
-        __builtin_prefetch(points + at + 8);
-        if (rates == nullptr) return;
-        __builtin_prefetch(rates + at);
-        __builtin_prefetch(rates + at + 8);
+      [&](Row<Contact> row) {  // both outlines, the other where it was met last
+        const std::size_t other =
+            first_control(pair(row, 2)) + 2 * static_cast<std::size_t>(closest(row, 1));
+        const std::size_t own =
+            first_control(pair(row, 0)) + 2 * static_cast<std::size_t>(pair(row, 1));
+        for (const double* list : {points, rates}) {
+          if (list == nullptr) continue;
+          for (const std::size_t at : {other, own}) {
+            __builtin_prefetch(list + at);
+            __builtin_prefetch(list + at + 8);
+          }
+        }
       },
       look_at);
 }
