@@ -11,8 +11,6 @@
 
 namespace pulvis {
 
-// Steps between two looks at the elements' frequencies: geometry changes by parts in 1e4 in a step.
-
 // ---- tools and binning ------------------------------------------------------------------------
 void tool_motion(Read<Clock>, Read<ToolProgram>, Write<ToolPosition>, Write<ToolVelocity>);
 void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<ToolPosition>>,
