@@ -1,5 +1,7 @@
 #include "scenes/outline.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace pulvis {
@@ -27,6 +29,26 @@ double area_of(const RingOutline& o) {
 
 RoundedBox rounded_box(const Outline& outline) {
   return std::visit([](const auto& o) { return box_of(o); }, outline);
+}
+
+std::vector<Vec2> outline_polygon(const Outline& outline, double deviation) {
+  const RoundedBox box = rounded_box(outline);
+  // The sagitta of a chord over the angle 2 a is r (1 - cos a).
+  const double share = std::clamp(deviation / std::max(box.radius, deviation), 0.0, 1.0);
+  const int chords =
+      box.radius > 0 ? static_cast<int>(std::ceil(pi / 4 / std::acos(1 - share))) : 0;
+  std::vector<Vec2> points;
+  for (int corner = 0; corner < 4; ++corner) {
+    const Vec2 centre(corner % 3 == 0 ? box.half.x() : -box.half.x(),
+                      corner < 2 ? box.half.y() : -box.half.y());
+    // Where the box has no size along a side, the arc after it starts where this one ends.
+    const bool meets_next = chords > 0 && (corner % 2 == 0 ? box.half.x() : box.half.y()) == 0;
+    for (int i = 0; i <= chords - (meets_next ? 1 : 0); ++i) {
+      const double angle = pi / 2 * (corner + (chords > 0 ? static_cast<double>(i) / chords : 0));
+      points.push_back(centre + box.radius * Vec2(std::cos(angle), std::sin(angle)));
+    }
+  }
+  return points;
 }
 
 double outline_area(const Outline& outline) {

@@ -3,6 +3,8 @@
 
 #include "scenes/scene.hpp"
 
+#include <vector>
+
 namespace pulvis {
 
 // All points within `radius` of a box about the origin, with the outline's own axes. Every outline fills
@@ -12,6 +14,10 @@ struct RoundedBox {
   double radius;
 };
 RoundedBox rounded_box(const Outline& outline);
+
+// Corners of a polygon inscribed in the outline, counter-clockwise, whose sides leave it by at most
+// `deviation` (m, > 0). Of a ring its outer circle.
+std::vector<Vec2> outline_polygon(const Outline& outline, double deviation);
 
 double outline_area(const Outline& outline);  // m^2, of the material inside
 
