@@ -16,6 +16,8 @@
 namespace pulvis {
 namespace {
 
+double length_of(const Point& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1]); }
+
 kernels::Cubic<double> cubic_of(const double* control, int axis) {
   return kernels::cubic(control[axis], control[2 + axis], control[4 + axis], control[6 + axis]);
 }
@@ -27,8 +29,8 @@ struct Curve {
   Point slope(double u) const { return {x.slope(u), y.slope(u)}; }
   Point normal(double u) const {  // outward
     const Point s = slope(u);
-    const double length = std::hypot(s[0], s[1]);
-    return {s[1] / length, -s[0] / length};
+    const double over_length = 1 / length_of(s);
+    return {s[1] * over_length, -s[0] * over_length};
   }
 };
 
@@ -56,7 +58,7 @@ struct Gathered {
 
   // `force` on the sampled side, `normal` into it; `side` -1 where that is the link's second particle.
   void add(const Point& at, const Point& normal, const Point& force, double length, double side) {
-    const double size = std::hypot(force[0], force[1]);
+    const double size = length_of(force);
     const double push = force[0] * normal[0] + force[1] * normal[1];
     weight += size;
     link.length += length;
@@ -68,7 +70,7 @@ struct Gathered {
   }
   ContactLink finished(double sides) const {
     ContactLink done = link;
-    const double push = std::hypot(link.normal[0], link.normal[1]);
+    const double push = length_of(link.normal);
     for (std::size_t k = 0; k < 2; ++k) {
       done.point[k] /= weight;
       done.normal[k] /= push;
@@ -109,7 +111,7 @@ void add_points(const Curve& sampled, const Read<PointForce<At>>& force, Row<At>
     const Point f{force(row, 2 * g), force(row, 2 * g + 1)};
     if (f[0] == 0 && f[1] == 0) continue;
     const Point at = sampled.value(kernels::edge_u[g]), along = sampled.slope(kernels::edge_u[g]);
-    const double length = kernels::edge_w[g] * std::hypot(along[0], along[1]);
+    const double length = kernels::edge_w[g] * length_of(along);
     contact.add(at, normal_at(at, g), f, length, side);
   }
 }

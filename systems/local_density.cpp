@@ -68,14 +68,15 @@ class Grid {
     }
     cell_ = {(grid.side[Side::right] - grid.side[Side::left]) / grid.columns,
              (grid.side[Side::top] - grid.side[Side::bottom]) / grid.rows};
+    over_ = {1 / cell_[0], 1 / cell_[1]};
   }
 
   double cell_area() const { return cell_[0] * cell_[1]; }
 
   void add_edge(kernels::CellAreas& areas, const Point& a, const Point& b, double weight) const {
     const double x0 = grid_.side[Side::left], y0 = grid_.side[Side::bottom];
-    areas.add_edge((a[0] - x0) / cell_[0], (a[1] - y0) / cell_[1], (b[0] - x0) / cell_[0],
-                   (b[1] - y0) / cell_[1], weight);
+    areas.add_edge((a[0] - x0) * over_[0], (a[1] - y0) * over_[1], (b[0] - x0) * over_[0],
+                   (b[1] - y0) * over_[1], weight);
   }
 
   // The body of a polyline tool, to the right of its chain: closed far outside of the grid.
@@ -98,7 +99,7 @@ class Grid {
 
   DensityGrid& grid_;
   std::array<Point, 4> tool_{};
-  Point cell_{};
+  Point cell_{}, over_{};  // m, 1/m
   double far_ = 0;
 };
 
