@@ -2,12 +2,13 @@
 "use strict";
 
 // A canvas in a card of its own; `shape`: height over width of what draw(ctx, width, height) draws.
+// Returns what paints it: the card has its width when all of them stand.
 function figureCard(title, note, shape, draw) {
   const canvas = element("canvas", {className: "figure"}), host = card(title);
   host.append(canvas, element("p", {className: "note", textContent: note}));
-  const paint = () => {
+  return () => {
     const ratio = devicePixelRatio || 1, width = host.clientWidth;
-    const height = Math.min(Math.max(shape * width, 160), 480);
+    const height = Math.min(Math.max(shape * width, 160), 400);
     canvas.style.height = height + "px";
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
@@ -16,7 +17,6 @@ function figureCard(title, note, shape, draw) {
     ctx.font = "12px sans-serif";
     draw(ctx, width, height);
   };
-  new ResizeObserver(paint).observe(host);
 }
 
 // From metres to the canvas, as large as it fits, in the middle: (x, y) => [px, py].
@@ -45,18 +45,59 @@ function drawCells(ctx, width, height, {cells, x, y}) {
   });
 }
 
-function showDensity(density) {
-  const {cells, profile, x, y} = density, known = cells.filter(value => value !== null);
+// Steps, one a row of cells; at least a hundredth wide, so that round-off does not look like a profile.
+function drawProfile(ctx, width, height, {profile, y}) {
+  const known = profile.filter(value => value !== null);
+  const middle = (Math.min(...known) + Math.max(...known)) / 2;
+  const half = Math.max(0.005, 0.55 * (Math.max(...known) - Math.min(...known)));
+  const low = middle - half, high = middle + half, unit = unitFor("m", y.at(-1) - y[0]);
+  const left = 52, base = height - 40, top = 8, right = width - 14;
+  const px = value => left + (value - low) / (high - low) * (right - left);
+  const py = value => base - (value - y[0]) / (y.at(-1) - y[0]) * (base - top);
+  ctx.strokeStyle = "#e8ecf1";
+  ctx.fillStyle = "#5b6775";
+  const line = (x0, y0, x1, y1) => {
+    ctx.beginPath();
+    ctx.moveTo(x0, y0);
+    ctx.lineTo(x1, y1);
+    ctx.stroke();
+  };
+  ctx.textAlign = "center";
+  for (const tick of niceTicks(low, high, 5)) {
+    line(px(tick), top, px(tick), base);
+    ctx.fillText(digits(tick), px(tick), base + 16);
+  }
+  ctx.fillText("relative density", (left + right) / 2, base + 34);
+  ctx.textAlign = "right";
+  for (const tick of niceTicks(y[0] * unit.factor, y.at(-1) * unit.factor, 6)) {
+    line(left, py(tick / unit.factor), right, py(tick / unit.factor));
+    ctx.fillText(digits(tick), left - 6, py(tick / unit.factor) + 4);
+  }
+  ctx.save();
+  ctx.translate(14, (top + base) / 2);
+  ctx.rotate(-Math.PI / 2);
+  ctx.textAlign = "center";
+  ctx.fillText(labelled("height", unit.label), 0, 0);
+  ctx.restore();
+  ctx.strokeStyle = COLOURS[0];
+  ctx.lineWidth = 2;
+  ctx.beginPath();
+  profile.forEach((value, j) => {
+    if (value === null) return;
+    j && profile[j - 1] !== null ? ctx.lineTo(px(value), py(y[j])) : ctx.moveTo(px(value), py(y[j]));
+    ctx.lineTo(px(value), py(y[j + 1]));
+  });
+  ctx.stroke();
+}
+
+function placeDensity(density) {
+  const {cells, x, y} = density, known = cells.filter(value => value !== null);
   const note = `From ${digits(Math.min(...known))} to ${digits(Math.max(...known))} in ` +
     `${x.length - 1} × ${y.length - 1} cells between the tools, in the last frame.`;
-  figureCard("Local relative density", note, (y.at(-1) - y[0]) / (x.at(-1) - x[0]),
-             (ctx, width, height) => drawCells(ctx, width, height, density));
-  const rows = profile.map((value, j) => [value, (y[j] + y[j + 1]) / 2])
-    .filter(([value]) => value !== null);
-  if (rows.length < 2) return;
-  const xs = {label: "relative density", unit: "-", values: rows.map(row => row[0])};
-  drawChart(card("Relative density along the height"),
-            {x: xs, y: "height", lines: [{label: "height", unit: "m", values: rows.map(r => r[1])}]});
+  return [figureCard("Local relative density", note, (y.at(-1) - y[0]) / (x.at(-1) - x[0]),
+                     (ctx, width, height) => drawCells(ctx, width, height, density)),
+          figureCard("Relative density along the height", "Of every row of cells, in the last frame.",
+                     0.75, (ctx, width, height) => drawProfile(ctx, width, height, density))];
 }
 
 // lines: x, y of both ends and the force, five numbers each.
@@ -108,19 +149,23 @@ function drawRose(ctx, width, height, {number, force}) {
   petals(number, null, "#d55e00");
 }
 
-async function showNetwork(network) {
+async function placeNetwork(network) {
   const lines = await floats("network");
-  if (!lines.length) return;
+  if (!lines.length) return [];
   const most = withUnit(largest(lines.filter((_, i) => i % 5 === 4)), network.unit);
-  figureCard("Contact forces", "Lines join the centres of particles that touch, and lead to the " +
-             `tools; as wide as the normal force. Largest: ${most}. Last frame.`, 1,
-             (ctx, width, height) => drawNetwork(ctx, width, height, lines));
-  figureCard("Directions of the contact normals", "Between particles. Filled: shares of the normal " +
-             "force; outlined: shares of the number. Last frame.", 1,
-             (ctx, width, height) => drawRose(ctx, width, height, network));
+  return [
+    figureCard("Contact forces", "Lines join the centres of particles that touch, and lead to the " +
+               `tools; as wide as the normal force. Largest: ${most}. Last frame.`, 0.9,
+               (ctx, width, height) => drawNetwork(ctx, width, height, lines)),
+    figureCard("Directions of the contact normals", "Between particles. Filled: shares of the " +
+               "normal force; outlined: shares of the number. Last frame.", 0.9,
+               (ctx, width, height) => drawRose(ctx, width, height, network))];
 }
 
 async function showObserved(head) {
-  if (head.density) showDensity(head.density);
-  if (head.network) await showNetwork(head.network);
+  const figures = [...(head.density ? placeDensity(head.density) : []),
+                   ...(head.network ? await placeNetwork(head.network) : [])];
+  const paint = () => figures.forEach(figure => figure());
+  paint();
+  addEventListener("resize", paint);
 }

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "components/observed.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
