@@ -66,14 +66,14 @@ def density_profile(run, options):
     frame = recorded(run, options, "density_profile")
     if frame is None or len(frame["density_profile"]) < 2:
         return None
-    figure, axes = plt.subplots(figsize=(5, 4.2), constrained_layout=True)
+    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
     for frame in chosen_frames(run, options):
         lines = 1e3 * frame["density_grid/y"][()]
         values = frame["density_profile"][()]
         axes.plot(np.repeat(values, 2), np.repeat(lines, 2)[1:-1], label=f"t = {when(frame)}")
     axes.set(xlabel="relative density", ylabel="y [mm]")
     axes.set_title(f"Relative density along the height\n{run.title}", loc="left")
-    axes.legend()
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
     return figure
 
 
