@@ -33,7 +33,7 @@ def draw_map(axes, frame, low, high):
     x, y = 1e3 * frame["density_grid/x"][()], 1e3 * frame["density_grid/y"][()]
     mesh = axes.pcolormesh(x, y, density, cmap="viridis", vmin=low, vmax=high, edgecolors="white",
                            linewidth=0.5)
-    if density.shape[1] <= 10:
+    if density.shape[1] <= 8:
         for (j, i), value in np.ndenumerate(density):
             if np.isfinite(value):
                 dark = (value - low) / (high - low) > 0.6

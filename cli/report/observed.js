@@ -30,7 +30,7 @@ function drawCells(ctx, width, height, {cells, x, y}) {
   const at = fitting([x[0], x.at(-1)], [y[0], y.at(-1)], width, height, 2);
   const known = cells.filter(value => value !== null);
   const low = Math.min(...known), high = Math.max(...known);
-  const columns = x.length - 1, written = columns <= 10;
+  const columns = x.length - 1, written = columns <= 8;
   ctx.textAlign = "center";
   ctx.textBaseline = "middle";
   cells.forEach((value, c) => {
