@@ -53,7 +53,7 @@ std::string part(std::string_view name, const ReportData& data) {
   if (name == "licence") return escaped(report_asset("uPlot.LICENSE"));
   if (name == "script") {
     return joined({"uPlot.iife.min.js", "units.js", "payload.js", "summary.js", "charts.js",
-                   "picture.js", "report.js"});
+                   "picture.js", "observed.js", "report.js"});
   }
   return carried(data);
 }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cli/report_encoding.hpp"
+#include "cli/report_observed.hpp"
 #include "engine/hdf5.hpp"
 
 namespace pulvis {
@@ -61,6 +62,7 @@ class Reader {
     find_ranges();
     for (std::size_t i = 0; i < frames_.size(); ++i) add_frame(i);
     describe_fields();
+    if (!frames_.empty()) add_observed(file_, frame_path(frames_.back()), head_, sections_);
     return {title_, head_.dump(-1, ' ', false, Json::error_handler_t::replace),
             std::move(sections_)};
   }
@@ -149,7 +151,8 @@ class Reader {
   }
 
   bool is_of_cells(const std::string& dataset) const {
-    return file_.text_attribute(dataset, "place") == "cell";
+    return file_.has_attribute(dataset, "place") &&
+           file_.text_attribute(dataset, "place") == "cell";
   }
 
   void choose_fields() {

@@ -14,7 +14,8 @@ struct SeriesInfo {     // one series of the history: a number a sample
   std::string meaning;  // a line for the reader
 };
 
-enum class FieldPlace { node, cell, particle };
+// `list`: rows of their own, as many as there are at that time.
+enum class FieldPlace { node, cell, particle, list };
 
 struct FieldInfo {  // one field of the frames: `components` numbers a place
   std::string name;
@@ -22,6 +23,7 @@ struct FieldInfo {  // one field of the frames: `components` numbers a place
   std::string meaning;
   FieldPlace place = FieldPlace::cell;
   int components = 1;
+  bool whole = false;  // whole numbers, and stored as such
 };
 
 struct RunMesh {                            // fixed over the run

@@ -30,6 +30,7 @@ void check_fields(const std::vector<FieldInfo>& fields) {
 
 const char* name_of(FieldPlace place) {
   if (place == FieldPlace::node) return "node";
+  if (place == FieldPlace::list) return "list";
   return place == FieldPlace::cell ? "cell" : "particle";
 }
 
@@ -155,13 +156,15 @@ void Recorder::write_field(const std::string& group, const FieldInfo& field,
                            const std::vector<double>& values) {
   const auto columns = static_cast<std::uint64_t>(field.components);
   const std::uint64_t rows = values.size() / columns;
-  const bool fits =
-      field.place == FieldPlace::particle || rows == places_[static_cast<std::size_t>(field.place)];
+  const bool fixed = is_of_mesh(field);
+  const bool fits = !fixed || rows == places_[static_cast<std::size_t>(field.place)];
   require(fits && rows * columns == values.size(), "field " + field.name + " has a wrong length");
   const auto stored = static_cast<std::uint64_t>(stored_components(field));
   const std::string dataset = group + "/" + field.name;
   const hdf5::Shape shape = stored == 1 ? hdf5::Shape{rows} : hdf5::Shape{rows, stored};
-  if (stored == columns) {
+  if (field.whole) {
+    file_.write(dataset, std::vector<std::int32_t>(values.begin(), values.end()), shape);
+  } else if (stored == columns) {
     file_.write(dataset, values, shape);
   } else {
     file_.write(dataset, with_zero_third(values), shape);

@@ -7,9 +7,9 @@
 //        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
 //                               complete = 1, written last: a frame without it is not to be read
 //        /history/<name>        one 1-D dataset a series; /history/time
-// Every dataset has the attributes unit and meaning, a field also place (node, cell, particle) and
-// components. A field of two components is stored with a third one of zeros, because XDMF has no
-// plane vectors (components = 2 tells); `position` is not.
+// Every dataset has the attributes unit and meaning, a field also place (node, cell, particle, list) and
+// components. A field of nodes or cells with two components is stored with a third one of zeros, because
+// XDMF has no plane vectors (components = 2 tells); `position` is not. XDMF shows these fields only.
 //
 // After frame() returns, the frame and every sample before it are on the disk: a killed run loses
 // only what came later. All failures of the machine are OutputError.

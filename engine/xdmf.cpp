@@ -37,16 +37,20 @@ const char* attribute_type(int components) {
 
 }  // namespace
 
+bool is_of_mesh(const FieldInfo& field) {
+  return field.place == FieldPlace::node || field.place == FieldPlace::cell;
+}
+
 int stored_components(const FieldInfo& field) {
-  return field.components == 2 && field.name != "position" ? 3 : field.components;
+  const bool vector = field.components == 2 && field.name != "position";
+  return vector && is_of_mesh(field) ? 3 : field.components;
 }
 
 Xdmf::Xdmf(std::filesystem::path path, std::string heavy, std::uint64_t nodes, std::uint64_t cells,
            const std::vector<FieldInfo>& fields)
     : path_(std::move(path)), heavy_(std::move(heavy)), nodes_(nodes), cells_(cells) {
   for (const auto& field : fields) {
-    const bool drawn = field.place != FieldPlace::particle && field.name != "position";
-    if (drawn) fields_.push_back(field);
+    if (is_of_mesh(field) && field.name != "position") fields_.push_back(field);
   }
 }
 

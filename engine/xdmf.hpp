@@ -36,6 +36,8 @@ class Xdmf {
   std::string grids_;  // the text of the frames so far
 };
 
+bool is_of_mesh(const FieldInfo& field);  // a number of rows that stays, and a place in the picture
+
 // The components a field is stored with: plane vectors get a third one, as XDMF knows no others.
 int stored_components(const FieldInfo& field);
 

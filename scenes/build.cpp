@@ -16,6 +16,7 @@
 #include "scenes/highest_mode.hpp"
 #include "scenes/hilbert.hpp"
 #include "scenes/mesh.hpp"
+#include "scenes/observe.hpp"
 #include "scenes/place.hpp"
 #include "scenes/surface.hpp"
 
@@ -382,6 +383,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   world->emplace<Totals>();
   world->emplace<Bodies>(std::move(layout.bodies));
   if (needs.grips) add_grips(*world, scene);
+  add_observed(*world, scene);
   return world;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scenes/mesh_rounded_rectangle.hpp"
+#include "scenes/observe.hpp"
 #include "scenes/outline.hpp"
 #include "scenes/place.hpp"
 #include "scenes/tool_checks.hpp"
@@ -293,6 +294,7 @@ class Checks {
 void complete_and_check(Scene& scene, const schema::Origins& origins, Problems& problems) {
   Checks(scene, origins, problems).run();
   check_tools(scene, origins, problems);
+  check_output(scene, origins, problems);
 }
 
 }  // namespace pulvis

@@ -256,7 +256,29 @@ const TableDeclaration<OutputSpec>& output() {
          .range = within(1, 1e8),
          .fallback = value_of(1000),
          .doc = "Rows of the history over the run, besides the first."},
-        integer_to(&OutputSpec::samples)}}};
+        integer_to(&OutputSpec::samples)},
+       {{.name = "density_cells",
+         .kind = Kind::counts,
+         .range = within(1, 1000),
+         .doc = "Columns and rows of a grid between the tools whose cells' relative densities are "
+                "kept: in every frame, and their least, greatest and standard deviation over time. "
+                "Needs a tool on each of the four sides.",
+         .fallback_doc = "no local densities"},
+        [](OutputSpec& spec, const Decoded& value) { spec.density_cells = value.counts; }},
+       {{.name = "contacts",
+         .kind = Kind::flag,
+         .fallback = value_of(false),
+         .doc =
+             "The network of contacts: forces, normals and lengths of every pair that touches and "
+             "force chains in every frame; coordination, fabric and mean forces over time."},
+        flag_to(&OutputSpec::contacts)},
+       {{.name = "particle_stress",
+         .kind = Kind::flag,
+         .fallback = value_of(false),
+         .doc =
+             "Mean stress of every particle in every frame, of the compact over time. The network "
+             "of contacts has it, too."},
+        flag_to(&OutputSpec::particle_stress)}}};
   return declaration;
 }
 

@@ -102,6 +102,17 @@ std::int64_t integer(const KeyInfo& key, const Value& value) {
   return *given;
 }
 
+std::array<int, 2> counts(const KeyInfo& key, const Value& value) {
+  const document::Array& parts = pair(key, value);
+  return {static_cast<int>(integer(key, parts[0])), static_cast<int>(integer(key, parts[1]))};
+}
+
+bool flag(const KeyInfo& key, const Value& value) {
+  const auto* given = value.as<bool>();
+  if (given == nullptr) refuse_type(key, value);
+  return *given;
+}
+
 int choice(const KeyInfo& key, const Value& value) {
   const std::string& given = word(key, value);
   std::vector<std::string> words;
@@ -191,6 +202,12 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       break;
     case Kind::integer:
       result.integer = integer(key, value);
+      break;
+    case Kind::counts:
+      result.counts = counts(key, value);
+      break;
+    case Kind::flag:
+      result.flag = flag(key, value);
       break;
     case Kind::direction:
       result.vector = direction(key, value);

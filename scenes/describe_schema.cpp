@@ -14,6 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json json_of(const document::Value& value) {
+  if (const auto* flag = value.as<bool>()) return *flag;
   if (const auto* integer = value.as<std::int64_t>()) return *integer;
   if (const auto* number = value.as<double>()) return *number;
   if (const auto* text = value.as<std::string>()) return *text;
@@ -66,6 +67,15 @@ Json type_of(const schema::KeyInfo& key) {
       break;
     case Kind::integer:
       json["type"] = "integer";
+      break;
+    case Kind::counts: {
+      Json count{{"type", "integer"}};
+      add_range(count, key.range);
+      json = pair_of(count);
+      break;
+    }
+    case Kind::flag:
+      json["type"] = "boolean";
       break;
     case Kind::direction:
       json = pair_of({{"type", "number"}});

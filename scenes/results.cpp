@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/body.hpp"
 #include "components/contact.hpp"
 #include "engine/access.hpp"
+#include "scenes/observe.hpp"
 
 namespace pulvis {
 
@@ -160,6 +162,14 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
       add_series("stress_ratio/axial", "-", "mean of top and bottom stress / yield stress");
       add_series("stress_ratio/lateral", "-", "mean of left and right stress / yield stress");
     }
+    add_series("stress/axial_top", "Pa",
+               "on the top tool: force / width of the die times thickness; compression > 0");
+    add_series("stress/axial_bottom", "Pa", "the same of the bottom tool");
+    add_series("stress/radial_left", "Pa",
+               "on the left tool: force / height between the punches times thickness");
+    add_series("stress/radial_right", "Pa", "the same of the right tool");
+    add_series("stress/transmission", "-",
+               "axial force on the bottom tool / on the top tool; NaN where the top bears none");
   }
   add_series("energy/kinetic", "J", "of all nodes");
   add_series("energy/elastic", "J", "stored in the elements");
@@ -176,6 +186,7 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   add_series("penetration", "-", "deepest so far, of the boundary edge length");
   add_series("least_jacobian", "-", "smallest det F so far");
   add_series("dt", "s", "time step");
+  for (const SeriesInfo& observed : observed_series(scene)) series.push_back(observed);
   return series;
 }
 
@@ -214,6 +225,7 @@ Results::Results(const Scene& scene, const World& world)
   if (element_columns(world).plastic_strain != nullptr)
     fields_.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
+  for (const FieldInfo& observed : observed_fields(scene)) fields_.push_back(observed);
 }
 
 RunMesh Results::mesh() const {
@@ -264,22 +276,28 @@ void Results::append_tools(std::vector<double>& row) const {
   }
 }
 
+Vec2 Results::die_size() const {
+  const auto at = [&](int tool, int k) {
+    return world_.column<ToolPosition>().values()[static_cast<std::size_t>(2 * tool + k)];
+  };
+  return {at(cell_->right, 0) - at(cell_->left, 0), at(cell_->top, 1) - at(cell_->bottom, 1)};
+}
+
 void Results::append_density(std::vector<double>& row) const {
   if (!cell_) return;
-  const auto at = [&](const auto& column, int tool, int k) {
-    return column.values()[static_cast<std::size_t>(2 * tool + k)];
+  const auto force = [&](int tool, int k) {
+    return world_.column<ToolForce>().values()[static_cast<std::size_t>(2 * tool + k)];
   };
-  const auto& position = world_.column<ToolPosition>();
-  const auto& force = world_.column<ToolForce>();
-  const double width = at(position, cell_->right, 0) - at(position, cell_->left, 0);
-  const double height = at(position, cell_->top, 1) - at(position, cell_->bottom, 1);
-  row.push_back(particle_area_ / (width * height));
-  if (!yield_stress_) return;
-  const double thickness = world_.resource<Bodies>().thickness;
-  const double axial = 0.5 * (at(force, cell_->top, 1) - at(force, cell_->bottom, 1));
-  const double lateral = 0.5 * (at(force, cell_->right, 0) - at(force, cell_->left, 0));
-  row.push_back(axial / (width * thickness) / *yield_stress_);
-  row.push_back(lateral / (height * thickness) / *yield_stress_);
+  const Vec2 size = die_size(), face = size * world_.resource<Bodies>().thickness;
+  const double top = force(cell_->top, 1), bottom = -force(cell_->bottom, 1);
+  const double left = -force(cell_->left, 0), right = force(cell_->right, 0);
+  row.push_back(particle_area_ / size.prod());
+  if (yield_stress_) {
+    row.push_back(0.5 * (top + bottom) / face.x() / *yield_stress_);
+    row.push_back(0.5 * (right + left) / face.y() / *yield_stress_);
+  }
+  row.insert(row.end(), {top / face.x(), bottom / face.x(), left / face.y(), right / face.y()});
+  row.push_back(top > 0 ? bottom / top : std::numeric_limits<double>::quiet_NaN());
 }
 
 void Results::append_energies(std::vector<double>& row) const {
@@ -300,6 +318,7 @@ std::vector<double> Results::sample() {
   row.push_back(totals.worst_penetration);
   row.push_back(least_jacobian());
   row.push_back(world_.resource<Clock>().dt);
+  append_observed_sample(world_, cell_ ? die_size().prod() : 0, row);
   last_ = row;
   return row;
 }
@@ -307,7 +326,8 @@ std::vector<double> Results::sample() {
 std::vector<std::vector<double>> Results::frame() const {
   std::vector<std::vector<double>> fields{node_values<Position>(world_),
                                           node_values<Velocity>(world_)};
-  fields.resize(fields_.size());
+  const bool plastic = element_columns(world_).plastic_strain != nullptr;
+  fields.resize(plastic ? 6 : 5);
   for_each_particle<Element>(world_, [&](std::size_t first, int lane, const Shape& shape) {
     const ElementColumns columns = element_columns(world_);
     for (std::size_t e = first; e < first + shape.quads.size(); ++e) {
@@ -315,11 +335,12 @@ std::vector<std::vector<double>> Results::frame() const {
       fields[2].push_back(c.effective);
       fields[3].push_back(c.pressure);
       fields[4].insert(fields[4].end(), {c.xx, c.yy, c.zz, c.xy});
-      if (fields.size() == 5) continue;
+      if (!plastic) continue;
       const auto points = static_cast<std::size_t>(columns.points);
       fields[5].push_back(mean_of(columns.plastic_strain + e * points, columns.points, lane));
     }
   });
+  append_observed_frame(world_, fields);
   return fields;
 }
 

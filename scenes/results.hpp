@@ -67,6 +67,7 @@ class Results {
 
  private:
   void take_energies();
+  Vec2 die_size() const;  // m, width and height between the tools; only with a cell
   void append_tools(std::vector<double>& row) const;
   void append_density(std::vector<double>& row) const;
   void append_energies(std::vector<double>& row) const;

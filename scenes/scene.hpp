@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -176,8 +177,14 @@ struct ElementSpec {
 };
 
 struct OutputSpec {
-  int frames = 50;     // fields written over the run, besides the first
-  int samples = 1000;  // history rows over the run, besides the first
+  int frames = 50;                     // fields written over the run, besides the first
+  int samples = 1000;                  // history rows over the run, besides the first
+  std::array<int, 2> density_cells{};  // columns and rows; 0: no local densities
+  bool contacts = false;               // the network of contacts
+  bool particle_stress = false;
+
+  bool density() const { return density_cells[0] > 0; }
+  bool stresses() const { return particle_stress || contacts; }  // force chains need them
 };
 
 struct LimitSpec {               // health: a run that passes one of these stops

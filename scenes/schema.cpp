@@ -155,6 +155,10 @@ std::string allowed(const KeyInfo& key) {
       return "a number" + range_text(key.range);
     case Kind::integer:
       return integer_text(key);
+    case Kind::counts:
+      return "two whole numbers" + range_text(key.range);
+    case Kind::flag:
+      return "true or false";
     case Kind::direction:
       return "two numbers [x, y], not both 0";
     case Kind::text:

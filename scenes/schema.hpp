@@ -23,6 +23,8 @@ enum class Kind {
   phase,      // a quantity, or the key's one word
   number,     // a bare number
   integer,    // a bare whole number
+  counts,     // two bare whole numbers
+  flag,       // true or false
   direction,  // two bare numbers, not both zero
   text,       // a string
   name,       // a string others refer to; part of paths in the results
@@ -81,6 +83,8 @@ struct Decoded {
   std::int64_t integer = 0;
   int index = 0;         // choice, reference: position in the list
   bool is_word = false;  // phase
+  bool flag = false;
+  std::array<int, 2> counts = {};
   Vec2 vector = Vec2::Zero();
   std::vector<Vec2> points = {};
   std::string text = {};

@@ -64,6 +64,10 @@ StepList step_list_of(World& w) {
   observe(true,    "elastic_energy",  elastic_energy<F>);
   observe(plastic, "plastic_work",    plastic_work<F>);
   observe(F::stabilised, "hourglass_energy", hourglass_energy);
+  observe(w.has<ParticleStress>(), "particle_stress", particle_stress<F>);
+  observe(w.has<ContactNetwork>(), "contact_network", contact_network);
+  observe(w.has<ForceChains>(), "force_chains", force_chains);
+  observe(w.has<DensityGrid>(), "local_density", local_density);
 
   move(true,      "integrate",        integrate);
   move(touching,  "contact_curve",    contact_curve);

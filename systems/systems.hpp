@@ -5,6 +5,7 @@
 #include <span>
 
 #include "components/contact.hpp"
+#include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
@@ -95,6 +96,20 @@ void plastic_work(Chunk, Read<Bodies>, Read<YieldStress>, Read<HardeningModulus>
                   Write<PlasticWork>);
 void hourglass_energy(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
                       Read<HourglassStress>, Optional<Read<HourglassWork>>, Write<HourglassEnergy>);
+
+template <class F>
+void particle_stress(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<F::points>>,
+                     Read<MeanStress<F::volumes>>, Write<ParticleStress>, Write<DeformedArea>,
+                     Write<ParticleCentre>);
+void contact_network(Read<Bodies>, Read<ContactIndex>, Read<CurvePosition>,
+                     Optional<Read<ContactPair<Contact>>>, Optional<Read<PointForce<Contact>>>,
+                     Optional<Read<ClosestPoint>>, Optional<Read<ContactPair<ToolContact>>>,
+                     Optional<Read<PointForce<ToolContact>>>, Optional<Read<ToolPosition>>,
+                     Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>,
+                     Optional<Read<SurfaceRange>>, Write<ContactNetwork>);
+void force_chains(Read<Bodies>, Read<ParticleStress>, Read<ParticleCentre>, Read<ContactNetwork>,
+                  Write<ForceChains>);
+void local_density(Read<Bodies>, Read<Position>, Read<ToolPosition>, Write<DensityGrid>);
 
 // ---- motion ---------------------------------------------------------------------------------------
 void integrate(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalForce>,

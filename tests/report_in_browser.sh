@@ -51,3 +51,4 @@ check LoadsNothingFromElsewhere 2304
 check WorksWithoutToolsAndWithoutASummary 2304
 check ShowsTheLastFrameOfARunOfOneFrame 2304
 check StaysSmall 14400
+check ShowsLocalDensitiesAndContactsOfTheLastFrame 2304

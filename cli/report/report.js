@@ -54,6 +54,7 @@ async function main() {
   fillSummary(head, history);
   fillQuality(head, history);
   drawCharts(history);
+  await showObserved(head);
   await showPicture(head, history);
   document.body.dataset.ready = "1";
 }

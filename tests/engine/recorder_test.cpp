@@ -283,5 +283,34 @@ TEST_F(RecorderTest, WritesAnXdmfThatIsWellFormedAfterEveryFrame) {
   EXPECT_FALSE(fs::exists(folder / "run.xdmf.new"));
 }
 
+// Lists of their own length: none in the first frame, then two rows; no part of the XDMF picture.
+TEST_F(RecorderTest, WritesListsWhoseLengthChanges) {
+  open_run_folder(folder);
+  auto fields = four_fields();
+  fields.push_back({"contacts/ids", "-", "who touches", FieldPlace::list, 2, true});
+  fields.push_back({"contacts/force", "N", "of the first", FieldPlace::list, 2});
+  fields.front().name = "position";
+  fields[3].name = "touching";
+  Recorder recorder(folder, {}, two_squares(), two_series(), fields);
+  for (int k = 0; k < 2; ++k) {
+    auto values = fields_of(k);
+    values.push_back(k == 0 ? std::vector<double>() : std::vector<double>{0, 1, 1, 2147483647});
+    values.push_back(k == 0 ? std::vector<double>() : std::vector<double>{1, third, -2, 4});
+    recorder.frame(k, k, values);
+  }
+  auto broken = fields_of(2);
+  broken.insert(broken.end(), {{1, 2}, {1, 2, 3}});  // half a row
+  EXPECT_THROW(recorder.frame(2, 2, broken), std::invalid_argument);
+  recorder.finish();
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_EQ(file.shape("/frames/000000/contacts/ids"), (hdf5::Shape{0, 2}));
+  EXPECT_THAT(file.read_doubles("/frames/000000/contacts/force"), ElementsAre());
+  EXPECT_EQ(file.shape("/frames/000001/contacts/force"), (hdf5::Shape{2, 2}));
+  EXPECT_THAT(file.read_integers("/frames/000001/contacts/ids"), ElementsAre(0, 1, 1, 2147483647));
+  EXPECT_THAT(file.read_doubles("/frames/000001/contacts/force"), ElementsAre(1, third, -2, 4));
+  EXPECT_EQ(file.text_attribute("/frames/000001/contacts/force", "place"), "list");
+  EXPECT_EQ(text_of("run.xdmf").find("contacts/"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pulvis

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "components/observed.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -131,6 +132,40 @@ TEST(Plan, ParticlesWithoutToolsHaveNoToolContact) {
 
 TEST(Plan, SceneWithEverythingHasEveryContactSystem) {
   EXPECT_THAT(contact_systems, IsSubsetOf(Asked("compaction/regular-25.toml").names));
+}
+
+// What is observed beyond forces and energies costs nothing where nobody asks for it.
+const Names observing{"particle_stress", "contact_network", "force_chains", "local_density"};
+
+Names observing_systems(const Asked& asked) {
+  Names found;
+  for (const std::string& name : asked.names)
+    if (observing.contains(name)) found.insert(name);
+  return found;
+}
+
+TEST(Plan, ObservesNothingMoreUnlessAsked) {
+  const Asked asked("compaction/regular-25.toml");
+  EXPECT_THAT(observing_systems(asked), IsEmpty());
+  EXPECT_THAT(asked.called({"stress", "deformed_area", "centre"}), IsEmpty());
+  const World& world = const_cast<Simulation&>(asked.experiment.simulation).world();
+  EXPECT_FALSE(world.has<ContactNetwork>());
+  EXPECT_FALSE(world.has<DensityGrid>());
+}
+
+TEST(Plan, ObservesWhatIsAskedOnSampledStepsOnly) {
+  const std::string scene = "compaction/regular-25.toml";
+  const Asked density(scene, {"output.density_cells=[5, 5]"});
+  EXPECT_THAT(observing_systems(density), ElementsAre("local_density"));
+  EXPECT_THAT(density.called({"stress", "deformed_area", "centre"}), IsEmpty());
+  EXPECT_THAT(observing_systems(Asked(scene, {"output.particle_stress=true"})),
+              ElementsAre("particle_stress"));
+  const Asked contacts(scene, {"output.contacts=true"});
+  EXPECT_THAT(observing_systems(contacts),
+              ElementsAre("contact_network", "force_chains", "particle_stress"));
+  for (const System& system : contacts.list.observe) EXPECT_EQ(system.when, When::on_sample);
+  for (const StagePlan& stage : contacts.experiment.simulation.plan().stages)
+    for (const std::string& system : stage.systems) EXPECT_FALSE(observing.contains(system));
 }
 
 // ---- the graph ----------------------------------------------------------------------------------

@@ -121,6 +121,25 @@ TEST_F(ReportTest, ShowsTheLastFrameOfARunOfOneFrame) {
   EXPECT_EQ(head_of(report_of(run))["frames"].size(), 1U);
 }
 
+TEST_F(ReportTest, ShowsLocalDensitiesAndContactsOfTheLastFrame) {
+  testing::SyntheticRun run;
+  run.observed = true;
+  const auto head = head_of(report_of(run));
+  EXPECT_EQ(head["density"]["cells"].size(), 4U);
+  EXPECT_TRUE(head["density"]["cells"][1].is_null());  // a tool fills it
+  EXPECT_NEAR(head["density"]["y"].back().get<double>(), 0.97 * 0.8e-3 * 4 + 0.03 * 4e-3, 1e-4);
+  EXPECT_EQ(head["network"]["number"].size(), 18U);
+  EXPECT_THAT(report(), HasSubstr("id=\"network\""));
+  EXPECT_FALSE(head_of(report_of({})).contains("network"));
+  const std::string script = std::string("/usr/bin/python3 '") + PULVIS_SOURCE_DIR +
+                             "/cli/figures.py' '" + folder.string() + "' >/dev/null";
+  testing::record(run, folder);
+  write_report(folder);
+  EXPECT_EQ(std::system(script.c_str()), 0);
+  for (const char* name : {"local_density", "density_profile", "contact_network", "contact_rose"})
+    EXPECT_TRUE(fs::exists(folder / "pictures" / (std::string(name) + ".png"))) << name;
+}
+
 // A hundred particles of the usual size: the file can still be mailed.
 TEST_F(ReportTest, StaysSmall) {
   testing::SyntheticRun run;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -72,12 +73,63 @@ std::vector<double> stresses(const SyntheticRun& run, double share) {
   return values;
 }
 
-std::vector<FieldInfo> fields() {
-  return {{"position", "m", "position of the node", FieldPlace::node, 2},
-          {"velocity", "m/s", "velocity of the node", FieldPlace::node, 2},
-          {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
-          {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
-          {"stress", "Pa", "Cauchy stress xx, yy, zz, xy", FieldPlace::cell, 4}};
+std::vector<FieldInfo> fields(const SyntheticRun& run) {
+  std::vector<FieldInfo> all{
+      {"position", "m", "position of the node", FieldPlace::node, 2},
+      {"velocity", "m/s", "velocity of the node", FieldPlace::node, 2},
+      {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
+      {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
+      {"stress", "Pa", "Cauchy stress xx, yy, zz, xy", FieldPlace::cell, 4}};
+  if (!run.observed) return all;
+  const auto add = [&](const std::string& name, const char* unit, FieldPlace place, int components,
+                       bool whole = false) {
+    all.push_back({name, unit, "made up", place, components, whole});
+  };
+  add("particle_centre", "m", FieldPlace::particle, 2);
+  add("force_chain", "-", FieldPlace::particle, 1, true);
+  add("local_density", "-", FieldPlace::list, 2);
+  add("density_profile", "-", FieldPlace::list, 1);
+  add("density_grid/x", "m", FieldPlace::list, 1);
+  add("density_grid/y", "m", FieldPlace::list, 1);
+  for (const std::string group : {"contacts/", "tool_contacts/"}) {
+    add(group + "ids", "-", FieldPlace::list, 2, true);
+    add(group + "point", "m", FieldPlace::list, 2);
+    add(group + "normal_force", "N", FieldPlace::list, 1);
+  }
+  add("rose/number", "-", FieldPlace::list, 1);
+  add("rose/force", "-", FieldPlace::list, 1);
+  return all;
+}
+
+// Each disc touches the one to its right, and the first of them the bottom.
+void add_observed(const SyntheticRun& run, double share, std::vector<std::vector<double>>& fields) {
+  const double d = run.diameter, height = d * squeeze(share);
+  std::vector<double> centre, chain, ids, point, force, rose(18, 0.0);
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    centre.insert(centre.end(),
+                  {d * (disc % run.columns + 0.5), height * (disc / run.columns + 0.5)});
+    chain.push_back(disc / run.columns);
+    if ((disc + 1) % run.columns == 0) continue;
+    ids.insert(ids.end(), {1.0 * disc, disc + 1.0});
+    point.insert(point.end(), {d * (disc % run.columns + 1), height * (disc / run.columns + 0.5)});
+    force.push_back(100.0 * share * (1 + disc % 3));
+  }
+  rose[0] = 1;
+  const double nan = std::numeric_limits<double>::quiet_NaN(), density = 0.785 / squeeze(share);
+  fields.insert(fields.end(), {centre,
+                               chain,
+                               {density, nan, 1.01 * density, nan},
+                               {density, 1.01 * density},
+                               {0, d * run.columns / 2, d * run.columns},
+                               {0, height * run.rows / 2, height * run.rows},
+                               ids,
+                               point,
+                               force,
+                               {0, 1},
+                               {d / 2, 0},
+                               {50 * share},
+                               rose,
+                               rose});
 }
 
 std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share) {
@@ -88,7 +140,10 @@ std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share)
     strain.push_back(0.3 * share * value / yield);
     tensor.insert(tensor.end(), {-0.4 * value, -value, -0.5 * value, 0.1 * value});
   }
-  return {xy, std::vector<double>(xy.size(), 0.5), stress, strain, tensor};
+  std::vector<std::vector<double>> fields{xy, std::vector<double>(xy.size(), 0.5), stress, strain,
+                                          tensor};
+  if (run.observed) add_observed(run, share, fields);
+  return fields;
 }
 
 std::vector<SeriesInfo> series(bool tools) {
@@ -172,7 +227,7 @@ void write_summary(const SyntheticRun& run, const std::filesystem::path& folder)
 void record(const SyntheticRun& run, const std::filesystem::path& folder) {
   open_run_folder(folder, true);
   Recorder recorder(folder, {"0.1.0", "0123abc", "A synthetic compact", "f00d", 7, 2}, mesh_of(run),
-                    series(run.tools), fields());
+                    series(run.tools), fields(run));
   const int samples = (run.frames - 1) * run.samples_a_frame;
   for (int i = 0; i <= samples; ++i) {
     const double time = duration * i / std::max(1, samples);

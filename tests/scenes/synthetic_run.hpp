@@ -11,7 +11,9 @@ struct SyntheticRun {
   int divisions = 12;         // quads along a disc's width; the disc has their square
   int frames = 6;
   int samples_a_frame = 20;
-  bool tools = true;       // punches with their series, and densities
+  bool tools = true;  // punches with their series, and densities
+  bool observed =
+      false;  // local densities (two columns of cells, one of them all tool) and contacts
   double diameter = 1e-3;  // m
 };
 

@@ -1,0 +1,68 @@
+// What a scene can ask to be observed beyond forces and energies ([output]): stresses of the particles,
+// the network of their contacts, local densities. Written on sampled steps only; nothing in a step reads it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "components/shape.hpp"
+
+namespace pulvis {
+
+// ---- output.particle_stress -----------------------------------------------------------------------
+struct ParticleStress : Component<Particle, double, 4> {
+  static constexpr ComponentInfo info{"stress", "Pa",
+                                      "Cauchy, mean over the particle: xx yy zz xy; tension > 0"};
+};
+struct DeformedArea : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"deformed_area", "m^2", "of its elements now"};
+};
+struct ParticleCentre : Component<Particle, double, 2> {
+  static constexpr ComponentInfo info{"centre", "m",
+                                      "middles of its elements, weighted with their areas"};
+};
+
+// ---- output.contacts --------------------------------------------------------------------------------
+// All that one particle does to another, or a tool to a particle: the sum of their contact points.
+struct ContactLink {
+  std::int32_t first = 0;   // number of the particle that `force` acts on
+  std::int32_t second = 0;  // number of the other particle, > first; or the tool
+  Point point{};            // m, mean of the contact points, weighted with their forces
+  Point normal{};           // unit vector into the first particle, weighted with the normal forces
+  Point force{};            // N
+  double length = 0;        // m, of the surface that touches
+  double normal_force() const { return force[0] * normal[0] + force[1] * normal[1]; }
+  // Along (-n_y, n_x).
+  double tangential_force() const { return force[1] * normal[0] - force[0] * normal[1]; }
+};
+
+struct ContactNetwork {
+  static constexpr const char* resource_name = "contact_network";
+  std::vector<ContactLink> pairs;  // each once, sorted by numbers; an outline's folds are none
+  std::vector<ContactLink> tools;
+};
+
+struct ForceChains {
+  static constexpr const char* resource_name = "force_chains";
+  std::vector<std::int32_t> chain;  // [particles], by number: the particle's chain, from 1; 0: none
+};
+
+// ---- output.density_cells ---------------------------------------------------------------------------
+struct DensityGrid {
+  static constexpr const char* resource_name = "density_grid";
+  enum Side { left, right, bottom, top };
+  using OutlineEdge = std::array<Row<Node>, 2>;
+
+  int columns = 0, rows = 0;
+  std::array<int, 4> tool{};                      // of every side
+  std::array<std::vector<Point>, 4> surface{};    // m, relative to the tool; of a plane empty
+  std::vector<std::vector<OutlineEdge>> outline;  // [shapes]: material on the left, holes included
+
+  // As last observed.
+  std::array<double, 4> side{};  // m: x of left and right, y of bottom and top
+  std::vector<double> filled;  // m^2, [rows * columns] from the bottom: of the particles in a cell
+  std::vector<double> room;    // m^2, of the cell outside of the tools
+};
+
+}  // namespace pulvis

@@ -1,0 +1,83 @@
+// Force chains: which particles carry the load from one to the next.
+//
+// Source   Peters, Muthuswamy, Wibowo & Tordesillas, "Characterization of force chains in granular
+//          material", Phys. Rev. E 72, 041307 (2005)
+// Law      A particle can be part of a chain if its major principal compression is above the mean of all
+//          particles. It leads on to a particle that touches it, can be part of one too, and lies within 45
+//          degrees of the direction of that compression, if the same holds from there. Chains have three
+//          particles at least; branches belong to the chain
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "components/shape.hpp"
+
+namespace pulvis::kernels {
+
+struct PlaneStress {  // Pa, in the plane of the slice; tension > 0
+  double xx = 0, yy = 0, xy = 0;
+};
+
+struct MajorCompression {
+  double size = 0;    // Pa, > 0 in compression
+  Point direction{};  // unit vector
+};
+
+inline MajorCompression major_compression(const PlaneStress& s) {
+  const double middle = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
+  const double angle = 0.5 * std::atan2(-s.xy, -half);  // of the smallest normal stress
+  return {std::hypot(half, s.xy) - middle, {std::cos(angle), std::sin(angle)}};
+}
+
+inline constexpr int least_of_a_chain = 3;
+
+// By particle: its chain, numbered from 1 in the order of their first particles; 0 where it is in none.
+inline std::vector<std::int32_t> force_chains(
+    std::span<const PlaneStress> stress, std::span<const Point> centre,
+    std::span<const std::pair<std::int32_t, std::int32_t>> touching) {
+  const std::size_t count = stress.size();
+  std::vector<MajorCompression> load;
+  for (const PlaneStress& s : stress) load.push_back(major_compression(s));
+  const double mean = std::accumulate(load.begin(), load.end(), 0.0,
+                                      [](double sum, const auto& l) { return sum + l.size; }) /
+                      static_cast<double>(count);
+  std::vector<std::size_t> leader(count);  // union-find, the lowest number leads
+  std::iota(leader.begin(), leader.end(), std::size_t{0});
+  const auto leader_of = [&](std::size_t p) {
+    while (leader[p] != p) p = leader[p] = leader[leader[p]];
+    return p;
+  };
+  const auto leads_on = [&](std::size_t from, const Point& way, double length) {
+    if (!(load[from].size > mean) || !(load[from].size > 0)) return false;
+    const Point& d = load[from].direction;
+    return std::abs(way[0] * d[0] + way[1] * d[1]) >= std::sqrt(0.5) * length;
+  };
+  for (const auto& [a, b] : touching) {
+    const auto p = static_cast<std::size_t>(a), q = static_cast<std::size_t>(b);
+    const Point way{centre[q][0] - centre[p][0], centre[q][1] - centre[p][1]};
+    const double length = std::hypot(way[0], way[1]);
+    if (!leads_on(p, way, length) || !leads_on(q, way, length)) continue;
+    const std::size_t one = leader_of(p), other = leader_of(q);
+    leader[std::max(one, other)] = std::min(one, other);
+  }
+  std::vector<int> members(count, 0);
+  for (std::size_t p = 0; p < count; ++p) ++members[leader_of(p)];
+  std::map<std::size_t, std::int32_t> number;
+  std::vector<std::int32_t> chain(count, 0);
+  for (std::size_t p = 0; p < count; ++p) {
+    const std::size_t first = leader_of(p);
+    if (members[first] < least_of_a_chain) continue;
+    chain[p] = number.emplace(first, static_cast<std::int32_t>(number.size()) + 1).first->second;
+  }
+  return chain;
+}
+
+}  // namespace pulvis::kernels

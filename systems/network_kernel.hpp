@@ -1,0 +1,82 @@
+// What a contact network is like as a whole: coordination, fabric, forces, orientation.
+//
+// Source   fabric tensor: Satake, "Fabric tensor in granular materials" (1982); Oda, Soils & Foundations
+//          22(4), 96 (1982)
+// Law      F_ij = mean over the contacts of n_i n_j: trace 1; anisotropy = difference of its principal
+//          values, 0 where all directions are alike, 1 where all contacts are parallel
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "components/observed.hpp"
+
+namespace pulvis::kernels {
+
+struct Fabric {
+  double xx = 0, xy = 0, yy = 0;
+  double anisotropy() const { return 2 * std::hypot(0.5 * (xx - yy), xy); }
+  // rad, in (-pi/2, pi/2]: of the direction that most contacts face.
+  double angle() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
+};
+
+inline Fabric fabric(std::span<const ContactLink> links) {
+  Fabric f;
+  const double share = 1 / static_cast<double>(std::max<std::size_t>(1, links.size()));
+  for (const ContactLink& link : links) {
+    f.xx += share * link.normal[0] * link.normal[0];
+    f.xy += share * link.normal[0] * link.normal[1];
+    f.yy += share * link.normal[1] * link.normal[1];
+  }
+  return f;
+}
+
+struct ForceSizes {
+  double mean = 0, most = 0;  // N, normal
+};
+
+inline ForceSizes force_sizes(std::span<const ContactLink> links) {
+  ForceSizes sizes;
+  for (const ContactLink& link : links) {
+    sizes.mean += link.normal_force() / static_cast<double>(links.size());
+    sizes.most = std::max(sizes.most, link.normal_force());
+  }
+  return sizes;
+}
+
+// By particle: how many others, or tools, it touches.
+inline void count_contacts(std::span<const ContactLink> links, bool both,
+                           std::vector<double>& counts) {
+  for (const ContactLink& link : links) {
+    counts[static_cast<std::size_t>(link.first)] += 1;
+    if (both) counts[static_cast<std::size_t>(link.second)] += 1;
+  }
+}
+
+// Directions of contact normals, from 0 to 180 degrees since a contact faces both ways. Sector k lies around
+// k times 180/18 degrees, so that the axes are middles of sectors.
+inline constexpr int rose_sectors = 18;
+
+struct Rose {
+  std::array<double, rose_sectors> number{}, force{};  // shares of all; sums 1
+};
+
+inline Rose rose(std::span<const ContactLink> links) {
+  Rose rose;
+  double all = 0;
+  for (const ContactLink& link : links) all += link.normal_force();
+  for (const ContactLink& link : links) {
+    const double turn = std::atan2(link.normal[1], link.normal[0]) / std::numbers::pi;
+    const auto nearest = static_cast<int>(std::lround(rose_sectors * turn));
+    const auto sector = static_cast<std::size_t>((nearest + rose_sectors) % rose_sectors);
+    rose.number[sector] += 1 / static_cast<double>(links.size());
+    if (all > 0) rose.force[sector] += link.normal_force() / all;
+  }
+  return rose;
+}
+
+}  // namespace pulvis::kernels
