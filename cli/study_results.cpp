@@ -70,7 +70,7 @@ void add_forces(std::vector<Figure>& figures, const StudyResult& result) {
   };
   const std::string top = "tool/" + name(cell->top) + "/force_y";
   std::vector<double> below = result.series("tool/" + name(cell->bottom) + "/force_y");
-  for (double& value : below) value = -value;
+  for (double& value : below) value = 0 - value;  // no -0 in a table
   figures.push_back({"top_force_end", "N", last(result.series(top))});
   figures.push_back({"bottom_force_end", "N", last(below)});
   figures.push_back({"top_force_max", "N", largest(result.series(top))});

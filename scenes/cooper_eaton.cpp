@@ -13,6 +13,12 @@ using Vector = Eigen::VectorXd;
 
 constexpr double closest_ratio = 1.05;  // of k2 to k1; nearer than that the two terms are one
 
+constexpr double least_k =
+    1e-4;  // as shares of the largest pressure: beyond these a term is a constant,
+constexpr double most_k = 1e2;  // or nothing, within the pressures that were measured
+
+double k_of(double log_k) { return std::clamp(std::exp(log_k), least_k, most_k); }
+
 // exp(-k/P) of every sample. P is a share of the largest pressure here, k too.
 Vector shape_of(const Vector& p, double k) { return (-k / p.array()).exp(); }
 
@@ -44,7 +50,7 @@ struct Remainder {
   int inputs() const { return 2; }
   int values() const { return static_cast<int>(p.size()); }
   int operator()(const Vector& log_k, Vector& remainder) const {
-    const Vector first = shape_of(p, std::exp(log_k[0])), second = shape_of(p, std::exp(log_k[1]));
+    const Vector first = shape_of(p, k_of(log_k[0])), second = shape_of(p, k_of(log_k[1]));
     const auto [a, b] = best_shares(first, second, y);
     remainder = a * first + b * second - y;
     return 0;
@@ -57,15 +63,15 @@ struct Candidate {
 };
 
 std::vector<Candidate> grid(const Remainder& remainder) {
-  constexpr double finest = 1e-4, coarsest = 10;  // k as a share of the largest pressure
+  constexpr double coarsest = 10;  // k
   constexpr int steps = 15;
-  const double step = std::log(coarsest / finest) / (steps - 1);
+  const double step = std::log(coarsest / least_k) / (steps - 1);
   std::vector<Candidate> all;
   Vector left;
   for (int i = 0; i < steps; ++i)
     for (int j = i + 1; j < steps; ++j) {
       Candidate candidate{Vector(2), 0};
-      candidate.log_k << std::log(finest) + i * step, std::log(finest) + j * step;
+      candidate.log_k << std::log(least_k) + i * step, std::log(least_k) + j * step;
       remainder(candidate.log_k, left);
       candidate.error = left.squaredNorm();
       all.push_back(std::move(candidate));
@@ -88,7 +94,7 @@ void refine(const Remainder& remainder, Candidate& candidate) {
 
 CooperEaton with_terms(const Candidate& best, const Vector& p, const Vector& y, double scale) {
   CooperEaton found;
-  std::array k{std::exp(best.log_k[0]), std::exp(best.log_k[1])};
+  std::array k{k_of(best.log_k[0]), k_of(best.log_k[1])};
   auto a = best_shares(shape_of(p, k[0]), shape_of(p, k[1]), y);
   if (k[0] > k[1]) std::swap(k[0], k[1]), std::swap(a[0], a[1]);
   if (a[0] > 0 && a[1] > 0 && k[1] < closest_ratio * k[0]) {  // one term in two halves

@@ -2,7 +2,8 @@
 //
 // For given k1 and k2 the best a1 and a2 >= 0 follow in closed form, so only log k1 and log k2 are sought
 // (variable projection; Golub & Pereyra 1973): a coarse grid first, then Levenberg-Marquardt (Eigen) from
-// its best points, because two exponentials have more than one local optimum. Where the second term gains
+// its best points, because two exponentials have more than one local optimum. k stays between 1e-4 and 100
+// of the largest pressure. Where the second term gains
 // nothing (an a of 0, or k1 and k2 closer than 5%) one term is left.
 #pragma once
 
