@@ -115,7 +115,7 @@ class StudyRunner {
     std::vector<Job> jobs;
     for (const std::size_t i : waiting_) jobs.push_back(job_of(results_[i]));
     run_jobs(jobs, times_.jobs,
-             {[&](std::size_t job) { begun(job); },
+             {[&](std::size_t job) { begin(job); },
               [&](std::size_t job, const JobEnd& end) { ended(job, end); }, [&] { show_state(); },
               [] { return interrupted.load(); }});
     clear_state();
@@ -143,12 +143,7 @@ class StudyRunner {
   std::size_t to_do() const { return waiting_.size(); }
 
  private:
-  // The child may find its old summary.json only if it is finished: it goes before anything else does.
   Job job_of(const StudyResult& result) const {
-    make_folder(result.folder);
-    std::error_code error;
-    fs::remove(result.folder / "summary.json", error);
-    if (error) throw OutputError(result.folder / "summary.json", "remove", error.message());
     Job job{{"run", result.run->file.string(), "-o", result.folder.string(), "--overwrite",
              "--threads", std::to_string(times_.threads)},
             result.folder / "log.txt"};
@@ -157,7 +152,15 @@ class StudyRunner {
     return job;
   }
 
-  void begun(std::size_t job) { running_.push_back(job); }
+  // An old summary.json goes before anything else does: with it a half-finished run would look finished.
+  void begin(std::size_t job) {
+    const fs::path& folder = results_[waiting_[job]].folder;
+    make_folder(folder);
+    std::error_code error;
+    fs::remove(folder / "summary.json", error);
+    if (error) throw OutputError(folder / "summary.json", "remove", error.message());
+    running_.push_back(job);
+  }
 
   void ended(std::size_t job, const JobEnd& end) {
     std::erase(running_, job);

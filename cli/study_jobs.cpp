@@ -95,8 +95,9 @@ void run_jobs(const std::vector<Job>& jobs, int most, const JobEvents& events) {
     told = stopping;
     if (stopping) next = jobs.size();
     while (next < jobs.size() && children.running.size() < static_cast<std::size_t>(most)) {
+      events.starting(next);
       children.running.push_back({next, start(jobs[next]), Time::now()});
-      events.started(next++);
+      ++next;
     }
     children.collect(events);
     events.waiting();

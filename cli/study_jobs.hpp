@@ -26,7 +26,7 @@ struct JobEnd {
 
 // What is told as it happens; `job` is a position in the list.
 struct JobEvents {
-  std::function<void(std::size_t job)> started;
+  std::function<void(std::size_t job)> starting;  // just before
   std::function<void(std::size_t job, const JobEnd& end)> ended;
   std::function<void()> waiting;  // several times a second
   std::function<bool()>

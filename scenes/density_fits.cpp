@@ -72,13 +72,18 @@ std::string falls(std::span<const double> density, std::size_t last) {
   return "";
 }
 
+std::string too_little(double change) {
+  if (change >= least_density_change) return "";
+  return fmt::format("the relative density changes by {:.3g}, at least {:g} is needed", change,
+                     least_density_change);
+}
+
 std::string unusable(const FitRange& range) {
   if (range.density.size() < fewest_fit_samples)
     return fmt::format("{} samples under pressure, at least {} are needed", range.density.size(),
                        fewest_fit_samples);
-  if (range.density.back() - range.density.front() < least_density_change)
-    return fmt::format("the relative density changes by {:.3g}, at least {:g} is needed",
-                       range.density.back() - range.density.front(), least_density_change);
+  const std::string little = too_little(range.density.back() - range.density.front());
+  if (!little.empty()) return little;
   const auto [low, high] = std::ranges::minmax(range.pressure);
   if (!(high > low)) return "the pressure is constant";
   return "";
@@ -100,6 +105,7 @@ FitRange fit_range(std::span<const double> density, std::span<const double> pres
   range.first_density = density.front();
   const auto last = static_cast<std::size_t>(std::ranges::max_element(density) - density.begin());
   range.unusable = falls(density, last);
+  if (range.unusable.empty()) range.unusable = too_little(density[last] - density.front());
   if (!range.unusable.empty()) return range;
   const double most = std::ranges::max(pressure.first(last + 1));
   for (std::size_t i = 0; i <= last; ++i) {

@@ -127,9 +127,9 @@ TEST(DensityFits, BadCurvesAreRefusedWithTheReason) {
   const auto law = [](double p) { return 1 - std::exp(-(2.5e-9 * p + 1.4)); };
   expect_refused({}, "no samples");
   expect_refused(curve_of(0.7, 400e6, law, 7), "7 samples under pressure, at least 8");
-  expect_refused(curve_of(0.75, 400e6, [](double) { return 0.75; }), "8 samples");
+  expect_refused(curve_of(0.75, 400e6, [](double) { return 0.75; }), "changes by 0,");
   expect_refused(curve_of(0.75, 4e6, [](double p) { return 0.75 + 1e-10 * p; }),
-                 "changes by 0.0003");
+                 "changes by 0.0004");
   Curve cycles = curve_of(0.7, 400e6, law);
   cycles.density[100] = 0.7;
   expect_refused(cycles, "no single loading");

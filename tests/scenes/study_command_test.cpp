@@ -34,8 +34,8 @@ class StudyCommand : public ProgramTest {
         << more;
   }
 
-  Words command(const Words& more = {}) const {
-    Words words{"study", (place / "study.toml").string(), "-o", results.string(), "--jobs", "2"};
+  Words command(const Words& more = {}, const char* jobs = "2") const {
+    Words words{"study", (place / "study.toml").string(), "-o", results.string(), "--jobs", jobs};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
@@ -111,7 +111,6 @@ TEST_F(StudyCommand, RunsOnlyWhatIsMissingOrChanged) {
 // Spread over seeds: three runs of what knows no chance are one curve with an empty band.
 TEST_F(StudyCommand, SeedsMakeABandAboutTheirMean) {
   write("[0.1]");
-  std::ofstream(place / "study.toml", std::ios::app) << "";
   const std::string text = text_of(place / "study.toml");
   std::ofstream(place / "study.toml") << "seeds = [1, 2, 3]\n" << text;
   ASSERT_EQ(study().code, 0);
@@ -163,7 +162,7 @@ TEST_F(StudyCommand, ACrashedRunIsToldAndRunAgain) {
 // The study dies; its children go with it, and the next one takes up what was left.
 TEST_F(StudyCommand, AKilledStudyGoesOnWhereItWas) {
   write("[0.1, 0.2, 0.3]", "", "400 us");
-  const pid_t program = start(command({"--jobs", "1"}));
+  const pid_t program = start(command({}, "1"));
   ASSERT_TRUE(comes([&] { return fs::exists(results / "friction=0.2" / "run.h5"); }));
   const std::vector<pid_t> children = children_of(program);
   ASSERT_EQ(children.size(), 1U);
