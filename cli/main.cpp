@@ -1,4 +1,4 @@
-// The command line: options in, exit code out. What the commands do is in run, plan and report.
+// The command line: options in, exit code out. What the commands do is in run, study, plan and report.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "cli/plan.hpp"
 #include "cli/report.hpp"
 #include "cli/run.hpp"
+#include "cli/study.hpp"
 #include "cli/summary.hpp"
 #include "engine/instruction_set.hpp"
 #include "engine/output_error.hpp"
@@ -20,12 +21,14 @@
 #include "scenes/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
+#include "scenes/study_read.hpp"
 
 namespace pulvis {
 namespace {
 
 struct Options {
   RunOptions run;
+  StudyOptions study;
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
   std::filesystem::path folder;
@@ -58,14 +61,49 @@ ExitCode report(const Options& options) {
   return ExitCode::done;
 }
 
+ExitCode study(const Options& options) {
+  if (options.reference.empty()) return run_study(options.study);
+  fmt::print("{}", study_reference());
+  return ExitCode::done;
+}
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides, const char* of) {
+  command
+      .add_option("--set", overrides,
+                  fmt::format("change a key for {}: key.path=value, e.g. contact.friction=0.2", of))
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
 void add_scene(CLI::App& command, Options& options, bool required = true) {
   auto* scene = command.add_option("scene", options.run.scene, "scene file (TOML)");
   if (required) scene->required();
+  add_overrides(command, options.run.overrides, "this run");
+}
+
+void add_study(CLI::App& app, Options& options, ExitCode& code) {
+  auto* command = app.add_subcommand(
+      "study", "run a scene with a table of variations; table, curves and trends in one report");
+  command->add_option("study", options.study.study, "study file (TOML), docs/study.md");
+  command->add_option("-o,--output", options.study.folder,
+                      "results folder (default runs/<study name>); what is finished in it is kept");
   command
-      .add_option("--set", options.run.overrides,
-                  "change a key for this run: key.path=value, e.g. contact.friction=0.2")
-      ->allow_extra_args(false)
-      ->take_all();
+      ->add_option("--jobs", options.study.jobs,
+                   "runs at once (default: what the processors allow)")
+      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--threads-per-run", options.study.threads,
+                   "threads of each run (default: one, more where runs are fewer than processors)")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--fresh", options.study.fresh, "run everything again, finished runs too");
+  command->add_flag("--list", options.study.list, "check everything, print the runs, run nothing");
+  command->add_option("--reference", options.reference, "print the study language instead: text")
+      ->check(CLI::IsMember({"text"}));
+  add_overrides(*command, options.study.overrides, "every run");
+  command->callback([&options, &code] {
+    if (options.study.study.empty() && options.reference.empty()) throw CLI::RequiredError("study");
+    code = study(options);
+  });
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -88,6 +126,8 @@ int parse_and_run(int argc, char** argv) {
   run->add_flag("--overwrite", options.run.overwrite,
                 "replace a run that is already in the folder");
   run->callback([&] { code = run_scene(options.run); });
+
+  add_study(app, options, code);
 
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);

@@ -1,89 +1,15 @@
 #include "cli/report.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <map>
-#include <string>
-#include <string_view>
-#include <system_error>
-
-#include "cli/report_assets.hpp"
 #include "cli/report_data.hpp"
-#include "engine/output_error.hpp"
+#include "cli/report_page.hpp"
 
 namespace pulvis {
-namespace {
-
-std::string with_replaced(std::string_view text, const std::map<char, const char*>& by) {
-  std::string safe;
-  for (const char c : text) {
-    const auto other = by.find(c);
-    other == by.end() ? safe += c : safe += other->second;
-  }
-  return safe;
-}
-
-std::string escaped(std::string_view text) {
-  return with_replaced(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}});
-}
-
-// JSON inside a script element: no text of the run may look like the end of the element.
-std::string harmless(std::string_view json) { return with_replaced(json, {{'<', "\\u003c"}}); }
-
-std::string joined(std::initializer_list<const char*> names) {
-  std::string text;
-  for (const char* name : names) text += std::string(report_asset(name)) + "\n";
-  return text;
-}
-
-std::string carried(const ReportData& data) {
-  std::string text =
-      "<script type=\"application/json\" id=\"head\">" + harmless(data.head) + "</script>\n";
-  for (const auto& section : data.sections) {
-    text += "<script type=\"application/octet-stream\" id=\"" + section.name + "\">" +
-            section.text + "</script>\n";
-  }
-  return text;
-}
-
-std::string part(std::string_view name, const ReportData& data) {
-  if (name == "title") return escaped(data.title);
-  if (name == "style") return joined({"uPlot.min.css", "report.css"});
-  if (name == "licence") return escaped(report_asset("uPlot.LICENSE"));
-  if (name == "script") {
-    return joined({"uPlot.iife.min.js", "units.js", "payload.js", "summary.js", "charts.js",
-                   "picture.js", "observed.js", "report.js"});
-  }
-  return carried(data);
-}
-
-// The page with every <!--@name@--> replaced; what is put in is not searched again.
-std::string filled(std::string_view page, const ReportData& data) {
-  static constexpr std::string_view opening = "<!--@", closing = "@-->";
-  std::string text;
-  for (std::size_t from = 0;;) {
-    const auto begin = page.find(opening, from);
-    text += page.substr(from, begin - from);
-    if (begin == std::string_view::npos) return text;
-    const auto name = begin + opening.size(), end = page.find(closing, name);
-    text += part(page.substr(name, end - name), data);
-    from = end + closing.size();
-  }
-}
-
-}  // namespace
 
 void write_report(const std::filesystem::path& run_folder) {
-  const std::string text = filled(report_asset("page.html"), read_report_data(run_folder));
-  const auto path = run_folder / "report.html", beside = run_folder / "report.html.new";
-  std::ofstream file(beside, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw OutputError(path, "write the report", std::strerror(errno));
-  std::error_code error;
-  std::filesystem::rename(beside, path, error);
-  if (error) throw OutputError(path, "replace the report", error.message());
+  write_page(run_folder / "report.html", "page.html",
+             {"uPlot.iife.min.js", "units.js", "payload.js", "summary.js", "charts.js",
+              "compaction.js", "picture.js", "observed.js", "report.js"},
+             read_report_data(run_folder));
 }
 
 }  // namespace pulvis

@@ -16,6 +16,7 @@
 #include "components/body.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
+#include "scenes/compaction_curve.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/read.hpp"
 #include "scenes/results.hpp"
@@ -84,6 +85,7 @@ struct Run {
   std::unique_ptr<Simulation> simulation;
   Results results;
   Expectations expectations;
+  CompactionCurve compaction;
   std::vector<Verdict> verdicts;
   Recorder recorder;
   Progress progress;
@@ -96,6 +98,7 @@ struct Run {
         simulation(std::move(built)),
         results(scene.scene, simulation->world()),
         expectations(scene.scene),
+        compaction(scene.scene),
         recorder(where,
                  {program_version(), program_commit(), scene.scene.title,
                   fmt::format("{:016x}", scene.hash), scene.scene.seed, workers},
@@ -107,6 +110,7 @@ struct Run {
     simulation->observe();
     recorder.sample(clock.time, results.sample());
     expectations.sample(clock.time, results);
+    compaction.sample(results);
     samples.pass(clock.time);
     check_limits(loaded.scene, results, simulation->world());
     if (!frames.due(clock.time)) return;
@@ -141,7 +145,7 @@ struct Run {
   void finish(const std::string& outcome) {
     progress.finish();
     recorder.finish(outcome);
-    write_summary(folder, loaded.scene, simulation->world(), results,
+    write_summary(folder, loaded.scene, simulation->world(), results, compaction,
                   {progress.seconds(), simulation->clock().step, threads,
                    fmt::format("{:016x}", loaded.hash), outcome},
                   verdicts);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cli/summary_compaction.hpp"
 #include "components/contact.hpp"
 #include "engine/instruction_set.hpp"
 #include "engine/output_error.hpp"
@@ -94,7 +95,7 @@ std::string program_version() { return PULVIS_VERSION; }
 std::string program_commit() { return PULVIS_COMMIT; }
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
-                   const Results& results, const RunCost& cost,
+                   const Results& results, const CompactionCurve& curve, const RunCost& cost,
                    const std::vector<Verdict>& verdicts) {
   const double updates = static_cast<double>(cost.steps) * static_cast<double>(results.elements());
   Json json{{"title", scene.title},
@@ -118,6 +119,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
   json["limits"] = limits_json(scene.limits);
   json["tools"] = tools_json(scene, world);
   json["materials"] = materials_json(scene);
+  add_compaction(json, scene, curve);
   if (!verdicts.empty()) json["expectations"] = expectations_json(verdicts);
   const std::filesystem::path path = folder / "summary.json";
   std::ofstream file(path);

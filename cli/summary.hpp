@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "scenes/compaction_curve.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/results.hpp"
 #include "scenes/scene.hpp"
@@ -18,7 +19,7 @@ struct RunCost {
 };
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
-                   const Results& results, const RunCost& cost,
+                   const Results& results, const CompactionCurve& curve, const RunCost& cost,
                    const std::vector<Verdict>& verdicts);
 
 // Version and commit of this program, as results carry them.

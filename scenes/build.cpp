@@ -21,17 +21,18 @@
 #include "scenes/surface.hpp"
 
 namespace pulvis {
-namespace {
-
-// Surfaces move by this many skins against each other before they can have come near who were no
-// neighbours: more than neighbours do, and few enough to keep lists short.
-constexpr double skins_of_neighbourhood = 8;
 
 double friction_of(const Scene& scene, const std::string& a, const std::string& b) {
   for (const FrictionSpec& f : scene.frictions)
     if ((f.first == a && f.second == b) || (f.first == b && f.second == a)) return f.coefficient;
   return scene.contact.friction;
 }
+
+namespace {
+
+// Surfaces move by this many skins against each other before they can have come near who were no
+// neighbours: more than neighbours do, and few enough to keep lists short.
+constexpr double skins_of_neighbourhood = 8;
 
 ContactRules contact_rules(const Scene& scene) {
   ContactRules rules{scene.contact.stiffness,

@@ -26,4 +26,7 @@ Needs needs_of(const Scene& scene, std::size_t particles);
 // Places the particles, checks that they have room (throws SceneError), and fills a world.
 std::unique_ptr<World> build_world(const Scene& scene);
 
+// Coulomb coefficient between two materials, or a material and a tool.
+double friction_of(const Scene& scene, const std::string& a, const std::string& b);
+
 }  // namespace pulvis

@@ -178,6 +178,14 @@ std::array<std::string, 2> name_pair(const KeyInfo& key, const Value& value, con
   return {word(key, parts[0]), word(key, parts[1])};
 }
 
+// The elements of a list; a list of nothing is refused.
+const document::Array& list(const KeyInfo& key, const Value& value) {
+  const auto* array = value.as<document::Array>();
+  if (array == nullptr) refuse_type(key, value);
+  if (array->empty()) refuse(key, value, "an empty array is given");
+  return *array;
+}
+
 }  // namespace
 
 Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
@@ -232,6 +240,12 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
         result.text = line_of_text(key, value);
       else
         result.number = bare_number(key, value);
+      break;
+    case Kind::texts:
+      for (const Value& one : list(key, value)) result.texts.push_back(line_of_text(key, one));
+      break;
+    case Kind::integers:
+      for (const Value& one : list(key, value)) result.integers.push_back(integer(key, one));
       break;
   }
   return result;

@@ -66,7 +66,9 @@ std::string heading(const schema::TableInfo& info) {
 }
 
 std::string describe(const schema::TableView& view) {
-  std::string text = fmt::format("\n## {}\n\n{}\n\n", heading(view.info), view.info.doc);
+  std::string text = fmt::format("\n## {}\n\n{}\n", heading(view.info), view.info.doc);
+  if (view.keys.empty()) return text;  // its keys are not ours
+  text += "\n";
   text += "| key | value | default | meaning |\n|---|---|---|---|\n";
   for (const schema::KeyInfo& key : view.keys)
     text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, cell(schema::allowed(key)),
@@ -76,10 +78,12 @@ std::string describe(const schema::TableView& view) {
 
 }  // namespace
 
-std::string scene_reference() {
-  std::string text = introduction;
-  for (const schema::TableView& view : schema::all_tables()) text += describe(view);
+std::string describe_tables(const schema::Language& language) {
+  std::string text;
+  for (const schema::TableView& view : language) text += describe(view);
   return text;
 }
+
+std::string scene_reference() { return introduction + describe_tables(schema::all_tables()); }
 
 }  // namespace pulvis

@@ -95,6 +95,12 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::name_pair:
       json = pair_of({{"type", "string"}});
       break;
+    case Kind::texts:
+      json = {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}};
+      break;
+    case Kind::integers:
+      json = {{"type", "array"}, {"items", {{"type", "integer"}}}, {"minItems", 1}};
+      break;
     case Kind::bound:
       json["anyOf"] = Json::array({Json{{"type", "number"}}, quantity()});
       break;

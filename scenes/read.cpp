@@ -120,26 +120,6 @@ class SceneReader {
   schema::TableReader tables_;
 };
 
-[[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& message) {
-  throw SceneError({{file.string(), 1, 1, "", "scene", message}});
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::error_code failure;
-  if (!std::filesystem::exists(file, failure))
-    refuse_file(file, "there is no such file, allowed: a scene (TOML)");
-  if (std::filesystem::is_directory(file, failure))
-    refuse_file(file, "is a folder, allowed: a scene (TOML)");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(largest_file + 1, '\0');
-  if (stream) stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad() || !(stream.eof() || stream)) refuse_file(file, "cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > largest_file)
-    refuse_file(file, fmt::format("is larger than {} MiB", largest_file >> 20U));
-  return text;
-}
-
 Table parsed(const std::string& text, Problems& problems) {
   try {
     Table root = document::parse(text);
@@ -151,6 +131,10 @@ Table parsed(const std::string& text, Problems& problems) {
     problems.throw_if_any();
     throw;  // not reached
   }
+}
+
+[[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& message) {
+  throw SceneError({{file.string(), 1, 1, "", "scene", message}});
 }
 
 using ReadOther = std::function<Scene(const std::filesystem::path&)>;
@@ -181,6 +165,22 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
 
 }  // namespace
 
+std::string toml_file_text(const std::filesystem::path& file, const char* kind) {
+  std::error_code failure;
+  if (!std::filesystem::exists(file, failure))
+    refuse_file(file, fmt::format("there is no such file, allowed: {} (TOML)", kind));
+  if (std::filesystem::is_directory(file, failure))
+    refuse_file(file, fmt::format("is a folder, allowed: {} (TOML)", kind));
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(largest_file + 1, '\0');
+  if (stream) stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad() || !(stream.eof() || stream)) refuse_file(file, "cannot be read");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest_file)
+    refuse_file(file, fmt::format("is larger than {} MiB", largest_file >> 20U));
+  return text;
+}
+
 LoadedScene load_scene_text(const std::string& text, const std::filesystem::path& file,
                             const std::vector<std::string>& overrides) {
   return load(text, file, overrides, read_scene_alone);
@@ -188,7 +188,7 @@ LoadedScene load_scene_text(const std::string& text, const std::filesystem::path
 
 LoadedScene load_scene(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
-  return load_scene_text(text_of(file), file, overrides);
+  return load_scene_text(toml_file_text(file), file, overrides);
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -196,7 +196,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 }
 
 Scene read_scene_alone(const std::filesystem::path& file) {
-  return load(text_of(file), file).scene;
+  return load(toml_file_text(file), file).scene;
 }
 
 std::uint64_t scene_hash(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }

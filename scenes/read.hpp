@@ -30,6 +30,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 // A scene that another one is compared with: its own comparisons are not followed.
 Scene read_scene_alone(const std::filesystem::path& file);
 
+// The text of a file of at most 16 MiB; throws SceneError where there is none.
+std::string toml_file_text(const std::filesystem::path& file, const char* kind = "a scene");
+
 // FNV-1a, 64 bits: the same on every machine.
 std::uint64_t scene_hash(const std::string& text);
 

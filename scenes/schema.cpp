@@ -10,13 +10,6 @@
 namespace pulvis::schema {
 namespace {
 
-template <class Spec>
-TableView view(const TableDeclaration<Spec>& declaration) {
-  TableView result{declaration.info, {}};
-  for (const Key<Spec>& key : declaration.keys) result.keys.push_back(key.info);
-  return result;
-}
-
 std::string range_text(const Range& range) {
   const bool low = std::isfinite(range.low), high = std::isfinite(range.high);
   std::string text;
@@ -95,8 +88,8 @@ bool Range::holds(double value) const {
   return above_low && below_high;
 }
 
-const std::vector<TableView>& all_tables() {
-  static const std::vector<TableView> tables{
+const Language& all_tables() {
+  static const Language tables{
       view(top_level()), view(material()), view(particle()), view(mesh()),
       view(body()),      view(packing()),  view(tool()),     view(stage()),
       view(move()),      view(friction()), view(contact()),  view(element()),
@@ -104,11 +97,10 @@ const std::vector<TableView>& all_tables() {
   return tables;
 }
 
-const TableView* find_table(const std::string& path) {
-  const auto& tables = all_tables();
-  const auto found = std::find_if(tables.begin(), tables.end(),
-                                  [&](const TableView& view) { return view.info.path == path; });
-  return found == tables.end() ? nullptr : &*found;
+const TableView* find_table(const std::string& path, const Language& language) {
+  const auto found = std::find_if(language.begin(), language.end(),
+                                  [&](const TableView& table) { return table.info.path == path; });
+  return found == language.end() ? nullptr : &*found;
 }
 
 const KeyInfo* find_key(const TableView& table, const std::string& name) {
@@ -121,10 +113,10 @@ std::string joined_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-std::vector<std::string> known_words(const TableView& table) {
+std::vector<std::string> known_words(const TableView& table, const Language& language) {
   std::vector<std::string> words;
   for (const KeyInfo& key : table.keys) words.push_back(key.name);
-  for (const TableView& child : all_tables())
+  for (const TableView& child : language)
     if (is_child(child.info, table.info.path)) words.push_back(last_word(child.info.path));
   return words;
 }
@@ -173,6 +165,10 @@ std::string allowed(const KeyInfo& key) {
       return "two names, each of a material or a tool";
     case Kind::bound:
       return "a number in the SI unit of the series, or a quantity in any unit of its dimension";
+    case Kind::texts:
+      return "one or more strings [\"a\", \"b\", ...]";
+    case Kind::integers:
+      return "one or more whole numbers [1, 2, ...]" + range_text(key.range);
   }
   return "";
 }

@@ -32,6 +32,8 @@ enum class Kind {
   reference,  // the name of another table's element
   name_pair,  // two names of materials or tools
   bound,      // a bare number, or a quantity in a unit that another key decides
+  texts,      // one or more strings
+  integers,   // one or more bare whole numbers
 };
 
 struct Range {
@@ -88,6 +90,8 @@ struct Decoded {
   Vec2 vector = Vec2::Zero();
   std::vector<Vec2> points = {};
   std::string text = {};
+  std::vector<std::string> texts = {};
+  std::vector<std::int64_t> integers = {};
   std::array<std::string, 2> names = {};
 };
 
@@ -116,6 +120,13 @@ struct TableView {
   std::vector<KeyInfo> keys;
 };
 
+template <class Spec>
+TableView view(const TableDeclaration<Spec>& declaration) {
+  TableView result{declaration.info, {}};
+  for (const Key<Spec>& key : declaration.keys) result.keys.push_back(key.info);
+  return result;
+}
+
 const TableDeclaration<Scene>& top_level();
 const TableDeclaration<MaterialSpec>& material();
 const TableDeclaration<ParticleSpec>& particle();
@@ -133,11 +144,14 @@ const TableDeclaration<OutputSpec>& output();
 const TableDeclaration<LimitSpec>& limits();
 const TableDeclaration<ExpectSpec>& expect();
 
-const std::vector<TableView>& all_tables();  // top level first, a parent before its children
-const TableView* find_table(const std::string& path);
+using Language = std::vector<TableView>;  // top level first, a parent before its children
+const Language& all_tables();             // of a scene
+const TableView* find_table(const std::string& path, const Language& language = all_tables());
 const KeyInfo* find_key(const TableView& table, const std::string& name);
 std::string joined_path(const std::string& path, const std::string& key);
-std::vector<std::string> known_words(const TableView& table);  // its keys and child tables
+// Its keys and child tables.
+std::vector<std::string> known_words(const TableView& table,
+                                     const Language& language = all_tables());
 
 std::string quoted(const Words& words);   // '"disc" or "ring"'
 std::string allowed(const KeyInfo& key);  // "a quantity in Pa, >= 1 and <= 1e+13"

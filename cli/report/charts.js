@@ -49,7 +49,7 @@ const bounds = lists => lists.flat().reduce(
   [Infinity, -Infinity]);
 
 function withMargin([low, high], share) {
-  if (!(low <= high)) return [0, 1];
+  if (!(low <= high) || (low === 0 && high === 0)) return [0, 1];
   const margin = (high - low) * share || Math.abs(high) * 0.1 || 1;
   return [low === 0 ? 0 : low - margin, high === 0 ? 0 : high + margin];
 }

@@ -53,8 +53,11 @@ async function main() {
   document.getElementById("lead").textContent = leadOf(head, history);
   fillSummary(head, history);
   fillQuality(head, history);
+  fillFits(head.summary);
+  fillTransmission(head.summary);
   drawCharts(history);
   await showObserved(head);
+  drawFits(head.summary);
   await showPicture(head, history);
   document.body.dataset.ready = "1";
 }

@@ -96,7 +96,7 @@ function otherRows(value, name, rows) {
 function fillSummary(head, history) {
   const known = knownRows(head, history);
   const told = new Set(["title", "tools", "limits", "quality", "energy_balance_error",
-                        "kinetic_ratio", "penetration",
+                        "kinetic_ratio", "penetration", "fits", "transmission",
                         ...known.flatMap(row => row[2])]);
   const rows = known.filter(row => row[1]);
   for (const [key, value] of Object.entries(head.summary)) {

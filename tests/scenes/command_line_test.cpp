@@ -1,21 +1,18 @@
 // The program as a user meets it: its exit codes, its messages, and what it leaves in a folder.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "engine/hdf5.hpp"
+#include "program.hpp"
 
 namespace pulvis {
 namespace {
@@ -27,58 +24,13 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 using ::testing::StartsWith;
-using Words = std::vector<std::string>;
 
-struct Outcome {
-  int code = -1;  // 128 + signal where one ended it, as in a shell
-  std::string out, err;
-};
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-void send_to(const fs::path& file, int descriptor) {
-  const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  dup2(opened, descriptor);
-}
-
-class CommandLine : public ::testing::Test {
+class CommandLine : public ProgramTest {
  protected:
   void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    place = fs::temp_directory_path() /
-            ("pulvis-command-line-" + std::to_string(getpid()) + "-" + test->name());
-    fs::remove_all(place);
-    fs::create_directories(place);
+    ProgramTest::SetUp();
     run = place / "results";
   }
-  void TearDown() override { fs::remove_all(place); }
-
-  // Starts the program in `place`; its output goes into files there.
-  pid_t start(const Words& arguments) const {
-    const pid_t child = fork();
-    if (child != 0) return child;
-    fs::current_path(place);
-    send_to(place / "out", STDOUT_FILENO);
-    send_to(place / "err", STDERR_FILENO);
-    std::vector<char*> argv{const_cast<char*>("pulvis")};
-    for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    execv(PULVIS_PROGRAM, argv.data());
-    _exit(127);
-  }
-
-  Outcome end_of(pid_t child) const {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-            text_of(place / "out"), text_of(place / "err")};
-  }
-
-  Outcome pulvis(const Words& arguments) const { return end_of(start(arguments)); }
 
   // 25 particles for 245 steps, into `run`.
   Outcome short_run(const Words& more = {}) const {
@@ -100,10 +52,6 @@ class CommandLine : public ::testing::Test {
     return (place / "wrong.toml").string();
   }
 
-  static std::string scene(const std::string& name) {
-    return std::string(PULVIS_SOURCE_DIR) + "/scenes/" + name;
-  }
-
   // Every frame of the run can be read, is whole and full of finite numbers.
   void expect_whole_frames(std::size_t at_least) const {
     const auto file = hdf5::File::open(run / "run.h5");
@@ -120,7 +68,7 @@ class CommandLine : public ::testing::Test {
     }
   }
 
-  fs::path place, run;
+  fs::path run;
 };
 
 // ---- 0: done ------------------------------------------------------------------------------------
@@ -266,7 +214,7 @@ TEST_F(CommandLine, ReportIsWrittenAnew) {
 TEST_F(CommandLine, EveryCommandHasHelp) {
   const Outcome all = pulvis({"--help"});
   EXPECT_EQ(all.code, 0);
-  for (const char* command : {"run", "check", "plan", "report"}) {
+  for (const char* command : {"run", "study", "check", "plan", "report"}) {
     EXPECT_THAT(all.out, HasSubstr(command));
     const Outcome one = pulvis({command, "--help"});
     EXPECT_EQ(one.code, 0) << command;
@@ -287,7 +235,10 @@ TEST_F(CommandLine, BadUsageIsRefused) {
                                                {"run", good, "-o"},
                                                {"check"},
                                                {"check", "--reference", "poem"},
-                                               {"report"}}) {
+                                               {"report"},
+                                               {"study"},
+                                               {"study", good, "--jobs", "0"},
+                                               {"study", "--reference", "poem"}}) {
     const Outcome end = pulvis(wrong);
     EXPECT_EQ(end.code, 2) << ::testing::PrintToString(wrong);
     EXPECT_THAT(end.err, HasSubstr("--help")) << ::testing::PrintToString(wrong);

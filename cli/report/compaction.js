@@ -1,0 +1,76 @@
+// What a compaction adds to the report: laws fitted to its density curve, and the force that reaches the
+// bottom punch beside what theory says.
+"use strict";
+
+const LAWS = {heckel: ["Heckel", "ln[1/(1 − D)] = K P + A"],
+              kawakita: ["Kawakita", "P/C = P/a + 1/(a b),  C = 1 − D₀/D"],
+              cooper_eaton: ["Cooper–Eaton", "C/(1 − D₀) = a₁ exp(−k₁/P) + a₂ exp(−k₂/P)"]};
+
+function parameterText({name, value, unit}) {
+  if (unit === "1/Pa") return `${words(name)} = ${digits(value * 1e6)} 1/MPa`;
+  return `${words(name)} = ${withUnit(value, unit)}`;
+}
+
+function fillFits({fits}) {
+  if (!fits || !Array.isArray(fits.laws)) return;
+  document.getElementById("fits-section").hidden = false;
+  const body = document.querySelector("#fits tbody");
+  for (const law of fits.laws) {
+    const row = body.insertRow(), name = row.insertCell(), told = row.insertCell();
+    const [title, formula] = LAWS[law.law] || [law.law, ""];
+    name.textContent = title;
+    name.append(element("small", {textContent: formula}));
+    told.textContent = law.not_fitted ? `not fitted: ${law.not_fitted}`
+                                      : law.parameters.map(parameterText).join(", ");
+    if (law.not_fitted) continue;
+    told.append(element("small", {textContent: `R² ${digits(law.r_squared, 5)}; rms ` +
+      `${withUnit(law.rms, law.rms_unit, 3)} of the ordinate, ` +
+      `${digits(law.rms_density, 3)} of the relative density`}));
+  }
+  const range = fits.samples > 0 ?
+    `Pressure P of the top punch, ${fits.samples} samples of the loading from ` +
+    `${withUnit(fits.pressure[0], "Pa", 3)} (1 % of the largest) to ` +
+    `${withUnit(fits.pressure[1], "Pa", 3)}, relative density D ` +
+    `${digits(fits.relative_density[0])} to ${digits(fits.relative_density[1])}.` : "";
+  document.getElementById("fits-note").textContent = range;
+}
+
+function drawFits({fits}) {
+  const curve = fits && fits.curve;
+  if (!curve || !curve.pressure.length) return;
+  const drawn = Object.keys(LAWS).filter(law => curve[law]);
+  if (!drawn.length) return;
+  const lines = [{label: "measured", unit: "-", values: curve.relative_density},
+                 ...drawn.map(law => ({label: LAWS[law][0], unit: "-", values: curve[law]}))];
+  drawChart(card("Relative density against punch pressure, and the fitted laws"),
+            {x: {label: "pressure", unit: "Pa", values: curve.pressure}, y: "relative density", lines});
+}
+
+const TRANSMISSION = [["relative_density", "D"], ["height_over_width", "H/W"],
+                      ["lateral_ratio", "K measured"], ["measured", "measured"],
+                      ["round_die", "round die"], ["slot", "slot"],
+                      ["slot_measured_ratio", "slot, K measured"]];
+
+function fillTransmission({transmission}) {
+  if (!transmission) return;
+  document.getElementById("transmission-section").hidden = false;
+  const note = document.getElementById("transmission-note");
+  if (transmission.not_measured) {
+    note.textContent = `Not measured: ${transmission.not_measured}.`;
+    return;
+  }
+  const shares = transmission.shares;
+  const columns = TRANSMISSION.filter(([key]) => shares.some(share => key in share));
+  const head = document.querySelector("#transmission thead").insertRow();
+  columns.forEach(([, title]) => head.append(element("th", {textContent: title})));
+  const body = document.querySelector("#transmission tbody");
+  for (const share of shares) {
+    const row = body.insertRow();
+    for (const [key] of columns) row.insertCell().textContent = digits(share[key]);
+  }
+  note.textContent = transmission.not_compared ?
+    `Not compared with theory: ${transmission.not_compared}.` :
+    `Bottom over top force, means over pieces of the loading. Round die: exp(−4 µ ν H / (W (1 − ν))); ` +
+    `slot: exp(−2 µ K H / W) with the elastic K = ν/(1 − ν) and with the measured one; ` +
+    `µ = ${digits(transmission.wall_friction)} at the walls, ν = ${digits(transmission.poissons_ratio)}.`;
+}

@@ -1,0 +1,177 @@
+// The report of a study: verdicts, curves of all variations over each other, and the table of its runs.
+// <body> tells how it went: data-ready with the number of lines drawn, or data-error.
+"use strict";
+
+function fail(error) {
+  const text = String(error && error.message || error);
+  document.body.dataset.error = text;
+  document.getElementById("lead").textContent = `This report could not be shown: ${text}`;
+}
+addEventListener("error", event => fail(event.error || event.message));
+addEventListener("unhandledrejection", event => fail(event.reason));
+
+const linkTo = run => element("a", {textContent: run.name,
+                                    href: `${encodeURIComponent(run.name)}/report.html`});
+
+function leadText(head) {
+  const bad = head.runs.filter(run => run.failure).length;
+  const unmet = head.expectations.filter(one => !one.met).length;
+  const parts = [`${head.runs.length} runs of ` +
+                 `${new Set(head.runs.map(run => run.variation)).size} variations`,
+                 bad ? `${bad} went bad` : "all good"];
+  if (head.expectations.length) {
+    parts.push(unmet ? `${unmet} of ${head.expectations.length} expectations not met`
+                     : `all ${head.expectations.length} expectations met`);
+  }
+  return parts.join(", ") + `. Version ${head.version} (${head.commit}).`;
+}
+
+function fillExpectations(list) {
+  document.getElementById("expectations-section").hidden = !list.length;
+  const body = document.querySelector("#expectations tbody");
+  for (const one of list) {
+    const row = body.insertRow();
+    for (const text of [one.what, one.measured, one.expected]) row.insertCell().textContent = text;
+    const verdict = row.insertCell();
+    verdict.textContent = one.met ? "met" : "NOT met";
+    verdict.className = one.met ? "within" : "beyond";
+  }
+}
+
+// rows: [[cell, ...]] of texts or elements.
+function fillTable(id, titles, rows, isBad = () => false) {
+  const head = document.querySelector(`#${id} thead`).insertRow();
+  titles.forEach(title => head.append(element("th", {textContent: title})));
+  const body = document.querySelector(`#${id} tbody`);
+  rows.forEach((cells, i) => {
+    const row = body.insertRow();
+    if (isBad(i)) row.className = "bad";
+    cells.forEach(cell => row.insertCell().append(cell));
+  });
+}
+
+const figureOf = (run, name) => run.figures.find(figure => figure.name === name);
+
+function figureText(figure) {
+  if (!figure || figure.value === null || figure.value === "") return "–";
+  if (typeof figure.value === "string") return figure.value;
+  if (figure.unit === "") return figure.value.toLocaleString("en");
+  return withUnit(figure.value, figure.unit);
+}
+
+const COLUMNS = [["particles", "particles"], ["steps", "steps"], ["wall_seconds", "computing time"],
+                 ["relative_density", "relative density"], ["stress_ratio/axial", "σ axial / σy"],
+                 ["stress_ratio/lateral", "σ lateral / σy"], ["top_force_end", "top force"],
+                 ["bottom_force_end", "bottom force"], ["top_force_max", "largest top force"],
+                 ["energy_balance_error", "energy balance error"], ["kinetic_ratio", "kinetic ratio"],
+                 ["expectations_met", "expectations met"]];
+
+function fillRuns(head) {
+  const keys = Object.keys(head.runs[0].varied);
+  const columns = COLUMNS.filter(([name]) => head.runs.some(run => {
+    const figure = figureOf(run, name);
+    return figure && figure.value !== null && figure.value !== "";
+  }));
+  const rows = head.runs.map(run => [
+    run.figures.some(figure => figure.name === "outcome" && figure.value) ? linkTo(run) : run.name,
+    ...keys.map(key => run.varied[key] || "–"), String(run.seed),
+    run.failure ? run.failure : figureText(figureOf(run, "outcome")),
+    ...columns.map(([name]) => figureText(figureOf(run, name)))]);
+  fillTable("runs", ["run", ...keys, "seed", "outcome", ...columns.map(([, title]) => title)], rows,
+            i => Boolean(head.runs[i].failure));
+}
+
+function fillLaws(head) {
+  const runs = head.runs.filter(run => run.fits && Array.isArray(run.fits.laws));
+  document.getElementById("laws-section").hidden = !runs.length;
+  const told = law => law.not_fitted ? `not fitted: ${law.not_fitted}`
+                                     : law.parameters.map(parameterText).join(", ");
+  const rows = runs.flatMap(run => run.fits.laws.map(law => [
+    run.name, (LAWS[law.law] || [law.law])[0], told(law),
+    law.not_fitted ? "–" : digits(law.r_squared, 5),
+    law.not_fitted ? "–" : digits(law.rms_density, 3)]));
+  fillTable("laws", ["run", "law", "parameters", "R²", "rms of D"], rows);
+}
+
+function fillBelow(head) {
+  const runs = head.runs.filter(run => run.transmission && run.transmission.shares);
+  document.getElementById("below-section").hidden = !runs.length;
+  const rows = runs.map(({name, transmission}) => [
+    name, digits(transmission.wall_friction),
+    ...TRANSMISSION.map(([key]) => digits(transmission.shares.at(-1)[key])),
+    transmission.not_compared || ""]);
+  fillTable("below", ["run", "wall µ", ...TRANSMISSION.map(([, title]) => title), ""], rows);
+}
+
+// The area between smallest and largest over the seeds: out along the one, back along the other.
+function fillBand(u, index) {
+  const [xs, ys] = u.data[index], {left, top, width, height} = u.bbox, ctx = u.ctx;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(left, top, width, height);
+  ctx.clip();
+  ctx.beginPath();
+  xs.forEach((x, i) => ctx.lineTo(u.valToPos(x, "x", true), u.valToPos(ys[i], "y", true)));
+  ctx.closePath();
+  ctx.globalAlpha = 0.2;
+  ctx.fillStyle = u.series[index].stroke();
+  ctx.fill();
+  ctx.restore();
+  return null;
+}
+
+function lineData(line, numbers) {
+  const part = k => numbers.subarray(line.first + k * line.count, line.first + (k + 1) * line.count);
+  return {x: part(0), y: part(1), low: line.band ? part(2) : null, high: line.band ? part(3) : null};
+}
+
+const seriesLabel = name => words(name).replaceAll("/", " ");
+
+// Every curve has an abscissa of its own: uPlot's mode 2.
+function drawOverlay(host, curve, numbers) {
+  const lines = curve.lines.map(line => ({...line, ...lineData(line, numbers)}));
+  const xUnit = unitFor(curve.x_unit, Math.max(...lines.map(line => largest(line.x))));
+  const yUnit = unitFor(curve.y_unit, Math.max(...lines.map(line => largest(line.y))));
+  const data = [null], series = [null];
+  const add = (x, y, entry) => {
+    data.push([scaled(x, xUnit.factor), scaled(y, yUnit.factor)]);
+    series.push({facets: [{scale: "x", auto: true}, {scale: "y", auto: true}], width: 2,
+                 points: {show: false}, value: legendValue, ...entry});
+  };
+  lines.forEach((line, i) => {
+    const stroke = COLOURS[i % COLOURS.length];
+    if (line.band) {
+      add([...line.x, ...Array.from(line.x).reverse()], [...line.low, ...Array.from(line.high).reverse()],
+          {stroke, label: `${line.variation}, ${line.runs} seeds, from least to most`, paths: fillBand});
+    }
+    add(line.x, line.y, {stroke, label: line.band ? `${line.variation}, mean` : line.variation,
+                         paths: drawInOrder});
+  });
+  const xLabel = labelled(seriesLabel(curve.x), xUnit.label);
+  const options = chartOptions(host, xLabel, labelled(seriesLabel(curve.y), yUnit.label), []);
+  options.mode = 2;
+  options.height = 340;
+  options.legend = {live: false};
+  options.cursor = {drag: {x: false, y: false}, points: {show: false}};
+  options.scales = {x: {time: false, range: withMargin(bounds(data.slice(1).map(d => d[0])), 0.02)},
+                    y: {range: withMargin(bounds(data.slice(1).map(d => d[1])), 0.05)}};
+  options.series = series;
+  fitted(new uPlot(options, data, host), host);
+}
+
+async function main() {
+  const head = JSON.parse(document.getElementById("head").textContent);
+  const numbers = await floats("numbers");
+  document.getElementById("lead").textContent = leadText(head);
+  fillExpectations(head.expectations);
+  fillRuns(head);
+  fillLaws(head);
+  fillBelow(head);
+  const drawn = head.curves.filter(curve => curve.lines.length);
+  const hosts = drawn.map(curve => card(seriesLabel(curve.title)));  // first all places: they share the width
+  drawn.forEach((curve, i) => drawOverlay(hosts[i], curve, numbers));
+  document.body.dataset.drawnLines = drawn.reduce((sum, curve) => sum + curve.lines.length, 0);
+  document.body.dataset.ready = "1";
+}
+
+main().catch(fail);

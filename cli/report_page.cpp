@@ -1,0 +1,89 @@
+#include "cli/report_page.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "cli/report_assets.hpp"
+#include "engine/output_error.hpp"
+
+namespace pulvis {
+namespace {
+
+std::string with_replaced(std::string_view text, const std::map<char, const char*>& by) {
+  std::string safe;
+  for (const char c : text) {
+    const auto other = by.find(c);
+    other == by.end() ? safe += c : safe += other->second;
+  }
+  return safe;
+}
+
+std::string escaped(std::string_view text) {
+  return with_replaced(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}});
+}
+
+// JSON inside a script element: no text of the run may look like the end of the element.
+std::string harmless(std::string_view json) { return with_replaced(json, {{'<', "\\u003c"}}); }
+
+std::string joined(const std::vector<const char*>& names) {
+  std::string text;
+  for (const char* name : names) text += std::string(report_asset(name)) + "\n";
+  return text;
+}
+
+std::string carried(const ReportData& data) {
+  std::string text =
+      "<script type=\"application/json\" id=\"head\">" + harmless(data.head) + "</script>\n";
+  for (const auto& section : data.sections) {
+    text += "<script type=\"application/octet-stream\" id=\"" + section.name + "\">" +
+            section.text + "</script>\n";
+  }
+  return text;
+}
+
+std::string part(std::string_view name, const std::vector<const char*>& scripts,
+                 const ReportData& data) {
+  if (name == "title") return escaped(data.title);
+  if (name == "style") return joined({"uPlot.min.css", "report.css"});
+  if (name == "licence") return escaped(report_asset("uPlot.LICENSE"));
+  if (name == "script") return joined(scripts);
+  return carried(data);
+}
+
+// The page with every <!--@name@--> replaced; what is put in is not searched again.
+std::string filled(std::string_view page, const std::vector<const char*>& scripts,
+                   const ReportData& data) {
+  static constexpr std::string_view opening = "<!--@", closing = "@-->";
+  std::string text;
+  for (std::size_t from = 0;;) {
+    const auto begin = page.find(opening, from);
+    text += page.substr(from, begin - from);
+    if (begin == std::string_view::npos) return text;
+    const auto name = begin + opening.size(), end = page.find(closing, name);
+    text += part(page.substr(name, end - name), scripts, data);
+    from = end + closing.size();
+  }
+}
+
+}  // namespace
+
+void write_page(const std::filesystem::path& path, const char* page,
+                const std::vector<const char*>& scripts, const ReportData& data) {
+  const std::string text = filled(report_asset(page), scripts, data);
+  auto beside = path;
+  beside += ".new";
+  std::ofstream file(beside, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw OutputError(path, "write the report", std::strerror(errno));
+  std::error_code error;
+  std::filesystem::rename(beside, path, error);
+  if (error) throw OutputError(path, "replace the report", error.message());
+}
+
+}  // namespace pulvis

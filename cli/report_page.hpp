@@ -1,0 +1,16 @@
+// A page of cli/report/ made into one file: style, scripts and data put in, nothing loaded.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "cli/report_data.hpp"
+
+namespace pulvis {
+
+// `page` and `scripts` are names of assets; the data go into elements that payload.js reads.
+void write_page(const std::filesystem::path& path, const char* page,
+                const std::vector<const char*>& scripts, const ReportData& data);
+
+}  // namespace pulvis

@@ -1,0 +1,57 @@
+#!/bin/bash
+# Runs a small study and opens its report in headless Chromium: it must draw every curve, with the band over
+# its seeds, and raise no error, offline.
+#
+# usage: study_in_browser.sh PULVIS SCENE [FOLDER]
+#   PULVIS   the program
+#   SCENE    a scene of a compaction
+#   FOLDER   where to leave the study and a screenshot; without it they are removed
+set -euo pipefail
+
+pulvis=$1 scene=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+study=${3:-$work}/study
+mkdir -p "$study"
+
+fail() {
+  echo "FAILED: $1" >&2
+  exit 1
+}
+
+browse() {  # browse OPTION...
+  timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
+    --disable-background-networking --disable-component-update --disable-sync \
+    --user-data-dir="$work/profile" --virtual-time-budget=10000 --enable-logging=stderr \
+    --window-size=1200,2400 "$@" "file://$study/report.html"
+}
+
+cat >"$work/study.toml" <<TOML
+scene = "$scene"
+seeds = [1, 2]
+[set]
+"stage.press.duration" = "20 us"
+"stage.press.move[0].displacement" = ["0 mm", "-0.4 mm"]
+output.frames = 2
+output.samples = 40
+[grid]
+contact.friction = [0.1, 0.3]
+TOML
+"$pulvis" study "$work/study.toml" -o "$study" >"$work/log.txt" || fail "the study: $(tail -3 "$work/log.txt")"
+
+browse --dump-dom >"$work/page.html" 2>"$work/browser.txt" || fail "chromium: $(tail -3 "$work/browser.txt")"
+if grep ':CONSOLE' "$work/browser.txt"; then fail "the console has messages"; fi
+body=$(grep -o '<body[^>]*>' "$work/page.html" | head -1)
+[[ $body == *'data-ready="1"'* ]] || fail "not ready: $body"
+[[ $body == *'data-drawn-lines="6"'* ]] || fail "not 3 charts of 2 variations: $body"
+grep -q 'href="friction%3D0.1%2Cseed%3D2/report.html"' "$work/page.html" || fail "no link to a run"
+[[ -f $study/friction=0.1,seed=2/report.html ]] || fail "the link leads nowhere"
+browse --screenshot="$study/report.png" >/dev/null 2>&1
+/usr/bin/python3 - "$study/report.png" <<'PYTHON' || fail "a curve or its colour is missing"
+import sys
+from matplotlib.image import imread
+pixels = (imread(sys.argv[1])[:, :, :3] * 255).round().astype(int).reshape(-1, 3)
+for colour in ((0, 114, 178), (213, 94, 0)):  # of the two variations, frames of the legend aside
+    assert (abs(pixels - colour).max(axis=1) < 8).sum() > 500, colour
+PYTHON
+echo "ok: study report"
