@@ -7,6 +7,7 @@
 #include <new>
 
 #include "cli/exit_code.hpp"
+#include "cli/pack.hpp"
 #include "cli/plan.hpp"
 #include "cli/report.hpp"
 #include "cli/run.hpp"
@@ -29,6 +30,7 @@ struct Options {
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
   std::filesystem::path folder;
+  std::filesystem::path packing = "packing.csv";
 };
 
 ExitCode check(const Options& options) {
@@ -40,6 +42,7 @@ ExitCode check(const Options& options) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
+  fmt::print("{}", packing_summary(scene));
   fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(),
              bodies.size(), scene.tools.size(), scene.stages.size());
   return ExitCode::done;
@@ -105,6 +108,14 @@ int parse_and_run(int argc, char** argv) {
   add_scene(*plans, options);
   plans->add_flag("--dot", options.dot, "the graph as Graphviz input");
   plans->callback([&] { code = plan(options); });
+
+  auto* packs = app.add_subcommand(
+      "pack", "make the packing of a scene and write it as a table, for kind = \"csv\"");
+  add_scene(*packs, options);
+  packs->add_option("-o,--output", options.packing, "table (CSV), default packing.csv");
+  packs->callback([&] {
+    code = pack_scene(read_scene(options.run.scene, options.run.overrides), options.packing);
+  });
 
   auto* reports = app.add_subcommand("report", "write report.html anew for a finished run");
   reports->add_option("folder", options.folder, "results folder of a run")->required();

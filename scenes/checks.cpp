@@ -180,6 +180,7 @@ class Checks {
     for (const BodySpec& body : scene_.bodies) total += quads_of(body.particle);
     for (std::size_t i = 0; i < scene_.packings.size(); ++i) {
       const std::string path = fmt::format("packing[{}]", i);
+      if (!is_lattice(scene_.packings[i])) continue;
       particles += particle_count(scene_.packings[i]);
       if (particles > most_particles) {
         refuse(path, fmt::format("the scene has {} particles up to here, allowed: at most {}",
@@ -196,9 +197,13 @@ class Checks {
 
   void packings() {
     for (std::size_t i = 0; i < scene_.packings.size(); ++i) {
-      LatticePacking& packing = scene_.packings[i];
+      PackingSpec& packing = scene_.packings[i];
       const std::string path = fmt::format("packing[{}]", i);
-      if (packing.kind == LatticePacking::Kind::hexagonal && packing.columns == 1)
+      if (packing.kind != PackingSpec::Kind::random && !packing.classes.empty())
+        refuse(path + ".class[0]",
+               "has no effect with this kind, allowed: classes of kind = \"random\"");
+      if (!is_lattice(packing)) continue;
+      if (packing.kind == PackingSpec::Kind::hexagonal && packing.columns == 1)
         refuse(path + ".columns",
                "every second row would be empty, allowed: >= 2 with kind = \"hexagonal\"");
       if (origins_.count(path + ".spacing") != 0) continue;
@@ -267,7 +272,12 @@ class Checks {
   void everything_is_used() {
     std::set<int> particles, materials;
     for (const BodySpec& body : scene_.bodies) particles.insert(body.particle);
-    for (const LatticePacking& packing : scene_.packings) particles.insert(packing.particle);
+    for (const PackingSpec& packing : scene_.packings) {
+      if (is_lattice(packing)) particles.insert(packing.particle);
+      for (const MixtureClass& mixed : packing.classes) particles.insert(mixed.particle);
+      if (packing.kind != PackingSpec::Kind::csv) continue;
+      for (int p = 0; p < static_cast<int>(scene_.particles.size()); ++p) particles.insert(p);
+    }
     for (const ParticleSpec& particle : scene_.particles) materials.insert(particle.material);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
       if (materials.count(static_cast<int>(i)) == 0)

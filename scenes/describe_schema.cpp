@@ -54,6 +54,8 @@ Json type_of(const schema::KeyInfo& key) {
       break;
     case Kind::vector:
       json = pair_of(quantity());
+      if (!key.choices.empty())
+        json["items"] = {{"anyOf", Json::array({words(key.choices), quantity()})}};
       break;
     case Kind::points:
       json = {{"type", "array"}, {"items", pair_of(quantity())}, {"minItems", 2}};
@@ -63,9 +65,12 @@ Json type_of(const schema::KeyInfo& key) {
       break;
     case Kind::number:
       json["type"] = "number";
+      add_range(json, key.range);
+      if (!key.choices.empty()) json = {{"anyOf", Json::array({words(key.choices), json})}};
       break;
     case Kind::integer:
       json["type"] = "integer";
+      add_range(json, key.range);
       break;
     case Kind::direction:
       json = pair_of({{"type", "number"}});
@@ -89,8 +94,6 @@ Json type_of(const schema::KeyInfo& key) {
       json["anyOf"] = Json::array({Json{{"type", "number"}}, quantity()});
       break;
   }
-  const bool bare = key.kind == Kind::number || key.kind == Kind::integer;
-  if (bare) add_range(json, key.range);
   if (key.multiple_of > 1) json["multipleOf"] = key.multiple_of;
   return json;
 }

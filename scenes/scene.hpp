@@ -88,6 +88,8 @@ struct ParticleSpec {  // a class of equal particles
       false;              // every particle's mesh turned by its own random angle (disc, ring)
   double mesh_phase = 0;  // rad, the same turn for all when not random (disc, ring)
   SourceMark mark;
+  int class_of = -1;  // of one size of a packing: the class that is scaled, in Scene::particles
+  double scale = 1;   // of that class's outline
 };
 
 struct BodySpec {                // one particle, placed by hand
@@ -99,17 +101,59 @@ struct BodySpec {                // one particle, placed by hand
   SourceMark mark;
 };
 
-// Rows of particles from the bottom. Hexagonal: they lie sqrt(3)/2 of the spacing apart, and every second
-// one, shifted by half of it, has one particle less: between flat walls it is symmetric, its full rows touch
-// both walls, and beside the others half a particle is missing at each.
-struct LatticePacking {
-  enum class Kind { square, hexagonal } kind = Kind::square;
+// By number: uniform, normal, log-normal; by area: sieve. The size of a particle is the least width of its
+// outline, which is what passes a sieve.
+struct SizeLaw {
+  enum class Kind { mono, uniform, normal, lognormal, sieve } kind = Kind::mono;
+  double mean = 0;                       // m, of the whole law, before it is cut off
+  double deviation = 0;                  // m, standard, of the size itself
+  std::optional<double> least, largest;  // m, nothing lies beyond
+  std::string file;                      // sieve curve, relative to the scene's folder
+  int sizes = 8;                         // that stand for the law
+};
+
+// Of a random packing: particles of one class and their sizes.
+struct MixtureClass {
+  int particle = 0;                       // position in Scene::particles
+  std::optional<int> number;              // one of these three
+  std::optional<double> number_fraction;  // -, of all particles
+  std::optional<double> area_fraction;    // -, of all their area
+  SizeLaw size;
+  SourceMark mark;
+};
+
+struct PackingReached {  // what came out of a random packing
+  double density = 0;    // -, area of the particles over that of the die up to its top
+  double mean_gap = 0;   // -, to the three nearest neighbours, in diameters
+  double least_gap = 0;  // m, between any two particles, or a particle and the die
+  int touches = 0;       // pairs of particles with a gap below a thousandth of a diameter
+};
+
+// Square, hexagonal: rows of particles from the bottom. Hexagonal: they lie sqrt(3)/2 of the spacing apart, and
+// every second one, shifted by half of it, has one particle less: between flat walls it is symmetric, its full
+// rows touch both walls, and beside the others half a particle is missing at each. Random: a mixture in a die,
+// of which two of count, density and height are given. CSV: where a file says.
+struct PackingSpec {
+  enum class Kind { square, hexagonal, random, csv } kind = Kind::square;
+  enum class Dense { given, touching, densest };
   int particle = 0;
   int rows = 1;
   int columns = 1;
-  double spacing = 0;          // m, centre to centre
-  Vec2 corner = Vec2::Zero();  // m, lower left corner of the first particle's lattice cell
+  double spacing = 0;  // m, centre to centre
+  Vec2 corner =
+      Vec2::Zero();  // m, lower left corner of the first particle's lattice cell, or the die
+  double width = 0;  // m, of the die
+  std::optional<double> height;   // m
+  std::optional<int> count;       // where the classes give fractions
+  std::optional<double> density;  // -
+  Dense dense = Dense::given;     // otherwise instead of a density
+  std::string file;               // relative to the scene's folder
+  std::vector<MixtureClass> classes;
   SourceMark mark;
+  // Of random and CSV packings, when the scene has been read:
+  std::vector<BodySpec> placed = {};
+  double top = 0;  // m, where a punch rests on the packing
+  PackingReached reached = {};
 };
 
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
@@ -120,6 +164,7 @@ struct ToolSpec {
   enum class Holds { x, y, both, radial };
   std::string name;
   Vec2 point = Vec2::Zero();    // m; of a radial grip, and of one with a radius: its centre
+  bool on_packing = false;      // point.y is the top of the highest packing
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
@@ -215,11 +260,11 @@ struct Scene {
   std::uint64_t seed = 1;
   std::vector<MaterialSpec> materials;
   std::vector<ParticleSpec> particles;
-  std::vector<BodySpec> bodies;          // [[body]]
-  std::vector<LatticePacking> packings;  // [[packing]]
-  std::vector<ToolSpec> tools;           // [[tool]]
-  std::vector<StageSpec> stages;         // [[stage]]
-  std::vector<FrictionSpec> frictions;   // [[friction]]
+  std::vector<BodySpec> bodies;         // [[body]]
+  std::vector<PackingSpec> packings;    // [[packing]]
+  std::vector<ToolSpec> tools;          // [[tool]]
+  std::vector<StageSpec> stages;        // [[stage]]
+  std::vector<FrictionSpec> frictions;  // [[friction]]
   ContactSpec contact;
   ElementSpec element;
   TimeSpec time;

@@ -97,10 +97,10 @@ bool Range::holds(double value) const {
 
 const std::vector<TableView>& all_tables() {
   static const std::vector<TableView> tables{
-      view(top_level()), view(material()), view(particle()), view(mesh()),
-      view(body()),      view(packing()),  view(tool()),     view(stage()),
-      view(move()),      view(friction()), view(contact()),  view(element()),
-      view(time()),      view(output()),   view(limits()),   view(expect())};
+      view(top_level()), view(material()),      view(particle()), view(mesh()),  view(body()),
+      view(packing()),   view(mixture_class()), view(tool()),     view(stage()), view(move()),
+      view(friction()),  view(contact()),       view(element()),  view(time()),  view(output()),
+      view(limits()),    view(expect())};
   return tables;
 }
 
@@ -146,13 +146,15 @@ std::string allowed(const KeyInfo& key) {
     case Kind::quantity:
       return "a quantity " + quantity;
     case Kind::vector:
-      return "two quantities [x, y] " + quantity;
+      return "two quantities [x, y] " + quantity +
+             (key.choices.empty() ? "" : "; for y also " + quoted_words(key.choices));
     case Kind::points:
       return "at least two points [[x, y], [x, y], ...] " + quantity;
     case Kind::phase:
       return fmt::format("\"{}\" or a quantity {}", key.word, quantity);
     case Kind::number:
-      return "a number" + range_text(key.range);
+      return (key.choices.empty() ? "" : quoted_words(key.choices) + ", or ") + "a number" +
+             range_text(key.range);
     case Kind::integer:
       return integer_text(key);
     case Kind::direction:

@@ -61,12 +61,12 @@ struct Words {
 struct KeyInfo {
   std::string name = {};
   Kind kind = Kind::text;
-  std::string unit = {};  // SI, of quantities
-  Range range = {};       // of quantities in the SI unit, of vectors for each component
-  int multiple_of = 1;    // of integers
-  std::vector<Choice> choices = {};
-  std::string word = {};       // Kind::phase: the word that stands instead of a quantity
-  std::string refers_to = {};  // Kind::reference: the table whose names are allowed
+  std::string unit = {};             // SI, of quantities
+  Range range = {};                  // of quantities in the SI unit, of vectors for each component
+  int multiple_of = 1;               // of integers
+  std::vector<Choice> choices = {};  // of a number, or a vector's y: words instead of it
+  std::string word = {};             // Kind::phase: the word that stands instead of a quantity
+  std::string refers_to = {};        // Kind::reference: the table whose names are allowed
   std::optional<document::Value> fallback = {};  // the default
   bool required = false;
   Words only_for = {};     // the table's selector must have one of these values
@@ -80,7 +80,7 @@ struct Decoded {
   double number = 0;  // quantity in SI, number
   std::int64_t integer = 0;
   int index = 0;         // choice, reference: position in the list
-  bool is_word = false;  // phase
+  bool is_word = false;  // phase; number or vector (its y) with words: `index` says which
   Vec2 vector = Vec2::Zero();
   std::vector<Vec2> points = {};
   std::string text = {};
@@ -117,7 +117,8 @@ const TableDeclaration<MaterialSpec>& material();
 const TableDeclaration<ParticleSpec>& particle();
 const TableDeclaration<ParticleSpec>& mesh();
 const TableDeclaration<BodySpec>& body();
-const TableDeclaration<LatticePacking>& packing();
+const TableDeclaration<PackingSpec>& packing();
+const TableDeclaration<MixtureClass>& mixture_class();
 const TableDeclaration<ToolSpec>& tool();
 const TableDeclaration<StageSpec>& stage();
 const TableDeclaration<MoveSpec>& move();
