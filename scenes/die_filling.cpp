@@ -16,8 +16,10 @@ constexpr double last_step = 3e-4;    // a punch that cannot go so far rests
 constexpr double quick_step = 0.005;  // after shaking
 constexpr double faster = 1.3;        // next step after an easy one
 constexpr int easy_sweeps = 60;
-constexpr int most_sweeps = 300;         // of one step
-constexpr double vibration = 0.02;       // way of a particle in one step
+constexpr int most_sweeps = 300;    // of one step
+constexpr double vibration = 0.02;  // way of a particle in one step
+constexpr double mixing = 0.15;     // way of a particle in one shaking of the loose powder
+constexpr int mixings = 30;
 constexpr double hard_vibration = 0.05;  // of one between pressings
 constexpr int vibrations = 10;
 constexpr double lift = 0.02;  // of the punch between pressings
@@ -40,6 +42,7 @@ class Press {
 
   FilledDie run() {
     throw_in();
+    mix();
     press(first_step);
     if (order_.time_to_shake > 0) shake_on();
     return result();
@@ -59,6 +62,9 @@ class Press {
       density *= 0.7;
     } while (!powder_.relax(10 * most_sweeps) && density > 1e-3);
   }
+
+  // Where particles were thrown chance has left holes and heaps, which shaking evens out while there is room.
+  void mix() { vibrate(mixing, mixings); }
 
   bool at_rest_on_stop() const { return powder_.height() <= order_.least_height; }
 
@@ -86,7 +92,8 @@ class Press {
     const auto most =
         static_cast<std::int64_t>(order_.time_to_shake * static_cast<double>(most_work_));
     for (int idle = 0; idle < patience && !at_rest_on_stop() && powder_.sweeps() < most; ++idle) {
-      vibrate();
+      powder_.squeeze(powder_.height() * (1 + lift));
+      vibrate(hard_vibration, vibrations);
       press(quick_step);
       if (powder_.height() < least) {
         least = powder_.height();
@@ -99,11 +106,10 @@ class Press {
     powder_.restore(best, least);
   }
 
-  void vibrate() {
-    powder_.squeeze(powder_.height() * (1 + lift));
-    for (int i = 0; i < vibrations; ++i) {
+  void vibrate(double way, int times) {
+    for (int i = 0; i < times; ++i) {
       const std::vector<RigidPose> poses = powder_.poses();
-      powder_.shake(hard_vibration, random_);
+      powder_.shake(way, random_);
       if (!powder_.relax(most_sweeps)) powder_.restore(poses, powder_.height());
     }
   }
