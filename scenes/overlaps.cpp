@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -33,8 +34,17 @@ struct Overlap {
   double depth;       // m
 };
 
+// Of an outline that is no rounded box the box around it, on the safe side.
+RoundedBox box_around(const Outline& outline) {
+  if (const auto box = rounded_box(outline)) return *box;
+  Vec2 half = Vec2::Zero();
+  for (const Vec2& p : outline_polygon(outline, 1e-4 * std::sqrt(outline_area(outline))))
+    half = half.cwiseMax(p.cwiseAbs());
+  return {half, 0};
+}
+
 Vec2 half_size(const Outline& outline) {
-  const RoundedBox box = rounded_box(outline);
+  const RoundedBox box = box_around(outline);
   return box.half + Vec2::Constant(box.radius);
 }
 
@@ -42,7 +52,7 @@ double size_of(const Outline& outline) { return 2 * half_size(outline).minCoeff(
 
 // For the broad phase, which asks for its box only.
 Geometry geometry(const Outline& outline, double depth) {
-  const RoundedBox box = rounded_box(outline);
+  const RoundedBox box = box_around(outline);
   if (box.half.isZero(0)) return std::make_shared<fcl::Cylinder<double>>(box.radius, depth);
   const Vec2 size = 2 * half_size(outline);
   return std::make_shared<fcl::Box<double>>(size.x(), size.y(), depth);
@@ -100,7 +110,7 @@ double box_distance(const TurnedBox& a, const TurnedBox& b) {
 // How far the outline reaches behind the tool's surface.
 double depth_behind(const ToolSpec& tool, const BodySpec& body, const Outline& outline) {
   const double centre = (body.position - tool.point).dot(tool.normal);
-  const RoundedBox box = rounded_box(outline);
+  const RoundedBox box = box_around(outline);
   const Vec2 normal = Eigen::Rotation2Dd(-body.angle) * tool.normal;
   return box.radius + normal.cwiseAbs().dot(box.half) - centre;
 }
@@ -174,7 +184,7 @@ class OverlapSearch {
   double depth(const Object& first, const Object& second) const {
     const BodySpec& a = bodies_[number(first)];
     const BodySpec& b = bodies_[number(second)];
-    const RoundedBox box_a = rounded_box(outline(a)), box_b = rounded_box(outline(b));
+    const RoundedBox box_a = box_around(outline(a)), box_b = box_around(outline(b));
     return box_a.radius + box_b.radius - box_distance({a, box_a}, {b, box_b});
   }
 
@@ -199,7 +209,7 @@ class OverlapSearch {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Outline& shape = outline(bodies_[i]);
       const double overlap = depth_in_tool(surface, bodies_[i].position - tool.points.front(),
-                                           bodies_[i].angle, rounded_box(shape));
+                                           bodies_[i].angle, box_around(shape));
       if (overlap > touching_tolerance * size_of(shape)) found_.push_back({i, tool_, overlap});
     }
   }
