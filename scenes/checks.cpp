@@ -7,6 +7,7 @@
 
 #include "scenes/mesh_rounded_rectangle.hpp"
 #include "scenes/outline.hpp"
+#include "scenes/outline_checks.hpp"
 #include "scenes/place.hpp"
 #include "scenes/tool_checks.hpp"
 
@@ -27,6 +28,7 @@ class Checks {
   void run() {
     something_is_there();
     materials();
+    points_files();
     outlines();
     counts();
     packings();
@@ -80,6 +82,14 @@ class Checks {
                            "elasticity, allowed: <= {:g} Pa",
                            material.hardening_modulus, material.youngs_modulus));
     }
+  }
+
+  // A file is read once for all that needs its outline.
+  void points_files() {
+    for (std::size_t i = 0; i < scene_.particles.size(); ++i)
+      if (auto* outline = std::get_if<PointsOutline>(&scene_.particles[i].outline))
+        for (const OutlineFault& fault : read_points(scene_.file.parent_path(), *outline))
+          refuse(fmt::format("particle[{}].{}", i, fault.key), fault.message);
   }
 
   void outlines() {
@@ -143,6 +153,13 @@ class Checks {
       refuse(path + "mesh.rings", "a ring is made of rings, allowed: >= 1");
   }
 
+  template <class CurvedOutline>
+  void check(const std::string& path, const CurvedOutline& outline, const MeshSpec& spec) {
+    if (std::get<StarMesh>(spec).rings == 0)
+      refuse(path + "mesh.rings", "needs a ring around its core, allowed: >= 1");
+    for (const OutlineFault& fault : faults_of(outline)) refuse(path + fault.key, fault.message);
+  }
+
   // Of the disc and the rounded rectangle: of all cores with as long a rim the square one has most.
   static std::int64_t with_core(int boundary_edges, int rings) {
     const std::int64_t side = boundary_edges / 4;
@@ -156,6 +173,9 @@ class Checks {
     return std::int64_t{mesh.columns} * mesh.rows;
   }
   static std::int64_t count(const RoundedRectangleMesh& mesh) {
+    return with_core(mesh.boundary_edges, mesh.rings);
+  }
+  static std::int64_t count(const StarMesh& mesh) {
     return with_core(mesh.boundary_edges, mesh.rings);
   }
   static std::int64_t count(const RingMesh& mesh) {
@@ -208,8 +228,8 @@ class Checks {
                "every second row would be empty, allowed: >= 2 with kind = \"hexagonal\"");
       if (origins_.count(path + ".spacing") != 0) continue;
       const Outline& outline = scene_.particles[static_cast<std::size_t>(packing.particle)].outline;
-      if (const RoundedBox box = rounded_box(outline); box.half.isZero(0))
-        packing.spacing = 2 * box.radius;
+      if (const auto box = rounded_box(outline); box && box->half.isZero(0))
+        packing.spacing = 2 * box->radius;
       else
         problems_.add(
             origin(path), path + ".spacing",

@@ -12,6 +12,7 @@ inline constexpr double largest_size = 1e3;  // m
 inline document::Value value_of(const char* text) { return {std::string(text), {}}; }
 inline document::Value value_of(double number) { return {number, {}}; }
 inline document::Value value_of(int integer) { return {std::int64_t{integer}, {}}; }
+inline document::Value value_of(bool flag) { return {flag, {}}; }
 inline document::Value pair_of(const char* x, const char* y) {
   return {document::Array{value_of(x), value_of(y)}, {}};
 }

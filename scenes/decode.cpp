@@ -239,6 +239,10 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
     case Kind::name_pair:
       result.names = name_pair(key, value, names);
       break;
+    case Kind::flag:
+      if (value.as<bool>() == nullptr) refuse_type(key, value);
+      result.flag = value.get<bool>();
+      break;
     case Kind::bound:  // a quantity is converted where its unit is known
       if (value.as<std::string>() != nullptr)
         result.text = line_of_text(key, value);

@@ -17,6 +17,7 @@ Json json_of(const document::Value& value) {
   if (const auto* integer = value.as<std::int64_t>()) return *integer;
   if (const auto* number = value.as<double>()) return *number;
   if (const auto* text = value.as<std::string>()) return *text;
+  if (const auto* flag = value.as<bool>()) return *flag;
   Json array = Json::array();
   for (const document::Value& element : value.get<document::Array>())
     array.push_back(json_of(element));
@@ -90,6 +91,9 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::name_pair:
       json = pair_of({{"type", "string"}});
       break;
+    case Kind::flag:
+      json["type"] = "boolean";
+      break;
     case Kind::bound:
       json["anyOf"] = Json::array({Json{{"type", "number"}}, quantity()});
       break;
@@ -126,7 +130,8 @@ Json branch(const schema::TableView& view, const std::string& selected) {
   for (const schema::KeyInfo& key : view.keys) {
     if (key.only_for.empty()) continue;
     if (!key.only_for.has(selected)) properties[key.name] = false;
-    if (key.only_for.has(selected) && key.required) required.push_back(key.name);
+    if (key.only_for.has(selected) && schema::is_required(key, selected))
+      required.push_back(key.name);
   }
   for (const schema::TableView* child : children(view.info.path))
     if (child->info.selector == view.info.selector)

@@ -11,6 +11,8 @@ namespace {
 
 using portable::V2;
 
+constexpr std::size_t most_corners = 240;
+
 // Corners that came from a library's sine may differ in their last bits: on this grid they do not.
 V2 on_grid(V2 p) {
   constexpr double grid = 0x1p-34;
@@ -107,12 +109,18 @@ void measure(RigidShape& shape, const Moments& moments) {
 
 }  // namespace
 
-RigidShape rigid_shape(const Outline& outline, double unit, double deviation) {
+RigidShape rigid_shape(const Outline& outline, double unit, double deviation, Fit fit) {
+  std::vector<Vec2> points = outline_polygon(outline, deviation);
+  for (; points.size() > most_corners; points = outline_polygon(outline, deviation)) deviation *= 2;
   std::vector<V2> polygon;
-  for (const Vec2& p : outline_polygon(outline, deviation))
-    polygon.push_back(on_grid({p.x() / unit, p.y() / unit}));
+  for (const Vec2& p : points) polygon.push_back(on_grid({p.x() / unit, p.y() / unit}));
   RigidShape shape;
-  shape.pieces.push_back(rounded(rounded_box(outline), unit));
+  const double radius = fit == Fit::around ? deviation / unit : 0;
+  if (const auto box = rounded_box(outline))
+    shape.pieces.push_back(rounded(*box, unit));
+  else
+    for (std::vector<V2>& corners : convex_pieces(polygon))
+      shape.pieces.push_back(piece_of(std::move(corners), radius));
   measure(shape, moments_of(polygon));
   return shape;
 }

@@ -28,9 +28,13 @@ struct RigidShape {
   double least_width = 0;  // between two parallel lines
 };
 
-// In units of `unit`. Where an outline is no rounded polygon itself, the pieces contain it and reach beyond
-// it by at most twice `deviation` (m).
-RigidShape rigid_shape(const Outline& outline, double unit, double deviation);
+// Of an outline that is no rounded box itself the pieces either contain it, reaching beyond it by at most
+// `deviation`, or lie inside.
+enum class Fit { around, inside };
+
+// In units of `unit` (m). `deviation` (m) is more where an outline would need too many corners.
+RigidShape rigid_shape(const Outline& outline, double unit, double deviation,
+                       Fit fit = Fit::around);
 
 // The pieces of a simple polygon, counter-clockwise: itself where it is convex, otherwise triangles that
 // are joined as long as they stay convex (Hertel and Mehlhorn 1983).

@@ -55,7 +55,11 @@ struct RingMesh {
   int boundary_edges = 40;  // a multiple of 4
   int rings = 4;            // layers of quads through the wall, >= 1
 };
-using MeshSpec = std::variant<DiscMesh, RectangleMesh, RoundedRectangleMesh, RingMesh>;
+struct StarMesh {           // of any outline that one point inside sees as a whole
+  int boundary_edges = 48;  // a multiple of 4
+  int rings = 1;            // >= 1
+};
+using MeshSpec = std::variant<DiscMesh, RectangleMesh, RoundedRectangleMesh, RingMesh, StarMesh>;
 
 struct DiscOutline {
   using Mesh = DiscMesh;
@@ -77,7 +81,41 @@ struct RingOutline {  // a tube; nothing touches its inner surface
   double diameter = 0;  // m
   double hole = 0;      // m, diameter of the hole
 };
-using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline>;
+struct EllipseOutline {
+  using Mesh = StarMesh;
+  double width = 0;   // m, along the particle's own x axis
+  double height = 0;  // m
+};
+struct SuperellipseOutline {  // |2x/width|^exponent + |2y/height|^exponent = 1
+  using Mesh = StarMesh;
+  double width = 0;     // m
+  double height = 0;    // m
+  double exponent = 2;  // -
+};
+// Its corners, or regular: so many sides in a circle of this diameter, one side below.
+struct PolygonOutline {
+  using Mesh = StarMesh;
+  int sides = 0;                   // 0: by corners
+  double diameter = 0;             // m
+  std::vector<Vec2> corners = {};  // m, either way round; the centre of the area becomes the origin
+  double rounding = 0;             // m, radius of all corners; 0: sharp
+  bool mirrored = false;           // x -> -x
+};
+// A closed C2 curve (periodic cubic spline) through measured points or near them.
+struct PointsOutline {
+  using Mesh = StarMesh;
+  std::string file = {};          // CSV, relative to the scene
+  std::string unit = {};          // of its numbers, where its header names none
+  std::vector<Vec2> points = {};  // m, as the file has them
+  double smoothing = 0;           // m, root mean square distance of the curve from the points
+  std::optional<double> width =
+      {};  // m, what it is scaled to, at most one of these: its extent in x,
+  std::optional<double> diameter = {};  // m, the diameter of the circle of the same area,
+  std::optional<double> area = {};      // m^2
+  bool mirrored = false;                // x -> -x
+};
+using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline,
+                             EllipseOutline, SuperellipseOutline, PolygonOutline, PointsOutline>;
 
 struct ParticleSpec {  // a class of equal particles
   std::string name;
@@ -88,6 +126,7 @@ struct ParticleSpec {  // a class of equal particles
       false;              // every particle's mesh turned by its own random angle (disc, ring)
   double mesh_phase = 0;  // rad, the same turn for all when not random (disc, ring)
   SourceMark mark;
+  std::optional<double> mesh_size = {};  // m, of the edges; the counts in `mesh` come from it
   int class_of = -1;  // of one size of a packing: the class that is scaled, in Scene::particles
   double scale = 1;   // of that class's outline
 };

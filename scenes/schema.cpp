@@ -169,6 +169,8 @@ std::string allowed(const KeyInfo& key) {
       return "the name of a " + key.refers_to;
     case Kind::name_pair:
       return "two names, each of a material or a tool";
+    case Kind::flag:
+      return "true or false";
     case Kind::bound:
       return "a number in the SI unit of the series, or a quantity in any unit of its dimension";
   }
@@ -178,6 +180,10 @@ std::string allowed(const KeyInfo& key) {
 bool applies(const KeyInfo& key, const document::Table& table, const std::string& selected) {
   const bool has_company = key.needs.empty() || document::find(table, key.needs) != nullptr;
   return has_company && (key.only_for.empty() || key.only_for.has(selected));
+}
+
+bool is_required(const KeyInfo& key, const std::string& selected) {
+  return key.required && !key.optional_for.has(selected);
 }
 
 std::string selected_by(const TableInfo& info, const document::Table& table,

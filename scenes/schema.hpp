@@ -29,6 +29,7 @@ enum class Kind {
   choice,     // one of a few words
   reference,  // the name of another table's element
   name_pair,  // two names of materials or tools
+  flag,       // true or false
   bound,      // a bare number, or a quantity in a unit that another key decides
 };
 
@@ -69,8 +70,9 @@ struct KeyInfo {
   std::string refers_to = {};        // Kind::reference: the table whose names are allowed
   std::optional<document::Value> fallback = {};  // the default
   bool required = false;
-  Words only_for = {};     // the table's selector must have one of these values
-  std::string needs = {};  // another key without which this one has no effect
+  Words only_for = {};      // the table's selector must have one of these values
+  Words optional_for = {};  // not required with these
+  std::string needs = {};   // another key without which this one has no effect
   std::string doc = {};
   std::string fallback_doc = {};  // what happens without the key, where that is no value
 };
@@ -81,6 +83,7 @@ struct Decoded {
   std::int64_t integer = 0;
   int index = 0;         // choice, reference: position in the list
   bool is_word = false;  // phase; number or vector (its y) with words: `index` says which
+  bool flag = false;
   Vec2 vector = Vec2::Zero();
   std::vector<Vec2> points = {};
   std::string text = {};
@@ -141,6 +144,9 @@ std::string allowed(const KeyInfo& key);  // "a quantity in Pa, >= 1 and <= 1e+1
 
 // Whether `key` has a meaning in `table`, whose selector has the value `selected`.
 bool applies(const KeyInfo& key, const document::Table& table, const std::string& selected);
+
+// Whether a table must have the key, as far as its selector decides.
+bool is_required(const KeyInfo& key, const std::string& selected);
 
 // The value of a table's selector; `parent` is asked where the table has no such key itself.
 std::string selected_by(const TableInfo& info, const document::Table& table,
