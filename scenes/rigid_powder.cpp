@@ -17,12 +17,11 @@ using portable::Turn;
 using portable::V2;
 
 constexpr double list_range = 0.25;  // of a mean diameter: pairs this near are listed
-constexpr double half_a_flat =
-    0.6;  // of each of two touches' overlap: the other one takes the rest
+constexpr V2 tool_normals[4] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+constexpr double joint_share = 1.2;  // of the overlaps of two particles' touches, dealt out
 constexpr double longest_way = 0.2;  // that one correction may move a particle
 constexpr double gap_range = 0.5;    // of a diameter: neighbours farther than this are none
-constexpr double kept_speed =
-    0.95;  // of the last sweep, without which pushes would spread like heat
+constexpr double kept_speed = 0.95;  // of the last sweep; without it pushes spread like heat
 constexpr double kept_margin = 0.1;  // of two margins, which a relaxed touch keeps
 
 }  // namespace
@@ -165,7 +164,7 @@ double RigidPowder::push(const Pair& pair) {
   const auto& touches = contacts_.between(of_a, poses_[a], of_b, poses_[b], 2 * margin_);
   double worst = 0;
   const V2 centre_a = poses_[a].at, centre_b = poses_[b].at;
-  const double share = touches.size() > 1 ? half_a_flat : 1;
+  const double share = touches.size() > 1 ? joint_share / static_cast<double>(touches.size()) : 1;
   for (const RigidTouch& touch : touches) {
     const double overlap = 2 * margin_ - touch.gap;
     worst = std::max(worst, overlap);
@@ -186,10 +185,9 @@ void RigidPowder::touches_with_tools(std::size_t i, double range,
   const RigidShape& s = shape(i);
   const RigidPose& pose = poses_[i];
   const double reach = s.reach + range;
-  const V2 normals[4] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const double beyond[4] = {0, -width_, 0, -height_};
   for (int tool = 0; tool < 4; ++tool) {
-    const V2 n = normals[tool];
+    const V2 n = tool_normals[tool];
     if (dot(n, pose.at) - beyond[tool] >= reach) continue;
     for (const RigidPiece& piece : s.pieces)
       for (const V2 corner : piece.corners) {
@@ -200,21 +198,28 @@ void RigidPowder::touches_with_tools(std::size_t i, double range,
   }
 }
 
-// One touch a tool, the deepest, after the other: a corner that is pushed takes the next one along.
+// Of each tool the deepest corner, then again the deepest: where a flat side lies on a tool the other end.
 double RigidPowder::push_from_tools(std::size_t i) {
-  touches_with_tools(i, margin_, tool_touches_);
-  if (tool_touches_.empty()) return 0;
-  const RigidShape& s = shape(i);
   double worst = 0;
-  const V2 centre = poses_[i].at;
-  const double share = tool_touches_.size() > 1 ? half_a_flat : 1;
-  for (const RigidTouch& touch : tool_touches_) {
-    const double overlap = margin_ - touch.gap;
-    worst = std::max(worst, overlap);
-    const V2 arm = touch.point - centre;
-    const double turn = cross(arm, touch.normal);
-    const double strength = share * overlap * s.area / (1 + turn * turn / s.gyration);
-    correct(i, arm, strength * touch.normal);
+  for (int round = 0; round < 2; ++round) {
+    touches_with_tools(i, margin_, tool_touches_);
+    if (tool_touches_.empty()) return worst;
+    const RigidShape& s = shape(i);
+    const V2 centre = poses_[i].at;
+    for (const V2 n : tool_normals) {
+      const RigidTouch* deepest = nullptr;
+      for (const RigidTouch& touch : tool_touches_)
+        if (touch.normal.x == n.x && touch.normal.y == n.y &&
+            (deepest == nullptr || touch.gap < deepest->gap))
+          deepest = &touch;
+      if (deepest == nullptr) continue;
+      const double overlap = margin_ - deepest->gap;
+      if (round == 0) worst = std::max(worst, overlap);
+      const V2 arm = deepest->point - centre;
+      const double turn = cross(arm, n);
+      const double strength = overlap * s.area / (1 + turn * turn / s.gyration);
+      correct(i, arm, strength * n);
+    }
   }
   return worst;
 }
@@ -259,7 +264,7 @@ std::vector<std::array<double, 3>> RigidPowder::near_gaps(double touching, int& 
   }
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     touches_with_tools(i, gap_range * widest, tool_touches_);
-    for (const V2 n : {V2{1, 0}, V2{-1, 0}, V2{0, 1}, V2{0, -1}}) {
+    for (const V2 n : tool_normals) {
       double least = std::numeric_limits<double>::max();
       for (const RigidTouch& touch : tool_touches_)
         if (touch.normal.x == n.x && touch.normal.y == n.y) least = std::min(least, touch.gap);
