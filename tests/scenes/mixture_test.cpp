@@ -285,7 +285,10 @@ TEST(WrongMixture, IsRefusedWithItsBound) {
   for (const auto& c : cases) {
     Classes classes = c.classes;
     std::string text = random_scene(c.die, classes, "60 mm");
-    if (classes.empty()) text.insert(text.find("[[packing]]"), random_particle("large"));
+    if (classes.empty())
+      text.insert(text.find("[[packing]]"),
+                  random_particle("large") +
+                      "[[body]]\nparticle = \"large\"\nposition = [\"9 mm\", \"9 mm\"]\n\n");
     bool told = false;
     for (const SceneProblem& problem : problems_of(text))
       told |= problem.key == c.key && problem.message.find(c.says) != std::string::npos;

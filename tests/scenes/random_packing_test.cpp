@@ -18,6 +18,7 @@ struct Case {
   const char* name;
   const char* width;
   std::vector<RandomClass> classes;
+  double least = 0.76;  // density at which it rests
 };
 void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
 
@@ -27,10 +28,11 @@ const Case thesis[] = {
     {"Small", "40 mm", {{"small", "number = 100"}}},
     {"SemiRectangles", "130 mm", {{"semi", "number = 100"}}},
     {"DiscsAndSemiRectangles", "110 mm", {{"large", "number = 50"}, {"semi", "number = 50"}}}};
+// Columns of squares, or of hooks, that stand on flat sides hold a punch up early.
 const Case others[] = {
-    {"Squares", "100 mm", {{"square", "number = 60"}}},
+    {"Squares", "100 mm", {{"square", "number = 60"}}, 0.7},
     {"Ellipses", "100 mm", {{"ellipse", "number = 60"}}},
-    {"Hooks", "100 mm", {{"hook", "number = 40"}}},
+    {"Hooks", "100 mm", {{"hook", "number = 40"}}, 0.7},
     {"All",
      "100 mm",
      {{"hook", "number = 15"}, {"ellipse", "number = 15"}, {"square", "number = 15"}}}};
@@ -103,7 +105,7 @@ TEST_P(RandomPackings, AreAsDenseAsWantedAndFreeOfOverlap) {
 TEST_P(RandomPackings, TouchAtLess2PercentOfADiameter) {
   const Scene scene = packed(GetParam(), "\"touching\"");
   EXPECT_LT(scene.packings.at(0).reached.mean_gap, 0.02);
-  EXPECT_GT(scene.packings.at(0).reached.density, 0.76);
+  EXPECT_GT(scene.packings.at(0).reached.density, GetParam().least);
   EXPECT_NEAR(scene.packings.at(0).reached.density, density_of(scene), 1e-9);
   expect_no_overlap(scene);
 }
