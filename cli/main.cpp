@@ -17,6 +17,7 @@
 #include "scenes/build.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/grips.hpp"
+#include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
@@ -31,6 +32,16 @@ struct Options {
   std::filesystem::path folder;
 };
 
+void print_meshes(const Scene& scene) {
+  for (const ParticleSpec& particle : scene.particles) {
+    const Shape shape = make_shape(particle);
+    fmt::print(
+        "{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
+        particle.name, shape.elements(), shape.boundary_nodes, least_corner_sine(shape),
+        shortest_edge(shape));
+  }
+}
+
 ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
     fmt::print("{}", options.reference == "schema" ? scene_json_schema() : scene_reference());
@@ -40,6 +51,7 @@ ExitCode check(const Options& options) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
+  print_meshes(scene);
   fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(),
              bodies.size(), scene.tools.size(), scene.stages.size());
   return ExitCode::done;

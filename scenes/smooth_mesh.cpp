@@ -9,7 +9,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double size_share = 0.3;  // of the measure; the rest is shape
+constexpr double size_share = 0.6;  // of the measure; the rest is shape
 constexpr std::size_t memory = 8;   // pairs of L-BFGS
 constexpr double converged = 1e-9;  // relative change of the mean over an iteration
 constexpr int least_iterations_between_bounds = 30;

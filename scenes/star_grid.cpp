@@ -82,7 +82,8 @@ class Search {
         lines_(mirror_lines(boundary, centre)) {}
 
   void look_at(const Split& split) {
-    constexpr double worth_of_symmetry = 0.03;  // of the measure, for all mirror lines there can be
+    // Shares of what the measure is above that of equal squares.
+    constexpr double worth_of_symmetry = 0.25, worth_of_a_change = 0.01;
     const int n = static_cast<int>(boundary_.size());
     if (split.columns < 1 || split.columns >= n / 2) return;
     StarGrid grid = grid_of(boundary_, centre_, rings_, split);
@@ -92,8 +93,8 @@ class Search {
     // A rectangular core has two mirror lines, a square one four.
     const double share = static_cast<double>(kept) /
                          static_cast<double>(std::clamp<std::size_t>(lines_.size(), 1, 2));
-    const double score = measure * (1 - worth_of_symmetry * std::min(share, 1.0));
-    if (score >= least_ * (1 - 1e-9)) return;  // round-off does not choose
+    const double score = (measure - 2) * (1 - worth_of_symmetry * std::min(share, 1.0));
+    if (score >= least_ * (1 - worth_of_a_change)) return;
     least_ = score;
     best_ = split;
   }
