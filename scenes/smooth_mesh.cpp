@@ -115,8 +115,11 @@ class Lbfgs {
   std::deque<Pair> pairs_;
 };
 
+// Nothing to regularise where all corners are well open; at a flat corner (the core's, in the middle of a
+// straight side) the measure is a wall too steep to leave, so that 1/determinant is made gentle there.
+constexpr double open_corner = 1e-3, least_bound = 1e-6;
 double bound_for(double least_determinant) {
-  return std::sqrt(1e-12 + 0.04 * std::pow(std::min(least_determinant, 0.0), 2));
+  return least_determinant > open_corner ? least_bound : std::hypot(0.1, 0.2 * least_determinant);
 }
 
 struct State {
@@ -154,10 +157,12 @@ double smooth_mesh(std::vector<Point>& nodes, const std::vector<Quad>& quads, st
     if (!advance(quality, bound, memory_of.direction(state.gradient), state)) break;
     memory_of.learn(state.x - before.x, state.gradient - before.gradient);
     const bool still = before.value - state.value < converged * state.value;
-    const bool folded = bound > 1e-6;
+    const bool folded = bound > least_bound;
     if (still && !folded) break;
     if (!folded || !(still || i % least_iterations_between_bounds == 0)) continue;
-    bound = bound_for(quality.least_determinant(state.x));
+    const double next = bound_for(quality.least_determinant(state.x));
+    if (still && next == bound) break;  // it cannot be unfolded
+    bound = next;
     state.value = quality.value(state.x, bound, state.gradient);
     memory_of.forget();
   }

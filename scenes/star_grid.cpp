@@ -1,6 +1,7 @@
 #include "scenes/star_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -42,8 +43,12 @@ StarGrid grid_of(const std::vector<Point>& boundary, const Point& centre, int ri
   return result;
 }
 
-// Every m for which i -> m - i maps the boundary onto its mirror image.
-std::vector<int> mirror_lines(const std::vector<Point>& boundary, const Point& centre) {
+struct MirrorLine {
+  int sum;          // i -> sum - i maps the boundary nodes onto their mirror images
+  bool along_axis;  // the line is the outline's x or y axis
+};
+
+std::vector<MirrorLine> mirror_lines(const std::vector<Point>& boundary, const Point& centre) {
   const int n = static_cast<int>(boundary.size());
   const auto at = [&](int i) { return boundary[wrapped(i, boundary.size())]; };
   const auto distance = [](const Point& a, const Point& b) {
@@ -57,9 +62,13 @@ std::vector<int> mirror_lines(const std::vector<Point>& boundary, const Point& c
         return false;
     return true;
   };
-  std::vector<int> lines;
+  const auto along_axis = [&](int m) {
+    const Point on_line = between(at(m / 2), at((m + 1) / 2), 0.5);
+    return std::min(std::abs(on_line[0] - centre[0]), std::abs(on_line[1] - centre[1])) < tolerance;
+  };
+  std::vector<MirrorLine> lines;
   for (int m = 0; m < n; ++m)
-    if (mirrors(m)) lines.push_back(m);
+    if (mirrors(m)) lines.push_back({m, along_axis(m)});
   return lines;
 }
 
@@ -82,18 +91,22 @@ class Search {
         lines_(mirror_lines(boundary, centre)) {}
 
   void look_at(const Split& split) {
-    // Shares of what the measure is above that of equal squares.
-    constexpr double worth_of_symmetry = 0.25, worth_of_a_change = 0.01;
+    // By how many mirror lines are kept (a rectangular core has two, a square one four): what the measure may
+    // be above that of equal squares, over what it may be without one.
+    constexpr std::array<double, 5> worth{1, 0.75, 0.65, 0.65, 0.6};
+    constexpr double worth_of_an_axis = 0.95, worth_of_a_change = 1e-3;
     const int n = static_cast<int>(boundary_.size());
     if (split.columns < 1 || split.columns >= n / 2) return;
     StarGrid grid = grid_of(boundary_, centre_, rings_, split);
     const double measure = smooth_mesh(grid.nodes, grid.quads, boundary_.size(), iterations_);
-    const auto kept =
-        std::ranges::count_if(lines_, [&](int line) { return keeps(split, line, n); });
-    // A rectangular core has two mirror lines, a square one four.
-    const double share = static_cast<double>(kept) /
-                         static_cast<double>(std::clamp<std::size_t>(lines_.size(), 1, 2));
-    const double score = (measure - 2) * (1 - worth_of_symmetry * std::min(share, 1.0));
+    std::size_t kept = 0;
+    double score = measure - 2;
+    for (const MirrorLine& line : lines_) {
+      if (!keeps(split, line.sum, n)) continue;
+      ++kept;
+      if (line.along_axis) score *= worth_of_an_axis;
+    }
+    score *= worth[std::min<std::size_t>(kept, 4)];
     if (score >= least_ * (1 - worth_of_a_change)) return;
     least_ = score;
     best_ = split;
@@ -104,7 +117,7 @@ class Search {
   const std::vector<Point>& boundary_;
   Point centre_;
   int rings_, iterations_;
-  std::vector<int> lines_;
+  std::vector<MirrorLine> lines_;
   double least_ = std::numeric_limits<double>::max();
   Split best_{0, 1};
 };
