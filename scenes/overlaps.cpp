@@ -110,9 +110,13 @@ double box_distance(const TurnedBox& a, const TurnedBox& b) {
 // How far the outline reaches behind the tool's surface.
 double depth_behind(const ToolSpec& tool, const BodySpec& body, const Outline& outline) {
   const double centre = (body.position - tool.point).dot(tool.normal);
-  const RoundedBox box = box_around(outline);
   const Vec2 normal = Eigen::Rotation2Dd(-body.angle) * tool.normal;
-  return box.radius + normal.cwiseAbs().dot(box.half) - centre;
+  if (const auto box = rounded_box(outline))
+    return box->radius + normal.cwiseAbs().dot(box->half) - centre;
+  double most = -centre;
+  for (const Vec2& p : outline_polygon(outline, 1e-7 * std::sqrt(outline_area(outline))))
+    most = std::max(most, -normal.dot(p) - centre);
+  return most;
 }
 
 class OverlapSearch {

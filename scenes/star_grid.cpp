@@ -81,6 +81,19 @@ bool keeps(const Split& split, int line, int n) {
   });
 }
 
+// Equal sizes are wanted as far as the boundary edges are equal: the least time step of a round outline is then
+// that of the disc's own mesh, and slender ends keep well-shaped elements.
+double size_share(const std::vector<Point>& boundary) {
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const Point &a = boundary[i], &b = boundary[(i + 1) % boundary.size()];
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    least = std::min(least, length);
+    most = std::max(most, length);
+  }
+  return 0.6 * least / most;
+}
+
 class Search {
  public:
   Search(const std::vector<Point>& boundary, const Point& centre, int rings, int iterations)
@@ -88,6 +101,7 @@ class Search {
         centre_(centre),
         rings_(rings),
         iterations_(iterations),
+        share_(size_share(boundary)),
         lines_(mirror_lines(boundary, centre)) {}
 
   void look_at(const Split& split) {
@@ -98,7 +112,8 @@ class Search {
     const int n = static_cast<int>(boundary_.size());
     if (split.columns < 1 || split.columns >= n / 2) return;
     StarGrid grid = grid_of(boundary_, centre_, rings_, split);
-    const double measure = smooth_mesh(grid.nodes, grid.quads, boundary_.size(), iterations_);
+    const double measure =
+        smooth_mesh(grid.nodes, grid.quads, boundary_.size(), share_, iterations_);
     std::size_t kept = 0;
     double score = measure - 2;
     for (const MirrorLine& line : lines_) {
@@ -117,6 +132,7 @@ class Search {
   const std::vector<Point>& boundary_;
   Point centre_;
   int rings_, iterations_;
+  double share_;
   std::vector<MirrorLine> lines_;
   double least_ = std::numeric_limits<double>::max();
   Split best_{0, 1};
@@ -131,7 +147,7 @@ Split coarse_split(const std::vector<Point>& boundary, const Point& centre, int 
     nodes.push_back(between(boundary[before], boundary[(before + 1) % boundary.size()],
                             place - static_cast<double>(before)));
   }
-  Search search(nodes, centre, 1, 40);
+  Search search(nodes, centre, 1, 25);
   for (int columns = 1; columns < coarse / 2; ++columns)
     for (int start = 0; start < coarse / 2; ++start) search.look_at({start, columns});
   return search.best();
@@ -144,10 +160,11 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
   const Split rough = coarse_split(boundary, centre, coarse);
   if (n == coarse && rings == 1) return rough;
   const double more = static_cast<double>(n) / coarse;
-  const int around = n <= most_for_many ? 2 : 1;
+  // The rough split is known to half a coarse edge.
+  const int around = n <= most_for_many ? std::min(2, static_cast<int>(std::ceil(more / 2))) : 1;
   const int start = static_cast<int>(std::lround(more * rough.start));
   const int columns = static_cast<int>(std::lround(more * rough.columns));
-  Search search(boundary, centre, rings, 60);
+  Search search(boundary, centre, rings, 40);
   for (int c = columns - around; c <= columns + around; ++c)
     for (int s = start - around; s <= start + around; ++s)
       search.look_at({static_cast<int>(wrapped(s, boundary.size())), c});
@@ -159,7 +176,7 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
 StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings) {
   constexpr int most_iterations = 2000;
   StarGrid grid = grid_of(boundary, centre, rings, best_split(boundary, centre, rings));
-  smooth_mesh(grid.nodes, grid.quads, boundary.size(), most_iterations);
+  smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary), most_iterations);
   return grid;
 }
 
