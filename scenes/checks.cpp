@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
 
 #include "scenes/mesh.hpp"
 #include "scenes/mesh_rounded_rectangle.hpp"
@@ -111,6 +112,8 @@ class Checks {
 
   template <class AnyOutline>
   bool is_good(const std::string& path, const AnyOutline& outline) {
+    if constexpr (std::is_same_v<AnyOutline, PointsOutline>)
+      if (outline.points.empty()) return false;  // its file is refused already
     if constexpr (requires { faults_of(outline); }) {
       const std::vector<OutlineFault> faults = faults_of(outline);
       for (const OutlineFault& fault : faults) refuse(path + fault.key, fault.message);

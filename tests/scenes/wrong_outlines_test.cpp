@@ -104,7 +104,9 @@ class PointsFile : public testing::Test {
     return text;
   }
   Outline read(const std::string& more = "") const {
-    return load_scene_text(with_grain(outline(more)), "points.toml").scene.particles[0].outline;
+    return load_scene_text(with_grain(outline(more)), "points.toml", {"packing[0].spacing=10 mm"})
+        .scene.particles[0]
+        .outline;
   }
 
  private:
@@ -133,7 +135,8 @@ TEST_F(PointsFile, IsScaledToWhatIsWanted) {
 
 TEST_F(PointsFile, IsSmoothedByTheDistanceItSays) {
   write(circle("x (mm), y (mm)\n", 80, 0.05));
-  const Outline rough = read(), smooth = read("smoothing = \"0.05 mm\"");
+  const Outline rough = read("\n[particle.mesh]\nboundary_edges = 256"),
+                smooth = read("smoothing = \"0.05 mm\"");
   // A zigzag of 0.05 mm either way is 0.05 mm in the root mean square: nothing of it is left.
   const auto roughness = [](const Outline& outline) {
     double least = 1, most = 0;
@@ -161,7 +164,7 @@ TEST_F(PointsFile, IsRefusedAtItsLine) {
   wrong("x (mm), y (mm)\n1, 2, 3\n", ".csv:2: 3 columns", "two");
   wrong("x (mm), y (mm)\n1, 2\n1, 2\n", ".csv:3: the same point", "each once");
   wrong("x (mm), y (um)\n1, 2\n", ".csv:1: x is in 'mm' and y in 'um'", "one unit");
-  wrong("x (kg), y (kg)\n1, 2\n", ".csv:1: unit:", "");
+  wrong("x (kg), y (kg)\n1, 2\n", ".csv:1: unit:", "a length");
   wrong(circle("x, y\n"), ".csv:1: no unit", "the key unit");
   wrong(circle("x (mm), y (mm)\n"), ".csv:1: the unit is 'mm' already", "no key unit",
         "unit = \"mm\"");
