@@ -125,7 +125,7 @@ class Checks {
   // The wanted size decides on the counts.
   bool size_alone(const std::string& path, const ParticleSpec& particle) {
     if (!particle.mesh_size) return true;
-    for (const char* count : {"boundary_edges", "rings", "columns", "rows", "refinement"})
+    for (const char* count : {"boundary_edges", "rings", "columns", "rows"})
       if (const auto found = origins_.find(path + "mesh." + count); found != origins_.end()) {
         refuse(found->first, "has no effect beside size, allowed: either of them");
         return false;

@@ -141,23 +141,33 @@ TEST(PatchTest, UniformPressureCrossesBlocksOfOneElement) {
   }
 }
 
-// A block of the patch test as a polygon: its O-grid of skewed quads carries the uniform stress, too.
-TEST(PatchTest, UniformPressureCrossesAStarMesh) {
+// A block of the patch test as a polygon, meshed by an O-grid of skewed quads: how far its stresses are from
+// the uniform one.
+double patch_error(const std::string& stiffness) {
   Experiment e(
       with_outline("basic/patch-test.toml",
                    "outline = \"polygon\"\ncorners = [[\"0 mm\", \"0 mm\"], [\"10 mm\", \"0 "
                    "mm\"], [\"10 mm\", \"5 mm\"], [\"0 mm\", \"5 mm\"]]\n\n"
                    "[particle.mesh]\nboundary_edges = 24",
-                   {}));
+                   {"contact.stiffness=" + stiffness}));
   e.run(5);
   const std::vector<double> s = e.results.frame()[4];
   const double force = 0.5 * (e.value("tool/top/force_y") - e.value("tool/bottom/force_y"));
   const double pressure = force / (10e-3 * e.scene.thickness);
-  for (std::size_t c = 0; c < s.size() / 4; ++c) {
-    EXPECT_NEAR(-s[4 * c + 1] / pressure, 1, 0.01) << "element " << c;
-    EXPECT_NEAR(s[4 * c] / pressure, 0, 0.01);
-    EXPECT_NEAR(s[4 * c + 3] / pressure, 0, 0.01);
-  }
+  double most = 0;
+  for (std::size_t c = 0; c < s.size() / 4; ++c)
+    most = std::max({most, std::abs(s[4 * c + 1] / pressure + 1), std::abs(s[4 * c] / pressure),
+                     std::abs(s[4 * c + 3] / pressure)});
+  return most;
+}
+
+// The springs of the contact are as soft as the element behind them is thick, which is not the same along an
+// O-grid's boundary: the surface sinks in unevenly, the less the stiffer they are. Nothing else is left.
+TEST(PatchTest, UniformPressureCrossesAStarMesh) {
+  const double soft = patch_error("0.5"), stiff = patch_error("8");
+  EXPECT_LT(soft, 0.02);
+  EXPECT_LT(stiff, 0.003);
+  EXPECT_GT(soft / stiff, 5);
 }
 
 // Kinetic energy of a spin: half of thickness rho omega^2 times the polar moment of the area.

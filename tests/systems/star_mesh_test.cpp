@@ -144,7 +144,7 @@ TEST(StarMesh, HasTheMomentOfInertiaOfTheOutline) {
     return std::abs(moments_of(shape).polar / (pi / 4 * a * b * (a * a + b * b)) - 1);
   };
   EXPECT_LT(error(48), 1e-4);
-  EXPECT_GT(std::log2(error(32) / error(64)), 3.5);
+  EXPECT_GT(std::log2(error(64) / error(128)), 3.5);
   // Regular polygon with the radius R through its corners: A R^2 (2 + cos(2 pi / n)) / 6.
   const Shape hexagon = meshed(regular(6), 48);
   EXPECT_NEAR(moments_of(hexagon).polar / (hexagon.area * 25e-6 * 2.5 / 6), 1, 1e-12);
