@@ -18,6 +18,7 @@
 #include "scenes/build.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/grips.hpp"
+#include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
@@ -33,6 +34,16 @@ struct Options {
   std::filesystem::path packing = "packing.csv";
 };
 
+void print_meshes(const Scene& scene) {
+  for (const ParticleSpec& particle : scene.particles) {
+    const Shape shape = make_shape(particle);
+    fmt::print(
+        "{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
+        particle.name, shape.elements(), shape.boundary_nodes, least_corner_sine(shape),
+        shortest_edge(shape));
+  }
+}
+
 ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
     fmt::print("{}", options.reference == "schema" ? scene_json_schema() : scene_reference());
@@ -43,6 +54,7 @@ ExitCode check(const Options& options) {
   check_overlaps(scene, bodies);
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
   fmt::print("{}", packing_summary(scene));
+  print_meshes(scene);
   fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(),
              bodies.size(), scene.tools.size(), scene.stages.size());
   return ExitCode::done;

@@ -14,7 +14,10 @@ constexpr double most_turn = std::numbers::pi / 8;  // of an edge
 constexpr double usual_growth = 0.3, most_growth = 0.75;
 constexpr double unlimited = std::numeric_limits<double>::max();
 
-int multiple_of_4(double edges) { return 4 * static_cast<int>(std::ceil(edges / 4 - 1e-6)); }
+int multiple_of_4(double edges) {
+  constexpr double most = 1e6;  // beyond any mesh; refused later
+  return 4 * static_cast<int>(std::ceil(std::min(edges, most) / 4 - 1e-6));
+}
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
 
+#include "scenes/mesh.hpp"
 #include "scenes/mesh_rounded_rectangle.hpp"
+#include "scenes/mesh_size.hpp"
 #include "scenes/outline.hpp"
 #include "scenes/outline_checks.hpp"
 #include "scenes/place.hpp"
@@ -18,6 +21,7 @@ constexpr std::int64_t most_particles = 1'000'000;
 constexpr std::int64_t most_quads_a_particle = 1'000'000;
 constexpr int most_edges_without_rings = 20;
 constexpr int least_edges_of_a_ring = 8;
+constexpr double least_sine = 0.2;                // of an element's corners: 12 degrees
 constexpr std::int64_t most_quads = 200'000'000;  // at 600 bytes each: 120 GB
 
 class Checks {
@@ -93,12 +97,40 @@ class Checks {
   }
 
   void outlines() {
-    for (std::size_t i = 0; i < scene_.particles.size(); ++i)
-      std::visit(
-          [&](const auto& outline) {
-            check(fmt::format("particle[{}].", i), outline, scene_.particles[i].mesh);
-          },
-          scene_.particles[i].outline);
+    for (std::size_t i = 0; i < scene_.particles.size(); ++i) {
+      ParticleSpec& particle = scene_.particles[i];
+      const std::string path = fmt::format("particle[{}].", i);
+      if (!std::visit([&](const auto& outline) { return is_good(path, outline); },
+                      particle.outline))
+        continue;
+      if (!size_alone(path, particle)) continue;
+      mesh_of_size(particle);
+      std::visit([&](const auto& outline) { check(path, outline, particle.mesh); },
+                 particle.outline);
+    }
+  }
+
+  template <class AnyOutline>
+  bool is_good(const std::string& path, const AnyOutline& outline) {
+    if constexpr (std::is_same_v<AnyOutline, PointsOutline>)
+      if (outline.points.empty()) return false;  // its file is refused already
+    if constexpr (requires { faults_of(outline); }) {
+      const std::vector<OutlineFault> faults = faults_of(outline);
+      for (const OutlineFault& fault : faults) refuse(path + fault.key, fault.message);
+      return faults.empty();
+    }
+    return true;
+  }
+
+  // The wanted size decides on the counts.
+  bool size_alone(const std::string& path, const ParticleSpec& particle) {
+    if (!particle.mesh_size) return true;
+    for (const char* count : {"boundary_edges", "rings", "columns", "rows"})
+      if (const auto found = origins_.find(path + "mesh." + count); found != origins_.end()) {
+        refuse(found->first, "has no effect beside size, allowed: either of them");
+        return false;
+      }
+    return true;
   }
 
   // Without rings the two edges beside a corner of the core lie on the outline, and their element has
@@ -153,11 +185,26 @@ class Checks {
       refuse(path + "mesh.rings", "a ring is made of rings, allowed: >= 1");
   }
 
+  // Only where the counts are good: the mesh is made to see how good its elements are.
   template <class CurvedOutline>
   void check(const std::string& path, const CurvedOutline& outline, const MeshSpec& spec) {
-    if (std::get<StarMesh>(spec).rings == 0)
+    const auto& mesh = std::get<StarMesh>(spec);
+    const int fewest = fewest_boundary_edges(outline);
+    if (mesh.rings == 0) {
       refuse(path + "mesh.rings", "needs a ring around its core, allowed: >= 1");
-    for (const OutlineFault& fault : faults_of(outline)) refuse(path + fault.key, fault.message);
+    } else if (mesh.boundary_edges < fewest) {
+      refuse(path + "mesh.boundary_edges",
+             fmt::format("{} edges are too few for an outline that turns this sharply, allowed: >= "
+                         "{}",
+                         mesh.boundary_edges, fewest));
+    } else if (quads(spec) <= most_quads_a_particle) {
+      const double sine = least_corner_sine(make_shape({"", 0, outline, mesh, false, 0, {}}));
+      if (!(sine >= least_sine))
+        refuse(path + "mesh",
+               fmt::format("the worst corner of the mesh has a sine of {:.2g}, allowed: >= {:g}; "
+                           "more edges, more rounding or a less slender outline help",
+                           sine, least_sine));
+    }
   }
 
   // Of the disc and the rounded rectangle: of all cores with as long a rim the square one has most.

@@ -124,7 +124,6 @@ Faults faults_of(const PolygonOutline& outline) {
 }
 
 Faults faults_of(const PointsOutline& outline) {
-  if (outline.points.empty()) return {};  // told by read_points
   const int scales =
       outline.width.has_value() + outline.diameter.has_value() + outline.area.has_value();
   if (scales > 1)

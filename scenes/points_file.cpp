@@ -108,7 +108,7 @@ class PointsReader {
     try {
       factor_ = parse_quantity("1 " + (named.empty() ? unit_ : named), "m");
     } catch (const UnitError& error) {
-      throw BadFile{line_, fmt::format("unit: {}", error.what())};
+      throw BadFile{line_, fmt::format("unit: {}, allowed: a length, \"um\"", error.what())};
     }
   }
 

@@ -9,15 +9,16 @@
 namespace pulvis {
 namespace {
 
-constexpr double size_share = 0.3;  // of the measure; the rest is shape
 constexpr std::size_t memory = 8;   // pairs of L-BFGS
 constexpr double converged = 1e-9;  // relative change of the mean over an iteration
 constexpr int least_iterations_between_bounds = 30;
 
 class Quality {
  public:
-  Quality(const std::vector<Point>& nodes, const std::vector<Quad>& quads, std::size_t fixed)
+  Quality(const std::vector<Point>& nodes, const std::vector<Quad>& quads, std::size_t fixed,
+          double size_share)
       : quads_(quads),
+        size_share_(size_share),
         fixed_(2 * static_cast<Eigen::Index>(fixed)),
         x_(2 * static_cast<Eigen::Index>(nodes.size())) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -61,16 +62,16 @@ class Quality {
     return a.x() * b.y() - a.y() * b.x();
   }
 
-  static double corner(const Eigen::VectorXd& x, const Quad& quad, std::size_t k, double bound,
-                       Eigen::VectorXd& gradient) {
+  double corner(const Eigen::VectorXd& x, const Quad& quad, std::size_t k, double bound,
+                Eigen::VectorXd& gradient) const {
     const Eigen::Vector2d a = at(x, quad, k + 1) - at(x, quad, k);
     const Eigen::Vector2d b = at(x, quad, k + 3) - at(x, quad, k);
     const double d = a.x() * b.y() - a.y() * b.x(), root = std::hypot(bound, d);
     const double chi = 0.5 * (d + root);
     const double f =
-        ((1 - size_share) * (a.squaredNorm() + b.squaredNorm()) + size_share * (d * d + 1)) / chi;
-    const double by_d = (2 * size_share * d - f * 0.5 * (1 + d / root)) / chi;
-    const double by_a = 2 * (1 - size_share) / chi;
+        ((1 - size_share_) * (a.squaredNorm() + b.squaredNorm()) + size_share_ * (d * d + 1)) / chi;
+    const double by_d = (2 * size_share_ * d - f * 0.5 * (1 + d / root)) / chi;
+    const double by_a = 2 * (1 - size_share_) / chi;
     const Eigen::Vector2d to_a = by_a * a + by_d * Eigen::Vector2d(b.y(), -b.x());
     const Eigen::Vector2d to_b = by_a * b + by_d * Eigen::Vector2d(-a.y(), a.x());
     gradient.segment<2>(2 * quad[(k + 1) % 4].value) += to_a;
@@ -80,6 +81,7 @@ class Quality {
   }
 
   const std::vector<Quad>& quads_;
+  double size_share_;
   Eigen::Index fixed_;
   Eigen::VectorXd x_;
   double scale_ = 1;
@@ -115,8 +117,11 @@ class Lbfgs {
   std::deque<Pair> pairs_;
 };
 
+// Nothing to regularise where all corners are well open; at a flat corner (the core's, in the middle of a
+// straight side) the measure is a wall too steep to leave, so that 1/determinant is made gentle there.
+constexpr double open_corner = 1e-3, least_bound = 1e-6;
 double bound_for(double least_determinant) {
-  return std::sqrt(1e-12 + 0.04 * std::pow(std::min(least_determinant, 0.0), 2));
+  return least_determinant > open_corner ? least_bound : std::hypot(0.1, 0.2 * least_determinant);
 }
 
 struct State {
@@ -143,8 +148,8 @@ bool advance(const Quality& quality, double bound, const Eigen::VectorXd& direct
 }  // namespace
 
 double smooth_mesh(std::vector<Point>& nodes, const std::vector<Quad>& quads, std::size_t fixed,
-                   int most_iterations) {
-  const Quality quality(nodes, quads, fixed);
+                   double size_share, int most_iterations) {
+  const Quality quality(nodes, quads, fixed, size_share);
   State state{quality.start(), {}, 0};
   double bound = bound_for(quality.least_determinant(state.x));
   state.value = quality.value(state.x, bound, state.gradient);
@@ -154,10 +159,12 @@ double smooth_mesh(std::vector<Point>& nodes, const std::vector<Quad>& quads, st
     if (!advance(quality, bound, memory_of.direction(state.gradient), state)) break;
     memory_of.learn(state.x - before.x, state.gradient - before.gradient);
     const bool still = before.value - state.value < converged * state.value;
-    const bool folded = bound > 1e-6;
+    const bool folded = bound > least_bound;
     if (still && !folded) break;
     if (!folded || !(still || i % least_iterations_between_bounds == 0)) continue;
-    bound = bound_for(quality.least_determinant(state.x));
+    const double next = bound_for(quality.least_determinant(state.x));
+    if (still && next == bound) break;  // it cannot be unfolded
+    bound = next;
     state.value = quality.value(state.x, bound, state.gradient);
     memory_of.forget();
   }

@@ -12,7 +12,9 @@ namespace pulvis {
 //
 // Source: Garanzha et al., Foldover-free maps in 50 lines of code, ACM Trans. Graph. 40 (2021) 102, with the
 // corners of quads for triangles; minimised by L-BFGS (Nocedal & Wright, 7.4).
+//
+// `size_share` of the measure is size, the rest shape.
 double smooth_mesh(std::vector<Point>& nodes, const std::vector<Quad>& quads, std::size_t fixed,
-                   int most_iterations);
+                   double size_share, int most_iterations);
 
 }  // namespace pulvis

@@ -1,6 +1,7 @@
 #include "scenes/star_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -42,8 +43,12 @@ StarGrid grid_of(const std::vector<Point>& boundary, const Point& centre, int ri
   return result;
 }
 
-// Every m for which i -> m - i maps the boundary onto its mirror image.
-std::vector<int> mirror_lines(const std::vector<Point>& boundary, const Point& centre) {
+struct MirrorLine {
+  int sum;          // i -> sum - i maps the boundary nodes onto their mirror images
+  bool along_axis;  // the line is the outline's x or y axis
+};
+
+std::vector<MirrorLine> mirror_lines(const std::vector<Point>& boundary, const Point& centre) {
   const int n = static_cast<int>(boundary.size());
   const auto at = [&](int i) { return boundary[wrapped(i, boundary.size())]; };
   const auto distance = [](const Point& a, const Point& b) {
@@ -57,9 +62,13 @@ std::vector<int> mirror_lines(const std::vector<Point>& boundary, const Point& c
         return false;
     return true;
   };
-  std::vector<int> lines;
+  const auto along_axis = [&](int m) {
+    const Point on_line = between(at(m / 2), at((m + 1) / 2), 0.5);
+    return std::min(std::abs(on_line[0] - centre[0]), std::abs(on_line[1] - centre[1])) < tolerance;
+  };
+  std::vector<MirrorLine> lines;
   for (int m = 0; m < n; ++m)
-    if (mirrors(m)) lines.push_back(m);
+    if (mirrors(m)) lines.push_back({m, along_axis(m)});
   return lines;
 }
 
@@ -72,6 +81,19 @@ bool keeps(const Split& split, int line, int n) {
   });
 }
 
+// Equal sizes are wanted as far as the boundary edges are equal: the least time step of a round outline is then
+// that of the disc's own mesh, and slender ends keep well-shaped elements.
+double size_share(const std::vector<Point>& boundary) {
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const Point &a = boundary[i], &b = boundary[(i + 1) % boundary.size()];
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    least = std::min(least, length);
+    most = std::max(most, length);
+  }
+  return 0.6 * least / most;
+}
+
 class Search {
  public:
   Search(const std::vector<Point>& boundary, const Point& centre, int rings, int iterations)
@@ -79,21 +101,28 @@ class Search {
         centre_(centre),
         rings_(rings),
         iterations_(iterations),
+        share_(size_share(boundary)),
         lines_(mirror_lines(boundary, centre)) {}
 
   void look_at(const Split& split) {
-    constexpr double worth_of_symmetry = 0.03;  // of the measure, for all mirror lines there can be
+    // By how many mirror lines are kept (a rectangular core has two, a square one four): what the measure may
+    // be above that of equal squares, over what it may be without one.
+    constexpr std::array<double, 5> worth{1, 0.75, 0.65, 0.65, 0.6};
+    constexpr double worth_of_an_axis = 0.95, worth_of_a_change = 1e-3;
     const int n = static_cast<int>(boundary_.size());
     if (split.columns < 1 || split.columns >= n / 2) return;
     StarGrid grid = grid_of(boundary_, centre_, rings_, split);
-    const double measure = smooth_mesh(grid.nodes, grid.quads, boundary_.size(), iterations_);
-    const auto kept =
-        std::ranges::count_if(lines_, [&](int line) { return keeps(split, line, n); });
-    // A rectangular core has two mirror lines, a square one four.
-    const double share = static_cast<double>(kept) /
-                         static_cast<double>(std::clamp<std::size_t>(lines_.size(), 1, 2));
-    const double score = measure * (1 - worth_of_symmetry * std::min(share, 1.0));
-    if (score >= least_ * (1 - 1e-9)) return;  // round-off does not choose
+    const double measure =
+        smooth_mesh(grid.nodes, grid.quads, boundary_.size(), share_, iterations_);
+    std::size_t kept = 0;
+    double score = measure - 2;
+    for (const MirrorLine& line : lines_) {
+      if (!keeps(split, line.sum, n)) continue;
+      ++kept;
+      if (line.along_axis) score *= worth_of_an_axis;
+    }
+    score *= worth[std::min<std::size_t>(kept, 4)];
+    if (score >= least_ * (1 - worth_of_a_change)) return;
     least_ = score;
     best_ = split;
   }
@@ -103,7 +132,8 @@ class Search {
   const std::vector<Point>& boundary_;
   Point centre_;
   int rings_, iterations_;
-  std::vector<int> lines_;
+  double share_;
+  std::vector<MirrorLine> lines_;
   double least_ = std::numeric_limits<double>::max();
   Split best_{0, 1};
 };
@@ -117,7 +147,7 @@ Split coarse_split(const std::vector<Point>& boundary, const Point& centre, int 
     nodes.push_back(between(boundary[before], boundary[(before + 1) % boundary.size()],
                             place - static_cast<double>(before)));
   }
-  Search search(nodes, centre, 1, 40);
+  Search search(nodes, centre, 1, 25);
   for (int columns = 1; columns < coarse / 2; ++columns)
     for (int start = 0; start < coarse / 2; ++start) search.look_at({start, columns});
   return search.best();
@@ -130,10 +160,11 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
   const Split rough = coarse_split(boundary, centre, coarse);
   if (n == coarse && rings == 1) return rough;
   const double more = static_cast<double>(n) / coarse;
-  const int around = n <= most_for_many ? 2 : 1;
+  // The rough split is known to half a coarse edge.
+  const int around = n <= most_for_many ? std::min(2, static_cast<int>(std::ceil(more / 2))) : 1;
   const int start = static_cast<int>(std::lround(more * rough.start));
   const int columns = static_cast<int>(std::lround(more * rough.columns));
-  Search search(boundary, centre, rings, 60);
+  Search search(boundary, centre, rings, 40);
   for (int c = columns - around; c <= columns + around; ++c)
     for (int s = start - around; s <= start + around; ++s)
       search.look_at({static_cast<int>(wrapped(s, boundary.size())), c});
@@ -145,7 +176,7 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
 StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings) {
   constexpr int most_iterations = 2000;
   StarGrid grid = grid_of(boundary, centre, rings, best_split(boundary, centre, rings));
-  smooth_mesh(grid.nodes, grid.quads, boundary.size(), most_iterations);
+  smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary), most_iterations);
   return grid;
 }
 
