@@ -7,6 +7,7 @@
 #include <new>
 
 #include "cli/exit_code.hpp"
+#include "cli/pack.hpp"
 #include "cli/plan.hpp"
 #include "cli/report.hpp"
 #include "cli/run.hpp"
@@ -18,6 +19,7 @@
 #include "scenes/build.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/grips.hpp"
+#include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
@@ -32,7 +34,18 @@ struct Options {
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
   std::filesystem::path folder;
+  std::filesystem::path packing = "packing.csv";
 };
+
+void print_meshes(const Scene& scene) {
+  for (const ParticleSpec& particle : scene.particles) {
+    const Shape shape = make_shape(particle);
+    fmt::print(
+        "{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
+        particle.name, shape.elements(), shape.boundary_nodes, least_corner_sine(shape),
+        shortest_edge(shape));
+  }
+}
 
 ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
@@ -43,6 +56,8 @@ ExitCode check(const Options& options) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
+  fmt::print("{}", packing_summary(scene));
+  print_meshes(scene);
   fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(),
              bodies.size(), scene.tools.size(), scene.stages.size());
   return ExitCode::done;
@@ -145,6 +160,14 @@ int parse_and_run(int argc, char** argv) {
   add_scene(*plans, options);
   plans->add_flag("--dot", options.dot, "the graph as Graphviz input");
   plans->callback([&] { code = plan(options); });
+
+  auto* packs = app.add_subcommand(
+      "pack", "make the packing of a scene and write it as a table, for kind = \"csv\"");
+  add_scene(*packs, options);
+  packs->add_option("-o,--output", options.packing, "table (CSV), default packing.csv");
+  packs->callback([&] {
+    code = pack_scene(read_scene(options.run.scene, options.run.overrides), options.packing);
+  });
 
   auto* reports = app.add_subcommand("report", "write report.html anew for a finished run");
   reports->add_option("folder", options.folder, "results folder of a run")->required();

@@ -23,17 +23,21 @@ struct Preset {
 };
 
 const std::vector<Preset>& presets() {
+  static const std::vector<Setting> star{{"boundary_edges", {"48", "64", "96"}},
+                                         {"rings", {"1", "1", "2"}}};
   static const std::vector<Preset> all{
       {"disc",
        {{"boundary_edges", {"48", "72", "96"}},
         {"rings", {"0", "1", "2"}},
         {"core", {"\"coarse\"", "\"coarse\"", "\"coarse\""}}},
-       {"refinement"}},
-      {"rounded_rectangle",
-       {{"boundary_edges", {"48", "64", "96"}}, {"rings", {"1", "1", "2"}}},
-       {}},
-      {"ring", {{"boundary_edges", {"24", "40", "80"}}, {"rings", {"2", "4", "8"}}}, {}},
-      {"rectangle", {{"columns", {"4", "8", "16"}}, {"rows", {"4", "8", "16"}}}, {}}};
+       {"refinement", "size"}},
+      {"rounded_rectangle", star, {"size"}},
+      {"ring", {{"boundary_edges", {"24", "40", "80"}}, {"rings", {"2", "4", "8"}}}, {"size"}},
+      {"rectangle", {{"columns", {"4", "8", "16"}}, {"rows", {"4", "8", "16"}}}, {"size"}},
+      {"ellipse", star, {"size"}},
+      {"superellipse", star, {"size"}},
+      {"polygon", star, {"size"}},
+      {"points", star, {"size"}}};
   return all;
 }
 

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
 
+#include "scenes/mesh.hpp"
 #include "scenes/mesh_rounded_rectangle.hpp"
+#include "scenes/mesh_size.hpp"
 #include "scenes/observe.hpp"
 #include "scenes/outline.hpp"
+#include "scenes/outline_checks.hpp"
 #include "scenes/place.hpp"
 #include "scenes/tool_checks.hpp"
 
@@ -18,6 +22,7 @@ constexpr std::int64_t most_particles = 1'000'000;
 constexpr std::int64_t most_quads_a_particle = 1'000'000;
 constexpr int most_edges_without_rings = 20;
 constexpr int least_edges_of_a_ring = 8;
+constexpr double least_sine = 0.2;                // of an element's corners: 12 degrees
 constexpr std::int64_t most_quads = 200'000'000;  // at 600 bytes each: 120 GB
 
 class Checks {
@@ -28,6 +33,7 @@ class Checks {
   void run() {
     something_is_there();
     materials();
+    points_files();
     outlines();
     counts();
     packings();
@@ -83,13 +89,49 @@ class Checks {
     }
   }
 
-  void outlines() {
+  // A file is read once for all that needs its outline.
+  void points_files() {
     for (std::size_t i = 0; i < scene_.particles.size(); ++i)
-      std::visit(
-          [&](const auto& outline) {
-            check(fmt::format("particle[{}].", i), outline, scene_.particles[i].mesh);
-          },
-          scene_.particles[i].outline);
+      if (auto* outline = std::get_if<PointsOutline>(&scene_.particles[i].outline))
+        for (const OutlineFault& fault : read_points(scene_.file.parent_path(), *outline))
+          refuse(fmt::format("particle[{}].{}", i, fault.key), fault.message);
+  }
+
+  void outlines() {
+    for (std::size_t i = 0; i < scene_.particles.size(); ++i) {
+      ParticleSpec& particle = scene_.particles[i];
+      const std::string path = fmt::format("particle[{}].", i);
+      if (!std::visit([&](const auto& outline) { return is_good(path, outline); },
+                      particle.outline))
+        continue;
+      if (!size_alone(path, particle)) continue;
+      mesh_of_size(particle);
+      std::visit([&](const auto& outline) { check(path, outline, particle.mesh); },
+                 particle.outline);
+    }
+  }
+
+  template <class AnyOutline>
+  bool is_good(const std::string& path, const AnyOutline& outline) {
+    if constexpr (std::is_same_v<AnyOutline, PointsOutline>)
+      if (outline.points.empty()) return false;  // its file is refused already
+    if constexpr (requires { faults_of(outline); }) {
+      const std::vector<OutlineFault> faults = faults_of(outline);
+      for (const OutlineFault& fault : faults) refuse(path + fault.key, fault.message);
+      return faults.empty();
+    }
+    return true;
+  }
+
+  // The wanted size decides on the counts.
+  bool size_alone(const std::string& path, const ParticleSpec& particle) {
+    if (!particle.mesh_size) return true;
+    for (const char* count : {"boundary_edges", "rings", "columns", "rows"})
+      if (const auto found = origins_.find(path + "mesh." + count); found != origins_.end()) {
+        refuse(found->first, "has no effect beside size, allowed: either of them");
+        return false;
+      }
+    return true;
   }
 
   // Without rings the two edges beside a corner of the core lie on the outline, and their element has
@@ -144,6 +186,28 @@ class Checks {
       refuse(path + "mesh.rings", "a ring is made of rings, allowed: >= 1");
   }
 
+  // Only where the counts are good: the mesh is made to see how good its elements are.
+  template <class CurvedOutline>
+  void check(const std::string& path, const CurvedOutline& outline, const MeshSpec& spec) {
+    const auto& mesh = std::get<StarMesh>(spec);
+    const int fewest = fewest_boundary_edges(outline);
+    if (mesh.rings == 0) {
+      refuse(path + "mesh.rings", "needs a ring around its core, allowed: >= 1");
+    } else if (mesh.boundary_edges < fewest) {
+      refuse(path + "mesh.boundary_edges",
+             fmt::format("{} edges are too few for an outline that turns this sharply, allowed: >= "
+                         "{}",
+                         mesh.boundary_edges, fewest));
+    } else if (quads(spec) <= most_quads_a_particle) {
+      const double sine = least_corner_sine(make_shape({"", 0, outline, mesh, false, 0, {}}));
+      if (!(sine >= least_sine))
+        refuse(path + "mesh",
+               fmt::format("the worst corner of the mesh has a sine of {:.2g}, allowed: >= {:g}; "
+                           "more edges, more rounding or a less slender outline help",
+                           sine, least_sine));
+    }
+  }
+
   // Of the disc and the rounded rectangle: of all cores with as long a rim the square one has most.
   static std::int64_t with_core(int boundary_edges, int rings) {
     const std::int64_t side = boundary_edges / 4;
@@ -157,6 +221,9 @@ class Checks {
     return std::int64_t{mesh.columns} * mesh.rows;
   }
   static std::int64_t count(const RoundedRectangleMesh& mesh) {
+    return with_core(mesh.boundary_edges, mesh.rings);
+  }
+  static std::int64_t count(const StarMesh& mesh) {
     return with_core(mesh.boundary_edges, mesh.rings);
   }
   static std::int64_t count(const RingMesh& mesh) {
@@ -181,6 +248,7 @@ class Checks {
     for (const BodySpec& body : scene_.bodies) total += quads_of(body.particle);
     for (std::size_t i = 0; i < scene_.packings.size(); ++i) {
       const std::string path = fmt::format("packing[{}]", i);
+      if (!is_lattice(scene_.packings[i])) continue;
       particles += particle_count(scene_.packings[i]);
       if (particles > most_particles) {
         refuse(path, fmt::format("the scene has {} particles up to here, allowed: at most {}",
@@ -197,15 +265,19 @@ class Checks {
 
   void packings() {
     for (std::size_t i = 0; i < scene_.packings.size(); ++i) {
-      LatticePacking& packing = scene_.packings[i];
+      PackingSpec& packing = scene_.packings[i];
       const std::string path = fmt::format("packing[{}]", i);
-      if (packing.kind == LatticePacking::Kind::hexagonal && packing.columns == 1)
+      if (packing.kind != PackingSpec::Kind::random && !packing.classes.empty())
+        refuse(path + ".class[0]",
+               "has no effect with this kind, allowed: classes of kind = \"random\"");
+      if (!is_lattice(packing)) continue;
+      if (packing.kind == PackingSpec::Kind::hexagonal && packing.columns == 1)
         refuse(path + ".columns",
                "every second row would be empty, allowed: >= 2 with kind = \"hexagonal\"");
       if (origins_.count(path + ".spacing") != 0) continue;
       const Outline& outline = scene_.particles[static_cast<std::size_t>(packing.particle)].outline;
-      if (const RoundedBox box = rounded_box(outline); box.half.isZero(0))
-        packing.spacing = 2 * box.radius;
+      if (const auto box = rounded_box(outline); box && box->half.isZero(0))
+        packing.spacing = 2 * box->radius;
       else
         problems_.add(
             origin(path), path + ".spacing",
@@ -268,7 +340,12 @@ class Checks {
   void everything_is_used() {
     std::set<int> particles, materials;
     for (const BodySpec& body : scene_.bodies) particles.insert(body.particle);
-    for (const LatticePacking& packing : scene_.packings) particles.insert(packing.particle);
+    for (const PackingSpec& packing : scene_.packings) {
+      if (is_lattice(packing)) particles.insert(packing.particle);
+      for (const MixtureClass& mixed : packing.classes) particles.insert(mixed.particle);
+      if (packing.kind != PackingSpec::Kind::csv) continue;
+      for (int p = 0; p < static_cast<int>(scene_.particles.size()); ++p) particles.insert(p);
+    }
     for (const ParticleSpec& particle : scene_.particles) materials.insert(particle.material);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
       if (materials.count(static_cast<int>(i)) == 0)

@@ -15,19 +15,21 @@ void choose(ParticleSpec& particle) {
 // The first key of a particle, its words in this order: the keys after it find the outline and mesh they
 // belong to.
 void choose_outline(ParticleSpec& particle, const Decoded& value) {
-  constexpr void (*choices[])(ParticleSpec&) = {choose<DiscOutline>, choose<RectangleOutline>,
-                                                choose<RoundedRectangleOutline>,
-                                                choose<RingOutline>};
+  constexpr void (*choices[])(ParticleSpec&) = {
+      choose<DiscOutline>,    choose<RectangleOutline>, choose<RoundedRectangleOutline>,
+      choose<RingOutline>,    choose<EllipseOutline>,   choose<SuperellipseOutline>,
+      choose<PolygonOutline>, choose<PointsOutline>};
   choices[value.index](particle);
 }
 
 // A key of every outline (or mesh) that has the member: the one chosen does, only_for sees to that.
-template <class Set>
-auto outline_to(Set set) {
-  return [set](ParticleSpec& particle, const Decoded& value) {
+template <class Value = double, class Set>
+auto outline_to(Set set, Value Decoded::*member = &Decoded::number) {
+  return [set, member](ParticleSpec& particle, const Decoded& value) {
     std::visit(
         [&](auto& outline) {
-          if constexpr (std::invocable<Set, decltype(outline), double>) set(outline, value.number);
+          if constexpr (std::invocable<Set, decltype(outline), const Value&>)
+            set(outline, value.*member);
         },
         particle.outline);
   };
@@ -141,7 +143,11 @@ const TableDeclaration<ParticleSpec>& particle() {
          .choices = {{"disc", "a circle"},
                      {"rectangle", "sharp corners"},
                      {"rounded_rectangle", "corners are arcs"},
-                     {"ring", "a tube; its hole is empty, and nothing touches its inner surface"}},
+                     {"ring", "a tube; its hole is empty, and nothing touches its inner surface"},
+                     {"ellipse", "of two axes"},
+                     {"superellipse", "between a rhombus and a rectangle, by its exponent"},
+                     {"polygon", "regular, or by its corners; sharp or rounded"},
+                     {"points", "a smooth curve through points of a file, a traced grain"}},
          .required = true,
          .doc = "Shape of the particle."},
         choose_outline},
@@ -161,8 +167,10 @@ const TableDeclaration<ParticleSpec>& particle() {
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .required = true,
-         .only_for = {"disc", "ring"},
-         .doc = "Outer diameter."},
+         .only_for = {"disc", "ring", "polygon", "points"},
+         .optional_for = {"polygon", "points"},
+         .doc = "Outer diameter; of a regular polygon that of the circle through its corners; with "
+                "points that of the circle of the same area, to which the outline is scaled."},
         outline_to(
             [](auto& o, double value) requires requires { o.diameter; } { o.diameter = value; })},
        {{.name = "width",
@@ -170,8 +178,9 @@ const TableDeclaration<ParticleSpec>& particle() {
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .required = true,
-         .only_for = {"rectangle", "rounded_rectangle"},
-         .doc = "Size along the particle's own x axis."},
+         .only_for = {"rectangle", "rounded_rectangle", "ellipse", "superellipse", "points"},
+         .optional_for = "points",
+         .doc = "Size along the particle's own x axis; points are scaled to it."},
         outline_to(
             [](auto& o, double value) requires requires { o.width; } { o.width = value; })},
        {{.name = "height",
@@ -179,7 +188,7 @@ const TableDeclaration<ParticleSpec>& particle() {
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .required = true,
-         .only_for = {"rectangle", "rounded_rectangle"},
+         .only_for = {"rectangle", "rounded_rectangle", "ellipse", "superellipse"},
          .doc = "Size along the particle's own y axis."},
         outline_to(
             [](auto& o, double value) requires requires { o.height; } { o.height = value; })},
@@ -200,21 +209,115 @@ const TableDeclaration<ParticleSpec>& particle() {
          .only_for = {"ring"},
          .doc = "Diameter of the hole, below that of the ring."},
         outline_to(
-            [](auto& o, double value) requires requires { o.hole; } { o.hole = value; })}}};
+            [](auto& o, double value) requires requires { o.hole; } { o.hole = value; })},
+       {{.name = "exponent",
+         .kind = Kind::number,
+         .range = within(1.5, 20),
+         .required = true,
+         .only_for = "superellipse",
+         .doc = "Of abs(2x/width)^exponent + abs(2y/height)^exponent = 1: 2 is an ellipse, more "
+                "goes towards a rectangle, less towards a rhombus."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.exponent; } { o.exponent = value; })},
+       {{.name = "sides",
+         .kind = Kind::integer,
+         .range = within(3, 64),
+         .only_for = "polygon",
+         .needs = "diameter",
+         .doc = "Of a regular polygon, one of them below."},
+        outline_to<std::int64_t>(
+            [](auto& o, std::int64_t value) requires requires { o.sides; } {
+              o.sides = static_cast<int>(value);
+            },
+            &Decoded::integer)},
+       {{.name = "corners",
+         .kind = Kind::points,
+         .unit = "m",
+         .range = within(-largest_size, largest_size),
+         .only_for = "polygon",
+         .doc = "Of a polygon that is not regular, in order; the centre of its area becomes the "
+                "particle's. Some point inside must see all of it."},
+        outline_to<std::vector<Vec2>>(
+            [](auto& o, const std::vector<Vec2>& value) requires requires { o.corners; } {
+              o.corners = value;
+            },
+            &Decoded::points)},
+       {{.name = "rounding",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(0, largest_size),
+         .fallback = value_of("0 m"),
+         .only_for = "polygon",
+         .doc = "Radius of all corners; 0: sharp, allowed where no corner points inwards."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.rounding; } { o.rounding = value; })},
+       {{.name = "file",
+         .kind = Kind::text,
+         .required = true,
+         .only_for = "points",
+         .doc = "CSV, one point x, y a line in order, relative to the scene's folder; its first "
+                "line may name the columns with their unit: x (um), y (um)."},
+        outline_to<std::string>(
+            [](auto& o, const std::string& value) requires requires { o.file; } { o.file = value; },
+            &Decoded::text)},
+       {{.name = "unit",
+         .kind = Kind::text,
+         .only_for = "points",
+         .doc = "Unit of a file whose first line names none: \"um\".",
+         .fallback_doc = "the file's first line names it"},
+        outline_to<std::string>(
+            [](auto& o, const std::string& value) requires requires { o.unit; } { o.unit = value; },
+            &Decoded::text)},
+       {{.name = "smoothing",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(0, largest_size),
+         .fallback = value_of("0 m"),
+         .only_for = "points",
+         .doc = "Root mean square distance at which the curve may pass the file's points, before "
+                "scaling: the noise of the tracing; 0: through them."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.smoothing; } { o.smoothing = value; })},
+       {{.name = "area",
+         .kind = Kind::quantity,
+         .unit = "m^2",
+         .range = within(smallest_size * smallest_size, largest_size * largest_size),
+         .only_for = "points",
+         .doc = "To which the outline is scaled.",
+         .fallback_doc = "the file's own size, without `width` and `diameter`"},
+        outline_to(
+            [](auto& o, double value) requires requires { o.area; } { o.area = value; })},
+       {{.name = "mirrored",
+         .kind = Kind::flag,
+         .fallback = value_of(false),
+         .only_for = {"polygon", "points"},
+         .doc = "x to -x, before any turn."},
+        outline_to<bool>(
+            [](auto& o, bool value) requires requires { o.mirrored; } { o.mirrored = value; },
+            &Decoded::flag)}}};
   return declaration;
 }
 
 const TableDeclaration<ParticleSpec>& mesh() {
   static const TableDeclaration<ParticleSpec> declaration{
       {"particle.mesh", false, "outline", "Finite elements of one particle."},
-      {{{.name = "boundary_edges",
+      {{{.name = "size",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .doc = "Wanted length of the edges along the outline, instead of their number and that of "
+                "the rings; finer where the outline turns sharply.",
+         .fallback_doc = "by `accuracy`"},
+        [](ParticleSpec& spec, const Decoded& value) { spec.mesh_size = value.number; }},
+       {{.name = "boundary_edges",
          .kind = Kind::integer,
          .range = within(4, 4096),
          .multiple_of = 4,
-         .only_for = {"disc", "rounded_rectangle", "ring"},
+         .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
+                      "points"},
          .doc = "Edges along the outline; an even core has (boundary_edges/4)^2 quads. Corners of "
                 "a small radius get four edges each, which grow towards the middle of the flats.",
-         .fallback_doc = "by `accuracy`; beside other sizes 40, of a rounded rectangle 48"},
+         .fallback_doc = "by `accuracy`; beside other sizes 40, of what is no disc or ring 48"},
         mesh_to(
             [](auto& mesh, int value) requires requires { mesh.boundary_edges; } {
               mesh.boundary_edges = value;
@@ -222,7 +325,8 @@ const TableDeclaration<ParticleSpec>& mesh() {
        {{.name = "rings",
          .kind = Kind::integer,
          .range = within(0, 1024),
-         .only_for = {"disc", "rounded_rectangle", "ring"},
+         .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
+                      "points"},
          .doc =
              "Rings of quads between the core and the outline, of a ring through its wall; 0: only "
              "the core, for discs of at most 20 boundary edges or with a coarse core.",

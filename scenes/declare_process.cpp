@@ -1,4 +1,4 @@
-// Declarations of what happens to the powder: placement, stages, friction, and the settings
+// Declarations of what happens to the powder: placement by hand, stages, friction, and the settings
 // of a run.
 #include "scenes/declare.hpp"
 
@@ -41,56 +41,6 @@ const TableDeclaration<BodySpec>& body() {
          .fallback = value_of("0 rad/s"),
          .doc = "Initial spin, counter-clockwise."},
         to(&BodySpec::angular_velocity)}}};
-  return declaration;
-}
-
-const TableDeclaration<LatticePacking>& packing() {
-  static const TableDeclaration<LatticePacking> declaration{
-      {"packing", true, "", "Many particles at once, row by row from the bottom."},
-      {{{.name = "kind",
-         .kind = Kind::choice,
-         .choices = {{"square", "rows and columns on a square lattice"},
-                     {"hexagonal",
-                      "rows sqrt(3)/2 of the spacing apart; every second one has one particle less "
-                      "and lies in the gaps of those below, so that the packing is symmetric "
-                      "between flat walls"}},
-         .required = true,
-         .doc = "How the particles are arranged."},
-        [](LatticePacking& packing, const Decoded& value) {
-          packing.kind = static_cast<LatticePacking::Kind>(value.index);
-        }},
-       {{.name = "particle",
-         .kind = Kind::reference,
-         .refers_to = "particle",
-         .required = true,
-         .doc = "Their class."},
-        index_to(&LatticePacking::particle)},
-       {{.name = "rows",
-         .kind = Kind::integer,
-         .range = within(1, 1e6),
-         .required = true,
-         .doc = "Particles on top of each other."},
-        integer_to(&LatticePacking::rows)},
-       {{.name = "columns",
-         .kind = Kind::integer,
-         .range = within(1, 1e6),
-         .required = true,
-         .doc = "Particles side by side, in the lowest row."},
-        integer_to(&LatticePacking::columns)},
-       {{.name = "spacing",
-         .kind = Kind::quantity,
-         .unit = "m",
-         .range = within(smallest_size, largest_size),
-         .doc = "Distance from centre to centre; must be given for rectangles.",
-         .fallback_doc = "the diameter of the discs or rings: they touch"},
-        to(&LatticePacking::spacing)},
-       {{.name = "corner",
-         .kind = Kind::vector,
-         .unit = "m",
-         .range = within(-largest_size, largest_size),
-         .fallback = pair_of("0 m", "0 m"),
-         .doc = "Lower left corner of the first particle's lattice cell."},
-        to(&LatticePacking::corner)}}};
   return declaration;
 }
 

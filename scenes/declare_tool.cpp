@@ -105,10 +105,15 @@ std::vector<Key<ToolSpec>> place_keys() {
         .kind = Kind::vector,
         .unit = "m",
         .range = within(-largest_size, largest_size),
+        .choices = {{"packing top",
+                     "the height at which a punch rests on the packing; of several the highest"}},
         .doc = "A point of a plane's surface, or the centre of a grip with holds = \"radial\" or "
                "a `radius`.",
         .fallback_doc = "required of those, refused elsewhere"},
-       to(&ToolSpec::point)},
+       [](ToolSpec& spec, const Decoded& value) {
+         spec.point = value.vector;
+         spec.on_packing = value.is_word;
+       }},
       {{.name = "normal",
         .kind = Kind::direction,
         .required = true,

@@ -145,6 +145,36 @@ Vec2 vector(const KeyInfo& key, const Value& value) {
   return {quantity(key, parts[0]), quantity(key, parts[1])};
 }
 
+// The position of a word that may stand instead of a number; empty: it is none.
+std::optional<int> word_instead(const KeyInfo& key, const Value& value) {
+  const auto* text = value.as<std::string>();
+  for (std::size_t i = 0; text != nullptr && i < key.choices.size(); ++i)
+    if (key.choices[i].word == *text) return static_cast<int>(i);
+  return std::nullopt;
+}
+
+void vector_or_word(const KeyInfo& key, const Value& value, Decoded& result) {
+  const document::Array& parts = pair(key, value);
+  const std::optional<int> word = word_instead(key, parts[1]);
+  if (!word) {
+    result.vector = vector(key, value);
+    return;
+  }
+  result.is_word = true;
+  result.index = *word;
+  result.vector = {quantity(key, parts[0]), 0};
+}
+
+void number_or_word(const KeyInfo& key, const Value& value, Decoded& result) {
+  if (const std::optional<int> word = word_instead(key, value)) {
+    result.is_word = true;
+    result.index = *word;
+    return;
+  }
+  result.number = bare_number(key, value);
+  check_range(key, value, result.number);
+}
+
 std::vector<Vec2> points(const KeyInfo& key, const Value& value) {
   const auto* array = value.as<document::Array>();
   if (array == nullptr) refuse_type(key, value);
@@ -195,7 +225,7 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       result.number = quantity(key, value);
       break;
     case Kind::vector:
-      result.vector = vector(key, value);
+      vector_or_word(key, value, result);
       break;
     case Kind::points:
       result.points = points(key, value);
@@ -205,8 +235,7 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       if (!result.is_word) result.number = quantity(key, value);
       break;
     case Kind::number:
-      result.number = bare_number(key, value);
-      check_range(key, value, result.number);
+      number_or_word(key, value, result);
       break;
     case Kind::integer:
       result.integer = integer(key, value);

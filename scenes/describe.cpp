@@ -45,6 +45,8 @@ std::string cell(const std::string& text) {
 }
 
 std::string default_text(const schema::KeyInfo& key) {
+  if (key.required && !key.optional_for.empty())
+    return fmt::format("required, but not with {}", schema::quoted(key.optional_for));
   if (key.required) return "required";
   if (key.fallback) return code(document::value_text(*key.fallback));
   return key.fallback_doc;

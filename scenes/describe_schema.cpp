@@ -55,6 +55,8 @@ Json type_of(const schema::KeyInfo& key) {
       break;
     case Kind::vector:
       json = pair_of(quantity());
+      if (!key.choices.empty())
+        json["items"] = {{"anyOf", Json::array({words(key.choices), quantity()})}};
       break;
     case Kind::points:
       json = {{"type", "array"}, {"items", pair_of(quantity())}, {"minItems", 2}};
@@ -64,9 +66,12 @@ Json type_of(const schema::KeyInfo& key) {
       break;
     case Kind::number:
       json["type"] = "number";
+      add_range(json, key.range);
+      if (!key.choices.empty()) json = {{"anyOf", Json::array({words(key.choices), json})}};
       break;
     case Kind::integer:
       json["type"] = "integer";
+      add_range(json, key.range);
       break;
     case Kind::counts: {
       Json count{{"type", "integer"}};
@@ -105,8 +110,6 @@ Json type_of(const schema::KeyInfo& key) {
       json["anyOf"] = Json::array({Json{{"type", "number"}}, quantity()});
       break;
   }
-  const bool bare = key.kind == Kind::number || key.kind == Kind::integer;
-  if (bare) add_range(json, key.range);
   if (key.multiple_of > 1) json["multipleOf"] = key.multiple_of;
   return json;
 }
@@ -139,7 +142,8 @@ Json branch(const schema::TableView& view, const std::string& selected) {
   for (const schema::KeyInfo& key : view.keys) {
     if (key.only_for.empty()) continue;
     if (!key.only_for.has(selected)) properties[key.name] = false;
-    if (key.only_for.has(selected) && key.required) required.push_back(key.name);
+    if (key.only_for.has(selected) && schema::is_required(key, selected))
+      required.push_back(key.name);
   }
   for (const schema::TableView* child : children(view.info.path))
     if (child->info.selector == view.info.selector)

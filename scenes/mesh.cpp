@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenes/contact_curve.hpp"
 #include "scenes/mass_shares.hpp"
@@ -84,6 +85,17 @@ double least_corner_sine(const Shape& shape) {
       const Point& b = shape.nodes[static_cast<std::size_t>(q[(k + 3) % 4].value)];
       const double ax = a[0] - p[0], ay = a[1] - p[1], bx = b[0] - p[0], by = b[1] - p[1];
       least = std::min(least, (ax * by - ay * bx) / (std::hypot(ax, ay) * std::hypot(bx, by)));
+    }
+  return least;
+}
+
+double shortest_edge(const Shape& shape) {
+  double least = std::numeric_limits<double>::max();
+  for (const auto& q : shape.quads)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Point& p = shape.nodes[static_cast<std::size_t>(q[k].value)];
+      const Point& r = shape.nodes[static_cast<std::size_t>(q[(k + 1) % 4].value)];
+      least = std::min(least, std::hypot(r[0] - p[0], r[1] - p[1]));
     }
   return least;
 }

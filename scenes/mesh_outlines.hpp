@@ -13,5 +13,10 @@ void mesh_outline(const RectangleOutline& rectangle, const RectangleMesh& mesh, 
 void mesh_outline(const RoundedRectangleOutline& rectangle, const RoundedRectangleMesh& mesh,
                   double phase, Shape& shape);
 void mesh_outline(const RingOutline& ring, const RingMesh& mesh, double phase, Shape& shape);
+void mesh_outline(const EllipseOutline& outline, const StarMesh& mesh, double phase, Shape& shape);
+void mesh_outline(const SuperellipseOutline& outline, const StarMesh& mesh, double phase,
+                  Shape& shape);
+void mesh_outline(const PolygonOutline& outline, const StarMesh& mesh, double phase, Shape& shape);
+void mesh_outline(const PointsOutline& outline, const StarMesh& mesh, double phase, Shape& shape);
 
 }  // namespace pulvis

@@ -4,17 +4,25 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenes/outline_curve.hpp"
+
 namespace pulvis {
 namespace {
 
 using std::numbers::pi;
 
-RoundedBox box_of(const DiscOutline& o) { return {Vec2::Zero(), o.diameter / 2}; }
-RoundedBox box_of(const RectangleOutline& o) { return {Vec2(o.width, o.height) / 2, 0}; }
-RoundedBox box_of(const RoundedRectangleOutline& o) {
-  return {Vec2(o.width, o.height) / 2 - Vec2::Constant(o.radius), o.radius};
+using Box = std::optional<RoundedBox>;
+
+Box box_of(const DiscOutline& o) { return RoundedBox{Vec2::Zero(), o.diameter / 2}; }
+Box box_of(const RectangleOutline& o) { return RoundedBox{Vec2(o.width, o.height) / 2, 0}; }
+Box box_of(const RoundedRectangleOutline& o) {
+  return RoundedBox{Vec2(o.width, o.height) / 2 - Vec2::Constant(o.radius), o.radius};
 }
-RoundedBox box_of(const RingOutline& o) { return {Vec2::Zero(), o.diameter / 2}; }
+Box box_of(const RingOutline& o) { return RoundedBox{Vec2::Zero(), o.diameter / 2}; }
+template <class CurvedOutline>
+Box box_of(const CurvedOutline&) {
+  return {};
+}
 
 double area_of(const DiscOutline& o) { return pi / 4 * o.diameter * o.diameter; }
 double area_of(const RectangleOutline& o) { return o.width * o.height; }
@@ -25,14 +33,15 @@ double area_of(const RingOutline& o) {
   return pi / 4 * (o.diameter * o.diameter - o.hole * o.hole);
 }
 
-}  // namespace
-
-RoundedBox rounded_box(const Outline& outline) {
-  return std::visit([](const auto& o) { return box_of(o); }, outline);
+double area_of(const EllipseOutline& o) { return pi / 4 * o.width * o.height; }
+double area_of(const SuperellipseOutline& o) {
+  const double g = std::lgamma(1 + 1 / o.exponent), h = std::lgamma(1 + 2 / o.exponent);
+  return o.width * o.height * std::exp(2 * g - h);
 }
+double area_of(const PolygonOutline& o) { return curve_of(o).area(); }
+double area_of(const PointsOutline& o) { return curve_of(o).area(); }
 
-std::vector<Vec2> outline_polygon(const Outline& outline, double deviation) {
-  const RoundedBox box = rounded_box(outline);
+std::vector<Vec2> polygon_of(const RoundedBox& box, double deviation) {
   // The sagitta of a chord over the angle 2 a is r (1 - cos a).
   const double share = std::clamp(deviation / std::max(box.radius, deviation), 0.0, 1.0);
   const int chords =
@@ -49,6 +58,23 @@ std::vector<Vec2> outline_polygon(const Outline& outline, double deviation) {
     }
   }
   return points;
+}
+
+}  // namespace
+
+std::optional<RoundedBox> rounded_box(const Outline& outline) {
+  return std::visit([](const auto& o) { return box_of(o); }, outline);
+}
+
+std::vector<Vec2> outline_polygon(const Outline& outline, double deviation) {
+  return std::visit(
+      [&](const auto& o) {
+        if constexpr (requires { curve_of(o); })
+          return curve_of(o).polygon(deviation);
+        else
+          return polygon_of(*box_of(o), deviation);
+      },
+      outline);
 }
 
 double outline_area(const Outline& outline) {

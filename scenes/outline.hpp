@@ -3,17 +3,19 @@
 
 #include "scenes/scene.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace pulvis {
 
-// All points within `radius` of a box about the origin, with the outline's own axes. Every outline fills
-// one, up to holes: a disc has a box without size, a rectangle no radius.
+// All points within `radius` of a box about the origin, with the outline's own axes, up to holes: a disc has
+// a box without size, a rectangle no radius.
 struct RoundedBox {
   Vec2 half;  // m, half sizes of the box
   double radius;
 };
-RoundedBox rounded_box(const Outline& outline);
+// Empty: the outline is none (an ellipse, superellipse, polygon, points).
+std::optional<RoundedBox> rounded_box(const Outline& outline);
 
 // Corners of a polygon inscribed in the outline, counter-clockwise, whose sides leave it by at most
 // `deviation` (m, > 0). Of a ring its outer circle.

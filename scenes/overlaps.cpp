@@ -1,7 +1,10 @@
-// check_overlaps: FCL's broad phase finds the pairs whose boxes meet. Every outline is a rounded box, so
-// that the depth has a formula, which is exact where iterations (GJK, about 1e-6) would not tell touching
-// from overlapping.
+// check_overlaps: FCL's broad phase finds the pairs whose boxes meet. Between rounded boxes the depth has a
+// formula, which is exact where iterations (GJK, about 1e-6) would not tell touching from overlapping.
+// Other outlines are looked at as inscribed polygons in convex pieces (scenes/rigid_contact): two that touch
+// are not refused, and an overlap below twice the polygons' deviation is not seen.
 #include "scenes/outline.hpp"
+#include "scenes/outline_depth.hpp"
+#include "scenes/outline_reach.hpp"
 #include "scenes/place.hpp"
 #include "scenes/problem.hpp"
 #include "scenes/surface.hpp"
@@ -15,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -33,8 +37,16 @@ struct Overlap {
   double depth;       // m
 };
 
+// The box itself, or one around an outline that is none, for the broad phase.
+RoundedBox box_around(const Outline& outline) {
+  if (const auto box = rounded_box(outline)) return *box;
+  Vec2 half = Vec2::Zero();
+  for (const Vec2& p : check_polygon(outline)) half = half.cwiseMax(p.cwiseAbs());
+  return {half * (1 + 10 * check_deviation), 0};
+}
+
 Vec2 half_size(const Outline& outline) {
-  const RoundedBox box = rounded_box(outline);
+  const RoundedBox box = box_around(outline);
   return box.half + Vec2::Constant(box.radius);
 }
 
@@ -42,7 +54,7 @@ double size_of(const Outline& outline) { return 2 * half_size(outline).minCoeff(
 
 // For the broad phase, which asks for its box only.
 Geometry geometry(const Outline& outline, double depth) {
-  const RoundedBox box = rounded_box(outline);
+  const RoundedBox box = box_around(outline);
   if (box.half.isZero(0)) return std::make_shared<fcl::Cylinder<double>>(box.radius, depth);
   const Vec2 size = 2 * half_size(outline);
   return std::make_shared<fcl::Box<double>>(size.x(), size.y(), depth);
@@ -55,66 +67,24 @@ Pose pose(const BodySpec& body) {
   return result;
 }
 
-// Half sizes of a box, and its corners and axes in space.
-struct TurnedBox {
-  Vec2 half, centre;
-  Eigen::Rotation2Dd turn;
-  TurnedBox(const BodySpec& body, const RoundedBox& box)
-      : half(box.half), centre(body.position), turn(body.angle) {}
-  std::array<Vec2, 4> corners() const {
-    std::array<Vec2, 4> list;
-    for (std::size_t i = 0; i < 4; ++i)
-      list[i] =
-          centre + turn * Vec2(i % 2 == 0 ? -half.x() : half.x(), i < 2 ? -half.y() : half.y());
-    return list;
-  }
-  // How far a point lies from the box; inside, how far from its nearest side, negative.
-  double distance(const Vec2& point) const {
-    const Vec2 beyond = (turn.inverse() * (point - centre)).cwiseAbs() - half;
-    return beyond.maxCoeff() <= 0 ? beyond.maxCoeff() : beyond.cwiseMax(0).norm();
-  }
-  // Largest gap between this box and points along one of its axes; negative where they overlap.
-  double gap(const std::array<Vec2, 4>& points) const {
-    Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
-    for (const Vec2& point : points) {
-      const Vec2 p = turn.inverse() * (point - centre);
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    return (low - half).cwiseMax(-half - high).maxCoeff();
-  }
-};
-
-// Distance of two boxes: apart, a corner of one is closest; overlapping, minus the way out (separating
-// axes, Gottschalk 1996).
-double box_distance(const TurnedBox& a, const TurnedBox& b) {
-  const auto of_a = a.corners(), of_b = b.corners();
-  const double gap = std::max(a.gap(of_b), b.gap(of_a));
-  if (gap <= 0) return gap;
-  double least = std::numeric_limits<double>::max();
-  for (const Vec2& corner : of_a) least = std::min(least, b.distance(corner));
-  for (const Vec2& corner : of_b) least = std::min(least, a.distance(corner));
-  return least;
-}
-
 // How far the outline reaches behind the tool's surface.
 double depth_behind(const ToolSpec& tool, const BodySpec& body, const Outline& outline) {
-  const double centre = (body.position - tool.point).dot(tool.normal);
-  const RoundedBox box = rounded_box(outline);
-  const Vec2 normal = Eigen::Rotation2Dd(-body.angle) * tool.normal;
-  return box.radius + normal.cwiseAbs().dot(box.half) - centre;
+  return reach_along(outline, body.angle, -tool.normal) -
+         (body.position - tool.point).dot(tool.normal);
 }
 
 class OverlapSearch {
  public:
   OverlapSearch(const Scene& scene, const std::vector<BodySpec>& bodies)
-      : scene_(scene), bodies_(bodies) {
+      : scene_(scene), bodies_(bodies), depths_(scene) {
     double reach = 0;
     for (const ParticleSpec& particle : scene.particles)
       reach = std::max(reach, half_size(particle.outline).norm());
     std::vector<Geometry> shapes;
     for (const ParticleSpec& particle : scene.particles)
       shapes.push_back(geometry(particle.outline, 16 * reach));
+    for (const ParticleSpec& particle : scene.particles)
+      sizes_.push_back(size_of(particle.outline));
     objects_.reserve(bodies.size());
     for (const BodySpec& body : bodies)
       objects_.emplace_back(shapes[static_cast<std::size_t>(body.particle)], pose(body));
@@ -171,36 +141,33 @@ class OverlapSearch {
     return scene_.particles[static_cast<std::size_t>(body.particle)].outline;
   }
 
-  double depth(const Object& first, const Object& second) const {
-    const BodySpec& a = bodies_[number(first)];
-    const BodySpec& b = bodies_[number(second)];
-    const RoundedBox box_a = rounded_box(outline(a)), box_b = rounded_box(outline(b));
-    return box_a.radius + box_b.radius - box_distance({a, box_a}, {b, box_b});
-  }
+  static std::size_t kind(const BodySpec& body) { return static_cast<std::size_t>(body.particle); }
+
+  double allowed(std::size_t i) const { return touching_tolerance * sizes_[kind(bodies_[i])]; }
 
   void pair(const Object& first, const Object& second) {
     const std::size_t i = number(first), j = number(second);
-    const double size = std::min(size_of(outline(bodies_[i])), size_of(outline(bodies_[j])));
-    const double overlap = depth(first, second);
-    if (overlap > touching_tolerance * size)
+    const double overlap = depths_.between(bodies_[i], bodies_[j]);
+    if (overlap > std::min(allowed(i), allowed(j)))
       found_.push_back({std::max(i, j), std::min(i, j), overlap});
   }
 
   void behind_tool(const Object& object) {
     const std::size_t i = number(object);
     const double overlap = depth_behind(scene_.tools[tool_], bodies_[i], outline(bodies_[i]));
-    if (overlap > touching_tolerance * size_of(outline(bodies_[i])))
-      found_.push_back({i, tool_, overlap});
+    if (overlap > allowed(i)) found_.push_back({i, tool_, overlap});
   }
 
   // Every particle is asked: one that lies deep in the tool is near none of its pieces.
   void behind_polyline(const ToolSpec& tool) {
     const ToolSurface surface = make_surface(tool.points, tool.rounding);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Outline& shape = outline(bodies_[i]);
-      const double overlap = depth_in_tool(surface, bodies_[i].position - tool.points.front(),
-                                           bodies_[i].angle, rounded_box(shape));
-      if (overlap > touching_tolerance * size_of(shape)) found_.push_back({i, tool_, overlap});
+      const Vec2 centre = bodies_[i].position - tool.points.front();
+      const auto box = rounded_box(outline(bodies_[i]));
+      const double overlap = box ? depth_in_tool(surface, centre, bodies_[i].angle, *box)
+                                 : depth_in_tool(surface, centre, bodies_[i].angle,
+                                                 check_polygon(outline(bodies_[i])));
+      if (overlap > allowed(i)) found_.push_back({i, tool_, overlap});
     }
   }
 
@@ -215,6 +182,8 @@ class OverlapSearch {
   const Scene& scene_;
   const std::vector<BodySpec>& bodies_;
   std::vector<Object> objects_;  // by particle number
+  std::vector<double> sizes_;    // by class
+  OutlineDepths depths_;
   fcl::DynamicAABBTreeCollisionManager<double> tree_;
   std::vector<Overlap> found_;
   std::size_t tool_ = 0;

@@ -1,6 +1,7 @@
 #include "scenes/place.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace pulvis {
@@ -9,13 +10,13 @@ namespace {
 struct Source {  // one [[body]] or [[packing]]
   SourceMark mark;
   const BodySpec* body;
-  const LatticePacking* packing;
+  const PackingSpec* packing;
 };
 
 std::vector<Source> sources_in_file_order(const Scene& scene) {
   std::vector<Source> sources;
   for (const BodySpec& body : scene.bodies) sources.push_back({body.mark, &body, nullptr});
-  for (const LatticePacking& packing : scene.packings)
+  for (const PackingSpec& packing : scene.packings)
     sources.push_back({packing.mark, nullptr, &packing});
   std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
     return std::pair(a.mark.line, a.mark.column) < std::pair(b.mark.line, b.mark.column);
@@ -23,8 +24,12 @@ std::vector<Source> sources_in_file_order(const Scene& scene) {
   return sources;
 }
 
-void add_packing(const LatticePacking& packing, std::vector<BodySpec>& bodies) {
-  const bool hexagonal = packing.kind == LatticePacking::Kind::hexagonal;
+void add_packing(const PackingSpec& packing, std::vector<BodySpec>& bodies) {
+  if (!is_lattice(packing)) {
+    bodies.insert(bodies.end(), packing.placed.begin(), packing.placed.end());
+    return;
+  }
+  const bool hexagonal = packing.kind == PackingSpec::Kind::hexagonal;
   const double rise = hexagonal ? std::numbers::sqrt3 / 2 : 1;
   for (int row = 0; row < packing.rows; ++row) {
     const int fewer = packing.columns - particles_in_row(packing, row);
@@ -41,12 +46,29 @@ void add_packing(const LatticePacking& packing, std::vector<BodySpec>& bodies) {
 
 }  // namespace
 
-int particles_in_row(const LatticePacking& packing, int row) {
-  const bool shifted = packing.kind == LatticePacking::Kind::hexagonal && row % 2 == 1;
+int particles_in_row(const PackingSpec& packing, int row) {
+  const bool shifted = packing.kind == PackingSpec::Kind::hexagonal && row % 2 == 1;
   return packing.columns - (shifted ? 1 : 0);
 }
 
-std::int64_t particle_count(const LatticePacking& packing) {
+bool is_lattice(const PackingSpec& packing) {
+  return packing.kind == PackingSpec::Kind::square || packing.kind == PackingSpec::Kind::hexagonal;
+}
+
+double top_of_lattice(const PackingSpec& packing) {
+  const bool hexagonal = packing.kind == PackingSpec::Kind::hexagonal;
+  const double rise = hexagonal ? std::numbers::sqrt3 / 2 : 1;
+  return packing.corner.y() + packing.spacing * (rise * (packing.rows - 1) + 1);
+}
+
+double top_of_packings(const Scene& scene) {
+  double top = std::numeric_limits<double>::lowest();
+  for (const PackingSpec& packing : scene.packings) top = std::max(top, packing.top);
+  return top;
+}
+
+std::int64_t particle_count(const PackingSpec& packing) {
+  if (!is_lattice(packing)) return static_cast<std::int64_t>(packing.placed.size());
   const std::int64_t pairs = packing.rows / 2, odd = packing.rows % 2;
   return pairs * (particles_in_row(packing, 0) + particles_in_row(packing, 1)) +
          odd * particles_in_row(packing, 0);

@@ -12,11 +12,16 @@ namespace pulvis {
 inline constexpr double touching_tolerance = 1e-9;
 
 // Rows count from the bottom, from 0.
-int particles_in_row(const LatticePacking& packing, int row);
-std::int64_t particle_count(const LatticePacking& packing);
+int particles_in_row(const PackingSpec& packing, int row);
+std::int64_t particle_count(const PackingSpec& packing);
+bool is_lattice(const PackingSpec& packing);  // not random, not from a file
+
+// m, where a punch rests on a lattice: on the upper side of its highest cells; on the highest packing.
+double top_of_lattice(const PackingSpec& packing);
+double top_of_packings(const Scene& scene);
 
 // Every particle of the scene. Bodies and packings come in the order of the file, a packing row by
-// row from the bottom, each row from the left; the position in the list is the particle's number.
+// row from the bottom, each row from the left, random and CSV packings as they were filled; the position in the list is the particle's number.
 std::vector<BodySpec> place_bodies(const Scene& scene);
 
 // Throws SceneError when particles overlap each other or a tool, naming both, the depth, and the

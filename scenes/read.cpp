@@ -4,6 +4,7 @@
 #include "scenes/accuracy.hpp"
 #include "scenes/checks.hpp"
 #include "scenes/expect_checks.hpp"
+#include "scenes/fill_packings.hpp"
 #include "scenes/override.hpp"
 #include "scenes/scene_text.hpp"
 #include "scenes/table_reader.hpp"
@@ -32,7 +33,7 @@ class SceneReader {
     scene.materials = read_all(schema::material());
     scene.particles = read_particles();
     scene.bodies = read_all(schema::body());
-    scene.packings = read_all(schema::packing());
+    scene.packings = read_packings();
     scene.tools = read_all(schema::tool());
     scene.stages = read_stages();
     scene.frictions = read_all(schema::friction());
@@ -108,6 +109,15 @@ class SceneReader {
     return stages;
   }
 
+  std::vector<PackingSpec> read_packings() {
+    std::vector<PackingSpec> packings = read_all(schema::packing());
+    const Array& elements = array_at("packing");
+    for (std::size_t i = 0; i < packings.size(); ++i)
+      packings[i].classes =
+          read_elements(schema::mixture_class(), elements[i].get<Table>(), numbered("packing", i));
+    return packings;
+  }
+
   // Of a table that read_all has found to be an array of tables, or to be missing.
   const Array& array_at(const std::string& name) const {
     static const Array none;
@@ -158,6 +168,8 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
     complete_and_check_expectations(loaded.scene, read_other, reader.origins(), problems);
     problems.throw_if_any();
   }
+  fill_packings(loaded.scene, reader.origins(), problems);
+  problems.throw_if_any();
   loaded.text = scene_text(root);
   loaded.hash = scene_hash(loaded.text);
   return loaded;

@@ -56,7 +56,11 @@ struct RingMesh {
   int boundary_edges = 40;  // a multiple of 4
   int rings = 4;            // layers of quads through the wall, >= 1
 };
-using MeshSpec = std::variant<DiscMesh, RectangleMesh, RoundedRectangleMesh, RingMesh>;
+struct StarMesh {           // of any outline that one point inside sees as a whole
+  int boundary_edges = 48;  // a multiple of 4
+  int rings = 1;            // >= 1
+};
+using MeshSpec = std::variant<DiscMesh, RectangleMesh, RoundedRectangleMesh, RingMesh, StarMesh>;
 
 struct DiscOutline {
   using Mesh = DiscMesh;
@@ -78,7 +82,41 @@ struct RingOutline {  // a tube; nothing touches its inner surface
   double diameter = 0;  // m
   double hole = 0;      // m, diameter of the hole
 };
-using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline>;
+struct EllipseOutline {
+  using Mesh = StarMesh;
+  double width = 0;   // m, along the particle's own x axis
+  double height = 0;  // m
+};
+struct SuperellipseOutline {  // |2x/width|^exponent + |2y/height|^exponent = 1
+  using Mesh = StarMesh;
+  double width = 0;     // m
+  double height = 0;    // m
+  double exponent = 2;  // -
+};
+// Its corners, or regular: so many sides in a circle of this diameter, one side below.
+struct PolygonOutline {
+  using Mesh = StarMesh;
+  int sides = 0;                   // 0: by corners
+  double diameter = 0;             // m
+  std::vector<Vec2> corners = {};  // m, either way round; the centre of the area becomes the origin
+  double rounding = 0;             // m, radius of all corners; 0: sharp
+  bool mirrored = false;           // x -> -x
+};
+// A closed C2 curve (periodic cubic spline) through measured points or near them.
+struct PointsOutline {
+  using Mesh = StarMesh;
+  std::string file = {};          // CSV, relative to the scene
+  std::string unit = {};          // of its numbers, where its header names none
+  std::vector<Vec2> points = {};  // m, as the file has them
+  double smoothing = 0;           // m, root mean square distance of the curve from the points
+  std::optional<double> width =
+      {};  // m, what it is scaled to, at most one of these: its extent in x,
+  std::optional<double> diameter = {};  // m, the diameter of the circle of the same area,
+  std::optional<double> area = {};      // m^2
+  bool mirrored = false;                // x -> -x
+};
+using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline,
+                             EllipseOutline, SuperellipseOutline, PolygonOutline, PointsOutline>;
 
 struct ParticleSpec {  // a class of equal particles
   std::string name;
@@ -89,6 +127,9 @@ struct ParticleSpec {  // a class of equal particles
       false;              // every particle's mesh turned by its own random angle (disc, ring)
   double mesh_phase = 0;  // rad, the same turn for all when not random (disc, ring)
   SourceMark mark;
+  std::optional<double> mesh_size = {};  // m, of the edges; the counts in `mesh` come from it
+  int class_of = -1;  // of one size of a packing: the class that is scaled, in Scene::particles
+  double scale = 1;   // of that class's outline
 };
 
 struct BodySpec {                // one particle, placed by hand
@@ -100,17 +141,59 @@ struct BodySpec {                // one particle, placed by hand
   SourceMark mark;
 };
 
-// Rows of particles from the bottom. Hexagonal: they lie sqrt(3)/2 of the spacing apart, and every second
-// one, shifted by half of it, has one particle less: between flat walls it is symmetric, its full rows touch
-// both walls, and beside the others half a particle is missing at each.
-struct LatticePacking {
-  enum class Kind { square, hexagonal } kind = Kind::square;
+// By number: uniform, normal, log-normal; by area: sieve. The size of a particle is the least width of its
+// outline, which is what passes a sieve.
+struct SizeLaw {
+  enum class Kind { mono, uniform, normal, lognormal, sieve } kind = Kind::mono;
+  double mean = 0;                       // m, of the whole law, before it is cut off
+  double deviation = 0;                  // m, standard, of the size itself
+  std::optional<double> least, largest;  // m, nothing lies beyond
+  std::string file;                      // sieve curve, relative to the scene's folder
+  int sizes = 8;                         // that stand for the law
+};
+
+// Of a random packing: particles of one class and their sizes.
+struct MixtureClass {
+  int particle = 0;                       // position in Scene::particles
+  std::optional<int> number;              // one of these three
+  std::optional<double> number_fraction;  // -, of all particles
+  std::optional<double> area_fraction;    // -, of all their area
+  SizeLaw size;
+  SourceMark mark;
+};
+
+struct PackingReached {  // what came out of a random packing
+  double density = 0;    // -, area of the particles over that of the die up to its top
+  double mean_gap = 0;   // -, to the three nearest neighbours, in diameters
+  double least_gap = 0;  // m, between any two particles, or a particle and the die
+  int touches = 0;       // pairs of particles with a gap below a thousandth of a diameter
+};
+
+// Square, hexagonal: rows of particles from the bottom. Hexagonal: they lie sqrt(3)/2 of the spacing apart, and
+// every second one, shifted by half of it, has one particle less: between flat walls it is symmetric, its full
+// rows touch both walls, and beside the others half a particle is missing at each. Random: a mixture in a die,
+// of which two of count, density and height are given. CSV: where a file says.
+struct PackingSpec {
+  enum class Kind { square, hexagonal, random, csv } kind = Kind::square;
+  enum class Dense { given, touching, densest };
   int particle = 0;
   int rows = 1;
   int columns = 1;
-  double spacing = 0;          // m, centre to centre
-  Vec2 corner = Vec2::Zero();  // m, lower left corner of the first particle's lattice cell
+  double spacing = 0;  // m, centre to centre
+  Vec2 corner =
+      Vec2::Zero();  // m, lower left corner of the first particle's lattice cell, or the die
+  double width = 0;  // m, of the die
+  std::optional<double> height;   // m
+  std::optional<int> count;       // where the classes give fractions
+  std::optional<double> density;  // -
+  Dense dense = Dense::given;     // otherwise instead of a density
+  std::string file;               // relative to the scene's folder
+  std::vector<MixtureClass> classes;
   SourceMark mark;
+  // Of random and CSV packings, when the scene has been read:
+  std::vector<BodySpec> placed = {};
+  double top = 0;  // m, where a punch rests on the packing
+  PackingReached reached = {};
 };
 
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
@@ -121,6 +204,7 @@ struct ToolSpec {
   enum class Holds { x, y, both, radial };
   std::string name;
   Vec2 point = Vec2::Zero();    // m; of a radial grip, and of one with a radius: its centre
+  bool on_packing = false;      // point.y is the top of the highest packing
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
@@ -222,11 +306,11 @@ struct Scene {
   std::uint64_t seed = 1;
   std::vector<MaterialSpec> materials;
   std::vector<ParticleSpec> particles;
-  std::vector<BodySpec> bodies;          // [[body]]
-  std::vector<LatticePacking> packings;  // [[packing]]
-  std::vector<ToolSpec> tools;           // [[tool]]
-  std::vector<StageSpec> stages;         // [[stage]]
-  std::vector<FrictionSpec> frictions;   // [[friction]]
+  std::vector<BodySpec> bodies;         // [[body]]
+  std::vector<PackingSpec> packings;    // [[packing]]
+  std::vector<ToolSpec> tools;          // [[tool]]
+  std::vector<StageSpec> stages;        // [[stage]]
+  std::vector<FrictionSpec> frictions;  // [[friction]]
   ContactSpec contact;
   ElementSpec element;
   TimeSpec time;

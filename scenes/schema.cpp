@@ -90,10 +90,10 @@ bool Range::holds(double value) const {
 
 const Language& all_tables() {
   static const Language tables{
-      view(top_level()), view(material()), view(particle()), view(mesh()),
-      view(body()),      view(packing()),  view(tool()),     view(stage()),
-      view(move()),      view(friction()), view(contact()),  view(element()),
-      view(time()),      view(output()),   view(limits()),   view(expect())};
+      view(top_level()), view(material()),      view(particle()), view(mesh()),  view(body()),
+      view(packing()),   view(mixture_class()), view(tool()),     view(stage()), view(move()),
+      view(friction()),  view(contact()),       view(element()),  view(time()),  view(output()),
+      view(limits()),    view(expect())};
   return tables;
 }
 
@@ -138,13 +138,15 @@ std::string allowed(const KeyInfo& key) {
     case Kind::quantity:
       return "a quantity " + quantity;
     case Kind::vector:
-      return "two quantities [x, y] " + quantity;
+      return "two quantities [x, y] " + quantity +
+             (key.choices.empty() ? "" : "; for y also " + quoted_words(key.choices));
     case Kind::points:
       return "at least two points [[x, y], [x, y], ...] " + quantity;
     case Kind::phase:
       return fmt::format("\"{}\" or a quantity {}", key.word, quantity);
     case Kind::number:
-      return "a number" + range_text(key.range);
+      return (key.choices.empty() ? "" : quoted_words(key.choices) + ", or ") + "a number" +
+             range_text(key.range);
     case Kind::integer:
       return integer_text(key);
     case Kind::counts:
@@ -176,6 +178,10 @@ std::string allowed(const KeyInfo& key) {
 bool applies(const KeyInfo& key, const document::Table& table, const std::string& selected) {
   const bool has_company = key.needs.empty() || document::find(table, key.needs) != nullptr;
   return has_company && (key.only_for.empty() || key.only_for.has(selected));
+}
+
+bool is_required(const KeyInfo& key, const std::string& selected) {
+  return key.required && !key.optional_for.has(selected);
 }
 
 std::string selected_by(const TableInfo& info, const document::Table& table,

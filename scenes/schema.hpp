@@ -65,16 +65,17 @@ struct Words {
 struct KeyInfo {
   std::string name = {};
   Kind kind = Kind::text;
-  std::string unit = {};  // SI, of quantities
-  Range range = {};       // of quantities in the SI unit, of vectors for each component
-  int multiple_of = 1;    // of integers
-  std::vector<Choice> choices = {};
-  std::string word = {};       // Kind::phase: the word that stands instead of a quantity
-  std::string refers_to = {};  // Kind::reference: the table whose names are allowed
+  std::string unit = {};             // SI, of quantities
+  Range range = {};                  // of quantities in the SI unit, of vectors for each component
+  int multiple_of = 1;               // of integers
+  std::vector<Choice> choices = {};  // of a number, or a vector's y: words instead of it
+  std::string word = {};             // Kind::phase: the word that stands instead of a quantity
+  std::string refers_to = {};        // Kind::reference: the table whose names are allowed
   std::optional<document::Value> fallback = {};  // the default
   bool required = false;
-  Words only_for = {};     // the table's selector must have one of these values
-  std::string needs = {};  // another key without which this one has no effect
+  Words only_for = {};      // the table's selector must have one of these values
+  Words optional_for = {};  // not required with these
+  std::string needs = {};   // another key without which this one has no effect
   std::string doc = {};
   std::string fallback_doc = {};  // what happens without the key, where that is no value
 };
@@ -84,7 +85,7 @@ struct Decoded {
   double number = 0;  // quantity in SI, number
   std::int64_t integer = 0;
   int index = 0;         // choice, reference: position in the list
-  bool is_word = false;  // phase
+  bool is_word = false;  // phase; number or vector (its y) with words: `index` says which
   bool flag = false;
   std::array<int, 2> counts = {};
   Vec2 vector = Vec2::Zero();
@@ -132,7 +133,8 @@ const TableDeclaration<MaterialSpec>& material();
 const TableDeclaration<ParticleSpec>& particle();
 const TableDeclaration<ParticleSpec>& mesh();
 const TableDeclaration<BodySpec>& body();
-const TableDeclaration<LatticePacking>& packing();
+const TableDeclaration<PackingSpec>& packing();
+const TableDeclaration<MixtureClass>& mixture_class();
 const TableDeclaration<ToolSpec>& tool();
 const TableDeclaration<StageSpec>& stage();
 const TableDeclaration<MoveSpec>& move();
@@ -158,6 +160,9 @@ std::string allowed(const KeyInfo& key);  // "a quantity in Pa, >= 1 and <= 1e+1
 
 // Whether `key` has a meaning in `table`, whose selector has the value `selected`.
 bool applies(const KeyInfo& key, const document::Table& table, const std::string& selected);
+
+// Whether a table must have the key, as far as its selector decides.
+bool is_required(const KeyInfo& key, const std::string& selected);
 
 // The value of a table's selector; `parent` is asked where the table has no such key itself.
 std::string selected_by(const TableInfo& info, const document::Table& table,

@@ -34,6 +34,21 @@ double piercing_depth(const Vec2& a, const Vec2& t, double low, double high, con
   return low < high ? -distance_to_rectangle(a + 0.5 * (low + high) * t, half) : nothing;
 }
 
+// Of a point from a simple polygon: < 0 inside.
+double distance_to_polygon(const Vec2& at, const std::vector<Vec2>& polygon) {
+  double least = std::numeric_limits<double>::max();
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()], along = b - a;
+    const double share = std::clamp((at - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (a + share * along - at).norm());
+    if ((a.y() > at.y()) != (b.y() > at.y()) &&
+        at.x() < a.x() + (at.y() - a.y()) / along.y() * along.x())
+      inside = !inside;
+  }
+  return inside ? -least : least;
+}
+
 }  // namespace
 
 double signed_distance(const ToolSurface& surface, const Vec2& at) {
@@ -60,6 +75,21 @@ double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angl
     depth = std::max(depth, p.radius - distance_to_rectangle(corner, half));
   }
   return outline.radius + depth;
+}
+
+// The same of a polygon whose sides are short: a piece that passes through it leaves corners of it behind.
+double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
+                     const std::vector<Vec2>& polygon) {
+  const Eigen::Rotation2Dd turn(angle);
+  double depth = nothing;
+  for (const Vec2& corner : polygon)
+    depth = std::max(depth, -signed_distance(surface, centre + turn * corner));
+  for (const ToolSurface::Piece& p : surface.pieces) {
+    if (p.side <= 0) continue;
+    const Vec2 corner = turn.inverse() * (Vec2(p.corner_x, p.corner_y) - centre);
+    depth = std::max(depth, p.radius - distance_to_polygon(corner, polygon));
+  }
+  return depth;
 }
 
 }  // namespace pulvis

@@ -11,5 +11,7 @@ double signed_distance(const ToolSurface& surface, const Vec2& at);  // > 0 in t
 
 double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
                      const RoundedBox& outline);
+double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
+                     const std::vector<Vec2>& polygon);  // counter-clockwise
 
 }  // namespace pulvis

@@ -97,7 +97,7 @@ std::optional<Decoded> TableReader::value_of(const KeyInfo& key) {
   const auto& keys = table_->get<document::Table>();
   const document::Entry* entry = document::find(keys, key.name);
   const bool meant = applies(key, keys, selected_);
-  if (entry == nullptr && meant && key.required) missing(key);
+  if (entry == nullptr && meant && is_required(key, selected_)) missing(key);
   if (entry != nullptr && !meant) without_effect(key, *entry);
   if (entry == nullptr || !meant) return std::nullopt;
   const std::string path = joined_path(path_, key.name);

@@ -359,5 +359,31 @@ TEST_F(CommandLine, InterruptEndsBetweenTwoStepsWithReadableResults) {
   }
 }
 
+// What pack writes, a scene reads back: the same packing, written again, is the same text but for its head.
+TEST_F(CommandLine, PackWritesWhatAPackingReads) {
+  const Outcome made = pulvis({"pack", scene("compaction/random-100.toml"), "-o", "packing.csv"});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out,
+              ContainsRegex("packing\\[0\\]: 100 particles, relative density 0.7000, die "));
+  EXPECT_THAT(made.out, HasSubstr("packing.csv: 100 particles"));
+  const std::string table = text_of(place / "packing.csv");
+  EXPECT_THAT(table, StartsWith("# Packing of random-100.toml, seed 1\n# random: 100 particles"));
+  std::string again = text_of(scene("compaction/random-100.toml"));
+  const auto from = again.find("kind = \"random\""), to = again.find("[[tool]]");
+  again.replace(from, to - from, "kind = \"csv\"\nfile = \"packing.csv\"\n\n");
+  std::ofstream(place / "again.toml") << again;
+  EXPECT_EQ(pulvis({"pack", "again.toml", "-o", "again.csv"}).code, 0);
+  const auto rows = [](const std::string& text) { return text.substr(text.find("# top:")); };
+  EXPECT_EQ(rows(text_of(place / "again.csv")), rows(table));
+}
+
+TEST_F(CommandLine, PackRefusesADensityOutOfReach) {
+  const Outcome outcome = pulvis({"pack", scene("compaction/random-100.toml"), "--set",
+                                  "packing[0].density=0.95", "-o", "packing.csv"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, ContainsRegex("0.9500 is not reached: .*allowed: at most 0.8"));
+  EXPECT_FALSE(fs::exists(place / "packing.csv"));
+}
+
 }  // namespace
 }  // namespace pulvis

@@ -33,7 +33,7 @@ TEST(MemoryOrder, NeighboursAreNearWhateverTheOrderOfTheScene) {
       PULVIS_SOURCE_DIR "/scenes/compaction/regular-100.toml",
       {"packing[0].rows=16", "packing[0].columns=16", "tool.right.point=[\"160 mm\", \"0 mm\"]",
        "tool.top.point=[\"0 mm\", \"160 mm\"]"});
-  const LatticePacking packing = scene.packings[0];
+  const PackingSpec packing = scene.packings[0];
   scene.packings.clear();
   for (int i = 0; i < 256; ++i) {
     BodySpec body;

@@ -83,7 +83,7 @@ std::vector<SceneProblem> problems_of(const Scene& scene) {
 
 Scene die(int rows, int columns, Vec2 corner) {
   Scene scene = scene_of({});
-  LatticePacking packing;
+  PackingSpec packing;
   packing.rows = rows;
   packing.columns = columns;
   packing.spacing = size;
@@ -107,7 +107,7 @@ TEST(PlaceBodies, APackingIsFilledRowByRowFromTheBottom) {
 
 Scene hexagonal(int rows, int columns, Vec2 corner) {
   Scene scene = die(rows, columns, corner);
-  scene.packings[0].kind = LatticePacking::Kind::hexagonal;
+  scene.packings[0].kind = PackingSpec::Kind::hexagonal;
   const double height = size * (1 + (rows - 1) * std::numbers::sqrt3 / 2);
   scene.tools[3].point = corner + Vec2(columns * size, height);
   return scene;
@@ -174,7 +174,7 @@ TEST(CheckOverlaps, AHexagonalPackingTouchesAndFitsItsDie) {
 
 TEST(PlaceBodies, BodiesAndPackingsKeepTheOrderOfTheFile) {
   Scene scene = scene_of({at(1, 1), at(2, 2)});
-  LatticePacking packing;
+  PackingSpec packing;
   packing.spacing = size;
   packing.mark = {15, 1};
   scene.packings = {packing};

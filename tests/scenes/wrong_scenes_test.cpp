@@ -273,7 +273,7 @@ const Wrong cases[] = {
      "diameter = \"10 mm\"",
      "diameter = \"10 mm\"\n@width = \"1 mm\"",
      "particle[0].width",
-     {"has no effect with outline = \"disc\"", "only with \"rectangle\" or \"rounded_rectangle\""}},
+     {"has no effect with outline = \"disc\"", "only with \"rectangle\", \"rounded_rectangle\", \"ellipse\""}},
     {"ColumnsOfADisc",
      "rings = 1",
      "rings = 1\n@columns = 3",

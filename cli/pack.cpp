@@ -1,0 +1,42 @@
+#include "cli/pack.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "engine/output_error.hpp"
+#include "scenes/packing_file.hpp"
+#include "scenes/place.hpp"
+
+namespace pulvis {
+
+std::string packing_summary(const Scene& scene) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.packings.size(); ++i) {
+    const PackingSpec& packing = scene.packings[i];
+    if (packing.kind != PackingSpec::Kind::random) continue;
+    text += fmt::format(
+        "packing[{}]: {} particles, relative density {:.4f}, die {:.6g} m x {:.6g} "
+        "m, mean gap to the three nearest neighbours {:.3g} diameters, {:.3g} "
+        "touches a particle\n",
+        i, packing.placed.size(), packing.reached.density, packing.width,
+        packing.top - packing.corner.y(), packing.reached.mean_gap,
+        2.0 * packing.reached.touches / static_cast<double>(packing.placed.size()));
+  }
+  return text;
+}
+
+ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file) {
+  const std::vector<BodySpec> bodies = place_bodies(scene);
+  check_overlaps(scene, bodies);
+  std::ofstream stream(file, std::ios::binary);
+  stream << packing_text(scene, bodies);
+  stream.close();
+  if (!stream) throw OutputError(file, "write the packing", std::strerror(errno));
+  fmt::print("{}{}: {} particles\n", packing_summary(scene), file.string(), bodies.size());
+  return ExitCode::done;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,16 @@
+// pulvis pack: the particles of a scene as a table.
+#pragma once
+
+#include <filesystem>
+
+#include "cli/exit_code.hpp"
+#include "scenes/scene.hpp"
+
+namespace pulvis {
+
+// A line for each random packing: what came out.
+std::string packing_summary(const Scene& scene);
+
+ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file);
+
+}  // namespace pulvis

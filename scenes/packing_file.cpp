@@ -1,0 +1,96 @@
+#include "scenes/packing_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/csv_file.hpp"
+#include "scenes/place.hpp"
+#include "scenes/problem.hpp"
+#include "scenes/units.hpp"
+
+namespace pulvis {
+namespace {
+
+int class_of(const CsvFile& table, const CsvCell& cell, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const ParticleSpec& particle : scene.particles)
+    if (particle.class_of < 0) names.push_back(particle.name);
+  const auto found = std::ranges::find(names, cell.text);
+  if (found == names.end())
+    table.refuse(cell, fmt::format("no particle is called '{}'{}, allowed: {}", cell.text,
+                                   suggestion(cell.text, names), listed(names)));
+  return static_cast<int>(found - names.begin());
+}
+
+std::optional<double> top_of(const CsvFile& table) {
+  constexpr std::string_view key = "top:";
+  for (const CsvCell& comment : table.comments()) {
+    if (!comment.text.starts_with(key)) continue;
+    try {
+      return parse_quantity(comment.text.substr(key.size()), "m");
+    } catch (const UnitError& error) {
+      table.refuse(comment, fmt::format("{}, allowed: # top: and a quantity in m", error.what()));
+    }
+  }
+  return std::nullopt;
+}
+
+bool any_scaled(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  return std::ranges::any_of(bodies, [&](const BodySpec& body) {
+    return scene.particles[static_cast<std::size_t>(body.particle)].class_of >= 0;
+  });
+}
+
+std::string header(const Scene& scene) {
+  std::string text =
+      fmt::format("# Packing of {}, seed {}\n", scene.file.filename().string(), scene.seed);
+  for (const PackingSpec& packing : scene.packings) {
+    if (packing.kind != PackingSpec::Kind::random) continue;
+    const PackingReached& r = packing.reached;
+    text += fmt::format(
+        "# random: {} particles, relative density {:.6f}, mean gap {:.4f} "
+        "diameters, least gap {:.3g} m, die {:.9g} m x {:.9g} m\n",
+        packing.placed.size(), r.density, r.mean_gap, r.least_gap, packing.width,
+        packing.top - packing.corner.y());
+  }
+  if (!scene.packings.empty()) text += fmt::format("# top: {} m\n", top_of_packings(scene));
+  return text;
+}
+
+}  // namespace
+
+FiledPacking read_packing(const std::filesystem::path& file, const Scene& scene) {
+  const CsvFile table(file);
+  table.only({"class", "x", "y", "angle", "scale"});
+  const std::vector<CsvCell> names = table.texts("class");
+  const std::vector<double> x = table.numbers("x", "m"), y = table.numbers("y", "m");
+  const std::vector<double> angle = table.numbers("angle", "rad");
+  std::vector<double> scale(names.size(), 1);
+  if (table.has("scale")) scale = table.numbers("scale", "");
+  FiledPacking packing;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (scale[i] < 1e-6 || scale[i] > 1e6)
+      table.refuse(names[i], fmt::format("scale {:g}, allowed: from 1e-06 to 1e+06", scale[i]));
+    packing.particles.push_back(
+        {class_of(table, names[i], scene), scale[i], Vec2(x[i], y[i]), angle[i]});
+  }
+  packing.top = top_of(table);
+  return packing;
+}
+
+std::string packing_text(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  const bool scales = any_scaled(scene, bodies);
+  std::string text = header(scene);
+  text += fmt::format("class,x [m],y [m],angle [rad]{}\n", scales ? ",scale" : "");
+  for (const BodySpec& body : bodies) {
+    const ParticleSpec& own = scene.particles[static_cast<std::size_t>(body.particle)];
+    const std::string& name =
+        own.class_of < 0 ? own.name : scene.particles[static_cast<std::size_t>(own.class_of)].name;
+    text += fmt::format("{},{},{},{}", name, body.position.x(), body.position.y(), body.angle);
+    text += scales ? fmt::format(",{}\n", own.scale) : "\n";
+  }
+  return text;
+}
+
+}  // namespace pulvis
