@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "cli/report_assets.hpp"
-#include "cli/report_data.hpp"
 #include "engine/output_error.hpp"
 
 namespace pulvis {
@@ -31,7 +30,7 @@ std::string escaped(std::string_view text) {
 // JSON inside a script element: no text of the run may look like the end of the element.
 std::string harmless(std::string_view json) { return with_replaced(json, {{'<', "\\u003c"}}); }
 
-std::string joined(std::initializer_list<const char*> names) {
+std::string joined(const std::vector<const char*>& names) {
   std::string text;
   for (const char* name : names) text += std::string(report_asset(name)) + "\n";
   return text;
@@ -47,19 +46,17 @@ std::string carried(const ReportData& data) {
   return text;
 }
 
-std::string part(std::string_view name, const ReportData& data) {
+std::string part(std::string_view name, const ReportPage& page, const ReportData& data) {
   if (name == "title") return escaped(data.title);
   if (name == "style") return joined({"uPlot.min.css", "report.css"});
   if (name == "licence") return escaped(report_asset("uPlot.LICENSE"));
-  if (name == "script") {
-    return joined({"uPlot.iife.min.js", "units.js", "payload.js", "summary.js", "charts.js",
-                   "picture.js", "report.js"});
-  }
+  if (name == "script") return joined(page.scripts);
   return carried(data);
 }
 
 // The page with every <!--@name@--> replaced; what is put in is not searched again.
-std::string filled(std::string_view page, const ReportData& data) {
+std::string filled(const ReportPage& made, const ReportData& data) {
+  const std::string_view page = report_asset(made.html);
   static constexpr std::string_view opening = "<!--@", closing = "@-->";
   std::string text;
   for (std::size_t from = 0;;) {
@@ -67,7 +64,7 @@ std::string filled(std::string_view page, const ReportData& data) {
     text += page.substr(from, begin - from);
     if (begin == std::string_view::npos) return text;
     const auto name = begin + opening.size(), end = page.find(closing, name);
-    text += part(page.substr(name, end - name), data);
+    text += part(page.substr(name, end - name), made, data);
     from = end + closing.size();
   }
 }
@@ -75,8 +72,16 @@ std::string filled(std::string_view page, const ReportData& data) {
 }  // namespace
 
 void write_report(const std::filesystem::path& run_folder) {
-  const std::string text = filled(report_asset("page.html"), read_report_data(run_folder));
-  const auto path = run_folder / "report.html", beside = run_folder / "report.html.new";
+  static const ReportPage page{"page.html",
+                               {"uPlot.iife.min.js", "units.js", "payload.js", "summary.js",
+                                "charts.js", "picture.js", "report.js"}};
+  write_page(run_folder, page, read_report_data(run_folder));
+}
+
+void write_page(const std::filesystem::path& folder, const ReportPage& page,
+                const ReportData& data) {
+  const std::string text = filled(page, data);
+  const auto path = folder / "report.html", beside = folder / "report.html.new";
   std::ofstream file(beside, std::ios::binary);
   file << text;
   file.close();

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
+
+#include "cli/report_data.hpp"
 
 namespace pulvis {
 
@@ -18,5 +21,15 @@ namespace pulvis {
 //   quality    [{name, value, limit, meaning}]: shown instead of the figures made from the history
 // Throws OutputError where the folder holds no readable run or the report cannot be written.
 void write_report(const std::filesystem::path& run_folder);
+
+// A page of cli/report/ and the scripts it needs, in their order.
+struct ReportPage {
+  const char* html;
+  std::vector<const char*> scripts;
+};
+
+// Writes folder/report.html: the page with the data in it.
+void write_page(const std::filesystem::path& folder, const ReportPage& page,
+                const ReportData& data);
 
 }  // namespace pulvis

@@ -1,8 +1,6 @@
 // docs/scene.md, from the declarations.
 #include "scenes/describe.hpp"
 
-#include "scenes/schema.hpp"
-
 #include <fmt/format.h>
 
 namespace pulvis {
@@ -76,10 +74,12 @@ std::string describe(const schema::TableView& view) {
 
 }  // namespace
 
-std::string scene_reference() {
-  std::string text = introduction;
-  for (const schema::TableView& view : schema::all_tables()) text += describe(view);
+std::string reference_of(const std::string& beginning, const schema::Language& language) {
+  std::string text = beginning;
+  for (const schema::TableView& view : language) text += describe(view);
   return text;
 }
+
+std::string scene_reference() { return reference_of(introduction, schema::all_tables()); }
 
 }  // namespace pulvis

@@ -10,13 +10,6 @@
 namespace pulvis::schema {
 namespace {
 
-template <class Spec>
-TableView view(const TableDeclaration<Spec>& declaration) {
-  TableView result{declaration.info, {}};
-  for (const Key<Spec>& key : declaration.keys) result.keys.push_back(key.info);
-  return result;
-}
-
 std::string range_text(const Range& range) {
   const bool low = std::isfinite(range.low), high = std::isfinite(range.high);
   std::string text;
@@ -55,10 +48,11 @@ document::Value placed(document::Value value, const document::Origin& origin) {
   return value;
 }
 
-void fill(document::Value& value, const TableView& view, const std::string& parent_selected);
+void fill(document::Value& value, const TableView& view, const std::string& parent_selected,
+          const Language& language);
 
 void fill_child(document::Table& table, const document::Origin& origin, const TableInfo& child,
-                const std::string& selected) {
+                const std::string& selected, const Language& language) {
   const std::string key = last_word(child.path);
   document::Entry* entry = document::find(table, key);
   if (entry == nullptr && child.repeated) return;
@@ -66,15 +60,16 @@ void fill_child(document::Table& table, const document::Origin& origin, const Ta
     table.push_back({key, origin, {document::Table{}, origin}});
     entry = &table.back();
   }
-  const TableView& view = *find_table(child.path);
+  const TableView& view = *find_table(child.path, language);
   if (entry->value.as<document::Table>() != nullptr && !child.repeated)
-    fill(entry->value, view, selected);
+    fill(entry->value, view, selected, language);
   if (document::is_array_of_tables(entry->value) && child.repeated)
     for (document::Value& element : entry->value.get<document::Array>())
-      fill(element, view, selected);
+      fill(element, view, selected, language);
 }
 
-void fill(document::Value& value, const TableView& view, const std::string& parent_selected) {
+void fill(document::Value& value, const TableView& view, const std::string& parent_selected,
+          const Language& language) {
   auto& table = value.get<document::Table>();
   const document::Origin origin = value.origin;
   const std::string selected = selected_by(view.info, table, parent_selected);
@@ -83,8 +78,9 @@ void fill(document::Value& value, const TableView& view, const std::string& pare
     if (wanted && document::find(table, key.name) == nullptr)
       table.push_back({key.name, origin, placed(*key.fallback, origin)});
   }
-  for (const TableView& child : all_tables())
-    if (is_child(child.info, view.info.path)) fill_child(table, origin, child.info, selected);
+  for (const TableView& child : language)
+    if (is_child(child.info, view.info.path))
+      fill_child(table, origin, child.info, selected, language);
 }
 
 }  // namespace
@@ -95,20 +91,19 @@ bool Range::holds(double value) const {
   return above_low && below_high;
 }
 
-const std::vector<TableView>& all_tables() {
-  static const std::vector<TableView> tables{
-      view(top_level()), view(material()), view(particle()), view(mesh()),
-      view(body()),      view(packing()),  view(tool()),     view(stage()),
-      view(move()),      view(friction()), view(contact()),  view(element()),
-      view(time()),      view(output()),   view(limits()),   view(expect())};
+const Language& all_tables() {
+  static const Language tables{
+      view_of(top_level()), view_of(material()), view_of(particle()), view_of(mesh()),
+      view_of(body()),      view_of(packing()),  view_of(tool()),     view_of(stage()),
+      view_of(move()),      view_of(friction()), view_of(contact()),  view_of(element()),
+      view_of(time()),      view_of(output()),   view_of(limits()),   view_of(expect())};
   return tables;
 }
 
-const TableView* find_table(const std::string& path) {
-  const auto& tables = all_tables();
-  const auto found = std::find_if(tables.begin(), tables.end(),
+const TableView* find_table(const std::string& path, const Language& language) {
+  const auto found = std::find_if(language.begin(), language.end(),
                                   [&](const TableView& view) { return view.info.path == path; });
-  return found == tables.end() ? nullptr : &*found;
+  return found == language.end() ? nullptr : &*found;
 }
 
 const KeyInfo* find_key(const TableView& table, const std::string& name) {
@@ -121,10 +116,10 @@ std::string joined_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-std::vector<std::string> known_words(const TableView& table) {
+std::vector<std::string> known_words(const TableView& table, const Language& language) {
   std::vector<std::string> words;
   for (const KeyInfo& key : table.keys) words.push_back(key.name);
-  for (const TableView& child : all_tables())
+  for (const TableView& child : language)
     if (is_child(child.info, table.info.path)) words.push_back(last_word(child.info.path));
   return words;
 }
@@ -185,9 +180,9 @@ std::string selected_by(const TableInfo& info, const document::Table& table,
   return own != nullptr ? *own : parent;
 }
 
-void fill_defaults(document::Table& root) {
+void fill_defaults(document::Table& root, const Language& language) {
   document::Value top{std::move(root), {{1, 1}, -1}};
-  fill(top, all_tables().front(), "");
+  fill(top, language.front(), "", language);
   root = std::move(top.get<document::Table>());
 }
 

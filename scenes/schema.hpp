@@ -129,11 +129,23 @@ const TableDeclaration<OutputSpec>& output();
 const TableDeclaration<LimitSpec>& limits();
 const TableDeclaration<ExpectSpec>& expect();
 
-const std::vector<TableView>& all_tables();  // top level first, a parent before its children
-const TableView* find_table(const std::string& path);
+// The tables of one kind of file: top level first, a parent before its children.
+using Language = std::vector<TableView>;
+const Language& all_tables();  // of a scene
+
+template <class Spec>
+TableView view_of(const TableDeclaration<Spec>& declaration) {
+  TableView result{declaration.info, {}};
+  for (const Key<Spec>& key : declaration.keys) result.keys.push_back(key.info);
+  return result;
+}
+
+const TableView* find_table(const std::string& path, const Language& language = all_tables());
 const KeyInfo* find_key(const TableView& table, const std::string& name);
 std::string joined_path(const std::string& path, const std::string& key);
-std::vector<std::string> known_words(const TableView& table);  // its keys and child tables
+// Its keys and child tables.
+std::vector<std::string> known_words(const TableView& table,
+                                     const Language& language = all_tables());
 
 std::string quoted(const Words& words);   // '"disc" or "ring"'
 std::string allowed(const KeyInfo& key);  // "a quantity in Pa, >= 1 and <= 1e+13"
@@ -146,6 +158,6 @@ std::string selected_by(const TableInfo& info, const document::Table& table,
                         const std::string& parent);
 
 // Writes every default that is not given into the tree, so that it is read like a given value.
-void fill_defaults(document::Table& root);
+void fill_defaults(document::Table& root, const Language& language = all_tables());
 
 }  // namespace pulvis::schema

@@ -6,14 +6,15 @@
 
 namespace pulvis::schema {
 
-TableReader::TableReader(const document::Table& root, Problems& problems) : problems_(problems) {
+TableReader::TableReader(const document::Table& root, Problems& problems, const Language& language)
+    : problems_(problems), language_(language) {
   collect_names(root);
 }
 
 // Names are collected before anything is read, so that one bad table does not make every reference
 // to it look wrong.
 void TableReader::collect_names(const document::Table& root) {
-  for (const TableView& view : all_tables()) {
+  for (const TableView& view : language_) {
     if (!view.info.repeated || find_key(view, "name") == nullptr) continue;
     const document::Entry* entry = document::find(root, view.info.path);
     if (entry == nullptr || !document::is_array_of_tables(entry->value)) continue;
@@ -74,7 +75,7 @@ bool TableReader::begin(const TableInfo& info, const document::Value& value,
     return false;
   }
   table_ = &value;
-  view_ = find_table(info.path);
+  view_ = find_table(info.path, language_);
   path_ = path;
   selected_ = selected_by(info, *keys, parent_selected);
   origins_[path_] = value.origin;
@@ -83,7 +84,7 @@ bool TableReader::begin(const TableInfo& info, const document::Value& value,
 }
 
 void TableReader::refuse_unknown(const document::Entry& entry, const TableView& view) {
-  const std::vector<std::string> words = known_words(view);
+  const std::vector<std::string> words = known_words(view, language_);
   if (std::find(words.begin(), words.end(), entry.key) != words.end()) return;
   const bool is_table =
       entry.value.as<document::Table>() != nullptr || document::is_array_of_tables(entry.value);

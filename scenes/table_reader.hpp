@@ -13,7 +13,8 @@ using Origins = std::map<std::string, document::Origin>;  // by path: "material[
 
 class TableReader {
  public:
-  TableReader(const document::Table& root, Problems& problems);
+  TableReader(const document::Table& root, Problems& problems,
+              const Language& language = all_tables());
 
   template <class Spec>
   void read(const TableDeclaration<Spec>& declaration, const document::Value& value,
@@ -42,6 +43,7 @@ class TableReader {
                     const std::string& path);
 
   Problems& problems_;
+  const Language& language_;
   Names names_;
   Origins origins_;
 

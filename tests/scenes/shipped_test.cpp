@@ -13,7 +13,8 @@ std::vector<std::string> shipped() {
   const std::filesystem::path root = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
   std::vector<std::string> scenes;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "extreme")
+    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "extreme" &&
+        entry.path().parent_path().filename() != "lab")  // settings of a reduction, no scene
       scenes.push_back(std::filesystem::relative(entry.path(), root).string());
   std::ranges::sort(scenes);
   return scenes;
