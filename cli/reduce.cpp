@@ -120,7 +120,9 @@ void print_run(const lab::ReducedRun& run) {
   fmt::print("; clocks: {:.3f} s", clocks.offset);
   if (clocks.is_given) fmt::print(" as given");
   if (!clocks.is_given) fmt::print(" +- {:.3f} s", clocks.offset_uncertainty);
-  if (clocks.drift) fmt::print(", drift {:.1e} +- {:.1e}", *clocks.drift, clocks.drift_uncertainty);
+  if (clocks.drift)
+    fmt::print(", drift {:.1e} +- {:.1e}{}", *clocks.drift, clocks.drift_uncertainty,
+               clocks.is_drift_applied ? "" : " (not applied)");
   fmt::print("\n");
 }
 

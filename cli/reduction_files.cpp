@@ -90,6 +90,7 @@ Json clock_json(const lab::Clocks& clocks) {
             {"start_on_logger_clock", clocks.logger_start.time}};
   if (clocks.drift) json["drift"] = *clocks.drift;
   if (clocks.drift) json["drift_uncertainty"] = clocks.drift_uncertainty;
+  json["drift_is_applied"] = clocks.is_drift_applied;
   return json;
 }
 

@@ -240,15 +240,18 @@ const TableDeclaration<ClockSpec>& declared_clock() {
       {"clock", false, "", "How the clocks of press and logger are brought together."},
       {{{.name = "drift",
          .kind = Kind::choice,
-         .choices = {{"events", "from start and end of sliding, where both records show both"},
-                     {"none", "the clocks run at the same rate; the start alone decides"}},
+         .choices =
+             {{"events",
+               "from start and end of sliding, where both records show both and it is larger than "
+               "three of its uncertainties"},
+              {"none", "the clocks run at the same rate; the start alone decides"}},
          .fallback = value_of("events"),
          .doc = "How the rate of one clock against the other is found."},
         index_to(&ClockSpec::drift)},
        {{.name = "largest_drift",
          .kind = Kind::number,
          .range = within(0, 0.5),
-         .fallback = value_of(0.002),
+         .fallback = value_of(0.001),
          .doc = "Clocks that differ by more than this rate, and more than four standard "
                 "uncertainties, are refused as those of different tests."},
         to(&ClockSpec::largest_drift)},

@@ -10,7 +10,8 @@
 namespace pulvis::lab {
 namespace {
 
-constexpr std::size_t most_places = 300;    // tried for the start of sliding
+constexpr std::size_t most_places = 300;  // tried for the start of sliding
+constexpr double sure_drift = 3;          // standard uncertainties: a smaller drift is not applied
 constexpr std::size_t most_samples = 1500;  // of the press's record that each try looks at
 
 struct Hold {
@@ -61,24 +62,33 @@ double rough_start(const Hold& hold, const LoggerRecord& logger, const Sliding& 
   return best;
 }
 
-// Looks twice: the second window has the first crossing in its middle.
-std::optional<Event> event_near(const Hold& hold, double middle, double window) {
-  std::optional<Bend> bend;
-  for (int look = 0; look < 2; ++look) {
-    const Samples s = between(hold.time, middle - window, middle + window);
-    bend = find_bend(std::span(hold.time).subspan(s.begin, s.count()),
-                     std::span(hold.displacement).subspan(s.begin, s.count()));
-    if (!bend || !bend->is_significant()) return std::nullopt;
-    middle = bend->time;
-  }
-  return Event{bend->time, bend->uncertainty};
+std::optional<Event> event_in(const Hold& hold, double middle, double window) {
+  const auto found = event_near(hold.time, hold.displacement, middle, window);
+  return found ? std::optional(found->event) : std::nullopt;
+}
+
+// One offset from both events, each with the weight of its uncertainty. What the clocks may have
+// drifted apart until the end is part of that: any rate up to the largest is as likely.
+void share_offset(Clocks& clocks, const Event& press_end, const Event& logger_end,
+                  double largest_drift) {
+  const double at_start = clocks.press_start.time - clocks.logger_start.time;
+  const double at_end = press_end.time - logger_end.time;
+  const double u_start = clocks.offset_uncertainty;
+  const double drifted =
+      largest_drift * (logger_end.time - clocks.logger_start.time) / std::sqrt(3.0);
+  const double u_end = std::hypot(press_end.uncertainty, logger_end.uncertainty, drifted);
+  const double squares = u_start * u_start + u_end * u_end;
+  if (!(squares > 0)) return;  // records without noise: the start is exact
+  const double offset = (at_start * u_end * u_end + at_end * u_start * u_start) / squares;
+  clocks.press_start.time = clocks.logger_start.time + offset;
+  clocks.offset_uncertainty = u_start * u_end / std::sqrt(squares);
 }
 
 void find_drift(Clocks& clocks, const PressRecord& press, const Hold& hold, const Sliding& sliding,
                 const ClockSpec& spec) {
   if (spec.drift == static_cast<int>(ClockSpec::Drift::none) || !sliding.end) return;
   const double on_logger = sliding.end->time - sliding.start.time;
-  const auto end = event_near(hold, clocks.press_start.time + on_logger, spec.window);
+  const auto end = event_in(hold, clocks.press_start.time + on_logger, spec.window);
   if (!end) return;
   const double on_press = end->time - clocks.press_start.time;
   const double drift = on_press / on_logger - 1;
@@ -93,6 +103,8 @@ void find_drift(Clocks& clocks, const PressRecord& press, const Hold& hold, cons
                "records of one test, whose clocks differ by at most {:g} (clock.largest_drift)",
                on_press, on_logger, spec.largest_drift));
   clocks.drift = drift;
+  clocks.is_drift_applied = std::abs(drift) > sure_drift * clocks.drift_uncertainty;
+  if (!clocks.is_drift_applied) share_offset(clocks, *end, *sliding.end, spec.largest_drift);
 }
 
 void find_offset(Clocks& clocks, const PressRecord& press, const LoggerRecord& logger,
@@ -105,7 +117,7 @@ void find_offset(Clocks& clocks, const PressRecord& press, const LoggerRecord& l
         fmt::format("the press holds its force for {:.4g} s while the plate slides for {:.4g} s in "
                     "{}, allowed: records of one test, which overlap for all of the sliding",
                     hold.time.back() - hold.time.front(), lasts, logger.file.string()));
-  const auto start = event_near(hold, rough_start(hold, logger, sliding, latest), spec.window);
+  const auto start = event_in(hold, rough_start(hold, logger, sliding, latest), spec.window);
   if (!start)
     refuse(
         press, "clock",

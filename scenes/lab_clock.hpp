@@ -8,7 +8,11 @@
 // Roughly, the start in the press's record is where the plate's travel, shifted in time, explains the
 // punch displacement best, beside a + b t + c ln(1 + t/1 s) for creep under the held force. Within a
 // window around that, two lines are fitted to the punch displacement (lab_fit.hpp): their crossing is
-// the start, and its standard uncertainty that of the offset, together with the LVDT's.
+// the start, and its standard uncertainty that of the offset, together with the LVDT's. The end of
+// sliding is found in the same way. Where the rate that follows from both is larger than three of its
+// uncertainties it is applied; otherwise the clocks are taken to run alike, and the offset is the mean
+// of those at start and end, weighted by their uncertainties;
+// that at the end includes a drift of up to clock.largest_drift, evenly distributed.
 #pragma once
 
 #include "scenes/lab_fit.hpp"
@@ -17,11 +21,6 @@
 #include <optional>
 
 namespace pulvis::lab {
-
-struct Event {
-  double time = 0;         // s, on the instrument's own clock
-  double uncertainty = 0;  // s, one standard deviation
-};
 
 struct Sliding {  // as the logger saw it
   Event start;
@@ -41,10 +40,12 @@ struct Clocks {
   double offset = 0;              // s, press less logger, when sliding starts
   double offset_uncertainty = 0;  // s, one standard deviation; 0 where the offset is given
   std::optional<double> drift;    // -, seconds gained by the press's clock a second of the logger's
-  double drift_uncertainty = 0;
+  double drift_uncertainty = 0;   // -, one standard deviation
+  bool is_drift_applied = false;
 
   double press_time(double logger_time) const {
-    return press_start.time + (logger_time - logger_start.time) * (1 + drift.value_or(0));
+    return press_start.time +
+           (logger_time - logger_start.time) * (is_drift_applied ? 1 + *drift : 1.0);
   }
 };
 

@@ -77,6 +77,24 @@ std::optional<Bend> find_bend(std::span<const double> t, std::span<const double>
   return best;
 }
 
+std::optional<BendEvent> event_near(std::span<const double> t, std::span<const double> y,
+                                    double middle, double window) {
+  const auto look = [&](double at, double reach) {
+    const Samples s = between(t, at - reach, at + reach);
+    std::optional<Bend> bend =
+        find_bend(t.subspan(s.begin, s.count()), y.subspan(s.begin, s.count()));
+    if (bend && !bend->is_significant()) bend.reset();
+    return bend;
+  };
+  const auto first = look(middle, window);
+  if (!first) return std::nullopt;
+  const auto bend = look(first->time, window);  // with the crossing in the middle of the window
+  if (!bend) return std::nullopt;
+  const auto closer = look(bend->time, window / 2);
+  const double shift = closer ? closer->time - bend->time : 0;
+  return BendEvent{*bend, {bend->time, std::hypot(bend->uncertainty, shift)}};
+}
+
 Samples between(std::span<const double> t, double low, double high) {
   const auto begin = std::lower_bound(t.begin(), t.end(), low);
   const auto end = std::upper_bound(begin, t.end(), high);

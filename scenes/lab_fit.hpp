@@ -6,6 +6,8 @@
 //          s^2 = residual sum of squares / (n1 + n2 - 4)
 // Uncertainty of the crossing tau, by propagation of that of a1, a2, b1, b2:
 //          u^2 = s^2 [1/n1 + 1/n2 + (tau - t01)^2/S1 + (tau - t02)^2/S2] / (b1 - b2)^2
+// The records bend a little beside the event, too: how far the crossing moves when the window is halved
+// is added to u (event_near), as the root of the sum of squares.
 // Exact, to round-off, for samples that lie on two lines.
 #pragma once
 
@@ -42,6 +44,21 @@ struct Bend {
 
 // None: fewer than ten samples, no split has a crossing within the samples.
 std::optional<Bend> find_bend(std::span<const double> t, std::span<const double> y);
+
+struct Event {
+  double time = 0;         // s, on the instrument's own clock
+  double uncertainty = 0;  // s, one standard deviation
+};
+
+struct BendEvent {
+  Bend bend;
+  Event event;
+};
+
+// The bend within `window` to either side of it, looked for around `middle` first; none that is
+// significant: none.
+std::optional<BendEvent> event_near(std::span<const double> t, std::span<const double> y,
+                                    double middle, double window);
 
 // The samples with low <= t <= high, as positions [begin, end).
 struct Samples {

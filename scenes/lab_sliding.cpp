@@ -22,14 +22,15 @@ double rough_start(const std::vector<double>& t, const std::vector<double>& way,
   return t5 - (t20 - t5) / 3;
 }
 
-std::optional<Bend> bend_near(const std::vector<double>& t, const std::vector<double>& y,
-                              double middle, double window) {
-  const Samples s = between(t, middle - window, middle + window);
-  return find_bend(std::span(t).subspan(s.begin, s.count()),
-                   std::span(y).subspan(s.begin, s.count()));
+// The plate leaves rest; `way` is counted from there.
+std::optional<BendEvent> departure(const std::vector<double>& t, const std::vector<double>& way,
+                                   double whole, double window) {
+  const auto found = event_near(t, way, rough_start(t, way, whole), window);
+  if (!found) return std::nullopt;
+  const Bend& bend = found->bend;
+  const bool departs = std::abs(bend.before.slope) < standing_still * std::abs(bend.after.slope);
+  return departs ? found : std::nullopt;
 }
-
-Event event_of(const Bend& bend) { return {bend.time, bend.uncertainty}; }
 
 std::optional<Event> find_end(const LoggerRecord& logger, const Sliding& sliding, double whole,
                               double window) {
@@ -39,11 +40,9 @@ std::optional<Event> find_end(const LoggerRecord& logger, const Sliding& sliding
   std::reverse(way.begin(), way.end());
   for (double& time : t) time = -time;
   for (double& w : way) w = whole - w;
-  const auto bend = bend_near(t, way, rough_start(t, way, whole), window);
-  const bool stops = bend && bend->is_significant() &&
-                     std::abs(bend->before.slope) < standing_still * std::abs(bend->after.slope);
-  if (!stops) return std::nullopt;
-  return Event{-bend->time, bend->uncertainty};
+  const auto found = departure(t, way, whole, window);
+  if (!found) return std::nullopt;
+  return Event{-found->event.time, found->event.uncertainty};
 }
 
 }  // namespace
@@ -63,18 +62,16 @@ Sliding find_sliding(const LoggerRecord& logger, const Settings& settings) {
            fmt::format("the plate slides {:.4g} mm, allowed: at least {:.4g} mm "
                        "(analysis.shortest_sliding)",
                        whole * 1e3, settings.analysis.shortest_sliding * 1e3));
-  const auto bend = bend_near(logger.time, way, rough_start(logger.time, way, whole), window);
-  const bool starts = bend && bend->is_significant() &&
-                      std::abs(bend->before.slope) < standing_still * std::abs(bend->after.slope);
-  if (!starts)
+  const auto found = departure(logger.time, way, whole, window);
+  if (!found)
     refuse(logger, settings.logger.lvdt,
            fmt::format("no start of sliding is found, allowed: at least 5 samples at rest and as "
                        "many at a steady speed within {:g} s of the start (clock.window)",
                        window));
-  sliding.start = event_of(*bend);
+  sliding.start = found->event;
   sliding.end = find_end(logger, sliding, whole, window);
   sliding.last_time = sliding.end ? sliding.end->time : logger.time.back();
-  const double rest = bend->before.at(bend->time);
+  const double rest = found->bend.before.at(found->event.time);
   for (double& w : way) w -= rest;
   return sliding;
 }

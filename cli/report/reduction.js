@@ -17,6 +17,8 @@ async function readTable(head, name) {
     ({...column, label: column.name, values: all.subarray(k * rows, (k + 1) * rows)}));
 }
 
+const inMm = value => `${digits(value * 1e3, 3)} mm`;
+
 const withError = (value, error, count = 3) =>
   error === undefined ? digits(value, count) : `${digits(value, count)} ± ${digits(error, 2)}`;
 
@@ -35,17 +37,18 @@ function fillFigures(summary) {
     const slip = run.stick_slip;
     addRow(table, [run.name,
       digits(run.static_friction) + (run.static_is_distinct ? "" : " (not distinct)"),
-      withUnit(run.static_distance, "m", 3), digits(run.dynamic_friction),
+      inMm(run.static_distance), digits(run.dynamic_friction),
       digits(run.dynamic_trend * 0.01, 2), slip && digits(slip.amplitude, 3),
-      slip && withUnit(slip.shear_force_amplitude, "N", 3), slip && withUnit(slip.period, "m", 3),
+      slip && withUnit(slip.shear_force_amplitude, "N", 3), slip && inMm(slip.period),
       withUnit(run.punch_force, "N"), percent(run.target_force / run.punch_force)]);
   }
   if (summary.runs.length < 2) return;
+  const sign = half => half === "half_width" ? "± " : "";
   const of = (key, half) => summary[key] && summary[key].count > 1 &&
-    (half ? "± " + digits(summary[key][half], 2) : digits(summary[key].mean));
+    (half ? sign(half) + digits(summary[key][half], 2) : digits(summary[key].mean));
   const keys = ["static_friction", null, "dynamic_friction", null, "stick_slip_amplitude", null];
   const period = half => summary.stick_slip_period && summary.stick_slip_period.count > 1 &&
-    (half ? "± " : "") + withUnit(summary.stick_slip_period[half || "mean"], "m", half ? 2 : 3);
+    sign(half) + inMm(summary.stick_slip_period[half || "mean"]);
   const row = (name, half) => addRow(table,
     [name, ...keys.map(key => key ? of(key, half) || "–" : ""), period(half) || "–", "", ""]);
   row("mean of the runs");
@@ -65,7 +68,8 @@ function fillClocks(summary) {
       (clock.found_from === "given" ? "" : ` ± ${clock.offset_uncertainty.toFixed(3)} s`),
       clock.found_from,
       clock.drift === undefined ? "not found"
-        : `${clock.drift.toExponential(1)} ± ${clock.drift_uncertainty.toExponential(1)}`,
+        : `${clock.drift.toExponential(1)} ± ${clock.drift_uncertainty.toExponential(1)}${
+            clock.drift_is_applied ? "" : ", not applied"}`,
       `${clock.start_on_press_clock.toFixed(2)} s`, `${clock.start_on_logger_clock.toFixed(2)} s`,
       `${(sliding_speed * 1e3).toFixed(2)} mm/s`]);
   }
@@ -103,14 +107,15 @@ function placeCurves(friction, shear, mean, summary) {
   const [x, ...lines] = friction, simulated = lines.some(line => line.kind === "simulation");
   const host = card(`Friction coefficient against sliding distance${
     simulated ? ": tests and simulation" : ""}`);
-  const named = lines.map(line =>
-    ({...line, label: line.kind === "simulation" ? `simulation ${line.name}` : line.name}));
+  const named = lines.map(line => line.kind === "simulation"
+    ? {...line, label: `simulation ${line.name}`, colour: "#1d2733", dash: [8, 4]} : line);
   const charts = [() => drawChart(host, pair(x, "friction coefficient", named))];
   const runs = summary.runs.length;
   if (runs > 1) {
     const place = card(`Mean of ${runs} runs, with its ${percent(summary.confidence)} interval`);
     const [at, ...values] = mean;
-    charts.push(() => drawChart(place, pair(at, "friction coefficient", values)));
+    charts.push(() => drawChart(place, pair(at, "friction coefficient", values.map(line =>
+      line.kind === "mean" ? line : {...line, colour: "#9cc4de"}))));
   }
   const place = card("Shear force against sliding distance");
   charts.push(() => drawChart(place, pair(shear[0], "shear force", shear.slice(1))));
