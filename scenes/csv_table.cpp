@@ -80,7 +80,7 @@ Cell cell_of(std::string_view line, std::size_t begin, std::size_t end) {
   std::string_view text = trimmed(line.substr(begin, end - begin));
   const auto start = text.empty() ? begin : static_cast<std::size_t>(text.data() - line.data());
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
-    text = text.substr(1, text.size() - 2);
+    text = trimmed(text.substr(1, text.size() - 2));
   return {std::string(text), static_cast<int>(start) + 1};
 }
 

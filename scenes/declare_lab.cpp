@@ -165,10 +165,10 @@ const TableDeclaration<LoggerSpec>& declared_logger() {
                   "Name of the column with the LVDT's volts; their sign is found from the motion."),
        header_key<LoggerSpec>(),
        {{.name = "strain_limit",
-         .kind = Kind::quantity,
-         .unit = "m/m",
+         .kind = Kind::number,
          .range = above(0, 1),
-         .doc = "A record whose strain reaches this size is refused as saturated.",
+         .doc =
+             "A record whose strain reaches this size is refused as saturated; 0.003 is 3000 um/m.",
          .fallback_doc = "none: only samples that repeat at the record's extreme are refused"},
         to(&LoggerSpec::strain_limit)},
        {{.name = "lvdt_limit",

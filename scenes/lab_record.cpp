@@ -142,6 +142,8 @@ PressRecord read_press(const std::filesystem::path& file, const Settings& settin
   refuse_beyond({table, force, record.force}, spec.capacity, "N", "press.capacity");
   turn(record.force, largest_size(record.force));
   const auto loaded = std::max_element(record.force.begin(), record.force.end());
+  if (!(*loaded > 0))
+    csv::refuse(table, table.columns[force].name, "is zero throughout, allowed: a loaded press");
   const auto at = static_cast<std::size_t>(loaded - record.force.begin());
   turn(record.displacement, record.displacement[at] - record.displacement.front());
   return record;

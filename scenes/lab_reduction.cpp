@@ -10,6 +10,8 @@
 namespace pulvis::lab {
 namespace {
 
+constexpr std::size_t fewest_dynamic = 20;  // samples
+
 std::vector<double> calibrated(const LoggerRecord& logger, const LoadCellSpec& cell) {
   std::vector<double> force;
   for (const double strain : logger.strain) force.push_back(cell.gain * strain + cell.offset);
@@ -178,13 +180,17 @@ ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Se
     maker.add(run.curve, i, sliding.distance[i], shear[i] - run.shear_zero);
   check_pull(logger, run.curve, settings.logger.strain);
 
-  const double end = *std::max_element(run.curve.distance.begin(), run.curve.distance.end());
   const AnalysisSpec& analysis = settings.analysis;
-  if (std::min(analysis.dynamic_until.value_or(end), end) - analysis.dynamic_from < 0.1 * end)
+  const double end = *std::max_element(run.curve.distance.begin(), run.curve.distance.end());
+  Dynamic window;
+  window.from = analysis.dynamic_from;
+  window.until = std::min(analysis.dynamic_until.value_or(end), end);
+  const std::size_t samples = dynamic_part(run.curve, window).distance.size();
+  if (samples < fewest_dynamic)
     refuse(logger, settings.logger.lvdt,
-           fmt::format("the plate slides {:.4g} mm, which leaves nothing for the dynamic mean, "
-                       "allowed: clearly beyond {:.4g} mm (analysis.dynamic_from)",
-                       end * 1e3, analysis.dynamic_from * 1e3));
+           fmt::format("the plate slides {:.4g} mm, of which {} samples are for the dynamic mean, "
+                       "allowed: at least {} beyond {:.4g} mm (analysis.dynamic_from)",
+                       end * 1e3, samples, fewest_dynamic, analysis.dynamic_from * 1e3));
   run.speed = end / (sliding.last_time - sliding.start.time);
   run.noise = rest.deviation * coefficient_for_force(run.curve, settings.compact);
   run.dynamic = dynamic_mean(run.curve, analysis);

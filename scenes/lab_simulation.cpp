@@ -44,8 +44,8 @@ SimulatedCurve read_simulation(const std::filesystem::path& run_folder, const st
   const std::vector<double> x = series("position_x", "m");
   const std::vector<double> lateral = series("force_x", "N"), normal = series("force_y", "N");
   SimulatedCurve curve;
-  curve.name = std::filesystem::absolute(run_folder).lexically_normal().filename().string();
-  if (curve.name.empty()) curve.name = "simulation";
+  const auto path = std::filesystem::absolute(run_folder).lexically_normal();
+  curve.name = (path.has_filename() ? path : path.parent_path()).filename().string();
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] == x.front() || normal[i] == 0) continue;
     curve.distance.push_back(std::abs(x[i] - x.front()));

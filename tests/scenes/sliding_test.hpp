@@ -15,7 +15,7 @@ struct SlidingTest {
   double take_up = 0.52e-3, settled = 4e-3;      // m
   double slip_height = 0, slip_period = 2.4e-3;  // -, m, a sawtooth beyond `settled`
   double speed = 1.3e-3, distance = 50e-3;       // m/s, m
-  double press_start = 23.37, logger_start = 6.21;  // s, of sliding, on either clock
+  double press_start = 23.35, logger_start = 6.21;  // s, of sliding, on either clock
   double drift = 0;                                 // seconds the press's clock gains each second
   double force = 1000, length = 10e-3;              // N, m
   double settling = 3e-3;                           // m of punch travel for each m of the plate
