@@ -14,6 +14,7 @@ namespace pulvis::csv {
 namespace {
 
 constexpr std::uintmax_t largest_file = 256U << 20U;  // bytes
+constexpr std::size_t longest_shown = 40;             // characters of a cell in a message
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -54,12 +55,15 @@ struct Line {
   int number = 0;
 };
 
-std::vector<Line> lines_of(std::string_view text) {
+std::vector<Line> lines_of(std::string_view text, const std::filesystem::path& file) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
   std::vector<Line> lines;
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');
     lines.push_back({text.substr(0, end), number});
+    const std::size_t nul = lines.back().text.find('\0');
+    if (nul != std::string_view::npos)
+      refuse_at(file, number, static_cast<int>(nul) + 1, "table", "a NUL byte, allowed: text");
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   return lines;
@@ -121,7 +125,7 @@ bool holds_no_number(const std::vector<Cell>& cells) {
 class Reader {
  public:
   Reader(std::string_view text, const std::filesystem::path& file, const Options& options)
-      : lines_(lines_of(text)) {
+      : lines_(lines_of(text, file)) {
     table_.file = file;
     table_.header_line = options.header_line;
   }
@@ -221,7 +225,7 @@ double number_in(const Table& table, std::size_t row, std::size_t column) {
     refuse(table, row, column,
            fmt::format("'{}' is no finite number, allowed: digits with a decimal '{}', no other "
                        "signs between them",
-                       cell.text, table.decimal));
+                       cell.text.substr(0, longest_shown), table.decimal));
   return value;
 }
 

@@ -54,6 +54,8 @@ TEST(CsvTable, RefusesWhatIsNoNumber) {
               StartsWith("t.csv:3:1: x: no value, allowed: "));
   EXPECT_THAT(message_of([] { column("x;y\n1,5;2\n1.234,5;1\n", "x", ""); }),
               StartsWith("t.csv:3:1: x: '1.234,5' is no finite number"));
+  EXPECT_THAT(message_of([] { column(std::string("x [m]\n1\0\n", 9), "x", "m"); }),
+              StartsWith("t.csv:2:2: table: a NUL byte, allowed: text"));
   EXPECT_THAT(message_of([] { column("x [m]\n1e999\n", "x", "m"); }),
               HasSubstr("no finite number"));
 }
