@@ -19,7 +19,7 @@ struct Reduction {
   lab::Repeatability over_runs;
 };
 
-// Files that a reduction writes are removed first only by being replaced; others stay.
+// Replaces the files of an earlier reduction; others in the folder stay.
 void write_reduction(const std::filesystem::path& folder, const Reduction& reduction);
 
 // What summary.json holds, all in SI units.
