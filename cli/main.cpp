@@ -1,4 +1,5 @@
-// The command line: options in, exit code out. What the commands do is in run, study, plan and report.
+// The command line: options in, exit code out. What the commands do is in run, study, plan, pack, reduce
+// and report.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
+#include "cli/reduce.hpp"
 #include "cli/report.hpp"
 #include "cli/run.hpp"
 #include "cli/study.hpp"
@@ -19,6 +21,7 @@
 #include "scenes/build.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/grips.hpp"
+#include "scenes/lab_settings.hpp"
 #include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
 #include "scenes/read.hpp"
@@ -121,6 +124,51 @@ void add_study(CLI::App& app, Options& options, ExitCode& code) {
   });
 }
 
+struct ReduceCommand {
+  ReduceOptions options;
+  std::string reference;  // settings: "text" or "schema"
+};
+
+ExitCode reduce(const ReduceCommand& command) {
+  if (command.reference.empty()) return reduce_records(command.options);
+  fmt::print("{}", command.reference == "schema" ? lab::json_schema() : lab::reference());
+  return ExitCode::done;
+}
+
+void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
+  ReduceOptions& options = command.options;
+  auto* reduces = app.add_subcommand(
+      "reduce", "reduce raw records of sliding-plate friction tests to curves, figures, a report");
+  reduces->add_option(
+      "files", options.files,
+      "records (CSV) of press and data logger, told apart by their columns and paired "
+      "in order; settings (.toml)");
+  reduces
+      ->add_option("--set", options.overrides,
+                   "a key of the settings: key.path=value, e.g. \"compact.length=10 mm\"")
+      ->allow_extra_args(false)
+      ->take_all();
+  reduces
+      ->add_option("--simulation", options.simulations,
+                   "run folder of a simulated test, drawn over the measured curves")
+      ->allow_extra_args(false)
+      ->take_all();
+  reduces->add_option("-o,--output", options.folder, "results folder")->capture_default_str();
+  reduces->add_flag("--overwrite", options.overwrite, "replace results in the folder");
+  reduces->add_option("--reference", command.reference, "print the settings' reference instead")
+      ->check(CLI::IsMember({"text", "schema"}));
+  reduces->footer(
+      "The compact's length and Poisson's ratio (or powder) have to be given. Example:\n"
+      "  pulvis reduce press-1.csv logger-1.csv press-2.csv logger-2.csv \\\n"
+      "      --set \"compact.length=10 mm\" --set compact.powder=316L -o reduced\n"
+      "File formats, equations and how each figure is taken: docs/laboratory.md; all settings:\n"
+      "docs/reduce.md, or --reference text.");
+  reduces->callback([&] {
+    if (options.files.empty() && command.reference.empty()) throw CLI::RequiredError("files");
+    code = reduce(command);
+  });
+}
+
 int parse_and_run(int argc, char** argv) {
   Options options;
   ExitCode code = ExitCode::done;
@@ -172,6 +220,9 @@ int parse_and_run(int argc, char** argv) {
   auto* reports = app.add_subcommand("report", "write report.html anew for a finished run");
   reports->add_option("folder", options.folder, "results folder of a run")->required();
   reports->callback([&] { code = report(options); });
+
+  ReduceCommand reduce_command;
+  add_reduce(app, reduce_command, code);
 
   try {
     app.parse(argc, argv);

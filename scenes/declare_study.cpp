@@ -227,7 +227,7 @@ const TableDeclaration<StudyExpect>& study_expect() {
 
 const Language& study_language() {
   static const Language language{
-      view(study_top_level()),
+      view_of(study_top_level()),
       free_keys("set",
                 "Keys of the scene that all variations change, as `--set` does: "
                 "`output.frames = 20`."),
@@ -238,10 +238,10 @@ const Language& study_language() {
           "`friction=0.3`. A variation is named by the last word of each key, or by the whole "
           "key where two end in the same word. Elements of repeated tables are reached as in "
           "`--set`, in quotes: `\"stage.press.duration\" = [\"1 ms\", \"2 ms\"]`."),
-      view(study_variation()),
+      view_of(study_variation()),
       free_keys("variation.set", "Keys of the scene that this variation changes."),
-      view(study_curve()),
-      view(study_expect())};
+      view_of(study_curve()),
+      view_of(study_expect())};
   return language;
 }
 

@@ -1,8 +1,6 @@
 // docs/scene.md, from the declarations.
 #include "scenes/describe.hpp"
 
-#include "scenes/schema.hpp"
-
 #include <fmt/format.h>
 
 namespace pulvis {
@@ -80,12 +78,12 @@ std::string describe(const schema::TableView& view) {
 
 }  // namespace
 
-std::string describe_tables(const schema::Language& language) {
-  std::string text;
+std::string reference_of(const std::string& beginning, const schema::Language& language) {
+  std::string text = beginning;
   for (const schema::TableView& view : language) text += describe(view);
   return text;
 }
 
-std::string scene_reference() { return introduction + describe_tables(schema::all_tables()); }
+std::string scene_reference() { return reference_of(introduction, schema::all_tables()); }
 
 }  // namespace pulvis

@@ -1,7 +1,6 @@
 // docs/scene.schema.json, from the declarations: for editors that complete and check TOML. It knows
 // the shape of a scene; units, references and checks across tables are the reader's.
 #include "scenes/describe.hpp"
-#include "scenes/schema.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -121,9 +120,10 @@ Json property(const schema::KeyInfo& key) {
   return json;
 }
 
-std::vector<const schema::TableView*> children(const std::string& path) {
+std::vector<const schema::TableView*> children(const std::string& path,
+                                               const schema::Language& language) {
   std::vector<const schema::TableView*> result;
-  for (const schema::TableView& view : schema::all_tables()) {
+  for (const schema::TableView& view : language) {
     const auto dot = view.info.path.rfind('.');
     const std::string parent = dot == std::string::npos ? "" : view.info.path.substr(0, dot);
     if (!view.info.path.empty() && parent == path) result.push_back(&view);
@@ -137,7 +137,8 @@ std::string last_word(const schema::TableView& view) {
 
 // For one value of the selector: the keys it requires, and the keys of other values forbidden, in
 // the table itself and in the tables below it.
-Json branch(const schema::TableView& view, const std::string& selected) {
+Json branch(const schema::TableView& view, const std::string& selected,
+            const schema::Language& language) {
   Json required = Json::array(), properties = Json::object();
   for (const schema::KeyInfo& key : view.keys) {
     if (key.only_for.empty()) continue;
@@ -145,24 +146,24 @@ Json branch(const schema::TableView& view, const std::string& selected) {
     if (key.only_for.has(selected) && schema::is_required(key, selected))
       required.push_back(key.name);
   }
-  for (const schema::TableView* child : children(view.info.path))
+  for (const schema::TableView* child : children(view.info.path, language))
     if (child->info.selector == view.info.selector)
-      properties[last_word(*child)] = branch(*child, selected);
+      properties[last_word(*child)] = branch(*child, selected, language);
   Json json{{"properties", properties}};
   if (!required.empty()) json["required"] = required;
   return json;
 }
 
-void add_branches(Json& json, const schema::TableView& view) {
+void add_branches(Json& json, const schema::TableView& view, const schema::Language& language) {
   const schema::KeyInfo* selector = schema::find_key(view, view.info.selector);
   if (selector == nullptr) return;
   for (const schema::Choice& choice : selector->choices) {
     const Json test{{"properties", {{selector->name, {{"const", choice.word}}}}}};
-    json["allOf"].push_back({{"if", test}, {"then", branch(view, choice.word)}});
+    json["allOf"].push_back({{"if", test}, {"then", branch(view, choice.word, language)}});
   }
 }
 
-Json table(const schema::TableView& view) {
+Json table(const schema::TableView& view, const schema::Language& language) {
   Json json{{"type", "object"}, {"description", view.info.doc}, {"additionalProperties", false}};
   Json required = Json::array();
   for (const schema::KeyInfo& key : view.keys) {
@@ -170,23 +171,34 @@ Json table(const schema::TableView& view) {
     if (key.required && key.only_for.empty()) required.push_back(key.name);
     if (!key.needs.empty()) json["dependentRequired"][key.name] = {key.needs};
   }
-  for (const schema::TableView* child : children(view.info.path)) {
-    Json inner = table(*child);
+  for (const schema::TableView* child : children(view.info.path, language)) {
+    Json inner = table(*child, language);
     if (child->info.repeated) inner = {{"type", "array"}, {"minItems", 1}, {"items", inner}};
     json["properties"][last_word(*child)] = inner;
   }
   if (!required.empty()) json["required"] = required;
-  add_branches(json, view);
+  add_branches(json, view, language);
+  return json;
+}
+
+Json file_schema(const std::string& title, const std::string& declared_in,
+                 const schema::Language& language) {
+  Json json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+            {"title", title},
+            {"$comment", "Generated from the declarations in " + declared_in + "."}};
+  json.update(table(language.front(), language));
   return json;
 }
 
 }  // namespace
 
+std::string json_schema_of(const std::string& title, const std::string& declared_in,
+                           const schema::Language& language) {
+  return file_schema(title, declared_in, language).dump(2) + "\n";
+}
+
 std::string scene_json_schema() {
-  Json json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-            {"title", "Pulvis scene"},
-            {"$comment", "Generated from the declarations in scenes/declare_*.cpp."}};
-  json.update(table(schema::all_tables().front()));
+  Json json = file_schema("Pulvis scene", "scenes/declare_*.cpp", schema::all_tables());
   json["required"].push_back("material");
   json["required"].push_back("particle");
   json["required"].push_back("stage");

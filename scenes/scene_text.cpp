@@ -1,7 +1,5 @@
 #include "scenes/scene_text.hpp"
 
-#include "scenes/schema.hpp"
-
 #include <algorithm>
 
 namespace pulvis {
@@ -24,9 +22,10 @@ std::string write_keys(const Table& table, const schema::TableView& view) {
 }
 
 // The tables of `parent` that lie directly below `path`, in the order of their declarations.
-std::vector<Block> blocks_in(const Table& parent, const std::string& path) {
+std::vector<Block> blocks_in(const Table& parent, const std::string& path,
+                             const schema::Language& language) {
   std::vector<Block> blocks;
-  for (const schema::TableView& view : schema::all_tables()) {
+  for (const schema::TableView& view : language) {
     if (view.info.path.empty()) continue;
     const std::string key = view.info.path.substr(view.info.path.rfind('.') + 1);
     if (schema::joined_path(path, key) != view.info.path) continue;
@@ -49,26 +48,26 @@ bool written_before(const Block& a, const Block& b) {
   return std::pair(left.line, left.column) < std::pair(right.line, right.column);
 }
 
-std::string write_block(const Block& block) {
+std::string write_block(const Block& block, const schema::Language& language) {
   const std::string& path = block.view->info.path;
   const Table& table = block.table->get<Table>();
   const std::string header = block.view->info.repeated ? "[[" + path + "]]" : "[" + path + "]";
   std::string text = "\n" + header + "\n" + write_keys(table, *block.view);
-  for (const Block& child : blocks_in(table, path)) text += write_block(child);
+  for (const Block& child : blocks_in(table, path, language)) text += write_block(child, language);
   return text;
 }
 
 }  // namespace
 
-std::string scene_text(const Table& root) {
-  std::vector<Block> blocks = blocks_in(root, "");
+std::string scene_text(const Table& root, const schema::Language& language) {
+  std::vector<Block> blocks = blocks_in(root, "", language);
   // body and packing are declared next to each other, so their blocks are one run of the list.
   const auto first = std::find_if(blocks.begin(), blocks.end(), places_particles);
   const auto last = std::find_if_not(first, blocks.end(), places_particles);
   std::stable_sort(first, last, written_before);
 
-  std::string text = write_keys(root, schema::all_tables().front());
-  for (const Block& block : blocks) text += write_block(block);
+  std::string text = write_keys(root, language.front());
+  for (const Block& block : blocks) text += write_block(block, language);
   return text;
 }
 

@@ -2,12 +2,13 @@
 // scene.toml and what the scene's hash is taken of.
 #pragma once
 
-#include "scenes/document.hpp"
+#include "scenes/schema.hpp"
 
 namespace pulvis {
 
 // Tables and keys come in the order of their declarations, whatever the order of the file was. Only
 // bodies and packings keep the file's order among themselves: it numbers the particles.
-std::string scene_text(const document::Table& root);
+std::string scene_text(const document::Table& root,
+                       const schema::Language& language = schema::all_tables());
 
 }  // namespace pulvis

@@ -48,10 +48,11 @@ document::Value placed(document::Value value, const document::Origin& origin) {
   return value;
 }
 
-void fill(document::Value& value, const TableView& view, const std::string& parent_selected);
+void fill(document::Value& value, const TableView& view, const std::string& parent_selected,
+          const Language& language);
 
 void fill_child(document::Table& table, const document::Origin& origin, const TableInfo& child,
-                const std::string& selected) {
+                const std::string& selected, const Language& language) {
   const std::string key = last_word(child.path);
   document::Entry* entry = document::find(table, key);
   if (entry == nullptr && child.repeated) return;
@@ -59,15 +60,16 @@ void fill_child(document::Table& table, const document::Origin& origin, const Ta
     table.push_back({key, origin, {document::Table{}, origin}});
     entry = &table.back();
   }
-  const TableView& view = *find_table(child.path);
+  const TableView& view = *find_table(child.path, language);
   if (entry->value.as<document::Table>() != nullptr && !child.repeated)
-    fill(entry->value, view, selected);
+    fill(entry->value, view, selected, language);
   if (document::is_array_of_tables(entry->value) && child.repeated)
     for (document::Value& element : entry->value.get<document::Array>())
-      fill(element, view, selected);
+      fill(element, view, selected, language);
 }
 
-void fill(document::Value& value, const TableView& view, const std::string& parent_selected) {
+void fill(document::Value& value, const TableView& view, const std::string& parent_selected,
+          const Language& language) {
   auto& table = value.get<document::Table>();
   const document::Origin origin = value.origin;
   const std::string selected = selected_by(view.info, table, parent_selected);
@@ -76,8 +78,9 @@ void fill(document::Value& value, const TableView& view, const std::string& pare
     if (wanted && document::find(table, key.name) == nullptr)
       table.push_back({key.name, origin, placed(*key.fallback, origin)});
   }
-  for (const TableView& child : all_tables())
-    if (is_child(child.info, view.info.path)) fill_child(table, origin, child.info, selected);
+  for (const TableView& child : language)
+    if (is_child(child.info, view.info.path))
+      fill_child(table, origin, child.info, selected, language);
 }
 
 }  // namespace
@@ -90,10 +93,10 @@ bool Range::holds(double value) const {
 
 const Language& all_tables() {
   static const Language tables{
-      view(top_level()), view(material()),      view(particle()), view(mesh()),  view(body()),
-      view(packing()),   view(mixture_class()), view(tool()),     view(stage()), view(move()),
-      view(friction()),  view(contact()),       view(element()),  view(time()),  view(output()),
-      view(limits()),    view(expect())};
+      view_of(top_level()), view_of(material()),      view_of(particle()), view_of(mesh()),  view_of(body()),
+      view_of(packing()),   view_of(mixture_class()), view_of(tool()),     view_of(stage()), view_of(move()),
+      view_of(friction()),  view_of(contact()),       view_of(element()),  view_of(time()),  view_of(output()),
+      view_of(limits()),    view_of(expect())};
   return tables;
 }
 
@@ -191,9 +194,9 @@ std::string selected_by(const TableInfo& info, const document::Table& table,
   return own != nullptr ? *own : parent;
 }
 
-void fill_defaults(document::Table& root) {
+void fill_defaults(document::Table& root, const Language& language) {
   document::Value top{std::move(root), {{1, 1}, -1}};
-  fill(top, all_tables().front(), "");
+  fill(top, language.front(), "", language);
   root = std::move(top.get<document::Table>());
 }
 

@@ -121,13 +121,6 @@ struct TableView {
   std::vector<KeyInfo> keys;
 };
 
-template <class Spec>
-TableView view(const TableDeclaration<Spec>& declaration) {
-  TableView result{declaration.info, {}};
-  for (const Key<Spec>& key : declaration.keys) result.keys.push_back(key.info);
-  return result;
-}
-
 const TableDeclaration<Scene>& top_level();
 const TableDeclaration<MaterialSpec>& material();
 const TableDeclaration<ParticleSpec>& particle();
@@ -146,8 +139,17 @@ const TableDeclaration<OutputSpec>& output();
 const TableDeclaration<LimitSpec>& limits();
 const TableDeclaration<ExpectSpec>& expect();
 
-using Language = std::vector<TableView>;  // top level first, a parent before its children
-const Language& all_tables();             // of a scene
+// The tables of one kind of file: top level first, a parent before its children.
+using Language = std::vector<TableView>;
+const Language& all_tables();  // of a scene
+
+template <class Spec>
+TableView view_of(const TableDeclaration<Spec>& declaration) {
+  TableView result{declaration.info, {}};
+  for (const Key<Spec>& key : declaration.keys) result.keys.push_back(key.info);
+  return result;
+}
+
 const TableView* find_table(const std::string& path, const Language& language = all_tables());
 const KeyInfo* find_key(const TableView& table, const std::string& name);
 std::string joined_path(const std::string& path, const std::string& key);
@@ -169,6 +171,6 @@ std::string selected_by(const TableInfo& info, const document::Table& table,
                         const std::string& parent);
 
 // Writes every default that is not given into the tree, so that it is read like a given value.
-void fill_defaults(document::Table& root);
+void fill_defaults(document::Table& root, const Language& language = all_tables());
 
 }  // namespace pulvis::schema

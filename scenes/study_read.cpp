@@ -302,6 +302,6 @@ Study load_study(const std::filesystem::path& file, const std::vector<std::strin
   return StudyReader(file, overrides).read();
 }
 
-std::string study_reference() { return introduction + describe_tables(schema::study_language()); }
+std::string study_reference() { return reference_of(introduction, schema::study_language()); }
 
 }  // namespace pulvis

@@ -61,7 +61,8 @@ function chartOptions(host, x, y, lines) {
   return {width, height: 300, padding: [10, 12, 0, 0], axes: [axis(x, 32), axis(y, 50)],
           cursor: {drag: {x: true, y: true, uni: 20}},
           series: [{label: x, value: legendValue}, ...lines.map((line, i) =>
-            ({label: line.label, stroke: COLOURS[i % COLOURS.length], width: 2,
+            ({label: line.label, stroke: line.colour || COLOURS[i % COLOURS.length],
+              dash: line.dash, width: 2,
               points: {show: false}, value: legendValue}))]};
 }
 

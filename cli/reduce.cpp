@@ -1,0 +1,144 @@
+#include "cli/reduce.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "cli/reduction_files.hpp"
+#include "engine/run_folder.hpp"
+
+namespace pulvis {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& key,
+                         const std::string& message) {
+  throw SceneError({{file.string(), 1, 1, "", key, message}});
+}
+
+struct Inputs {
+  std::filesystem::path settings;  // empty: none
+  Paths records;
+};
+
+Inputs sorted_inputs(const Paths& files) {
+  Inputs inputs;
+  for (const std::filesystem::path& file : files) {
+    if (file.extension() != ".toml") {
+      inputs.records.push_back(file);
+      continue;
+    }
+    if (!inputs.settings.empty())
+      refuse(file, "settings", "is a second one, allowed: one file of settings (.toml)");
+    inputs.settings = file;
+  }
+  return inputs;
+}
+
+std::vector<lab::RunFiles> declared_runs(const lab::Settings& settings) {
+  const std::filesystem::path folder = settings.file.parent_path();
+  std::vector<lab::RunFiles> runs;
+  for (const lab::RunSpec& run : settings.runs)
+    runs.push_back({run.name, folder / run.press, folder / run.logger, run.offset});
+  return runs;
+}
+
+// The first record of the press belongs to the first of the logger, and so on.
+void add_pairs(std::vector<lab::RunFiles>& runs, const Paths& records,
+               const lab::Settings& settings) {
+  Paths presses, loggers;
+  for (const std::filesystem::path& file : records) {
+    const bool is_press = lab::instrument_of(file, settings) == lab::Instrument::press;
+    (is_press ? presses : loggers).push_back(file);
+  }
+  if (presses.size() != loggers.size())
+    refuse(presses.size() > loggers.size() ? presses.back() : loggers.back(), "records",
+           fmt::format("{} of the press and {} of the logger are given, allowed: one of each for "
+                       "every run, in the same order",
+                       presses.size(), loggers.size()));
+  for (std::size_t i = 0; i < presses.size(); ++i)
+    runs.push_back({"", presses[i], loggers[i], std::nullopt});
+}
+
+void name_runs(std::vector<lab::RunFiles>& runs) {
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].name.empty()) runs[i].name = fmt::format("run-{}", i + 1);
+    if (!taken.insert(runs[i].name).second)
+      refuse(runs[i].press, "run.name",
+             fmt::format("'{}' is the name of another run, allowed: each name once", runs[i].name));
+  }
+}
+
+Reduction reduced(const ReduceOptions& options) {
+  const Inputs inputs = sorted_inputs(options.files);
+  Reduction all;
+  all.loaded = lab::load_settings(inputs.settings, options.overrides);
+  const lab::Settings& settings = all.loaded.settings;
+  std::vector<lab::RunFiles> files = declared_runs(settings);
+  add_pairs(files, inputs.records, settings);
+  if (files.empty())
+    refuse(settings.file, "run",
+           "there is none, allowed: [[run]] tables, or records (CSV) on the command line");
+  name_runs(files);
+  for (const lab::RunFiles& run : files) {
+    all.presses.push_back(lab::read_press(run.press, settings));
+    all.loggers.push_back(lab::read_logger(run.logger, settings));
+    all.runs.push_back(lab::reduce(all.presses.back(), all.loggers.back(), settings, run));
+  }
+  for (const std::filesystem::path& folder : options.simulations)
+    all.simulations.push_back(lab::read_simulation(folder, settings.simulation.target));
+  all.over_runs = lab::repeatability(all.runs, settings.analysis.distance_step);
+  return all;
+}
+
+void open_folder(const std::filesystem::path& folder, bool overwrite) {
+  if (std::filesystem::exists(folder / "summary.json") && !overwrite)
+    throw RunFolderTaken(folder, "write",
+                         "it holds results already; allowed: another folder, or --overwrite");
+  if (std::filesystem::exists(folder / "run.h5"))
+    throw RunFolderTaken(folder, "write", "it holds a run; allowed: a folder of its own");
+  open_run_folder(folder);
+}
+
+std::string with_error(const char* name, const lab::Sample& sample, double confidence) {
+  const auto half = lab::half_width(sample, confidence);
+  if (!half) return fmt::format("{} {:.4f}", name, sample.mean);
+  return fmt::format("{} {:.4f} +- {:.4f} ({:g} % of {} runs; deviation {:.4f})", name, sample.mean,
+                     *half, 100 * confidence, sample.count, sample.deviation);
+}
+
+void print_run(const lab::ReducedRun& run) {
+  fmt::print("{}: static {:.4f} at {:.2f} mm{}, dynamic {:.4f}", run.name, run.peak.value,
+             run.peak.distance * 1e3, run.peak.is_distinct ? "" : " (not distinct)",
+             run.dynamic.mean);
+  if (run.stick_slip)
+    fmt::print(", stick-slip {:.4f} every {:.2f} mm", run.stick_slip->amplitude,
+               run.stick_slip->period * 1e3);
+  const lab::Clocks& clocks = run.clocks;
+  fmt::print("; clocks: {:.3f} s", clocks.offset);
+  if (clocks.is_given) fmt::print(" as given");
+  if (!clocks.is_given) fmt::print(" +- {:.3f} s", clocks.offset_uncertainty);
+  if (clocks.drift)
+    fmt::print(", drift {:.1e} +- {:.1e}{}", *clocks.drift, clocks.drift_uncertainty,
+               clocks.is_drift_applied ? "" : " (not applied)");
+  fmt::print("\n");
+}
+
+}  // namespace
+
+ExitCode reduce_records(const ReduceOptions& options) {
+  const Reduction all = reduced(options);
+  open_folder(options.folder, options.overwrite);
+  write_reduction(options.folder, all);
+  write_reduction_report(options.folder, all);
+  for (const lab::ReducedRun& run : all.runs) print_run(run);
+  const double confidence = all.loaded.settings.analysis.confidence;
+  fmt::print("{}; {}\n", with_error("static", all.over_runs.peak, confidence),
+             with_error("dynamic", all.over_runs.dynamic, confidence));
+  fmt::print("results in {}\n", options.folder.string());
+  return ExitCode::done;
+}
+
+}  // namespace pulvis

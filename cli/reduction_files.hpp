@@ -1,0 +1,30 @@
+// What a reduction leaves in its folder: reduced-<run>.csv, curves.csv, summary.json, report.html.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "scenes/lab_reduction.hpp"
+#include "scenes/lab_simulation.hpp"
+
+namespace pulvis {
+
+struct Reduction {
+  lab::LoadedSettings loaded;
+  std::vector<lab::PressRecord> presses;  // one a run, as loggers and runs
+  std::vector<lab::LoggerRecord> loggers;
+  std::vector<lab::ReducedRun> runs;
+  std::vector<lab::SimulatedCurve> simulations;
+  lab::Repeatability over_runs;
+};
+
+// Replaces the files of an earlier reduction; others in the folder stay.
+void write_reduction(const std::filesystem::path& folder, const Reduction& reduction);
+
+// What summary.json holds, all in SI units.
+nlohmann::ordered_json reduction_json(const Reduction& reduction);
+
+void write_reduction_report(const std::filesystem::path& folder, const Reduction& reduction);
+
+}  // namespace pulvis

@@ -1,0 +1,73 @@
+// Lines fitted to a record, and the bend where one line ends and the next begins.
+//
+// Source   least squares; the bend is the crossing of two lines fitted to either side of the split
+//          that leaves the least sum of squares (Hudson 1966, two-phase regression)
+// Symbols  y = a + b (t - t0), t0 the mean of t; n samples; S = sum (t - t0)^2;
+//          s^2 = residual sum of squares / (n1 + n2 - 4)
+// Uncertainty of the crossing tau, by propagation of that of a1, a2, b1, b2:
+//          u^2 = s^2 [1/n1 + 1/n2 + (tau - t01)^2/S1 + (tau - t02)^2/S2] / (b1 - b2)^2
+// The records bend a little beside the event, too: how far the crossing moves when the window is halved
+// is added to u (event_near), as the root of the sum of squares.
+// Exact, to round-off, for samples that lie on two lines.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pulvis::lab {
+
+struct Line {
+  double middle = 0;  // mean of t
+  double value = 0;   // there
+  double slope = 0;
+  double spread = 0;      // S
+  double residual = 0;    // sum of squares
+  std::size_t count = 0;  // n
+
+  double at(double t) const { return value + slope * (t - middle); }
+};
+
+// At least two samples with different t.
+Line fit_line(std::span<const double> t, std::span<const double> y);
+
+struct Bend {
+  Line before, after;
+  double time = 0;               // of the crossing
+  double uncertainty = 0;        // of it, one standard deviation
+  double noise = 0;              // s
+  double slope_uncertainty = 0;  // of the difference of the slopes, one standard deviation
+
+  bool is_significant() const;  // the slopes differ by five standard deviations
+};
+
+// None: fewer than ten samples, no split has a crossing within the samples.
+std::optional<Bend> find_bend(std::span<const double> t, std::span<const double> y);
+
+struct Event {
+  double time = 0;         // s, on the instrument's own clock
+  double uncertainty = 0;  // s, one standard deviation
+};
+
+struct BendEvent {
+  Bend bend;
+  Event event;
+};
+
+// The bend within `window` to either side of it, looked for around `middle` first; none that is
+// significant: none.
+std::optional<BendEvent> event_near(std::span<const double> t, std::span<const double> y,
+                                    double middle, double window);
+
+// The samples with low <= t <= high, as positions [begin, end).
+struct Samples {
+  std::size_t begin = 0, end = 0;
+  std::size_t count() const { return end - begin; }
+};
+Samples between(std::span<const double> t, double low, double high);
+
+// Linear between samples; the first and the last value beyond them. t grows.
+double interpolated(std::span<const double> t, std::span<const double> y, double at);
+
+}  // namespace pulvis::lab

@@ -1,0 +1,108 @@
+// What the reduction of sliding-plate tests has to know beside the records: reduce.toml.
+// Sources of the defaults: Kim (thesis), sections 3.2.2 to 3.2.6; declared in declare_lab.cpp.
+#pragma once
+
+#include "scenes/read.hpp"
+#include "scenes/schema.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pulvis::lab {
+
+struct PressSpec {
+  std::string time, force, displacement;  // names of columns
+  int header_line = 0;                    // 0: the first line that is not empty or a comment
+  double capacity = 0;                    // N
+  double hold_tolerance = 0;              // -, of the held force
+};
+
+struct LoggerSpec {
+  std::string time, strain, lvdt;  // names of columns
+  int header_line = 0;
+  std::optional<double> strain_limit;  // -
+  std::optional<double> lvdt_limit;    // V
+};
+
+struct LoadCellSpec {  // shear force = gain * strain + offset
+  enum class Zero { calibration, standstill };
+  double gain = 0;    // N
+  double offset = 0;  // N
+  int zero = 0;       // Zero
+};
+
+struct LvdtSpec {
+  double sensitivity = 0;  // V/m
+};
+
+struct CompactSpec {
+  double die_diameter = 0;            // m
+  std::optional<double> length;       // m, when sliding starts
+  std::optional<double> fill_height;  // m, at zero punch displacement
+  std::optional<double> poissons_ratio;
+  std::optional<int> powder;            // position in the list of powders
+  std::optional<double> wall_friction;  // none: the coefficient that is measured
+
+  double poisson() const;  // of the powder where no ratio is given
+};
+
+struct ClockSpec {
+  enum class Drift { events, none };
+  int drift = 0;             // Drift
+  double largest_drift = 0;  // -
+  double window = 0;         // s, to either side of an event
+  double longest_gap = 0;    // of the median interval between samples
+};
+
+struct AnalysisSpec {
+  double shortest_sliding = 0;          // m
+  double static_within = 0;             // m
+  double dynamic_from = 0;              // m
+  std::optional<double> dynamic_until;  // m
+  double confidence = 0;                // -
+  double distance_step = 0;             // m
+};
+
+struct SimulationSpec {
+  std::string target;
+};
+
+struct RunSpec {
+  std::string name;
+  std::string press, logger;     // files, from the folder of the settings
+  std::optional<double> offset;  // s
+  SourceMark mark;
+};
+
+struct Settings {
+  std::filesystem::path file;
+  std::string title;
+  PressSpec press;
+  LoggerSpec logger;
+  LoadCellSpec load_cell;
+  LvdtSpec lvdt;
+  CompactSpec compact;
+  ClockSpec clock;
+  AnalysisSpec analysis;
+  SimulationSpec simulation;
+  std::vector<RunSpec> runs;
+};
+
+struct LoadedSettings {
+  Settings settings;
+  std::string text;  // as TOML, with overrides and defaults
+};
+
+const schema::Language& language();
+std::string reference();    // docs/reduce.md
+std::string json_schema();  // docs/reduce.schema.json
+
+// Throws SceneError with everything that is wrong. An empty path: defaults and overrides only.
+LoadedSettings load_settings(const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides);
+LoadedSettings load_settings_text(const std::string& text, const std::filesystem::path& file,
+                                  const std::vector<std::string>& overrides);
+
+}  // namespace pulvis::lab

@@ -1,0 +1,19 @@
+// The friction curve of a simulated test, from the history.csv of its run folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pulvis::lab {
+
+struct SimulatedCurve {
+  std::string name;              // of the folder
+  std::vector<double> distance;  // m, travel of the target along x since it began to move
+  std::vector<double> friction;  // -, lateral over normal force on the target
+};
+
+// Refused: no history, no such tool, a target that does not move along x.
+SimulatedCurve read_simulation(const std::filesystem::path& run_folder, const std::string& target);
+
+}  // namespace pulvis::lab

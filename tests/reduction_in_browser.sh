@@ -1,0 +1,47 @@
+#!/bin/bash
+# Opens the report of a reduction in headless Chromium: it must draw its charts and raise no error, offline.
+#
+# usage: reduction_in_browser.sh PULVIS SOURCE_DIR [FOLDER]
+#   PULVIS      the program
+#   SOURCE_DIR  where scenes/lab lies
+#   FOLDER      where to leave report and screenshot; without it they are removed
+set -euo pipefail
+
+pulvis=$1
+source_dir=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+out=${3:-$work/reduced}
+
+browse() {  # browse OPTION...
+  timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
+    --disable-background-networking --disable-component-update --disable-sync \
+    --user-data-dir="$work/profile" --virtual-time-budget=10000 --enable-logging=stderr \
+    --window-size=1200,2300 "$@" "file://$out/report.html"
+}
+
+fail() {
+  echo "FAILED: $1" >&2
+  exit 1
+}
+
+mkdir "$work/sim"
+cat >"$work/sim/history.csv" <<'CSV'
+time [s],tool/target/position_x [m],tool/target/force_x [N],tool/target/force_y [N]
+0,0,0,-100
+1,0.001,18,-100
+2,0.02,19,-100
+CSV
+"$pulvis" reduce "$source_dir/scenes/lab/reduce.toml" --simulation "$work/sim" --overwrite -o "$out" \
+  >"$work/out.txt" || fail "the reduction: $(tail -5 "$work/out.txt")"
+browse --dump-dom >"$work/page.html" 2>"$work/log.txt" || fail "chromium: $(tail -3 "$work/log.txt")"
+if grep ':CONSOLE' "$work/log.txt"; then fail "the console has messages"; fi
+body=$(grep -o '<body[^>]*>' "$work/page.html" | head -1)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="5"'* ]] || fail "not ready: $body"
+drawn=$(grep -o 'class="u-wrap"' "$work/page.html" | wc -l)
+[[ $drawn -eq 5 ]] || fail "$drawn charts on the page, not 5"
+grep -q 'simulation sim' "$work/page.html" || fail "the simulation is not on the page"
+grep -q '<td>mean of the runs</td>' "$work/page.html" || fail "no mean of the runs"
+browse --screenshot="$out/report.png" >/dev/null 2>&1
+echo "ok: reduction"
