@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,10 +33,25 @@ struct ToolProgram {
     double begin = 0, duration = 0;  // s
     double ramp = 0;                 // -, share of the duration with rising (and falling) speed
     Point displacement{};            // m
+    int stage = 0;
+    // s: when the speed begins to fall although the way is not done; never, unless the stage ends early.
+    double cut = std::numeric_limits<double>::infinity();
+  };
+  struct Stage {
+    std::string name;
+    double begin = 0, end = 0;  // s
   };
   std::vector<std::string> names;
   std::vector<Point> start;  // m
   std::vector<Segment> segments;
+  std::vector<Stage> stages;
+
+  // The stage that `time` belongs to; their number once all are over.
+  std::size_t stage_at(double time) const {
+    std::size_t stage = 0;
+    while (stage < stages.size() && time >= stages[stage].end) ++stage;
+    return stage;
+  }
 };
 
 struct ContactRules {

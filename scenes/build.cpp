@@ -12,6 +12,7 @@
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
+#include "scenes/drives.hpp"
 #include "scenes/grips.hpp"
 #include "scenes/highest_mode.hpp"
 #include "scenes/hilbert.hpp"
@@ -115,7 +116,7 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
                std::size_t particles) {
   Layout layout;
   layout.bodies.thickness = scene.thickness;
-  layout.bodies.slot_of_number.resize(particles);
+  layout.bodies.slot_of_number.assign(particles, Bodies::nobody);
   int control = 0;
   for (std::size_t c = 0; c < classes.size(); ++c) {
     if (classes[c].empty()) continue;
@@ -289,27 +290,8 @@ ToolShapes tool_shapes(const Scene& scene) {
   return shapes;
 }
 
-ToolProgram tool_program(const Scene& scene) {
-  ToolProgram program;
-  for (const ToolSpec& tool : scene.tools) {
-    program.names.push_back(tool.name);
-    const Vec2 start = start_of(tool);
-    program.start.push_back({start.x(), start.y()});
-  }
-  double begin = 0;
-  for (const StageSpec& stage : scene.stages) {
-    for (const MoveSpec& move : stage.moves)
-      program.segments.push_back({move.tool,
-                                  begin,
-                                  stage.duration,
-                                  move.ramp,
-                                  {move.displacement.x(), move.displacement.y()}});
-    begin += stage.duration;
-  }
-  return program;
-}
-
-void add_tools(World& world, const Scene& scene, const Needs& needs) {
+void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies,
+               const Needs& needs) {
   world.add_table<Tool>(scene.tools.size());
   world.add<ToolPosition>();
   world.add<ToolVelocity>();
@@ -322,7 +304,7 @@ void add_tools(World& world, const Scene& scene, const Needs& needs) {
       world.column<ToolPosition>().values()[2 * t + k] = start_of(scene.tools[t])[axis];
     }
   if (needs.polylines || needs.grips) world.emplace<ToolShapes>(tool_shapes(scene));
-  world.emplace<ToolProgram>(tool_program(scene));
+  add_drives(world, scene, bodies);
 }
 
 double shortest_edge(const Bodies& bodies) {
@@ -366,7 +348,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
 
   auto world = std::make_unique<World>();
   add_body_columns(*world, layout.bodies, needs);
-  if (needs.tools || needs.grips) add_tools(*world, scene, needs);
+  if (needs.tools || needs.grips) add_tools(*world, scene, bodies, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     world->emplace<ContactRules>(contact_rules(scene)).shortest_edge = shortest_edge(layout.bodies);

@@ -219,10 +219,10 @@ class Checks {
       const std::string path = fmt::format("stage[{}]", i);
       const bool needs_moves =
           stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
-      if (needs_moves && stage.moves.empty())
+      if (needs_moves && stage.moves.empty() && stage.servos.empty())
         refuse(path + ".kind",
-               "no tool moves in this stage, allowed: at least one [[stage.move]], or kind = "
-               "\"settle\" or \"hold\"");
+               "no tool moves in this stage, allowed: at least one [[stage.move]] or "
+               "[[stage.servo]], or kind = \"settle\" or \"hold\"");
       if (!needs_moves && !stage.moves.empty())
         refuse(path + ".move[0]",
                "tools stand still in a stage of this kind, allowed: moves in kind = \"compact\", "

@@ -102,9 +102,16 @@ class SceneReader {
   std::vector<StageSpec> read_stages() {
     std::vector<StageSpec> stages = read_all(schema::stage());
     const Array& elements = array_at("stage");
-    for (std::size_t i = 0; i < stages.size(); ++i)
-      stages[i].moves =
-          read_elements(schema::move(), elements[i].get<Table>(), numbered("stage", i));
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const Table& table = elements[i].get<Table>();
+      const std::string path = numbered("stage", i);
+      stages[i].moves = read_elements(schema::move(), table, path);
+      stages[i].servos = read_elements(schema::servo(), table, path);
+      if (const document::Entry* entry = document::find(table, "until")) {
+        stages[i].until.emplace().mark = entry->origin.mark;
+        tables_.read(schema::until(), entry->value, path + ".until", "", *stages[i].until);
+      }
+    }
     return stages;
   }
 

@@ -140,11 +140,34 @@ struct MoveSpec {
   SourceMark mark;
 };
 
+struct ServoSpec {                // a tool that holds a force, through one stage
+  int tool = 0;                   // position in Scene::tools
+  std::optional<Vec2> direction;  // unit vector, the way it pushes; absent: a plane's normal
+  double force = 0;               // N
+  double rise = 0.2;              // -, share of the stage until the force is asked for in full
+  std::optional<double> rate;     // N/s, instead of `rise`
+  double response = 0.1;          // -, mass of the servo over that of the powder
+  double fastest = 10;            // m/s
+  double tolerance = 0.05;        // -, of the force, at the end of the stage
+  SourceMark mark;
+};
+
+// What ends a stage before its time is over: one of the three.
+struct UntilSpec {
+  std::optional<int> tool;
+  std::optional<double> force;         // N
+  std::optional<double> displacement;  // m
+  std::optional<double> relative_density;
+  SourceMark mark;
+};
+
 struct StageSpec {
   std::string name;
   enum class Kind { settle, compact, hold, unload, eject, shear } kind = Kind::hold;
-  double duration = 0;  // s
+  double duration = 0;  // s, at most where there is an `until`
   std::vector<MoveSpec> moves;
+  std::vector<ServoSpec> servos;
+  std::optional<UntilSpec> until;
   SourceMark mark;
 };
 

@@ -61,12 +61,15 @@ void fill_child(document::Table& table, const document::Origin& origin, const Ta
                 const std::string& selected) {
   const std::string key = last_word(child.path);
   document::Entry* entry = document::find(table, key);
-  if (entry == nullptr && child.repeated) return;
+  const TableView& view = *find_table(child.path);
+  // A table without defaults means something by being there.
+  const bool optional = std::ranges::none_of(
+      view.keys, [](const KeyInfo& of_child) { return of_child.fallback.has_value(); });
+  if (entry == nullptr && (child.repeated || optional)) return;
   if (entry == nullptr) {
     table.push_back({key, origin, {document::Table{}, origin}});
     entry = &table.back();
   }
-  const TableView& view = *find_table(child.path);
   if (entry->value.as<document::Table>() != nullptr && !child.repeated)
     fill(entry->value, view, selected);
   if (document::is_array_of_tables(entry->value) && child.repeated)
@@ -97,10 +100,10 @@ bool Range::holds(double value) const {
 
 const std::vector<TableView>& all_tables() {
   static const std::vector<TableView> tables{
-      view(top_level()), view(material()), view(particle()), view(mesh()),
-      view(body()),      view(packing()),  view(tool()),     view(stage()),
-      view(move()),      view(friction()), view(contact()),  view(element()),
-      view(time()),      view(output()),   view(limits()),   view(expect())};
+      view(top_level()), view(material()), view(particle()), view(mesh()),    view(body()),
+      view(packing()),   view(tool()),     view(stage()),    view(move()),    view(servo()),
+      view(until()),     view(friction()), view(contact()),  view(element()), view(time()),
+      view(output()),    view(limits()),   view(expect())};
   return tables;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/servo_checks.hpp"
 #include "scenes/surface.hpp"
 
 namespace pulvis {
@@ -19,9 +20,12 @@ class ToolChecks {
       if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::grip) region(scene_.tools[t], path);
     }
-    for (std::size_t s = 0; s < scene_.stages.size(); ++s)
-      for (std::size_t m = 0; m < scene_.stages[s].moves.size(); ++m)
-        move(scene_.stages[s].moves[m], fmt::format("stage[{}].move[{}]", s, m));
+    for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
+      const StageSpec& stage = scene_.stages[s];
+      for (std::size_t m = 0; m < stage.moves.size(); ++m)
+        move(stage.moves[m], fmt::format("stage[{}].move[{}]", s, m));
+      check_servos(scene_, stage, fmt::format("stage[{}]", s), origins_, problems_);
+    }
     for (std::size_t f = 0; f < scene_.frictions.size(); ++f) friction(scene_.frictions[f], f);
   }
 

@@ -6,13 +6,19 @@
 
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
+#include "components/servo.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 
 namespace pulvis {
 
 // ---- tools and binning ------------------------------------------------------------------------
-void tool_motion(Read<Clock>, Read<ToolProgram>, Write<ToolPosition>, Write<ToolVelocity>);
+void tool_motion(Read<Clock>, Read<ToolProgram>, Optional<Read<ServoVelocity>>,
+                 Optional<Write<ServoTravel>>, Write<ToolPosition>, Write<ToolVelocity>);
+void stage_control(Read<ToolPosition>, Read<ToolForce>, Write<StageEnds>, Write<ToolProgram>,
+                   Write<Clock>);
+void tool_servo(Read<Clock>, Read<ToolProgram>, Read<ToolForce>, Write<ToolServos>,
+                Write<ServoMomentum>, Write<ServoVelocity>, Write<ServoForce>);
 void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<ToolPosition>>,
                 Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>, Write<CurveBefore>,
                 Write<ContactIndex>);
@@ -108,7 +114,8 @@ void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<She
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
                     Write<Totals>);
 void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolProgram>>,
-                   Read<Totals>, Optional<Read<ContactRules>>, Write<Clock>);
+                   Optional<Read<ServoVelocity>>, Read<Totals>, Optional<Read<ContactRules>>,
+                   Write<Clock>);
 
 // ---- used outside the step too --------------------------------------------------------------------
 // Where the programme puts a tool at `time`, m.
