@@ -5,6 +5,8 @@
 #include "scenes/checks.hpp"
 #include "scenes/expect_checks.hpp"
 #include "scenes/override.hpp"
+#include "scenes/place.hpp"
+#include "scenes/profile.hpp"
 #include "scenes/scene_text.hpp"
 #include "scenes/table_reader.hpp"
 
@@ -176,6 +178,8 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   loaded.scene = reader.read(file);
   problems.throw_if_any();
   complete_and_check(loaded.scene, reader.origins(), problems);
+  problems.throw_if_any();
+  make_profiles(loaded.scene, place_bodies(loaded.scene), reader.origins(), problems);
   problems.throw_if_any();
   if (read_other) {
     complete_and_check_expectations(loaded.scene, read_other, reader.origins(), problems);

@@ -112,18 +112,31 @@ struct LatticePacking {
   SourceMark mark;
 };
 
+// Relief of a target surface: heights below its crests against x. It repeats, or is made, as far as the
+// powder can come.
+struct ProfileSpec {
+  enum class Kind { flat, triangle, sine, trapezoid, rough, file } kind = Kind::flat;
+  double pitch = 0;               // m, from crest to crest
+  std::optional<double> depth;    // m, from crest to valley; or
+  std::optional<double> ra;       // m, arithmetic mean deviation from the mean line
+  double flat_share = 0.25;       // -, of the pitch, of a trapezoid's crest, and of its valley
+  double correlation_length = 0;  // m, of a rough profile
+  std::string file;               // of a measured one, relative to the scene
+};
+
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
-// the right of its points; a grip touches nothing and holds the nodes of one body that lie in a box, or
+// the right of its points, a profile below its relief; a grip touches nothing and holds the nodes of one body that lie in a box, or
 // within a radius of `point`.
 struct ToolSpec {
-  enum class Shape { plane, polyline, grip };
+  enum class Shape { plane, polyline, grip, profile };
   enum class Holds { x, y, both, radial };
   std::string name;
   Vec2 point = Vec2::Zero();    // m; of a radial grip, and of one with a radius: its centre
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
-  std::vector<Vec2> points = {};  // m, polyline
+  std::vector<Vec2> points = {};  // m, polyline; of a profile made from `relief`
+  ProfileSpec relief = {};        // of a profile, whose crests are at the height of `point`
   double rounding = 0;            // m, radius of a polyline's convex corners
   int body = 0;                   // of a grip, in the order of placement
   Vec2 low = Vec2::Zero();        // m, corners of a grip's box

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/profile.hpp"
 #include "scenes/servo_checks.hpp"
 #include "scenes/surface.hpp"
 
@@ -18,6 +19,8 @@ class ToolChecks {
       const std::string path = fmt::format("tool[{}]", t);
       point(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::profile)
+        check_profile(scene_.tools[t], path, origins_, problems_);
       if (scene_.tools[t].shape == ToolSpec::Shape::grip) region(scene_.tools[t], path);
     }
     for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
@@ -41,16 +44,19 @@ class ToolChecks {
     const bool plane = tool.shape == ToolSpec::Shape::plane;
     const bool radial =
         tool.shape == ToolSpec::Shape::grip && tool.holds == ToolSpec::Holds::radial;
-    const bool wanted = plane || radial || tool.radius;
+    const bool profile = tool.shape == ToolSpec::Shape::profile;
+    const bool wanted = plane || profile || radial || tool.radius;
     if (wanted && !given(path + ".point"))
       refuse(path, "point",
              fmt::format("required key is missing: {}, allowed: two quantities [x, y] in m",
-                         plane    ? "the plane goes through it"
-                         : radial ? "nodes move radially from it"
-                                  : "it is the centre of the radius"));
+                         plane     ? "the plane goes through it"
+                         : profile ? "a crest stands there"
+                         : radial  ? "nodes move radially from it"
+                                   : "it is the centre of the radius"));
     if (!wanted && given(path + ".point"))
       refuse(path, "point",
-             "has no effect, allowed: only with shape = \"plane\", or shape = \"grip\" and holds = "
+             "has no effect, allowed: only with shape = \"plane\" or \"profile\", or shape = "
+             "\"grip\" and holds = "
              "\"radial\" or a radius");
   }
 
