@@ -1,6 +1,7 @@
 // Resources that change over a run, and the rules of contact and tools that the scene set.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -61,12 +62,19 @@ struct ContactRules {
   double penetration_limit = 0.5;  // -, of the edge length
   double shortest_edge = 0;        // m
   int materials = 0;
-  std::vector<double> friction;       // [materials * materials]
-  std::vector<double> tool_friction;  // [tools * materials]
-  double friction_between(int a, int b) const {
+  struct Friction {
+    double coefficient = 0;  // -, Coulomb's; where there is a static one, the dynamic
+    double drop = 0;         // -, static less dynamic coefficient
+    double over_decay = 0;   // 1/m
+    double strength = std::numeric_limits<double>::infinity();  // Pa, shear stress at most
+    bool only_coulomb() const { return drop == 0 && std::isinf(strength); }
+  };
+  std::vector<Friction> friction;       // [materials * materials]
+  std::vector<Friction> tool_friction;  // [tools * materials]
+  const Friction& friction_between(int a, int b) const {
     return friction[static_cast<std::size_t>(a * materials + b)];
   }
-  double friction_with_tool(int tool, int material) const {
+  const Friction& friction_with_tool(int tool, int material) const {
     return tool_friction[static_cast<std::size_t>(tool * materials + material)];
   }
 };

@@ -27,10 +27,18 @@ namespace {
 // neighbours: more than neighbours do, and few enough to keep lists short.
 constexpr double skins_of_neighbourhood = 8;
 
-double friction_of(const Scene& scene, const std::string& a, const std::string& b) {
-  for (const FrictionSpec& f : scene.frictions)
-    if ((f.first == a && f.second == b) || (f.first == b && f.second == a)) return f.coefficient;
-  return scene.contact.friction;
+ContactRules::Friction friction_of(const Scene& scene, const std::string& a, const std::string& b) {
+  for (const FrictionSpec& f : scene.frictions) {
+    if (!((f.first == a && f.second == b) || (f.first == b && f.second == a))) continue;
+    ContactRules::Friction friction{.coefficient = f.coefficient};
+    if (f.static_coefficient) {
+      friction.drop = *f.static_coefficient - f.coefficient;
+      friction.over_decay = 1 / *f.decay_length;
+    }
+    if (f.shear_strength) friction.strength = *f.shear_strength;
+    return friction;
+  }
+  return {.coefficient = scene.contact.friction};
 }
 
 ContactRules contact_rules(const Scene& scene) {
@@ -46,12 +54,14 @@ ContactRules contact_rules(const Scene& scene) {
       rules.friction.push_back(friction_of(scene, a.name, b.name));
   for (const ToolSpec& tool : scene.tools)
     for (const MaterialSpec& m : scene.materials)
-      rules.tool_friction.push_back(is_grip(tool) ? 0 : friction_of(scene, tool.name, m.name));
+      rules.tool_friction.push_back(is_grip(tool) ? ContactRules::Friction{}
+                                                  : friction_of(scene, tool.name, m.name));
   return rules;
 }
 
-bool any_friction(const ContactRules& rules, const Needs& needs) {
-  const auto acts = [](double mu) { return mu > 0; };
+// Whether any pair that can touch has friction that `acts` on.
+template <class Acts>
+bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& acts) {
   return (needs.pairs && std::ranges::any_of(rules.friction, acts)) ||
          (needs.tools && std::ranges::any_of(rules.tool_friction, acts));
 }
@@ -206,6 +216,10 @@ void add_row_columns(World& world, const Needs& needs) {
   world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();
   if (needs.friction) world.add<ElasticSlip<At>>();
+  if (needs.weakening) {
+    world.add<FrictionMore<At>>();
+    world.add<StaticLost<At>>();
+  }
   world.emplace<ContactSums<At>>();
 }
 
@@ -333,7 +347,12 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   needs.polylines = any(ToolSpec::Shape::polyline);
   needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
   needs.grips = any(ToolSpec::Shape::grip);
-  needs.friction = any_friction(contact_rules(scene), needs);
+  using Friction = ContactRules::Friction;
+  const ContactRules rules = contact_rules(scene);
+  needs.friction =
+      any_friction(rules, needs, [](const Friction& f) { return f.coefficient > 0 || f.drop > 0; });
+  needs.weakening = needs.friction &&
+                    any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
   needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;
   return needs;

@@ -258,6 +258,10 @@ class Checks {
       const std::string path = fmt::format("friction[{}].between", i);
       if (is_tool(friction.first) && is_tool(friction.second))
         refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
+      if (friction.static_coefficient && *friction.static_coefficient < friction.coefficient)
+        refuse(fmt::format("friction[{}].static_coefficient", i),
+               fmt::format("{:g} is below the dynamic coefficient, allowed: >= {:g}",
+                           *friction.static_coefficient, friction.coefficient));
       if (!named.insert(std::minmax(friction.first, friction.second)).second)
         refuse(path, fmt::format("the pair '{}' and '{}' is named twice, allowed: once",
                                  friction.first, friction.second));

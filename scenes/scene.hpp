@@ -186,7 +186,10 @@ struct StageSpec {
 
 struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names (materials or tools)
   std::string first, second;
-  double coefficient = 0;
+  double coefficient = 0;                    // -, dynamic where there is a static one
+  std::optional<double> static_coefficient;  // -, before sliding
+  std::optional<double> decay_length;        // m, sliding way in which the difference fades by 1/e
+  std::optional<double> shear_strength;      // Pa
   SourceMark mark;
 };
 

@@ -25,24 +25,29 @@ void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<To
 void bin_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                Read<CurvePosition>, Write<ContactIndex>, Structural<Contact>,
                Write<ContactPair<Contact>>, Write<ContactLaw<Contact>>,
-               Write<ContactReach<Contact>>, Write<ClosestPoint>);
+               Write<ContactReach<Contact>>, Write<ClosestPoint>,
+               Optional<Write<FrictionMore<Contact>>>);
 void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                     Read<CurvePosition>, Read<ToolPosition>, Read<ToolNormal>, Write<ContactIndex>,
                     Structural<ToolContact>, Write<ContactPair<ToolContact>>,
                     Write<ContactLaw<ToolContact>>, Write<ContactReach<ToolContact>>,
-                    Optional<Read<ToolShapes>>, Optional<Write<SurfaceRange>>);
+                    Optional<Read<ToolShapes>>, Optional<Write<SurfaceRange>>,
+                    Optional<Write<FrictionMore<ToolContact>>>);
 
 // ---- narrow phase -----------------------------------------------------------------------------
 void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
                   Write<ClosestPoint>, Write<ContactPair<Contact>>, Write<ContactReach<Contact>>,
                   Read<ContactLaw<Contact>>, Write<PointForce<Contact>>,
-                  Optional<Write<ElasticSlip<Contact>>>, Optional<Write<FrictionCouple>>,
+                  Optional<Write<ElasticSlip<Contact>>>, Optional<Read<FrictionMore<Contact>>>,
+                  Optional<Write<StaticLost<Contact>>>, Optional<Write<FrictionCouple>>,
                   Write<ContactSums<Contact>>);
 void tool_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
                   Read<ToolPosition>, Read<ToolVelocity>, Read<ToolNormal>,
                   Write<ContactPair<ToolContact>>, Write<ContactReach<ToolContact>>,
                   Read<ContactLaw<ToolContact>>, Write<PointForce<ToolContact>>,
-                  Optional<Write<ElasticSlip<ToolContact>>>, Optional<Read<ToolShapes>>,
+                  Optional<Write<ElasticSlip<ToolContact>>>,
+                  Optional<Read<FrictionMore<ToolContact>>>,
+                  Optional<Write<StaticLost<ToolContact>>>, Optional<Read<ToolShapes>>,
                   Optional<Read<SurfaceRange>>, Write<ContactSums<ToolContact>>);
 void contact_totals(Optional<Read<ContactSums<Contact>>>, Optional<Read<ContactSums<ToolContact>>>,
                     Write<Totals>);
