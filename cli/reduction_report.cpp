@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/reduction_files.hpp"
-#include "cli/report_page.hpp"
 #include "cli/report_encoding.hpp"
+#include "cli/report_page.hpp"
 
 namespace pulvis {
 namespace {

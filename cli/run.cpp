@@ -113,7 +113,7 @@ struct Run {
     compaction.sample(results);
     samples.pass(clock.time);
     check_limits(loaded.scene, results, simulation->world());
-    if (!frames.due(clock.time)) return;
+    if (!frames.due(clock.time) && !simulation->finished()) return;
     recorder.frame(clock.time, clock.step, results.frame());
     frames.pass(clock.time);
   }
@@ -125,8 +125,9 @@ struct Run {
     Timetable samples(clock.end, std::max(output.samples, output.frames));
     Timetable frames(clock.end, output.frames);
     while (true) {
-      if (samples.due(clock.time) || frames.due(clock.time)) record(samples, frames);
-      if (simulation->finished()) return true;
+      const bool last = simulation->finished();  // before its time where a stage ended early
+      if (last || samples.due(clock.time) || frames.due(clock.time)) record(samples, frames);
+      if (last || simulation->finished()) return true;
       simulation->move();
       simulation->run_until(std::min(samples.next(), frames.next()), [&] {
         progress.show(clock.time, clock.step);

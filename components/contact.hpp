@@ -92,6 +92,24 @@ struct ElasticSlip : Component<At, double, edge_points> {
   static constexpr ComponentInfo info{"elastic_slip", "m",
                                       "stretch of the tangential springs: history"};
 };
+// ---- only where a pair's friction is more than Coulomb's coefficient ------------------------------
+template <class At>
+struct FrictionMore : Component<At, double, 4> {
+  static constexpr ComponentInfo info{
+      "friction_more", "SI",
+      "static less dynamic coefficient, 1/decay length, most shear stress, nothing"};
+  enum Number {
+    drop,        // -, static less dynamic coefficient
+    over_decay,  // 1/m, over the sliding way in which that fades by 1/e
+    strength     // Pa, shear stress that the surfaces do not pass
+  };
+};
+template <class At>
+struct StaticLost : Component<At, double, edge_points> {
+  static constexpr ComponentInfo info{"static_lost", "-",
+                                      "share of the static friction lost in sliding: history"};
+};
+
 // Moment that keeps friction across a small gap from spinning the pair; see contact_kernel.hpp.
 struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
   static constexpr ComponentInfo info{"friction_couple", "N",

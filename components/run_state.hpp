@@ -1,7 +1,9 @@
 // Resources that change over a run, and the rules of contact and tools that the scene set.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,10 +34,25 @@ struct ToolProgram {
     double begin = 0, duration = 0;  // s
     double ramp = 0;                 // -, share of the duration with rising (and falling) speed
     Point displacement{};            // m
+    int stage = 0;
+    // s: when the speed begins to fall although the way is not done; never, unless the stage ends early.
+    double cut = std::numeric_limits<double>::infinity();
+  };
+  struct Stage {
+    std::string name;
+    double begin = 0, end = 0;  // s
   };
   std::vector<std::string> names;
   std::vector<Point> start;  // m
   std::vector<Segment> segments;
+  std::vector<Stage> stages;
+
+  // The stage that `time` belongs to; their number once all are over.
+  std::size_t stage_at(double time) const {
+    std::size_t stage = 0;
+    while (stage < stages.size() && time >= stages[stage].end) ++stage;
+    return stage;
+  }
 };
 
 struct ContactRules {
@@ -45,12 +62,19 @@ struct ContactRules {
   double penetration_limit = 0.5;  // -, of the edge length
   double shortest_edge = 0;        // m
   int materials = 0;
-  std::vector<double> friction;       // [materials * materials]
-  std::vector<double> tool_friction;  // [tools * materials]
-  double friction_between(int a, int b) const {
+  struct Friction {
+    double coefficient = 0;  // -, Coulomb's; where there is a static one, the dynamic
+    double drop = 0;         // -, static less dynamic coefficient
+    double over_decay = 0;   // 1/m
+    double strength = std::numeric_limits<double>::infinity();  // Pa, shear stress at most
+    bool only_coulomb() const { return drop == 0 && std::isinf(strength); }
+  };
+  std::vector<Friction> friction;       // [materials * materials]
+  std::vector<Friction> tool_friction;  // [tools * materials]
+  const Friction& friction_between(int a, int b) const {
     return friction[static_cast<std::size_t>(a * materials + b)];
   }
-  double friction_with_tool(int tool, int material) const {
+  const Friction& friction_with_tool(int tool, int material) const {
     return tool_friction[static_cast<std::size_t>(tool * materials + material)];
   }
 };

@@ -12,6 +12,7 @@
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
+#include "scenes/drives.hpp"
 #include "scenes/grips.hpp"
 #include "scenes/highest_mode.hpp"
 #include "scenes/hilbert.hpp"
@@ -22,10 +23,18 @@
 
 namespace pulvis {
 
-double friction_of(const Scene& scene, const std::string& a, const std::string& b) {
-  for (const FrictionSpec& f : scene.frictions)
-    if ((f.first == a && f.second == b) || (f.first == b && f.second == a)) return f.coefficient;
-  return scene.contact.friction;
+ContactRules::Friction friction_of(const Scene& scene, const std::string& a, const std::string& b) {
+  for (const FrictionSpec& f : scene.frictions) {
+    if (!((f.first == a && f.second == b) || (f.first == b && f.second == a))) continue;
+    ContactRules::Friction friction{.coefficient = f.coefficient};
+    if (f.static_coefficient) {
+      friction.drop = *f.static_coefficient - f.coefficient;
+      friction.over_decay = 1 / *f.decay_length;
+    }
+    if (f.shear_strength) friction.strength = *f.shear_strength;
+    return friction;
+  }
+  return {.coefficient = scene.contact.friction};
 }
 
 namespace {
@@ -47,12 +56,14 @@ ContactRules contact_rules(const Scene& scene) {
       rules.friction.push_back(friction_of(scene, a.name, b.name));
   for (const ToolSpec& tool : scene.tools)
     for (const MaterialSpec& m : scene.materials)
-      rules.tool_friction.push_back(is_grip(tool) ? 0 : friction_of(scene, tool.name, m.name));
+      rules.tool_friction.push_back(is_grip(tool) ? ContactRules::Friction{}
+                                                  : friction_of(scene, tool.name, m.name));
   return rules;
 }
 
-bool any_friction(const ContactRules& rules, const Needs& needs) {
-  const auto acts = [](double mu) { return mu > 0; };
+// Whether any pair that can touch has friction that `acts` on.
+template <class Acts>
+bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& acts) {
   return (needs.pairs && std::ranges::any_of(rules.friction, acts)) ||
          (needs.tools && std::ranges::any_of(rules.tool_friction, acts));
 }
@@ -117,7 +128,7 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
                std::size_t particles) {
   Layout layout;
   layout.bodies.thickness = scene.thickness;
-  layout.bodies.slot_of_number.resize(particles);
+  layout.bodies.slot_of_number.assign(particles, Bodies::nobody);
   int control = 0;
   for (std::size_t c = 0; c < classes.size(); ++c) {
     if (classes[c].empty()) continue;
@@ -207,6 +218,10 @@ void add_row_columns(World& world, const Needs& needs) {
   world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();
   if (needs.friction) world.add<ElasticSlip<At>>();
+  if (needs.weakening) {
+    world.add<FrictionMore<At>>();
+    world.add<StaticLost<At>>();
+  }
   world.emplace<ContactSums<At>>();
 }
 
@@ -291,27 +306,8 @@ ToolShapes tool_shapes(const Scene& scene) {
   return shapes;
 }
 
-ToolProgram tool_program(const Scene& scene) {
-  ToolProgram program;
-  for (const ToolSpec& tool : scene.tools) {
-    program.names.push_back(tool.name);
-    const Vec2 start = start_of(tool);
-    program.start.push_back({start.x(), start.y()});
-  }
-  double begin = 0;
-  for (const StageSpec& stage : scene.stages) {
-    for (const MoveSpec& move : stage.moves)
-      program.segments.push_back({move.tool,
-                                  begin,
-                                  stage.duration,
-                                  move.ramp,
-                                  {move.displacement.x(), move.displacement.y()}});
-    begin += stage.duration;
-  }
-  return program;
-}
-
-void add_tools(World& world, const Scene& scene, const Needs& needs) {
+void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies,
+               const Needs& needs) {
   world.add_table<Tool>(scene.tools.size());
   world.add<ToolPosition>();
   world.add<ToolVelocity>();
@@ -324,7 +320,7 @@ void add_tools(World& world, const Scene& scene, const Needs& needs) {
       world.column<ToolPosition>().values()[2 * t + k] = start_of(scene.tools[t])[axis];
     }
   if (needs.polylines || needs.grips) world.emplace<ToolShapes>(tool_shapes(scene));
-  world.emplace<ToolProgram>(tool_program(scene));
+  add_drives(world, scene, bodies);
 }
 
 double shortest_edge(const Bodies& bodies) {
@@ -353,7 +349,12 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   needs.polylines = any(ToolSpec::Shape::polyline);
   needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
   needs.grips = any(ToolSpec::Shape::grip);
-  needs.friction = any_friction(contact_rules(scene), needs);
+  using Friction = ContactRules::Friction;
+  const ContactRules rules = contact_rules(scene);
+  needs.friction =
+      any_friction(rules, needs, [](const Friction& f) { return f.coefficient > 0 || f.drop > 0; });
+  needs.weakening = needs.friction &&
+                    any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
   needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;
   return needs;
@@ -368,7 +369,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
 
   auto world = std::make_unique<World>();
   add_body_columns(*world, layout.bodies, needs);
-  if (needs.tools || needs.grips) add_tools(*world, scene, needs);
+  if (needs.tools || needs.grips) add_tools(*world, scene, bodies, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     world->emplace<ContactRules>(contact_rules(scene)).shortest_edge = shortest_edge(layout.bodies);

@@ -15,7 +15,8 @@ struct Needs {
   bool tools = false;    // something that particles touch
   bool polylines = false;
   bool grips = false;
-  bool friction = false;  // a coefficient above zero can act
+  bool friction = false;   // a coefficient above zero can act
+  bool weakening = false;  // and a law beyond Coulomb's
   bool damping = false;
   ElementSpec::Formulation formulation = ElementSpec::Formulation::one_point;
   bool contact() const { return pairs || tools; }

@@ -292,10 +292,10 @@ class Checks {
       const std::string path = fmt::format("stage[{}]", i);
       const bool needs_moves =
           stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
-      if (needs_moves && stage.moves.empty())
+      if (needs_moves && stage.moves.empty() && stage.servos.empty())
         refuse(path + ".kind",
-               "no tool moves in this stage, allowed: at least one [[stage.move]], or kind = "
-               "\"settle\" or \"hold\"");
+               "no tool moves in this stage, allowed: at least one [[stage.move]] or "
+               "[[stage.servo]], or kind = \"settle\" or \"hold\"");
       if (!needs_moves && !stage.moves.empty())
         refuse(path + ".move[0]",
                "tools stand still in a stage of this kind, allowed: moves in kind = \"compact\", "
@@ -331,6 +331,10 @@ class Checks {
       const std::string path = fmt::format("friction[{}].between", i);
       if (is_tool(friction.first) && is_tool(friction.second))
         refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
+      if (friction.static_coefficient && *friction.static_coefficient < friction.coefficient)
+        refuse(fmt::format("friction[{}].static_coefficient", i),
+               fmt::format("{:g} is below the dynamic coefficient, allowed: >= {:g}",
+                           *friction.static_coefficient, friction.coefficient));
       if (!named.insert(std::minmax(friction.first, friction.second)).second)
         refuse(path, fmt::format("the pair '{}' and '{}' is named twice, allowed: once",
                                  friction.first, friction.second));

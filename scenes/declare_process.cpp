@@ -113,8 +113,32 @@ const TableDeclaration<FrictionSpec>& friction() {
          .kind = Kind::number,
          .range = within(0, 10),
          .required = true,
-         .doc = "Coulomb's coefficient."},
-        to(&FrictionSpec::coefficient)}}};
+         .doc = "Coulomb's coefficient; the dynamic one where there is a static one."},
+        to(&FrictionSpec::coefficient)},
+       {{.name = "static_coefficient",
+         .kind = Kind::number,
+         .range = within(0, 10),
+         .needs = "decay_length",
+         .doc = "Of surfaces that have not slid against each other since they met.",
+         .fallback_doc = "`coefficient`"},
+        to(&FrictionSpec::static_coefficient)},
+       {{.name = "decay_length",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .needs = "static_coefficient",
+         .doc =
+             "Sliding way in which what the static coefficient is above the dynamic one falls to "
+             "1/e.",
+         .fallback_doc = "required with `static_coefficient`"},
+        to(&FrictionSpec::decay_length)},
+       {{.name = "shear_strength",
+         .kind = Kind::quantity,
+         .unit = "Pa",
+         .range = above(0, 1e13),
+         .doc = "Shear stress that the surfaces do not pass at any pressure.",
+         .fallback_doc = "none"},
+        to(&FrictionSpec::shear_strength)}}};
   return declaration;
 }
 

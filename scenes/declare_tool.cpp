@@ -1,5 +1,5 @@
 // Declaration of the tools: planes and polylines that particles touch, grips that hold nodes.
-#include "scenes/declare.hpp"
+#include "scenes/declare_profile.hpp"
 
 namespace pulvis::schema {
 namespace {
@@ -23,7 +23,7 @@ Key<ToolSpec> rounding_key() {
        .unit = "m",
        .range = within(0, largest_size),
        .fallback = value_of("0 mm"),
-       .only_for = "polyline",
+       .only_for = {"polyline", "profile"},
        .doc = "Radius of the corners that point into the powder; valleys stay sharp, flat parts "
               "stay where the points say. Take at least half a boundary edge of the powder's mesh: "
               "a sharper corner can press in between the points where an edge is sampled "
@@ -95,7 +95,8 @@ std::vector<Key<ToolSpec>> place_keys() {
         .choices = {{"plane", "fills the half-plane behind its surface"},
                     {"polyline", "fills what lies to the right of a chain of points"},
                     {"grip",
-                     "holds the nodes of one particle in a box or a circle; nothing touches it"}},
+                     "holds the nodes of one particle in a box or a circle; nothing touches it"},
+                    {"profile", "a target surface: fills what lies below a relief along x"}},
         .required = true,
         .doc = "What it is."},
        [](ToolSpec& spec, const Decoded& value) {
@@ -107,8 +108,8 @@ std::vector<Key<ToolSpec>> place_keys() {
         .range = within(-largest_size, largest_size),
         .choices = {{"packing top",
                      "the height at which a punch rests on the packing; of several the highest"}},
-        .doc = "A point of a plane's surface, or the centre of a grip with holds = \"radial\" or "
-               "a `radius`.",
+        .doc = "A point of a plane's surface, a crest of a profile, or the centre of a grip with "
+               "holds = \"radial\" or a `radius`.",
         .fallback_doc = "required of those, refused elsewhere"},
        [](ToolSpec& spec, const Decoded& value) {
          spec.point = value.vector;
@@ -132,6 +133,7 @@ std::vector<Key<ToolSpec>> keys() {
         corner_key("high", &ToolSpec::high, "Upper right corner of the box."), radius_key(),
         holds_key()})
     all.push_back(std::move(key));
+  for (Key<ToolSpec>& key : profile_keys()) all.push_back(std::move(key));
   return all;
 }
 

@@ -39,7 +39,8 @@ std::vector<Vec2> places_of(const World& world, int slot) {
   const std::size_t count = world.resource<Bodies>().shape_of_slot(slot).nodes.size();
   std::vector<Vec2> places;
   for (std::size_t n = first; n < first + count; ++n)
-    places.emplace_back(x.lanes()[2 * n][slot % lane_count], x.lanes()[2 * n + 1][slot % lane_count]);
+    places.emplace_back(x.lanes()[2 * n][slot % lane_count],
+                        x.lanes()[2 * n + 1][slot % lane_count]);
   return places;
 }
 
@@ -103,8 +104,10 @@ std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
   std::vector<Held> held;
   for (std::size_t n = 0; n < places.size(); ++n)
     if (holds_place(tool, places[n], round_off * size))
-      hold_node(scene, {slot / lane_count, static_cast<std::int32_t>(n), slot % lane_count, number, places[n]}, size,
-                held);
+      hold_node(
+          scene,
+          {slot / lane_count, static_cast<std::int32_t>(n), slot % lane_count, number, places[n]},
+          size, held);
   if (held.empty()) refuse_empty(scene, number, places);
   return held;
 }

@@ -6,6 +6,8 @@
 #include "scenes/expect_checks.hpp"
 #include "scenes/fill_packings.hpp"
 #include "scenes/override.hpp"
+#include "scenes/place.hpp"
+#include "scenes/profile.hpp"
 #include "scenes/scene_text.hpp"
 #include "scenes/table_reader.hpp"
 
@@ -103,9 +105,16 @@ class SceneReader {
   std::vector<StageSpec> read_stages() {
     std::vector<StageSpec> stages = read_all(schema::stage());
     const Array& elements = array_at("stage");
-    for (std::size_t i = 0; i < stages.size(); ++i)
-      stages[i].moves =
-          read_elements(schema::move(), elements[i].get<Table>(), numbered("stage", i));
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const Table& table = elements[i].get<Table>();
+      const std::string path = numbered("stage", i);
+      stages[i].moves = read_elements(schema::move(), table, path);
+      stages[i].servos = read_elements(schema::servo(), table, path);
+      if (const document::Entry* entry = document::find(table, "until")) {
+        stages[i].until.emplace().mark = entry->origin.mark;
+        tables_.read(schema::until(), entry->value, path + ".until", "", *stages[i].until);
+      }
+    }
     return stages;
   }
 
@@ -169,6 +178,8 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
     problems.throw_if_any();
   }
   fill_packings(loaded.scene, reader.origins(), problems);
+  problems.throw_if_any();
+  make_profiles(loaded.scene, place_bodies(loaded.scene), reader.origins(), problems);
   problems.throw_if_any();
   loaded.text = scene_text(root);
   loaded.hash = scene_hash(loaded.text);

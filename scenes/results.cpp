@@ -6,6 +6,7 @@
 
 #include "components/body.hpp"
 #include "components/contact.hpp"
+#include "components/servo.hpp"
 #include "engine/access.hpp"
 #include "scenes/observe.hpp"
 
@@ -127,6 +128,14 @@ CellStress cell_stress(const ElementColumns& columns, std::size_t e, int lane) {
   return c;
 }
 
+bool has_servo(const Scene& scene, const ToolSpec& tool) {
+  return std::ranges::any_of(scene.stages, [&](const StageSpec& stage) {
+    return std::ranges::any_of(stage.servos, [&](const ServoSpec& servo) {
+      return &scene.tools[static_cast<std::size_t>(servo.tool)] == &tool;
+    });
+  });
+}
+
 double fastest_tool(const Scene& scene) {
   double fastest = 0;
   for (const StageSpec& stage : scene.stages)
@@ -155,6 +164,8 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
     add_series(name + "force_x", "N",
                radial ? "radial, of the particles, on the tool" : "of the particles, on the tool");
     add_series(name + "force_y", "N", "of the particles, on the tool");
+    if (has_servo(scene, tool))
+      add_series(name + "force_asked", "N", "that its servo is to hold now, the way it pushes");
   }
   if (die_cell(scene)) {
     add_series("relative_density", "-", "undeformed particle area / area between the tools");
@@ -266,6 +277,14 @@ void Results::take_energies() {
   kinetic_internal_.emplace_back(e.kinetic, e.internal());
 }
 
+namespace {
+bool has_servo(const World& world, int tool) {
+  return world.has<ToolServos>() &&
+         std::ranges::any_of(world.resource<ToolServos>().servos,
+                             [&](const ToolServos::Servo& servo) { return servo.tool == tool; });
+}
+}  // namespace
+
 void Results::append_tools(std::vector<double>& row) const {
   if (!world_.has_table<Tool>()) return;
   const auto& position = world_.column<ToolPosition>();
@@ -273,6 +292,8 @@ void Results::append_tools(std::vector<double>& row) const {
   for (std::size_t t = 0; t < position.table.rows; ++t) {
     row.insert(row.end(), position.values() + 2 * t, position.values() + 2 * t + 2);
     row.insert(row.end(), force.values() + 2 * t, force.values() + 2 * t + 2);
+    if (has_servo(world_, static_cast<int>(t)))
+      row.push_back(world_.column<ServoForce>().values()[2 * t]);
   }
 }
 

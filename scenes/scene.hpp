@@ -196,11 +196,23 @@ struct PackingSpec {
   PackingReached reached = {};
 };
 
+// Relief of a target surface: heights below its crests against x. It repeats, or is made, as far as the
+// powder can come.
+struct ProfileSpec {
+  enum class Kind { flat, triangle, sine, trapezoid, rough, file } kind = Kind::flat;
+  double pitch = 0;               // m, from crest to crest
+  std::optional<double> depth;    // m, from crest to valley; or
+  std::optional<double> ra;       // m, arithmetic mean deviation from the mean line
+  double flat_share = 0.25;       // -, of the pitch, of a trapezoid's crest, and of its valley
+  double correlation_length = 0;  // m, of a rough profile
+  std::string file;               // of a measured one, relative to the scene
+};
+
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
-// the right of its points; a grip touches nothing and holds the nodes of one body that lie in a box, or
+// the right of its points, a profile below its relief; a grip touches nothing and holds the nodes of one body that lie in a box, or
 // within a radius of `point`.
 struct ToolSpec {
-  enum class Shape { plane, polyline, grip };
+  enum class Shape { plane, polyline, grip, profile };
   enum class Holds { x, y, both, radial };
   std::string name;
   Vec2 point = Vec2::Zero();    // m; of a radial grip, and of one with a radius: its centre
@@ -208,7 +220,8 @@ struct ToolSpec {
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
-  std::vector<Vec2> points = {};  // m, polyline
+  std::vector<Vec2> points = {};  // m, polyline; of a profile made from `relief`
+  ProfileSpec relief = {};        // of a profile, whose crests are at the height of `point`
   double rounding = 0;            // m, radius of a polyline's convex corners
   int body = 0;                   // of a grip, in the order of placement
   Vec2 low = Vec2::Zero();        // m, corners of a grip's box
@@ -225,17 +238,43 @@ struct MoveSpec {
   SourceMark mark;
 };
 
+struct ServoSpec {                // a tool that holds a force, through one stage
+  int tool = 0;                   // position in Scene::tools
+  std::optional<Vec2> direction;  // unit vector, the way it pushes; absent: a plane's normal
+  double force = 0;               // N
+  double rise = 0.2;              // -, share of the stage until the force is asked for in full
+  std::optional<double> rate;     // N/s, instead of `rise`
+  double response = 0.1;          // -, mass of the servo over that of the powder
+  double fastest = 10;            // m/s
+  double tolerance = 0.05;        // -, of the force, at the end of the stage
+  SourceMark mark;
+};
+
+// What ends a stage before its time is over: one of the three.
+struct UntilSpec {
+  std::optional<int> tool;
+  std::optional<double> force;         // N
+  std::optional<double> displacement;  // m
+  std::optional<double> relative_density;
+  SourceMark mark;
+};
+
 struct StageSpec {
   std::string name;
   enum class Kind { settle, compact, hold, unload, eject, shear } kind = Kind::hold;
-  double duration = 0;  // s
+  double duration = 0;  // s, at most where there is an `until`
   std::vector<MoveSpec> moves;
+  std::vector<ServoSpec> servos;
+  std::optional<UntilSpec> until;
   SourceMark mark;
 };
 
 struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names (materials or tools)
   std::string first, second;
-  double coefficient = 0;
+  double coefficient = 0;                    // -, dynamic where there is a static one
+  std::optional<double> static_coefficient;  // -, before sliding
+  std::optional<double> decay_length;        // m, sliding way in which the difference fades by 1/e
+  std::optional<double> shear_strength;      // Pa
   SourceMark mark;
 };
 

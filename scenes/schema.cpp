@@ -55,12 +55,15 @@ void fill_child(document::Table& table, const document::Origin& origin, const Ta
                 const std::string& selected, const Language& language) {
   const std::string key = last_word(child.path);
   document::Entry* entry = document::find(table, key);
-  if (entry == nullptr && child.repeated) return;
+  const TableView& view = *find_table(child.path, language);
+  // A table without defaults means something by being there.
+  const bool optional = std::ranges::none_of(
+      view.keys, [](const KeyInfo& of_child) { return of_child.fallback.has_value(); });
+  if (entry == nullptr && (child.repeated || optional)) return;
   if (entry == nullptr) {
     table.push_back({key, origin, {document::Table{}, origin}});
     entry = &table.back();
   }
-  const TableView& view = *find_table(child.path, language);
   if (entry->value.as<document::Table>() != nullptr && !child.repeated)
     fill(entry->value, view, selected, language);
   if (document::is_array_of_tables(entry->value) && child.repeated)
@@ -93,10 +96,11 @@ bool Range::holds(double value) const {
 
 const Language& all_tables() {
   static const Language tables{
-      view_of(top_level()), view_of(material()),      view_of(particle()), view_of(mesh()),  view_of(body()),
-      view_of(packing()),   view_of(mixture_class()), view_of(tool()),     view_of(stage()), view_of(move()),
-      view_of(friction()),  view_of(contact()),       view_of(element()),  view_of(time()),  view_of(output()),
-      view_of(limits()),    view_of(expect())};
+      view_of(top_level()), view_of(material()), view_of(particle()),      view_of(mesh()),
+      view_of(body()),      view_of(packing()),  view_of(mixture_class()), view_of(tool()),
+      view_of(stage()),     view_of(move()),     view_of(servo()),         view_of(until()),
+      view_of(friction()),  view_of(contact()),  view_of(element()),       view_of(time()),
+      view_of(output()),    view_of(limits()),   view_of(expect())};
   return tables;
 }
 

@@ -131,6 +131,8 @@ const TableDeclaration<MixtureClass>& mixture_class();
 const TableDeclaration<ToolSpec>& tool();
 const TableDeclaration<StageSpec>& stage();
 const TableDeclaration<MoveSpec>& move();
+const TableDeclaration<ServoSpec>& servo();
+const TableDeclaration<UntilSpec>& until();
 const TableDeclaration<FrictionSpec>& friction();
 const TableDeclaration<ContactSpec>& contact();
 const TableDeclaration<ElementSpec>& element();

@@ -1,5 +1,7 @@
 #include "scenes/simulation.hpp"
 
+#include <algorithm>
+
 #include "scenes/build.hpp"
 
 namespace pulvis {
@@ -18,7 +20,7 @@ Simulation::~Simulation() {
 
 void Simulation::run_until(double time, const std::function<bool()>& stop) {
   workers_.run([&] {
-    while (clock().time < time) {
+    while (clock().time < std::min(time, clock().end)) {
       step_->run();
       if (stop && stop()) return;
     }

@@ -23,7 +23,7 @@ class Simulation {
   const GraphPlan& plan() const { return step_->plan(); }
   bool finished() const { return clock().time >= clock().end; }
 
-  // Runs plain steps while t_n < `time`; `stop` is asked after every step and ends it early. Afterwards
+  // Runs plain steps while t_n < `time` and the end of the run, which may come early; `stop` is asked after every step and ends it early. Afterwards
   // t_n >= time, and positions, but not yet the forces, belong to t_n. Throws RunFailure.
   void run_until(double time, const std::function<bool()>& stop = {});
   // Completes the state at t_n: forces, tool reactions, energies.

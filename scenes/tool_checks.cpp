@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "scenes/profile.hpp"
+#include "scenes/servo_checks.hpp"
 #include "scenes/surface.hpp"
 
 namespace pulvis {
@@ -17,11 +19,16 @@ class ToolChecks {
       const std::string path = fmt::format("tool[{}]", t);
       point(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::profile)
+        check_profile(scene_.tools[t], path, origins_, problems_);
       if (scene_.tools[t].shape == ToolSpec::Shape::grip) region(scene_.tools[t], path);
     }
-    for (std::size_t s = 0; s < scene_.stages.size(); ++s)
-      for (std::size_t m = 0; m < scene_.stages[s].moves.size(); ++m)
-        move(scene_.stages[s].moves[m], fmt::format("stage[{}].move[{}]", s, m));
+    for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
+      const StageSpec& stage = scene_.stages[s];
+      for (std::size_t m = 0; m < stage.moves.size(); ++m)
+        move(stage.moves[m], fmt::format("stage[{}].move[{}]", s, m));
+      check_servos(scene_, stage, fmt::format("stage[{}]", s), origins_, problems_);
+    }
     for (std::size_t f = 0; f < scene_.frictions.size(); ++f) friction(scene_.frictions[f], f);
   }
 
@@ -37,16 +44,19 @@ class ToolChecks {
     const bool plane = tool.shape == ToolSpec::Shape::plane;
     const bool radial =
         tool.shape == ToolSpec::Shape::grip && tool.holds == ToolSpec::Holds::radial;
-    const bool wanted = plane || radial || tool.radius;
+    const bool profile = tool.shape == ToolSpec::Shape::profile;
+    const bool wanted = plane || profile || radial || tool.radius;
     if (wanted && !given(path + ".point"))
       refuse(path, "point",
              fmt::format("required key is missing: {}, allowed: two quantities [x, y] in m",
-                         plane    ? "the plane goes through it"
-                         : radial ? "nodes move radially from it"
-                                  : "it is the centre of the radius"));
+                         plane     ? "the plane goes through it"
+                         : profile ? "a crest stands there"
+                         : radial  ? "nodes move radially from it"
+                                   : "it is the centre of the radius"));
     if (!wanted && given(path + ".point"))
       refuse(path, "point",
-             "has no effect, allowed: only with shape = \"plane\", or shape = \"grip\" and holds = "
+             "has no effect, allowed: only with shape = \"plane\" or \"profile\", or shape = "
+             "\"grip\" and holds = "
              "\"radial\" or a radius");
   }
 

@@ -69,12 +69,15 @@ void list_other_rows(const BySlot<EdgeCandidate>& rows, ContactIndex& index) {
 }
 
 struct PairLaw {
-  double kappa, friction, damping;
+  double kappa;
+  const ContactRules::Friction& friction;
+  double damping;
 };
 
 template <class At>
 void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw& law,
-             const Write<ContactPair<At>>& pair, const Write<ContactLaw<At>>& of_row) {
+             const Write<ContactPair<At>>& pair, const Write<ContactLaw<At>>& of_row,
+             const Optional<Write<FrictionMore<At>>>& more) {
   const Shape::Edge& edge =
       bodies.shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
   using Law = ContactLaw<At>;
@@ -82,7 +85,13 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
   pair(row, 1) = key.edge;
   pair(row, 2) = key.other;
   of_row(row, Law::stiffness) = law.kappa;
-  of_row(row, Law::friction) = law.friction;
+  of_row(row, Law::friction) = law.friction.coefficient;
+  if (more) {
+    using More = FrictionMore<At>;
+    (*more)(row, More::drop) = law.friction.drop;
+    (*more)(row, More::over_decay) = law.friction.over_decay;
+    (*more)(row, More::strength) = law.friction.strength;
+  }
   of_row(row, Law::damping) = law.damping;
   of_row(row, Law::over_length) = 1 / edge.length;
   for (std::size_t g = 0; g < edge_points; ++g)
@@ -111,7 +120,7 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
                Read<Density> density, Read<CurvePosition> control, Write<ContactIndex> index,
                Structural<Contact> structure, Write<ContactPair<Contact>> pair,
                Write<ContactLaw<Contact>> law, Write<ContactReach<Contact>> reach,
-               Write<ClosestPoint> closest) {
+               Write<ClosestPoint> closest, Optional<Write<FrictionMore<Contact>>> more) {
   if (!index->due) return;
   BySlot<std::int32_t> neighbours =
       particle_neighbours(*bodies, control.values(), index->neighbourhood);
@@ -133,7 +142,7 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
              rules->friction_between(slots[static_cast<std::size_t>(key.slot)].material,
                                      slots[static_cast<std::size_t>(key.other)].material),
              damping_of(*rules, kappa, rho, edge)},
-            pair, law);
+            pair, law, more);
     const bool known = source[r] >= 0;
     // What was found to be the far side of a thin part stays that (edge_contact).
     if (!(known && reach(row) == far_side))
@@ -207,7 +216,8 @@ void bin_tool_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModu
                     Write<ContactIndex> index, Structural<ToolContact> structure,
                     Write<ContactPair<ToolContact>> pair, Write<ContactLaw<ToolContact>> law,
                     Write<ContactReach<ToolContact>> reach, Optional<Read<ToolShapes>> shapes,
-                    Optional<Write<SurfaceRange>> range) {
+                    Optional<Write<SurfaceRange>> range,
+                    Optional<Write<FrictionMore<ToolContact>>> more) {
   if (!index->due) return;
   BySlot<ToolCandidate> found =
       tool_candidates(*bodies, control.values(), tool_position, tool_normal, shapes, index->skin);
@@ -222,7 +232,7 @@ void bin_tool_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModu
     set_row(row, *bodies, key,
             {kappa, rules->friction_with_tool(key.other, bodies->slots[slot].material),
              damping_of(*rules, kappa, density.values()[slot], edge)},
-            pair, law);
+            pair, law, more);
     reach(row) = 0;
     if (!range) continue;
     (*range)(row, 0) = found.all[r].range.first;

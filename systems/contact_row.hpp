@@ -65,6 +65,8 @@ struct RowColumns {
   Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
   Optional<Write<ElasticSlip<At>>> elastic_slip;
+  Optional<Read<FrictionMore<At>>> more;
+  Optional<Write<StaticLost<At>>> lost;
 };
 
 // Reaches of rows of an outline against itself: not looked at yet; and seen from inside, which no touch is.
@@ -78,6 +80,8 @@ void set_apart(const RowColumns<At>& c, Row<At> row, double reach) {
   for (int k = 0; k < 2 * edge_points; ++k) c.force(row, k) = 0;
   if (c.elastic_slip)
     for (int k = 0; k < edge_points; ++k) (*c.elastic_slip)(row, k) = 0;
+  if (c.lost)
+    for (int k = 0; k < edge_points; ++k) (*c.lost)(row, k) = 0;
 }
 
 // The numbers of a row at its four points, of two rows.
@@ -99,6 +103,28 @@ void book_depth(Row<At> row, double depth, BlockSums& sums) {
   sums.deepest = row.value;
 }
 
+// Friction of a pair of rows after its law; keeps what sliding has done to the rows that touch.
+template <class At>
+kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const RowPair<At>& rows,
+                                    unsigned touching, const Lane& slip, const Lane& pressure,
+                                    const Lane& kappa, const Lane& over_kappa, double share) {
+  const Lane before = at_points(*c.elastic_slip, rows);
+  const Lane mu = at_rows(c.law, rows, ContactLaw<At>::friction);
+  if (!c.more) {
+    kernels::Coulomb<Lane> law{mu};
+    return kernels::friction_return(before, slip, pressure, law, kappa, over_kappa);
+  }
+  using More = FrictionMore<At>;
+  kernels::Weakening<Lane> law{
+      mu, at_rows(*c.more, rows, More::drop), at_rows(*c.more, rows, More::over_decay),
+      share * at_rows(*c.more, rows, More::strength), at_points(*c.lost, rows)};
+  const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, over_kappa);
+  for (int half = 0; half < 2; ++half)
+    if ((touching >> half & 1) != 0)
+      store_half(law.lost, half, &(*c.lost)(rows[static_cast<std::size_t>(half)]));
+  return friction;
+}
+
 // Forces of the rows of a pair that touch (bit 0, bit 1), and what they add to the sums of their block.
 // `share` of kappa: one half where the other particle samples back. Returns the friction traction times
 // weight [N] (the couple of the other body needs it).
@@ -116,9 +142,8 @@ template <class At>
                                at_rows(c.law, rows, Law::over_length));
   Lane along{}, spring{}, friction_work{}, energy = normal.spring_energy;
   if (c.elastic_slip) {
-    const auto friction = kernels::coulomb_return(
-        at_points(*c.elastic_slip, rows), m.slip_rate * dt, normal.pressure,
-        at_rows(c.law, rows, Law::friction), kappa, halves(1 / stiffness[0], 1 / stiffness[1]));
+    const auto friction = friction_of(c, rows, touching, m.slip_rate * dt, normal.pressure, kappa,
+                                      halves(1 / stiffness[0], 1 / stiffness[1]), share);
     spring = friction.elastic_slip;
     along = friction.traction * weight;
     friction_work = friction.work * weight;

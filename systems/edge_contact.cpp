@@ -186,8 +186,10 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
                   Write<ContactPair<Contact>> pair, Write<ContactReach<Contact>> reach,
                   Read<ContactLaw<Contact>> law, Write<PointForce<Contact>> force,
                   Optional<Write<ElasticSlip<Contact>>> elastic_slip,
-                  Optional<Write<FrictionCouple>> couple, Write<ContactSums<Contact>> sums) {
-  const RowColumns<Contact> columns{pair, reach, law, force, elastic_slip};
+                  Optional<Read<FrictionMore<Contact>>> more,
+                  Optional<Write<StaticLost<Contact>>> lost, Optional<Write<FrictionCouple>> couple,
+                  Write<ContactSums<Contact>> sums) {
+  const RowColumns<Contact> columns{pair, reach, law, force, elastic_slip, more, lost};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
   const auto first_control = [&](int slot) {

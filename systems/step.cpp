@@ -44,6 +44,11 @@ StepList step_list_of(World& w) {
     force(w.has<HighestMode>(), "highest_mode", highest_mode<F::points>);
   };
 
+  const auto drives = [&] {
+    force(w.has<StageEnds>(),  "stage_control", stage_control);
+    force(w.has<ToolServos>(), "tool_servo",    tool_servo);
+  };
+
   force(tools || grips, "tool_motion", tool_motion);
   force(touching, "skin_check",       skin_check);
   force(pairs,    "bin_edges",        bin_edges);
@@ -54,11 +59,13 @@ StepList step_list_of(World& w) {
   force(touching, "contact_totals",   contact_totals);
   force(touching, "contact_health",   contact_health);
   force(tools && !grips, "tool_reaction", tool_reaction);
+  if (!grips) drives();
   // One pass over the chunks from here to the end of the step.
   force(touching, "contact_force",    contact_force);
   if (one_pass) bodies();
   force(grips,    "hold_grips",       hold_grips);
   force(grips,    "tool_reaction",    tool_reaction);  // theirs is known last
+  if (grips) drives();
 
   observe(true,    "kinetic_energy",  kinetic_energy);
   observe(true,    "elastic_energy",  elastic_energy<F>);

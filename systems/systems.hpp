@@ -7,37 +7,48 @@
 #include "components/contact.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
+#include "components/servo.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 
 namespace pulvis {
 
 // ---- tools and binning ------------------------------------------------------------------------
-void tool_motion(Read<Clock>, Read<ToolProgram>, Write<ToolPosition>, Write<ToolVelocity>);
+void tool_motion(Read<Clock>, Read<ToolProgram>, Optional<Read<ServoVelocity>>,
+                 Optional<Write<ServoTravel>>, Write<ToolPosition>, Write<ToolVelocity>);
+void stage_control(Read<ToolPosition>, Read<ToolForce>, Write<StageEnds>, Write<ToolProgram>,
+                   Write<Clock>);
+void tool_servo(Read<Clock>, Read<ToolProgram>, Read<ToolForce>, Write<ToolServos>,
+                Write<ServoMomentum>, Write<ServoVelocity>, Write<ServoForce>);
 void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<ToolPosition>>,
                 Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>, Write<CurveBefore>,
                 Write<ContactIndex>);
 void bin_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                Read<CurvePosition>, Write<ContactIndex>, Structural<Contact>,
                Write<ContactPair<Contact>>, Write<ContactLaw<Contact>>,
-               Write<ContactReach<Contact>>, Write<ClosestPoint>);
+               Write<ContactReach<Contact>>, Write<ClosestPoint>,
+               Optional<Write<FrictionMore<Contact>>>);
 void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                     Read<CurvePosition>, Read<ToolPosition>, Read<ToolNormal>, Write<ContactIndex>,
                     Structural<ToolContact>, Write<ContactPair<ToolContact>>,
                     Write<ContactLaw<ToolContact>>, Write<ContactReach<ToolContact>>,
-                    Optional<Read<ToolShapes>>, Optional<Write<SurfaceRange>>);
+                    Optional<Read<ToolShapes>>, Optional<Write<SurfaceRange>>,
+                    Optional<Write<FrictionMore<ToolContact>>>);
 
 // ---- narrow phase -----------------------------------------------------------------------------
 void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
                   Write<ClosestPoint>, Write<ContactPair<Contact>>, Write<ContactReach<Contact>>,
                   Read<ContactLaw<Contact>>, Write<PointForce<Contact>>,
-                  Optional<Write<ElasticSlip<Contact>>>, Optional<Write<FrictionCouple>>,
+                  Optional<Write<ElasticSlip<Contact>>>, Optional<Read<FrictionMore<Contact>>>,
+                  Optional<Write<StaticLost<Contact>>>, Optional<Write<FrictionCouple>>,
                   Write<ContactSums<Contact>>);
 void tool_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
                   Read<ToolPosition>, Read<ToolVelocity>, Read<ToolNormal>,
                   Write<ContactPair<ToolContact>>, Write<ContactReach<ToolContact>>,
                   Read<ContactLaw<ToolContact>>, Write<PointForce<ToolContact>>,
-                  Optional<Write<ElasticSlip<ToolContact>>>, Optional<Read<ToolShapes>>,
+                  Optional<Write<ElasticSlip<ToolContact>>>,
+                  Optional<Read<FrictionMore<ToolContact>>>,
+                  Optional<Write<StaticLost<ToolContact>>>, Optional<Read<ToolShapes>>,
                   Optional<Read<SurfaceRange>>, Write<ContactSums<ToolContact>>);
 void contact_totals(Optional<Read<ContactSums<Contact>>>, Optional<Read<ContactSums<ToolContact>>>,
                     Write<Totals>);
@@ -123,7 +134,8 @@ void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<She
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
                     Write<Totals>);
 void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolProgram>>,
-                   Read<Totals>, Optional<Read<ContactRules>>, Write<Clock>);
+                   Optional<Read<ServoVelocity>>, Read<Totals>, Optional<Read<ContactRules>>,
+                   Write<Clock>);
 
 // ---- used outside the step too --------------------------------------------------------------------
 // Where the programme puts a tool at `time`, m.

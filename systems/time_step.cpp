@@ -67,12 +67,16 @@ template void stable_time_step<4>(Chunk, Read<Bodies>, Read<Clock>, Read<Positio
 namespace {
 
 // Of all tools, from `time` on. Their velocities are those of the step before: too little while they speed up.
-double farthest_way(const ToolProgram& program, double time, double dt) {
+double farthest_way(const ToolProgram& program, const Optional<Read<ServoVelocity>>& servo,
+                    double time, double dt) {
   double farthest = 0;
   for (int t = 0; t < static_cast<int>(program.names.size()); ++t) {
     const Point now = tool_position_at(program, t, time);
     const Point next = tool_position_at(program, t, time + dt);
-    farthest = std::max(farthest, std::hypot(next[0] - now[0], next[1] - now[1]));
+    double way = std::hypot(next[0] - now[0], next[1] - now[1]);
+    const Row<Tool> tool(t);
+    if (servo) way += std::hypot((*servo)(tool, 0), (*servo)(tool, 1)) * dt;
+    farthest = std::max(farthest, way);
   }
   return farthest;
 }
@@ -80,8 +84,8 @@ double farthest_way(const ToolProgram& program, double time, double dt) {
 }  // namespace
 
 void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
-                   Optional<Read<ToolProgram>> program, Read<Totals> totals,
-                   Optional<Read<ContactRules>> rules, Write<Clock> clock) {
+                   Optional<Read<ToolProgram>> program, Optional<Read<ServoVelocity>> servo,
+                   Read<Totals> totals, Optional<Read<ContactRules>> rules, Write<Clock> clock) {
   const bool looked = clock->step >= clock->next_look;
   std::int64_t interval = most_steps_between_looks;
   if (speed) {
@@ -90,7 +94,7 @@ void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> spe
     fastest *= clock->dt;
     const double way =
         fastest +
-        std::max(fastest, program ? farthest_way(**program, clock->time, clock->dt) : 0.0);
+        std::max(fastest, program ? farthest_way(**program, servo, clock->time, clock->dt) : 0.0);
     clock->travel += way;
     const double strain = way / (*rules)->shortest_edge;  // of an edge in a step, at most
     if (looked) {

@@ -16,9 +16,10 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
                   Write<ContactPair<ToolContact>> pair, Write<ContactReach<ToolContact>> reach,
                   Read<ContactLaw<ToolContact>> law, Write<PointForce<ToolContact>> force,
                   Optional<Write<ElasticSlip<ToolContact>>> elastic_slip,
-                  Optional<Read<ToolShapes>> shapes, Optional<Read<SurfaceRange>> range,
-                  Write<ContactSums<ToolContact>> sums) {
-  const RowColumns<ToolContact> columns{pair, reach, law, force, elastic_slip};
+                  Optional<Read<FrictionMore<ToolContact>>> more,
+                  Optional<Write<StaticLost<ToolContact>>> lost, Optional<Read<ToolShapes>> shapes,
+                  Optional<Read<SurfaceRange>> range, Write<ContactSums<ToolContact>> sums) {
+  const RowColumns<ToolContact> columns{pair, reach, law, force, elastic_slip, more, lost};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
 

@@ -2,6 +2,7 @@
 // tool_reaction: what the particles do to each tool, and the work that the tools have done.
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
+#include "components/servo.hpp"
 #include "engine/access.hpp"
 #include "systems/systems.hpp"
 #include "systems/tool_kernel.hpp"
@@ -12,14 +13,16 @@ Point tool_position_at(const ToolProgram& program, int tool, double time) {
   Point at = program.start[static_cast<std::size_t>(tool)];
   for (const ToolProgram::Segment& s : program.segments) {
     if (s.tool != tool) continue;
-    const double share = kernels::smooth_travel((time - s.begin) / s.duration, s.ramp);
+    const double share =
+        kernels::cut_travel((time - s.begin) / s.duration, s.ramp, (s.cut - s.begin) / s.duration);
     at[0] += share * s.displacement[0];
     at[1] += share * s.displacement[1];
   }
   return at;
 }
 
-void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Write<ToolPosition> position,
+void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Optional<Read<ServoVelocity>> servo,
+                 Optional<Write<ServoTravel>> servo_travel, Write<ToolPosition> position,
                  Write<ToolVelocity> velocity) {
   for (int t = 0; t < position.rows(); ++t) {
     const Row<Tool> tool(t);
@@ -29,6 +32,10 @@ void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Write<ToolPositio
       const double moved = now[static_cast<std::size_t>(k)] - before[static_cast<std::size_t>(k)];
       velocity(tool, k) = clock->dt_before > 0 ? moved / clock->dt_before : 0;
       position(tool, k) = now[static_cast<std::size_t>(k)];
+      if (!servo) continue;
+      (*servo_travel)(tool, k) += (*servo)(tool, k) * clock->dt_before;
+      velocity(tool, k) += (*servo)(tool, k);
+      position(tool, k) += (*servo_travel)(tool, k);
     }
   }
 }

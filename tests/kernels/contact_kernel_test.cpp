@@ -165,6 +165,12 @@ TEST(NormalTraction, DampingAddsItsShareOfTheRate) {
   EXPECT_NEAR(t.damping_power, 2 * 2e8, 1e-14 * 3.2e9);
 }
 
+template <class T>
+Friction<T> coulomb_return(T elastic_slip, T slip, T pressure, T mu, T kappa, T over_kappa) {
+  Coulomb<T> law{mu};
+  return friction_return(elastic_slip, slip, pressure, law, kappa, over_kappa);
+}
+
 TEST(CoulombReturn, TractionStaysInTheConeAndWorkIsNeverGiven) {
   Random random(4);
   const double mu = 0.3, kappa = 3e15;
@@ -218,6 +224,45 @@ TEST(CoulombReturn, LosingThePressureLosesTheSpring) {
   const auto f = coulomb_return(5e-8, 0.0, 0.0, 0.3, 3e15, 1 / 3e15);
   EXPECT_EQ(f.traction, 0);
   EXPECT_EQ(f.elastic_slip, 0);
+}
+
+// mu(s) = mu_d + (mu_s - mu_d) e^(-s/L) under steady sliding, of first order in the step.
+TEST(WeakeningFriction, FallsFromStaticToDynamicAsAnExponential) {
+  const double kappa = 3e15, p = 1e8, length = 1e-4, infinite = 1e300;
+  double worst[2] = {0, 0};
+  for (int fine = 0; fine < 2; ++fine) {
+    Weakening<double> law{0.2, 0.3, 1 / length, infinite, 0};
+    const double step = fine == 0 ? 1e-6 : 1e-7;
+    double slip = 0, way = 0;
+    for (int i = 0; i < (fine == 0 ? 400 : 4000); ++i) {
+      const double slid = way - slip;  // what the spring does not keep
+      const auto f = friction_return(slip, step, p, law, kappa, 1 / kappa);
+      slip = f.elastic_slip;
+      const double exact = 0.2 + 0.3 * std::exp(-slid / length);
+      worst[fine] = std::max(worst[fine], std::abs(-f.traction / p - exact));
+      way += step;
+    }
+  }
+  EXPECT_LT(worst[1], 2e-4);
+  EXPECT_NEAR(worst[0] / worst[1], 10, 1.5);
+}
+
+TEST(WeakeningFriction, HoldsWhatIsBelowTheStaticStrength) {
+  const double kappa = 3e15, p = 1e8;
+  Weakening<double> law{0.2, 0.3, 1e4, 1e300, 0};
+  const auto f = friction_return(0.0, 0.45 * p / kappa, p, law, kappa, 1 / kappa);
+  EXPECT_DOUBLE_EQ(f.traction, -0.45 * p);
+  EXPECT_EQ(law.lost, 0);
+  EXPECT_EQ(f.work, 0);
+}
+
+TEST(WeakeningFriction, NeverPassesTheShearStrength) {
+  const double kappa = 3e15;
+  Weakening<double> law{0.3, 0, 0, 5e7, 0};
+  for (const double p : {1e8, 1e9, 1e10}) {
+    const auto f = friction_return(0.0, 1.0, p, law, kappa, 1 / kappa);
+    EXPECT_DOUBLE_EQ(f.traction, -std::min(0.3 * p, 5e7));
+  }
 }
 
 TEST(ContactKernels, LanesGiveTheBitsOfTheScalar) {

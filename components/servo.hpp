@@ -1,0 +1,68 @@
+// Tools that hold a force, and stages that end when something is reached: only in scenes that ask for them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/shape.hpp"
+
+namespace pulvis {
+
+// ---- servos ---------------------------------------------------------------------------------------
+struct ServoTravel : Component<Tool, double, 2> {
+  static constexpr ComponentInfo info{"servo_travel", "m", "way that servos have moved it so far"};
+};
+struct ServoVelocity : Component<Tool, double, 2> {
+  static constexpr ComponentInfo info{"servo_velocity", "m/s", "of its servo, over the next step"};
+};
+struct ServoMomentum : Component<Tool, double, 1> {
+  static constexpr ComponentInfo info{"servo_momentum", "N s", "of the mass that its servo moves"};
+};
+struct ServoForce : Component<Tool, double, 2> {
+  static constexpr ComponentInfo info{"servo_force", "N",
+                                      "asked for now, and what the tool bore when its stage began"};
+};
+
+// What drives a tool while a stage lasts: a mass between the tool and the set force, and a dashpot in
+// series with it (systems/servo_kernel.hpp).
+struct ToolServos {
+  static constexpr const char* resource_name = "tool_servos";
+  struct Servo {
+    int tool = 0;
+    int stage = 0;
+    Point direction{};        // unit vector: the way it pushes
+    double force = 0;         // N, to be held
+    double rise = 0;          // s, until it is asked for in full
+    double rate = 0;          // N/s, instead of it; 0: none
+    double mass = 0;          // kg
+    double damping = 0;       // N s/m
+    double fastest = 0;       // m/s
+    double tolerance = 0.05;  // -, of the force, at the end of the stage
+  };
+  std::vector<Servo> servos;
+  std::size_t stage = static_cast<std::size_t>(-1);  // in which the last step was
+};
+
+// ---- stages that end early ------------------------------------------------------------------------
+struct StageEnds {
+  static constexpr const char* resource_name = "stage_ends";
+  enum class Kind { force, displacement, density };
+  struct End {
+    int stage = 0;
+    Kind kind = Kind::force;
+    int tool = 0;       // whose force or way it is
+    Point direction{};  // the force along it; zero: the size of the resultant
+    double value = 0;   // N, m or -
+    bool reached = false;
+  };
+  struct Cell {  // tools around the powder, and its area: what relative density is
+    int left = 0, right = 0, bottom = 0, top = 0;
+    double particle_area = 0;  // m^2
+  };
+  std::vector<End> ends;
+  Cell cell;
+  std::vector<Point> tools_at_begin;  // m, [tools]: where they stood when the stage began
+  std::size_t stage = static_cast<std::size_t>(-1);
+};
+
+}  // namespace pulvis
