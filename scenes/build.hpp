@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "components/run_state.hpp"
 #include "engine/world.hpp"
 #include "scenes/scene.hpp"
 
@@ -28,6 +29,6 @@ Needs needs_of(const Scene& scene, std::size_t particles);
 std::unique_ptr<World> build_world(const Scene& scene);
 
 // Coulomb coefficient between two materials, or a material and a tool.
-double friction_of(const Scene& scene, const std::string& a, const std::string& b);
+ContactRules::Friction friction_of(const Scene& scene, const std::string& a, const std::string& b);
 
 }  // namespace pulvis

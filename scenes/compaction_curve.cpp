@@ -23,7 +23,8 @@ Walls walls_of(const Scene& scene, const DieCell& cell) {
   const std::string left = scene.tools[static_cast<std::size_t>(cell.left)].name;
   const std::string right = scene.tools[static_cast<std::size_t>(cell.right)].name;
   for (const MaterialSpec& m : scene.materials) {
-    const double both = friction_of(scene, left, m.name) + friction_of(scene, right, m.name);
+    const double both = friction_of(scene, left, m.name).coefficient +
+                        friction_of(scene, right, m.name).coefficient;
     const bool first = &m == &scene.materials.front();
     if (!first && (0.5 * both != walls.friction || m.poissons_ratio != walls.poissons_ratio))
       walls.unlike = "materials differ in wall friction or Poisson's ratio";

@@ -107,7 +107,7 @@ TEST(ContactNetwork, ChangesTheMomentumOfEveryParticle) {
 TEST(ContactNetwork, IsInEquilibriumAtRest) {
   Scene scene = read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/compaction/regular-25.toml",
                            with(pressed, {"contact.damping=0.5"}));
-  scene.stages.push_back({"hold", StageSpec::Kind::hold, 2e-3, {}, {}});
+  scene.stages.emplace_back().duration = 2e-3;
   Experiment e(std::move(scene));
   e.run(2);
   const double mean = e.value("network/mean_force");

@@ -20,7 +20,7 @@ Scene two_discs(double distance, double angle, double friction = 0) {
   BodySpec left, right;
   right.position = distance * Vec2(std::cos(angle), std::sin(angle));
   scene.bodies = {left, right};
-  scene.stages = {{"stage", StageSpec::Kind::settle, 1e-3, {}, {}}};
+  scene.stages.emplace_back().duration = 1e-3;
   scene.contact.friction = friction;
   return scene;
 }
@@ -113,7 +113,7 @@ class BentBar {
     BodySpec bar, far;
     far.position = Vec2(0, 0.2);
     scene.bodies = {bar, far};
-    scene.stages = {{"stage", StageSpec::Kind::settle, 1e-3, {}, {}}};
+    scene.stages.emplace_back().duration = 1e-3;
     scene.contact.friction = 0.3;
     world = build_world(scene);
     for (std::size_t i = 0; i < nodes(); ++i)
@@ -177,7 +177,7 @@ TEST(SelfContact, TheFarSideOfAThinPartIsNotTouched) {
   BodySpec one, other;
   other.position = Vec2(0, 1e-3);
   scene.bodies = {one, other};
-  scene.stages = {{"stage", StageSpec::Kind::settle, 1e-3, {}, {}}};
+  scene.stages.emplace_back().duration = 1e-3;
   const auto world = build_world(scene);
   Contacts contacts(*world);
   contacts.update();

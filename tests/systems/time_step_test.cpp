@@ -16,7 +16,7 @@ Scene one_particle(const Outline& outline, const MeshSpec& mesh, double nu) {
   scene.materials = {{"elastic", 1000, 1e6, nu, {}, 0, {}}};
   scene.particles = {{"particle", 0, outline, mesh, false, 0, {}}};
   scene.bodies = {BodySpec{}};
-  scene.stages = {{"stage", StageSpec::Kind::settle, 1, {}, {}}};
+  scene.stages.emplace_back().duration = 1;
   return scene;
 }
 
