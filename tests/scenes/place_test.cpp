@@ -9,6 +9,8 @@
 #include <chrono>
 #include <numbers>
 
+#include "shipped_scenes.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -59,7 +61,11 @@ BodySpec at(double x, double y, int particle = 0, double angle = 0) {
 }
 
 ToolSpec plane(const std::string& name, const Vec2& point, const Vec2& normal) {
-  return {name, point, normal.normalized(), {}};
+  ToolSpec tool;
+  tool.name = name;
+  tool.point = point;
+  tool.normal = normal.normalized();
+  return tool;
 }
 
 Scene scene_of(std::vector<BodySpec> bodies) {
@@ -223,11 +229,9 @@ duration = "1 s"
 }
 
 TEST(CheckOverlaps, EveryShippedSceneHasRoom) {
-  const auto folder = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() != ".toml") continue;
-    const Scene scene = read_scene(entry.path());
-    EXPECT_NO_THROW(check_overlaps(scene, place_bodies(scene))) << entry.path();
+  for (const auto& file : shipped_scenes()) {
+    const Scene scene = read_scene(file);
+    EXPECT_NO_THROW(check_overlaps(scene, place_bodies(scene))) << file;
   }
 }
 

@@ -7,19 +7,14 @@
 
 #include <numbers>
 
+#include "shipped_scenes.hpp"
+
 namespace pulvis {
 namespace {
 
 using testing::HasSubstr;
 
 const std::filesystem::path folder = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
-
-std::vector<std::filesystem::path> shipped_scenes() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  return files;
-}
 
 constexpr const char* smallest = R"(family = "compaction"
 [[material]]

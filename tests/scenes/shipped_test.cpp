@@ -5,19 +5,19 @@
 #include <filesystem>
 
 #include "experiment.hpp"
+#include "shipped_scenes.hpp"
 
 namespace pulvis {
 namespace {
 
+// Those of studies belong to their studies, which ask for trends.
 std::vector<std::string> shipped() {
   const std::filesystem::path root = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
   std::vector<std::string> scenes;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "extreme" &&
-        entry.path().parent_path().filename() != "lab" &&  // settings of a reduction, no scene
-        entry.path().string().find("/studies/") == std::string::npos)  // study_read_test.cpp
-      scenes.push_back(std::filesystem::relative(entry.path(), root).string());
-  std::ranges::sort(scenes);
+  for (const std::filesystem::path& file : shipped_scenes()) {
+    const std::string name = std::filesystem::relative(file, root).string();
+    if (!name.starts_with("extreme/") && !name.starts_with("studies/")) scenes.push_back(name);
+  }
   return scenes;
 }
 
