@@ -165,6 +165,11 @@ void print_end(const Run& run) {
     fmt::print("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",
                r.value("relative_density"), r.value("stress_ratio/axial"),
                r.value("stress_ratio/lateral"));
+  if (const auto shear = r.shear().figures())
+    fmt::print(
+        "friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
+        shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,
+        shear->dilation * 1e3);
   if (!run.verdicts.empty()) fmt::print("expectations\n");
   for (const Verdict& verdict : run.verdicts) fmt::print("  {}\n", verdict.text());
   fmt::print("results in {}\n", run.folder.string());

@@ -89,6 +89,23 @@ Json expectations_json(const std::vector<Verdict>& verdicts) {
   return list;
 }
 
+void add_stages(Json& json, const World& world) {
+  if (!world.has<ToolProgram>()) return;
+  for (const ToolProgram::Stage& stage : world.resource<ToolProgram>().stages)
+    json["stages"].push_back({{"name", stage.name}, {"begin", stage.begin}, {"end", stage.end}});
+}
+
+void add_shear(Json& json, const Results& results) {
+  const auto figures = results.shear().figures();
+  if (!figures) return;
+  json["shear"] = {{"distance", figures->distance},
+                   {"static_friction", figures->static_friction},
+                   {"dynamic_friction", figures->dynamic_friction},
+                   {"dynamic_deviation", figures->dynamic_deviation},
+                   {"normal_stress", figures->normal_stress},
+                   {"dilation", figures->dilation}};
+}
+
 }  // namespace
 
 std::string program_version() { return PULVIS_VERSION; }
@@ -119,6 +136,8 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
   json["limits"] = limits_json(scene.limits);
   json["tools"] = tools_json(scene, world);
   json["materials"] = materials_json(scene);
+  add_stages(json, world);
+  add_shear(json, results);
   add_compaction(json, scene, curve);
   if (!verdicts.empty()) json["expectations"] = expectations_json(verdicts);
   const std::filesystem::path path = folder / "summary.json";

@@ -198,6 +198,7 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   add_series("least_jacobian", "-", "smallest det F so far");
   add_series("dt", "s", "time step");
   for (const SeriesInfo& observed : observed_series(scene)) series.push_back(observed);
+  for (const SeriesInfo& of_shear : ShearResults::series(scene)) series.push_back(of_shear);
   return series;
 }
 
@@ -211,7 +212,8 @@ Results::Results(const Scene& scene, const World& world)
     : world_(world),
       cell_(die_cell(scene)),
       yield_stress_(common_yield_stress(scene)),
-      series_(history_series(scene)) {
+      series_(history_series(scene)),
+      shear_(scene, world) {
   for_each_particle<Node>(world, [&](std::size_t, int, const Shape& shape) {
     particle_area_ += shape.area;
     elements_ += shape.elements();
@@ -237,6 +239,7 @@ Results::Results(const Scene& scene, const World& world)
     fields_.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
   for (const FieldInfo& observed : observed_fields(scene)) fields_.push_back(observed);
+  for (const FieldInfo& of_shear : ShearResults::fields(scene)) fields_.push_back(of_shear);
 }
 
 RunMesh Results::mesh() const {
@@ -340,6 +343,7 @@ std::vector<double> Results::sample() {
   row.push_back(least_jacobian());
   row.push_back(world_.resource<Clock>().dt);
   append_observed_sample(world_, cell_ ? die_size().prod() : 0, row);
+  shear_.append_sample(row);
   last_ = row;
   return row;
 }
@@ -362,6 +366,7 @@ std::vector<std::vector<double>> Results::frame() const {
     }
   });
   append_observed_frame(world_, fields);
+  shear_.append_frame(fields);
   return fields;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/record.hpp"
 #include "engine/world.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/shear_results.hpp"
 
 namespace pulvis {
 
@@ -63,6 +64,7 @@ class Results {
   // Smallest det F of any element at any step so far.
   double least_jacobian() const;
   std::int64_t elements() const { return elements_; }
+  const ShearResults& shear() const { return shear_; }
   double end_time() const { return world_.resource<Clock>().end; }
 
  private:
@@ -86,6 +88,7 @@ class Results {
   double tool_energy_ = 0;       // J, of all particles moving as fast as the fastest tool
   double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
   std::vector<std::pair<double, double>> kinetic_internal_;
+  ShearResults shear_;
   bool first_ = true;
 };
 
