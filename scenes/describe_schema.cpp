@@ -116,6 +116,11 @@ std::string last_word(const schema::TableView& view) {
   return view.info.path.substr(view.info.path.rfind('.') + 1);
 }
 
+std::vector<const char*> tables_required(const std::string& family) {
+  if (family == "afm") return {"lever"};
+  return {"particle", "stage"};
+}
+
 // For one value of the selector: the keys it requires, and the keys of other values forbidden, in
 // the table itself and in the tables below it.
 Json branch(const schema::TableView& view, const std::string& selected) {
@@ -128,6 +133,11 @@ Json branch(const schema::TableView& view, const std::string& selected) {
   for (const schema::TableView* child : children(view.info.path))
     if (child->info.selector == view.info.selector)
       properties[last_word(*child)] = branch(*child, selected);
+  if (view.info.path.empty()) {
+    for (const schema::TableView* child : children(""))
+      if (!schema::belongs(child->info, selected)) properties[last_word(*child)] = false;
+    for (const char* table : tables_required(selected)) required.push_back(table);
+  }
   Json json{{"properties", properties}};
   if (!required.empty()) json["required"] = required;
   return json;
@@ -168,8 +178,6 @@ std::string scene_json_schema() {
             {"$comment", "Generated from the declarations in scenes/declare_*.cpp."}};
   json.update(table(schema::all_tables().front()));
   json["required"].push_back("material");
-  json["required"].push_back("particle");
-  json["required"].push_back("stage");
   return json.dump(2) + "\n";
 }
 

@@ -11,16 +11,12 @@
 #include <variant>
 #include <vector>
 
+#include "scenes/afm_scene.hpp"
+#include "scenes/source_mark.hpp"
+
 namespace pulvis {
 
 using Vec2 = Eigen::Vector2d;
-
-// One place of a scene file, kept with every object so that errors found after reading (an overlap, a
-// particle outside the die) still point at the line that caused them.
-struct SourceMark {
-  int line = 0;
-  int column = 0;
-};
 
 struct MaterialSpec {
   std::string name;
@@ -226,6 +222,7 @@ struct Scene {
   OutputSpec output;
   LimitSpec limits;
   std::vector<ExpectSpec> expects;  // [[expect]]
+  std::optional<AfmScene> afm;      // family = "afm": then there are no particles, tools and stages
 };
 
 }  // namespace pulvis

@@ -83,8 +83,12 @@ void fill(document::Value& value, const TableView& view, const std::string& pare
     if (wanted && document::find(table, key.name) == nullptr)
       table.push_back({key.name, origin, placed(*key.fallback, origin)});
   }
-  for (const TableView& child : all_tables())
-    if (is_child(child.info, view.info.path)) fill_child(table, origin, child.info, selected);
+  for (const TableView& child : all_tables()) {
+    if (!is_child(child.info, view.info.path)) continue;
+    if (view.info.path.empty() && !belongs(child.info, selected)) continue;
+    const bool shared = child.info.selector == view.info.selector;
+    fill_child(table, origin, child.info, shared ? selected : "");
+  }
 }
 
 }  // namespace
@@ -100,7 +104,8 @@ const std::vector<TableView>& all_tables() {
       view(top_level()), view(material()), view(particle()), view(mesh()),
       view(body()),      view(packing()),  view(tool()),     view(stage()),
       view(move()),      view(friction()), view(contact()),  view(element()),
-      view(time()),      view(output()),   view(limits()),   view(expect())};
+      view(time()),      view(output()),   view(limits()),   view(lever()),
+      view(tip()),       view(laser()),    view(detector()), view(expect())};
   return tables;
 }
 
@@ -109,6 +114,10 @@ const TableView* find_table(const std::string& path) {
   const auto found = std::find_if(tables.begin(), tables.end(),
                                   [&](const TableView& view) { return view.info.path == path; });
   return found == tables.end() ? nullptr : &*found;
+}
+
+bool belongs(const TableInfo& info, const std::string& family) {
+  return info.path.empty() || !every_family.has(family) || info.families.has(family);
 }
 
 const KeyInfo* find_key(const TableView& table, const std::string& name) {

@@ -3,6 +3,7 @@
 // values all come from these declarations (declare_*.cpp).
 #pragma once
 
+#include "scenes/afm_scene.hpp"
 #include "scenes/document.hpp"
 
 #include <algorithm>
@@ -58,6 +59,9 @@ struct Words {
   }
 };
 
+// Families of experiments, for tables and keys that belong to some of them.
+inline const Words compaction_only{"compaction"}, afm_only{"afm"}, every_family{"compaction", "afm"};
+
 struct KeyInfo {
   std::string name = {};
   Kind kind = Kind::text;
@@ -92,6 +96,7 @@ struct TableInfo {
   bool repeated;         // [[material]], any number of times; otherwise [contact], at most once
   std::string selector;  // the key that only_for compares, here or in the parent table
   std::string doc;
+  Words families = {"compaction"};  // of experiments that have this table
 };
 
 template <class Spec>
@@ -128,9 +133,15 @@ const TableDeclaration<TimeSpec>& time();
 const TableDeclaration<OutputSpec>& output();
 const TableDeclaration<LimitSpec>& limits();
 const TableDeclaration<ExpectSpec>& expect();
+const TableDeclaration<LeverSpec>& lever();
+const TableDeclaration<TipSpec>& tip();
+const TableDeclaration<LaserSpec>& laser();
+const TableDeclaration<DetectorSpec>& detector();
 
 const std::vector<TableView>& all_tables();  // top level first, a parent before its children
 const TableView* find_table(const std::string& path);
+// Whether a table below the top level belongs to the family; of an unknown family all do.
+bool belongs(const TableInfo& info, const std::string& family);
 const KeyInfo* find_key(const TableView& table, const std::string& name);
 std::string joined_path(const std::string& path, const std::string& key);
 std::vector<std::string> known_words(const TableView& table);  // its keys and child tables
