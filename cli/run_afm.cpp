@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 
@@ -13,7 +17,11 @@
 #include "engine/output_error.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
+#include "scenes/afm_figures.hpp"
+#include "scenes/afm_loop.hpp"
+#include "scenes/afm_scene.hpp"
 #include "scenes/afm_simulation.hpp"
+#include "scenes/expectations.hpp"
 #include "systems/run_failure.hpp"
 
 namespace pulvis {
@@ -65,28 +73,115 @@ void write_frames(const std::filesystem::path& folder, const LoadedScene& loaded
   recorder.finish();
 }
 
+std::vector<double> positions(const AfmSimulation& simulation, const RunMesh& mesh) {
+  const double* u =
+      const_cast<AfmSimulation&>(simulation).world().column<Displacement>().values();
+  std::vector<double> x = mesh.reference;
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
+  return x;
+}
+
+std::atomic<bool> interrupted{false};
+void interrupt(int) { interrupted = true; }
+
+struct ProgrammeEnd {
+  bool done = false;
+  std::string failure;
+};
+
+// Runs the actions and keeps their history; some sixty frames of the solid, the last one included.
+ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScene& loaded,
+                           int threads, AfmSimulation& simulation, AfmHistory& history) {
+  const RunMesh mesh = mesh_of(simulation);
+  Recorder recorder(folder,
+                    {program_version(), program_commit(), loaded.scene.title,
+                     fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
+                    mesh, afm_series(), {{"position", "m", "of the node", FieldPlace::node, 3}});
+  std::size_t total = 1;
+  for (const ActionSpec& action : loaded.scene.afm->actions)
+    total += static_cast<std::size_t>(action.increments) * (action.back ? 2 : 1);
+  const std::size_t every = std::max<std::size_t>(1, total / 60);
+  const auto frame = [&](double time) {
+    recorder.frame(time, static_cast<std::int64_t>(history.rows.size()),
+                   {positions(simulation, mesh)});
+  };
+  ProgrammeEnd end;
+  try {
+    end.done = simulation.run([&](double time, const std::vector<double>& row) {
+      history.times.push_back(time);
+      history.rows.push_back(row);
+      recorder.sample(time, row);
+      if (history.rows.size() % every == 1 || every == 1) frame(time);
+      return !interrupted;
+    });
+  } catch (const RunFailure& failure) {
+    end.failure = failure.what();
+  }
+  if (!history.times.empty()) frame(history.times.back());
+  recorder.finish(end.done ? "done" : end.failure.empty() ? "interrupted" : end.failure);
+  return end;
+}
+
+std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
+                           const std::map<std::string, double>& figures,
+                           const std::string& failure, int threads) {
+  Expectations expectations(loaded.scene);
+  for (std::size_t i = 0; i < history.rows.size(); ++i)
+    expectations.sample(history.times[i],
+                        [&](const std::string& name) { return history.value(i, name); });
+  const double end = static_cast<double>(loaded.scene.afm->actions.size());
+  return expectations.judge([&](const std::string& name) { 
+        const auto found = figures.find(name);  // a run that was stopped has no loops
+        return found == figures.end() ? std::nan("") : found->second;
+      }, end,
+                            failure.empty() ? std::nullopt : std::optional(failure), threads);
+}
+
+void print_end(const AfmReport& report, const std::filesystem::path& folder) {
+  fmt::print("{}", calibration_text(report.calibration));
+  for (const FrictionLoop& loop : report.loops) fmt::print("{}", loop_text(loop));
+  fmt::print("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
+             report.increments, report.wall_seconds);
+  if (!report.verdicts.empty()) fmt::print("expectations\n");
+  for (const Verdict& verdict : report.verdicts) fmt::print("  {}\n", verdict.text());
+  fmt::print("results in {}\n", folder.string());
+}
+
 }  // namespace
 
 ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder, int threads,
                  bool overwrite) {
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
   const auto start = std::chrono::steady_clock::now();
   AfmSimulation simulation(loaded.scene, threads);
   open_run_folder(folder, overwrite);
   write_text(folder / "scene.toml", loaded.text);
-  try {
-    const Calibration calibration = simulation.calibrate();
+  AfmReport report;
+  AfmHistory history;
+  ProgrammeEnd end{true, ""};
+  report.calibration = simulation.calibrate();
+  if (loaded.scene.afm->actions.empty())
     write_frames(folder, loaded, threads, simulation);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    write_text(folder / "summary.json",
-               afm_summary(loaded, simulation, calibration, {threads, seconds, "done"}));
-    fmt::print("{}{} elements, {} nodes, {:.2f} s\nresults in {}\n", calibration_text(calibration),
-               simulation.model().elements, simulation.model().nodes, seconds, folder.string());
-    return ExitCode::done;
-  } catch (const RunFailure& failure) {
-    fmt::print(stderr, "pulvis: the run went bad: {}\n", failure.what());
-    return ExitCode::run_failed;
-  }
+  else
+    end = run_programme(folder, loaded, threads, simulation, history);
+  if (end.done) report.loops = friction_loops(loaded.scene, history);
+  report.elements = simulation.model().elements;
+  report.nodes = simulation.model().nodes;
+  report.increments = history.rows.empty() ? 0 : history.rows.size() - 1;
+  report.threads = threads;
+  report.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.outcome = end.done ? "done" : end.failure.empty() ? "interrupted" : "failed: " + end.failure;
+  if (end.done || !end.failure.empty())
+    report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
+                            end.failure, threads);
+  write_text(folder / "summary.json", afm_summary(loaded, report));
+  print_end(report, folder);
+  const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);
+  if (!expected) fmt::print(stderr, "pulvis: the run went bad: {}\n", end.failure);
+  if (!end.done && end.failure.empty()) return ExitCode::interrupted;
+  return expected && all_met(report.verdicts) ? ExitCode::done : ExitCode::run_failed;
 }
 
 ExitCode check_afm_scene(const Scene& scene) {

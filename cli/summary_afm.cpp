@@ -53,23 +53,58 @@ Json calibration_json(const Calibration& c) {
   return json;
 }
 
+Json loop_json(const FrictionLoop& loop) {
+  Json json{{"action", loop.action},
+            {"load", loop.load},
+            {"forth", loop.forth},
+            {"back", loop.back},
+            {"half_width", loop.half_width},
+            {"offset", loop.offset},
+            {"volts_half_width", loop.volts_half_width},
+            {"volts_offset", loop.volts_offset}};
+  if (loop.friction) json["friction"] = *loop.friction;
+  if (loop.sensitivity) json["sensitivity"] = *loop.sensitivity;
+  return json;
+}
+
 }  // namespace
 
-std::string afm_summary(const LoadedScene& loaded, const AfmSimulation& simulation,
-                        const Calibration& calibration, const AfmRunCost& cost) {
-  const AfmModel& model = const_cast<AfmSimulation&>(simulation).model();
-  const Json json{{"title", loaded.scene.title},
-                  {"outcome", cost.outcome},
-                  {"version", program_version()},
-                  {"commit", program_commit()},
-                  {"scene_hash", fmt::format("{:016x}", loaded.hash)},
-                  {"threads", cost.threads},
-                  {"instruction_set", instruction_set()},
-                  {"wall_seconds", cost.wall_seconds},
-                  {"elements", model.elements},
-                  {"nodes", model.nodes},
-                  {"calibration", calibration_json(calibration)}};
+std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
+  Json json{{"title", loaded.scene.title},
+            {"family", "afm"},
+            {"outcome", report.outcome},
+            {"version", program_version()},
+            {"commit", program_commit()},
+            {"scene_hash", fmt::format("{:016x}", loaded.hash)},
+            {"threads", report.threads},
+            {"instruction_set", instruction_set()},
+            {"wall_seconds", report.wall_seconds},
+            {"elements", report.elements},
+            {"nodes", report.nodes},
+            {"increments", report.increments},
+            {"calibration", calibration_json(report.calibration)}};
+  for (const FrictionLoop& loop : report.loops) json["loops"].push_back(loop_json(loop));
+  for (const Verdict& verdict : report.verdicts) {
+    Json entry{{"what", verdict.what},
+               {"measured", verdict.measured},
+               {"expected", verdict.allowed},
+               {"met", verdict.met}};
+    if (verdict.value) entry["value"] = *verdict.value;
+    json["expectations"].push_back(entry);
+  }
   return json.dump(2) + "\n";
+}
+
+std::string loop_text(const FrictionLoop& loop) {
+  std::string text = fmt::format(
+      "friction loop of action {}: load {:.5g} N, W {:.5g} N, Delta {:.5g} N; W/L {:.5f}, "
+      "Delta/L {:.5f}\n",
+      loop.action, loop.load, loop.half_width, loop.offset, loop.half_width / loop.load,
+      loop.offset / loop.load);
+  if (loop.friction)
+    text += fmt::format("  wedge calibration of the detector: friction {:.5f}, {:.5g} N/V\n",
+                        *loop.friction, *loop.sensitivity);
+  return text;
 }
 
 std::string calibration_text(const Calibration& c) {

@@ -1,3 +1,4 @@
+#include "scenes/afm_scene.hpp"
 #include "scenes/afm_build.hpp"
 
 #include <Eigen/Geometry>
@@ -62,6 +63,19 @@ std::vector<SlopeGauge> laser_spot(const Scene& scene, const LeverMesh& lever) {
   return spot;
 }
 
+// The node of the tip's end nearest to its middle.
+int middle_node(const SolidDraft& draft, const Gauge& end) {
+  Vec3 middle = Vec3::Zero();
+  for (const auto& s : end) middle += s.weight * draft.nodes[static_cast<std::size_t>(s.node)];
+  int nearest = end.front().node;
+  const auto distance = [&](int n) {
+    return (draft.nodes[static_cast<std::size_t>(n)] - middle).norm();
+  };
+  for (const auto& s : end)
+    if (distance(s.node) < distance(nearest)) nearest = s.node;
+  return nearest;
+}
+
 std::array<Lame, 4> part_materials(const Scene& scene) {
   const AfmScene& afm = *scene.afm;
   const auto of = [&](int material) {
@@ -77,9 +91,11 @@ AfmModel build_afm(const Scene& scene) {
   const AfmScene& afm = *scene.afm;
   AfmModel model;
   SolidDraft draft;
-  const LeverMesh lever = add_lever(draft, afm.lever);
+  const LeverMesh lever =
+      add_lever(draft, afm.lever, lever_plan(afm.lever, lever_foot(afm.lever, afm.tip)));
   model.tip = add_tip(draft, afm.lever, lever, afm.tip);
   model.end = model.tip.end;
+  model.contact_node = middle_node(draft, model.end);
   const Vec2 axis = tip_axis(afm.lever, afm.tip);
   model.foot = on_plane(lever, axis, 0);
   model.foot_slope = slope_at(lever, afm.lever, axis, 0);
@@ -93,6 +109,22 @@ AfmModel build_afm(const Scene& scene) {
   model.elements = draft.hexahedra.size();
   model.world = finish_solid(draft, part_materials(scene));
   return model;
+}
+
+Vec3 clamp_force(const AfmModel& model) {
+  const auto& mesh = model.world->resource<SolidMesh>();
+  const double* force = model.world->column<SolidForce>().values();
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 0; n < model.nodes; ++n)
+    if (mesh.supports_of(static_cast<int>(n)).empty()) sum += Vec3(force + 3 * n);
+  return sum;
+}
+
+double elastic_energy(const AfmModel& model) {
+  const auto& energy = model.world->column<ElementEnergy>();
+  double sum = 0;
+  for (std::size_t e = 0; e < energy.table.rows; ++e) sum += energy.values()[e];
+  return sum;
 }
 
 Vec3 read(const Gauge& gauge, const double* field) {

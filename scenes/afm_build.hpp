@@ -1,6 +1,7 @@
 // The solid of an AFM scene, and where to read it: tip, foot, laser spot, clamp.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "engine/world.hpp"
@@ -26,10 +27,16 @@ struct AfmModel {
   SlopeGauge foot_slope;      // there
   std::vector<SlopeGauge> spot;  // points of the laser spot, on the lever's back
   TipMesh tip;
+  int contact_node = 0;              // of a sharp tip's end: the one in its middle
+  double normal_stiffness = 0;       // N/m, at rest; 0 until it was calibrated
+  std::array<double, 3> first_touch{};  // m, where the target was then
   std::size_t nodes = 0, elements = 0;
 };
 
 AfmModel build_afm(const Scene& scene);
+
+Vec3 clamp_force(const AfmModel& model);       // N, of the clamp on the lever
+double elastic_energy(const AfmModel& model);  // J
 
 // Mean of a nodal field [3 nodes].
 Vec3 read(const Gauge& gauge, const double* field);

@@ -1,3 +1,4 @@
+#include "scenes/afm_scene.hpp"
 #include "scenes/afm_checks.hpp"
 
 #include <fmt/format.h>
@@ -6,6 +7,7 @@
 #include <numbers>
 
 #include "scenes/lever_mesh.hpp"
+#include "scenes/target_shape.hpp"
 #include "scenes/tip_mesh.hpp"
 
 namespace pulvis {
@@ -27,6 +29,7 @@ class AfmChecks {
     tip();
     laser();
     mesh_size();
+    actions();
   }
 
  private:
@@ -98,7 +101,7 @@ class AfmChecks {
   }
 
   bool foot_on_lever(double reach) const {
-    const PlanMesh plan = lever_plan(lever_);
+    const PlanMesh plan = lever_plan(lever_, lever_foot(lever_, tip_));
     const Vec2 axis = tip_axis(lever_, tip_);
     const bool square = tip_.shape == Shape::block || tip_.shape == Shape::pyramid;
     for (int i = 0; i < 32; ++i) {
@@ -112,7 +115,7 @@ class AfmChecks {
 
   void laser() {
     const LaserSpec& laser = scene_.afm->laser;
-    const PlanMesh plan = lever_plan(lever_);
+    const PlanMesh plan = lever_plan(lever_, lever_foot(lever_, tip_));
     const Vec2 middle(laser.position.value_or(lever_.length - tip_.set_back), laser.offset);
     for (int i = 0; i < 8; ++i) {
       const double angle = 0.25 * std::numbers::pi * i;
@@ -129,9 +132,59 @@ class AfmChecks {
   void mesh_size() {
     constexpr std::size_t most = 200'000;  // hexahedra: 600 MB with the factors
     const std::size_t count =
-        lever_plan(lever_).quads.size() * static_cast<std::size_t>(lever_.layers);
+        lever_plan(lever_, lever_foot(lever_, tip_)).quads.size() * static_cast<std::size_t>(lever_.layers);
     if (count > most)
       refuse("lever.aspect", fmt::format("{} elements, allowed: {} at most", count, most));
+  }
+
+  void actions() {
+    const AfmScene& afm = *scene_.afm;
+    if (afm.actions.empty()) return;
+    if (!afm.target)
+      return refuse("action[0]", "there is no surface, allowed: [[action]] with a [surface]");
+    bool pressed = false;
+    for (std::size_t i = 0; i < afm.actions.size(); ++i) {
+      const ActionSpec& action = afm.actions[i];
+      const std::string path = fmt::format("action[{}]", i);
+      const bool press = action.kind == ActionSpec::Kind::press;
+      if (press && (action.distance != 0) == action.force.has_value())
+        refuse(path + ".distance", "neither or both of distance and force are given, allowed: one");
+      if (action.force && *action.force <= 0)
+        refuse(path + ".force", fmt::format("{:g} N, allowed: > 0 N", *action.force));
+      if (action.servo && !pressed)
+        refuse(path + ".set_point", "there is no force to keep yet, allowed: after a press");
+      pressed = pressed || press;
+    }
+    map();
+  }
+
+  void map() {
+    const TargetSpec& target = *scene_.afm->target;
+    if (target.shape != TargetSpec::Shape::map) return;
+    try {
+      const auto heights = read_height_map(scene_.file.parent_path() / target.file);
+      inside_map(TargetSpec::Direction::lateral, heights.size());
+      inside_map(TargetSpec::Direction::along, heights.front().size());
+    } catch (const std::runtime_error& error) {
+      refuse("surface.file", fmt::format("'{}': {}, allowed: lines of numbers in m, separated by "
+                                         "commas, all as long",
+                                         target.file, error.what()));
+    }
+  }
+
+  // Where the probe's end comes to on the map, its own deflection left aside.
+  void inside_map(TargetSpec::Direction direction, std::size_t points) {
+    const double bound = 0.5 * scene_.afm->target->spacing * static_cast<double>(points - 1);
+    double at = 0;
+    for (std::size_t i = 0; i < scene_.afm->actions.size(); ++i) {
+      const ActionSpec& action = scene_.afm->actions[i];
+      if (action.kind != ActionSpec::Kind::scan || action.direction != direction) continue;
+      if (std::abs(at + action.distance) > bound)
+        refuse(fmt::format("action[{}].distance", i),
+               fmt::format("the scan leaves the map: it comes to {:g} m, allowed: {:g} to {:g} m",
+                           at + action.distance, -bound, bound));
+      if (!action.back) at += action.distance;
+    }
   }
 
   const Scene& scene_;

@@ -1,3 +1,4 @@
+#include "scenes/afm_scene.hpp"
 #include "scenes/afm_closed_forms.hpp"
 
 #include <cmath>

@@ -3,6 +3,7 @@
 
 #include "engine/workers.hpp"
 #include "scenes/afm_calibration.hpp"
+#include "scenes/afm_programme.hpp"
 #include "systems/static_solver.hpp"
 
 namespace pulvis {
@@ -19,14 +20,19 @@ class AfmSimulation {
   Calibration calibrate();
   // Displacements [3 nodes] by 1 N at the tip's end; after calibrate().
   std::vector<double> unit_displacements(const Vec3& direction);
+  // Calibrates, puts the target under the tip and runs the scene's actions; see AfmProgramme.
+  bool run(const AfmProgramme::Record& record);
   // Equilibrium under a dead load at the tip's end, from the present state.
   NewtonReport load_tip(const Vec3& force, const NewtonSettings& settings = {});
 
  private:
+  Calibration calibrate_here();  // inside the workers
+
   const Scene& scene_;
   AfmModel model_;
   Workers workers_;
   std::unique_ptr<StaticSolver> solver_;
+  double stiffest_ = 0;  // N/m, of the tip's end
 };
 
 }  // namespace pulvis

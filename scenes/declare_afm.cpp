@@ -1,4 +1,5 @@
 // Declarations of the atomic force microscope: lever, tip, laser, detector.
+#include "scenes/afm_scene.hpp"
 #include "scenes/declare.hpp"
 
 namespace pulvis::schema {
@@ -154,6 +155,14 @@ std::vector<Key<TipSpec>> tip_keys() {
         .doc = "Material of the neck.",
         .fallback_doc = "that of the ball"},
        [](TipSpec& tip, const Decoded& value) { tip.glue = value.index; }},
+      {{.name = "end_radius",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = within(0, largest_size),
+        .fallback = value_of("0 m"),
+        .only_for = solid,
+        .doc = "Rounding of the end where it touches a surface; the ball touches as meshed."},
+       to(&TipSpec::end_radius)},
       {place_of("set_back", "Distance of its axis from the lever's end."), to(&TipSpec::set_back)},
       {place_of("offset", "Distance of its axis from the lever's axis, along +y."),
        to(&TipSpec::offset)},

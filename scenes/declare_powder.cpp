@@ -1,6 +1,7 @@
 // Declarations of what a powder is made of: the top level, materials, particle classes.
 #include <concepts>
 
+#include "scenes/afm_scene.hpp"
 #include "scenes/declare.hpp"
 
 namespace pulvis::schema {
@@ -56,7 +57,7 @@ const TableDeclaration<Scene>& top_level() {
          .required = true,
          .doc = "What kind of experiment this is."},
         [](Scene& scene, const Decoded& value) {
-          if (value.index == 1) scene.afm.emplace();
+          if (value.index == 1) scene.afm = std::make_shared<AfmScene>();
         }},
        {{.name = "title",
          .kind = Kind::text,

@@ -9,42 +9,53 @@ namespace {
 // However large the elements may be: as many as the shape of the deformation needs.
 constexpr int fewest_along = 20, fewest_across = 4;
 
-int count(double length, double edge, int fewest) {
-  return std::max(fewest, static_cast<int>(std::ceil(length / edge * (1 - 1e-9))));
+std::vector<double> shares_of(std::vector<double> lines) {
+  const double whole = lines.back();
+  for (double& x : lines) x /= whole;
+  return lines;
 }
-int even(int n) { return n + n % 2; }
 
-PlanMesh beam_plan(const LeverSpec& lever, double edge) {
-  const double l = lever.length, half = 0.5 * lever.width;
+PlanMesh beam_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
+  const double l = lever.length, w = lever.width;
   PlanMesh mesh;
-  add_patch(mesh, {Vec2(0, -half), Vec2(l, -half), Vec2(l, half), Vec2(0, half)},
-            count(l, edge, fewest_along), even(count(lever.width, edge, fewest_across)), 1e-9 * l);
+  add_patch(mesh, {Vec2(0, -0.5 * w), Vec2(l, -0.5 * w), Vec2(l, 0.5 * w), Vec2(0, 0.5 * w)},
+            shares_of(graded_lines(l, edge, foot.size, foot.x, fewest_along)),
+            shares_of(graded_lines(w, edge, foot.size, foot.y + 0.5 * w, fewest_across)), 1e-9 * l);
   return mesh;
 }
 
-// The triangle of a pointed V in three patches that meet in its middle.
-void add_triangle(PlanMesh& mesh, const Vec2& inner, const Vec2& apex, const Vec2& outer, int half,
-                  double tolerance) {
-  const Vec2 middle = (inner + apex + outer) / 3;
-  const Vec2 ia = 0.5 * (inner + apex), ao = 0.5 * (apex + outer), oi = 0.5 * (outer + inner);
-  add_patch(mesh, {inner, ia, middle, oi}, half, half, tolerance);
-  add_patch(mesh, {ia, apex, ao, middle}, half, half, tolerance);
-  add_patch(mesh, {middle, ao, outer, oi}, half, half, tolerance);
+// Lines of the apex plate, from the inner corner to the end: as far apart as its width shrinks, so that
+// elements keep their shape towards a point, and finer at the foot.
+std::vector<double> apex_lines(const VOutline& v, double end, double edge, const LeverFoot& foot) {
+  const double length = end - v.inner;
+  const double slope = std::tan(v.half_angle);
+  std::vector<double> lines{0};
+  while (lines.back() < length) {
+    const double x = v.inner + lines.back();
+    const double size = std::min({edge, 0.3 * (v.apex - x) * slope,
+                                  foot.size + 0.4 * std::abs(x - foot.x)});
+    lines.push_back(lines.back() + size);
+  }
+  for (double& x : lines) x *= length / lines.back();
+  return lines;
 }
 
-PlanMesh v_plan(const LeverSpec& lever, double edge) {
+PlanMesh v_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
   const VOutline v = v_outline(lever);
   const double slope = std::tan(v.half_angle), tolerance = 1e-9 * lever.length;
+  // A pointed lever is cut off where it is a fiftieth of an arm wide: nothing beyond carries load.
+  const double end = std::min(lever.length, v.apex - 0.01 * lever.arm_width / slope);
   const Vec2 inner(v.inner, 0), outer(v.inner, (v.apex - v.inner) * slope);
-  const int across = even(count(lever.arm_width, edge, fewest_across));
+  const double width = std::max((v.apex - std::min(foot.x, end)) * slope, foot.size);
+  const auto across = shares_of(
+      graded_lines(1, edge / lever.arm_width, foot.size / width, 0, fewest_across));
+  const double arm = v.inner / std::cos(v.half_angle);
   PlanMesh half;
   add_patch(half, {Vec2(0, v.inner * slope), inner, outer, Vec2(0, v.apex * slope)},
-            count(v.inner / std::cos(v.half_angle), edge, fewest_along), across, tolerance);
-  if (lever.apex_width > 0)
-    add_patch(half, {inner, Vec2(lever.length, 0), Vec2(lever.length, 0.5 * lever.apex_width), outer},
-              count(lever.length - v.inner, edge, fewest_across), across, tolerance);
-  else
-    add_triangle(half, inner, Vec2(lever.length, 0), outer, across / 2, tolerance);
+            shares_of(graded_lines(arm, edge, lever.arm_width / 8, arm, fewest_along)), across,
+            tolerance);
+  add_patch(half, {inner, Vec2(end, 0), Vec2(end, (v.apex - end) * slope), outer},
+            shares_of(apex_lines(v, end, edge, foot)), across, tolerance);
   return with_mirror_image(half, tolerance);
 }
 
@@ -62,13 +73,14 @@ VOutline v_outline(const LeverSpec& lever) {
   return v;
 }
 
-PlanMesh lever_plan(const LeverSpec& lever) {
+PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot) {
   const double edge = lever.aspect * lever.thickness;
-  return lever.shape == LeverSpec::Shape::beam ? beam_plan(lever, edge) : v_plan(lever, edge);
+  return lever.shape == LeverSpec::Shape::beam ? beam_plan(lever, edge, foot)
+                                               : v_plan(lever, edge, foot);
 }
 
-LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever) {
-  LeverMesh mesh{lever_plan(lever), {}};
+LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever, PlanMesh plan) {
+  LeverMesh mesh{std::move(plan), {}};
   const double t = lever.thickness;
   for (int i = 0; i <= lever.layers; ++i) mesh.levels.push_back(t * i / lever.layers - 0.5 * t);
   if (lever.coating) mesh.levels.push_back(0.5 * t + lever.coating_thickness);

@@ -15,7 +15,11 @@ struct VOutline {
 };
 VOutline v_outline(const LeverSpec& lever);
 
-PlanMesh lever_plan(const LeverSpec& lever);
+// Where a tip stands, and how small the elements have to be there.
+struct LeverFoot {
+  double x = 0, y = 0, size = 0;  // m
+};
+PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot);
 
 struct LeverMesh {
   PlanMesh plan;
@@ -26,6 +30,6 @@ struct LeverMesh {
   }
 };
 // Puts the lever into an empty draft, clamped where x = 0.
-LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever);
+LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever, PlanMesh plan);
 
 }  // namespace pulvis

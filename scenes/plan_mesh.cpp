@@ -57,16 +57,49 @@ void add_grid(PlanMesh& mesh, int along, int across, double tolerance,
       mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
 }
 
-void add_patch(PlanMesh& mesh, const std::array<Vec2, 4>& corners, int along, int across,
-               double tolerance) {
-  add_grid(mesh, along, across, tolerance, [&](int i, int j) {
-    return blended(corners, static_cast<double>(i) / along, static_cast<double>(j) / across);
-  });
+void add_patch(PlanMesh& mesh, const std::array<Vec2, 4>& corners, const std::vector<double>& along,
+               const std::vector<double>& across, double tolerance) {
+  add_grid(mesh, static_cast<int>(along.size()) - 1, static_cast<int>(across.size()) - 1, tolerance,
+           [&](int i, int j) {
+             return blended(corners, along[static_cast<std::size_t>(i)],
+                            across[static_cast<std::size_t>(j)]);
+           });
+}
+
+std::vector<double> even_shares(int count) {
+  std::vector<double> shares;
+  for (int i = 0; i <= count; ++i) shares.push_back(static_cast<double>(i) / count);
+  return shares;
+}
+
+std::vector<double> graded_lines(double length, double edge, double fine, double at, int fewest) {
+  constexpr double growth = 0.4;
+  constexpr int samples = 4000;
+  edge = std::min(edge, length / fewest);
+  // Intervals so far, by the size that is wanted there.
+  std::vector<double> count{0};
+  for (int i = 0; i < samples; ++i) {
+    const double x = length * (i + 0.5) / samples;
+    count.push_back(count.back() + length / samples /
+                                       std::min(edge, fine + growth * std::abs(x - at)));
+  }
+  const auto intervals = static_cast<int>(std::ceil(count.back() - 1e-9));
+  std::vector<double> lines{0};
+  std::size_t i = 0;
+  for (int n = 1; n < intervals; ++n) {
+    const double wanted = count.back() * n / intervals;
+    while (count[i + 1] < wanted) ++i;
+    lines.push_back(length / samples *
+                    (static_cast<double>(i) + (wanted - count[i]) / (count[i + 1] - count[i])));
+  }
+  lines.push_back(length);
+  return lines;
 }
 
 PlanMesh unit_square(int across) {
   PlanMesh mesh;
-  add_patch(mesh, {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}, across, across, 1e-6);
+  add_patch(mesh, {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}, even_shares(across),
+            even_shares(across), 1e-6);
   return mesh;
 }
 
@@ -75,7 +108,7 @@ PlanMesh unit_disc(int across) {
   const int layers = std::max(1, across / 2);
   PlanMesh mesh;
   add_patch(mesh, {Vec2(-core, -core), Vec2(core, -core), Vec2(core, core), Vec2(-core, core)},
-            across, across, 1e-6);
+            even_shares(across), even_shares(across), 1e-6);
   for (int side = 0; side < 4; ++side)
     add_grid(mesh, layers, across, 1e-6, [&](int i, int j) {
       const double s = 2.0 * j / across - 1, t = static_cast<double>(i) / layers;

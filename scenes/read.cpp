@@ -1,3 +1,4 @@
+#include "scenes/afm_scene.hpp"
 #include "scenes/read.hpp"
 
 #include "engine/fnv1a.hpp"
@@ -90,6 +91,8 @@ class SceneReader {
     read_one(schema::tip(), afm.tip);
     read_one(schema::laser(), afm.laser);
     read_one(schema::detector(), afm.detector);
+    if (document::find(root_, "surface") != nullptr) read_one(schema::surface(), afm.target.emplace());
+    afm.actions = read_all(schema::action());
   }
 
   std::vector<ParticleSpec> read_particles() {
@@ -189,7 +192,7 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   else
     complete_and_check(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
-  if (read_other && !loaded.scene.afm) {
+  if (read_other) {
     complete_and_check_expectations(loaded.scene, read_other, reader.origins(), problems);
     problems.throw_if_any();
   }

@@ -6,12 +6,12 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "scenes/afm_scene.hpp"
 #include "scenes/source_mark.hpp"
 
 namespace pulvis {
@@ -204,6 +204,8 @@ struct ExpectSpec {
   SourceMark mark;
 };
 
+struct AfmScene;  // scenes/afm_scene.hpp
+
 struct Scene {
   std::filesystem::path file;
   std::string title;
@@ -222,7 +224,8 @@ struct Scene {
   OutputSpec output;
   LimitSpec limits;
   std::vector<ExpectSpec> expects;  // [[expect]]
-  std::optional<AfmScene> afm;      // family = "afm": then there are no particles, tools and stages
+  // family = "afm": then there are no particles, tools and stages. Not changed once it is read.
+  std::shared_ptr<AfmScene> afm;
 };
 
 }  // namespace pulvis

@@ -1,5 +1,6 @@
 #include "scenes/schema.hpp"
 
+#include "scenes/afm_scene.hpp"
 #include "scenes/problem.hpp"
 
 #include <fmt/format.h>
@@ -61,7 +62,7 @@ void fill_child(document::Table& table, const document::Origin& origin, const Ta
                 const std::string& selected) {
   const std::string key = last_word(child.path);
   document::Entry* entry = document::find(table, key);
-  if (entry == nullptr && child.repeated) return;
+  if (entry == nullptr && (child.repeated || child.optional)) return;
   if (entry == nullptr) {
     table.push_back({key, origin, {document::Table{}, origin}});
     entry = &table.back();
@@ -105,7 +106,8 @@ const std::vector<TableView>& all_tables() {
       view(body()),      view(packing()),  view(tool()),     view(stage()),
       view(move()),      view(friction()), view(contact()),  view(element()),
       view(time()),      view(output()),   view(limits()),   view(lever()),
-      view(tip()),       view(laser()),    view(detector()), view(expect())};
+      view(tip()),       view(laser()),    view(detector()), view(surface()),
+      view(action()),    view(expect())};
   return tables;
 }
 

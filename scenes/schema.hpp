@@ -3,7 +3,6 @@
 // values all come from these declarations (declare_*.cpp).
 #pragma once
 
-#include "scenes/afm_scene.hpp"
 #include "scenes/document.hpp"
 
 #include <algorithm>
@@ -14,6 +13,15 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace pulvis {
+struct LeverSpec;
+struct TipSpec;
+struct LaserSpec;
+struct DetectorSpec;
+struct TargetSpec;
+struct ActionSpec;
+}  // namespace pulvis
 
 namespace pulvis::schema {
 
@@ -97,6 +105,7 @@ struct TableInfo {
   std::string selector;  // the key that only_for compares, here or in the parent table
   std::string doc;
   Words families = {"compaction"};  // of experiments that have this table
+  bool optional = false;            // without it there is no such thing, not one with default values
 };
 
 template <class Spec>
@@ -137,6 +146,8 @@ const TableDeclaration<LeverSpec>& lever();
 const TableDeclaration<TipSpec>& tip();
 const TableDeclaration<LaserSpec>& laser();
 const TableDeclaration<DetectorSpec>& detector();
+const TableDeclaration<TargetSpec>& surface();
+const TableDeclaration<ActionSpec>& action();
 
 const std::vector<TableView>& all_tables();  // top level first, a parent before its children
 const TableView* find_table(const std::string& path);

@@ -1,6 +1,7 @@
 #include "scenes/solid_draft.hpp"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 #include "systems/static_solver.hpp"
@@ -9,6 +10,16 @@ namespace pulvis {
 namespace {
 
 constexpr int elements_of_chunk = 16;  // about a millisecond of work
+
+// Follows what a node hangs on down to free nodes; held ones drop out.
+void trace(const SolidDraft& draft, const SolidMesh::Support& support,
+           std::map<std::int32_t, double>& supports) {
+  const auto node = static_cast<std::size_t>(support.node);
+  if (draft.held[node] != 0) return;
+  if (draft.hanging[node].empty()) supports[support.node] += support.weight;
+  for (const auto& next : draft.hanging[node])
+    trace(draft, {next.node, support.weight * next.weight}, supports);
+}
 
 SolidMesh mesh_of(const SolidDraft& draft) {
   SolidMesh mesh;
@@ -20,8 +31,9 @@ SolidMesh mesh_of(const SolidDraft& draft) {
     const bool free = draft.held[n] == 0 && draft.hanging[n].empty();
     mesh.unknown.push_back(free ? mesh.unknowns++ : -1);
     if (free) mesh.supports.push_back({static_cast<std::int32_t>(n), 1.0});
-    for (const auto& support : draft.hanging[n])
-      if (draft.held[static_cast<std::size_t>(support.node)] == 0) mesh.supports.push_back(support);
+    std::map<std::int32_t, double> supports;
+    for (const auto& support : draft.hanging[n]) trace(draft, support, supports);
+    for (const auto& [node, weight] : supports) mesh.supports.push_back({node, weight});
     mesh.support_begin.push_back(static_cast<std::int32_t>(mesh.supports.size()));
   }
   const auto elements = static_cast<std::int32_t>(draft.hexahedra.size());
@@ -102,6 +114,11 @@ int SolidDraft::add_node(const Vec3& x) {
   held.push_back(0);
   hanging.emplace_back();
   return static_cast<int>(nodes.size()) - 1;
+}
+
+void SolidDraft::hang(int node, std::vector<SolidMesh::Support> on) {
+  if (held[static_cast<std::size_t>(node)] == 0)
+    hanging[static_cast<std::size_t>(node)] = std::move(on);
 }
 
 void SolidDraft::add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart of, bool is_thin) {

@@ -27,6 +27,8 @@ struct SolidDraft {
   std::vector<std::vector<SolidMesh::Support>> hanging;  // [nodes] empty: free or held
 
   int add_node(const Vec3& x);
+  // The supports may hang themselves; a held node stays held.
+  void hang(int node, std::vector<SolidMesh::Support> on);
   void add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart of, bool is_thin);
 };
 

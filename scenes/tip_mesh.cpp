@@ -46,7 +46,7 @@ std::vector<int> add_column(SolidDraft& draft, const PlanMesh& plan, int layers,
 void tie_to_lever(SolidDraft& draft, const LeverMesh& lever, int first, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto node = static_cast<std::size_t>(first) + i;
-    draft.hanging[node] = on_lower_face(lever, draft.nodes[node].head<2>());
+    draft.hang(first + static_cast<int>(i), on_lower_face(lever, draft.nodes[node].head<2>()));
   }
 }
 
@@ -120,6 +120,13 @@ double foot_reach(const TipSpec& tip) {
   if (tip.shape == Shape::none) return 0;
   if (tip.shape == Shape::sphere) return tip.neck_radius;
   return 0.5 * tip.foot;
+}
+
+LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip) {
+  const Vec2 axis = tip_axis(lever, tip);
+  const double reach = foot_reach(tip);
+  return {axis.x(), axis.y(),
+          reach > 0 ? std::max(reach, lever.thickness / 3) : lever.aspect * lever.thickness};
 }
 
 TipMesh add_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,

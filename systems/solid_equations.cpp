@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "systems/run_failure.hpp"
 #include "systems/solid_systems.hpp"
 
@@ -53,23 +55,37 @@ void fill_values(const SolidAssembly& assembly, const Read<BlockTangent>& block,
 
 }  // namespace
 
-void residual(Read<SolidMesh> mesh, Read<SolidForce> force, Read<AppliedForce> applied,
+void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce> force,
+              Read<AppliedForce> applied, Optional<Read<Target>> target,
+              Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
               Write<SolidEquations> equations) {
   auto& r = equations->residual;
   r.setZero(3 * mesh->unknowns);
-  Eigen::VectorXd sizes = Eigen::VectorXd::Zero(3 * mesh->unknowns);
-  for (int n = 0; n < force.rows(); ++n) {
-    const Row<SolidNode> row(n);
-    for (const auto& support : mesh->supports_of(n)) {
-      const int at = 3 * mesh->unknown[static_cast<std::size_t>(support.node)];
-      for (int k = 0; k < 3; ++k) {
-        r[at + k] += support.weight * (applied(row, k) - force(row, k));
-        sizes[at + k] += std::abs(support.weight * applied(row, k)) +
-                         std::abs(support.weight * force(row, k));
-      }
+  const auto add = [&](int n, int k, double f) {
+    for (const auto& support : mesh->supports_of(n))
+      r[3 * mesh->unknown[static_cast<std::size_t>(support.node)] + k] += support.weight * f;
+  };
+  double squares = 0, pushed = 0;
+  for (int n = 0; n < force.rows(); ++n)
+    for (int k = 0; k < 3; ++k) {
+      const Row<SolidNode> row(n);
+      add(n, k, applied(row, k) - force(row, k));
+      squares += applied(row, k) * applied(row, k);
     }
-  }
-  equations->scale = sizes.norm();
+  for (int i = 0; probe && i < probe->rows(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double f = (*probe)(Row<ProbePoint>(i), k);
+      add((*node)(Row<ProbePoint>(i)), k, f);
+      squares += f * f;
+      if (k == 2) pushed += f;
+    }
+  // Where a lever bends, the forces in its elements are far larger than those on it: they set the digits
+  // that the balance can have.
+  for (const double f : element.values()) squares += f * f;
+  equations->scale = std::sqrt(squares);
+  const bool servo = target && (*target)->servo;
+  equations->set_point_error =
+      servo ? ((*target)->set_point - pushed) / std::abs((*target)->set_point) : 0;
 }
 
 void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,

@@ -18,6 +18,8 @@ struct SolidEquations {
   Eigen::VectorXd residual;   // [3 unknowns] N: applied - of the stresses
   Eigen::VectorXd direction;  // [3 unknowns] m
   double scale = 0;           // N, the forces that must balance: root of the sum of squares
+  double set_point_error = 0;  // -, of the servo: what is missing over the set point
+  double height_step = 0;      // m, of the servo, together with the direction
 };
 
 }  // namespace pulvis

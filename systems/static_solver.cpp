@@ -1,5 +1,6 @@
 #include "systems/static_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "systems/solid_systems.hpp"
@@ -9,8 +10,11 @@ namespace {
 
 // ---- the order of an equilibrium iteration: a newcomer's first page ---------------------------
 std::vector<System> evaluation(World& w) {
-  return {make_system(w, "solid_element", solid_element), make_system(w, "solid_force", solid_force),
-          make_system(w, "residual", residual)};
+  std::vector<System> list{make_system(w, "solid_element", solid_element),
+                           make_system(w, "solid_force", solid_force)};
+  if (w.has<ProbeNode>()) list.push_back(make_system(w, "probe_contact", probe_contact));
+  list.push_back(make_system(w, "residual", residual));
+  return list;
 }
 
 std::vector<System> iteration(World& w) {
@@ -18,6 +22,7 @@ std::vector<System> iteration(World& w) {
   list.push_back(make_system(w, "block_tangent", block_tangent));
   list.push_back(make_system(w, "factorise", factorise));
   list.push_back(make_system(w, "newton_direction", newton_direction));
+  if (w.has<ProbeNode>()) list.push_back(make_system(w, "contact_direction", contact_direction));
   return list;
 }
 
@@ -47,12 +52,32 @@ void add_solid_columns(World& world) {
   world.emplace<SolidEquations>();
 }
 
+void add_probe_columns(World& world, std::size_t points) {
+  world.add_table<ProbePoint>(points);
+  world.add<ProbeNode>();
+  world.add<ProbeStiffness>();
+  world.add<ProbeShare>();
+  world.add<ProbeMemory>();
+  world.add<ProbeForce>();
+  world.add<ProbeTangent>();
+  world.add<ProbeState>();
+}
+
 StaticSolver::StaticSolver(World& world)
     : world_(world),
       iterate_(iteration(world), world.chunks()),
-      look_(evaluation(world), world.chunks()) {}
+      look_(evaluation(world), world.chunks()) {
+  if (world.has<ProbeNode>())
+    remember_ = std::make_unique<TaskGraph>(
+        std::vector<System>{make_system(world, "remember_contact", remember_contact)},
+        world.chunks());
+}
 
 StaticSolver::~StaticSolver() = default;
+
+void StaticSolver::remember() {
+  if (remember_) remember_->run();
+}
 
 void StaticSolver::linearise() { iterate_.run(); }
 
@@ -97,6 +122,17 @@ void StaticSolver::move(double share) {
   expand(mesh, equations.direction.data(), step.data());
   double* u = world_.column<Displacement>().values();
   for (std::size_t i = 0; i < step.size(); ++i) u[i] += share * step[i];
+  if (world_.has<Target>()) world_.resource<Target>().position[2] += share * equations.height_step;
+}
+
+void StaticSolver::search(double allowed, int cuts) {
+  double share = 1;
+  for (int i = 0; i < cuts; ++i) {
+    look_.run();
+    if (error() <= allowed) return;
+    share *= 0.5;
+    move(-share);
+  }
 }
 
 double StaticSolver::error() const {
@@ -105,22 +141,34 @@ double StaticSolver::error() const {
   return size == 0 ? 0 : size / equations.scale;
 }
 
-// The line search halves a step that would not lessen the residual: far from equilibrium the residual
-// of a thin lever, whose membrane is a million times stiffer than its bending, first rises and then
-// falls quadratically, so a rise is let pass while the step is small against the solid's own size.
+// Where a stiff tip hangs on a soft lever, round-off in its displacements leaves more than the tolerance:
+// a small residual that no longer falls is as good as it gets.
+bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& settings) const {
+  const double missing = std::abs(world_.resource<SolidEquations>().set_point_error);
+  if (missing > settings.servo_tolerance) return false;
+  const bool floor = r.size() > 1 && r.back() <= settings.round_off && r.back() > 0.1 * r[r.size() - 2];
+  return r.back() <= settings.tolerance || floor;
+}
+
+// The full step is taken at first: the residual of a thin lever, whose membrane is a million times stiffer
+// than its bending, rises far above its start and then falls quadratically. From the third iteration on
+// a step must not make it grow tenfold; it is halved until it does not.
 NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   NewtonReport report;
   auto& u = world_.column<Displacement>();
   const std::vector<double> start(u.values(), u.values() + u.bytes() / sizeof(double));
+  const double height = world_.has<Target>() ? world_.resource<Target>().position[2] : 0;
   for (int i = 0; i <= settings.iterations; ++i) {
     iterate_.run();
     report.residuals.push_back(error());
     if (!std::isfinite(report.residuals.back())) break;
-    report.converged = report.residuals.back() <= settings.tolerance;
+    report.converged = settled(report.residuals, settings);
     if (report.converged) return report;
     move(1);
+    if (i >= 2) search(10 * report.residuals.back(), settings.cuts);
   }
   std::copy(start.begin(), start.end(), u.values());
+  if (world_.has<Target>()) world_.resource<Target>().position[2] = height;
   return report;
 }
 

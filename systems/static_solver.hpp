@@ -15,6 +15,8 @@ namespace pulvis {
 
 struct NewtonSettings {
   double tolerance = 1e-10;  // -, residual over the forces that must balance
+  double round_off = 1e-7;   // -, the same, below which a residual that stays is round-off
+  double servo_tolerance = 1e-7;  // -, force that is missing over the set point
   int iterations = 25;       // after which the increment counts as failed
   int cuts = 12;             // halvings of a step that the line search tries
 };
@@ -26,6 +28,8 @@ struct NewtonReport {
 
 // Columns and resources that every solid needs; the mesh and the material are there already.
 void add_solid_columns(World& world);
+// Of a probe of so many points; the target is there already.
+void add_probe_columns(World& world, std::size_t points);
 
 class StaticSolver {
  public:
@@ -41,17 +45,25 @@ class StaticSolver {
   // Forces [3 nodes] that the elements put on their nodes at small displacements [3 nodes], of the last
   // linearisation, with the sign of what a held node receives from its holder.
   std::vector<double> held_forces(std::span<const double> displacements) const;
-  // Newton's method from the present displacements; they are left as they were where it fails.
+  // Newton's method from the present displacements; they are left as they were where it fails, and so is
+  // the target's height where a servo moves it.
   NewtonReport equilibrate(const NewtonSettings& settings = {});
+  // Evaluates the forces, no tangent.
+  void look() { look_.run(); }
+  // What the contact carries on to the next increment, from the present equilibrium.
+  void remember();
 
   const GraphPlan& plan() const { return iterate_.plan(); }
 
  private:
   void move(double share);
   double error() const;
+  bool settled(const std::vector<double>& residuals, const NewtonSettings& settings) const;
+  void search(double allowed, int cuts);
 
   World& world_;
   TaskGraph iterate_, look_;
+  std::unique_ptr<TaskGraph> remember_;
 };
 
 }  // namespace pulvis
