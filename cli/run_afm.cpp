@@ -74,8 +74,7 @@ void write_frames(const std::filesystem::path& folder, const LoadedScene& loaded
 }
 
 std::vector<double> positions(const AfmSimulation& simulation, const RunMesh& mesh) {
-  const double* u =
-      const_cast<AfmSimulation&>(simulation).world().column<Displacement>().values();
+  const double* u = const_cast<AfmSimulation&>(simulation).world().column<Displacement>().values();
   std::vector<double> x = mesh.reference;
   for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
   return x;
@@ -89,7 +88,7 @@ struct ProgrammeEnd {
   std::string failure;
 };
 
-// Runs the actions and keeps their history; some sixty frames of the solid, the last one included.
+// Runs the actions and keeps their history; some twelve frames of the solid, the last one included.
 ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScene& loaded,
                            int threads, AfmSimulation& simulation, AfmHistory& history) {
   const RunMesh mesh = mesh_of(simulation);
@@ -100,7 +99,7 @@ ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScen
   std::size_t total = 1;
   for (const ActionSpec& action : loaded.scene.afm->actions)
     total += static_cast<std::size_t>(action.increments) * (action.back ? 2 : 1);
-  const std::size_t every = std::max<std::size_t>(1, total / 60);
+  const std::size_t every = std::max<std::size_t>(1, total / 12);
   const auto frame = [&](double time) {
     recorder.frame(time, static_cast<std::int64_t>(history.rows.size()),
                    {positions(simulation, mesh)});
@@ -123,18 +122,19 @@ ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScen
 }
 
 std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
-                           const std::map<std::string, double>& figures,
-                           const std::string& failure, int threads) {
+                           const std::map<std::string, double>& figures, const std::string& failure,
+                           int threads) {
   Expectations expectations(loaded.scene);
   for (std::size_t i = 0; i < history.rows.size(); ++i)
     expectations.sample(history.times[i],
                         [&](const std::string& name) { return history.value(i, name); });
   const double end = static_cast<double>(loaded.scene.afm->actions.size());
-  return expectations.judge([&](const std::string& name) { 
+  return expectations.judge(
+      [&](const std::string& name) {
         const auto found = figures.find(name);  // a run that was stopped has no loops
         return found == figures.end() ? std::nan("") : found->second;
-      }, end,
-                            failure.empty() ? std::nullopt : std::optional(failure), threads);
+      },
+      end, failure.empty() ? std::nullopt : std::optional(failure), threads);
 }
 
 void print_end(const AfmReport& report, const std::filesystem::path& folder) {
@@ -172,7 +172,9 @@ ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder,
   report.threads = threads;
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  report.outcome = end.done ? "done" : end.failure.empty() ? "interrupted" : "failed: " + end.failure;
+  report.outcome = end.done              ? "done"
+                   : end.failure.empty() ? "interrupted"
+                                         : "failed: " + end.failure;
   if (end.done || !end.failure.empty())
     report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
                             end.failure, threads);

@@ -113,17 +113,19 @@ std::string calibration_text(const Calibration& c) {
     if (form.quantity == "k_n")
       text += fmt::format("  {:<42} {:.5g} N/m, finite elements {:+.2f}%\n", form.name, form.value,
                           100 * (c.normal_stiffness / form.value - 1));
-  text += fmt::format("lateral stiffness   k_l {:.5g} N/m (arm h {:.4g} um from the middle plane)\n",
-                      c.lateral_stiffness, c.arm * 1e6);
+  text +=
+      fmt::format("lateral stiffness   k_l {:.5g} N/m (arm h {:.4g} um from the middle plane)\n",
+                  c.lateral_stiffness, c.arm * 1e6);
   for (const ClosedForm& form : c.closed_forms)
     if (form.quantity == "k_l")
       text += fmt::format("  {:<42} {:.5g} N/m, finite elements {:+.2f}%\n", form.name, form.value,
                           100 * (c.lateral_stiffness / form.value - 1));
   text += fmt::format("torsional stiffness {:.5g} N m/rad; along the lever {:.5g} N/m\n",
                       c.torsional_stiffness, c.longitudinal_stiffness);
-  text += fmt::format("lateral displacement of the tip's end: {:.1f}% twist, {:.1f}% lateral bending, "
-                      "{:.1f}% in the tip\n",
-                      100 * c.twist_share, 100 * c.bending_share, 100 * c.tip_share);
+  text += fmt::format(
+      "lateral displacement of the tip's end: {:.1f}% twist, {:.1f}% lateral bending, "
+      "{:.1f}% in the tip\n",
+      100 * c.twist_share, 100 * c.bending_share, 100 * c.tip_share);
   text += fmt::format("InvOLS normal {:.4g} m/V, lateral {:.4g} m/V\n", c.normal_invols,
                       c.lateral_invols);
   return text;

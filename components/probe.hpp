@@ -59,8 +59,9 @@ struct Target {
   double pull_off = 0;               // N, adhesion at contact (DMT); 0: none
   double range = 0;                  // m, over which it fades: 1/(1 + gap/range)^2
   double end_radius = 0;             // m, of a sharp tip's end; 0 for nodes of a meshed surface
-  bool servo = false;                // the scanner's height follows so that ...
-  double set_point = 0;              // N, ... the target pushes the probe up with this force
+  bool stick = false;    // predictor: every point that touches sticks, whatever the force
+  bool servo = false;    // the scanner's height follows so that ...
+  double set_point = 0;  // N, ... the target pushes the probe up with this force
 };
 
 }  // namespace pulvis

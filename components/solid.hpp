@@ -73,8 +73,8 @@ struct SolidMesh {
   std::vector<std::uint8_t> part;           // [elements] 0 lever, 1 coating, 2 tip, 3 glue
   std::vector<std::int32_t> support_begin;  // [nodes + 1]; a free node's only support is itself
   std::vector<Support> supports;
-  std::vector<std::int32_t> unknown;  // [nodes] block of three equations; -1: held or hanging
-  std::int32_t unknowns = 0;          // free nodes
+  std::vector<std::int32_t> unknown;      // [nodes] block of three equations; -1: held or hanging
+  std::int32_t unknowns = 0;              // free nodes
   std::vector<std::int32_t> chunk_begin;  // [chunks + 1] into hexahedra
 
   std::span<const Support> supports_of(int n) const {
@@ -96,7 +96,8 @@ struct SolidAssembly {
   std::vector<Share> forces;
   std::vector<std::int32_t> block_begin;  // [blocks + 1] into shares
   std::vector<Share> shares;
-  std::vector<std::int32_t> column_begin;  // [unknowns + 1] into block_row: lower triangle by columns
+  std::vector<std::int32_t>
+      column_begin;  // [unknowns + 1] into block_row: lower triangle by columns
   std::vector<std::int32_t> block_row;
 };
 

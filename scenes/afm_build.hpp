@@ -21,14 +21,14 @@ struct SlopeGauge {
 
 struct AfmModel {
   std::unique_ptr<World> world;
-  Vec3 axis, side, up;        // of the lever at rest, in the frame of the sample; side = y
-  Gauge end;                  // tip's end
-  Gauge foot;                 // lever's middle plane above the tip
-  SlopeGauge foot_slope;      // there
+  Vec3 axis, side, up;           // of the lever at rest, in the frame of the sample; side = y
+  Gauge end;                     // tip's end
+  Gauge foot;                    // lever's middle plane above the tip
+  SlopeGauge foot_slope;         // there
   std::vector<SlopeGauge> spot;  // points of the laser spot, on the lever's back
   TipMesh tip;
-  int contact_node = 0;              // of a sharp tip's end: the one in its middle
-  double normal_stiffness = 0;       // N/m, at rest; 0 until it was calibrated
+  int contact_node = 0;                 // of a sharp tip's end: the one in its middle
+  double normal_stiffness = 0;          // N/m, at rest; 0 until it was calibrated
   std::array<double, 3> first_touch{};  // m, where the target was then
   std::size_t nodes = 0, elements = 0;
 };
@@ -46,6 +46,7 @@ Vec3 read(const Gauge& gauge, const double* field);
 struct Slopes {
   double normal = 0, lateral = 0;
 };
-Slopes slopes(const AfmModel& model, const std::vector<SlopeGauge>& gauges, const double* displacement);
+Slopes slopes(const AfmModel& model, const std::vector<SlopeGauge>& gauges,
+              const double* displacement);
 
 }  // namespace pulvis

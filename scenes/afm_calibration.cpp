@@ -1,5 +1,5 @@
-#include "scenes/afm_scene.hpp"
 #include "scenes/afm_calibration.hpp"
+#include "scenes/afm_scene.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

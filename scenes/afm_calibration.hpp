@@ -15,12 +15,13 @@ struct UnitResponse {
   Vec3 foot;       // m/N, of the middle plane above the tip
   Slopes spot;     // rad/N, of the laser spot
   Slopes at_foot;  // rad/N
-  Vec3 clamp_force, clamp_moment;  // N, N m (about the clamp's middle) by N: of the clamp on the lever
+  Vec3 clamp_force,
+      clamp_moment;  // N, N m (about the clamp's middle) by N: of the clamp on the lever
 };
 
 struct Calibration {
   UnitResponse normal, lateral, longitudinal;  // to forces along z, y, x
-  double arm = 0;  // m, h: from the middle plane to the tip's end
+  double arm = 0;                              // m, h: from the middle plane to the tip's end
   double normal_stiffness = 0, lateral_stiffness = 0, longitudinal_stiffness = 0;  // N/m
   double torsional_stiffness = 0;  // N m/rad, of the foot, by the lateral force's moment about it
   // -, of the end's lateral displacement: the lever bends, the foot twists, the tip itself gives way.

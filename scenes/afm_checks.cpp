@@ -1,5 +1,5 @@
-#include "scenes/afm_scene.hpp"
 #include "scenes/afm_checks.hpp"
+#include "scenes/afm_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -18,12 +18,16 @@ using Shape = TipSpec::Shape;
 class AfmChecks {
  public:
   AfmChecks(const Scene& scene, const schema::Origins& origins, Problems& problems)
-      : scene_(scene), lever_(scene.afm->lever), tip_(scene.afm->tip), origins_(origins),
+      : scene_(scene),
+        lever_(scene.afm->lever),
+        tip_(scene.afm->tip),
+        origins_(origins),
         problems_(problems) {}
 
   void run() {
     if (scene_.materials.empty())
-      problems_.add({{1, 1}, -1}, "material", "none is declared, allowed: at least one [[material]]");
+      problems_.add({{1, 1}, -1}, "material",
+                    "none is declared, allowed: at least one [[material]]");
     coating();
     if (!outline()) return;
     tip();
@@ -50,8 +54,9 @@ class AfmChecks {
   bool outline() {
     if (lever_.shape == LeverSpec::Shape::beam) return good_;
     if (lever_.half_angle.has_value() == lever_.base_width.has_value()) {
-      refuse("lever.half_angle", "neither or both of half_angle and base_width are given, allowed: "
-                                 "one of them");
+      refuse("lever.half_angle",
+             "neither or both of half_angle and base_width are given, allowed: "
+             "one of them");
       return false;
     }
     if (lever_.base_width && *lever_.base_width <= lever_.apex_width) {
@@ -62,9 +67,10 @@ class AfmChecks {
     const VOutline v = v_outline(lever_);
     const double widest = v.apex * std::sin(v.half_angle);
     if (v.inner <= 0)
-      refuse("lever.arm_width", fmt::format("{:g} m: the arms of this V grow together at the clamp, "
-                                            "allowed: < {:g} m",
-                                            lever_.arm_width, widest));
+      refuse("lever.arm_width",
+             fmt::format("{:g} m: the arms of this V grow together at the clamp, "
+                         "allowed: < {:g} m",
+                         lever_.arm_width, widest));
     const double least = (v.apex - lever_.length) * std::sin(v.half_angle);
     if (v.inner >= lever_.length)
       refuse("lever.arm_width", fmt::format("{:g} m: the arms of this V do not meet before its "
@@ -131,8 +137,8 @@ class AfmChecks {
 
   void mesh_size() {
     constexpr std::size_t most = 200'000;  // hexahedra: 600 MB with the factors
-    const std::size_t count =
-        lever_plan(lever_, lever_foot(lever_, tip_)).quads.size() * static_cast<std::size_t>(lever_.layers);
+    const std::size_t count = lever_plan(lever_, lever_foot(lever_, tip_)).quads.size() *
+                              static_cast<std::size_t>(lever_.layers);
     if (count > most)
       refuse("lever.aspect", fmt::format("{} elements, allowed: {} at most", count, most));
   }

@@ -1,5 +1,5 @@
-#include "scenes/afm_scene.hpp"
 #include "scenes/afm_closed_forms.hpp"
+#include "scenes/afm_scene.hpp"
 
 #include <cmath>
 
@@ -31,11 +31,11 @@ double neumeister_ducker_normal(const V& v) {
   const double one = 3 / (v.e * t3 * std::tan(v.alpha)) * ((c - 2 * d) * (c - 2 * d) + logarithm);
   const double r = (l * std::tan(v.alpha) + (v.w - d * std::sin(v.alpha)) * (1 - v.nu) * cosine) /
                    (2 - (1 - v.nu) * cosine * cosine);
-  const double two = l * l / (v.e * v.w * t3 * cosine * cosine) *
-                     (2 * l / cosine +
-                      3 * (v.w / std::tan(v.alpha) - d * cosine - r * std::sin(v.alpha)));
-  const double slope = 3 * l * (1 + v.nu) / (v.e * v.w * t3 * cosine) *
-                       (c - d + r / std::tan(v.alpha));
+  const double two =
+      l * l / (v.e * v.w * t3 * cosine * cosine) *
+      (2 * l / cosine + 3 * (v.w / std::tan(v.alpha) - d * cosine - r * std::sin(v.alpha)));
+  const double slope =
+      3 * l * (1 + v.nu) / (v.e * v.w * t3 * cosine) * (c - d + r / std::tan(v.alpha));
   return 1 / (one + two + slope * (c - d));
 }
 
@@ -57,8 +57,7 @@ double noy_lateral(double normal, double nu, double alpha, double l, double h) {
 
 double sader_parallel_beam(double e, double w, double t, double l, double b, double alpha) {
   const double ratio = w / b, c = std::cos(alpha);
-  return e * t * t * t * w / (2 * l * l * l) * c /
-         (1 + 4 * ratio * ratio * ratio * (3 * c - 2));
+  return e * t * t * t * w / (2 * l * l * l) * c / (1 + 4 * ratio * ratio * ratio * (3 * c - 2));
 }
 
 }  // namespace closed_form
@@ -94,8 +93,7 @@ std::vector<ClosedForm> of_v(const LeverSpec& lever, const TipSpec& tip, const M
   if (v.d > 0)
     forms.push_back({"k_l", "Neumeister & Ducker 1994, torsion alone",
                      closed_form::neumeister_ducker_torsion(v, h)});
-  forms.push_back(
-      {"k_l", "Noy 1995", closed_form::noy_lateral(noy, nu, o.half_angle, load_at, h)});
+  forms.push_back({"k_l", "Noy 1995", closed_form::noy_lateral(noy, nu, o.half_angle, load_at, h)});
   return forms;
 }
 
@@ -106,9 +104,8 @@ std::vector<ClosedForm> closed_forms(const Scene& scene) {
   const TipSpec& tip = scene.afm->tip;
   const MaterialSpec& m = scene.materials[static_cast<std::size_t>(lever.material)];
   const double h = tip.shape == TipSpec::Shape::none ? 0 : tip_height(tip) + 0.5 * lever.thickness;
-  return lever.shape == LeverSpec::Shape::beam
-             ? of_beam(lever, m, lever.length - tip.set_back, h)
-             : of_v(lever, tip, m, h);
+  return lever.shape == LeverSpec::Shape::beam ? of_beam(lever, m, lever.length - tip.set_back, h)
+                                               : of_v(lever, tip, m, h);
 }
 
 }  // namespace pulvis

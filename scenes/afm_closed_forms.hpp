@@ -29,7 +29,8 @@ double beam_torsion(double e, double nu, double l, double w, double t, double h)
 double beam_lateral_bending(double e, double l, double w, double t);
 
 struct V {
-  double e, nu, length;  // Pa, -, m: of the arms, along the axis, from the clamp to the inner corner
+  double e, nu,
+      length;  // Pa, -, m: of the arms, along the axis, from the clamp to the inner corner
   double w, t, alpha, d;
 };
 double neumeister_ducker_normal(const V& v);

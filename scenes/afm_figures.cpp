@@ -75,7 +75,8 @@ std::vector<SeriesInfo> afm_figures() {
 }
 
 std::vector<SeriesInfo> afm_expectable_series(const Scene& scene) {
-  std::vector<SeriesInfo> all = scene.afm->actions.empty() ? std::vector<SeriesInfo>{} : afm_series();
+  std::vector<SeriesInfo> all =
+      scene.afm->actions.empty() ? std::vector<SeriesInfo>{} : afm_series();
   for (const Figure& figure : calibration_figures()) all.push_back(figure.info);
   bool loops = false;
   for (const ActionSpec& action : scene.afm->actions)

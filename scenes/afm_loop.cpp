@@ -91,8 +91,7 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
       if (loop.friction) {
         const double s = std::sin(target.incline), c = std::cos(target.incline);
         const double mu = *loop.friction;
-        loop.sensitivity =
-            mu * loop.load / (c * c - mu * mu * s * s) / loop.volts_half_width;
+        loop.sensitivity = mu * loop.load / (c * c - mu * mu * s * s) / loop.volts_half_width;
       }
     }
     loops.push_back(loop);

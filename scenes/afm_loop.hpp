@@ -26,13 +26,13 @@ std::optional<double> friction(double half_width, double offset, double slope);
 }  // namespace wedge
 
 struct FrictionLoop {
-  int action = 0;         // the scan's position in the programme
-  double load = 0;        // N, mean vertical force while sliding
-  double forth = 0, back = 0;        // N, mean force along the scan that draws the probe
+  int action = 0;                     // the scan's position in the programme
+  double load = 0;                    // N, mean vertical force while sliding
+  double forth = 0, back = 0;         // N, mean force along the scan that draws the probe
   double half_width = 0, offset = 0;  // N, W and Delta
   double volts_half_width = 0, volts_offset = 0;  // V, of the lateral detector
-  std::optional<double> friction;        // recovered from the volts, on an incline along the scan
-  std::optional<double> sensitivity;     // N/V, recovered with it
+  std::optional<double> friction;     // recovered from the volts, on an incline along the scan
+  std::optional<double> sensitivity;  // N/V, recovered with it
 };
 
 struct AfmHistory {

@@ -13,7 +13,8 @@
 namespace pulvis {
 namespace {
 
-constexpr int most_halvings = 10;
+constexpr int most_halvings = 8;
+constexpr int most_iterations = 400;  // of an increment with its halves
 
 double reach_of(const AfmScene& afm) {
   double way = 0;
@@ -44,28 +45,29 @@ double smallest_gap(const AfmModel& model) {
 }  // namespace
 
 std::vector<SeriesInfo> afm_series() {
-  return {{"scanner/x", "m", "how far the sample was moved along x"},
-          {"scanner/y", "m", "how far the sample was moved along y"},
-          {"scanner/z", "m", "how far the sample was raised from first touch"},
-          {"probe/force_x", "N", "of the sample on the probe"},
-          {"probe/force_y", "N", "of the sample on the probe: lateral"},
-          {"probe/force_z", "N", "of the sample on the probe: vertical"},
-          {"probe/displacement_x", "m", "of the tip's end"},
-          {"probe/displacement_y", "m", "of the tip's end"},
-          {"probe/displacement_z", "m", "of the tip's end"},
-          {"foot/displacement_y", "m", "of the lever's middle plane above the tip: lateral bending"},
-          {"foot/twist", "rad", "of the lever above the tip"},
-          {"clamp/force_x", "N", "of the clamp on the lever"},
-          {"clamp/force_y", "N", "of the clamp on the lever"},
-          {"clamp/force_z", "N", "of the clamp on the lever"},
-          {"slope/normal", "rad", "of the lever's back at the laser spot, > 0: its end is up"},
-          {"slope/lateral", "rad", "of the lever's back at the laser spot, > 0: its +y side is up"},
-          {"detector/normal", "V", "normal gain times slope"},
-          {"detector/lateral", "V", "lateral gain times slope"},
-          {"contact/points", "-", "points of the probe that touch"},
-          {"contact/slides", "-", "share of the points that touch which slide"},
-          {"energy/elastic", "J", "stored in lever and probe"},
-          {"newton/iterations", "-", "of the increment, with those of its cuts"}};
+  return {
+      {"scanner/x", "m", "how far the sample was moved along x"},
+      {"scanner/y", "m", "how far the sample was moved along y"},
+      {"scanner/z", "m", "how far the sample was raised from first touch"},
+      {"probe/force_x", "N", "of the sample on the probe"},
+      {"probe/force_y", "N", "of the sample on the probe: lateral"},
+      {"probe/force_z", "N", "of the sample on the probe: vertical"},
+      {"probe/displacement_x", "m", "of the tip's end"},
+      {"probe/displacement_y", "m", "of the tip's end"},
+      {"probe/displacement_z", "m", "of the tip's end"},
+      {"foot/displacement_y", "m", "of the lever's middle plane above the tip: lateral bending"},
+      {"foot/twist", "rad", "of the lever above the tip"},
+      {"clamp/force_x", "N", "of the clamp on the lever"},
+      {"clamp/force_y", "N", "of the clamp on the lever"},
+      {"clamp/force_z", "N", "of the clamp on the lever"},
+      {"slope/normal", "rad", "of the lever's back at the laser spot, > 0: its end is up"},
+      {"slope/lateral", "rad", "of the lever's back at the laser spot, > 0: its +y side is up"},
+      {"detector/normal", "V", "normal gain times slope"},
+      {"detector/lateral", "V", "lateral gain times slope"},
+      {"contact/points", "-", "points of the probe that touch"},
+      {"contact/slides", "-", "share of the points that touch which slide"},
+      {"energy/elastic", "J", "stored in lever and probe"},
+      {"newton/iterations", "-", "of the increment, with those of its cuts"}};
 }
 
 void add_probe(const Scene& scene, AfmModel& model) {
@@ -145,10 +147,10 @@ bool AfmProgramme::tell() {
   add(clamp_force(model_));
   const Slopes spot = slopes(model_, model_.spot, u);
   const DetectorSpec& detector = scene_.afm->detector;
-  for (const double value : {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
-                             detector.lateral_gain * spot.lateral, touching,
-                             touching > 0 ? sliding / touching : 0, elastic_energy(model_),
-                             static_cast<double>(iterations_)})
+  for (const double value :
+       {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
+        detector.lateral_gain * spot.lateral, touching, touching > 0 ? sliding / touching : 0,
+        elastic_energy(model_), static_cast<double>(iterations_)})
     row.push_back(value);
   return record_(time_, row);
 }
@@ -158,11 +160,13 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   const auto before = target.position;
   for (std::size_t k = 0; k < 3; ++k) target.position[k] += travel[k];
   target.servo = servo;
-  const NewtonReport report = solver_.equilibrate();
-  iterations_ += static_cast<int>(report.residuals.size()) - 1;
+  NewtonSettings settings;
+  settings.reuse_factors = true;
+  const NewtonReport report = solver_.equilibrate(settings);
+  iterations_ += static_cast<int>(report.residuals.size());
   if (report.converged) return solver_.remember();
   target.position = before;
-  if (depth == most_halvings)
+  if (depth == most_halvings || iterations_ > most_iterations)
     throw RunFailure(fmt::format(
         "{}: no equilibrium at {:.4f} of the programme, with the sample at x {:.4g}, y {:.4g}, "
         "z {:.4g} m, after {} halvings of the increment; residual {:.2g} of the forces that must "

@@ -16,34 +16,34 @@ namespace pulvis {
 struct LeverSpec {
   enum class Shape { beam, v } shape = Shape::beam;
   int material = 0;
-  double length = 0;      // m, clamp to end
-  double width = 0;       // m, beam
-  double thickness = 0;   // m
-  double arm_width = 0;   // m, V: square across an arm
+  double length = 0;                 // m, clamp to end
+  double width = 0;                  // m, beam
+  double thickness = 0;              // m
+  double arm_width = 0;              // m, V: square across an arm
   std::optional<double> half_angle;  // rad, V: between an arm and the axis
   std::optional<double> base_width;  // m, V: over both arms at the clamp, instead of the angle
-  double apex_width = 0;  // m, V: of its blunt end; 0: it ends in a point
-  double tilt = 0;        // rad, of the chip: the end of the lever is lower than the clamp
-  std::optional<int> coating;   // material of the layer on its back
+  double apex_width = 0;             // m, V: of its blunt end; 0: it ends in a point
+  double tilt = 0;               // rad, of the chip: the end of the lever is lower than the clamp
+  std::optional<int> coating;    // material of the layer on its back
   double coating_thickness = 0;  // m
-  double aspect = 10;  // -, edge of an element in the plane over the lever's thickness
-  int layers = 1;      // of elements through the thickness
+  double aspect = 10;            // -, edge of an element in the plane over the lever's thickness
+  int layers = 1;                // of elements through the thickness
   SourceMark mark;
 };
 
 struct TipSpec {
   enum class Shape { none, block, pyramid, cone, sphere } shape = Shape::none;
   int material = 0;
-  double height = 0;   // m, from the lever's lower face to the tip's end; not of a sphere
-  double foot = 0;     // m, width (cone: diameter) where it stands on the lever
-  double end = 0;      // m, the same at its end
+  double height = 0;      // m, from the lever's lower face to the tip's end; not of a sphere
+  double foot = 0;        // m, width (cone: diameter) where it stands on the lever
+  double end = 0;         // m, the same at its end
   double end_radius = 0;  // m, rounding of the end against the sample; not of a sphere
   double radius = 0;      // m, sphere
   double neck_radius = 0, neck_height = 0;  // m, glue between the lever and the sphere's top
-  std::optional<int> glue;  // material of the neck; absent: that of the tip
-  double set_back = 0;      // m, its axis from the lever's end
-  double offset = 0;        // m, its axis from the lever's axis, along y
-  int elements = 4;         // across it
+  std::optional<int> glue;                  // material of the neck; absent: that of the tip
+  double set_back = 0;                      // m, its axis from the lever's end
+  double offset = 0;                        // m, its axis from the lever's axis, along y
+  int elements = 4;                         // across it
   SourceMark mark;
 };
 
@@ -61,11 +61,11 @@ struct DetectorSpec {
 struct TargetSpec {
   enum class Shape { plane, bump, step, sinusoid, map } shape = Shape::plane;
   enum class Direction { lateral, along } direction = Direction::lateral;
-  double incline = 0;   // rad, plane: rises towards + of the direction
-  double height = 0;    // m, bump, step; of a sinusoid: peak to valley
-  double slope = 0;     // -, flanks of a bump, edge of a step
-  double plateau = 0;   // m, top of a bump
-  double position = 0;  // m, where the first flank begins, from under the tip
+  double incline = 0;     // rad, plane: rises towards + of the direction
+  double height = 0;      // m, bump, step; of a sinusoid: peak to valley
+  double slope = 0;       // -, flanks of a bump, edge of a step
+  double plateau = 0;     // m, top of a bump
+  double position = 0;    // m, where the first flank begins, from under the tip
   double wavelength = 0;  // m, sinusoid
   std::string file;       // map: heights in m, rows along +y, columns along +x, comma-separated
   double spacing = 0;     // m, of the map's points
@@ -78,11 +78,11 @@ struct TargetSpec {
 struct ActionSpec {
   enum class Kind { press, scan, retract, hold } kind = Kind::press;
   std::string name;
-  double distance = 0;   // m, of the scanner: up (press, retract: down) or sideways (scan)
+  double distance = 0;          // m, of the scanner: up (press, retract: down) or sideways (scan)
   std::optional<double> force;  // N, press: the height follows until the target pushes with this
   TargetSpec::Direction direction = TargetSpec::Direction::lateral;  // scan: of the probe's motion
-  bool back = true;      // scan: and back again
-  bool servo = false;    // scan, hold: the height follows so that the force stays
+  bool back = true;                                                  // scan: and back again
+  bool servo = false;  // scan, hold: the height follows so that the force stays
   int increments = 20;
   SourceMark mark;
 };

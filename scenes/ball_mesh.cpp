@@ -15,7 +15,11 @@ namespace {
 class BallGrid {
  public:
   BallGrid(SolidDraft& draft, const Vec3& centre, double radius, int across)
-      : draft_(draft), centre_(centre), radius_(radius), n_(across), layers_(std::max(1, across / 2)) {}
+      : draft_(draft),
+        centre_(centre),
+        radius_(radius),
+        n_(across),
+        layers_(std::max(1, across / 2)) {}
 
   // Core point (i, j, k), each 0..n.
   int core(int i, int j, int k) { return node({i, j, k, 0}, core_place(i, j, k)); }
@@ -25,7 +29,8 @@ class BallGrid {
     const Vec3 inner = core_place(at[0], at[1], at[2]);
     Vec3 angle;
     for (int a = 0; a < 3; ++a)
-      angle[a] = std::tan(0.25 * std::numbers::pi * (2.0 * at[static_cast<std::size_t>(a)] / n_ - 1));
+      angle[a] =
+          std::tan(0.25 * std::numbers::pi * (2.0 * at[static_cast<std::size_t>(a)] / n_ - 1));
     const Vec3 outer = angle.normalized();
     const double t = static_cast<double>(layer) / layers_;
     return node({at[0], at[1], at[2], layer}, (1 - t) * inner + t * outer);
@@ -124,8 +129,10 @@ void try_face(const SolidDraft& draft, const std::array<int, 4>& face, const Vec
     const auto w = at.weights();
     difference = x - (w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2) + w[3] * corner(3));
     Eigen::Matrix<double, 3, 2> a;
-    a.col(0) = 0.25 * ((1 - at.eta) * (corner(1) - corner(0)) + (1 + at.eta) * (corner(2) - corner(3)));
-    a.col(1) = 0.25 * ((1 - at.xi) * (corner(3) - corner(0)) + (1 + at.xi) * (corner(2) - corner(1)));
+    a.col(0) =
+        0.25 * ((1 - at.eta) * (corner(1) - corner(0)) + (1 + at.eta) * (corner(2) - corner(3)));
+    a.col(1) =
+        0.25 * ((1 - at.xi) * (corner(3) - corner(0)) + (1 + at.xi) * (corner(2) - corner(1)));
     const Vec2 step = (a.transpose() * a).inverse() * (a.transpose() * difference);
     at.xi = std::clamp(at.xi + step.x(), -1.0, 1.0);
     at.eta = std::clamp(at.eta + step.y(), -1.0, 1.0);
@@ -143,10 +150,10 @@ BallMesh add_ball(SolidDraft& draft, const Vec3& centre, double radius, int acro
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j)
       for (int k = 0; k < across; ++k)
-        add_oriented(draft, {grid.core(i, j, k), grid.core(i + 1, j, k), grid.core(i + 1, j + 1, k),
-                             grid.core(i, j + 1, k), grid.core(i, j, k + 1),
-                             grid.core(i + 1, j, k + 1), grid.core(i + 1, j + 1, k + 1),
-                             grid.core(i, j + 1, k + 1)});
+        add_oriented(draft,
+                     {grid.core(i, j, k), grid.core(i + 1, j, k), grid.core(i + 1, j + 1, k),
+                      grid.core(i, j + 1, k), grid.core(i, j, k + 1), grid.core(i + 1, j, k + 1),
+                      grid.core(i + 1, j + 1, k + 1), grid.core(i, j + 1, k + 1)});
   add_shells(draft, grid, across, ball);
   list_lower_half(draft, ball);
   return ball;

@@ -100,8 +100,8 @@ std::vector<Key<LeverSpec>> further_lever_keys() {
         .kind = Kind::number,
         .range = within(0.5, 100),
         .fallback = value_of(10.0),
-        .doc = "Edge of the elements in the plane over the thickness; at least 20 elements lie "
-               "along the lever and 4 across it (an arm) all the same."},
+        .doc = "Edge of the elements in the plane over the thickness; 20 to 150 elements "
+               "lie along the lever and at least 4 across it (an arm) all the same."},
        to(&LeverSpec::aspect)},
       {{.name = "layers",
         .kind = Kind::integer,

@@ -100,7 +100,8 @@ std::vector<Key<TargetSpec>> law_keys() {
         .unit = "N",
         .range = within(0, 1),
         .fallback = value_of("0 N"),
-        .doc = "Adhesion (DMT): attraction in contact, which adds to the force that friction sees."},
+        .doc =
+            "Adhesion (DMT): attraction in contact, which adds to the force that friction sees."},
        to(&TargetSpec::pull_off)},
       {{.name = "adhesion_range",
         .kind = Kind::quantity,

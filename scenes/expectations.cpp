@@ -237,16 +237,15 @@ void Expectations::sample(double time, const Lookup& value) {
   times_.push_back(time);
   for (std::size_t i = 0; i < scene_.expects.size(); ++i) {
     const std::string& series = scene_.expects[i].series;
-    if (!series.empty() && !is_figure_of_a_run(series))
-      values_[i].push_back(value(series));
+    if (!series.empty() && !is_figure_of_a_run(series)) values_[i].push_back(value(series));
   }
 }
 
 std::vector<Verdict> Expectations::judge(const Results& results,
                                          const std::optional<std::string>& failure, int threads,
                                          const std::function<bool()>& stop) const {
-  return judge([&](const std::string& name) { return value_of(name, results); },
-               results.end_time(), failure, threads, stop);
+  return judge([&](const std::string& name) { return value_of(name, results); }, results.end_time(),
+               failure, threads, stop);
 }
 
 std::vector<Verdict> Expectations::judge(const Lookup& figure, double end,

@@ -32,8 +32,8 @@ std::vector<double> apex_lines(const VOutline& v, double end, double edge, const
   std::vector<double> lines{0};
   while (lines.back() < length) {
     const double x = v.inner + lines.back();
-    const double size = std::min({edge, 0.3 * (v.apex - x) * slope,
-                                  foot.size + 0.4 * std::abs(x - foot.x)});
+    const double size =
+        std::min({edge, 0.3 * (v.apex - x) * slope, foot.size + 0.4 * std::abs(x - foot.x)});
     lines.push_back(lines.back() + size);
   }
   for (double& x : lines) x *= length / lines.back();
@@ -47,8 +47,8 @@ PlanMesh v_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
   const double end = std::min(lever.length, v.apex - 0.01 * lever.arm_width / slope);
   const Vec2 inner(v.inner, 0), outer(v.inner, (v.apex - v.inner) * slope);
   const double width = std::max((v.apex - std::min(foot.x, end)) * slope, foot.size);
-  const auto across = shares_of(
-      graded_lines(1, edge / lever.arm_width, foot.size / width, 0, fewest_across));
+  const auto across =
+      shares_of(graded_lines(1, edge / lever.arm_width, foot.size / width, 0, fewest_across));
   const double arm = v.inner / std::cos(v.half_angle);
   PlanMesh half;
   add_patch(half, {Vec2(0, v.inner * slope), inner, outer, Vec2(0, v.apex * slope)},
@@ -74,7 +74,9 @@ VOutline v_outline(const LeverSpec& lever) {
 }
 
 PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot) {
-  const double edge = lever.aspect * lever.thickness;
+  // More elements than that along a thin lever add round-off, not accuracy.
+  constexpr double most_along = 150;
+  const double edge = std::max(lever.aspect * lever.thickness, lever.length / most_along);
   return lever.shape == LeverSpec::Shape::beam ? beam_plan(lever, edge, foot)
                                                : v_plan(lever, edge, foot);
 }

@@ -80,8 +80,8 @@ std::vector<double> graded_lines(double length, double edge, double fine, double
   std::vector<double> count{0};
   for (int i = 0; i < samples; ++i) {
     const double x = length * (i + 0.5) / samples;
-    count.push_back(count.back() + length / samples /
-                                       std::min(edge, fine + growth * std::abs(x - at)));
+    count.push_back(count.back() +
+                    length / samples / std::min(edge, fine + growth * std::abs(x - at)));
   }
   const auto intervals = static_cast<int>(std::ceil(count.back() - 1e-9));
   std::vector<double> lines{0};

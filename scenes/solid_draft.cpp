@@ -70,7 +70,8 @@ std::vector<PlacedShare> placed_shares(const SolidMesh& mesh) {
             const std::int32_t row = mesh.unknown[static_cast<std::size_t>(r.node)];
             const std::int32_t column = mesh.unknown[static_cast<std::size_t>(c.node)];
             if (row >= column)
-              placed.push_back({column, row,
+              placed.push_back({column,
+                                row,
                                 {static_cast<std::int32_t>(e), static_cast<std::int8_t>(a),
                                  static_cast<std::int8_t>(b), r.weight * c.weight}});
           }

@@ -21,9 +21,9 @@ enum class SolidPart : std::uint8_t { lever, coating, tip, glue };
 struct SolidDraft {
   std::vector<Vec3> nodes;  // m
   std::vector<SolidMesh::Hexahedron> hexahedra;
-  std::vector<std::uint8_t> thin;  // [hexahedra]
-  std::vector<std::uint8_t> part;  // [hexahedra] SolidPart
-  std::vector<std::uint8_t> held;  // [nodes]
+  std::vector<std::uint8_t> thin;                        // [hexahedra]
+  std::vector<std::uint8_t> part;                        // [hexahedra] SolidPart
+  std::vector<std::uint8_t> held;                        // [nodes]
   std::vector<std::vector<SolidMesh::Support>> hanging;  // [nodes] empty: free or held
 
   int add_node(const Vec3& x);

@@ -81,7 +81,9 @@ class TriangleTarget : public TargetShape {
 
   static Vec3 nearest_in(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c,
                          const Vec3& n) {
-    const auto left = [&](const Vec3& x, const Vec3& y) { return n.dot((y - x).cross(p - x)) >= 0; };
+    const auto left = [&](const Vec3& x, const Vec3& y) {
+      return n.dot((y - x).cross(p - x)) >= 0;
+    };
     if (left(a, b) && left(b, c) && left(c, a)) return p;
     Vec3 best = on_segment(p, a, b);
     for (const Vec3& q : {on_segment(p, b, c), on_segment(p, c, a)})
@@ -104,8 +106,7 @@ std::vector<ProfilePoint> profile(const TargetSpec& t, double reach) {
   const double flank = t.height / t.slope;
   const double low = -reach - std::abs(t.position), high = reach + std::abs(t.position);
   if (t.shape == TargetSpec::Shape::step)
-    return {{low, 0}, {t.position, 0}, {t.position + flank, t.height},
-            {high + flank, t.height}};
+    return {{low, 0}, {t.position, 0}, {t.position + flank, t.height}, {high + flank, t.height}};
   if (t.shape == TargetSpec::Shape::bump)
     return {{low, 0},
             {t.position, 0},
@@ -169,8 +170,8 @@ std::vector<double> numbers_of(const std::string& line, std::size_t number) {
     double value = 0;
     const auto read = std::from_chars(at, end, value);
     if (read.ec != std::errc() || !std::isfinite(value))
-      throw std::runtime_error(fmt::format("line {}: no number at column {}", number,
-                                           at - line.data() + 1));
+      throw std::runtime_error(
+          fmt::format("line {}: no number at column {}", number, at - line.data() + 1));
     row.push_back(value);
     at = read.ptr;
     while (at < end && (*at == ' ' || *at == '\t' || *at == '\r' || *at == ',')) ++at;

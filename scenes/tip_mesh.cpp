@@ -72,8 +72,8 @@ TipMesh add_solid_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh
   const bool round = tip.shape == Shape::cone;
   const PlanMesh plan = round ? unit_disc(tip.elements) : unit_square(tip.elements);
   const double end = tip.shape == Shape::block ? tip.foot : tip.end;
-  const int layers = std::max(2, static_cast<int>(std::lround(
-                                     tip.height / (0.5 * (tip.foot + end)) * tip.elements)));
+  const int layers = std::max(
+      2, static_cast<int>(std::lround(tip.height / (0.5 * (tip.foot + end)) * tip.elements)));
   const int stacked = std::min(layers, 40);
   const Vec2 axis = tip_axis(lever, tip);
   const auto first = add_column(draft, plan, stacked, SolidPart::tip, [&](const Vec2& p, int l) {

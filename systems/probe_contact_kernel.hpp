@@ -17,6 +17,7 @@ struct ProbeLaw {
   double normal_stiffness, tangential_stiffness;  // N/m
   double friction;                                // -
   double pull_off, range;                         // N, m: of this point
+  bool stick = false;  // predictor of an increment: as if mu were without bound
 };
 
 struct ProbePointForce {
@@ -56,7 +57,7 @@ inline ProbePointForce probe_force(const ProbeLaw& law, double gap, const Eigen:
   r.tangent += k * nn;
   const Vector3d trial = p * (old_tangential - kt * moved);
   const double size = trial.norm();
-  if (size <= r.limit && law.friction > 0) {
+  if ((size <= r.limit || law.stick) && law.friction > 0) {
     r.state = ProbePointForce::State::sticks;
     r.tangential = trial;
     r.tangent += kt * p;
@@ -65,8 +66,8 @@ inline ProbePointForce probe_force(const ProbeLaw& law, double gap, const Eigen:
     if (size > 0 && law.friction > 0) {
       const Vector3d m = trial / size;
       r.tangential = r.limit * m;
-      r.tangent += law.friction * k * m * n.transpose() +
-                   (r.limit * kt / size) * (p - m * m.transpose());
+      r.tangent +=
+          law.friction * k * m * n.transpose() + (r.limit * kt / size) * (p - m * m.transpose());
     }
   }
   r.force += r.tangential;

@@ -18,8 +18,8 @@ void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displac
     Eigen::Vector3d place, old, before;
     TargetShape::Place centre;
     for (int k = 0; k < 3; ++k) {
-      place[k] = reference(at, k) + displacement(at, k) -
-                 target->position[static_cast<std::size_t>(k)];
+      place[k] =
+          reference(at, k) + displacement(at, k) - target->position[static_cast<std::size_t>(k)];
       old[k] = memory(row, k);
       before[k] = memory(row, 3 + k);
       centre[static_cast<std::size_t>(k)] = place[k];
@@ -27,10 +27,11 @@ void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displac
     centre[2] += target->end_radius;
     const auto nearest = target->shape->nearest(centre);
     const double pull_off = target->pull_off * share(row);
-    const auto r = kernels::probe_force(
-        {stiffness(row, 0), stiffness(row, 1), target->friction, pull_off, target->range},
-        nearest.distance - target->end_radius, Eigen::Vector3d(nearest.normal.data()), old,
-        place - before);
+    const auto r =
+        kernels::probe_force({stiffness(row, 0), stiffness(row, 1), target->friction, pull_off,
+                              target->range, target->stick},
+                             nearest.distance - target->end_radius,
+                             Eigen::Vector3d(nearest.normal.data()), old, place - before);
     for (int k = 0; k < 3; ++k) force(row, k) = r.force[k];
     for (int k = 0; k < 9; ++k) tangent(row, k) = r.tangent(k / 3, k % 3);
     state(row, 0) = nearest.distance - target->end_radius;
@@ -48,8 +49,8 @@ void remember_contact(Read<ReferencePosition> reference, Read<Displacement> disp
     const Row<SolidNode> at(node(row));
     TargetShape::Place place;
     for (int k = 0; k < 3; ++k)
-      place[static_cast<std::size_t>(k)] = reference(at, k) + displacement(at, k) -
-                                           target->position[static_cast<std::size_t>(k)];
+      place[static_cast<std::size_t>(k)] =
+          reference(at, k) + displacement(at, k) - target->position[static_cast<std::size_t>(k)];
     TargetShape::Place centre = place;
     centre[2] += target->end_radius;
     const auto normal = target->shape->nearest(centre).normal;

@@ -24,9 +24,9 @@ using Eigen::VectorXd;
 
 // What the touching points add to the equations.
 struct Coupling {
-  MatrixXd b;  // [3 unknowns, 3 points]
-  MatrixXd c;  // [3 points, 3 points], N/m
-  VectorXd up; // [3 points] e_z of each
+  MatrixXd b;   // [3 unknowns, 3 points]
+  MatrixXd c;   // [3 points, 3 points], N/m
+  VectorXd up;  // [3 points] e_z of each
 
   Coupling(const SolidMesh& mesh, const Read<ProbeNode>& node, const Read<ProbeTangent>& tangent,
            const std::vector<int>& points) {
@@ -59,7 +59,7 @@ std::vector<int> touching(const Read<ProbeTangent>& tangent) {
 
 // By the smallest gap, and on until the penalty pushes with what is missing.
 void follow_probe(const Read<ProbeState>& state, const Read<ProbeStiffness>& stiffness,
-                      const Target& target, SolidEquations& equations) {
+                  const Target& target, SolidEquations& equations) {
   double gap = state(Row<ProbePoint>(0), 0);
   for (int i = 1; i < state.rows(); ++i) gap = std::min(gap, state(Row<ProbePoint>(i), 0));
   equations.height_step = gap + std::abs(target.set_point) / stiffness(Row<ProbePoint>(0), 0);
@@ -80,8 +80,8 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<ProbeNode
   const Coupling coupling(*mesh, node, tangent, points);
   const MatrixXd y = equations->factors->solve(coupling.b);
   const MatrixXd by = coupling.b.transpose() * y;
-  const Eigen::PartialPivLU<MatrixXd> small(
-      MatrixXd::Identity(by.rows(), by.cols()) + coupling.c * by);
+  const Eigen::PartialPivLU<MatrixXd> small(MatrixXd::Identity(by.rows(), by.cols()) +
+                                            coupling.c * by);
   VectorXd& d = equations->direction;
   d -= y * small.solve(coupling.c * (coupling.b.transpose() * d));
   if (!target->servo) return;

@@ -15,9 +15,9 @@ struct SolidEquations {
 
   Matrix stiffness;  // lower triangle, [3 unknowns]^2, N/m
   std::unique_ptr<Factors> factors;
-  Eigen::VectorXd residual;   // [3 unknowns] N: applied - of the stresses
-  Eigen::VectorXd direction;  // [3 unknowns] m
-  double scale = 0;           // N, the forces that must balance: root of the sum of squares
+  Eigen::VectorXd residual;    // [3 unknowns] N: applied - of the stresses
+  Eigen::VectorXd direction;   // [3 unknowns] m
+  double scale = 0;            // N, the forces that must balance: root of the sum of squares
   double set_point_error = 0;  // -, of the servo: what is missing over the set point
   double height_step = 0;      // m, of the servo, together with the direction
 };

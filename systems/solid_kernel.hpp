@@ -60,8 +60,7 @@ inline void covariant_strain(const Corners& X, const Corners& u, const ShapeGrad
   const double share = i == j ? 0.5 : 1.0;
   e[row] = share * twice;
   for (int a = 0; a < 8; ++a)
-    b.block<1, 3>(row, 3 * a) =
-        share * (d(a, i) * (Gj + Uj) + d(a, j) * (Gi + Ui)).transpose();
+    b.block<1, 3>(row, 3 * a) = share * (d(a, i) * (Gj + Uj) + d(a, j) * (Gi + Ui)).transpose();
 }
 
 // Cartesian from covariant strains, with J^-1, whose rows are the contravariant base vectors.
@@ -72,8 +71,9 @@ inline Voigt6 strain_transformation(const Eigen::Matrix3d& inverse) {
     const double twice = a == b ? 1 : 2;
     for (int c = 0; c < 6; ++c) {
       const auto [i, j] = voigt_pair[static_cast<std::size_t>(c)];
-      t(r, c) = i == j ? twice * inverse(i, a) * inverse(i, b)
-                       : 0.5 * twice * (inverse(i, a) * inverse(j, b) + inverse(j, a) * inverse(i, b));
+      t(r, c) = i == j
+                    ? twice * inverse(i, a) * inverse(i, b)
+                    : 0.5 * twice * (inverse(i, a) * inverse(j, b) + inverse(j, a) * inverse(i, b));
     }
   }
   return t;
@@ -181,14 +181,14 @@ inline void add_geometric(const HexPoint& p, const Voigt& s, const ThinShear* sh
 }
 
 struct HexResponse {
-  NodalVector force = NodalVector::Zero();      // N, what holds the element in place
-  NodalMatrix tangent = NodalMatrix::Zero();    // N/m
-  double energy = 0;                            // J
-  double least_determinant = 0;                 // of J, m^3; <= 0: the element is inside out
+  NodalVector force = NodalVector::Zero();    // N, what holds the element in place
+  NodalMatrix tangent = NodalMatrix::Zero();  // N/m
+  double energy = 0;                          // J
+  double least_determinant = 0;               // of J, m^3; <= 0: the element is inside out
 };
 
 inline HexResponse hex_response(const Corners& X, const Corners& u, double lambda, double mu,
-                                bool thin) {
+                                bool thin, bool with_tangent = true) {
   const Eigen::Matrix3d middle = X * shape_gradient(Eigen::Vector3d::Zero());
   const Voigt6 central = strain_transformation(middle.inverse());
   const ThinShear sampled(X, u);
@@ -207,7 +207,7 @@ inline HexResponse hex_response(const Corners& X, const Corners& u, double lambd
     r.least_determinant = g == 0 ? p.volume : std::min(r.least_determinant, p.volume);
     const Eigen::Matrix<double, 9, 6> mc = p.volume * p.modes.transpose().lazyProduct(c);
     h.noalias() += mc.lazyProduct(p.modes);
-    l.noalias() += mc.lazyProduct(p.b);
+    if (with_tangent) l.noalias() += mc.lazyProduct(p.b);
     q.noalias() += mc.lazyProduct(p.strain);
   }
   const Eigen::LLT<Eigen::Matrix<double, 9, 9>> h_factor(h);
@@ -219,10 +219,12 @@ inline HexResponse hex_response(const Corners& X, const Corners& u, double lambd
     const Voigt stress = c * strain;
     r.energy += 0.5 * p.volume * strain.dot(stress);
     r.force.noalias() += p.volume * p.b.transpose().lazyProduct(stress);
+    if (!with_tangent) continue;
     const StrainRows cb = p.volume * c.lazyProduct(p.b);
     r.tangent.noalias() += p.b.transpose().lazyProduct(cb);
     add_geometric(p, p.transformation.transpose() * stress, shear, geometric);
   }
+  if (!with_tangent) return r;
   r.tangent.noalias() -= l.transpose().lazyProduct(h_factor.solve(l).eval());
   for (int a = 0; a < 8; ++a)
     for (int b = 0; b < 8; ++b)

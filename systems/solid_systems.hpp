@@ -12,6 +12,9 @@ void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> re
                    Read<Displacement> displacement, Read<LameConstants> elastic,
                    Write<ElementForce> force, Write<ElementTangent> tangent,
                    Write<ElementEnergy> energy);
+void element_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
+                   Read<Displacement> displacement, Read<LameConstants> elastic,
+                   Write<ElementForce> force, Write<ElementEnergy> energy);
 void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element, Write<SolidForce> force);
 void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
                    Write<BlockTangent> block);

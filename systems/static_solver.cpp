@@ -9,18 +9,20 @@ namespace pulvis {
 namespace {
 
 // ---- the order of an equilibrium iteration: a newcomer's first page ---------------------------
-std::vector<System> evaluation(World& w) {
-  std::vector<System> list{make_system(w, "solid_element", solid_element),
+std::vector<System> evaluation(World& w, bool with_tangent) {
+  std::vector<System> list{with_tangent ? make_system(w, "solid_element", solid_element)
+                                        : make_system(w, "element_force", element_force),
                            make_system(w, "solid_force", solid_force)};
   if (w.has<ProbeNode>()) list.push_back(make_system(w, "probe_contact", probe_contact));
   list.push_back(make_system(w, "residual", residual));
   return list;
 }
 
-std::vector<System> iteration(World& w) {
-  std::vector<System> list = evaluation(w);
-  list.push_back(make_system(w, "block_tangent", block_tangent));
-  list.push_back(make_system(w, "factorise", factorise));
+// With the solid's factors of an earlier iteration, or new ones. The contact's tangent is always new.
+std::vector<System> iteration(World& w, bool new_factors) {
+  std::vector<System> list = evaluation(w, new_factors);
+  if (new_factors) list.push_back(make_system(w, "block_tangent", block_tangent));
+  if (new_factors) list.push_back(make_system(w, "factorise", factorise));
   list.push_back(make_system(w, "newton_direction", newton_direction));
   if (w.has<ProbeNode>()) list.push_back(make_system(w, "contact_direction", contact_direction));
   return list;
@@ -33,8 +35,7 @@ void expand(const SolidMesh& mesh, const double* free, double* all) {
     for (int k = 0; k < 3; ++k) {
       double sum = 0;
       for (const auto& support : mesh.supports_of(n))
-        sum += support.weight *
-               free[3 * mesh.unknown[static_cast<std::size_t>(support.node)] + k];
+        sum += support.weight * free[3 * mesh.unknown[static_cast<std::size_t>(support.node)] + k];
       all[3 * n + k] = sum;
     }
 }
@@ -65,8 +66,9 @@ void add_probe_columns(World& world, std::size_t points) {
 
 StaticSolver::StaticSolver(World& world)
     : world_(world),
-      iterate_(iteration(world), world.chunks()),
-      look_(evaluation(world), world.chunks()) {
+      iterate_(iteration(world, true), world.chunks()),
+      reuse_(iteration(world, false), world.chunks()),
+      look_(evaluation(world, false), world.chunks()) {
   if (world.has<ProbeNode>())
     remember_ = std::make_unique<TaskGraph>(
         std::vector<System>{make_system(world, "remember_contact", remember_contact)},
@@ -141,12 +143,22 @@ double StaticSolver::error() const {
   return size == 0 ? 0 : size / equations.scale;
 }
 
+// What touches first moves with the target: from there a point that slides does so in the right direction,
+// while from the old one Newton's method would throw it from one side of Coulomb's law to the other.
+void StaticSolver::predict(Target& target, bool reuse) {
+  target.stick = true;
+  (reuse ? reuse_ : iterate_).run();
+  target.stick = false;
+  if (std::isfinite(error())) move(1);
+}
+
 // Where a stiff tip hangs on a soft lever, round-off in its displacements leaves more than the tolerance:
 // a small residual that no longer falls is as good as it gets.
 bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& settings) const {
   const double missing = std::abs(world_.resource<SolidEquations>().set_point_error);
   if (missing > settings.servo_tolerance) return false;
-  const bool floor = r.size() > 1 && r.back() <= settings.round_off && r.back() > 0.1 * r[r.size() - 2];
+  const bool floor =
+      r.size() > 1 && r.back() <= settings.round_off && r.back() > 0.1 * r[r.size() - 2];
   return r.back() <= settings.tolerance || floor;
 }
 
@@ -157,10 +169,17 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   NewtonReport report;
   auto& u = world_.column<Displacement>();
   const std::vector<double> start(u.values(), u.values() + u.bytes() / sizeof(double));
-  const double height = world_.has<Target>() ? world_.resource<Target>().position[2] : 0;
+  Target* const target = world_.has<Target>() ? &world_.resource<Target>() : nullptr;
+  const double height = target != nullptr ? target->position[2] : 0;
+  bool reuse = settings.reuse_factors && world_.resource<SolidEquations>().factors != nullptr;
+  if (target != nullptr && target->friction > 0) predict(*target, reuse);
   for (int i = 0; i <= settings.iterations; ++i) {
-    iterate_.run();
+    (reuse ? reuse_ : iterate_).run();
     report.residuals.push_back(error());
+    // Factors that do not gain a digit an iteration are too old.
+    if (i > 0)
+      reuse =
+          settings.reuse_factors && error() < 0.1 * report.residuals[report.residuals.size() - 2];
     if (!std::isfinite(report.residuals.back())) break;
     report.converged = settled(report.residuals, settings);
     if (report.converged) return report;
@@ -168,7 +187,7 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
     if (i >= 2) search(10 * report.residuals.back(), settings.cuts);
   }
   std::copy(start.begin(), start.end(), u.values());
-  if (world_.has<Target>()) world_.resource<Target>().position[2] = height;
+  if (target != nullptr) target->position[2] = height;
   return report;
 }
 

@@ -13,12 +13,17 @@
 
 namespace pulvis {
 
+struct Target;
+
 struct NewtonSettings {
-  double tolerance = 1e-10;  // -, residual over the forces that must balance
-  double round_off = 1e-7;   // -, the same, below which a residual that stays is round-off
+  double tolerance = 1e-10;       // -, residual over the forces that must balance
+  double round_off = 1e-7;        // -, the same, below which a residual that stays is round-off
   double servo_tolerance = 1e-7;  // -, force that is missing over the set point
-  int iterations = 25;       // after which the increment counts as failed
-  int cuts = 12;             // halvings of a step that the line search tries
+  int iterations = 25;            // after which the increment counts as failed
+  // The solid's factors are kept from one iteration and increment to the next while they gain a digit each
+  // time: a tip drawn over a surface hardly turns its lever. Without it the convergence is quadratic.
+  bool reuse_factors = false;
+  int cuts = 12;  // halvings of a step that the line search tries
 };
 
 struct NewtonReport {
@@ -58,11 +63,12 @@ class StaticSolver {
  private:
   void move(double share);
   double error() const;
+  void predict(Target& target, bool reuse);
   bool settled(const std::vector<double>& residuals, const NewtonSettings& settings) const;
   void search(double allowed, int cuts);
 
   World& world_;
-  TaskGraph iterate_, look_;
+  TaskGraph iterate_, reuse_, look_;
   std::unique_ptr<TaskGraph> remember_;
 };
 

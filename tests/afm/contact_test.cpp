@@ -46,9 +46,9 @@ class Wedge : public testing::TestWithParam<Slope> {};
 
 TEST_P(Wedge, AStiffTipDrawsWithTheForcesOfTheFormula) {
   const Slope& slope = GetParam();
-  const Scene scene = afm_scene(beam_on("[surface]\nshape = \"plane\"\nfriction = 0.1\nincline = \"" +
-                                        std::to_string(slope.degrees) + " deg\"\n" +
-                                        press_and_loop));
+  const Scene scene =
+      afm_scene(beam_on("[surface]\nshape = \"plane\"\nfriction = 0.1\nincline = \"" +
+                        std::to_string(slope.degrees) + " deg\"\n" + press_and_loop));
   const AfmHistory history = history_of(scene);
   const FrictionLoop loop = friction_loops(scene, history).front();
   EXPECT_NEAR(loop.load, 100e-9, 1e-14);
@@ -124,8 +124,7 @@ increments = 40
               c.bending_share, 0.02);
   // Sliding.
   EXPECT_NEAR(std::abs(h.value(last, "probe/force_y")), 10e-9, 1e-12);
-  EXPECT_LT(std::abs(change("probe/displacement_y", last - 3, last)),
-            1e-3 * std::abs(moved));
+  EXPECT_LT(std::abs(change("probe/displacement_y", last - 3, last)), 1e-3 * std::abs(moved));
 }
 
 // No force inside, none outside: the sum of the clamp's and the sample's forces is nothing at all times.
@@ -152,9 +151,9 @@ TEST(AfmContact, OnTheFlankOfABumpTheForcesAreThoseOfItsSlope) {
 
 // The same numbers, to the last bit, with one thread and with three.
 TEST(AfmContact, NothingDependsOnTheThreads) {
-  const Scene scene = afm_scene(beam_on(
-      std::string("[surface]\nshape = \"plane\"\nfriction = 0.1\nincline = \"14 deg\"\n") +
-      press_and_loop));
+  const Scene scene = afm_scene(
+      beam_on(std::string("[surface]\nshape = \"plane\"\nfriction = 0.1\nincline = \"14 deg\"\n") +
+              press_and_loop));
   EXPECT_EQ(history_of(scene, 1).rows, history_of(scene, 3).rows);
 }
 

@@ -20,9 +20,7 @@ struct Grid {
 // Displacement of the end's mean along `direction` under a force of 1 on the end, shared by its nodes.
 double answer(const Grid& grid, bool thin, double e, double nu, const Vec3& direction) {
   SolidDraft draft;
-  const auto node = [&](int i, int j, int k) {
-    return (i * (grid.across + 1) + j) * 2 + k;
-  };
+  const auto node = [&](int i, int j, int k) { return (i * (grid.across + 1) + j) * 2 + k; };
   for (int i = 0; i <= grid.along; ++i)
     for (int j = 0; j <= grid.across; ++j)
       for (int k = 0; k < 2; ++k) {
@@ -33,10 +31,10 @@ double answer(const Grid& grid, bool thin, double e, double nu, const Vec3& dire
       }
   for (int i = 0; i < grid.along; ++i)
     for (int j = 0; j < grid.across; ++j)
-      draft.add_hexahedron({node(i, j, 0), node(i + 1, j, 0), node(i + 1, j + 1, 0),
-                            node(i, j + 1, 0), node(i, j, 1), node(i + 1, j, 1),
-                            node(i + 1, j + 1, 1), node(i, j + 1, 1)},
-                           SolidPart::lever, thin);
+      draft.add_hexahedron(
+          {node(i, j, 0), node(i + 1, j, 0), node(i + 1, j + 1, 0), node(i, j + 1, 0),
+           node(i, j, 1), node(i + 1, j, 1), node(i + 1, j + 1, 1), node(i, j + 1, 1)},
+          SolidPart::lever, thin);
   const Lame lame{e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))};
   const auto world = finish_solid(draft, {lame, lame, lame, lame});
   StaticSolver solver(*world);
@@ -66,11 +64,15 @@ Grid twisted(double thickness, int along, int across) {
           }};
 }
 
+// Here the root is held in all directions, which the paper's is not: with six elements the first of them,
+// a sixth of the beam, cannot contract sideways as it would. Without contraction (nu = 0) that is gone.
 TEST(MacNealHarder, StraightBeam) {
   for (const bool thin : {false, true}) {
     EXPECT_NEAR(answer(straight(), thin, 1e7, 0.3, Vec3::UnitX()) / 3.0e-5, 1, 0.02) << thin;
-    EXPECT_NEAR(answer(straight(), thin, 1e7, 0.3, Vec3::UnitY()) / 0.1081, 1, 0.02) << thin;
-    EXPECT_NEAR(answer(straight(), thin, 1e7, 0.3, Vec3::UnitZ()) / 0.4321, 1, 0.02) << thin;
+    EXPECT_NEAR(answer(straight(), thin, 1e7, 0.0, Vec3::UnitY()) / 0.1081, 1, 0.01) << thin;
+    EXPECT_NEAR(answer(straight(), thin, 1e7, 0.0, Vec3::UnitZ()) / 0.4321, 1, 0.01) << thin;
+    EXPECT_NEAR(answer(straight(), thin, 1e7, 0.3, Vec3::UnitY()) / 0.1081, 1, 0.03) << thin;
+    EXPECT_NEAR(answer(straight(), thin, 1e7, 0.3, Vec3::UnitZ()) / 0.4321, 1, 0.03) << thin;
   }
 }
 

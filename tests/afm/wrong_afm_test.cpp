@@ -39,7 +39,7 @@ TEST(WrongAfm, AFootWiderThanTheLeverIsRefusedWithTheBound) {
 }
 
 TEST(WrongAfm, AGlueNeckWiderThanTheLeverOrTheBallIsRefused) {
-  const std::string ball = std::string(tipless_beam()) + R"([tip]
+  const std::string ball = tipless_beam() + R"([tip]
 shape = "sphere"
 material = "stiff"
 radius = "40 um"
@@ -58,8 +58,9 @@ TEST(WrongAfm, ALaserBesideTheLeverIsRefused) {
 }
 
 TEST(WrongAfm, ActionsNeedASurfaceAndAForceToKeep) {
-  const std::string scan = std::string(beam_with_tip) +
-                           "[[action]]\nkind = \"scan\"\ndistance = \"1 um\"\nset_point = \"force\"\n";
+  const std::string scan =
+      std::string(beam_with_tip) +
+      "[[action]]\nkind = \"scan\"\ndistance = \"1 um\"\nset_point = \"force\"\n";
   EXPECT_NE(refusal(scan).find("there is no surface"), std::string::npos);
   EXPECT_NE(refusal(scan + "[surface]\nshape = \"plane\"\n").find("no force to keep"),
             std::string::npos);
@@ -78,6 +79,8 @@ length = "100 um"
 thickness = "1 um"
 half_angle = "30 deg"
 arm_width = "20 um"
+[tip]
+set_back = "5 um"
 )";
   EXPECT_EQ(refusal(v), "accepted");
   EXPECT_NE(refusal(v, {"lever.arm_width=51 um"}).find("allowed: < 5e-05 m"), std::string::npos);
