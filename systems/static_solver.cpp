@@ -176,10 +176,10 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   for (int i = 0; i <= settings.iterations; ++i) {
     (reuse ? reuse_ : iterate_).run();
     report.residuals.push_back(error());
-    // Factors that do not gain a digit an iteration are too old.
-    if (i > 0)
-      reuse =
-          settings.reuse_factors && error() < 0.1 * report.residuals[report.residuals.size() - 2];
+    // Factors that do not gain a digit an iteration are too old, until round-off is reached.
+    const bool good = error() <= settings.round_off ||
+                      (i > 0 && error() < 0.1 * report.residuals[report.residuals.size() - 2]);
+    if (i > 0) reuse = settings.reuse_factors && good;
     if (!std::isfinite(report.residuals.back())) break;
     report.converged = settled(report.residuals, settings);
     if (report.converged) return report;
