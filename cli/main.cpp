@@ -13,6 +13,7 @@
 #include "cli/reduce.hpp"
 #include "cli/report.hpp"
 #include "cli/run.hpp"
+#include "cli/run_afm.hpp"
 #include "cli/study.hpp"
 #include "cli/summary.hpp"
 #include "engine/instruction_set.hpp"
@@ -56,6 +57,7 @@ ExitCode check(const Options& options) {
     return ExitCode::done;
   }
   const Scene scene = read_scene(options.run.scene, options.run.overrides);
+  if (scene.afm) return check_afm_scene(scene);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
@@ -67,7 +69,9 @@ ExitCode check(const Options& options) {
 }
 
 ExitCode plan(const Options& options) {
-  Simulation simulation(read_scene(options.run.scene, options.run.overrides));
+  const Scene scene = read_scene(options.run.scene, options.run.overrides);
+  if (scene.afm) return plan_afm(scene, options.dot);
+  Simulation simulation(scene);
   fmt::print("{}", options.dot ? plan_dot(simulation.plan())
                                : plan_text(simulation.plan(), simulation.world()));
   return ExitCode::done;

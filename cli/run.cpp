@@ -12,6 +12,7 @@
 
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "cli/run_afm.hpp"
 #include "cli/summary.hpp"
 #include "components/body.hpp"
 #include "engine/recorder.hpp"
@@ -194,6 +195,7 @@ ExitCode run_scene(const RunOptions& options) {
   const LoadedScene loaded = load_scene(options.scene, options.overrides);
   const std::filesystem::path folder = folder_of(options);
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  if (loaded.scene.afm) return run_afm(loaded, folder, threads, options.overwrite);
   // Everything that can be refused is refused before the folder is made.
   auto simulation = std::make_unique<Simulation>(loaded.scene, threads);
   open_run_folder(folder, options.overwrite);

@@ -18,14 +18,18 @@ void require(bool holds, const std::string& what) {
 }
 
 void check_mesh(const RunMesh& mesh) {
-  require(mesh.quads.size() == 4 * mesh.cell_particle.size(), "four node numbers a cell");
-  require(mesh.reference.size() == 2 * mesh.node_particle.size(), "two coordinates a node");
+  const auto dimension = static_cast<std::size_t>(mesh.dimension());
+  require(mesh.quads.size() / 4 + mesh.hexahedra.size() / 8 == mesh.cell_particle.size(),
+          "four node numbers a cell, eight in space");
+  require(mesh.reference.size() == dimension * mesh.node_particle.size(),
+          "two coordinates a node, three in space");
 }
 
-void check_fields(const std::vector<FieldInfo>& fields) {
+void check_fields(const RunMesh& mesh, const std::vector<FieldInfo>& fields) {
   require(!fields.empty() && fields.front().name == "position" &&
-              fields.front().place == FieldPlace::node && fields.front().components == 2,
-          "the first field is position (node, 2 components)");
+              fields.front().place == FieldPlace::node &&
+              fields.front().components == mesh.dimension(),
+          "the first field is position (node, 2 components, 3 in space)");
 }
 
 const char* name_of(FieldPlace place) {
@@ -56,11 +60,10 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
                    const RunMesh& mesh, std::vector<SeriesInfo> series,
                    std::vector<FieldInfo> fields)
     : series_(std::move(series)),
-      fields_((check_mesh(mesh), check_fields(fields), std::move(fields))),  // before any file
+      fields_((check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
       file_(hdf5::File::create(folder / "run.h5")),
       csv_(folder / "history.csv", series_),
-      xdmf_(folder / "run.xdmf", "run.h5", mesh.node_particle.size(), mesh.cell_particle.size(),
-            fields_),
+      xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
       pending_(series_.size()) {
   survive_a_full_quota();
   places_ = {mesh.node_particle.size(), mesh.cell_particle.size()};
@@ -100,13 +103,17 @@ void Recorder::write_attributes(const RunAttributes& attributes) {
 void Recorder::write_mesh(const RunMesh& mesh) {
   constexpr auto packed = hdf5::Packing::shuffle_gzip;
   const std::uint64_t nodes = mesh.node_particle.size(), cells = mesh.cell_particle.size();
-  file_.write("/mesh/quads", mesh.quads, {cells, 4}, packed);
-  describe("/mesh/quads", "-", "node numbers of each cell, counter-clockwise");
+  const auto dimension = static_cast<std::uint64_t>(mesh.dimension());
+  const bool in_space = dimension == 3;
+  const std::string connectivity = in_space ? "/mesh/hexahedra" : "/mesh/quads";
+  file_.write(connectivity, in_space ? mesh.hexahedra : mesh.quads, {cells, in_space ? 8U : 4U},
+              packed);
+  describe(connectivity, "-", "node numbers of each cell, counter-clockwise");
   file_.write("/mesh/cell_particle", mesh.cell_particle, {cells}, packed);
   describe("/mesh/cell_particle", "-", "particle each cell belongs to");
   file_.write("/mesh/node_particle", mesh.node_particle, {nodes}, packed);
   describe("/mesh/node_particle", "-", "particle each node belongs to");
-  file_.write("/mesh/reference", mesh.reference, {nodes, 2}, packed);
+  file_.write("/mesh/reference", mesh.reference, {nodes, dimension}, packed);
   describe("/mesh/reference", "m", "positions of the nodes before the first step");
 }
 

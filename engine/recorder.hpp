@@ -3,7 +3,7 @@
 // names, units and numbers, and no physics.
 //
 // run.h5 /                      version, commit, title, scene_hash, seed, threads, then outcome
-//        /mesh/<name>           quads [cells,4], cell_particle, node_particle, reference [nodes,2]
+//        /mesh/<name>           quads [cells,4] (hexahedra [cells,8] in space), cell_particle, node_particle, reference [nodes,2 or 3]
 //        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
 //                               complete = 1, written last: a frame without it is not to be read
 //        /history/<name>        one 1-D dataset a series; /history/time
@@ -31,7 +31,8 @@ namespace pulvis {
 
 class Recorder {
  public:
-  // `folder` exists (open_run_folder made it). `position` (node, 2 components) is the first field.
+  // `folder` exists (open_run_folder made it). `position` (node, as many components as the mesh has
+  // dimensions) is the first field.
   Recorder(std::filesystem::path folder, const RunAttributes& attributes, const RunMesh& mesh,
            std::vector<SeriesInfo> series, std::vector<FieldInfo> fields);
 

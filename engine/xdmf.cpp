@@ -46,9 +46,13 @@ int stored_components(const FieldInfo& field) {
   return vector && is_of_mesh(field) ? 3 : field.components;
 }
 
-Xdmf::Xdmf(std::filesystem::path path, std::string heavy, std::uint64_t nodes, std::uint64_t cells,
+Xdmf::Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
            const std::vector<FieldInfo>& fields)
-    : path_(std::move(path)), heavy_(std::move(heavy)), nodes_(nodes), cells_(cells) {
+    : path_(std::move(path)),
+      heavy_(std::move(heavy)),
+      nodes_(mesh.node_particle.size()),
+      cells_(mesh.cell_particle.size()),
+      in_space_(mesh.dimension() == 3) {
   for (const auto& field : fields) {
     if (is_of_mesh(field) && field.name != "position") fields_.push_back(field);
   }
@@ -66,10 +70,11 @@ void Xdmf::add(double time, const std::string& group) {
 std::string Xdmf::grid(double time, const std::string& group) const {
   std::string text = fmt::format(
       "<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{:.17g}\"/>\n"
-      "<Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">{}</Topology>\n"
-      "<Geometry GeometryType=\"XY\">{}</Geometry>\n",
-      group.substr(group.rfind('/') + 1), time, cells_, item("/mesh/quads", integers, cells_, 4),
-      item(group + "/position", doubles, nodes_, 2));
+      "<Topology TopologyType=\"{}\" NumberOfElements=\"{}\">{}</Topology>\n"
+      "<Geometry GeometryType=\"{}\">{}</Geometry>\n",
+      group.substr(group.rfind('/') + 1), time, in_space_ ? "Hexahedron" : "Quadrilateral", cells_,
+      item(in_space_ ? "/mesh/hexahedra" : "/mesh/quads", integers, cells_, in_space_ ? 8 : 4),
+      in_space_ ? "XYZ" : "XY", item(group + "/position", doubles, nodes_, in_space_ ? 3 : 2));
   for (const auto& field : fields_) text += attribute(field, group);
   text += fmt::format(
       "<Attribute Name=\"particle\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n",

@@ -18,7 +18,7 @@ namespace pulvis {
 class Xdmf {
  public:
   // `heavy` is the HDF5 file's name as seen from the folder of `path`.
-  Xdmf(std::filesystem::path path, std::string heavy, std::uint64_t nodes, std::uint64_t cells,
+  Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
        const std::vector<FieldInfo>& fields);
   void add(double time, const std::string& group);  // group: "/frames/000000"
 
@@ -32,6 +32,7 @@ class Xdmf {
   std::filesystem::path path_;
   std::string heavy_;
   std::uint64_t nodes_, cells_;
+  bool in_space_;
   std::vector<FieldInfo> fields_;
   std::string grids_;  // the text of the frames so far
 };

@@ -121,7 +121,8 @@ const TableDeclaration<ExpectSpec>& expect() {
     TableDeclaration<ExpectSpec> made{
         {"expect", true, "",
          "Something that must hold of the run: `pulvis run` says whether it does, and exits with "
-         "code 3 if not. Either a series that keeps bounds, or an outcome."},
+         "code 3 if not. Either a series that keeps bounds, or an outcome.",
+         every_family},
         series_keys()};
     for (const auto& more : {bound_keys(), outcome_keys()})
       made.keys.insert(made.keys.end(), more.begin(), more.end());

@@ -1,6 +1,7 @@
 // Declarations of what a powder is made of: the top level, materials, particle classes.
 #include <concepts>
 
+#include "scenes/afm_scene.hpp"
 #include "scenes/declare.hpp"
 
 namespace pulvis::schema {
@@ -50,13 +51,16 @@ auto mesh_to(Set set) {
 
 const TableDeclaration<Scene>& top_level() {
   static const TableDeclaration<Scene> declaration{
-      {"", false, "", "Keys before the first table."},
+      {"", false, "family", "Keys before the first table.", every_family},
       {{{.name = "family",
          .kind = Kind::choice,
-         .choices = {{"compaction", "deformable particles in a rigid die, 2D plane strain"}},
+         .choices = {{"compaction", "deformable particles in a rigid die, 2D plane strain"},
+                     {"afm", "a cantilever with a tip or a colloid probe, 3D, quasi-static"}},
          .required = true,
          .doc = "What kind of experiment this is."},
-        nothing<Scene>},
+        [](Scene& scene, const Decoded& value) {
+          if (value.index == 1) scene.afm = std::make_shared<AfmScene>();
+        }},
        {{.name = "title",
          .kind = Kind::text,
          .fallback = value_of(""),
@@ -67,6 +71,7 @@ const TableDeclaration<Scene>& top_level() {
          .choices = {{"draft", "a quick look"},
                      {"standard", "where more costs much and brings little"},
                      {"fine", "for figures to rely on"}},
+         .only_for = compaction_only,
          .doc = "How fine the meshes are that do not say it themselves; the error to expect: "
                 "docs/accuracy.md.",
          .fallback_doc = "`\"standard\"`"},
@@ -76,12 +81,14 @@ const TableDeclaration<Scene>& top_level() {
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .fallback = value_of("1 mm"),
+         .only_for = compaction_only,
          .doc = "Thickness of the plane-strain slice: forces are those on this slice."},
         to(&Scene::thickness)},
        {{.name = "seed",
          .kind = Kind::integer,
          .range = within(0, 1e15),
          .fallback = value_of(1),
+         .only_for = compaction_only,
          .doc = "Seed of everything random; the same seed gives the same run."},
         [](Scene& scene, const Decoded& value) {
           scene.seed = static_cast<std::uint64_t>(value.integer);
@@ -91,17 +98,19 @@ const TableDeclaration<Scene>& top_level() {
 
 const TableDeclaration<MaterialSpec>& material() {
   static const TableDeclaration<MaterialSpec> declaration{
-      {"material", true, "", "A material: elastic, or elastic-plastic (J2) with a yield stress."},
+      {"material", true, "family",
+       "A material: elastic, or elastic-plastic (J2) with a yield stress.", every_family},
       {{{.name = "name",
          .kind = Kind::name,
          .required = true,
-         .doc = "Particles and friction pairs refer to it."},
+         .doc = "What is made of it refers to it: particles, friction pairs, levers, tips."},
         to(&MaterialSpec::name)},
        {{.name = "density",
          .kind = Kind::quantity,
          .unit = "kg/m^3",
          .range = within(1e-3, 1e9),
          .required = true,
+         .only_for = compaction_only,
          .doc = "Mass per volume."},
         to(&MaterialSpec::density)},
        {{.name = "youngs_modulus",
@@ -121,6 +130,7 @@ const TableDeclaration<MaterialSpec>& material() {
          .kind = Kind::quantity,
          .unit = "Pa",
          .range = within(1e-3, 1e13),
+         .only_for = compaction_only,
          .doc = "Where plastic flow begins; below Young's modulus.",
          .fallback_doc = "the material stays elastic"},
         to(&MaterialSpec::yield_stress)},
@@ -129,6 +139,7 @@ const TableDeclaration<MaterialSpec>& material() {
          .unit = "Pa",
          .range = within(0, 1e13),
          .fallback = value_of("0 Pa"),
+         .only_for = compaction_only,
          .needs = "yield_stress",
          .doc = "Growth of the yield stress with plastic strain; 0 is perfectly plastic."},
         to(&MaterialSpec::hardening_modulus)}}};

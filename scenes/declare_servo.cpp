@@ -84,7 +84,8 @@ const TableDeclaration<UntilSpec>& until() {
       {"stage.until", false, "",
        "Ends the stage above it before its time is over; its tools then come to rest as smoothly "
        "as they started. A stage whose time is over before that stops the run. One of `force`, "
-       "`displacement` and `relative_density`."},
+       "`displacement` and `relative_density`.",
+       compaction_only, true},
       {{{.name = "tool",
          .kind = Kind::reference,
          .refers_to = "tool",

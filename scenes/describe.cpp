@@ -66,7 +66,10 @@ std::string heading(const schema::TableInfo& info) {
 }
 
 std::string describe(const schema::TableView& view) {
-  std::string text = fmt::format("\n## {}\n\n{}\n", heading(view.info), view.info.doc);
+  std::string text = fmt::format("\n## {}\n\n{}", heading(view.info), view.info.doc);
+  if (view.info.families.list.size() == 1)
+    text += fmt::format(" Only with family = {}.", schema::quoted(view.info.families));
+  text += "\n";
   if (view.keys.empty()) return text;  // its keys are not ours
   text += "\n";
   text += "| key | value | default | meaning |\n|---|---|---|---|\n";

@@ -135,6 +135,11 @@ std::string last_word(const schema::TableView& view) {
   return view.info.path.substr(view.info.path.rfind('.') + 1);
 }
 
+std::vector<const char*> tables_required(const std::string& family) {
+  if (family == "afm") return {"lever"};
+  return {"particle", "stage"};
+}
+
 // For one value of the selector: the keys it requires, and the keys of other values forbidden, in
 // the table itself and in the tables below it.
 Json branch(const schema::TableView& view, const std::string& selected,
@@ -149,6 +154,11 @@ Json branch(const schema::TableView& view, const std::string& selected,
   for (const schema::TableView* child : children(view.info.path, language))
     if (child->info.selector == view.info.selector)
       properties[last_word(*child)] = branch(*child, selected, language);
+  if (view.info.path.empty()) {
+    for (const schema::TableView* child : children("", language))
+      if (!schema::belongs(child->info, selected)) properties[last_word(*child)] = false;
+    for (const char* table : tables_required(selected)) required.push_back(table);
+  }
   Json json{{"properties", properties}};
   if (!required.empty()) json["required"] = required;
   return json;
@@ -200,8 +210,6 @@ std::string json_schema_of(const std::string& title, const std::string& declared
 std::string scene_json_schema() {
   Json json = file_schema("Pulvis scene", "scenes/declare_*.cpp", schema::all_tables());
   json["required"].push_back("material");
-  json["required"].push_back("particle");
-  json["required"].push_back("stage");
   return json.dump(2) + "\n";
 }
 

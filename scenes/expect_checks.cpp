@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "scenes/afm_figures.hpp"
 #include "scenes/results.hpp"
 #include "scenes/units.hpp"
 
@@ -21,7 +22,8 @@ const SeriesInfo* find_series(const std::vector<SeriesInfo>& all, const std::str
 std::vector<std::string> known_series(const Scene& scene) {
   std::vector<std::string> names;
   for (const SeriesInfo& series : expectable_series(scene)) names.push_back(series.name);
-  names.insert(names.end(), std::begin(figures_of_a_run), std::end(figures_of_a_run));
+  if (!scene.afm)
+    names.insert(names.end(), std::begin(figures_of_a_run), std::end(figures_of_a_run));
   return names;
 }
 
@@ -81,7 +83,10 @@ class ExpectChecks {
     const SeriesInfo* info = find_series(all, expect.series);
     bounds(expect, info == nullptr ? "1" : info->unit == "-" ? "1" : info->unit);
     window(expect);
-    if (!expect.like.empty()) other(expect);
+    if (!expect.like.empty() && scene_.afm)
+      refuse("like", "AFM scenes are not compared with others, allowed: bounds or `equals`");
+    else if (!expect.like.empty())
+      other(expect);
   }
 
   void convert(std::optional<ExpectSpec::Bound>& bound, const std::string& key,
@@ -153,10 +158,13 @@ class ExpectChecks {
 }  // namespace
 
 bool is_figure_of_a_run(const std::string& name) {
-  return std::ranges::find(figures_of_a_run, name) != std::end(figures_of_a_run);
+  const auto afm = afm_figures();
+  return std::ranges::find(figures_of_a_run, name) != std::end(figures_of_a_run) ||
+         std::ranges::find(afm, name, &SeriesInfo::name) != afm.end();
 }
 
 std::vector<SeriesInfo> expectable_series(const Scene& scene) {
+  if (scene.afm) return afm_expectable_series(scene);
   std::vector<SeriesInfo> all = history_series(scene);
   const std::vector<SeriesInfo> momentum = momentum_series();
   all.insert(all.end(), momentum.begin(), momentum.end());

@@ -229,22 +229,31 @@ bool ended_as_expected(const Scene& scene, const std::optional<std::string>& fai
 }
 
 void Expectations::sample(double time, const Results& results) {
+  sample(time, [&](const std::string& series) { return value_of(series, results); });
+}
+
+void Expectations::sample(double time, const Lookup& value) {
   if (scene_.expects.empty()) return;
   times_.push_back(time);
   for (std::size_t i = 0; i < scene_.expects.size(); ++i) {
     const std::string& series = scene_.expects[i].series;
-    if (!series.empty() && !is_figure_of_a_run(series))
-      values_[i].push_back(value_of(series, results));
+    if (!series.empty() && !is_figure_of_a_run(series)) values_[i].push_back(value(series));
   }
 }
 
 std::vector<Verdict> Expectations::judge(const Results& results,
                                          const std::optional<std::string>& failure, int threads,
                                          const std::function<bool()>& stop) const {
+  return judge([&](const std::string& name) { return value_of(name, results); }, results.end_time(),
+               failure, threads, stop);
+}
+
+std::vector<Verdict> Expectations::judge(const Lookup& figure, double end,
+                                         const std::optional<std::string>& failure, int threads,
+                                         const std::function<bool()>& stop) const {
   std::vector<Verdict> verdicts;
   if (scene_.expects.empty()) return verdicts;
   verdicts.push_back(outcome_of(scene_, failure));
-  const double end = results.end_time();
   const std::vector<SeriesInfo> series = expectable_series(scene_);
   std::map<std::filesystem::path, std::vector<std::string>> wanted;
   for (const ExpectSpec& expect : scene_.expects)
@@ -255,7 +264,7 @@ std::vector<Verdict> Expectations::judge(const Results& results,
   for (std::size_t i = 0; i < scene_.expects.size(); ++i) {
     const ExpectSpec& expect = scene_.expects[i];
     if (expect.stops) continue;
-    const Values here = is_figure_of_a_run(expect.series) ? Values{value_of(expect.series, results)}
+    const Values here = is_figure_of_a_run(expect.series) ? Values{figure(expect.series)}
                                                           : window(expect, times_, values_[i], end);
     verdicts.push_back(expect.like.empty()
                            ? hold_against(expect, here, unit_of(series, expect.series))

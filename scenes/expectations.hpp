@@ -25,12 +25,19 @@ class Expectations {
  public:
   explicit Expectations(const Scene& scene) : scene_(scene), values_(scene.expects.size()) {}
 
+  // Where a run's numbers are found by name.
+  using Lookup = std::function<double(const std::string&)>;
+
   // Keeps the series that are expected something of; nothing where the scene expects nothing.
+  void sample(double time, const Lookup& value);
   void sample(double time, const Results& results);
 
   // One verdict an expectation, and one on the outcome before them; none where the scene expects
   // nothing. `failure` is what stopped the run, if anything did. Runs the scenes that this one is
   // compared with, until `stop` says so.
+  std::vector<Verdict> judge(const Lookup& figure, double end,
+                             const std::optional<std::string>& failure, int threads,
+                             const std::function<bool()>& stop = {}) const;
   std::vector<Verdict> judge(const Results& results, const std::optional<std::string>& failure,
                              int threads, const std::function<bool()>& stop = {}) const;
 

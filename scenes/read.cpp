@@ -1,7 +1,9 @@
+#include "scenes/afm_scene.hpp"
 #include "scenes/read.hpp"
 
 #include "engine/fnv1a.hpp"
 #include "scenes/accuracy.hpp"
+#include "scenes/afm_checks.hpp"
 #include "scenes/checks.hpp"
 #include "scenes/expect_checks.hpp"
 #include "scenes/fill_packings.hpp"
@@ -32,7 +34,13 @@ class SceneReader {
     Scene scene;
     scene.file = file;
     tables_.read(schema::top_level(), Value{root_, {{1, 1}, -1}}, "", "", scene);
+    if (const std::string* family = document::find_text(root_, "family")) family_ = *family;
     scene.materials = read_all(schema::material());
+    if (scene.afm) {
+      read_afm(*scene.afm);
+      scene.expects = read_all(schema::expect());
+      return scene;
+    }
     scene.particles = read_particles();
     scene.bodies = read_all(schema::body());
     scene.packings = read_packings();
@@ -69,7 +77,8 @@ class SceneReader {
     for (std::size_t i = 0; i < elements.size(); ++i) {
       const std::string path = numbered(schema::joined_path(parent_path, name), i);
       specs[i].mark = elements[i].origin.mark;
-      tables_.read(declaration, elements[i], path, "", specs[i]);
+      tables_.read(declaration, elements[i], path,
+                   declaration.info.selector == "family" ? family_ : "", specs[i]);
     }
     return specs;
   }
@@ -78,6 +87,15 @@ class SceneReader {
   void read_one(const schema::TableDeclaration<Spec>& declaration, Spec& spec) {
     if (const document::Entry* entry = document::find(root_, declaration.info.path))
       tables_.read(declaration, entry->value, declaration.info.path, "", spec);
+  }
+
+  void read_afm(AfmScene& afm) {
+    read_one(schema::lever(), afm.lever);
+    read_one(schema::tip(), afm.tip);
+    read_one(schema::laser(), afm.laser);
+    read_one(schema::detector(), afm.detector);
+    if (document::find(root_, "surface") != nullptr) read_one(schema::surface(), afm.target.emplace());
+    afm.actions = read_all(schema::action());
   }
 
   std::vector<ParticleSpec> read_particles() {
@@ -136,6 +154,7 @@ class SceneReader {
   }
 
   const Table& root_;
+  std::string family_;
   schema::TableReader tables_;
 };
 
@@ -171,7 +190,10 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   SceneReader reader(root, problems);
   loaded.scene = reader.read(file);
   problems.throw_if_any();
-  complete_and_check(loaded.scene, reader.origins(), problems);
+  if (loaded.scene.afm)
+    check_afm(loaded.scene, reader.origins(), problems);
+  else
+    complete_and_check(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
   if (read_other) {
     complete_and_check_expectations(loaded.scene, read_other, reader.origins(), problems);

@@ -7,21 +7,17 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "scenes/source_mark.hpp"
+
 namespace pulvis {
 
 using Vec2 = Eigen::Vector2d;
-
-// One place of a scene file, kept with every object so that errors found after reading (an overlap, a
-// particle outside the die) still point at the line that caused them.
-struct SourceMark {
-  int line = 0;
-  int column = 0;
-};
 
 struct MaterialSpec {
   std::string name;
@@ -338,6 +334,8 @@ struct ExpectSpec {
   SourceMark mark;
 };
 
+struct AfmScene;  // scenes/afm_scene.hpp
+
 struct Scene {
   std::filesystem::path file;
   std::string title;
@@ -356,6 +354,8 @@ struct Scene {
   OutputSpec output;
   LimitSpec limits;
   std::vector<ExpectSpec> expects;  // [[expect]]
+  // family = "afm": then there are no particles, tools and stages. Not changed once it is read.
+  std::shared_ptr<AfmScene> afm;
 };
 
 }  // namespace pulvis

@@ -1,5 +1,6 @@
 #include "scenes/schema.hpp"
 
+#include "scenes/afm_scene.hpp"
 #include "scenes/problem.hpp"
 
 #include <fmt/format.h>
@@ -56,10 +57,7 @@ void fill_child(document::Table& table, const document::Origin& origin, const Ta
   const std::string key = last_word(child.path);
   document::Entry* entry = document::find(table, key);
   const TableView& view = *find_table(child.path, language);
-  // A table without defaults means something by being there.
-  const bool optional = std::ranges::none_of(
-      view.keys, [](const KeyInfo& of_child) { return of_child.fallback.has_value(); });
-  if (entry == nullptr && (child.repeated || optional)) return;
+  if (entry == nullptr && (child.repeated || child.optional)) return;
   if (entry == nullptr) {
     table.push_back({key, origin, {document::Table{}, origin}});
     entry = &table.back();
@@ -81,9 +79,12 @@ void fill(document::Value& value, const TableView& view, const std::string& pare
     if (wanted && document::find(table, key.name) == nullptr)
       table.push_back({key.name, origin, placed(*key.fallback, origin)});
   }
-  for (const TableView& child : language)
-    if (is_child(child.info, view.info.path))
-      fill_child(table, origin, child.info, selected, language);
+  for (const TableView& child : language) {
+    if (!is_child(child.info, view.info.path)) continue;
+    if (view.info.path.empty() && !belongs(child.info, selected)) continue;
+    const bool shared = child.info.selector == view.info.selector;
+    fill_child(table, origin, child.info, shared ? selected : "", language);
+  }
 }
 
 }  // namespace
@@ -100,7 +101,9 @@ const Language& all_tables() {
       view_of(body()),      view_of(packing()),  view_of(mixture_class()), view_of(tool()),
       view_of(stage()),     view_of(move()),     view_of(servo()),         view_of(until()),
       view_of(friction()),  view_of(contact()),  view_of(element()),       view_of(time()),
-      view_of(output()),    view_of(limits()),   view_of(expect())};
+      view_of(output()),    view_of(limits()),   view_of(lever()),         view_of(tip()),
+      view_of(laser()),     view_of(detector()), view_of(surface()),       view_of(action()),
+      view_of(expect())};
   return tables;
 }
 
@@ -108,6 +111,10 @@ const TableView* find_table(const std::string& path, const Language& language) {
   const auto found = std::find_if(language.begin(), language.end(),
                                   [&](const TableView& table) { return table.info.path == path; });
   return found == language.end() ? nullptr : &*found;
+}
+
+bool belongs(const TableInfo& info, const std::string& family) {
+  return info.path.empty() || !every_family.has(family) || info.families.has(family);
 }
 
 const KeyInfo* find_key(const TableView& table, const std::string& name) {

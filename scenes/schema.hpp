@@ -14,6 +14,15 @@
 #include <string>
 #include <vector>
 
+namespace pulvis {
+struct LeverSpec;
+struct TipSpec;
+struct LaserSpec;
+struct DetectorSpec;
+struct TargetSpec;
+struct ActionSpec;
+}  // namespace pulvis
+
 namespace pulvis::schema {
 
 enum class Kind {
@@ -62,6 +71,9 @@ struct Words {
   }
 };
 
+// Families of experiments, for tables and keys that belong to some of them.
+inline const Words compaction_only{"compaction"}, afm_only{"afm"}, every_family{"compaction", "afm"};
+
 struct KeyInfo {
   std::string name = {};
   Kind kind = Kind::text;
@@ -101,6 +113,8 @@ struct TableInfo {
   bool repeated;         // [[material]], any number of times; otherwise [contact], at most once
   std::string selector;  // the key that only_for compares, here or in the parent table
   std::string doc;
+  Words families = {"compaction"};  // of experiments that have this table
+  bool optional = false;            // without it there is no such thing, not one with default values
 };
 
 template <class Spec>
@@ -140,6 +154,12 @@ const TableDeclaration<TimeSpec>& time();
 const TableDeclaration<OutputSpec>& output();
 const TableDeclaration<LimitSpec>& limits();
 const TableDeclaration<ExpectSpec>& expect();
+const TableDeclaration<LeverSpec>& lever();
+const TableDeclaration<TipSpec>& tip();
+const TableDeclaration<LaserSpec>& laser();
+const TableDeclaration<DetectorSpec>& detector();
+const TableDeclaration<TargetSpec>& surface();
+const TableDeclaration<ActionSpec>& action();
 
 // The tables of one kind of file: top level first, a parent before its children.
 using Language = std::vector<TableView>;
@@ -153,6 +173,8 @@ TableView view_of(const TableDeclaration<Spec>& declaration) {
 }
 
 const TableView* find_table(const std::string& path, const Language& language = all_tables());
+// Whether a table below the top level belongs to the family; of an unknown family all do.
+bool belongs(const TableInfo& info, const std::string& family);
 const KeyInfo* find_key(const TableView& table, const std::string& name);
 std::string joined_path(const std::string& path, const std::string& key);
 // Its keys and child tables.

@@ -85,6 +85,13 @@ bool TableReader::begin(const TableInfo& info, const document::Value& value,
 
 void TableReader::refuse_unknown(const document::Entry& entry, const TableView& view) {
   const std::vector<std::string> words = known_words(view, language_);
+  const TableView* table = view.info.path.empty() ? find_table(entry.key, language_) : nullptr;
+  if (table != nullptr && !belongs(table->info, selected_)) {
+    problems_.add(entry.origin, entry.key,
+                  fmt::format("has no meaning with family = \"{}\", allowed: only with {}",
+                              selected_, quoted(table->info.families)));
+    return;
+  }
   if (std::find(words.begin(), words.end(), entry.key) != words.end()) return;
   const bool is_table =
       entry.value.as<document::Table>() != nullptr || document::is_array_of_tables(entry.value);

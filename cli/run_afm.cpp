@@ -1,0 +1,202 @@
+#include "cli/run_afm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+
+#include "cli/plan.hpp"
+#include "cli/summary_afm.hpp"
+#include "components/solid.hpp"
+#include "engine/output_error.hpp"
+#include "engine/recorder.hpp"
+#include "engine/run_folder.hpp"
+#include "scenes/afm_figures.hpp"
+#include "scenes/afm_loop.hpp"
+#include "scenes/afm_scene.hpp"
+#include "scenes/afm_simulation.hpp"
+#include "scenes/expectations.hpp"
+#include "systems/run_failure.hpp"
+
+namespace pulvis {
+namespace {
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
+}
+
+RunMesh mesh_of(const AfmSimulation& simulation) {
+  const World& world = const_cast<AfmSimulation&>(simulation).world();
+  const auto& solid = world.resource<SolidMesh>();
+  const auto& reference = world.column<ReferencePosition>();
+  RunMesh mesh;
+  for (const auto& hexahedron : solid.hexahedra)
+    mesh.hexahedra.insert(mesh.hexahedra.end(), hexahedron.begin(), hexahedron.end());
+  mesh.cell_particle.assign(solid.part.begin(), solid.part.end());
+  mesh.node_particle.assign(solid.unknown.size(), 0);
+  mesh.reference.assign(reference.values(), reference.values() + 3 * solid.unknown.size());
+  return mesh;
+}
+
+// The lever at rest and under a force normal to the sample, lateral, and along it, each scaled so that
+// the tip's end moves by a tenth of the lever's length.
+void write_frames(const std::filesystem::path& folder, const LoadedScene& loaded, int threads,
+                  AfmSimulation& simulation) {
+  const RunMesh mesh = mesh_of(simulation);
+  Recorder recorder(folder,
+                    {program_version(), program_commit(), loaded.scene.title,
+                     fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
+                    mesh, {{"tip/displacement", "m", "of the tip's end, as drawn"}},
+                    {{"position", "m", "deformed, drawn larger than life", FieldPlace::node, 3},
+                     {"displacement", "m", "as drawn", FieldPlace::node, 3}});
+  const double drawn = 0.1 * loaded.scene.afm->lever.length;
+  const std::array<Vec3, 4> directions{Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitY(), Vec3::UnitX()};
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    std::vector<double> u = simulation.unit_displacements(directions[i]);
+    const double size = read(simulation.model().end, u.data()).norm();
+    std::vector<double> x = mesh.reference;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      u[k] *= size > 0 ? drawn / size : 0;
+      x[k] += u[k];
+    }
+    recorder.sample(static_cast<double>(i), std::vector<double>{size > 0 ? drawn : 0});
+    recorder.frame(static_cast<double>(i), static_cast<std::int64_t>(i), {x, u});
+  }
+  recorder.finish();
+}
+
+std::vector<double> positions(const AfmSimulation& simulation, const RunMesh& mesh) {
+  const double* u = const_cast<AfmSimulation&>(simulation).world().column<Displacement>().values();
+  std::vector<double> x = mesh.reference;
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
+  return x;
+}
+
+std::atomic<bool> interrupted{false};
+void interrupt(int) { interrupted = true; }
+
+struct ProgrammeEnd {
+  bool done = false;
+  std::string failure;
+};
+
+// Runs the actions and keeps their history; some twelve frames of the solid, the last one included.
+ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScene& loaded,
+                           int threads, AfmSimulation& simulation, AfmHistory& history) {
+  const RunMesh mesh = mesh_of(simulation);
+  Recorder recorder(folder,
+                    {program_version(), program_commit(), loaded.scene.title,
+                     fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
+                    mesh, afm_series(), {{"position", "m", "of the node", FieldPlace::node, 3}});
+  std::size_t total = 1;
+  for (const ActionSpec& action : loaded.scene.afm->actions)
+    total += static_cast<std::size_t>(action.increments) * (action.back ? 2 : 1);
+  const std::size_t every = std::max<std::size_t>(1, total / 12);
+  const auto frame = [&](double time) {
+    recorder.frame(time, static_cast<std::int64_t>(history.rows.size()),
+                   {positions(simulation, mesh)});
+  };
+  ProgrammeEnd end;
+  try {
+    end.done = simulation.run([&](double time, const std::vector<double>& row) {
+      history.times.push_back(time);
+      history.rows.push_back(row);
+      recorder.sample(time, row);
+      if (history.rows.size() % every == 1 || every == 1) frame(time);
+      return !interrupted;
+    });
+  } catch (const RunFailure& failure) {
+    end.failure = failure.what();
+  }
+  if (!history.times.empty()) frame(history.times.back());
+  recorder.finish(end.done ? "done" : end.failure.empty() ? "interrupted" : end.failure);
+  return end;
+}
+
+std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
+                           const std::map<std::string, double>& figures, const std::string& failure,
+                           int threads) {
+  Expectations expectations(loaded.scene);
+  for (std::size_t i = 0; i < history.rows.size(); ++i)
+    expectations.sample(history.times[i],
+                        [&](const std::string& name) { return history.value(i, name); });
+  const double end = static_cast<double>(loaded.scene.afm->actions.size());
+  return expectations.judge(
+      [&](const std::string& name) {
+        const auto found = figures.find(name);  // a run that was stopped has no loops
+        return found == figures.end() ? std::nan("") : found->second;
+      },
+      end, failure.empty() ? std::nullopt : std::optional(failure), threads);
+}
+
+void print_end(const AfmReport& report, const std::filesystem::path& folder) {
+  fmt::print("{}", calibration_text(report.calibration));
+  for (const FrictionLoop& loop : report.loops) fmt::print("{}", loop_text(loop));
+  fmt::print("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
+             report.increments, report.wall_seconds);
+  if (!report.verdicts.empty()) fmt::print("expectations\n");
+  for (const Verdict& verdict : report.verdicts) fmt::print("  {}\n", verdict.text());
+  fmt::print("results in {}\n", folder.string());
+}
+
+}  // namespace
+
+ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder, int threads,
+                 bool overwrite) {
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  const auto start = std::chrono::steady_clock::now();
+  AfmSimulation simulation(loaded.scene, threads);
+  open_run_folder(folder, overwrite);
+  write_text(folder / "scene.toml", loaded.text);
+  AfmReport report;
+  AfmHistory history;
+  ProgrammeEnd end{true, ""};
+  report.calibration = simulation.calibrate();
+  if (loaded.scene.afm->actions.empty())
+    write_frames(folder, loaded, threads, simulation);
+  else
+    end = run_programme(folder, loaded, threads, simulation, history);
+  if (end.done) report.loops = friction_loops(loaded.scene, history);
+  report.elements = simulation.model().elements;
+  report.nodes = simulation.model().nodes;
+  report.increments = history.rows.empty() ? 0 : history.rows.size() - 1;
+  report.threads = threads;
+  report.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.outcome = end.done              ? "done"
+                   : end.failure.empty() ? "interrupted"
+                                         : "failed: " + end.failure;
+  if (end.done || !end.failure.empty())
+    report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
+                            end.failure, threads);
+  write_text(folder / "summary.json", afm_summary(loaded, report));
+  print_end(report, folder);
+  const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);
+  if (!expected) fmt::print(stderr, "pulvis: the run went bad: {}\n", end.failure);
+  if (!end.done && end.failure.empty()) return ExitCode::interrupted;
+  return expected && all_met(report.verdicts) ? ExitCode::done : ExitCode::run_failed;
+}
+
+ExitCode check_afm_scene(const Scene& scene) {
+  const AfmModel model = build_afm(scene);
+  fmt::print("{}: good: {} elements, {} nodes\n", scene.file.string(), model.elements, model.nodes);
+  return ExitCode::done;
+}
+
+ExitCode plan_afm(const Scene& scene, bool dot) {
+  AfmSimulation simulation(scene);
+  fmt::print("{}",
+             dot ? plan_dot(simulation.plan()) : plan_text(simulation.plan(), simulation.world()));
+  return ExitCode::done;
+}
+
+}  // namespace pulvis

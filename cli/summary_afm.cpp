@@ -1,0 +1,134 @@
+#include "cli/summary_afm.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/instruction_set.hpp"
+
+namespace pulvis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json response_json(const UnitResponse& r) {
+  return {{"tip_displacement", vector_json(r.end)},
+          {"foot_displacement", vector_json(r.foot)},
+          {"slope_normal", r.spot.normal},
+          {"slope_lateral", r.spot.lateral},
+          {"foot_slope_normal", r.at_foot.normal},
+          {"foot_slope_lateral", r.at_foot.lateral},
+          {"clamp_force", vector_json(r.clamp_force)},
+          {"clamp_moment", vector_json(r.clamp_moment)}};
+}
+
+double finite_element(const Calibration& c, const std::string& quantity) {
+  return quantity == "k_n" ? c.normal_stiffness : c.lateral_stiffness;
+}
+
+Json calibration_json(const Calibration& c) {
+  Json json{{"k_n", c.normal_stiffness},
+            {"k_l", c.lateral_stiffness},
+            {"k_x", c.longitudinal_stiffness},
+            {"torsional_stiffness", c.torsional_stiffness},
+            {"arm", c.arm},
+            {"share_bending", c.bending_share},
+            {"share_twist", c.twist_share},
+            {"share_tip", c.tip_share},
+            {"invols_normal", c.normal_invols},
+            {"imbalance", c.imbalance}};
+  if (std::isfinite(c.lateral_invols)) json["invols_lateral"] = c.lateral_invols;
+  json["per_newton"] = {{"normal", response_json(c.normal)},
+                        {"lateral", response_json(c.lateral)},
+                        {"longitudinal", response_json(c.longitudinal)}};
+  for (const ClosedForm& form : c.closed_forms)
+    json["closed_forms"].push_back(
+        {{"quantity", form.quantity},
+         {"name", form.name},
+         {"value", form.value},
+         {"difference", finite_element(c, form.quantity) / form.value - 1}});
+  return json;
+}
+
+Json loop_json(const FrictionLoop& loop) {
+  Json json{{"action", loop.action},
+            {"load", loop.load},
+            {"forth", loop.forth},
+            {"back", loop.back},
+            {"half_width", loop.half_width},
+            {"offset", loop.offset},
+            {"volts_half_width", loop.volts_half_width},
+            {"volts_offset", loop.volts_offset}};
+  if (loop.friction) json["friction"] = *loop.friction;
+  if (loop.sensitivity) json["sensitivity"] = *loop.sensitivity;
+  return json;
+}
+
+}  // namespace
+
+std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
+  Json json{{"title", loaded.scene.title},
+            {"family", "afm"},
+            {"outcome", report.outcome},
+            {"version", program_version()},
+            {"commit", program_commit()},
+            {"scene_hash", fmt::format("{:016x}", loaded.hash)},
+            {"threads", report.threads},
+            {"instruction_set", instruction_set()},
+            {"wall_seconds", report.wall_seconds},
+            {"elements", report.elements},
+            {"nodes", report.nodes},
+            {"increments", report.increments},
+            {"calibration", calibration_json(report.calibration)}};
+  for (const FrictionLoop& loop : report.loops) json["loops"].push_back(loop_json(loop));
+  for (const Verdict& verdict : report.verdicts) {
+    Json entry{{"what", verdict.what},
+               {"measured", verdict.measured},
+               {"expected", verdict.allowed},
+               {"met", verdict.met}};
+    if (verdict.value) entry["value"] = *verdict.value;
+    json["expectations"].push_back(entry);
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string loop_text(const FrictionLoop& loop) {
+  std::string text = fmt::format(
+      "friction loop of action {}: load {:.5g} N, W {:.5g} N, Delta {:.5g} N; W/L {:.5f}, "
+      "Delta/L {:.5f}\n",
+      loop.action, loop.load, loop.half_width, loop.offset, loop.half_width / loop.load,
+      loop.offset / loop.load);
+  if (loop.friction)
+    text += fmt::format("  wedge calibration of the detector: friction {:.5f}, {:.5g} N/V\n",
+                        *loop.friction, *loop.sensitivity);
+  return text;
+}
+
+std::string calibration_text(const Calibration& c) {
+  std::string text = fmt::format("normal stiffness    k_n {:.5g} N/m\n", c.normal_stiffness);
+  for (const ClosedForm& form : c.closed_forms)
+    if (form.quantity == "k_n")
+      text += fmt::format("  {:<42} {:.5g} N/m, finite elements {:+.2f}%\n", form.name, form.value,
+                          100 * (c.normal_stiffness / form.value - 1));
+  text +=
+      fmt::format("lateral stiffness   k_l {:.5g} N/m (arm h {:.4g} um from the middle plane)\n",
+                  c.lateral_stiffness, c.arm * 1e6);
+  for (const ClosedForm& form : c.closed_forms)
+    if (form.quantity == "k_l")
+      text += fmt::format("  {:<42} {:.5g} N/m, finite elements {:+.2f}%\n", form.name, form.value,
+                          100 * (c.lateral_stiffness / form.value - 1));
+  text += fmt::format("torsional stiffness {:.5g} N m/rad; along the lever {:.5g} N/m\n",
+                      c.torsional_stiffness, c.longitudinal_stiffness);
+  text += fmt::format(
+      "lateral displacement of the tip's end: {:.1f}% twist, {:.1f}% lateral bending, "
+      "{:.1f}% in the tip\n",
+      100 * c.twist_share, 100 * c.bending_share, 100 * c.tip_share);
+  text += fmt::format("InvOLS normal {:.4g} m/V, lateral {:.4g} m/V\n", c.normal_invols,
+                      c.lateral_invols);
+  return text;
+}
+
+}  // namespace pulvis

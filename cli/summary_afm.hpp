@@ -1,0 +1,29 @@
+// summary.json of an AFM run, and the same figures for the terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/summary.hpp"
+#include "scenes/afm_calibration.hpp"
+#include "scenes/afm_loop.hpp"
+#include "scenes/expectations.hpp"
+#include "scenes/read.hpp"
+
+namespace pulvis {
+
+struct AfmReport {
+  Calibration calibration;
+  std::vector<FrictionLoop> loops;
+  std::vector<Verdict> verdicts;
+  std::size_t elements = 0, nodes = 0, increments = 0;
+  int threads = 1;
+  double wall_seconds = 0;
+  std::string outcome;
+};
+
+std::string afm_summary(const LoadedScene& loaded, const AfmReport& report);
+std::string calibration_text(const Calibration& calibration);
+std::string loop_text(const FrictionLoop& loop);
+
+}  // namespace pulvis

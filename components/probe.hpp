@@ -1,0 +1,67 @@
+// Columns and resources of a probe that touches a rigid target: the points of the probe that can touch,
+// and the target that the scanner moves under it. There only where the scene has a surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "engine/component.hpp"
+
+namespace pulvis {
+
+struct ProbePoint {  // a node of the probe's surface, or the end of a sharp tip
+  static constexpr const char* name = "probe_point";
+  static constexpr bool laned = false, by_chunk = false;
+};
+
+struct ProbeNode : Component<ProbePoint, std::int32_t, 1> {
+  static constexpr ComponentInfo info{"node", "-", "of the solid, that the point is"};
+};
+struct ProbeStiffness : Component<ProbePoint, double, 2> {
+  static constexpr ComponentInfo info{"stiffness", "N/m", "of the penalties: normal, tangential"};
+};
+struct ProbeShare : Component<ProbePoint, double, 1> {
+  static constexpr ComponentInfo info{"share", "-", "of the pull-off force that acts on the point"};
+};
+// What the point carries from one increment to the next.
+struct ProbeMemory : Component<ProbePoint, double, 6> {
+  static constexpr ComponentInfo info{
+      "memory", "N, m", "tangential force, and place on the target, of the last equilibrium"};
+};
+struct ProbeForce : Component<ProbePoint, double, 3> {
+  static constexpr ComponentInfo info{"force", "N", "of the target on the point"};
+};
+struct ProbeTangent : Component<ProbePoint, double, 9> {
+  static constexpr ComponentInfo info{"tangent", "N/m", "- d force / d place, row by row"};
+};
+struct ProbeState : Component<ProbePoint, double, 4> {
+  static constexpr ComponentInfo info{
+      "state", "m, N, N, -", "gap, normal force, limit of friction, 0 apart 1 sticks 2 slides"};
+};
+
+// The rigid surface: how far a place is from it, and which way is out.
+struct TargetShape {
+  using Place = std::array<double, 3>;
+  struct Nearest {
+    double distance = 0;  // m, < 0 inside
+    Place normal{0, 0, 1};
+  };
+  virtual ~TargetShape() = default;
+  virtual Nearest nearest(const Place& place) const = 0;
+};
+
+struct Target {
+  static constexpr const char* resource_name = "target";
+  std::shared_ptr<const TargetShape> shape;
+  std::array<double, 3> position{};  // m, of the scanner
+  double friction = 0;               // -, Coulomb
+  double pull_off = 0;               // N, adhesion at contact (DMT); 0: none
+  double range = 0;                  // m, over which it fades: 1/(1 + gap/range)^2
+  double end_radius = 0;             // m, of a sharp tip's end; 0 for nodes of a meshed surface
+  bool stick = false;    // predictor: every point that touches sticks, whatever the force
+  bool servo = false;    // the scanner's height follows so that ...
+  double set_point = 0;  // N, ... the target pushes the probe up with this force
+};
+
+}  // namespace pulvis

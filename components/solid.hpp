@@ -1,0 +1,104 @@
+// Columns and resources of a deformable solid in space that is solved quasi-statically: eight-node
+// hexahedra, nodes, and the blocks of the stiffness matrix. Nothing of it is there unless the scene has a
+// lever (family = "afm").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/component.hpp"
+
+namespace pulvis {
+
+struct SolidNode {
+  static constexpr const char* name = "solid_node";
+  static constexpr bool laned = false, by_chunk = false;
+};
+struct SolidElement {  // eight-node hexahedron
+  static constexpr const char* name = "solid_element";
+  static constexpr bool laned = false, by_chunk = true;
+};
+struct StiffnessBlock {  // 3 x 3 numbers: how one node's displacement acts on another's force
+  static constexpr const char* name = "stiffness_block";
+  static constexpr bool laned = false, by_chunk = false;
+};
+
+// ---- nodes ------------------------------------------------------------------------------------
+struct ReferencePosition : Component<SolidNode, double, 3> {
+  static constexpr ComponentInfo info{"reference_position", "m", "of the undeformed solid"};
+};
+struct Displacement : Component<SolidNode, double, 3> {
+  static constexpr ComponentInfo info{"displacement", "m", "from the reference position"};
+};
+struct AppliedForce : Component<SolidNode, double, 3> {
+  static constexpr ComponentInfo info{"applied_force", "N", "dead load on the node"};
+};
+struct SolidForce : Component<SolidNode, double, 3> {
+  static constexpr ComponentInfo info{"solid_force", "N", "of the stresses, on the node's support"};
+};
+
+// ---- elements ---------------------------------------------------------------------------------
+struct LameConstants : Component<SolidElement, double, 2> {
+  static constexpr ComponentInfo info{"lame_constants", "Pa", "lambda, mu"};
+};
+struct ElementForce : Component<SolidElement, double, 24> {
+  static constexpr ComponentInfo info{"element_force", "N", "of the stresses, by corner: x y z"};
+};
+struct ElementTangent : Component<SolidElement, double, 300> {
+  static constexpr ComponentInfo info{"element_tangent", "N/m",
+                                      "d force / d displacement, lower triangle row by row"};
+};
+struct ElementEnergy : Component<SolidElement, double, 1> {
+  static constexpr ComponentInfo info{"element_energy", "J", "strain energy"};
+};
+
+// ---- the stiffness matrix ---------------------------------------------------------------------
+struct BlockTangent : Component<StiffnessBlock, double, 9> {
+  static constexpr ComponentInfo info{"block_tangent", "N/m", "3 x 3, row by row"};
+};
+
+// Hexahedra: corners 0-3 counter-clockwise at zeta = -1 seen from +zeta, 4-7 above them.
+struct SolidMesh {
+  static constexpr const char* resource_name = "solid_mesh";
+  using Hexahedron = std::array<std::int32_t, 8>;
+  // A node that hangs on others moves as their weighted mean; one that hangs on nobody is held.
+  struct Support {
+    std::int32_t node = 0;
+    double weight = 1;
+  };
+  std::vector<Hexahedron> hexahedra;
+  std::vector<std::uint8_t> thin;           // [elements] one layer of a plate, thin along zeta
+  std::vector<std::uint8_t> part;           // [elements] 0 lever, 1 coating, 2 tip, 3 glue
+  std::vector<std::int32_t> support_begin;  // [nodes + 1]; a free node's only support is itself
+  std::vector<Support> supports;
+  std::vector<std::int32_t> unknown;      // [nodes] block of three equations; -1: held or hanging
+  std::int32_t unknowns = 0;              // free nodes
+  std::vector<std::int32_t> chunk_begin;  // [chunks + 1] into hexahedra
+
+  std::span<const Support> supports_of(int n) const {
+    const auto first = static_cast<std::size_t>(support_begin[static_cast<std::size_t>(n)]);
+    const auto last = static_cast<std::size_t>(support_begin[static_cast<std::size_t>(n) + 1]);
+    return {supports.data() + first, last - first};
+  }
+};
+
+// Where the numbers of the elements go: lists made once, added up in their order, whatever the threads.
+struct SolidAssembly {
+  static constexpr const char* resource_name = "solid_assembly";
+  struct Share {
+    std::int32_t element = 0;
+    std::int8_t row = 0, column = 0;  // corners; of a force: row
+    double weight = 1;
+  };
+  std::vector<std::int32_t> force_begin;  // [nodes + 1] into forces
+  std::vector<Share> forces;
+  std::vector<std::int32_t> block_begin;  // [blocks + 1] into shares
+  std::vector<Share> shares;
+  std::vector<std::int32_t>
+      column_begin;  // [unknowns + 1] into block_row: lower triangle by columns
+  std::vector<std::int32_t> block_row;
+};
+
+}  // namespace pulvis

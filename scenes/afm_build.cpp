@@ -1,0 +1,150 @@
+#include "scenes/afm_build.hpp"
+#include "scenes/afm_scene.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace pulvis {
+namespace {
+
+// The lever is built flat and then turned about y: its end comes down by the chip's tilt.
+Eigen::Matrix3d tilted(double angle) {
+  return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
+}
+
+Gauge on_plane(const LeverMesh& lever, const Vec2& point, double z) {
+  const auto place = locate(lever.plan, point);
+  const auto weights = place->weights();
+  std::size_t level = 0;
+  while (level + 2 < lever.levels.size() && lever.levels[level + 1] < z) ++level;
+  const double s = (z - lever.levels[level]) / (lever.levels[level + 1] - lever.levels[level]);
+  Gauge gauge;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const int p = lever.plan.quads[static_cast<std::size_t>(place->quad)][c];
+    gauge.push_back({lever.node(p, level), (1 - s) * weights[c]});
+    gauge.push_back({lever.node(p, level + 1), s * weights[c]});
+  }
+  return gauge;
+}
+
+// Differences over half an element to both sides, or to the one that is there.
+Gauge difference(const LeverMesh& lever, const Vec2& point, const Vec2& step, double z) {
+  const Vec2 ahead = locate(lever.plan, point + step) ? Vec2(point + step) : point;
+  const Vec2 behind = locate(lever.plan, point - step) ? Vec2(point - step) : point;
+  const double distance = (ahead - behind).norm();
+  Gauge gauge = on_plane(lever, ahead, z);
+  for (auto& support : gauge) support.weight /= distance;
+  for (const auto& support : on_plane(lever, behind, z))
+    gauge.push_back({support.node, -support.weight / distance});
+  return gauge;
+}
+
+SlopeGauge slope_at(const LeverMesh& lever, const LeverSpec& spec, const Vec2& point, double z) {
+  const double reach = spec.shape == LeverSpec::Shape::beam ? spec.width : spec.arm_width;
+  const double step = 0.05 * reach;
+  return {difference(lever, point, {step, 0}, z), difference(lever, point, {0, step}, z)};
+}
+
+// A spot of even brightness: its middle, and a ring of eight points that stands for the rest (exact for
+// slopes that vary linearly or quadratically over it: radius r / sqrt 2).
+std::vector<SlopeGauge> laser_spot(const Scene& scene, const LeverMesh& lever) {
+  const LaserSpec& laser = scene.afm->laser;
+  const Vec2 axis = tip_axis(scene.afm->lever, scene.afm->tip);
+  const Vec2 middle(laser.position.value_or(axis.x()), laser.offset);
+  const double back = lever.levels.back();
+  if (laser.radius == 0) return {slope_at(lever, scene.afm->lever, middle, back)};
+  std::vector<SlopeGauge> spot;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 0.25 * std::numbers::pi * (i + 0.5), r = laser.radius / std::sqrt(2.0);
+    spot.push_back(slope_at(lever, scene.afm->lever,
+                            middle + r * Vec2(std::cos(angle), std::sin(angle)), back));
+  }
+  return spot;
+}
+
+// The node of the tip's end nearest to its middle.
+int middle_node(const SolidDraft& draft, const Gauge& end) {
+  Vec3 middle = Vec3::Zero();
+  for (const auto& s : end) middle += s.weight * draft.nodes[static_cast<std::size_t>(s.node)];
+  int nearest = end.front().node;
+  const auto distance = [&](int n) {
+    return (draft.nodes[static_cast<std::size_t>(n)] - middle).norm();
+  };
+  for (const auto& s : end)
+    if (distance(s.node) < distance(nearest)) nearest = s.node;
+  return nearest;
+}
+
+std::array<Lame, 4> part_materials(const Scene& scene) {
+  const AfmScene& afm = *scene.afm;
+  const auto of = [&](int material) {
+    return lame_of(scene.materials[static_cast<std::size_t>(material)]);
+  };
+  return {of(afm.lever.material), of(afm.lever.coating.value_or(afm.lever.material)),
+          of(afm.tip.material), of(afm.tip.glue.value_or(afm.tip.material))};
+}
+
+}  // namespace
+
+AfmModel build_afm(const Scene& scene) {
+  const AfmScene& afm = *scene.afm;
+  AfmModel model;
+  SolidDraft draft;
+  const LeverMesh lever =
+      add_lever(draft, afm.lever, lever_plan(afm.lever, lever_foot(afm.lever, afm.tip)));
+  model.tip = add_tip(draft, afm.lever, lever, afm.tip);
+  model.end = model.tip.end;
+  model.contact_node = middle_node(draft, model.end);
+  const Vec2 axis = tip_axis(afm.lever, afm.tip);
+  model.foot = on_plane(lever, axis, 0);
+  model.foot_slope = slope_at(lever, afm.lever, axis, 0);
+  model.spot = laser_spot(scene, lever);
+  const Eigen::Matrix3d turn = tilted(afm.lever.tilt);
+  for (Vec3& x : draft.nodes) x = turn * x;
+  model.axis = turn.col(0);
+  model.side = turn.col(1);
+  model.up = turn.col(2);
+  model.nodes = draft.nodes.size();
+  model.elements = draft.hexahedra.size();
+  model.world = finish_solid(draft, part_materials(scene));
+  return model;
+}
+
+Vec3 clamp_force(const AfmModel& model) {
+  const auto& mesh = model.world->resource<SolidMesh>();
+  const double* force = model.world->column<SolidForce>().values();
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 0; n < model.nodes; ++n)
+    if (mesh.supports_of(static_cast<int>(n)).empty()) sum += Vec3(force + 3 * n);
+  return sum;
+}
+
+double elastic_energy(const AfmModel& model) {
+  const auto& energy = model.world->column<ElementEnergy>();
+  double sum = 0;
+  for (std::size_t e = 0; e < energy.table.rows; ++e) sum += energy.values()[e];
+  return sum;
+}
+
+Vec3 read(const Gauge& gauge, const double* field) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& support : gauge)
+    for (int k = 0; k < 3; ++k) sum[k] += support.weight * field[3 * support.node + k];
+  return sum;
+}
+
+Slopes slopes(const AfmModel& model, const std::vector<SlopeGauge>& gauges,
+              const double* displacement) {
+  Slopes mean;
+  for (const SlopeGauge& gauge : gauges) {
+    const Vec3 along = model.axis + read(gauge.along, displacement);
+    const Vec3 across = model.side + read(gauge.across, displacement);
+    mean.normal += std::atan2(along.dot(model.up), along.dot(model.axis));
+    mean.lateral += std::atan2(across.dot(model.up), across.dot(model.side));
+  }
+  const auto count = static_cast<double>(gauges.size());
+  return {mean.normal / count, mean.lateral / count};
+}
+
+}  // namespace pulvis

@@ -1,0 +1,210 @@
+#include "scenes/afm_checks.hpp"
+#include "scenes/afm_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scenes/lever_mesh.hpp"
+#include "scenes/target_shape.hpp"
+#include "scenes/tip_mesh.hpp"
+
+namespace pulvis {
+namespace {
+
+using Shape = TipSpec::Shape;
+
+class AfmChecks {
+ public:
+  AfmChecks(const Scene& scene, const schema::Origins& origins, Problems& problems)
+      : scene_(scene),
+        lever_(scene.afm->lever),
+        tip_(scene.afm->tip),
+        origins_(origins),
+        problems_(problems) {}
+
+  void run() {
+    if (scene_.materials.empty())
+      problems_.add({{1, 1}, -1}, "material",
+                    "none is declared, allowed: at least one [[material]]");
+    coating();
+    if (!outline()) return;
+    tip();
+    laser();
+    mesh_size();
+    actions();
+  }
+
+ private:
+  void refuse(const std::string& path, const std::string& message) {
+    auto found = origins_.find(path);
+    if (found == origins_.end()) found = origins_.find(path.substr(0, path.find('.')));
+    problems_.add(found == origins_.end() ? document::Origin{{1, 1}, -1} : found->second, path,
+                  message);
+    good_ = false;
+  }
+
+  void coating() {
+    if (lever_.coating && lever_.coating_thickness == 0)
+      refuse("lever.coating_thickness", "required key is missing, allowed: a quantity in m");
+  }
+
+  // False where no plan can be drawn.
+  bool outline() {
+    if (lever_.shape == LeverSpec::Shape::beam) return good_;
+    if (lever_.half_angle.has_value() == lever_.base_width.has_value()) {
+      refuse("lever.half_angle",
+             "neither or both of half_angle and base_width are given, allowed: "
+             "one of them");
+      return false;
+    }
+    if (lever_.base_width && *lever_.base_width <= lever_.apex_width) {
+      refuse("lever.base_width", fmt::format("{:g} m is not wider than the apex, allowed: > {:g} m",
+                                             *lever_.base_width, lever_.apex_width));
+      return false;
+    }
+    const VOutline v = v_outline(lever_);
+    const double widest = v.apex * std::sin(v.half_angle);
+    if (v.inner <= 0)
+      refuse("lever.arm_width",
+             fmt::format("{:g} m: the arms of this V grow together at the clamp, "
+                         "allowed: < {:g} m",
+                         lever_.arm_width, widest));
+    const double least = (v.apex - lever_.length) * std::sin(v.half_angle);
+    if (v.inner >= lever_.length)
+      refuse("lever.arm_width", fmt::format("{:g} m: the arms of this V do not meet before its "
+                                            "end, allowed: > {:g} m",
+                                            lever_.arm_width, least));
+    return good_;
+  }
+
+  double half_width_at(double x) const {
+    if (lever_.shape == LeverSpec::Shape::beam) return 0.5 * lever_.width;
+    const VOutline v = v_outline(lever_);
+    return (v.apex - x) * std::tan(v.half_angle);
+  }
+
+  void tip() {
+    if (tip_.shape == Shape::sphere && tip_.neck_radius >= tip_.radius) {
+      refuse("tip.neck_radius", fmt::format("{:g} m: the neck is not thinner than the ball, "
+                                            "allowed: < {:g} m",
+                                            tip_.neck_radius, tip_.radius));
+      return;
+    }
+    const double reach = foot_reach(tip_);
+    const std::string size = tip_.shape == Shape::sphere ? "tip.neck_radius" : "tip.foot";
+    if (reach >= half_width_at(lever_.length - tip_.set_back) && reach > 0)
+      refuse(size, fmt::format("{:g} m: its foot is wider than the lever there, allowed: < {:g} m",
+                               tip_.shape == Shape::sphere ? reach : 2 * reach,
+                               (tip_.shape == Shape::sphere ? 1 : 2) *
+                                   half_width_at(lever_.length - tip_.set_back)));
+    else if (!foot_on_lever(reach))
+      refuse(std::abs(tip_.offset) > 0 ? "tip.offset" : "tip.set_back",
+             fmt::format("the tip's foot (x = {:g} m, y = {:g} m, reaching {:g} m) is not on the "
+                         "lever, allowed: {:g} m <= set_back < {:g} m and a foot on the lever",
+                         lever_.length - tip_.set_back, tip_.offset, reach, reach, lever_.length));
+  }
+
+  bool foot_on_lever(double reach) const {
+    const PlanMesh plan = lever_plan(lever_, lever_foot(lever_, tip_));
+    const Vec2 axis = tip_axis(lever_, tip_);
+    const bool square = tip_.shape == Shape::block || tip_.shape == Shape::pyramid;
+    for (int i = 0; i < 32; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + 0.5) / 32;
+      Vec2 off(std::cos(angle), std::sin(angle));
+      if (square) off /= off.cwiseAbs().maxCoeff();
+      if (!locate(plan, axis + reach * off)) return false;
+    }
+    return axis.x() > 0 && locate(plan, axis);
+  }
+
+  void laser() {
+    const LaserSpec& laser = scene_.afm->laser;
+    const PlanMesh plan = lever_plan(lever_, lever_foot(lever_, tip_));
+    const Vec2 middle(laser.position.value_or(lever_.length - tip_.set_back), laser.offset);
+    for (int i = 0; i < 8; ++i) {
+      const double angle = 0.25 * std::numbers::pi * i;
+      if (locate(plan, middle + laser.radius * Vec2(std::cos(angle), std::sin(angle)))) continue;
+      refuse("laser.position",
+             fmt::format("the spot (x = {:g} m, y = {:g} m, radius {:g} m) is not on the lever, "
+                         "allowed: 0 to {:g} m along it, within {:g} m of its axis there",
+                         middle.x(), middle.y(), laser.radius, lever_.length,
+                         half_width_at(middle.x())));
+      return;
+    }
+  }
+
+  void mesh_size() {
+    constexpr std::size_t most = 200'000;  // hexahedra: 600 MB with the factors
+    const std::size_t count = lever_plan(lever_, lever_foot(lever_, tip_)).quads.size() *
+                              static_cast<std::size_t>(lever_.layers);
+    if (count > most)
+      refuse("lever.aspect", fmt::format("{} elements, allowed: {} at most", count, most));
+  }
+
+  void actions() {
+    const AfmScene& afm = *scene_.afm;
+    if (afm.actions.empty()) return;
+    if (!afm.target)
+      return refuse("action[0]", "there is no surface, allowed: [[action]] with a [surface]");
+    bool pressed = false;
+    for (std::size_t i = 0; i < afm.actions.size(); ++i) {
+      const ActionSpec& action = afm.actions[i];
+      const std::string path = fmt::format("action[{}]", i);
+      const bool press = action.kind == ActionSpec::Kind::press;
+      if (press && (action.distance != 0) == action.force.has_value())
+        refuse(path + ".distance", "neither or both of distance and force are given, allowed: one");
+      if (action.force && *action.force <= 0)
+        refuse(path + ".force", fmt::format("{:g} N, allowed: > 0 N", *action.force));
+      if (action.servo && !pressed)
+        refuse(path + ".set_point", "there is no force to keep yet, allowed: after a press");
+      pressed = pressed || press;
+    }
+    map();
+  }
+
+  void map() {
+    const TargetSpec& target = *scene_.afm->target;
+    if (target.shape != TargetSpec::Shape::map) return;
+    try {
+      const auto heights = read_height_map(scene_.file.parent_path() / target.file);
+      inside_map(TargetSpec::Direction::lateral, heights.size());
+      inside_map(TargetSpec::Direction::along, heights.front().size());
+    } catch (const std::runtime_error& error) {
+      refuse("surface.file", fmt::format("'{}': {}, allowed: lines of numbers in m, separated by "
+                                         "commas, all as long",
+                                         target.file, error.what()));
+    }
+  }
+
+  // Where the probe's end comes to on the map, its own deflection left aside.
+  void inside_map(TargetSpec::Direction direction, std::size_t points) {
+    const double bound = 0.5 * scene_.afm->target->spacing * static_cast<double>(points - 1);
+    double at = 0;
+    for (std::size_t i = 0; i < scene_.afm->actions.size(); ++i) {
+      const ActionSpec& action = scene_.afm->actions[i];
+      if (action.kind != ActionSpec::Kind::scan || action.direction != direction) continue;
+      if (std::abs(at + action.distance) > bound)
+        refuse(fmt::format("action[{}].distance", i),
+               fmt::format("the scan leaves the map: it comes to {:g} m, allowed: {:g} to {:g} m",
+                           at + action.distance, -bound, bound));
+      if (!action.back) at += action.distance;
+    }
+  }
+
+  const Scene& scene_;
+  const LeverSpec& lever_;
+  const TipSpec& tip_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+void check_afm(const Scene& scene, const schema::Origins& origins, Problems& problems) {
+  AfmChecks(scene, origins, problems).run();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,102 @@
+#include "scenes/afm_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "scenes/afm_programme.hpp"
+#include "scenes/afm_scene.hpp"
+
+namespace pulvis {
+
+namespace wedge {
+
+double uphill(double load, double adhesion, double mu, double slope) {
+  const double s = std::sin(slope), c = std::cos(slope);
+  return (load * (s + mu * c) + mu * adhesion) / (c - mu * s);
+}
+
+double downhill(double load, double adhesion, double mu, double slope) {
+  const double s = std::sin(slope), c = std::cos(slope);
+  return (load * (s - mu * c) - mu * adhesion) / (c + mu * s);
+}
+
+std::optional<double> friction(double half_width, double offset, double slope) {
+  if (half_width == 0 || slope == 0) return {};
+  const double sum = 2 * (offset / half_width) / std::sin(2 * slope);
+  if (!(sum >= 2)) return {};
+  return 2 / (sum + std::sqrt(sum * sum - 4));
+}
+
+}  // namespace wedge
+
+namespace {
+
+struct Means {
+  double force = 0, load = 0, volts = 0;
+};
+
+Means means(const AfmHistory& history, const std::string& force, const std::string& volts,
+            double from, double until) {
+  Means sum;
+  int samples = 0;
+  for (std::size_t i = 0; i < history.rows.size(); ++i) {
+    if (history.times[i] < from || history.times[i] > until) continue;
+    sum.force -= history.value(i, force);  // what draws the probe is the opposite of what holds it
+    sum.load += history.value(i, "probe/force_z");
+    sum.volts -= history.value(i, volts);
+    ++samples;
+  }
+  const double n = std::max(samples, 1);
+  return {sum.force / n, sum.load / n, sum.volts / n};
+}
+
+}  // namespace
+
+double AfmHistory::value(std::size_t sample, const std::string& series) const {
+  static const std::vector<SeriesInfo> all = afm_series();
+  const auto found = std::ranges::find(all, series, &SeriesInfo::name);
+  if (found == all.end()) throw std::logic_error("no series " + series);
+  return rows[sample][static_cast<std::size_t>(found - all.begin())];
+}
+
+std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& history) {
+  constexpr double tolerance = 1e-9;
+  std::vector<FrictionLoop> loops;
+  for (std::size_t a = 0; a < scene.afm->actions.size(); ++a) {
+    const ActionSpec& action = scene.afm->actions[a];
+    if (action.kind != ActionSpec::Kind::scan || !action.back) continue;
+    const bool lateral = action.direction == TargetSpec::Direction::lateral;
+    const std::string force = lateral ? "probe/force_y" : "probe/force_x";
+    const std::string volts = lateral ? "detector/lateral" : "detector/normal";
+    const auto start = static_cast<double>(a);
+    const Means forth = means(history, force, volts, start + 0.25, start + 0.5 + tolerance);
+    const Means back = means(history, force, volts, start + 0.75, start + 1 + tolerance);
+    // A scan along - runs the loop the other way round.
+    const double sign = action.distance < 0 ? -1 : 1;
+    FrictionLoop loop;
+    loop.action = static_cast<int>(a);
+    loop.load = 0.5 * (forth.load + back.load);
+    loop.forth = forth.force;
+    loop.back = back.force;
+    loop.half_width = 0.5 * sign * (forth.force - back.force);
+    loop.offset = 0.5 * (forth.force + back.force);
+    loop.volts_half_width = 0.5 * sign * (forth.volts - back.volts);
+    loop.volts_offset = 0.5 * (forth.volts + back.volts);
+    const TargetSpec& target = *scene.afm->target;
+    const bool wedge = target.shape == TargetSpec::Shape::plane && target.incline != 0 &&
+                       target.direction == action.direction;
+    if (wedge) {
+      loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline);
+      if (loop.friction) {
+        const double s = std::sin(target.incline), c = std::cos(target.incline);
+        const double mu = *loop.friction;
+        loop.sensitivity = mu * loop.load / (c * c - mu * mu * s * s) / loop.volts_half_width;
+      }
+    }
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
+}  // namespace pulvis

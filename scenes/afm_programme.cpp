@@ -1,0 +1,262 @@
+#include "scenes/afm_programme.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/probe.hpp"
+#include "scenes/afm_scene.hpp"
+#include "scenes/target_shape.hpp"
+#include "systems/run_failure.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr int most_halvings = 8;
+constexpr int most_iterations = 400;  // of an increment with its halves
+
+double reach_of(const AfmScene& afm) {
+  double way = 0;
+  for (const ActionSpec& action : afm.actions) way += std::abs(action.distance);
+  return 2 * (way + afm.lever.length);
+}
+
+Vec3 place_of(const AfmModel& model, int node) {
+  const double* x = model.world->column<ReferencePosition>().values() + 3 * node;
+  const double* u = model.world->column<Displacement>().values() + 3 * node;
+  return {x[0] + u[0], x[1] + u[1], x[2] + u[2]};
+}
+
+// Smallest gap over all points of the probe.
+double smallest_gap(const AfmModel& model) {
+  const Target& target = model.world->resource<Target>();
+  const auto& nodes = model.world->column<ProbeNode>();
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < nodes.table.rows; ++i) {
+    const Vec3 x = place_of(model, nodes.values()[i]);
+    const auto near = target.shape->nearest({x.x() - target.position[0], x.y() - target.position[1],
+                                             x.z() - target.position[2] + target.end_radius});
+    smallest = std::min(smallest, near.distance - target.end_radius);
+  }
+  return smallest;
+}
+
+}  // namespace
+
+std::vector<SeriesInfo> afm_series() {
+  return {
+      {"scanner/x", "m", "how far the sample was moved along x"},
+      {"scanner/y", "m", "how far the sample was moved along y"},
+      {"scanner/z", "m", "how far the sample was raised from first touch"},
+      {"probe/force_x", "N", "of the sample on the probe"},
+      {"probe/force_y", "N", "of the sample on the probe: lateral"},
+      {"probe/force_z", "N", "of the sample on the probe: vertical"},
+      {"probe/displacement_x", "m", "of the tip's end"},
+      {"probe/displacement_y", "m", "of the tip's end"},
+      {"probe/displacement_z", "m", "of the tip's end"},
+      {"foot/displacement_y", "m", "of the lever's middle plane above the tip: lateral bending"},
+      {"foot/twist", "rad", "of the lever above the tip"},
+      {"clamp/force_x", "N", "of the clamp on the lever"},
+      {"clamp/force_y", "N", "of the clamp on the lever"},
+      {"clamp/force_z", "N", "of the clamp on the lever"},
+      {"slope/normal", "rad", "of the lever's back at the laser spot, > 0: its end is up"},
+      {"slope/lateral", "rad", "of the lever's back at the laser spot, > 0: its +y side is up"},
+      {"detector/normal", "V", "normal gain times slope"},
+      {"detector/lateral", "V", "lateral gain times slope"},
+      {"contact/points", "-", "points of the probe that touch"},
+      {"contact/slides", "-", "share of the points that touch which slide"},
+      {"energy/elastic", "J", "stored in lever and probe"},
+      {"newton/iterations", "-", "of the increment, with those of its cuts"}};
+}
+
+void add_probe(const Scene& scene, AfmModel& model) {
+  const AfmScene& afm = *scene.afm;
+  World& world = *model.world;
+  const bool ball = afm.tip.shape == TipSpec::Shape::sphere;
+  auto& target = world.emplace<Target>();
+  target.shape = make_target(*afm.target, scene, reach_of(afm));
+  target.friction = afm.target->friction;
+  target.pull_off = afm.target->pull_off;
+  target.range = afm.target->range;
+  target.end_radius = ball ? 0 : afm.tip.end_radius;
+  add_probe_columns(world, ball ? model.tip.surface.size() : 1);
+}
+
+// The penalties are so stiff against what they press on that they give way by a thousandth of it.
+void place_target(const Scene& scene, AfmModel& model, double stiffness) {
+  constexpr double stiffer = 1e3;
+  World& world = *model.world;
+  const bool ball = scene.afm->tip.shape == TipSpec::Shape::sphere;
+  auto* node = world.column<ProbeNode>().values();
+  double* penalty = world.column<ProbeStiffness>().values();
+  double* share = world.column<ProbeShare>().values();
+  const auto points = static_cast<int>(world.column<ProbeNode>().table.rows);
+  const MaterialSpec& m = scene.materials[static_cast<std::size_t>(scene.afm->tip.material)];
+  for (int i = 0; i < points; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    node[i] = ball ? model.tip.surface[at] : model.contact_node;
+    // Of a meshed surface: a layer as thick as a tenth of its elements, of the probe's own material.
+    const double area = ball ? model.tip.area[at] : 0;
+    penalty[2 * i] = penalty[2 * i + 1] =
+        ball ? 10 * m.youngs_modulus * std::sqrt(area) : stiffer * stiffness;
+    share[i] = ball && node[i] != model.end.front().node ? 0.0 : 1.0;
+  }
+  Target& target = world.resource<Target>();
+  const Vec3 end = read(model.end, world.column<ReferencePosition>().values());
+  target.position = {end.x(), end.y(), end.z()};
+  for (int i = 0; i < 100; ++i) target.position[2] += smallest_gap(model);
+  model.first_touch = target.position;
+  double* memory = world.column<ProbeMemory>().values();
+  for (int i = 0; i < points; ++i) {
+    const Vec3 x = place_of(model, node[i]);
+    for (int k = 0; k < 3; ++k)
+      memory[6 * i + 3 + k] = x[k] - target.position[static_cast<std::size_t>(k)];
+  }
+}
+
+double AfmProgramme::vertical_force() const {
+  const auto& force = model_.world->column<ProbeForce>();
+  double sum = 0;
+  for (std::size_t i = 0; i < force.table.rows; ++i) sum += force.values()[3 * i + 2];
+  return sum;
+}
+
+bool AfmProgramme::tell() {
+  const World& world = *model_.world;
+  const Target& target = world.resource<Target>();
+  const double* u = world.column<Displacement>().values();
+  std::vector<double> row;
+  const auto add = [&](const Vec3& v) {
+    for (int k = 0; k < 3; ++k) row.push_back(v[k]);
+  };
+  add(Vec3(target.position.data()) - Vec3(model_.first_touch.data()));
+  Vec3 force = Vec3::Zero();
+  const auto& points = world.column<ProbeForce>();
+  const double* state = world.column<ProbeState>().values();
+  double touching = 0, sliding = 0;
+  for (std::size_t i = 0; i < points.table.rows; ++i) {
+    force += Vec3(points.values() + 3 * i);
+    touching += state[4 * i + 3] > 0 ? 1 : 0;
+    sliding += state[4 * i + 3] > 1 ? 1 : 0;
+  }
+  add(force);
+  add(read(model_.end, u));
+  row.push_back(read(model_.foot, u).y());
+  row.push_back(slopes(model_, {model_.foot_slope}, u).lateral);
+  add(clamp_force(model_));
+  const Slopes spot = slopes(model_, model_.spot, u);
+  const DetectorSpec& detector = scene_.afm->detector;
+  for (const double value :
+       {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
+        detector.lateral_gain * spot.lateral, touching, touching > 0 ? sliding / touching : 0,
+        elastic_energy(model_), static_cast<double>(iterations_)})
+    row.push_back(value);
+  return record_(time_, row);
+}
+
+void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int depth) {
+  Target& target = model_.world->resource<Target>();
+  const auto before = target.position;
+  for (std::size_t k = 0; k < 3; ++k) target.position[k] += travel[k];
+  target.servo = servo;
+  NewtonSettings settings;
+  settings.reuse_factors = true;
+  const NewtonReport report = solver_.equilibrate(settings);
+  iterations_ += static_cast<int>(report.residuals.size());
+  if (report.converged) return solver_.remember();
+  target.position = before;
+  if (depth == most_halvings || iterations_ > most_iterations)
+    throw RunFailure(fmt::format(
+        "{}: no equilibrium at {:.4f} of the programme, with the sample at x {:.4g}, y {:.4g}, "
+        "z {:.4g} m, after {} halvings of the increment; residual {:.2g} of the forces that must "
+        "balance: the probe has locked, jumped or left the surface",
+        doing_, time_, before[0] - model_.first_touch[0], before[1] - model_.first_touch[1],
+        before[2] - model_.first_touch[2], depth, report.residuals.back()));
+  const std::array<double, 3> half{travel[0] / 2, travel[1] / 2, travel[2] / 2};
+  advance(half, servo, depth + 1);
+  advance(half, servo, depth + 1);
+}
+
+bool AfmProgramme::way(const std::array<double, 3>& travel, int increments, bool servo) {
+  const std::array<double, 3> step{travel[0] / increments, travel[1] / increments,
+                                   travel[2] / increments};
+  for (int i = 0; i < increments; ++i) {
+    iterations_ = 0;
+    advance(step, servo, 0);
+    time_ += share_ / increments;
+    if (!tell()) return false;
+  }
+  return true;
+}
+
+bool AfmProgramme::press(const ActionSpec& action, double sign) {
+  if (action.force) return press_to_force(action);
+  return way({0, 0, sign * action.distance}, action.increments, false);
+}
+
+// The set point rises in even steps; the first one finds the surface: the servo needs a touch.
+bool AfmProgramme::press_to_force(const ActionSpec& action) {
+  Target& target = model_.world->resource<Target>();
+  const double from = vertical_force();
+  if (from <= 0) {
+    const double touch = 1e-3 * std::abs(*action.force) / model_.normal_stiffness;
+    advance({0, 0, touch}, false, 0);
+  }
+  for (int i = 1; i <= action.increments; ++i) {
+    iterations_ = 0;
+    target.set_point = from + (*action.force - from) * i / action.increments;
+    advance({0, 0, 0}, true, 0);
+    time_ += 1.0 / action.increments;
+    if (!tell()) return false;
+  }
+  return true;
+}
+
+// The probe's way over the sample is the sample's way under it, backwards.
+bool AfmProgramme::scan(const ActionSpec& action) {
+  const bool lateral = action.direction == TargetSpec::Direction::lateral;
+  const double d = action.distance;
+  const std::array<double, 3> forth{lateral ? 0 : -d, lateral ? -d : 0, 0};
+  const std::array<double, 3> back{-forth[0], -forth[1], 0};
+  share_ = action.back ? 0.5 : 1;
+  const bool done = way(forth, action.increments, action.servo) &&
+                    (!action.back || way(back, action.increments, action.servo));
+  share_ = 1;
+  return done;
+}
+
+bool AfmProgramme::run() {
+  solver_.look();
+  if (!tell()) return false;
+  for (std::size_t i = 0; i < scene_.afm->actions.size(); ++i) {
+    const ActionSpec& action = scene_.afm->actions[i];
+    using Kind = ActionSpec::Kind;
+    bool on = true;
+    const double end = static_cast<double>(i + 1);
+    if (action.servo) model_.world->resource<Target>().set_point = vertical_force();
+    switch (action.kind) {
+      case Kind::press:
+        doing_ = "press";
+        on = press(action, 1);
+        break;
+      case Kind::retract:
+        doing_ = "retract";
+        on = press(action, -1);
+        break;
+      case Kind::scan:
+        doing_ = "scan";
+        on = scan(action);
+        break;
+      case Kind::hold:
+        doing_ = "hold";
+        on = way({0, 0, 0}, action.increments, action.servo);
+        break;
+    }
+    if (!on) return false;
+    time_ = end;
+  }
+  return true;
+}
+
+}  // namespace pulvis

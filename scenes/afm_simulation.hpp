@@ -1,0 +1,38 @@
+// An AFM scene being run: its solid, its threads, its solver.
+#pragma once
+
+#include "engine/workers.hpp"
+#include "scenes/afm_calibration.hpp"
+#include "scenes/afm_programme.hpp"
+#include "systems/static_solver.hpp"
+
+namespace pulvis {
+
+class AfmSimulation {
+ public:
+  explicit AfmSimulation(const Scene& scene, int threads = 1);
+  ~AfmSimulation();
+
+  World& world() { return *model_.world; }
+  AfmModel& model() { return model_; }
+  const GraphPlan& plan() const { return solver_->plan(); }
+
+  Calibration calibrate();
+  // Displacements [3 nodes] by 1 N at the tip's end; after calibrate().
+  std::vector<double> unit_displacements(const Vec3& direction);
+  // Calibrates, puts the target under the tip and runs the scene's actions; see AfmProgramme.
+  bool run(const AfmProgramme::Record& record);
+  // Equilibrium under a dead load at the tip's end, from the present state.
+  NewtonReport load_tip(const Vec3& force, const NewtonSettings& settings = {});
+
+ private:
+  Calibration calibrate_here();  // inside the workers
+
+  const Scene& scene_;
+  AfmModel model_;
+  Workers workers_;
+  std::unique_ptr<StaticSolver> solver_;
+  double stiffest_ = 0;  // N/m, of the tip's end
+};
+
+}  // namespace pulvis

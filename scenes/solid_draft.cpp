@@ -1,0 +1,155 @@
+#include "scenes/solid_draft.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "systems/static_solver.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr int elements_of_chunk = 16;  // about a millisecond of work
+
+// Follows what a node hangs on down to free nodes; held ones drop out.
+void trace(const SolidDraft& draft, const SolidMesh::Support& support,
+           std::map<std::int32_t, double>& supports) {
+  const auto node = static_cast<std::size_t>(support.node);
+  if (draft.held[node] != 0) return;
+  if (draft.hanging[node].empty()) supports[support.node] += support.weight;
+  for (const auto& next : draft.hanging[node])
+    trace(draft, {next.node, support.weight * next.weight}, supports);
+}
+
+SolidMesh mesh_of(const SolidDraft& draft) {
+  SolidMesh mesh;
+  mesh.hexahedra = draft.hexahedra;
+  mesh.thin = draft.thin;
+  mesh.part = draft.part;
+  mesh.support_begin.push_back(0);
+  for (std::size_t n = 0; n < draft.nodes.size(); ++n) {
+    const bool free = draft.held[n] == 0 && draft.hanging[n].empty();
+    mesh.unknown.push_back(free ? mesh.unknowns++ : -1);
+    if (free) mesh.supports.push_back({static_cast<std::int32_t>(n), 1.0});
+    std::map<std::int32_t, double> supports;
+    for (const auto& support : draft.hanging[n]) trace(draft, support, supports);
+    for (const auto& [node, weight] : supports) mesh.supports.push_back({node, weight});
+    mesh.support_begin.push_back(static_cast<std::int32_t>(mesh.supports.size()));
+  }
+  const auto elements = static_cast<std::int32_t>(draft.hexahedra.size());
+  for (std::int32_t e = 0; e < elements; e += elements_of_chunk) mesh.chunk_begin.push_back(e);
+  mesh.chunk_begin.push_back(elements);
+  return mesh;
+}
+
+void list_forces(const SolidMesh& mesh, std::size_t nodes, SolidAssembly& assembly) {
+  std::vector<std::vector<SolidAssembly::Share>> of_node(nodes);
+  for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e)
+    for (std::size_t a = 0; a < 8; ++a)
+      of_node[static_cast<std::size_t>(mesh.hexahedra[e][a])].push_back(
+          {static_cast<std::int32_t>(e), static_cast<std::int8_t>(a), 0, 1.0});
+  assembly.force_begin.push_back(0);
+  for (const auto& shares : of_node) {
+    assembly.forces.insert(assembly.forces.end(), shares.begin(), shares.end());
+    assembly.force_begin.push_back(static_cast<std::int32_t>(assembly.forces.size()));
+  }
+}
+
+struct PlacedShare {
+  std::int32_t column, row;
+  SolidAssembly::Share share;
+};
+
+std::vector<PlacedShare> placed_shares(const SolidMesh& mesh) {
+  std::vector<PlacedShare> placed;
+  for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e)
+    for (std::size_t a = 0; a < 8; ++a)
+      for (std::size_t b = 0; b < 8; ++b)
+        for (const auto& r : mesh.supports_of(mesh.hexahedra[e][a]))
+          for (const auto& c : mesh.supports_of(mesh.hexahedra[e][b])) {
+            const std::int32_t row = mesh.unknown[static_cast<std::size_t>(r.node)];
+            const std::int32_t column = mesh.unknown[static_cast<std::size_t>(c.node)];
+            if (row >= column)
+              placed.push_back({column,
+                                row,
+                                {static_cast<std::int32_t>(e), static_cast<std::int8_t>(a),
+                                 static_cast<std::int8_t>(b), r.weight * c.weight}});
+          }
+  std::ranges::stable_sort(placed, {}, [](const PlacedShare& p) {
+    return std::pair{p.column, p.row};
+  });
+  return placed;
+}
+
+void list_blocks(const SolidMesh& mesh, SolidAssembly& assembly) {
+  std::pair<std::int32_t, std::int32_t> last{-1, -1};
+  for (const PlacedShare& placed : placed_shares(mesh)) {
+    if (std::pair{placed.column, placed.row} != last) {
+      while (static_cast<std::int32_t>(assembly.column_begin.size()) <= placed.column)
+        assembly.column_begin.push_back(static_cast<std::int32_t>(assembly.block_row.size()));
+      assembly.block_row.push_back(placed.row);
+      assembly.block_begin.push_back(static_cast<std::int32_t>(assembly.shares.size()));
+      last = {placed.column, placed.row};
+    }
+    assembly.shares.push_back(placed.share);
+  }
+  assembly.column_begin.push_back(static_cast<std::int32_t>(assembly.block_row.size()));
+  assembly.block_begin.push_back(static_cast<std::int32_t>(assembly.shares.size()));
+}
+
+void fill_columns(const SolidDraft& draft, const std::array<Lame, 4>& materials, World& world) {
+  double* x = world.column<ReferencePosition>().values();
+  for (const Vec3& node : draft.nodes)
+    for (int k = 0; k < 3; ++k) *x++ = node[k];
+  double* elastic = world.column<LameConstants>().values();
+  for (const std::uint8_t part : draft.part) {
+    *elastic++ = materials[part].lambda;
+    *elastic++ = materials[part].mu;
+  }
+}
+
+}  // namespace
+
+int SolidDraft::add_node(const Vec3& x) {
+  nodes.push_back(x);
+  held.push_back(0);
+  hanging.emplace_back();
+  return static_cast<int>(nodes.size()) - 1;
+}
+
+void SolidDraft::hang(int node, std::vector<SolidMesh::Support> on) {
+  if (held[static_cast<std::size_t>(node)] == 0)
+    hanging[static_cast<std::size_t>(node)] = std::move(on);
+}
+
+void SolidDraft::add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart of, bool is_thin) {
+  hexahedra.push_back(corners);
+  part.push_back(static_cast<std::uint8_t>(of));
+  thin.push_back(is_thin ? 1 : 0);
+}
+
+Lame lame_of(const MaterialSpec& m) {
+  const double nu = m.poissons_ratio;
+  return {m.youngs_modulus * nu / ((1 + nu) * (1 - 2 * nu)), m.youngs_modulus / (2 * (1 + nu))};
+}
+
+std::unique_ptr<World> finish_solid(const SolidDraft& draft, const std::array<Lame, 4>& materials) {
+  auto world = std::make_unique<World>();
+  const auto& mesh = world->emplace<SolidMesh>(mesh_of(draft));
+  auto& assembly = world->emplace<SolidAssembly>();
+  list_forces(mesh, draft.nodes.size(), assembly);
+  list_blocks(mesh, assembly);
+  world->add_table<SolidNode>(draft.nodes.size());
+  std::vector<std::int32_t> rows;
+  for (std::size_t c = 0; c + 1 < mesh.chunk_begin.size(); ++c)
+    rows.push_back(mesh.chunk_begin[c + 1] - mesh.chunk_begin[c]);
+  world->add_table<SolidElement>(rows);
+  world->add_table<StiffnessBlock>(assembly.block_row.size());
+  world->add<ReferencePosition>();
+  world->add<LameConstants>();
+  add_solid_columns(*world);
+  fill_columns(draft, materials, *world);
+  return world;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,43 @@
+// A solid in the making: nodes, hexahedra, what holds them. finish_solid() turns it into the tables,
+// columns and lists that the solver works on.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "components/solid.hpp"
+#include "engine/world.hpp"
+#include "scenes/plan_mesh.hpp"
+
+namespace pulvis {
+
+using Vec3 = Eigen::Vector3d;
+
+enum class SolidPart : std::uint8_t { lever, coating, tip, glue };
+
+struct SolidDraft {
+  std::vector<Vec3> nodes;  // m
+  std::vector<SolidMesh::Hexahedron> hexahedra;
+  std::vector<std::uint8_t> thin;                        // [hexahedra]
+  std::vector<std::uint8_t> part;                        // [hexahedra] SolidPart
+  std::vector<std::uint8_t> held;                        // [nodes]
+  std::vector<std::vector<SolidMesh::Support>> hanging;  // [nodes] empty: free or held
+
+  int add_node(const Vec3& x);
+  // The supports may hang themselves; a held node stays held.
+  void hang(int node, std::vector<SolidMesh::Support> on);
+  void add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart of, bool is_thin);
+};
+
+struct Lame {
+  double lambda = 0, mu = 0;  // Pa
+};
+Lame lame_of(const MaterialSpec& material);
+
+// Tables, columns and lists of the solid; `materials` by part.
+std::unique_ptr<World> finish_solid(const SolidDraft& draft, const std::array<Lame, 4>& materials);
+
+}  // namespace pulvis

@@ -1,0 +1,211 @@
+#include "scenes/target_shape.hpp"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/distance.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "scenes/solid_draft.hpp"
+
+namespace pulvis {
+namespace {
+
+using Direction = TargetSpec::Direction;
+
+class PlaneTarget : public TargetShape {
+ public:
+  explicit PlaneTarget(const Vec3& normal) : half_space_(normal, 0) {}
+  Nearest nearest(const Place& p) const override {
+    const Vec3& n = half_space_.n;
+    return {half_space_.signedDistance({p[0], p[1], p[2]}), {n.x(), n.y(), n.z()}};
+  }
+
+ private:
+  fcl::Halfspaced half_space_;
+};
+
+// Triangles over a rectangle of the plane. FCL finds the nearest one; what is told about it is exact: the
+// distance to its plane where the nearest place is inside it, to its edge or corner otherwise.
+class TriangleTarget : public TargetShape {
+ public:
+  // FCL's own tolerances are absolute: lengths are handed over in units of `unit`.
+  TriangleTarget(std::vector<Vec3> points, std::vector<fcl::Triangle> triangles, double unit)
+      : points_(std::move(points)), triangles_(std::move(triangles)), unit_(unit) {
+    auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+    std::vector<Vec3> scaled;
+    for (const Vec3& p : points_) scaled.push_back(p / unit_);
+    model->beginModel();
+    model->addSubModel(scaled, triangles_);
+    model->endModel();
+    surface_ = std::make_unique<fcl::CollisionObjectd>(model);
+  }
+
+  Nearest nearest(const Place& place) const override {
+    const Vec3 p(place[0], place[1], place[2]);
+    fcl::Transform3d at = fcl::Transform3d::Identity();
+    at.translation() = p / unit_;
+    const fcl::CollisionObjectd point(std::make_shared<fcl::Sphered>(1e-9), at);
+    fcl::DistanceRequestd request(true);
+    fcl::DistanceResultd result;
+    fcl::distance(surface_.get(), &point, request, result);
+    return towards(p, static_cast<std::size_t>(result.b1));
+  }
+
+ private:
+  // The nearest place of a triangle, and on which side of it the point lies.
+  Nearest towards(const Vec3& p, std::size_t triangle) const {
+    const fcl::Triangle& t = triangles_[triangle];
+    const Vec3 a = points_[t[0]], b = points_[t[1]], c = points_[t[2]];
+    const Vec3 n = (b - a).cross(c - a).normalized();
+    const double height = n.dot(p - a);
+    const Vec3 q = nearest_in(p - height * n, a, b, c, n);
+    const Vec3 off = p - q;
+    const double distance = off.norm();
+    const bool inside = (q - (p - height * n)).norm() <= 1e-9 * (b - a).norm();
+    if (inside || distance == 0) return {height, {n.x(), n.y(), n.z()}};
+    const Vec3 out = (height < 0 ? -off : off) / distance;
+    return {height < 0 ? -distance : distance, {out.x(), out.y(), out.z()}};
+  }
+
+  static Vec3 on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    return a + s * (b - a);
+  }
+
+  static Vec3 nearest_in(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c,
+                         const Vec3& n) {
+    const auto left = [&](const Vec3& x, const Vec3& y) {
+      return n.dot((y - x).cross(p - x)) >= 0;
+    };
+    if (left(a, b) && left(b, c) && left(c, a)) return p;
+    Vec3 best = on_segment(p, a, b);
+    for (const Vec3& q : {on_segment(p, b, c), on_segment(p, c, a)})
+      if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
+    return best;
+  }
+
+  std::vector<Vec3> points_;
+  std::vector<fcl::Triangle> triangles_;
+  double unit_;
+  std::unique_ptr<fcl::CollisionObjectd> surface_;
+};
+
+struct ProfilePoint {
+  double along, height;  // m
+};
+
+// The corners of a profile, from -reach to +reach.
+std::vector<ProfilePoint> profile(const TargetSpec& t, double reach) {
+  const double flank = t.height / t.slope;
+  const double low = -reach - std::abs(t.position), high = reach + std::abs(t.position);
+  if (t.shape == TargetSpec::Shape::step)
+    return {{low, 0}, {t.position, 0}, {t.position + flank, t.height}, {high + flank, t.height}};
+  if (t.shape == TargetSpec::Shape::bump)
+    return {{low, 0},
+            {t.position, 0},
+            {t.position + flank, t.height},
+            {t.position + flank + t.plateau, t.height},
+            {t.position + 2 * flank + t.plateau, 0},
+            {high + 2 * flank + t.plateau, 0}};
+  constexpr int facets = 200;  // a wavelength: slopes within 1.6%
+  std::vector<ProfilePoint> points;
+  const double step = t.wavelength / facets;
+  for (double x = low - t.wavelength; x <= high + t.wavelength; x += step)
+    points.push_back(
+        {x, 0.5 * t.height * std::sin(2 * std::numbers::pi * (x - t.position) / t.wavelength)});
+  return points;
+}
+
+std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
+  std::vector<Vec3> points;
+  std::vector<fcl::Triangle> triangles;
+  const bool lateral = t.direction == Direction::lateral;
+  const auto corners = profile(t, reach);
+  for (const ProfilePoint& p : corners)
+    for (const double side : {-reach, reach})
+      points.push_back(lateral ? Vec3(side, p.along, p.height) : Vec3(p.along, side, p.height));
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const std::size_t a = 2 * i, b = a + 1, c = a + 3, d = a + 2;
+    // Counter-clockwise seen from above.
+    if (lateral)
+      triangles.insert(triangles.end(), {fcl::Triangle(a, b, c), fcl::Triangle(a, c, d)});
+    else
+      triangles.insert(triangles.end(), {fcl::Triangle(a, c, b), fcl::Triangle(a, d, c)});
+  }
+  return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), t.height);
+}
+
+std::shared_ptr<const TargetShape> from_map(const TargetSpec& t, const Scene& scene) {
+  const auto heights = read_height_map(scene.file.parent_path() / t.file);
+  const std::size_t rows = heights.size(), columns = heights.front().size();
+  const double x0 = 0.5 * t.spacing * static_cast<double>(columns - 1);
+  const double y0 = 0.5 * t.spacing * static_cast<double>(rows - 1);
+  std::vector<Vec3> points;
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t i = 0; i < columns; ++i)
+      points.emplace_back(t.spacing * static_cast<double>(i) - x0,
+                          t.spacing * static_cast<double>(j) - y0, heights[j][i]);
+  std::vector<fcl::Triangle> triangles;
+  for (std::size_t j = 0; j + 1 < rows; ++j)
+    for (std::size_t i = 0; i + 1 < columns; ++i) {
+      const std::size_t a = j * columns + i, b = a + 1, c = b + columns, d = a + columns;
+      triangles.insert(triangles.end(), {fcl::Triangle(a, b, c), fcl::Triangle(a, c, d)});
+    }
+  return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), t.spacing);
+}
+
+std::vector<double> numbers_of(const std::string& line, std::size_t number) {
+  std::vector<double> row;
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  while (at < end) {
+    while (at < end && (*at == ' ' || *at == '\t')) ++at;
+    double value = 0;
+    const auto read = std::from_chars(at, end, value);
+    if (read.ec != std::errc() || !std::isfinite(value))
+      throw std::runtime_error(
+          fmt::format("line {}: no number at column {}", number, at - line.data() + 1));
+    row.push_back(value);
+    at = read.ptr;
+    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r' || *at == ',')) ++at;
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> read_height_map(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error("cannot be read");
+  std::vector<std::vector<double>> rows;
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    if (line.empty() || line.front() == '#' || line == "\r") continue;
+    rows.push_back(numbers_of(line, number));
+    if (rows.back().size() != rows.front().size())
+      throw std::runtime_error(fmt::format("line {}: {} numbers, the first line has {}", number,
+                                           rows.back().size(), rows.front().size()));
+  }
+  if (rows.size() < 2 || rows.front().size() < 2)
+    throw std::runtime_error("fewer than two lines of two numbers");
+  return rows;
+}
+
+std::shared_ptr<const TargetShape> make_target(const TargetSpec& t, const Scene& scene,
+                                               double reach) {
+  if (t.shape == TargetSpec::Shape::map) return from_map(t, scene);
+  if (t.shape != TargetSpec::Shape::plane) return extruded(t, reach);
+  const double rise = std::sin(t.incline);
+  return std::make_shared<PlaneTarget>(t.direction == Direction::lateral
+                                           ? Vec3(0, -rise, std::cos(t.incline))
+                                           : Vec3(-rise, 0, std::cos(t.incline)));
+}
+
+}  // namespace pulvis

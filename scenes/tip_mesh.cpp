@@ -1,0 +1,139 @@
+#include "scenes/tip_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "scenes/ball_mesh.hpp"
+
+namespace pulvis {
+namespace {
+
+using Shape = TipSpec::Shape;
+
+std::vector<SolidMesh::Support> on_lower_face(const LeverMesh& lever, const Vec2& point) {
+  const auto place = locate(lever.plan, point);
+  if (!place) throw std::logic_error("tip_mesh: the tip stands beside the lever");
+  const auto weights = place->weights();
+  std::vector<SolidMesh::Support> supports;
+  for (std::size_t c = 0; c < 4; ++c)
+    supports.push_back(
+        {lever.node(lever.plan.quads[static_cast<std::size_t>(place->quad)][c], 0), weights[c]});
+  return supports;
+}
+
+// Layers of a plan, one under the other: `at(point of the plan, layer)` says where.
+template <class At>
+std::vector<int> add_column(SolidDraft& draft, const PlanMesh& plan, int layers, SolidPart part,
+                            const At& at) {
+  std::vector<int> first;
+  for (int level = 0; level <= layers; ++level) {
+    first.push_back(static_cast<int>(draft.nodes.size()));
+    for (const Vec2& p : plan.points) draft.add_node(at(p, level));
+  }
+  for (int level = 0; level < layers; ++level)
+    for (const auto& q : plan.quads) {
+      SolidMesh::Hexahedron corners;
+      for (std::size_t c = 0; c < 4; ++c) {
+        corners[c] = first[static_cast<std::size_t>(level) + 1] + q[c];
+        corners[c + 4] = first[static_cast<std::size_t>(level)] + q[c];
+      }
+      draft.add_hexahedron(corners, part, false);
+    }
+  return first;
+}
+
+void tie_to_lever(SolidDraft& draft, const LeverMesh& lever, int first, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto node = static_cast<std::size_t>(first) + i;
+    draft.hang(first + static_cast<int>(i), on_lower_face(lever, draft.nodes[node].head<2>()));
+  }
+}
+
+// Shares of an even pressure on the end's face.
+std::vector<SolidMesh::Support> area_shares(const PlanMesh& plan, int first) {
+  std::vector<double> share(plan.points.size());
+  double sum = 0;
+  for (const auto& q : plan.quads) {
+    const auto x = [&](std::size_t c) { return plan.points[static_cast<std::size_t>(q[c])]; };
+    const Vec2 a = x(2) - x(0), b = x(3) - x(1);
+    const double area = 0.5 * (a.x() * b.y() - a.y() * b.x());
+    for (const int corner : q) share[static_cast<std::size_t>(corner)] += 0.25 * area;
+    sum += area;
+  }
+  std::vector<SolidMesh::Support> supports;
+  for (std::size_t i = 0; i < share.size(); ++i)
+    supports.push_back({first + static_cast<int>(i), share[i] / sum});
+  return supports;
+}
+
+TipMesh add_solid_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
+                      const TipSpec& tip) {
+  const bool round = tip.shape == Shape::cone;
+  const PlanMesh plan = round ? unit_disc(tip.elements) : unit_square(tip.elements);
+  const double end = tip.shape == Shape::block ? tip.foot : tip.end;
+  const int layers = std::max(
+      2, static_cast<int>(std::lround(tip.height / (0.5 * (tip.foot + end)) * tip.elements)));
+  const int stacked = std::min(layers, 40);
+  const Vec2 axis = tip_axis(lever, tip);
+  const auto first = add_column(draft, plan, stacked, SolidPart::tip, [&](const Vec2& p, int l) {
+    const double s = static_cast<double>(l) / stacked;
+    const Vec2 xy = axis + 0.5 * ((1 - s) * tip.foot + s * end) * p;
+    return Vec3(xy.x(), xy.y(), mesh.levels.front() - s * tip.height);
+  });
+  tie_to_lever(draft, mesh, first.front(), plan.points.size());
+  return {area_shares(plan, first.back()), {}, {}};
+}
+
+TipMesh add_sphere(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
+                   const TipSpec& tip) {
+  const Vec2 axis = tip_axis(lever, tip);
+  const double top = mesh.levels.front(), r = tip.radius;
+  const Vec3 centre(axis.x(), axis.y(), top - tip.neck_height - r);
+  const BallMesh ball = add_ball(draft, centre, r, tip.elements);
+
+  const PlanMesh plan = unit_disc(std::max(2, tip.elements / 2));
+  constexpr int layers = 2;
+  const auto first = add_column(draft, plan, layers, SolidPart::glue, [&](const Vec2& p, int l) {
+    const Vec2 off = tip.neck_radius * p;
+    const double bottom = centre.z() + std::sqrt(r * r - off.squaredNorm());
+    const double s = static_cast<double>(l) / layers;
+    return Vec3(axis.x() + off.x(), axis.y() + off.y(), (1 - s) * top + s * bottom);
+  });
+  tie_to_lever(draft, mesh, first.front(), plan.points.size());
+  for (std::size_t i = 0; i < plan.points.size(); ++i)
+    tie_to_ball(draft, ball, first.back() + static_cast<int>(i));
+  return {{{ball.pole, 1.0}}, ball.lower, ball.lower_area};
+}
+
+}  // namespace
+
+double tip_height(const TipSpec& tip) {
+  return tip.shape == Shape::sphere ? tip.neck_height + 2 * tip.radius : tip.height;
+}
+
+Vec2 tip_axis(const LeverSpec& lever, const TipSpec& tip) {
+  return {lever.length - tip.set_back, tip.offset};
+}
+
+double foot_reach(const TipSpec& tip) {
+  if (tip.shape == Shape::none) return 0;
+  if (tip.shape == Shape::sphere) return tip.neck_radius;
+  return 0.5 * tip.foot;
+}
+
+LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip) {
+  const Vec2 axis = tip_axis(lever, tip);
+  const double reach = foot_reach(tip);
+  return {axis.x(), axis.y(),
+          reach > 0 ? std::max(reach, lever.thickness / 3) : lever.aspect * lever.thickness};
+}
+
+TipMesh add_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
+                const TipSpec& tip) {
+  if (tip.shape == Shape::none) return {on_lower_face(mesh, tip_axis(lever, tip)), {}, {}};
+  if (tip.shape == Shape::sphere) return add_sphere(draft, lever, mesh, tip);
+  return add_solid_tip(draft, lever, mesh, tip);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,112 @@
+// residual, factorise, newton_direction: the equations of an equilibrium iteration.
+//
+// Source   K du = r with the lower triangle of K by columns; Eigen's simplicial L D L^T, whose ordering
+//          (approximate minimum degree) is found once: the pattern never changes.
+// Runs     after solid_force (residual) and block_tangent (factorise, then newton_direction)
+// Active   when the scene has a lever
+#include "systems/solid_equations.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "systems/run_failure.hpp"
+#include "systems/solid_systems.hpp"
+
+namespace pulvis {
+namespace {
+
+// The pattern of the scalar matrix from that of its blocks.
+void make_pattern(const SolidAssembly& assembly, SolidEquations& equations) {
+  const auto blocks = static_cast<int>(assembly.column_begin.size()) - 1;
+  auto& k = equations.stiffness;
+  k.resize(3 * blocks, 3 * blocks);
+  std::vector<int> sizes(static_cast<std::size_t>(3 * blocks));
+  for (int c = 0; c < blocks; ++c) {
+    const int below = assembly.column_begin[static_cast<std::size_t>(c) + 1] -
+                      assembly.column_begin[static_cast<std::size_t>(c)];
+    for (int j = 0; j < 3; ++j) sizes[static_cast<std::size_t>(3 * c + j)] = 3 * below - j;
+  }
+  k.reserve(sizes);
+  for (int c = 0; c < blocks; ++c)
+    for (int j = 0; j < 3; ++j)
+      for (int b = assembly.column_begin[static_cast<std::size_t>(c)];
+           b < assembly.column_begin[static_cast<std::size_t>(c) + 1]; ++b) {
+        const int r = assembly.block_row[static_cast<std::size_t>(b)];
+        for (int i = r == c ? j : 0; i < 3; ++i) k.insert(3 * r + i, 3 * c + j) = 0;
+      }
+  k.makeCompressed();
+}
+
+// Blocks of a column lie in rising order of rows, the diagonal one first: so do its numbers.
+void fill_values(const SolidAssembly& assembly, const Read<BlockTangent>& block,
+                 SolidEquations& equations) {
+  double* value = equations.stiffness.valuePtr();
+  const auto blocks = static_cast<int>(assembly.column_begin.size()) - 1;
+  for (int c = 0; c < blocks; ++c)
+    for (int j = 0; j < 3; ++j)
+      for (int b = assembly.column_begin[static_cast<std::size_t>(c)];
+           b < assembly.column_begin[static_cast<std::size_t>(c) + 1]; ++b) {
+        const bool diagonal = assembly.block_row[static_cast<std::size_t>(b)] == c;
+        for (int i = diagonal ? j : 0; i < 3; ++i)
+          *value++ = block(Row<StiffnessBlock>(b), 3 * i + j);
+      }
+}
+
+}  // namespace
+
+void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce> force,
+              Read<AppliedForce> applied, Optional<Read<Target>> target,
+              Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
+              Write<SolidEquations> equations) {
+  auto& r = equations->residual;
+  r.setZero(3 * mesh->unknowns);
+  const auto add = [&](int n, int k, double f) {
+    for (const auto& support : mesh->supports_of(n))
+      r[3 * mesh->unknown[static_cast<std::size_t>(support.node)] + k] += support.weight * f;
+  };
+  double squares = 0, pushed = 0;
+  for (int n = 0; n < force.rows(); ++n)
+    for (int k = 0; k < 3; ++k) {
+      const Row<SolidNode> row(n);
+      add(n, k, applied(row, k) - force(row, k));
+      squares += applied(row, k) * applied(row, k);
+    }
+  for (int i = 0; probe && i < probe->rows(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double f = (*probe)(Row<ProbePoint>(i), k);
+      add((*node)(Row<ProbePoint>(i)), k, f);
+      squares += f * f;
+      if (k == 2) pushed += f;
+    }
+  // Where a lever bends, the forces in its elements are far larger than those on it: they set the digits
+  // that the balance can have.
+  for (const double f : element.values()) squares += f * f;
+  equations->scale = std::sqrt(squares);
+  const bool servo = target && (*target)->servo;
+  equations->set_point_error =
+      servo ? ((*target)->set_point - pushed) / std::abs((*target)->set_point) : 0;
+}
+
+void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
+               Write<SolidEquations> equations) {
+  const bool first = equations->factors == nullptr;
+  if (first) make_pattern(*assembly, *equations);
+  fill_values(*assembly, block, *equations);
+  if (first) {
+    equations->factors = std::make_unique<SolidEquations::Factors>();
+    equations->factors->analyzePattern(equations->stiffness);
+  }
+  equations->factors->factorize(equations->stiffness);
+  if (equations->factors->info() != Eigen::Success || !equations->factors->vectorD().allFinite())
+    throw RunFailure(fmt::format(
+        "factorise: the stiffness of the solid is singular ({} equations): a part hangs loose or "
+        "has collapsed",
+        equations->stiffness.rows()));
+}
+
+void newton_direction(Write<SolidEquations> equations) {
+  equations->direction = equations->factors->solve(equations->residual);
+}
+
+}  // namespace pulvis

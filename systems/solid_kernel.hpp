@@ -1,0 +1,235 @@
+// One eight-node hexahedron of a St. Venant-Kirchhoff material at large displacements: force and tangent.
+//
+// Source   Green-Lagrange strain enhanced by incompatible modes: Simo & Rifai (1990), Klinkel & Wagner
+//          (1997): E = E_u + M alpha. As the energy is quadratic in E, alpha = -H^-1 q solves its equation
+//          exactly at every displacement and needs no memory.
+//          Thin layers: transverse shear from the middles of the edges, Dvorkin & Bathe (1984), so that a
+//          plate of skew or tapered elements does not lock; their modes leave transverse shear alone.
+// Symbols  X, u [3, 8] corners and their displacements, m; xi, eta, zeta in [-1, 1]; J = dX/dxi;
+//          E [6] 11 22 33 12 23 13, shear doubled; S [6] its stress (second Piola-Kirchhoff), Pa;
+//          T [6, 6] from covariant strains to Cartesian ones; M = T(J_0) N(xi) det J_0 / det J
+// Valid    strains small against 1; rotations of any size
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+
+namespace pulvis::kernels {
+
+using Corners = Eigen::Matrix<double, 3, 8>;
+using Voigt = Eigen::Matrix<double, 6, 1>;
+using Voigt6 = Eigen::Matrix<double, 6, 6>;
+using StrainRows = Eigen::Matrix<double, 6, 24>;
+using NodalVector = Eigen::Matrix<double, 24, 1>;
+using NodalMatrix = Eigen::Matrix<double, 24, 24>;
+using ShapeGradient = Eigen::Matrix<double, 8, 3>;  // dN_a / dxi_i
+using Modes = Eigen::Matrix<double, 6, 9>;
+
+inline constexpr std::array<std::array<int, 2>, 6> voigt_pair{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+inline constexpr double corner_sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                             {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+
+inline Eigen::Matrix<double, 8, 1> shape_functions(const Eigen::Vector3d& xi) {
+  Eigen::Matrix<double, 8, 1> n;
+  for (int a = 0; a < 8; ++a) {
+    const auto& s = corner_sign[a];
+    n[a] = 0.125 * (1 + s[0] * xi[0]) * (1 + s[1] * xi[1]) * (1 + s[2] * xi[2]);
+  }
+  return n;
+}
+
+inline ShapeGradient shape_gradient(const Eigen::Vector3d& xi) {
+  ShapeGradient d;
+  for (int a = 0; a < 8; ++a) {
+    const auto& s = corner_sign[a];
+    const double x = 1 + s[0] * xi[0], y = 1 + s[1] * xi[1], z = 1 + s[2] * xi[2];
+    d.row(a) << 0.125 * s[0] * y * z, 0.125 * x * s[1] * z, 0.125 * x * y * s[2];
+  }
+  return d;
+}
+
+// Covariant strains e and their derivative b by the corners' displacements, at one point. Written in
+// u, not in the deformed places, so that tiny displacements keep all their digits.
+inline void covariant_strain(const Corners& X, const Corners& u, const ShapeGradient& d, int row,
+                             Voigt& e, StrainRows& b) {
+  const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
+  const Eigen::Vector3d Gi = X * d.col(i), Gj = X * d.col(j), Ui = u * d.col(i), Uj = u * d.col(j);
+  const double twice = Gi.dot(Uj) + Gj.dot(Ui) + Ui.dot(Uj);
+  const double share = i == j ? 0.5 : 1.0;
+  e[row] = share * twice;
+  for (int a = 0; a < 8; ++a)
+    b.block<1, 3>(row, 3 * a) = share * (d(a, i) * (Gj + Uj) + d(a, j) * (Gi + Ui)).transpose();
+}
+
+// Cartesian from covariant strains, with J^-1, whose rows are the contravariant base vectors.
+inline Voigt6 strain_transformation(const Eigen::Matrix3d& inverse) {
+  Voigt6 t;
+  for (int r = 0; r < 6; ++r) {
+    const auto [a, b] = voigt_pair[static_cast<std::size_t>(r)];
+    const double twice = a == b ? 1 : 2;
+    for (int c = 0; c < 6; ++c) {
+      const auto [i, j] = voigt_pair[static_cast<std::size_t>(c)];
+      t(r, c) = i == j
+                    ? twice * inverse(i, a) * inverse(i, b)
+                    : 0.5 * twice * (inverse(i, a) * inverse(j, b) + inverse(j, a) * inverse(i, b));
+    }
+  }
+  return t;
+}
+
+inline Modes natural_modes(const Eigen::Vector3d& xi, bool thin) {
+  Modes m = Modes::Zero();
+  m(0, 0) = xi[0];
+  m(1, 1) = xi[1];
+  m(2, 2) = xi[2];
+  m(3, 3) = xi[0];
+  m(3, 4) = xi[1];
+  if (thin) {
+    m(2, 5) = xi[0] * xi[2];
+    m(2, 6) = xi[1] * xi[2];
+    m(2, 7) = xi[0] * xi[1] * xi[2];
+    m(3, 8) = xi[0] * xi[1];
+  } else {
+    m(4, 5) = xi[1];
+    m(4, 6) = xi[2];
+    m(5, 7) = xi[0];
+    m(5, 8) = xi[2];
+  }
+  return m;
+}
+
+inline Voigt6 elasticity(double lambda, double mu) {
+  Voigt6 c = Voigt6::Zero();
+  c.topLeftCorner<3, 3>().setConstant(lambda);
+  c.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
+  return c;
+}
+
+// Where a thin layer takes its transverse shear from: 0, 1 for row 13; 2, 3 for row 23.
+inline constexpr double shear_points[4][3] = {{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
+
+struct ThinShear {
+  Voigt e[4];
+  StrainRows b[4];
+  ShapeGradient gradient[4];
+
+  ThinShear(const Corners& X, const Corners& u) {
+    for (int k = 0; k < 4; ++k) {
+      gradient[k] = shape_gradient(Eigen::Vector3d(shear_points[k]));
+      covariant_strain(X, u, gradient[k], row(k), e[k], b[k]);
+    }
+  }
+  static constexpr int row(int k) { return k < 2 ? 5 : 4; }
+  static double weight(int k, const Eigen::Vector3d& xi) {
+    const double s = k < 2 ? xi[1] : xi[0];
+    return 0.5 * (1 + (k % 2 == 0 ? -s : s));
+  }
+};
+
+// What one Gauss point needs in both passes.
+struct HexPoint {
+  double volume = 0;  // m^3, det J times the Gauss weight
+  Voigt strain;       // of the displacements alone
+  StrainRows b;       // its derivative
+  Modes modes;
+  Voigt6 transformation;
+  ShapeGradient gradient;
+  Eigen::Vector3d xi;
+};
+
+inline HexPoint hex_point(const Corners& X, const Corners& u, const Eigen::Vector3d& xi,
+                          const Voigt6& central, double central_determinant,
+                          const ThinShear* shear) {
+  HexPoint p;
+  p.xi = xi;
+  p.gradient = shape_gradient(xi);
+  const Eigen::Matrix3d jacobian = X * p.gradient;
+  p.volume = jacobian.determinant();
+  p.transformation = strain_transformation(jacobian.inverse());
+  Voigt e = Voigt::Zero();
+  StrainRows b = StrainRows::Zero();
+  for (int row = 0; row < (shear != nullptr ? 4 : 6); ++row)
+    covariant_strain(X, u, p.gradient, row, e, b);
+  for (int k = 0; shear != nullptr && k < 4; ++k) {
+    const int row = ThinShear::row(k);
+    const double w = ThinShear::weight(k, xi);
+    e[row] += w * shear->e[k][row];
+    b.row(row) += w * shear->b[k].row(row);
+  }
+  p.strain = p.transformation * e;
+  p.b.noalias() = p.transformation.lazyProduct(b);
+  p.modes.noalias() =
+      (central_determinant / p.volume) * central.lazyProduct(natural_modes(xi, shear != nullptr));
+  return p;
+}
+
+// Adds volume * s^ij dN_a/dxi_i dN_b/dxi_j, what the stress does to a rotating element.
+inline void add_geometric(const HexPoint& p, const Voigt& s, const ThinShear* shear,
+                          Eigen::Matrix<double, 8, 8>& g) {
+  const auto add = [&](const ShapeGradient& d, int row, double stress) {
+    const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
+    const double share = i == j ? 0.5 : 1.0;
+    g += (share * stress) * (d.col(i) * d.col(j).transpose() + d.col(j) * d.col(i).transpose());
+  };
+  for (int row = 0; row < (shear != nullptr ? 4 : 6); ++row)
+    add(p.gradient, row, p.volume * s[row]);
+  for (int k = 0; shear != nullptr && k < 4; ++k)
+    add(shear->gradient[k], ThinShear::row(k),
+        p.volume * ThinShear::weight(k, p.xi) * s[ThinShear::row(k)]);
+}
+
+struct HexResponse {
+  NodalVector force = NodalVector::Zero();    // N, what holds the element in place
+  NodalMatrix tangent = NodalMatrix::Zero();  // N/m
+  double energy = 0;                          // J
+  double least_determinant = 0;               // of J, m^3; <= 0: the element is inside out
+};
+
+inline HexResponse hex_response(const Corners& X, const Corners& u, double lambda, double mu,
+                                bool thin, bool with_tangent = true) {
+  const Eigen::Matrix3d middle = X * shape_gradient(Eigen::Vector3d::Zero());
+  const Voigt6 central = strain_transformation(middle.inverse());
+  const ThinShear sampled(X, u);
+  const ThinShear* shear = thin ? &sampled : nullptr;
+  const Voigt6 c = elasticity(lambda, mu);
+  HexResponse r;
+
+  std::array<HexPoint, 8> points;
+  Eigen::Matrix<double, 9, 9> h = Eigen::Matrix<double, 9, 9>::Zero();
+  Eigen::Matrix<double, 9, 24> l = Eigen::Matrix<double, 9, 24>::Zero();
+  Eigen::Matrix<double, 9, 1> q = Eigen::Matrix<double, 9, 1>::Zero();
+  for (int g = 0; g < 8; ++g) {
+    HexPoint& p = points[static_cast<std::size_t>(g)];
+    p = hex_point(X, u, Eigen::Vector3d(corner_sign[g]) / std::sqrt(3.0), central,
+                  middle.determinant(), shear);
+    r.least_determinant = g == 0 ? p.volume : std::min(r.least_determinant, p.volume);
+    const Eigen::Matrix<double, 9, 6> mc = p.volume * p.modes.transpose().lazyProduct(c);
+    h.noalias() += mc.lazyProduct(p.modes);
+    if (with_tangent) l.noalias() += mc.lazyProduct(p.b);
+    q.noalias() += mc.lazyProduct(p.strain);
+  }
+  const Eigen::LLT<Eigen::Matrix<double, 9, 9>> h_factor(h);
+  const Eigen::Matrix<double, 9, 1> alpha = -h_factor.solve(q);
+
+  Eigen::Matrix<double, 8, 8> geometric = Eigen::Matrix<double, 8, 8>::Zero();
+  for (const HexPoint& p : points) {
+    const Voigt strain = p.strain + p.modes * alpha;
+    const Voigt stress = c * strain;
+    r.energy += 0.5 * p.volume * strain.dot(stress);
+    r.force.noalias() += p.volume * p.b.transpose().lazyProduct(stress);
+    if (!with_tangent) continue;
+    const StrainRows cb = p.volume * c.lazyProduct(p.b);
+    r.tangent.noalias() += p.b.transpose().lazyProduct(cb);
+    add_geometric(p, p.transformation.transpose() * stress, shear, geometric);
+  }
+  if (!with_tangent) return r;
+  r.tangent.noalias() -= l.transpose().lazyProduct(h_factor.solve(l).eval());
+  for (int a = 0; a < 8; ++a)
+    for (int b = 0; b < 8; ++b)
+      r.tangent.block<3, 3>(3 * a, 3 * b).diagonal().array() += geometric(a, b);
+  return r;
+}
+
+}  // namespace pulvis::kernels

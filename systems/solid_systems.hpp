@@ -1,0 +1,39 @@
+// The systems of the quasi-static solver; each is described at the top of its own file.
+#pragma once
+
+#include "components/probe.hpp"
+#include "components/solid.hpp"
+#include "engine/access.hpp"
+#include "systems/solid_equations.hpp"
+
+namespace pulvis {
+
+void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
+                   Read<Displacement> displacement, Read<LameConstants> elastic,
+                   Write<ElementForce> force, Write<ElementTangent> tangent,
+                   Write<ElementEnergy> energy);
+void element_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
+                   Read<Displacement> displacement, Read<LameConstants> elastic,
+                   Write<ElementForce> force, Write<ElementEnergy> energy);
+void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element, Write<SolidForce> force);
+void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
+                   Write<BlockTangent> block);
+void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
+                   Read<Target> target, Read<ProbeNode> node, Read<ProbeStiffness> stiffness,
+                   Read<ProbeShare> share, Read<ProbeMemory> memory, Write<ProbeForce> force,
+                   Write<ProbeTangent> tangent, Write<ProbeState> state);
+void remember_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
+                      Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
+                      Read<ProbeState> state, Write<ProbeMemory> memory);
+void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce> force,
+              Read<AppliedForce> applied, Optional<Read<Target>> target,
+              Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
+              Write<SolidEquations> equations);
+void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
+               Write<SolidEquations> equations);
+void newton_direction(Write<SolidEquations> equations);
+void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<ProbeNode> node,
+                       Read<ProbeTangent> tangent, Read<ProbeState> state,
+                       Read<ProbeStiffness> stiffness, Write<SolidEquations> equations);
+
+}  // namespace pulvis

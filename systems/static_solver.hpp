@@ -1,0 +1,75 @@
+// Equilibrium of a solid under dead loads and contact, by Newton's method with a line search.
+//
+// An iteration is a task graph, like a step of the explicit method: evaluate (elements, forces, tangent,
+// residual), factorise, direction. The loop around it lives here.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/task_graph.hpp"
+#include "engine/world.hpp"
+
+namespace pulvis {
+
+struct Target;
+
+struct NewtonSettings {
+  double tolerance = 1e-10;       // -, residual over the forces that must balance
+  double round_off = 1e-7;        // -, the same, below which a residual that stays is round-off
+  double servo_tolerance = 1e-7;  // -, force that is missing over the set point
+  int iterations = 25;            // after which the increment counts as failed
+  // The solid's factors are kept from one iteration and increment to the next while they gain a digit each
+  // time: a tip drawn over a surface hardly turns its lever. Without it the convergence is quadratic.
+  bool reuse_factors = false;
+  int cuts = 12;  // halvings of a step that the line search tries
+};
+
+struct NewtonReport {
+  bool converged = false;
+  std::vector<double> residuals;  // -, before every iteration and after the last one
+};
+
+// Columns and resources that every solid needs; the mesh and the material are there already.
+void add_solid_columns(World& world);
+// Of a probe of so many points; the target is there already.
+void add_probe_columns(World& world, std::size_t points);
+
+class StaticSolver {
+ public:
+  // Must be built and run inside the arena it will use.
+  explicit StaticSolver(World& world);
+  ~StaticSolver();
+
+  // Evaluates and factorises at the present displacements.
+  void linearise();
+  // Of the last linearisation: displacements [3 nodes] by forces [3 nodes], held and hanging nodes
+  // included.
+  std::vector<double> respond(std::span<const double> forces) const;
+  // Forces [3 nodes] that the elements put on their nodes at small displacements [3 nodes], of the last
+  // linearisation, with the sign of what a held node receives from its holder.
+  std::vector<double> held_forces(std::span<const double> displacements) const;
+  // Newton's method from the present displacements; they are left as they were where it fails, and so is
+  // the target's height where a servo moves it.
+  NewtonReport equilibrate(const NewtonSettings& settings = {});
+  // Evaluates the forces, no tangent.
+  void look() { look_.run(); }
+  // What the contact carries on to the next increment, from the present equilibrium.
+  void remember();
+
+  const GraphPlan& plan() const { return iterate_.plan(); }
+
+ private:
+  void move(double share);
+  double error() const;
+  void predict(Target& target, bool reuse);
+  bool settled(const std::vector<double>& residuals, const NewtonSettings& settings) const;
+  void search(double allowed, int cuts);
+
+  World& world_;
+  TaskGraph iterate_, reuse_, look_;
+  std::unique_ptr<TaskGraph> remember_;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,91 @@
+// AFM scenes that are wrong are refused, with the place and with what is allowed.
+#include "tests/afm/lever.hpp"
+
+namespace pulvis {
+namespace {
+
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    load_scene_text(text, "wrong.toml", overrides);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_refusal(const std::vector<std::string>& overrides, const char* what) {
+  EXPECT_NE(refusal(beam_with_tip, overrides).find(what), std::string::npos)
+      << refusal(beam_with_tip, overrides);
+}
+
+TEST(WrongAfm, TheTestsOwnLeverIsRight) { EXPECT_EQ(refusal(beam_with_tip), "accepted"); }
+
+TEST(WrongAfm, TablesAndKeysOfOtherFamiliesAreRefused) {
+  EXPECT_NE(refusal(std::string(beam_with_tip) + "[contact]\nfriction = 0.1\n")
+                .find("has no meaning with family = \"afm\""),
+            std::string::npos);
+  expect_refusal({"thickness=1 mm"}, "has no effect with family = \"afm\"");
+  expect_refusal({"material.lever.density=1 kg/m^3"}, "has no effect with family = \"afm\"");
+}
+
+TEST(WrongAfm, ATipBesideTheLeverIsRefused) {
+  expect_refusal({"tip.offset=24.5 um"}, "tip.offset");
+  expect_refusal({"tip.set_back=0.5 um"}, "is not on the lever");
+  expect_refusal({"tip.set_back=441 um"}, "is not on the lever");
+}
+
+TEST(WrongAfm, AFootWiderThanTheLeverIsRefusedWithTheBound) {
+  expect_refusal({"tip.foot=60 um", "tip.set_back=31 um"}, "allowed: < 5e-05 m");
+}
+
+TEST(WrongAfm, AGlueNeckWiderThanTheLeverOrTheBallIsRefused) {
+  const std::string ball = tipless_beam() + R"([tip]
+shape = "sphere"
+material = "stiff"
+radius = "40 um"
+neck_radius = "30 um"
+neck_height = "1 um"
+set_back = "50 um"
+)";
+  EXPECT_NE(refusal(ball).find("tip.neck_radius"), std::string::npos) << refusal(ball);
+  EXPECT_NE(refusal(ball).find("allowed: < 2.5e-05 m"), std::string::npos) << refusal(ball);
+  EXPECT_NE(refusal(ball, {"tip.radius=20 um"}).find("allowed: < 2e-05 m"), std::string::npos);
+}
+
+TEST(WrongAfm, ALaserBesideTheLeverIsRefused) {
+  expect_refusal({"laser.position=450 um"}, "laser.position");
+  expect_refusal({"laser.offset=20 um", "laser.radius=10 um"}, "laser.position");
+}
+
+TEST(WrongAfm, ActionsNeedASurfaceAndAForceToKeep) {
+  const std::string scan =
+      std::string(beam_with_tip) +
+      "[[action]]\nkind = \"scan\"\ndistance = \"1 um\"\nset_point = \"force\"\n";
+  EXPECT_NE(refusal(scan).find("there is no surface"), std::string::npos);
+  EXPECT_NE(refusal(scan + "[surface]\nshape = \"plane\"\n").find("no force to keep"),
+            std::string::npos);
+}
+
+TEST(WrongAfm, AVWhoseArmsDoNotMeetIsRefused) {
+  const std::string v = R"(family = "afm"
+[[material]]
+name = "m"
+youngs_modulus = "200 GPa"
+poissons_ratio = 0.3
+[lever]
+shape = "v"
+material = "m"
+length = "100 um"
+thickness = "1 um"
+half_angle = "30 deg"
+arm_width = "20 um"
+[tip]
+set_back = "5 um"
+)";
+  EXPECT_EQ(refusal(v), "accepted");
+  EXPECT_NE(refusal(v, {"lever.arm_width=51 um"}).find("allowed: < 5e-05 m"), std::string::npos);
+  EXPECT_NE(refusal(v, {"lever.base_width=100 um"}).find("one of them"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pulvis
