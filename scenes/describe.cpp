@@ -65,9 +65,10 @@ std::string heading(const schema::TableInfo& info) {
   return info.repeated ? fmt::format("`[[{}]]`", info.path) : fmt::format("`[{}]`", info.path);
 }
 
-std::string describe(const schema::TableView& view) {
+// `of_families`: whether the files of this language say what kind of experiment they are.
+std::string describe(const schema::TableView& view, bool of_families) {
   std::string text = fmt::format("\n## {}\n\n{}", heading(view.info), view.info.doc);
-  if (view.info.families.list.size() == 1)
+  if (of_families && view.info.families.list.size() == 1)
     text += fmt::format(" Only with family = {}.", schema::quoted(view.info.families));
   text += "\n";
   if (view.keys.empty()) return text;  // its keys are not ours
@@ -83,7 +84,8 @@ std::string describe(const schema::TableView& view) {
 
 std::string reference_of(const std::string& beginning, const schema::Language& language) {
   std::string text = beginning;
-  for (const schema::TableView& view : language) text += describe(view);
+  const bool of_families = schema::find_key(language.front(), "family") != nullptr;
+  for (const schema::TableView& view : language) text += describe(view, of_families);
   return text;
 }
 

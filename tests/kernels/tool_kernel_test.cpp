@@ -78,5 +78,25 @@ TEST(SmoothTravel, AccelerationStartsWithoutAKink) {
             1.2 * 30 * u * u);  // differences look half a step ahead
 }
 
+TEST(CutTravel, IsTheWholeWayWhereNothingIsCut) {
+  for (const double tau : {-0.1, 0.03, 0.5, 0.97, 1.2})
+    EXPECT_EQ(cut_travel(tau, 0.1, 1e300), smooth_travel(tau, 0.1));
+}
+
+TEST(CutTravel, ComesToRestSmoothlyHalfARampOfItsSpeedFurther) {
+  const double ramp = 0.2, step = 1e-5;
+  for (const double cut : {0.05, 0.2, 0.6}) {
+    const double speed = smooth_speed(cut, ramp);
+    EXPECT_NEAR(speed,
+                (smooth_travel(cut + step, ramp) - smooth_travel(cut - step, ramp)) / (2 * step),
+                1e-6);
+    EXPECT_NEAR(cut_travel(cut + step, ramp, cut) - cut_travel(cut, ramp, cut), speed * step, 1e-9);
+    const double end = smooth_travel(cut, ramp) + 0.5 * speed * ramp;
+    EXPECT_NEAR(cut_travel(cut + ramp, ramp, cut), end, 1e-14);
+    EXPECT_NEAR(cut_travel(cut + ramp - step, ramp, cut), end, 1e-9);
+    EXPECT_EQ(cut_travel(cut + 10, ramp, cut), cut_travel(cut + ramp, ramp, cut));
+  }
+}
+
 }  // namespace
 }  // namespace pulvis::kernels
