@@ -129,8 +129,7 @@ int ShearResults::take_touching() {
     if (row[3] != 0 && row[2] == setup_->target) touching.push_back(row[0]);
   }
   std::ranges::sort(touching);
-  const auto rest = std::ranges::unique(touching);
-  touching.erase(rest.begin(), rest.end());
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
   int locked = 0;
   for (const int slot : touching) {
     const double lag = speed - velocity_of(world_, slot).dot(setup_->along);
