@@ -131,6 +131,9 @@ class Reader {
   }
 
   Table read() {
+    for (const Line& line : lines_)
+      if (const std::string_view text = trimmed(line.text); text.starts_with('#'))
+        table_.comments.push_back({std::string(trimmed(text.substr(1))), line.number});
     std::size_t next = header();
     next = units(next);
     for (; next < lines_.size(); ++next)
@@ -276,6 +279,17 @@ std::size_t column_at(const Table& table, const std::string& name) {
                      listed(names)));
 }
 
+void only(const Table& table, const std::vector<std::string>& names) {
+  for (const Column& column : table.columns) {
+    const auto same = [&](const std::string& name) { return lower(name) == lower(column.name); };
+    if (std::none_of(names.begin(), names.end(), same))
+      refuse(table, column.name, "the column is unknown, allowed: " + listed(names));
+    if (std::count_if(table.columns.begin(), table.columns.end(),
+                      [&](const Column& other) { return same(other.name); }) > 1)
+      refuse(table, column.name, "the column is there twice, allowed: each once");
+  }
+}
+
 std::vector<double> numbers(const Table& table, std::size_t column, double factor) {
   std::vector<double> values;
   values.reserve(table.rows.size());
@@ -290,6 +304,10 @@ std::vector<double> numbers(const Table& table, std::size_t column, const std::s
 
 void refuse(const Table& table, const std::string& key, const std::string& message) {
   refuse_at(table.file, table.header_line, 1, key, message);
+}
+
+void refuse(const Table& table, const Comment& at, const std::string& message) {
+  refuse_at(table.file, at.line, 1, "comment", message);
 }
 
 void refuse(const Table& table, std::size_t row, std::size_t column, const std::string& message) {

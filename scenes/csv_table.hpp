@@ -30,12 +30,18 @@ struct Cell {
   int column = 1;  // where it starts in its line, in characters
 };
 
+struct Comment {
+  std::string text;  // without its #
+  int line = 0;
+};
+
 struct Table {
   std::filesystem::path file;
   int header_line = 0;  // of the file, from 1
   std::vector<Column> columns;
   std::vector<int> lines;  // of each row
   std::vector<std::vector<Cell>> rows;
+  std::vector<Comment> comments;
   char decimal = '.';
 };
 
@@ -50,6 +56,9 @@ Table read_text(std::string_view text, const std::filesystem::path& file,
 bool has_column(const Table& table, const std::string& name);
 std::size_t column_at(const Table& table, const std::string& name);  // refused where there is none
 
+// Refuses a header with other columns than these, or with one of them twice.
+void only(const Table& table, const std::vector<std::string>& names);
+
 // A column in the SI unit `unit`; "" for numbers without one. Every cell must hold a finite number.
 std::vector<double> numbers(const Table& table, std::size_t column, const std::string& unit);
 
@@ -57,6 +66,7 @@ std::vector<double> numbers(const Table& table, std::size_t column, const std::s
 std::vector<double> numbers(const Table& table, std::size_t column, double factor);
 
 [[noreturn]] void refuse(const Table& table, const std::string& key, const std::string& message);
+[[noreturn]] void refuse(const Table& table, const Comment& at, const std::string& message);
 [[noreturn]] void refuse(const Table& table, std::size_t row, std::size_t column,
                          const std::string& message);
 

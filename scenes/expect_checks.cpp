@@ -81,7 +81,7 @@ class ExpectChecks {
     }
     const std::vector<SeriesInfo> all = expectable_series(scene_);
     const SeriesInfo* info = find_series(all, expect.series);
-    bounds(expect, info == nullptr ? "1" : info->unit == "-" ? "1" : info->unit);
+    bounds(expect, info == nullptr ? "-" : info->unit);
     window(expect);
     if (!expect.like.empty() && scene_.afm)
       refuse("like", "AFM scenes are not compared with others, allowed: bounds or `equals`");
@@ -91,17 +91,7 @@ class ExpectChecks {
 
   void convert(std::optional<ExpectSpec::Bound>& bound, const std::string& key,
                const std::string& unit) {
-    if (!bound || bound->quantity.empty()) return;
-    if (unit == "1") {
-      refuse(key, "the series has no unit, allowed: a number");
-      return;
-    }
-    try {
-      bound->number = parse_quantity(bound->quantity, unit);
-    } catch (const UnitError& error) {
-      refuse(key, fmt::format("{}, allowed: a number in {}, or a quantity of that dimension",
-                              error.what(), unit));
-    }
+    if (const std::string fault = settle_bound(bound, unit); !fault.empty()) refuse(key, fault);
   }
 
   void bounds(ExpectSpec& expect, const std::string& unit) {
@@ -169,6 +159,18 @@ std::vector<SeriesInfo> expectable_series(const Scene& scene) {
   const std::vector<SeriesInfo> momentum = momentum_series();
   all.insert(all.end(), momentum.begin(), momentum.end());
   return all;
+}
+
+std::string settle_bound(std::optional<ExpectSpec::Bound>& bound, const std::string& unit) {
+  if (!bound || bound->quantity.empty()) return "";
+  if (unit == "-") return "is compared with what has no unit, allowed: a number";
+  try {
+    bound->number = parse_quantity(bound->quantity, unit);
+  } catch (const UnitError& error) {
+    return fmt::format("{}, allowed: a number in {}, or a quantity of that dimension", error.what(),
+                       unit);
+  }
+  return "";
 }
 
 std::filesystem::path other_scene(const Scene& scene, const ExpectSpec& expect) {

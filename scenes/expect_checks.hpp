@@ -18,6 +18,10 @@ bool is_figure_of_a_run(const std::string& name);
 // Every series of a run that an expectation may name: the history, and the momentum.
 std::vector<SeriesInfo> expectable_series(const Scene& scene);
 
+// Turns a bound written with a unit into a number in `unit` ("-": none). Returns what is wrong with it, as
+// "what, allowed: ..."; nothing where it will do.
+std::string settle_bound(std::optional<ExpectSpec::Bound>& bound, const std::string& unit);
+
 std::filesystem::path other_scene(const Scene& scene, const ExpectSpec& expect);
 
 // Also turns bounds with a unit into numbers. `read_other` reads a scene without what it expects.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scenes/csv_file.hpp"
+#include "scenes/csv_table.hpp"
 #include "scenes/place.hpp"
 #include "scenes/problem.hpp"
 #include "scenes/units.hpp"
@@ -12,25 +12,28 @@
 namespace pulvis {
 namespace {
 
-int class_of(const CsvFile& table, const CsvCell& cell, const Scene& scene) {
+int class_of(const csv::Table& table, std::size_t row, std::size_t column, const Scene& scene) {
   std::vector<std::string> names;
   for (const ParticleSpec& particle : scene.particles)
     if (particle.class_of < 0) names.push_back(particle.name);
-  const auto found = std::ranges::find(names, cell.text);
+  const std::string& name = table.rows[row][column].text;
+  const auto found = std::ranges::find(names, name);
   if (found == names.end())
-    table.refuse(cell, fmt::format("no particle is called '{}'{}, allowed: {}", cell.text,
-                                   suggestion(cell.text, names), listed(names)));
+    csv::refuse(table, row, column,
+                fmt::format("no particle is called '{}'{}, allowed: {}", name,
+                            suggestion(name, names), listed(names)));
   return static_cast<int>(found - names.begin());
 }
 
-std::optional<double> top_of(const CsvFile& table) {
+std::optional<double> top_of(const csv::Table& table) {
   constexpr std::string_view key = "top:";
-  for (const CsvCell& comment : table.comments()) {
+  for (const csv::Comment& comment : table.comments) {
     if (!comment.text.starts_with(key)) continue;
     try {
       return parse_quantity(comment.text.substr(key.size()), "m");
     } catch (const UnitError& error) {
-      table.refuse(comment, fmt::format("{}, allowed: # top: and a quantity in m", error.what()));
+      csv::refuse(table, comment,
+                  fmt::format("{}, allowed: # top: and a quantity in m", error.what()));
     }
   }
   return std::nullopt;
@@ -61,19 +64,23 @@ std::string header(const Scene& scene) {
 }  // namespace
 
 FiledPacking read_packing(const std::filesystem::path& file, const Scene& scene) {
-  const CsvFile table(file);
-  table.only({"class", "x", "y", "angle", "scale"});
-  const std::vector<CsvCell> names = table.texts("class");
-  const std::vector<double> x = table.numbers("x", "m"), y = table.numbers("y", "m");
-  const std::vector<double> angle = table.numbers("angle", "rad");
-  std::vector<double> scale(names.size(), 1);
-  if (table.has("scale")) scale = table.numbers("scale", "");
+  const csv::Table table = csv::read(file);
+  csv::only(table, {"class", "x", "y", "angle", "scale"});
+  const auto column = [&](const char* name, const char* unit) {
+    return csv::numbers(table, csv::column_at(table, name), unit);
+  };
+  const std::size_t names = csv::column_at(table, "class");
+  const std::vector<double> x = column("x", "m"), y = column("y", "m");
+  const std::vector<double> angle = column("angle", "rad");
+  std::vector<double> scale(table.rows.size(), 1);
+  if (csv::has_column(table, "scale")) scale = column("scale", "");
   FiledPacking packing;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (scale[i] < 1e-6 || scale[i] > 1e6)
-      table.refuse(names[i], fmt::format("scale {:g}, allowed: from 1e-06 to 1e+06", scale[i]));
+      csv::refuse(table, i, csv::column_at(table, "scale"),
+                  fmt::format("{:g}, allowed: from 1e-06 to 1e+06", scale[i]));
     packing.particles.push_back(
-        {class_of(table, names[i], scene), scale[i], Vec2(x[i], y[i]), angle[i]});
+        {class_of(table, i, names, scene), scale[i], Vec2(x[i], y[i]), angle[i]});
   }
   packing.top = top_of(table);
   return packing;

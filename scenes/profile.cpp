@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "scenes/outline.hpp"
+#include "scenes/place.hpp"
 #include "scenes/surface.hpp"
 
 namespace pulvis {
@@ -134,12 +135,11 @@ void check_profile(const ToolSpec& tool, const std::string& path, const schema::
   ProfileChecks(tool, path, origins, problems).run();
 }
 
-void make_profiles(Scene& scene, const std::vector<BodySpec>& bodies,
-                   const schema::Origins& origins, Problems& problems) {
+void make_profiles(Scene& scene, const schema::Origins& origins, Problems& problems) {
   const bool any = std::ranges::any_of(
       scene.tools, [](const ToolSpec& t) { return t.shape == ToolSpec::Shape::profile; });
   if (!any) return;
-  const Extent powder = powder_extent(scene, bodies);
+  const Extent powder = powder_extent(scene, place_bodies(scene));
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     ToolSpec& tool = scene.tools[t];
     if (tool.shape != ToolSpec::Shape::profile) continue;

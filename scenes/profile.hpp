@@ -21,7 +21,6 @@ void check_profile(const ToolSpec& tool, const std::string& path, const schema::
 
 // Turns the scene's profiles into polylines, from left of the powder to right of it, however far the tool is
 // moved along it.
-void make_profiles(Scene& scene, const std::vector<BodySpec>& bodies,
-                   const schema::Origins& origins, Problems& problems);
+void make_profiles(Scene& scene, const schema::Origins& origins, Problems& problems);
 
 }  // namespace pulvis

@@ -1,5 +1,5 @@
-#include "scenes/afm_scene.hpp"
 #include "scenes/read.hpp"
+#include "scenes/afm_scene.hpp"
 
 #include "engine/fnv1a.hpp"
 #include "scenes/accuracy.hpp"
@@ -8,8 +8,8 @@
 #include "scenes/expect_checks.hpp"
 #include "scenes/fill_packings.hpp"
 #include "scenes/override.hpp"
-#include "scenes/place.hpp"
 #include "scenes/profile.hpp"
+#include "scenes/scene_files.hpp"
 #include "scenes/scene_text.hpp"
 #include "scenes/table_reader.hpp"
 
@@ -94,7 +94,8 @@ class SceneReader {
     read_one(schema::tip(), afm.tip);
     read_one(schema::laser(), afm.laser);
     read_one(schema::detector(), afm.detector);
-    if (document::find(root_, "surface") != nullptr) read_one(schema::surface(), afm.target.emplace());
+    if (document::find(root_, "surface") != nullptr)
+      read_one(schema::surface(), afm.target.emplace());
     afm.actions = read_all(schema::action());
   }
 
@@ -201,10 +202,10 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   }
   fill_packings(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
-  make_profiles(loaded.scene, place_bodies(loaded.scene), reader.origins(), problems);
+  make_profiles(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
   loaded.text = scene_text(root);
-  loaded.hash = scene_hash(loaded.text);
+  loaded.hash = hash_with_files(loaded.scene, scene_hash(loaded.text));
   return loaded;
 }
 

@@ -15,7 +15,8 @@ namespace pulvis {
 struct LoadedScene {
   Scene scene;
   std::string text;  // the scene as run, as TOML: overrides and defaults included, one fixed layout
-  std::uint64_t hash = 0;  // of that text: the same for every file that says the same
+  // Of that text and of the files that it names: the same for every scene that says the same.
+  std::uint64_t hash = 0;
 };
 
 LoadedScene load_scene(const std::filesystem::path& file,

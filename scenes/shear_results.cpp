@@ -117,7 +117,7 @@ double ShearResults::distance_now() const {
   return Vec2(now[0] - then[0], now[1] - then[1]).dot(setup_->along);
 }
 
-int ShearResults::take_touching() {
+int ShearResults::take_touching(bool sliding) {
   const Clock& clock = world_.resource<Clock>();
   const Bodies& bodies = world_.resource<Bodies>();
   const auto& pair = world_.column<ContactPair<ToolContact>>();
@@ -135,7 +135,7 @@ int ShearResults::take_touching() {
     const double lag = speed - velocity_of(world_, slot).dot(setup_->along);
     const auto number =
         static_cast<std::size_t>(bodies.slots[static_cast<std::size_t>(slot)].number);
-    if (distance_now() > 0) slip_[number] += lag * (clock.time - time_before_);
+    if (sliding) slip_[number] += lag * (clock.time - time_before_);
     if (speed > 0 && std::abs(lag) < goes_along * speed) locked += 1;
   }
   return locked;
@@ -151,7 +151,8 @@ void ShearResults::append_sample(std::vector<double>& row) {
   const double face = setup_->width * world_.resource<Bodies>().thickness;
   const double friction = normal > 0 ? lateral / normal : nothing;
   work_ += 0.5 * (lateral + lateral_before_) * (distance - distance_before_);
-  row.insert(row.end(), {distance, friction, work_, static_cast<double>(take_touching())});
+  row.insert(row.end(),
+             {distance, friction, work_, static_cast<double>(take_touching(distance > 0))});
   if (setup_->width > 0) {
     row.insert(row.end(), {normal / face, lateral / face});
     if (setup_->punch >= 0)

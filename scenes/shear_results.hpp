@@ -51,7 +51,7 @@ class ShearResults {
     double distance, friction, normal_stress;
   };
   double distance_now() const;
-  int take_touching();  // sums up slip; returns how many go along
+  int take_touching(bool sliding);  // sums up slip while sliding; returns how many go along
 
   std::optional<ShearSetup> setup_;
   const World& world_;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "scenes/csv_file.hpp"
+#include "scenes/csv_table.hpp"
 #include "scenes/portable.hpp"
 
 namespace pulvis {
@@ -74,37 +74,39 @@ Quantile quantile_of(const SizeLaw& law, const SieveCurve& curve) {
   }
 }
 
-void check_point(const CsvFile& table, std::size_t i, const SieveCurve& curve) {
-  const CsvCell at = table.rows()[i].front();
+void check_point(const csv::Table& table, std::size_t i, const SieveCurve& curve) {
   const SievePoint p = curve[i];
-  if (p.size <= 0) table.refuse(at, fmt::format("size {:g} m, allowed: > 0", p.size));
+  const auto refuse = [&](const char* column, const std::string& message) {
+    csv::refuse(table, i, csv::column_at(table, column), message);
+  };
+  if (p.size <= 0) refuse("size", fmt::format("size {:g} m, allowed: > 0", p.size));
   if (p.passing < 0 || p.passing > 1)
-    table.refuse(at, fmt::format("passing {:g}, allowed: from 0 to 1", p.passing));
+    refuse("passing", fmt::format("passing {:g}, allowed: from 0 to 1", p.passing));
   if (i == 0 && p.passing != 0)
-    table.refuse(
-        at, fmt::format("{:g} pass the smallest sieve, allowed: 0 in the first row", p.passing));
+    refuse("passing",
+           fmt::format("{:g} pass the smallest sieve, allowed: 0 in the first row", p.passing));
   if (i > 0 && p.size <= curve[i - 1].size)
-    table.refuse(at, fmt::format("size {:g} m is not above the last row's, allowed: > {:g} m",
-                                 p.size, curve[i - 1].size));
+    refuse("size", fmt::format("size {:g} m is not above the last row's, allowed: > {:g} m", p.size,
+                               curve[i - 1].size));
   if (i > 0 && p.passing < curve[i - 1].passing)
-    table.refuse(at, fmt::format("passing {:g} is below the last row's, allowed: >= {:g}",
-                                 p.passing, curve[i - 1].passing));
+    refuse("passing", fmt::format("passing {:g} is below the last row's, allowed: >= {:g}",
+                                  p.passing, curve[i - 1].passing));
   if (i + 1 == curve.size() && p.passing != 1)
-    table.refuse(at,
-                 fmt::format("{:g} pass the largest sieve, allowed: 1 in the last row", p.passing));
+    refuse("passing",
+           fmt::format("{:g} pass the largest sieve, allowed: 1 in the last row", p.passing));
 }
 
 }  // namespace
 
 SieveCurve read_sieve_curve(const std::filesystem::path& file) {
-  const CsvFile table(file);
-  table.only({"size", "passing"});
-  const std::vector<double> size = table.numbers("size", "m"),
-                            passing = table.numbers("passing", "");
+  const csv::Table table = csv::read(file);
+  csv::only(table, {"size", "passing"});
+  const std::vector<double> size = csv::numbers(table, csv::column_at(table, "size"), "m"),
+                            passing = csv::numbers(table, csv::column_at(table, "passing"), "");
   SieveCurve curve;
   for (std::size_t i = 0; i < size.size(); ++i) curve.push_back({size[i], passing[i]});
   for (std::size_t i = 0; i < curve.size(); ++i) check_point(table, i, curve);
-  if (curve.size() < 2) table.refuse(table.rows()[0][0], "one sieve, allowed: at least two");
+  if (curve.size() < 2) csv::refuse(table, 0, 0, "one sieve, allowed: at least two");
   // Flat parts at the ends hold no particles, and no quantile.
   while (curve[1].passing == 0) curve.erase(curve.begin());
   while (curve[curve.size() - 2].passing == 1) curve.pop_back();

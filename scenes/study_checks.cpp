@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "scenes/expect_checks.hpp"
 #include "scenes/study_series.hpp"
-#include "scenes/units.hpp"
 
 namespace pulvis {
 namespace {
@@ -204,17 +204,7 @@ class StudyChecks {
 
   void convert(std::optional<StudyExpect::Bound>& bound, const std::string& key,
                const std::string& unit) {
-    if (!bound || bound->quantity.empty()) return;
-    if (unit == "-") {
-      refuse(key, "is compared with what has no unit, allowed: a number");
-      return;
-    }
-    try {
-      bound->number = parse_quantity(bound->quantity, unit);
-    } catch (const UnitError& error) {
-      refuse(key, fmt::format("{}, allowed: a number in {}, or a quantity of that dimension",
-                              error.what(), unit));
-    }
+    if (const std::string fault = settle_bound(bound, unit); !fault.empty()) refuse(key, fault);
   }
 
   Study& study_;

@@ -1,6 +1,15 @@
 // Reads the numbers the page carries: base64, deflate, planes of bytes, differences of neighbours.
 "use strict";
 
+// What no page survives is told on it.
+function fail(error) {
+  const text = String(error && error.message || error);
+  document.body.dataset.error = text;
+  document.getElementById("lead").textContent = `This report could not be shown: ${text}`;
+}
+addEventListener("error", event => fail(event.error || event.message));
+addEventListener("unhandledrejection", event => fail(event.reason));
+
 async function inflated(id) {
   const text = document.getElementById(id).textContent;
   const packed = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));

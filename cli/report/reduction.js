@@ -2,14 +2,6 @@
 // <body> tells how it went: data-ready, data-charts, or data-error.
 "use strict";
 
-function fail(error) {
-  const text = String(error && error.message || error);
-  document.body.dataset.error = text;
-  document.getElementById("lead").textContent = `This report could not be shown: ${text}`;
-}
-addEventListener("error", event => fail(event.error || event.message));
-addEventListener("unhandledrejection", event => fail(event.reason));
-
 // A table of the page as columns {name, unit, kind, label, values}.
 async function readTable(head, name) {
   const {rows, columns} = head.tables[name], all = await floats(name);

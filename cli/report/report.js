@@ -1,14 +1,6 @@
 // Puts the page together. <body> tells how it went: data-ready, data-drawn-quads, or data-error.
 "use strict";
 
-function fail(error) {
-  const text = String(error && error.message || error);
-  document.body.dataset.error = text;
-  document.getElementById("lead").textContent = `This report could not be shown: ${text}`;
-}
-addEventListener("error", event => fail(event.error || event.message));
-addEventListener("unhandledrejection", event => fail(event.reason));
-
 function connectControls(picture, head) {
   const field = document.getElementById("field"), frame = document.getElementById("frame");
   head.fields.forEach((one, i) => field.add(new Option(words(one.name), i)));

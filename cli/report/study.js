@@ -2,14 +2,6 @@
 // <body> tells how it went: data-ready with the number of lines drawn, or data-error.
 "use strict";
 
-function fail(error) {
-  const text = String(error && error.message || error);
-  document.body.dataset.error = text;
-  document.getElementById("lead").textContent = `This report could not be shown: ${text}`;
-}
-addEventListener("error", event => fail(event.error || event.message));
-addEventListener("unhandledrejection", event => fail(event.reason));
-
 const linkTo = run => element("a", {textContent: run.name,
                                     href: `${encodeURIComponent(run.name)}/report.html`});
 

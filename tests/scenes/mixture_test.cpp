@@ -196,11 +196,11 @@ TEST_F(SieveFile, IsRefusedAtItsLine) {
                {"size [mm],passing\n3,0\n6,0.5\n5,1\n", "allowed: > 0.006 m", 4},
                {"size [mm],passing\n3,0\n6,0.5\n7,0.4\n", "allowed: >= 0.5", 4},
                {"size [mm],passing\n3,0\n6,0.5\n", "allowed: 1 in the last row", 3},
-               {"size,passing\n3,0\n6,1\n", "the unit is missing", 1},
-               {"size [kg],passing\n3,0\n6,1\n", "allowed: 'size [m]'", 1},
-               {"size [mm],passing\n3,0\n6\n", "1 cells, allowed: 2", 3},
-               {"size [mm],passing\n3,0\nsix,1\n", "'six' is no number", 3},
-               {"size [mm],passed\n3,0\n6,1\n", "column 'passed' is unknown", 1},
+               {"size,passing\n3,0\n6,1\n", "has no unit, allowed: one that converts to m", 1},
+               {"size [kg],passing\n3,0\n6,1\n", "allowed: a unit that converts to m", 1},
+               {"size [mm],passing\n3,0\n6\n", "has 1 fields, allowed: 2", 3},
+               {"size [mm],passing\n3,0\nsix,1\n", "'six' is no finite number", 3},
+               {"size [mm],passed\n3,0\n6,1\n", "the column is unknown, allowed: size, passing", 1},
                {"", "is empty", 1}};
   for (const auto& c : cases) {
     write("sieve.csv", c.text);
@@ -211,6 +211,16 @@ TEST_F(SieveFile, IsRefusedAtItsLine) {
   }
   fs::remove(folder / "sieve.csv");
   EXPECT_THAT(problems(sieved_scene()).front().message, HasSubstr("there is no such file"));
+}
+
+// A study keeps a run as long as its hash is the same: not when the powder has changed.
+TEST_F(SieveFile, BelongsToTheHashOfItsScene) {
+  const auto hash = [&] { return load_scene_text(sieved_scene(), folder / "s.toml").hash; };
+  write("sieve.csv", "size [mm],passing\n3,0\n6,0.6\n8,1\n");
+  const std::uint64_t before = hash();
+  EXPECT_EQ(hash(), before);
+  write("sieve.csv", "size [mm],passing\n3,0\n6,0.7\n8,1\n");
+  EXPECT_NE(hash(), before);
 }
 
 TEST_F(PackingFile, IsRefusedAtItsLine) {
