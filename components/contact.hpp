@@ -51,10 +51,14 @@ struct ToolForce : Component<Tool, double, 2> {
 
 // ---- contact rows: the same columns for both kinds of contact ------------------------------------
 template <class At>
-struct ContactPair : Component<At, std::int32_t, 4> {
-  static constexpr ComponentInfo info{
-      "pair", "-",
-      "stable key: particle slot, its edge, other slot or tool; then 1 where it touches"};
+struct ContactPair : Component<At, std::int32_t, 3> {
+  static constexpr ComponentInfo info{"pair", "-",
+                                      "stable key: particle slot, its edge, other slot or tool"};
+};
+// A byte a row: those who look for the few rows that touch pass over many.
+template <class At>
+struct ContactTouches : Component<At, std::uint8_t, 1> {
+  static constexpr ComponentInfo info{"touches", "-", "1 where a point of the row touches, or 0"};
 };
 template <class At>
 struct ContactReach : Component<At, double, 1> {

@@ -214,6 +214,7 @@ template <class At>
 void add_row_columns(World& world, const Needs& needs) {
   world.add_table<At>(std::size_t{0});
   world.add<ContactPair<At>>();
+  world.add<ContactTouches<At>>();
   world.add<ContactReach<At>>();
   world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();

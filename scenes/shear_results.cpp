@@ -121,12 +121,13 @@ int ShearResults::take_touching(bool sliding) {
   const Clock& clock = world_.resource<Clock>();
   const Bodies& bodies = world_.resource<Bodies>();
   const auto& pair = world_.column<ContactPair<ToolContact>>();
+  const auto& touches = world_.column<ContactTouches<ToolContact>>();
   const double speed =
       vector_of(world_.column<ToolVelocity>().values(), setup_->target).dot(setup_->along);
   std::vector<int> touching;
   for (std::size_t r = 0; r < pair.table.rows; ++r) {
-    const std::int32_t* row = pair.values() + 4 * r;
-    if (row[3] != 0 && row[2] == setup_->target) touching.push_back(row[0]);
+    const std::int32_t* row = pair.values() + 3 * r;
+    if (touches.values()[r] != 0 && row[2] == setup_->target) touching.push_back(row[0]);
   }
   std::ranges::sort(touching);
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());

@@ -61,10 +61,11 @@ class StateHash {
   void add_contacts(const Partner& partner) {
     if (!world_.has<ContactPair<At>>()) return;
     const auto& pair = world_.column<ContactPair<At>>();
+    const auto& touches = world_.column<ContactTouches<At>>();
     std::vector<std::array<int, 4>> touching;  // number, edge, partner; row
     for (std::size_t r = 0; r < pair.table.rows; ++r) {
-      const std::int32_t* key = pair.values() + 4 * r;
-      if (key[3] != 0)
+      const std::int32_t* key = pair.values() + 3 * r;
+      if (touches.values()[r] != 0)
         touching.push_back({number_in(key[0]), key[1], partner(key[2]), static_cast<int>(r)});
     }
     std::ranges::sort(touching);

@@ -108,10 +108,12 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
 
 [[gnu::flatten]] void contact_force(Chunk chunk, Read<Bodies> bodies, Read<ContactIndex> index,
                                     Optional<Read<ContactPair<Contact>>> pair,
+                                    Optional<Read<ContactTouches<Contact>>> touches,
                                     Optional<Read<PointForce<Contact>>> point_force,
                                     Optional<Read<ClosestPoint>> closest,
                                     Optional<Read<FrictionCouple>> couple,
                                     Optional<Read<ContactPair<ToolContact>>> tool_pair,
+                                    Optional<Read<ContactTouches<ToolContact>>> tool_touches,
                                     Optional<Read<PointForce<ToolContact>>> tool_force,
                                     Write<CurveForce> curve_force, Write<ContactForce> node_force) {
   static const auto by_point = basis_by_point();
@@ -122,6 +124,28 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
       CurveForce::count * static_cast<std::size_t>(shape.control_points());
   std::fill(all, all + lane_count * numbers, 0.0);
 
+  // The rows that touch are some among many and stand anywhere: their lines are asked for before they are
+  // needed, those of the next particle too.
+  const auto fetch_sampled = [&](std::size_t slot) {
+    if (slot + 1 >= index->sampled_begin.size()) return;
+    for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
+      const Row<Contact> row(r);
+      if ((*touches)(row) == 0) continue;
+      __builtin_prefetch(&(*pair)(row, 1));
+      __builtin_prefetch(&(*point_force)(row));
+    }
+  };
+  const auto fetch_other = [&](std::size_t k) {
+    const auto& rows = index->other_rows;
+    if (k + 48 < rows.size()) __builtin_prefetch(&(*touches)(Row<Contact>(rows[k + 48])));
+    if (k + 24 >= rows.size()) return;
+    const Row<Contact> row(rows[k + 24]);
+    if ((*touches)(row) == 0) return;
+    __builtin_prefetch(&(*closest)(row));
+    __builtin_prefetch(&(*point_force)(row));
+    if (couple) __builtin_prefetch(&(*couple)(row));
+  };
+
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto slot = static_cast<std::size_t>(lane_count * chunk.index + lane);
     double* own = all + static_cast<std::size_t>(lane) * numbers;
@@ -129,26 +153,16 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
       return own + CurveForce::count * shape.edges[static_cast<std::size_t>(e)].first_control;
     };
     if (pair) {
+      fetch_sampled(slot + 1);
       for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
         const Row<Contact> row(r);
-        if ((*pair)(row, 3) != 0)
+        if ((*touches)(row) != 0)
           add_sampled(by_point, &(*point_force)(row), edge((*pair)(row, 1)));
       }
       for (int k = index->other_begin[slot]; k < index->other_begin[slot + 1]; ++k) {
-        const std::int32_t* other = index->other_rows.data() + k;
-        const Row<Contact> row(*other);
-        // These rows stand anywhere: their lines are asked for before they are needed.
-        const auto rows_ahead = static_cast<std::size_t>(index->other_begin[slot + 1] - k);
-        if (rows_ahead > 32) __builtin_prefetch(&(*pair)(Row<Contact>(other[32]), 3));
-        if (rows_ahead > 16) {
-          const Row<Contact> soon(other[16]);
-          if ((*pair)(soon, 3) != 0) {
-            __builtin_prefetch(&(*closest)(soon));
-            __builtin_prefetch(&(*point_force)(soon));
-            if (couple) __builtin_prefetch(&(*couple)(soon));
-          }
-        }
-        if ((*pair)(row, 3) != 0)
+        fetch_other(static_cast<std::size_t>(k));
+        const Row<Contact> row(index->other_rows[static_cast<std::size_t>(k)]);
+        if ((*touches)(row) != 0)
           add_other(n, shape, &(*closest)(row), &(*point_force)(row),
                     couple ? &(*couple)(row) : nullptr, own);
       }
@@ -156,7 +170,7 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
     if (tool_pair) {
       for (int r = index->tool_begin[slot]; r < index->tool_begin[slot + 1]; ++r) {
         const Row<ToolContact> row(r);
-        if ((*tool_pair)(row, 3) != 0)
+        if ((*tool_touches)(row) != 0)
           add_sampled(by_point, &(*tool_force)(row), edge((*tool_pair)(row, 1)));
       }
     }

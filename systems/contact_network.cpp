@@ -122,6 +122,7 @@ void sort_by_numbers(std::vector<ContactLink>& links) {
 
 std::vector<ContactLink> pairs(const Bodies& bodies, const ContactIndex& index,
                                const Outlines& outlines, const Read<ContactPair<Contact>>& pair,
+                               const Read<ContactTouches<Contact>>& touches,
                                const Read<PointForce<Contact>>& force,
                                const Read<ClosestPoint>& closest) {
   const auto add_row = [&](Row<Contact> row, double side, Gathered& contact) {
@@ -140,13 +141,13 @@ std::vector<ContactLink> pairs(const Bodies& bodies, const ContactIndex& index,
         Partners partners(number);
         for (int r = index.sampled_begin[s]; r < index.sampled_begin[s + 1]; ++r) {
           const Row<Contact> row(r);
-          if (pair(row, 3) == 0) continue;
+          if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 2));
           if (other > number) add_row(row, 1, partners.with(other));
         }
         for (int k = index.other_begin[s]; k < index.other_begin[s + 1]; ++k) {
           const Row<Contact> row(index.other_rows[static_cast<std::size_t>(k)]);
-          if (pair(row, 3) == 0) continue;
+          if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 0));
           if (other > number) add_row(row, -1, partners.with(other));
         }
@@ -160,9 +161,11 @@ std::vector<ContactLink> pairs(const Bodies& bodies, const ContactIndex& index,
 
 void contact_network(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePosition> control,
                      Optional<Read<ContactPair<Contact>>> pair,
+                     Optional<Read<ContactTouches<Contact>>> touches,
                      Optional<Read<PointForce<Contact>>> force,
                      Optional<Read<ClosestPoint>> closest,
                      Optional<Read<ContactPair<ToolContact>>> tool_pair,
+                     Optional<Read<ContactTouches<ToolContact>>> tool_touches,
                      Optional<Read<PointForce<ToolContact>>> tool_force,
                      Optional<Read<ToolPosition>> tool_position,
                      Optional<Read<ToolNormal>> tool_normal, Optional<Read<ToolShapes>> shapes,
@@ -170,7 +173,7 @@ void contact_network(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePo
   const Outlines outlines(*bodies, control.values());
   network->pairs.clear();
   network->tools.clear();
-  if (pair) network->pairs = pairs(*bodies, *index, outlines, *pair, *force, *closest);
+  if (pair) network->pairs = pairs(*bodies, *index, outlines, *pair, *touches, *force, *closest);
   if (!tool_pair) return;
 
   const auto tool_normal_at = [&](Row<ToolContact> row, const Point& at) {
@@ -188,7 +191,7 @@ void contact_network(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePo
     Partners partners(outlines.number(slot));
     for (int r = index->tool_begin[s]; r < index->tool_begin[s + 1]; ++r) {
       const Row<ToolContact> row(r);
-      if ((*tool_pair)(row, 3) == 0) continue;
+      if ((*tool_touches)(row) == 0) continue;
       add_points(
           outlines.edge(slot, (*tool_pair)(row, 1)), *tool_force, row, 1,
           [&](const Point& at, int) { return tool_normal_at(row, at); },

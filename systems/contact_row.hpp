@@ -60,7 +60,8 @@ struct RowMotion {
 // The columns of a row; elastic slip only in scenes with friction.
 template <class At>
 struct RowColumns {
-  Write<ContactPair<At>> pair;
+  Read<ContactPair<At>> pair;
+  Write<ContactTouches<At>> touches;
   Write<ContactReach<At>> reach;
   Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
@@ -75,7 +76,7 @@ inline constexpr double unseen = -1, far_side = std::numeric_limits<double>::inf
 // A row whose points are all apart: nothing acts, and nothing can until `clearance` has been travelled.
 template <class At>
 void set_apart(const RowColumns<At>& c, Row<At> row, double reach) {
-  c.pair(row, 3) = 0;
+  c.touches(row) = 0;
   c.reach(row) = reach;
   for (int k = 0; k < 2 * edge_points; ++k) c.force(row, k) = 0;
   if (c.elastic_slip)
@@ -159,7 +160,7 @@ template <class At>
     if ((touching >> half & 1) == 0) continue;
     const auto at = static_cast<std::size_t>(half);
     const Row<At> row = rows[at];
-    c.pair(row, 3) = 1;
+    c.touches(row) = 1;
     c.reach(row) = 0;
     store_pairs_of_half(fx, fy, half, &c.force(row));
     if (c.elastic_slip) store_half(spring, half, &(*c.elastic_slip)(row));
@@ -180,21 +181,34 @@ void fetch(const RowColumns<At>& c, Row<At> row) {
   if (c.elastic_slip) line(*c.elastic_slip);
 }
 
+inline constexpr int least_tasks = 64, most_blocks = 16;  // of a task
+inline constexpr std::size_t most_rows_of_a_task = most_blocks * (rows_of_a_block + 1);
+
 // Calls look_at(pair, sums of its block) for all active rows, two by two. Which rows make a pair does not
 // depend on threads. Rows that are not active are apart and add nothing. `fetch(row)` and then
-// `fetch_other(row)`, which may use what the first has asked for, come some rows before.
+// `fetch_other(row)`, which may use what the first has asked for, come some rows before; a task has several
+// blocks, so that the first rows of the next are asked for while the last of one are looked at.
 template <class At, class Active, class Fetch, class FetchOther, class LookAt>
 void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, const Fetch& fetch,
                       const FetchOther& fetch_other, const LookAt& look_at) {
   constexpr std::size_t rows_before = 24, rows_before_other = 12;
   const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
+  const int blocks_of_a_task = std::clamp(blocks / least_tasks, 1, most_blocks);
   sums.blocks.resize(static_cast<std::size_t>(blocks));
-  tbb::parallel_for(0, blocks, [&](int block) {
-    std::array<Row<At>, rows_of_a_block + 1> found;
+  tbb::parallel_for(0, (blocks + blocks_of_a_task - 1) / blocks_of_a_task, [&](int task) {
+    const int first = task * blocks_of_a_task, last = std::min(blocks, first + blocks_of_a_task);
+    std::array<Row<At>, most_rows_of_a_task> found;
+    std::array<std::size_t, most_blocks> end;
     std::size_t count = 0;
-    for (int r = block * rows_of_a_block; r < std::min(rows, (block + 1) * rows_of_a_block); ++r)
-      if (active(Row<At>(r))) found[count++] = Row<At>(r);
-    if (count % 2 != 0) found[count] = found[count - 1];
+    for (int block = first; block < last; ++block) {
+      for (int r = block * rows_of_a_block; r < std::min(rows, (block + 1) * rows_of_a_block); ++r)
+        if (active(Row<At>(r))) found[count++] = Row<At>(r);
+      if (count % 2 != 0) {
+        found[count] = found[count - 1];
+        ++count;
+      }
+      end[static_cast<std::size_t>(block - first)] = count;
+    }
     const auto ask = [&](std::size_t i) {
       if (i < count) fetch(found[i]);
     };
@@ -203,15 +217,18 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
     };
     for (std::size_t i = 0; i < rows_before; ++i) ask(i);
     for (std::size_t i = 0; i < rows_before_other; ++i) ask_other(i);
-    BlockSums sum;
-    for (std::size_t i = 0; i < count; i += 2) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        ask(i + k + rows_before);
-        ask_other(i + k + rows_before_other);
+    std::size_t i = 0;
+    for (int block = first; block < last; ++block) {
+      BlockSums sum;
+      for (; i < end[static_cast<std::size_t>(block - first)]; i += 2) {
+        for (std::size_t k = 0; k < 2; ++k) {
+          ask(i + k + rows_before);
+          ask_other(i + k + rows_before_other);
+        }
+        look_at(RowPair<At>{found[i], found[i + 1]}, sum);
       }
-      look_at(RowPair<At>{found[i], found[i + 1]}, sum);
+      sums.blocks[static_cast<std::size_t>(block)] = sum;
     }
-    sums.blocks[static_cast<std::size_t>(block)] = sum;
   });
 }
 

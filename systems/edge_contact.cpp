@@ -183,13 +183,14 @@ void set_couple(const RowMotion& m, const Lane& along, unsigned touching,
 
 void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
                   Optional<Read<CurveVelocity>> velocity, Write<ClosestPoint> closest,
-                  Write<ContactPair<Contact>> pair, Write<ContactReach<Contact>> reach,
-                  Read<ContactLaw<Contact>> law, Write<PointForce<Contact>> force,
+                  Read<ContactPair<Contact>> pair, Write<ContactTouches<Contact>> touches,
+                  Write<ContactReach<Contact>> reach, Read<ContactLaw<Contact>> law,
+                  Write<PointForce<Contact>> force,
                   Optional<Write<ElasticSlip<Contact>>> elastic_slip,
                   Optional<Read<FrictionMore<Contact>>> more,
                   Optional<Write<StaticLost<Contact>>> lost, Optional<Write<FrictionCouple>> couple,
                   Write<ContactSums<Contact>> sums) {
-  const RowColumns<Contact> columns{pair, reach, law, force, elastic_slip, more, lost};
+  const RowColumns<Contact> columns{pair, touches, reach, law, force, elastic_slip, more, lost};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
   const auto first_control = [&](int slot) {

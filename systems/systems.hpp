@@ -37,22 +37,23 @@ void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<De
 
 // ---- narrow phase -----------------------------------------------------------------------------
 void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
-                  Write<ClosestPoint>, Write<ContactPair<Contact>>, Write<ContactReach<Contact>>,
-                  Read<ContactLaw<Contact>>, Write<PointForce<Contact>>,
-                  Optional<Write<ElasticSlip<Contact>>>, Optional<Read<FrictionMore<Contact>>>,
-                  Optional<Write<StaticLost<Contact>>>, Optional<Write<FrictionCouple>>,
-                  Write<ContactSums<Contact>>);
+                  Write<ClosestPoint>, Read<ContactPair<Contact>>, Write<ContactTouches<Contact>>,
+                  Write<ContactReach<Contact>>, Read<ContactLaw<Contact>>,
+                  Write<PointForce<Contact>>, Optional<Write<ElasticSlip<Contact>>>,
+                  Optional<Read<FrictionMore<Contact>>>, Optional<Write<StaticLost<Contact>>>,
+                  Optional<Write<FrictionCouple>>, Write<ContactSums<Contact>>);
 void tool_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
                   Read<ToolPosition>, Read<ToolVelocity>, Read<ToolNormal>,
-                  Write<ContactPair<ToolContact>>, Write<ContactReach<ToolContact>>,
-                  Read<ContactLaw<ToolContact>>, Write<PointForce<ToolContact>>,
-                  Optional<Write<ElasticSlip<ToolContact>>>,
+                  Read<ContactPair<ToolContact>>, Write<ContactTouches<ToolContact>>,
+                  Write<ContactReach<ToolContact>>, Read<ContactLaw<ToolContact>>,
+                  Write<PointForce<ToolContact>>, Optional<Write<ElasticSlip<ToolContact>>>,
                   Optional<Read<FrictionMore<ToolContact>>>,
                   Optional<Write<StaticLost<ToolContact>>>, Optional<Read<ToolShapes>>,
                   Optional<Read<SurfaceRange>>, Write<ContactSums<ToolContact>>);
 void contact_totals(Optional<Read<ContactSums<Contact>>>, Optional<Read<ContactSums<ToolContact>>>,
                     Write<Totals>);
 void tool_reaction(Read<Clock>, Optional<Read<ContactPair<ToolContact>>>,
+                   Optional<Read<ContactTouches<ToolContact>>>,
                    Optional<Read<PointForce<ToolContact>>>, Optional<Read<GripTarget>>,
                    Optional<Read<GripTravel>>, Optional<Read<GripReaction>>, Read<ToolVelocity>,
                    Write<ToolForce>, Write<Totals>);
@@ -64,8 +65,10 @@ void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
 
 // ---- chunk by chunk: forces of the bodies -------------------------------------------------------
 void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<ContactPair<Contact>>>,
-                   Optional<Read<PointForce<Contact>>>, Optional<Read<ClosestPoint>>,
-                   Optional<Read<FrictionCouple>>, Optional<Read<ContactPair<ToolContact>>>,
+                   Optional<Read<ContactTouches<Contact>>>, Optional<Read<PointForce<Contact>>>,
+                   Optional<Read<ClosestPoint>>, Optional<Read<FrictionCouple>>,
+                   Optional<Read<ContactPair<ToolContact>>>,
+                   Optional<Read<ContactTouches<ToolContact>>>,
                    Optional<Read<PointForce<ToolContact>>>, Write<CurveForce>, Write<ContactForce>);
 // F: the formulation of the elements (components/formulation.hpp).
 template <class F>
@@ -113,8 +116,10 @@ void particle_stress(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<
                      Read<MeanStress<F::volumes>>, Write<ParticleStress>, Write<DeformedArea>,
                      Write<ParticleCentre>);
 void contact_network(Read<Bodies>, Read<ContactIndex>, Read<CurvePosition>,
-                     Optional<Read<ContactPair<Contact>>>, Optional<Read<PointForce<Contact>>>,
-                     Optional<Read<ClosestPoint>>, Optional<Read<ContactPair<ToolContact>>>,
+                     Optional<Read<ContactPair<Contact>>>, Optional<Read<ContactTouches<Contact>>>,
+                     Optional<Read<PointForce<Contact>>>, Optional<Read<ClosestPoint>>,
+                     Optional<Read<ContactPair<ToolContact>>>,
+                     Optional<Read<ContactTouches<ToolContact>>>,
                      Optional<Read<PointForce<ToolContact>>>, Optional<Read<ToolPosition>>,
                      Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>,
                      Optional<Read<SurfaceRange>>, Write<ContactNetwork>);

@@ -13,13 +13,14 @@ namespace pulvis {
 void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
                   Optional<Read<CurveVelocity>> velocity, Read<ToolPosition> tool_position,
                   Read<ToolVelocity> tool_velocity, Read<ToolNormal> tool_normal,
-                  Write<ContactPair<ToolContact>> pair, Write<ContactReach<ToolContact>> reach,
-                  Read<ContactLaw<ToolContact>> law, Write<PointForce<ToolContact>> force,
+                  Read<ContactPair<ToolContact>> pair, Write<ContactTouches<ToolContact>> touches,
+                  Write<ContactReach<ToolContact>> reach, Read<ContactLaw<ToolContact>> law,
+                  Write<PointForce<ToolContact>> force,
                   Optional<Write<ElasticSlip<ToolContact>>> elastic_slip,
                   Optional<Read<FrictionMore<ToolContact>>> more,
                   Optional<Write<StaticLost<ToolContact>>> lost, Optional<Read<ToolShapes>> shapes,
                   Optional<Read<SurfaceRange>> range, Write<ContactSums<ToolContact>> sums) {
-  const RowColumns<ToolContact> columns{pair, reach, law, force, elastic_slip, more, lost};
+  const RowColumns<ToolContact> columns{pair, touches, reach, law, force, elastic_slip, more, lost};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
 

@@ -43,10 +43,11 @@ void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Optional<Read<Ser
 namespace {
 
 void add_contacts(const Read<ContactPair<ToolContact>>& pair,
+                  const Read<ContactTouches<ToolContact>>& touches,
                   const Read<PointForce<ToolContact>>& force, const Write<ToolForce>& tool_force) {
   for (int r = 0; r < pair.rows(); ++r) {
     const Row<ToolContact> row(r);
-    if (pair(row, 3) == 0) continue;
+    if (touches(row) == 0) continue;
     const Row<Tool> tool(pair(row, 2));
     for (int g = 0; g < edge_points; ++g)
       for (int k = 0; k < 2; ++k) tool_force(tool, k) -= force(row, 2 * g + k);
@@ -69,6 +70,7 @@ void add_grips(const Read<GripTarget>& target, const Read<GripTravel>& travel,
 // Work by the trapezoidal rule: forces at both ends of the step, which is what keeps the energy balance
 // of the leapfrog to second order.
 void tool_reaction(Read<Clock> clock, Optional<Read<ContactPair<ToolContact>>> pair,
+                   Optional<Read<ContactTouches<ToolContact>>> touches,
                    Optional<Read<PointForce<ToolContact>>> force, Optional<Read<GripTarget>> grip,
                    Optional<Read<GripTravel>> grip_travel,
                    Optional<Read<GripReaction>> grip_reaction, Read<ToolVelocity> velocity,
@@ -82,7 +84,7 @@ void tool_reaction(Read<Clock> clock, Optional<Read<ContactPair<ToolContact>>> p
   const double power_before = power();
   for (int t = 0; t < tool_force.rows(); ++t)
     tool_force(Row<Tool>(t), 0) = tool_force(Row<Tool>(t), 1) = 0;
-  if (pair) add_contacts(*pair, *force, tool_force);
+  if (pair) add_contacts(*pair, *touches, *force, tool_force);
   if (grip) add_grips(*grip, *grip_travel, *grip_reaction, tool_force);
   totals->external_work += 0.5 * (power_before + power()) * clock->dt_before;
 }

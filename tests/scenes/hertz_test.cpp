@@ -12,13 +12,14 @@ namespace {
 // outermost touching point it does not come in steps of the mesh.
 double half_width(const Experiment& e, int tool) {
   const auto& pair = e.column<ContactPair<ToolContact>>();
+  const auto& touches = e.column<ContactTouches<ToolContact>>();
   const auto& force = e.column<PointForce<ToolContact>>();
   const auto& curve = e.column<CurvePosition>();
   const Bodies& bodies = const_cast<Experiment&>(e).simulation.world().resource<Bodies>();
   double sum = 0, moment = 0;
   for (std::size_t r = 0; r < pair.table.rows; ++r) {
-    const std::int32_t* key = pair.values() + 4 * r;
-    if (key[2] != tool || key[3] == 0) continue;
+    const std::int32_t* key = pair.values() + 3 * r;
+    if (key[2] != tool || touches.values()[r] == 0) continue;
     const auto& slot = bodies.slots[static_cast<std::size_t>(key[0])];
     const auto& edge = bodies.shape_of_slot(key[0]).edges[static_cast<std::size_t>(key[1])];
     const double* y = curve.values() + 2 * (slot.first_control + edge.first_control);

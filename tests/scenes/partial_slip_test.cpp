@@ -28,13 +28,14 @@ struct Strip {
 // The contact as the lower disc samples it (half of every force: the other half is the upper one's).
 Strip contact_of(const Experiment& e, double mu) {
   const auto& pair = e.column<ContactPair<Contact>>();
+  const auto& touches = e.column<ContactTouches<Contact>>();
   const auto& force = e.column<PointForce<Contact>>();
   const auto& curve = e.column<CurvePosition>();
   const Bodies& bodies = const_cast<Experiment&>(e).simulation.world().resource<Bodies>();
   Strip strip;
   for (std::size_t r = 0; r < pair.table.rows; ++r) {
-    const std::int32_t* key = pair.values() + 4 * r;
-    if (key[0] != bodies.slot_of_number[0] || key[3] == 0) continue;
+    const std::int32_t* key = pair.values() + 3 * r;
+    if (key[0] != bodies.slot_of_number[0] || touches.values()[r] == 0) continue;
     const auto& slot = bodies.slots[static_cast<std::size_t>(key[0])];
     const auto& edge = bodies.shape_of_slot(key[0]).edges[static_cast<std::size_t>(key[1])];
     const double* y = curve.values() + 2 * (slot.first_control + edge.first_control);

@@ -82,9 +82,9 @@ class StateHashOf : public ::testing::Test {
   }
   template <class At>
   double& slip(bool touches) {
-    const auto& pair = world().column<ContactPair<At>>();
-    for (std::size_t r = 0; r < pair.table.rows; ++r)
-      if ((pair.values()[4 * r + 3] != 0) == touches)
+    const auto& column = world().column<ContactTouches<At>>();
+    for (std::size_t r = 0; r < column.table.rows; ++r)
+      if ((column.values()[r] != 0) == touches)
         return world().column<ElasticSlip<At>>().values()[edge_points * r + 3];
     throw std::logic_error("no such row");
   }

@@ -34,10 +34,11 @@ struct Force {
 // On a tool, from the rows that push it towards -x or +x.
 Force flank_force(const Experiment& e, int tool, bool to_the_left) {
   const auto& pair = e.column<ContactPair<ToolContact>>();
+  const auto& touches = e.column<ContactTouches<ToolContact>>();
   const auto& force = e.column<PointForce<ToolContact>>();
   Force sum;
   for (std::size_t r = 0; r < pair.table.rows; ++r) {
-    if (pair.values()[4 * r + 2] != tool || pair.values()[4 * r + 3] == 0) continue;
+    if (pair.values()[3 * r + 2] != tool || touches.values()[r] == 0) continue;
     for (std::size_t g = 0; g < edge_points; ++g) {
       const double x = -force.values()[8 * r + 2 * g], y = -force.values()[8 * r + 2 * g + 1];
       if ((x < 0) != to_the_left) continue;

@@ -59,13 +59,13 @@ TEST(Contact, EveryTouchingRowIsCountedOnce) {
       x.lanes()[2 * node + 1][right] -= shift * std::sin(angle);
     }
     Contacts(*world).update();
-    const auto& pair = world->column<ContactPair<Contact>>();
-    const std::size_t rows = pair.table.rows;
+    const auto& touches = world->column<ContactTouches<Contact>>();
+    const std::size_t rows = touches.table.rows;
     std::int64_t touching = 0;
-    for (std::size_t r = 0; r < rows; ++r) touching += pair.values()[4 * r + 3];
+    for (std::size_t r = 0; r < rows; ++r) touching += touches.values()[r];
     ASSERT_GT(touching, 0);
     EXPECT_EQ(world->resource<Totals>().touching, touching);
-    if (rows % 2 != 0 && pair.values()[4 * rows - 1] != 0) ++left_over_and_touching;
+    if (rows % 2 != 0 && touches.values()[rows - 1] != 0) ++left_over_and_touching;
   }
   EXPECT_GT(left_over_and_touching, 0);
 }
