@@ -131,19 +131,19 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
     for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
       const Row<Contact> row(r);
       if ((*touches)(row) == 0) continue;
-      __builtin_prefetch(&(*pair)(row, 1));
-      __builtin_prefetch(&(*point_force)(row));
+      prefetch(&(*pair)(row, 1));
+      prefetch(&(*point_force)(row));
     }
   };
   const auto fetch_other = [&](std::size_t k) {
     const auto& rows = index->other_rows;
-    if (k + 48 < rows.size()) __builtin_prefetch(&(*touches)(Row<Contact>(rows[k + 48])));
+    if (k + 48 < rows.size()) prefetch(&(*touches)(Row<Contact>(rows[k + 48])));
     if (k + 24 >= rows.size()) return;
     const Row<Contact> row(rows[k + 24]);
     if ((*touches)(row) == 0) return;
-    __builtin_prefetch(&(*closest)(row));
-    __builtin_prefetch(&(*point_force)(row));
-    if (couple) __builtin_prefetch(&(*couple)(row));
+    prefetch(&(*closest)(row));
+    prefetch(&(*point_force)(row));
+    if (couple) prefetch(&(*couple)(row));
   };
 
   for (int lane = 0; lane < lane_count; ++lane) {

@@ -11,6 +11,7 @@
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/lane_memory.hpp"
+#include "engine/prefetch.hpp"
 #include "systems/contact_kernel.hpp"
 
 namespace pulvis {
@@ -176,7 +177,7 @@ template <class At>
 // Asks for a row's numbers before they are needed: in a large powder they come from memory, a line a column.
 template <class At>
 void fetch(const RowColumns<At>& c, Row<At> row) {
-  const auto line = [row](const auto& column) { __builtin_prefetch(&column(row)); };
+  const auto line = [row](const auto& column) { prefetch(&column(row)); };
   line(c.pair), line(c.law), line(c.force);
   if (c.elastic_slip) line(*c.elastic_slip);
 }

@@ -243,8 +243,8 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
       pair.rows(), *sums, [&](Row<Contact> row) { return clock->travel >= reach(row); },
       [&](Row<Contact> row) {
         fetch(columns, row);
-        __builtin_prefetch(&closest(row));
-        if (couple) __builtin_prefetch(&(*couple)(row));
+        prefetch(&closest(row));
+        if (couple) prefetch(&(*couple)(row));
       },
       [&](Row<Contact> row) {  // both outlines, the other where it was met last
         const std::size_t other =
@@ -254,8 +254,8 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
         for (const double* list : {points, rates}) {
           if (list == nullptr) continue;
           for (const std::size_t at : {other, own}) {
-            __builtin_prefetch(list + at);
-            __builtin_prefetch(list + at + 8);
+            prefetch(list + at);
+            prefetch(list + at + 8);
           }
         }
       },

@@ -1,0 +1,13 @@
+// Asking for a cache line before it is needed.
+#pragma once
+
+namespace pulvis {
+
+// g++ 12 takes a function that does nothing but prefetch for one without effect and drops its calls; the
+// empty statement keeps them.
+[[gnu::always_inline]] inline void prefetch(const void* line) {
+  __builtin_prefetch(line);
+  asm volatile("");
+}
+
+}  // namespace pulvis
