@@ -57,10 +57,13 @@ concept IsResource = !IsComponent<R> && requires {
   R::resource_name;
 };
 
+class LookAhead;
+
 // One chunk of laned rows: the eight particles that a chunk system works on.
 struct Chunk {
   std::int32_t index = 0;
-  std::int32_t worker = -1;  // whose transient rows are used; -1: the chunk's own
+  std::int32_t worker = -1;    // whose transient rows are used; -1: the chunk's own
+  LookAhead* ahead = nullptr;  // for busy systems; see BusyChunk
 };
 
 // Identity of a component, resource or place type at run time.

@@ -10,4 +10,9 @@ namespace pulvis {
   asm volatile("");
 }
 
+[[gnu::always_inline]] inline void prefetch_to_second_cache(const void* line) {
+  __builtin_prefetch(line, 0, 2);
+  asm volatile("");
+}
+
 }  // namespace pulvis

@@ -30,7 +30,7 @@ struct RunMesh {                            // fixed over the run
   std::vector<std::int32_t> quads;          // [cells * 4], node numbers, counter-clockwise
   std::vector<std::int32_t> cell_particle;  // [cells]
   std::vector<std::int32_t> node_particle;  // [nodes]
-  std::vector<double> reference;            // [nodes * dimension], m, positions before the first step
+  std::vector<double> reference;  // [nodes * dimension], m, positions before the first step
   std::vector<std::int32_t> hexahedra = {};  // [cells * 8] instead of quads: a mesh in space
   int dimension() const { return hexahedra.empty() ? 2 : 3; }
 };

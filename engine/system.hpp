@@ -6,10 +6,12 @@
 // step list; without, it works on the whole world.
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <tuple>
 
 #include "engine/access.hpp"
+#include "engine/look_ahead.hpp"
 
 namespace pulvis {
 
@@ -20,6 +22,7 @@ struct System {
   std::string name;
   When when = When::every_step;
   bool by_chunk = false;
+  bool busy = false;  // takes a BusyChunk
   std::vector<AccessInfo> accesses;
   std::function<void(Chunk)> run;  // a world system ignores the chunk
 };
@@ -43,13 +46,13 @@ void check_chunk_writes(const System& system);
 
 }  // namespace detail
 
-template <class... Access>
-System make_system(World& world, std::string name, void (*function)(Chunk, Access...),
+template <std::derived_from<Chunk> C, class... Access>
+System make_system(World& world, std::string name, void (*function)(C, Access...),
                    When when = When::every_step) {
-  System system{std::move(name), when, true, {}, {}};
+  System system{std::move(name), when, true, std::is_same_v<C, BusyChunk>, {}, {}};
   (detail::declare<Access>(world, system.accesses), ...);
   system.run = [function, handles = std::tuple<Access...>(Access(world)...)](Chunk chunk) {
-    std::apply([&](const auto&... handle) { function(chunk, handle...); }, handles);
+    std::apply([&](const auto&... handle) { function(C{chunk}, handle...); }, handles);
   };
   detail::check_chunk_writes(system);
   return system;
@@ -58,7 +61,7 @@ System make_system(World& world, std::string name, void (*function)(Chunk, Acces
 template <class... Access>
 System make_system(World& world, std::string name, void (*function)(Access...),
                    When when = When::every_step) {
-  System system{std::move(name), when, false, {}, {}};
+  System system{std::move(name), when, false, false, {}, {}};
   (detail::declare<Access>(world, system.accesses), ...);
   system.run = [function, handles = std::tuple<Access...>(Access(world)...)](Chunk) {
     std::apply([&](const auto&... handle) { function(handle...); }, handles);

@@ -114,6 +114,39 @@ std::vector<TypeKey> droppable_components(const std::vector<System>& systems) {
   return keys;
 }
 
+namespace {
+
+// What the first busy system of a stage and those after it look ahead to: columns that later systems are
+// the first to touch, and of the next chunk those that come before.
+struct ColumnsAhead {
+  std::vector<const ColumnBase*> of_this, of_next;
+
+  LookAhead list(int chunk, int chunks) const {
+    LookAhead ahead;
+    for (const ColumnBase* column : of_this) ahead.add(column->of_chunk(chunk));
+    if (chunk + 1 < chunks)
+      for (const ColumnBase* column : of_next) ahead.add(column->of_chunk(chunk + 1));
+    return ahead;
+  }
+};
+
+ColumnsAhead columns_ahead(const std::vector<const System*>& members, const World* world) {
+  ColumnsAhead ahead;
+  const auto busy = std::ranges::find(members, true, &System::busy);
+  if (world == nullptr || busy == members.end()) return ahead;
+  std::vector<TypeKey> met;
+  for (auto member = members.begin(); member != members.end(); ++member)
+    for (const AccessInfo& access : (*member)->accesses) {
+      const ColumnBase* column = access.transient ? nullptr : world->find(access.key);
+      if (column == nullptr || std::ranges::find(met, access.key) != met.end()) continue;
+      met.push_back(access.key);
+      (member > busy ? ahead.of_this : ahead.of_next).push_back(column);
+    }
+  return ahead;
+}
+
+}  // namespace
+
 struct TaskGraph::Flow {
   using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
 
@@ -123,7 +156,8 @@ struct TaskGraph::Flow {
   std::vector<std::unique_ptr<Node>> nodes;
 };
 
-TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transients)
+TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transients,
+                     const World* world)
     : plan_(derive_plan(systems)), flow_(std::make_unique<Flow>()) {
   flow_->systems = std::move(systems);
   const auto stages = group(flow_->systems);
@@ -131,11 +165,13 @@ TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transie
   for (std::size_t s = 0; s < stages.size(); ++s) {
     std::vector<const System*> members;
     for (const std::size_t i : stages[s]) members.push_back(&flow_->systems[i]);
-    auto body = [members, chunks, dropped,
+    auto body = [members, chunks, dropped, ahead = columns_ahead(members, world),
                  by_chunk = plan_.stages[s].by_chunk](tbb::flow::continue_msg) {
       if (!by_chunk) return members.front()->run(Chunk{});
       tbb::parallel_for(0, chunks, [&](int index) {
-        const Chunk chunk{index, dropped ? tbb::this_task_arena::current_thread_index() : -1};
+        LookAhead list = ahead.list(index, chunks);
+        const Chunk chunk{index, dropped ? tbb::this_task_arena::current_thread_index() : -1,
+                          &list};
         for (const System* system : members) system->run(chunk);
       });
     };

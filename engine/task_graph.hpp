@@ -39,8 +39,9 @@ class TaskGraph {
  public:
   // `systems` in the order of the step list. Must be built and run inside the arena it will use; where
   // transients are dropped, those that the world has room for, a chunk's a worker, use it
-  // (World::allocate_transient).
-  TaskGraph(std::vector<System> systems, int chunks, Transients transients = Transients::kept);
+  // (World::allocate_transient). `world`: whose columns busy systems look ahead to; null: to none.
+  TaskGraph(std::vector<System> systems, int chunks, Transients transients = Transients::kept,
+            const World* world = nullptr);
   ~TaskGraph();
   TaskGraph(TaskGraph&&) noexcept;
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -56,6 +57,8 @@ class ColumnBase {
   void rebuild(const std::vector<std::int32_t>& sources);
 
   std::size_t bytes() const { return buffer_.bytes(); }
+  // The rows of a chunk; empty where the place is not divided by chunks.
+  virtual std::span<const std::byte> of_chunk(int chunk) const = 0;
   std::byte* data() { return buffer_.data(); }
   const std::byte* data() const { return buffer_.data(); }
 
@@ -89,6 +92,14 @@ class Column : public ColumnBase {
 
   explicit Column(const Table& owner)
       : ColumnBase(C::info, C::Place::name, C::count, bytes_a_row), table(owner) {}
+
+  std::span<const std::byte> of_chunk(int chunk) const override {
+    if (table.chunk_begin.empty()) return {};
+    const auto c = static_cast<std::size_t>(chunk);
+    const auto first = static_cast<std::size_t>(table.chunk_begin[c]);
+    const auto last = static_cast<std::size_t>(table.chunk_begin[c + 1]);
+    return {data() + first * row_bytes, (last - first) * row_bytes};
+  }
 
   value_type* values() { return reinterpret_cast<value_type*>(data()); }
   const value_type* values() const { return reinterpret_cast<const value_type*>(data()); }
@@ -139,6 +150,12 @@ class World {
   template <IsResource R>
   bool has() const {
     return resources_.contains(type_key<R>());
+  }
+
+  // Null where no column has this key.
+  const ColumnBase* find(TypeKey key) const {
+    const auto found = columns_.find(key);
+    return found == columns_.end() ? nullptr : found->second.get();
   }
 
   // Gives every column of the place new rows; see ColumnBase::rebuild.

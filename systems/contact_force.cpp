@@ -124,10 +124,11 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
       CurveForce::count * static_cast<std::size_t>(shape.control_points());
   std::fill(all, all + lane_count * numbers, 0.0);
 
+  const bool from_memory = index->other_rows.size() > rows_in_cache;
   // The rows that touch are some among many and stand anywhere: their lines are asked for before they are
   // needed, those of the next particle too.
   const auto fetch_sampled = [&](std::size_t slot) {
-    if (slot + 1 >= index->sampled_begin.size()) return;
+    if (!from_memory || slot + 1 >= index->sampled_begin.size()) return;
     for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
       const Row<Contact> row(r);
       if ((*touches)(row) == 0) continue;
@@ -136,6 +137,7 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
     }
   };
   const auto fetch_other = [&](std::size_t k) {
+    if (!from_memory) return;
     const auto& rows = index->other_rows;
     if (k + 48 < rows.size()) prefetch(&(*touches)(Row<Contact>(rows[k + 48])));
     if (k + 24 >= rows.size()) return;

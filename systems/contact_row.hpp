@@ -182,6 +182,8 @@ void fetch(const RowColumns<At>& c, Row<At> row) {
   if (c.elastic_slip) line(*c.elastic_slip);
 }
 
+// As many stay in the caches from step to step; asking ahead for what is there already would only cost.
+inline constexpr int rows_in_cache = 16384;
 inline constexpr int least_tasks = 64, most_blocks = 16;  // of a task
 inline constexpr std::size_t most_rows_of_a_task = most_blocks * (rows_of_a_block + 1);
 
@@ -193,6 +195,7 @@ template <class At, class Active, class Fetch, class FetchOther, class LookAt>
 void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, const Fetch& fetch,
                       const FetchOther& fetch_other, const LookAt& look_at) {
   constexpr std::size_t rows_before = 24, rows_before_other = 12;
+  const bool from_memory = rows > rows_in_cache;
   const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
   const int blocks_of_a_task = std::clamp(blocks / least_tasks, 1, most_blocks);
   sums.blocks.resize(static_cast<std::size_t>(blocks));
@@ -211,10 +214,10 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
       end[static_cast<std::size_t>(block - first)] = count;
     }
     const auto ask = [&](std::size_t i) {
-      if (i < count) fetch(found[i]);
+      if (from_memory && i < count) fetch(found[i]);
     };
     const auto ask_other = [&](std::size_t i) {
-      if (i < count) fetch_other(found[i]);
+      if (from_memory && i < count) fetch_other(found[i]);
     };
     for (std::size_t i = 0; i < rows_before; ++i) ask(i);
     for (std::size_t i = 0; i < rows_before_other; ++i) ask_other(i);

@@ -84,12 +84,13 @@ Flux stress_flux(const Views<OnePoint>& v, const Map& map, const Shape& shape, R
 }
 
 template <class F>
-void chunk_force(const Views<F>& views, const ChunkView<Position, const Lane*>& x,
+void chunk_force(BusyChunk chunk, const Views<F>& views, const ChunkView<Position, const Lane*>& x,
                  const ChunkView<InternalForce, Lane*>& f, const Shape& shape, double thickness) {
   for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n)
     f(Row<Node>(n), 0) = f(Row<Node>(n), 1) = Lane{};
 
   for (int i = 0; i < shape.elements(); ++i) {
+    chunk.look_ahead();
     const Quad& quad = shape.quads[static_cast<std::size_t>(i)];
     const auto flux = stress_flux(views, quad_map<F::points>(x, quad), shape, Row<Element>(i));
     const auto out = kernels::node_forces(flux, 0.25 * thickness);
@@ -103,7 +104,7 @@ void chunk_force(const Views<F>& views, const ChunkView<Position, const Lane*>& 
 }  // namespace
 
 template <class F>
-[[gnu::flatten]] void internal_force(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+[[gnu::flatten]] void internal_force(BusyChunk chunk, Read<Bodies> bodies, Read<Position> x,
                                      Read<DeviatoricStress<F::points>> s,
                                      Read<MeanStress<F::volumes>> p, Read<ShearModulus> mu,
                                      Optional<Read<HourglassStress>> hourglass,
@@ -116,9 +117,9 @@ template <class F>
     const Bending bending{hourglass->chunk(chunk), mu.chunk(chunk)(particle),
                           any(least_corner->chunk(chunk)(particle) < kernels::folding)};
     views.bending = &bending;
-    chunk_force(views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+    chunk_force(chunk, views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
   } else {
-    chunk_force(views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+    chunk_force(chunk, views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
   }
 }
 template decltype(internal_force<FourPoint>) internal_force<FourPoint>;

@@ -103,7 +103,7 @@ Lane return_element(const Views<OnePoint>& v, const Bending& bending, const Shap
 
 template <class F>
 [[gnu::flatten]] void j2_return_map(
-    Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+    BusyChunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
     Read<BulkModulus> bulk, Read<YieldStress> sigma_y, Read<HardeningModulus> hardening,
     Read<IsochoricScale<F::points>> isochoric, Write<DeviatoricStress<F::points>> s,
     Write<PlasticMetric<F::points>> metric, Write<PlasticStrain<F::points>> eps,
@@ -122,11 +122,16 @@ template <class F>
     const Bending bending{hourglass->chunk(chunk), plastic->chunk(chunk),
                           (1.0 / 3.0) * modulus / shear, 3.0 * shear / modulus, 1.0 / modulus};
     Lane spent{};
-    for (int i = 0; i < shape.elements(); ++i)
+    for (int i = 0; i < shape.elements(); ++i) {
+      chunk.look_ahead();
       spent += return_element(v, bending, shape, Row<Element>(i));
+    }
     work->chunk(chunk)(particle) += spent * bodies->thickness;
   } else {
-    for (int i = 0; i < shape.elements(); ++i) return_element(v, shape, Row<Element>(i));
+    for (int i = 0; i < shape.elements(); ++i) {
+      chunk.look_ahead();
+      return_element(v, shape, Row<Element>(i));
+    }
   }
 }
 template decltype(j2_return_map<FourPoint>) j2_return_map<FourPoint>;

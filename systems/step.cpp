@@ -125,7 +125,8 @@ World& with_transients(World& world) {
 
 Step::Step(World& world)
     : world_(with_transients(world)),
-      whole_(whole_step(world), world.chunks(), Transients::dropped),
+      whole_(whole_step(world), world.chunks(), Transients::dropped,
+             world.chunks() > chunks_in_cache ? &world : nullptr),
       observed_(joined(step_list(world).forces, step_list(world).observe), world.chunks()),
       motion_(step_list(world).motion, world.chunks()) {}
 

@@ -10,6 +10,7 @@
 #include "components/servo.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
+#include "engine/look_ahead.hpp"
 
 namespace pulvis {
 
@@ -83,13 +84,13 @@ void trial_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<
                   Write<MeanStress<F::volumes>>, Optional<Write<HourglassStress>>,
                   Optional<Write<LeastCorner>>, Write<LeastJacobian>, Write<WorstElement>);
 template <class F>
-void j2_return_map(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
+void j2_return_map(BusyChunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
                    Read<YieldStress>, Read<HardeningModulus>, Read<IsochoricScale<F::points>>,
                    Write<DeviatoricStress<F::points>>, Write<PlasticMetric<F::points>>,
                    Write<PlasticStrain<F::points>>, Optional<Write<HourglassStress>>,
                    Optional<Write<PlasticHourglass>>, Optional<Write<HourglassWork>>);
 template <class F>
-void internal_force(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<F::points>>,
+void internal_force(BusyChunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<F::points>>,
                     Read<MeanStress<F::volumes>>, Read<ShearModulus>,
                     Optional<Read<HourglassStress>>, Optional<Read<LeastCorner>>,
                     Write<InternalForce>);

@@ -262,6 +262,36 @@ TEST(Transients, ReachTheNextSystemOfThePassAndLeaveTheColumnAlone) {
   for (int c = 0; c < chunks; ++c) EXPECT_EQ(kept(c), c + 1.0);
 }
 
+// ---- looking ahead ------------------------------------------------------------------------------
+TEST_F(TaskGraphTest, BusySystemLooksAheadToWhatOthersOfItsPassTouch) {
+  System busy = make_system(
+      world, "busy", +[](BusyChunk, Read<Weight>) {});
+  ASSERT_TRUE(busy.busy);
+  std::vector<int> lines(chunks);
+  busy.run = [&](Chunk c) {
+    for (int more = -1; more != 0;)
+      lines[static_cast<std::size_t>(c.index)] += more = BusyChunk{c}.look_ahead();
+  };
+  const auto bytes = [&](TypeKey key) {
+    return static_cast<int>(world.find(key)->of_chunk(0).size());
+  };
+  const auto lines_of = [&](TypeKey key) { return (bytes(key) + 63) / 64; };
+  const std::vector<System> systems{chunk_system<Read<Heat>>("before"), busy,
+                                    chunk_system<Read<Heat>, Write<Flux>>("after"),
+                                    world_system<Read<Force>>("in_no_pass")};
+  workers.run([&] { TaskGraph(systems, chunks, Transients::kept, &world).run(); });
+  const int of_next = lines_of(type_key<Heat>()) + lines_of(type_key<Weight>());
+  const int of_this = lines_of(type_key<Flux>());
+  EXPECT_GT(of_next, 0);
+  EXPECT_GT(of_this, 0);
+  EXPECT_EQ(lines.front(), of_this + of_next);
+  EXPECT_EQ(lines.back(), of_this);  // no chunk comes after it
+
+  std::ranges::fill(lines, 0);
+  workers.run([&] { TaskGraph(systems, chunks).run(); });
+  EXPECT_THAT(lines, ::testing::Each(0));
+}
+
 TEST_F(TaskGraphTest, GraphStillRunsAfterBeingMoved) {
   std::atomic<int> calls = 0;
   System system = world_system<Write<Force>>("count");

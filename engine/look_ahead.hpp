@@ -1,0 +1,47 @@
+// Memory that the systems to come will need, asked for while the present one computes: where the state is
+// larger than the caches, loading and computing then go on at the same time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "engine/component.hpp"
+#include "engine/prefetch.hpp"
+
+namespace pulvis {
+
+// What to ask for, in order.
+class LookAhead {
+ public:
+  void add(std::span<const std::byte> memory) {
+    if (!memory.empty() && count_ < most) parts_[count_++] = memory;
+  }
+  // Returns how many lines it asked for.
+  int fetch() {
+    int line = 0;
+    for (; line < lines_of_a_call && at_ < count_; ++line) {
+      std::span<const std::byte>& part = parts_[at_];
+      prefetch_to_second_cache(part.data());
+      part = part.subspan(std::min(part.size(), line_bytes));
+      if (part.empty()) ++at_;
+    }
+    return line;
+  }
+
+ private:
+  // Two systems that call it once an element are enough for all columns of a plastic body.
+  static constexpr int lines_of_a_call = 8;
+  static constexpr std::size_t most = 24, line_bytes = 64;
+  std::array<std::span<const std::byte>, most> parts_;
+  std::size_t count_ = 0, at_ = 0;
+};
+
+// The chunk of a system that computes longer than it loads: it calls look_ahead() once an element, or as
+// often. What is asked for comes from the declarations of the systems after it; see TaskGraph.
+struct BusyChunk : Chunk {
+  int look_ahead() const { return ahead != nullptr ? ahead->fetch() : 0; }
+};
+
+}  // namespace pulvis
