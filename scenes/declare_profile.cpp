@@ -28,33 +28,97 @@ Key<ToolSpec> relief_key() {
        .choices = {{"flat", "a plane, or a profile seen along its lay"},
                    {"triangle", "grooves with straight flanks, sharp crests and valleys"},
                    {"sine", "a wave"},
-                   {"trapezoid", "grooves with straight flanks, flat crests and valleys"}},
+                   {"trapezoid", "grooves with straight flanks, flat crests and valleys"},
+                   {"rough", "random heights with a Gaussian autocorrelation"},
+                   {"file", "measured: heights against x from `file`"}},
        .required = true,
        .only_for = "profile",
-       .doc = "Form of the surface. `point` stands on a crest; to its left and right the relief "
-              "goes on as far as the powder can come over it while the tool moves."},
+       .doc =
+           "Form of the surface. `point` stands on a crest; to its left and right the relief "
+           "goes on as far as the powder can come over it while the tool moves. Of a rough and a "
+           "measured one the highest crest lies at the height of `point`, and its first station "
+           "at its x."},
       [](ToolSpec& spec, const Decoded& value) {
         spec.relief.kind = static_cast<ProfileSpec::Kind>(value.index);
       }};
 }
 
+Key<ToolSpec> seed_key() {
+  return {
+      {.name = "seed",
+       .kind = Kind::integer,
+       .range = within(0, 1e15),
+       .only_for = "profile",
+       .doc = "Of a rough surface: the same seed gives the same heights on every machine, as far "
+              "as the powder comes. It repeats after 64 correlation lengths, or that doubled "
+              "until it need not.",
+       .fallback_doc = "the scene's `seed`"},
+      [](ToolSpec& spec, const Decoded& value) {
+        spec.relief.seed = static_cast<std::uint64_t>(value.integer);
+      }};
+}
+
+std::vector<Key<ToolSpec>> file_keys() {
+  return {
+      {{.name = "file",
+        .kind = Kind::text,
+        .only_for = "profile",
+        .doc = "CSV file, relative to the scene, with the columns `x` and `height` and the unit "
+               "of each in the header: `x [mm], height [um]`. x must rise from row to row.",
+        .fallback_doc = "required of a measured one"},
+       [](ToolSpec& spec, const Decoded& value) { spec.relief.file = value.text; }},
+      {{.name = "lay",
+        .kind = Kind::choice,
+        .choices = {{"transverse", "the target slides along the profile, across the grooves"},
+                    {"aligned",
+                     "it slides along the grooves: a plane at the height of the "
+                     "crests, which the powder rides on"}},
+        .only_for = "profile",
+        .doc = "Which way a measured surface lies.",
+        .fallback_doc = "`\"transverse\"`"},
+       [](ToolSpec& spec, const Decoded& value) {
+         spec.relief.lay = static_cast<ProfileSpec::Lay>(value.index);
+       }},
+      {{.name = "levelling",
+        .kind = Kind::choice,
+        .choices = {{"line",
+                     "heights above the least squares line through the points: a tilt of "
+                     "the instrument goes"},
+                    {"mean", "as measured, above their mean"}},
+        .only_for = "profile",
+        .doc = "What a measured profile's heights are taken from.",
+        .fallback_doc = "`\"line\"`"},
+       [](ToolSpec& spec, const Decoded& value) {
+         spec.relief.levelling = static_cast<ProfileSpec::Levelling>(value.index);
+       }}};
+}
+
 }  // namespace
 
 std::vector<Key<ToolSpec>> profile_keys() {
-  return {relief_key(),
-          length_key("pitch", smallest_size, &ProfileSpec::pitch, "From crest to crest.",
-                     "required, but of a flat one"),
-          length_key("depth", smallest_size, &ProfileSpec::depth, "From crest to valley.",
-                     "by `ra`; one of the two is required, but of a flat one"),
-          length_key("ra", smallest_size, &ProfileSpec::ra,
-                     "Arithmetic mean roughness: mean distance from the mean line.", "by `depth`"),
-          {{.name = "flat_share",
-            .kind = Kind::number,
-            .range = between(0, 0.5),
-            .only_for = "profile",
-            .doc = "Share of the pitch that a trapezoid's crest takes, and its valley.",
-            .fallback_doc = "0.25"},
-           relief_to(&ProfileSpec::flat_share)}};
+  std::vector<Key<ToolSpec>> all{
+      relief_key(),
+      length_key("pitch", smallest_size, &ProfileSpec::pitch, "From crest to crest.",
+                 "required of those that repeat"),
+      length_key("depth", smallest_size, &ProfileSpec::depth, "From crest to valley.",
+                 "by `ra`; of those that repeat one of the two is required"),
+      length_key("ra", smallest_size, &ProfileSpec::ra,
+                 "Arithmetic mean roughness: mean distance from the mean line.",
+                 "by `depth`; required of a rough one"),
+      length_key("correlation_length", smallest_size, &ProfileSpec::correlation_length,
+                 "Of a rough surface: distance in which the autocorrelation of the heights, "
+                 "exp(-(x/length)^2), falls to 1/e.",
+                 "required of a rough one"),
+      seed_key(),
+      {{.name = "flat_share",
+        .kind = Kind::number,
+        .range = between(0, 0.5),
+        .only_for = "profile",
+        .doc = "Share of the pitch that a trapezoid's crest takes, and its valley.",
+        .fallback_doc = "0.25"},
+       relief_to(&ProfileSpec::flat_share)}};
+  for (Key<ToolSpec>& key : file_keys()) all.push_back(std::move(key));
+  return all;
 }
 
 }  // namespace pulvis::schema

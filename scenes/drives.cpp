@@ -116,7 +116,12 @@ StageEnds stage_ends(const Scene& scene, const std::vector<BodySpec>& bodies) {
     if (scene.stages[s].until)
       ends.ends.push_back(end_of(scene, static_cast<int>(s), *scene.stages[s].until));
   if (const auto cell = die_cell(scene))
-    ends.cell = {cell->left, cell->right, cell->bottom, cell->top, powder_of(scene, bodies).area};
+    ends.cell = {cell->left,
+                 cell->right,
+                 cell->bottom,
+                 cell->top,
+                 powder_of(scene, bodies).area,
+                 relief_below(scene, *cell)};
   return ends;
 }
 
