@@ -25,11 +25,12 @@ Key<ToolSpec> relief_key() {
   return {
       {.name = "relief",
        .kind = Kind::choice,
-       .choices = {{"flat", "a plane, or a profile seen along its lay"},
+       .choices = {{"flat", "a plane, or a surface that slides along its grooves"},
                    {"triangle", "grooves with straight flanks, sharp crests and valleys"},
                    {"sine", "a wave"},
                    {"trapezoid", "grooves with straight flanks, flat crests and valleys"},
-                   {"rough", "random heights with a Gaussian autocorrelation"},
+                   {"rough",
+                    "random heights with a Gaussian autocorrelation, by the scene's `seed`"},
                    {"file", "measured: heights against x from `file`"}},
        .required = true,
        .only_for = "profile",
@@ -43,54 +44,17 @@ Key<ToolSpec> relief_key() {
       }};
 }
 
-Key<ToolSpec> seed_key() {
+Key<ToolSpec> file_key() {
   return {
-      {.name = "seed",
-       .kind = Kind::integer,
-       .range = within(0, 1e15),
+      {.name = "file",
+       .kind = Kind::text,
        .only_for = "profile",
-       .doc = "Of a rough surface: the same seed gives the same heights on every machine, as far "
-              "as the powder comes. It repeats after 64 correlation lengths, or that doubled "
-              "until it need not.",
-       .fallback_doc = "the scene's `seed`"},
-      [](ToolSpec& spec, const Decoded& value) {
-        spec.relief.seed = static_cast<std::uint64_t>(value.integer);
-      }};
-}
-
-std::vector<Key<ToolSpec>> file_keys() {
-  return {
-      {{.name = "file",
-        .kind = Kind::text,
-        .only_for = "profile",
-        .doc = "CSV file, relative to the scene, with the columns `x` and `height` and the unit "
-               "of each in the header: `x [mm], height [um]`. x must rise from row to row.",
-        .fallback_doc = "required of a measured one"},
-       [](ToolSpec& spec, const Decoded& value) { spec.relief.file = value.text; }},
-      {{.name = "lay",
-        .kind = Kind::choice,
-        .choices = {{"transverse", "the target slides along the profile, across the grooves"},
-                    {"aligned",
-                     "it slides along the grooves: a plane at the height of the "
-                     "crests, which the powder rides on"}},
-        .only_for = "profile",
-        .doc = "Which way a measured surface lies.",
-        .fallback_doc = "`\"transverse\"`"},
-       [](ToolSpec& spec, const Decoded& value) {
-         spec.relief.lay = static_cast<ProfileSpec::Lay>(value.index);
-       }},
-      {{.name = "levelling",
-        .kind = Kind::choice,
-        .choices = {{"line",
-                     "heights above the least squares line through the points: a tilt of "
-                     "the instrument goes"},
-                    {"mean", "as measured, above their mean"}},
-        .only_for = "profile",
-        .doc = "What a measured profile's heights are taken from.",
-        .fallback_doc = "`\"line\"`"},
-       [](ToolSpec& spec, const Decoded& value) {
-         spec.relief.levelling = static_cast<ProfileSpec::Levelling>(value.index);
-       }}};
+       .doc = "CSV file, relative to the scene, with the columns `x` and `height` and the unit "
+              "of each in the header: `x [mm], height [um]`. x must rise from row to row. A tilt "
+              "is taken off (least squares). Along its grooves a surface is flat: relief = "
+              "\"flat\".",
+       .fallback_doc = "required of a measured one"},
+      [](ToolSpec& spec, const Decoded& value) { spec.relief.file = value.text; }};
 }
 
 }  // namespace
@@ -107,9 +71,9 @@ std::vector<Key<ToolSpec>> profile_keys() {
                  "by `depth`; required of a rough one"),
       length_key("correlation_length", smallest_size, &ProfileSpec::correlation_length,
                  "Of a rough surface: distance in which the autocorrelation of the heights, "
-                 "exp(-(x/length)^2), falls to 1/e.",
+                 "exp(-(x/length)^2), falls to 1/e. The surface repeats after 64 of them, or "
+                 "that doubled until it need not.",
                  "required of a rough one"),
-      seed_key(),
       {{.name = "flat_share",
         .kind = Kind::number,
         .range = between(0, 0.5),
@@ -117,7 +81,7 @@ std::vector<Key<ToolSpec>> profile_keys() {
         .doc = "Share of the pitch that a trapezoid's crest takes, and its valley.",
         .fallback_doc = "0.25"},
        relief_to(&ProfileSpec::flat_share)}};
-  for (Key<ToolSpec>& key : file_keys()) all.push_back(std::move(key));
+  all.push_back(file_key());
   return all;
 }
 

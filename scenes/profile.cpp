@@ -74,15 +74,14 @@ std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {
 }
 
 // Crests at the height of the tool's point; where nothing comes the surface goes on at that height.
-std::vector<Vec2> between_flats(std::vector<Vec2> points, double height) {
-  double top = points.front().y();
-  for (const Vec2& p : points) top = std::max(top, p.y());
-  for (Vec2& p : points) p.y() += height - top;
-  const double length = points.back().x() - points.front().x();
-  points.insert(points.begin(), Vec2(points.front().x() - length, height));
-  points.push_back(Vec2(points.back().x() + length, height));
-  points.push_back(points.back() + Vec2(length, 0));
-  points.insert(points.begin(), points.front() - Vec2(length, 0));
+std::vector<Vec2> between_flats(const std::vector<Vec2>& relief, double height) {
+  double top = relief.front().y();
+  for (const Vec2& p : relief) top = std::max(top, p.y());
+  const double from = relief.front().x(), to = relief.back().x(), length = to - from;
+  std::vector<Vec2> points{{from - 2 * length, height}, {from - length, height}};
+  for (const Vec2& p : relief) points.push_back({p.x(), p.y() + height - top});
+  points.push_back({to + length, height});
+  points.push_back({to + 2 * length, height});
   return points;
 }
 
@@ -101,14 +100,13 @@ std::vector<Vec2> rough(const ToolSpec& tool, std::uint64_t seed, Extent extent)
   const double first = std::floor((extent.low - tool.point.x()) / step) - stations_a_length;
   const double last = std::ceil((extent.high - tool.point.x()) / step) + stations_a_length;
   if (last - first > most_stations) return {};
-  const std::vector<double> heights =
-      rough_heights(*relief.ra, relief.seed.value_or(seed), lengths);
+  const std::vector<double> heights = rough_heights(*relief.ra, seed, lengths);
   const auto count = static_cast<std::int64_t>(heights.size());
   std::vector<Vec2> points;
   for (auto i = static_cast<std::int64_t>(first); i <= static_cast<std::int64_t>(last); ++i)
     points.push_back({tool.point.x() + static_cast<double>(i) * step,
                       heights[static_cast<std::size_t>((i % count + count) % count)]});
-  return between_flats(std::move(points), tool.point.y());
+  return between_flats(points, tool.point.y());
 }
 
 }  // namespace
@@ -152,8 +150,7 @@ class ProfileChecks {
     belongs("ra", repeats || rough, "\"triangle\", \"sine\", \"trapezoid\" or \"rough\"");
     belongs("flat_share", relief_.kind == Kind::trapezoid, "\"trapezoid\"");
     belongs("correlation_length", rough, "\"rough\"");
-    belongs("seed", rough, "\"rough\"");
-    for (const char* key : {"file", "lay", "levelling"}) belongs(key, measured, "\"file\"");
+    belongs("file", measured, "\"file\"");
     if (repeats) wanted("pitch", "a quantity in m");
     if (rough) wanted("ra", "a quantity in m");
     if (rough) wanted("correlation_length", "a quantity in m");
@@ -200,7 +197,6 @@ class ProfileMaker {
     if (points.empty()) return;  // refused
     tool_.points = points;
     tool_.shape = ToolSpec::Shape::polyline;
-    tool_.relief.made = true;
     if (const std::string fault = fault_of_polyline(points, tool_.rounding); !fault.empty())
       refuse("rounding", fault);
   }
@@ -228,14 +224,11 @@ class ProfileMaker {
   }
 
   std::vector<Vec2> measured() {
-    std::vector<Vec2> points =
-        read_profile(scene_.file.parent_path() / tool_.relief.file, tool_.relief.levelling);
-    if (tool_.relief.lay == ProfileSpec::Lay::aligned) return flat();
+    std::vector<Vec2> points = read_profile(scene_.file.parent_path() / tool_.relief.file);
     const double begin = points.front().x();
     for (Vec2& p : points) p.x() += tool_.point.x() - begin;
     const double from = points.front().x(), to = points.back().x();
-    if (from <= extent_.low && to >= extent_.high)
-      return between_flats(std::move(points), tool_.point.y());
+    if (from <= extent_.low && to >= extent_.high) return between_flats(points, tool_.point.y());
     refuse(
         "file",
         fmt::format("the profile is {:.6g} m long and lies from x = {:.6g} m to {:.6g} m; powder "

@@ -22,8 +22,8 @@ void check(const csv::Table& table, const std::vector<double>& x) {
                       x[i - 1], x[i] < x[i - 1] ? "back to" : "on to", x[i]));
 }
 
-// Least squares of the points as they are given; with a slope of 0: their mean.
-void level(std::vector<Vec2>& points, ProfileSpec::Levelling levelling) {
+// Instruments stand tilted: heights are those above the least squares line.
+void level(std::vector<Vec2>& points) {
   Vec2 mean = Vec2::Zero();
   for (const Vec2& p : points) mean += p / static_cast<double>(points.size());
   double square = 0, product = 0;
@@ -31,21 +31,20 @@ void level(std::vector<Vec2>& points, ProfileSpec::Levelling levelling) {
     square += (p.x() - mean.x()) * (p.x() - mean.x());
     product += (p.x() - mean.x()) * (p.y() - mean.y());
   }
-  const double slope = levelling == ProfileSpec::Levelling::line ? product / square : 0;
+  const double slope = product / square;
   for (Vec2& p : points) p.y() -= mean.y() + slope * (p.x() - mean.x());
 }
 
 }  // namespace
 
-std::vector<Vec2> read_profile(const std::filesystem::path& file,
-                               ProfileSpec::Levelling levelling) {
+std::vector<Vec2> read_profile(const std::filesystem::path& file) {
   const csv::Table table = csv::read(file);
   const std::vector<double> x = csv::numbers(table, csv::column_at(table, "x"), "m");
   const std::vector<double> height = csv::numbers(table, csv::column_at(table, "height"), "m");
   check(table, x);
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], height[i]});
-  level(points, levelling);
+  level(points);
   return points;
 }
 

@@ -8,6 +8,7 @@
 #include "components/contact.hpp"
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "scenes/die_relief.hpp"
 #include "scenes/observe.hpp"
 #include "systems/relief_kernel.hpp"
 
@@ -193,7 +194,6 @@ std::vector<SeriesInfo> momentum_series() {
 Results::Results(const Scene& scene, const World& world)
     : world_(world),
       cell_(die_cell(scene)),
-      relief_(cell_ ? relief_below(scene, *cell_) : Relief{}),
       yield_stress_(common_yield_stress(scene)),
       series_(history_series(scene)),
       shear_(scene, world) {
@@ -283,18 +283,20 @@ void Results::append_tools(std::vector<double>& row) const {
   }
 }
 
+namespace {
+double die_area(const World& world, const DieCell& cell) {
+  const double* at = world.column<ToolPosition>().values();
+  return kernels::die_area({at[2 * cell.left], at[2 * cell.right], at[2 * cell.top + 1],
+                            at[2 * cell.bottom], at[2 * cell.bottom + 1]},
+                           relief_of(world, cell.bottom));
+}
+}  // namespace
+
 Vec2 Results::die_size() const {
   const auto at = [&](int tool, int k) {
     return world_.column<ToolPosition>().values()[static_cast<std::size_t>(2 * tool + k)];
   };
   return {at(cell_->right, 0) - at(cell_->left, 0), at(cell_->top, 1) - at(cell_->bottom, 1)};
-}
-
-double Results::die_area() const {
-  const double* at = world_.column<ToolPosition>().values();
-  return kernels::die_area({at[2 * cell_->left], at[2 * cell_->right], at[2 * cell_->top + 1],
-                            at[2 * cell_->bottom], at[2 * cell_->bottom + 1]},
-                           relief_);
 }
 
 void Results::append_density(std::vector<double>& row) const {
@@ -305,7 +307,7 @@ void Results::append_density(std::vector<double>& row) const {
   const Vec2 size = die_size(), face = size * world_.resource<Bodies>().thickness;
   const double top = force(cell_->top, 1), bottom = -force(cell_->bottom, 1);
   const double left = -force(cell_->left, 0), right = force(cell_->right, 0);
-  row.push_back(particle_area_ / die_area());
+  row.push_back(particle_area_ / die_area(world_, *cell_));
   if (yield_stress_) {
     row.push_back(0.5 * (top + bottom) / face.x() / *yield_stress_);
     row.push_back(0.5 * (right + left) / face.y() / *yield_stress_);
@@ -332,7 +334,7 @@ std::vector<double> Results::sample() {
   row.push_back(totals.worst_penetration);
   row.push_back(least_jacobian());
   row.push_back(world_.resource<Clock>().dt);
-  append_observed_sample(world_, cell_ ? die_area() : 0, row);
+  append_observed_sample(world_, cell_ ? die_area(world_, *cell_) : 0, row);
   shear_.append_sample(row);
   last_ = row;
   return row;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "components/relief.hpp"
 #include "components/run_state.hpp"
 #include "engine/record.hpp"
 #include "engine/world.hpp"
@@ -23,13 +22,11 @@ struct Energies {
   double internal() const { return elastic + plastic + hourglass; }
 };
 
-// What lies between four planes whose normals look along +x, -x, +y, -y: relative density refers to it. The
-// bottom may be a profile, whose grooves belong to it.
+// The box between four tools whose normals look along +x, -x, +y, -y: what relative density refers to.
 struct DieCell {
   int left, right, bottom, top;  // tools
 };
 std::optional<DieCell> die_cell(const Scene& scene);
-Relief relief_below(const Scene& scene, const DieCell& cell);
 
 // The series that a run of the scene keeps, in the order of Results::sample().
 std::vector<SeriesInfo> history_series(const Scene& scene);
@@ -72,15 +69,13 @@ class Results {
 
  private:
   void take_energies();
-  Vec2 die_size() const;    // m, width and height between the tools; only with a cell
-  double die_area() const;  // m^2, with the grooves of the bottom
+  Vec2 die_size() const;  // m, width and height between the tools; only with a cell
   void append_tools(std::vector<double>& row) const;
   void append_density(std::vector<double>& row) const;
   void append_energies(std::vector<double>& row) const;
 
   const World& world_;
   std::optional<DieCell> cell_;
-  Relief relief_;
   std::optional<double> yield_stress_;  // where all particles share one
   double particle_area_ = 0;
   std::int64_t elements_ = 0, nodes_ = 0;

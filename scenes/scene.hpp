@@ -196,16 +196,12 @@ struct PackingSpec {
 // powder can come.
 struct ProfileSpec {
   enum class Kind { flat, triangle, sine, trapezoid, rough, file } kind = Kind::flat;
-  double pitch = 0;                   // m, from crest to crest
-  std::optional<double> depth;        // m, from crest to valley; or
-  std::optional<double> ra;           // m, arithmetic mean deviation from the mean line
-  double flat_share = 0.25;           // -, of the pitch, of a trapezoid's crest, and of its valley
-  double correlation_length = 0;      // m, of a rough profile
-  std::optional<std::uint64_t> seed;  // of a rough profile; absent: the scene's
-  std::string file;                   // of a measured one, relative to the scene
-  enum class Lay { transverse, aligned } lay = Lay::transverse;  // of a measured one
-  enum class Levelling { line, mean } levelling = Levelling::line;
-  bool made = false;  // the tool's points come from it
+  double pitch = 0;               // m, from crest to crest
+  std::optional<double> depth;    // m, from crest to valley; or
+  std::optional<double> ra;       // m, arithmetic mean deviation from the mean line
+  double flat_share = 0.25;       // -, of the pitch, of a trapezoid's crest, and of its valley
+  double correlation_length = 0;  // m, of a rough profile
+  std::string file;               // of a measured one, relative to the scene
 };
 
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to

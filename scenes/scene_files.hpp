@@ -1,5 +1,4 @@
-// The files that a scene reads beside its own: traced outlines, placed particles, sieve curves, target
-// profiles, height maps.
+// The files that a scene reads beside its own: traced outlines, placed particles, sieve curves, height maps.
 #pragma once
 
 #include <cstdint>

@@ -62,10 +62,10 @@ std::optional<ShearSetup> shear_setup(const Scene& scene) {
   setup.along = along.normalized();
   setup.punch = plane_facing(scene, -setup.up);
   setup.wall = plane_facing(scene, -setup.along);
-  setup.trailing = plane_facing(scene, setup.along);
-  if (setup.wall >= 0 && setup.trailing >= 0)
+  const int other = plane_facing(scene, setup.along);
+  if (setup.wall >= 0 && other >= 0)
     setup.width = (scene.tools[static_cast<std::size_t>(setup.wall)].point -
-                   scene.tools[static_cast<std::size_t>(setup.trailing)].point)
+                   scene.tools[static_cast<std::size_t>(other)].point)
                       .dot(setup.along);
   return setup;
 }
@@ -91,9 +91,6 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
     all.push_back({"shear/wall_share", "-",
                    "force on the wall that the powder is drawn against / lateral force on the "
                    "target; NaN where that is none"});
-  if (setup->trailing >= 0)
-    all.push_back(
-        {"shear/trailing_share", "-", "the same of the wall that the powder is drawn away from"});
   return all;
 }
 
@@ -168,13 +165,9 @@ void ShearResults::append_sample(std::vector<double>& row) {
     punch_before_ = at;
     row.push_back(dilation_);
   }
-  const auto share = [&](int wall, double sign) {
-    if (wall < 0) return;
-    row.push_back(lateral > 0 ? sign * vector_of(forces, wall).dot(setup_->along) / lateral
+  if (setup_->wall >= 0)
+    row.push_back(lateral > 0 ? vector_of(forces, setup_->wall).dot(setup_->along) / lateral
                               : nothing);
-  };
-  share(setup_->wall, 1);
-  share(setup_->trailing, -1);
   if (distance > 0) samples_.push_back({distance, friction, face > 0 ? normal / face : 0});
   lateral_before_ = lateral;
   distance_before_ = distance;

@@ -16,7 +16,6 @@ struct ShearSetup {
   int stage = 0, target = 0;
   int punch = -1;              // the plane on the other side of the powder; -1: none
   int wall = -1;               // the plane that the target draws the powder against; -1: none
-  int trailing = -1;           // the one that it draws it away from; -1: none
   Vec2 along = Vec2::UnitX();  // the way the target goes
   Vec2 up = Vec2::UnitY();     // out of the target
   double width = 0;            // m, between the walls; 0: there are no two

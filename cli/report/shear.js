@@ -7,8 +7,7 @@ const FROM_SHEAR = {
                                            ["lateral_stress", "lateral, on the target"],
                                            ["punch_lateral_stress", "lateral, on the punch"]],
   "Dilation against the way of the target": [["dilation", "way of the punch outwards"]],
-  "What the walls bear of the target's lateral force": [["wall_share", "drawn against"],
-                                                        ["trailing_share", "drawn away from"]],
+  "Share of the lateral force that the wall bears": [["wall_share", "wall / target"]],
   "Particles that go along with the target": [["locked", "within 10 % of its speed"]],
   "Work of the target against its way": [["work", "lateral force times way"]]};
 

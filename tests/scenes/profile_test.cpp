@@ -105,13 +105,10 @@ TEST(RoughProfile, IsTheSameSurfaceForALongerWay) {
     EXPECT_NEAR(height_at(more, x) - height_at(one, x), lift, 1e-15) << x;
 }
 
-TEST(RoughProfile, SeedIsItsOwnOrTheScenes) {
-  const auto points = [](const std::vector<std::string>& more) {
-    return flat_with(rough, more).tools.at(2).points;
-  };
-  EXPECT_EQ(points({"seed=7"}), points({"tool.target.seed=7"}));
-  EXPECT_NE(points({"seed=7"}), points({"seed=8"}));
-  EXPECT_EQ(points({"seed=8", "tool.target.seed=7"}), points({"tool.target.seed=7"}));
+TEST(RoughProfile, ComesFromTheScenesSeed) {
+  const auto points = [](const char* seed) { return flat_with(rough, {seed}).tools.at(2).points; };
+  EXPECT_EQ(points("seed=7"), points("seed=7"));
+  EXPECT_NE(points("seed=7"), points("seed=8"));
 }
 
 // ---- measured -------------------------------------------------------------------------------------------
@@ -163,13 +160,6 @@ TEST_F(MeasuredProfile, LiesWhereItsFirstStationIsPutAndIsLevelled) {
   // over whole periods, whose own line has a slope of some 3 um over the length.
   for (const double x : {-9e-3, 11e-3, 31e-3}) EXPECT_NEAR(height_at(level, x), 0, 10e-6) << x;
   for (const double x : {-7e-3, 13e-3}) EXPECT_NEAR(height_at(level, x), -0.1e-3, 10e-6) << x;
-  const std::vector<Vec2> tilted = points({"tool.target.levelling=mean"});
-  EXPECT_NEAR(height_at(tilted, 31e-3) - height_at(tilted, -9e-3), 0.4e-3, 1e-9);
-}
-
-TEST_F(MeasuredProfile, AlongTheGroovesIsAPlaneAtTheCrests) {
-  write_waves(10);  // as long as it is does not matter then
-  for (const Vec2& p : points({"tool.target.lay=aligned"})) EXPECT_EQ(p.y(), 0);
 }
 
 TEST_F(MeasuredProfile, IsPartOfTheScenesHash) {

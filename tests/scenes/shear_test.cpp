@@ -305,9 +305,9 @@ INSTANTIATE_TEST_SUITE_P(
               "correlation_length", "allowed: >= "},
         Wrong{"MeasuredWithoutFile", PROFILE "relief = \"file\"\n", "file",
               "required key is missing"},
-        Wrong{"LayOfASine",
-              PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\nlay = \"aligned\"\n",
-              "lay", "only with relief = \"file\""},
+        Wrong{"FileOfASine",
+              PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\nfile = \"a.csv\"\n",
+              "file", "only with relief = \"file\""},
         Wrong{"ServoOfAGrip",
               "[[tool]]\nname = \"hand\"\nshape = \"grip\"\nlow = [\"0 mm\", \"0 mm\"]\nhigh = "
               "[\"1 mm\", \"1 "
