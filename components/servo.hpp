@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "components/relief.hpp"
 #include "components/shape.hpp"
 
 namespace pulvis {
@@ -58,6 +59,7 @@ struct StageEnds {
   struct Cell {  // tools around the powder, and its area: what relative density is
     int left = 0, right = 0, bottom = 0, top = 0;
     double particle_area = 0;  // m^2
+    Relief relief = {};        // of the bottom
   };
   std::vector<End> ends;
   Cell cell;

@@ -1,5 +1,7 @@
 #include "scenes/drives.hpp"
 
+#include "scenes/die_relief.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -110,13 +112,18 @@ StageEnds::End end_of(const Scene& scene, int stage, const UntilSpec& until) {
   return end;
 }
 
-StageEnds stage_ends(const Scene& scene, const std::vector<BodySpec>& bodies) {
+StageEnds stage_ends(const World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   StageEnds ends;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     if (scene.stages[s].until)
       ends.ends.push_back(end_of(scene, static_cast<int>(s), *scene.stages[s].until));
   if (const auto cell = die_cell(scene))
-    ends.cell = {cell->left, cell->right, cell->bottom, cell->top, powder_of(scene, bodies).area};
+    ends.cell = {cell->left,
+                 cell->right,
+                 cell->bottom,
+                 cell->top,
+                 powder_of(scene, bodies).area,
+                 relief_of(world, cell->bottom)};
   return ends;
 }
 
@@ -138,7 +145,7 @@ void add_drives(World& world, const Scene& scene, const std::vector<BodySpec>& b
     world.add<ServoForce>();
     world.emplace<ToolServos>(tool_servos(scene, bodies));
   }
-  if (has_early_ends(scene)) world.emplace<StageEnds>(stage_ends(scene, bodies));
+  if (has_early_ends(scene)) world.emplace<StageEnds>(stage_ends(world, scene, bodies));
 }
 
 }  // namespace pulvis

@@ -8,6 +8,8 @@
 
 #include "scenes/outline.hpp"
 #include "scenes/place.hpp"
+#include "scenes/profile_file.hpp"
+#include "scenes/rough_profile.hpp"
 #include "scenes/surface.hpp"
 
 namespace pulvis {
@@ -18,6 +20,7 @@ using std::numbers::pi;
 
 constexpr int chords_of_a_sine = 32;
 constexpr double pitches_beyond = 2;  // what the powder can press aside stays on the relief
+constexpr int most_stations = 20'000;
 
 double depth_of(const ProfileSpec& relief) {
   return relief.depth ? *relief.depth : depth_for(relief, *relief.ra);
@@ -70,6 +73,42 @@ std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {
   return points;
 }
 
+// Crests at the height of the tool's point; where nothing comes the surface goes on at that height.
+std::vector<Vec2> between_flats(const std::vector<Vec2>& relief, double height) {
+  double top = relief.front().y();
+  for (const Vec2& p : relief) top = std::max(top, p.y());
+  const double from = relief.front().x(), to = relief.back().x(), length = to - from;
+  std::vector<Vec2> points{{from - 2 * length, height}, {from - length, height}};
+  for (const Vec2& p : relief) points.push_back({p.x(), p.y() + height - top});
+  points.push_back({to + length, height});
+  points.push_back({to + 2 * length, height});
+  return points;
+}
+
+int period_of(double length, double correlation_length) {
+  double lengths = lengths_a_period;
+  while (lengths * correlation_length < length && lengths * stations_a_length <= most_stations)
+    lengths *= 2;
+  return static_cast<int>(lengths);
+}
+
+// Refused where it would take too many stations: none.
+std::vector<Vec2> rough(const ToolSpec& tool, std::uint64_t seed, Extent extent) {
+  const ProfileSpec& relief = tool.relief;
+  const double step = relief.correlation_length / stations_a_length;
+  const int lengths = period_of(extent.high - extent.low, relief.correlation_length);
+  const double first = std::floor((extent.low - tool.point.x()) / step) - stations_a_length;
+  const double last = std::ceil((extent.high - tool.point.x()) / step) + stations_a_length;
+  if (last - first > most_stations) return {};
+  const std::vector<double> heights = rough_heights(*relief.ra, seed, lengths);
+  const auto count = static_cast<std::int64_t>(heights.size());
+  std::vector<Vec2> points;
+  for (auto i = static_cast<std::int64_t>(first); i <= static_cast<std::int64_t>(last); ++i)
+    points.push_back({tool.point.x() + static_cast<double>(i) * step,
+                      heights[static_cast<std::size_t>((i % count + count) % count)]});
+  return between_flats(points, tool.point.y());
+}
+
 }  // namespace
 
 double depth_for(const ProfileSpec& relief, double ra) {
@@ -103,14 +142,20 @@ class ProfileChecks {
       : relief_(tool.relief), path_(std::move(path)), origins_(origins), problems_(problems) {}
 
   void run() {
-    const bool flat = relief_.kind == Kind::flat;
-    for (const char* key : {"pitch", "depth", "ra"})
-      if (flat && given(key)) refuse(key, "a flat surface has none, allowed: without it");
-    if (given("flat_share") && relief_.kind != Kind::trapezoid)
-      refuse("flat_share", "has no effect, allowed: only with relief = \"trapezoid\"");
-    if (flat) return;
-    if (!given("pitch")) refuse("pitch", "required key is missing, allowed: a quantity in m");
-    if (given("depth") == given("ra"))
+    const bool repeats = relief_.kind == Kind::triangle || relief_.kind == Kind::sine ||
+                         relief_.kind == Kind::trapezoid;
+    const bool rough = relief_.kind == Kind::rough, measured = relief_.kind == Kind::file;
+    belongs("pitch", repeats, "\"triangle\", \"sine\" or \"trapezoid\"");
+    belongs("depth", repeats, "\"triangle\", \"sine\" or \"trapezoid\"");
+    belongs("ra", repeats || rough, "\"triangle\", \"sine\", \"trapezoid\" or \"rough\"");
+    belongs("flat_share", relief_.kind == Kind::trapezoid, "\"trapezoid\"");
+    belongs("correlation_length", rough, "\"rough\"");
+    belongs("file", measured, "\"file\"");
+    if (repeats) wanted("pitch", "a quantity in m");
+    if (rough) wanted("ra", "a quantity in m");
+    if (rough) wanted("correlation_length", "a quantity in m");
+    if (measured) wanted("file", "the name of a CSV file");
+    if (repeats && given("depth") == given("ra"))
       refuse(given("ra") ? "ra" : "depth",
              given("ra") ? "has no effect beside depth, allowed: one of the two"
                          : "required key is missing, allowed: a quantity in m, or ra instead");
@@ -118,11 +163,90 @@ class ProfileChecks {
 
  private:
   bool given(const std::string& key) const { return origins_.contains(path_ + "." + key); }
+  void belongs(const char* key, bool does, const char* where) {
+    if (given(key) && !does)
+      refuse(key, fmt::format("has no effect, allowed: only with relief = {}", where));
+  }
+  void wanted(const char* key, const char* what) {
+    if (!given(key)) refuse(key, fmt::format("required key is missing, allowed: {}", what));
+  }
   void refuse(const std::string& key, const std::string& message) {
     const std::string at = path_ + "." + key;
     problems_.add(origins_.at(given(key) ? at : path_), at, message);
   }
   const ProfileSpec& relief_;
+  std::string path_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+};
+
+// One tool's polyline, and what is wrong with it.
+class ProfileMaker {
+ public:
+  ProfileMaker(Scene& scene, std::size_t tool, Extent powder, const schema::Origins& origins,
+               Problems& problems)
+      : scene_(scene),
+        tool_(scene.tools[tool]),
+        extent_(covered(scene, static_cast<int>(tool), powder)),
+        path_(fmt::format("tool[{}]", tool)),
+        origins_(origins),
+        problems_(problems) {}
+
+  void run() {
+    const std::vector<Vec2> points = made();
+    if (points.empty()) return;  // refused
+    tool_.points = points;
+    tool_.shape = ToolSpec::Shape::polyline;
+    if (const std::string fault = fault_of_polyline(points, tool_.rounding); !fault.empty())
+      refuse("rounding", fault);
+  }
+
+ private:
+  std::vector<Vec2> made() {
+    if (tool_.relief.kind == Kind::flat) return flat();
+    if (tool_.relief.kind == Kind::rough) return made_rough();
+    if (tool_.relief.kind == Kind::file) return measured();
+    return repeated(tool_, extent_);
+  }
+
+  std::vector<Vec2> flat() const {
+    return {{extent_.low, tool_.point.y()}, {extent_.high, tool_.point.y()}};
+  }
+
+  std::vector<Vec2> made_rough() {
+    std::vector<Vec2> points = rough(tool_, scene_.seed, extent_);
+    if (points.empty())
+      refuse(
+          "correlation_length",
+          fmt::format("too short for the {:.6g} m that the powder comes over, allowed: >= {:.6g} m",
+                      length(), 1.01 * length() * stations_a_length / most_stations));
+    return points;
+  }
+
+  std::vector<Vec2> measured() {
+    std::vector<Vec2> points = read_profile(scene_.file.parent_path() / tool_.relief.file);
+    const double begin = points.front().x();
+    for (Vec2& p : points) p.x() += tool_.point.x() - begin;
+    const double from = points.front().x(), to = points.back().x();
+    if (from <= extent_.low && to >= extent_.high) return between_flats(points, tool_.point.y());
+    refuse(
+        "file",
+        fmt::format("the profile is {:.6g} m long and lies from x = {:.6g} m to {:.6g} m; powder "
+                    "and sliding take it from {:.6g} m to {:.6g} m, allowed: a profile of at least "
+                    "{:.6g} m, which starts (point) at x <= {:.6g} m",
+                    to - from, from, to, extent_.low, extent_.high, length(), extent_.low));
+    return {};
+  }
+
+  double length() const { return extent_.high - extent_.low; }
+  void refuse(const std::string& key, const std::string& message) {
+    const std::string at = path_ + "." + key;
+    problems_.add(origins_.at(origins_.contains(at) ? at : path_), at, message);
+  }
+
+  Scene& scene_;
+  ToolSpec& tool_;
+  Extent extent_;
   std::string path_;
   const schema::Origins& origins_;
   Problems& problems_;
@@ -140,19 +264,9 @@ void make_profiles(Scene& scene, const schema::Origins& origins, Problems& probl
       scene.tools, [](const ToolSpec& t) { return t.shape == ToolSpec::Shape::profile; });
   if (!any) return;
   const Extent powder = powder_extent(scene, place_bodies(scene));
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    ToolSpec& tool = scene.tools[t];
-    if (tool.shape != ToolSpec::Shape::profile) continue;
-    const Extent extent = covered(scene, static_cast<int>(t), powder);
-    if (tool.relief.kind == Kind::flat)
-      tool.points = {{extent.low, tool.point.y()}, {extent.high, tool.point.y()}};
-    else
-      tool.points = repeated(tool, extent);
-    tool.shape = ToolSpec::Shape::polyline;
-    const std::string path = fmt::format("tool[{}]", t);
-    if (const std::string fault = fault_of_polyline(tool.points, tool.rounding); !fault.empty())
-      problems.add(origins.at(path), path + ".rounding", fault);
-  }
+  for (std::size_t t = 0; t < scene.tools.size(); ++t)
+    if (scene.tools[t].shape == ToolSpec::Shape::profile)
+      ProfileMaker(scene, t, powder, origins, problems).run();
 }
 
 }  // namespace pulvis

@@ -8,28 +8,11 @@
 #include "components/contact.hpp"
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "scenes/die_relief.hpp"
 #include "scenes/observe.hpp"
+#include "systems/relief_kernel.hpp"
 
 namespace pulvis {
-
-std::optional<DieCell> die_cell(const Scene& scene) {
-  DieCell cell{-1, -1, -1, -1};
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    if (scene.tools[t].shape == ToolSpec::Shape::grip) continue;
-    if (scene.tools[t].shape != ToolSpec::Shape::plane)
-      return std::nullopt;  // takes space of its own
-    const Vec2 n = scene.tools[t].normal;
-    int* side = n.x() > 1 - 1e-12    ? &cell.left
-                : n.x() < -1 + 1e-12 ? &cell.right
-                : n.y() > 1 - 1e-12  ? &cell.bottom
-                : n.y() < -1 + 1e-12 ? &cell.top
-                                     : nullptr;
-    if (side == nullptr || *side >= 0) return std::nullopt;
-    *side = static_cast<int>(t);
-  }
-  if (cell.left < 0 || cell.right < 0 || cell.bottom < 0 || cell.top < 0) return std::nullopt;
-  return cell;
-}
 
 namespace {
 
@@ -300,6 +283,15 @@ void Results::append_tools(std::vector<double>& row) const {
   }
 }
 
+namespace {
+double die_area(const World& world, const DieCell& cell) {
+  const double* at = world.column<ToolPosition>().values();
+  return kernels::die_area({at[2 * cell.left], at[2 * cell.right], at[2 * cell.top + 1],
+                            at[2 * cell.bottom], at[2 * cell.bottom + 1]},
+                           relief_of(world, cell.bottom));
+}
+}  // namespace
+
 Vec2 Results::die_size() const {
   const auto at = [&](int tool, int k) {
     return world_.column<ToolPosition>().values()[static_cast<std::size_t>(2 * tool + k)];
@@ -315,7 +307,7 @@ void Results::append_density(std::vector<double>& row) const {
   const Vec2 size = die_size(), face = size * world_.resource<Bodies>().thickness;
   const double top = force(cell_->top, 1), bottom = -force(cell_->bottom, 1);
   const double left = -force(cell_->left, 0), right = force(cell_->right, 0);
-  row.push_back(particle_area_ / size.prod());
+  row.push_back(particle_area_ / die_area(world_, *cell_));
   if (yield_stress_) {
     row.push_back(0.5 * (top + bottom) / face.x() / *yield_stress_);
     row.push_back(0.5 * (right + left) / face.y() / *yield_stress_);
@@ -342,7 +334,7 @@ std::vector<double> Results::sample() {
   row.push_back(totals.worst_penetration);
   row.push_back(least_jacobian());
   row.push_back(world_.resource<Clock>().dt);
-  append_observed_sample(world_, cell_ ? die_size().prod() : 0, row);
+  append_observed_sample(world_, cell_ ? die_area(world_, *cell_) : 0, row);
   shear_.append_sample(row);
   last_ = row;
   return row;

@@ -22,6 +22,7 @@ std::vector<std::filesystem::path> files_of(const Scene& scene) {
     add(packing.file);
     for (const MixtureClass& mixed : packing.classes) add(mixed.size.file);
   }
+  for (const ToolSpec& tool : scene.tools) add(tool.relief.file);
   if (scene.afm && scene.afm->target) add(scene.afm->target->file);
   return files;
 }

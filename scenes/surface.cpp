@@ -68,6 +68,8 @@ bool meet(const Vec2& p, const Vec2& t, double low, double high, const Vec2& q, 
 
 std::string crossing_fault(const std::vector<Vec2>& points, const std::vector<Vec2>& t) {
   const std::size_t count = t.size();
+  const auto goes_on = [](const Vec2& direction) { return direction.x() > 0; };
+  if (std::ranges::all_of(t, goes_on)) return "";  // a profile: nothing comes back
   const auto low = [&](std::size_t i) { return i == 0 ? -endless : 0.0; };
   const auto high = [&](std::size_t i) {
     return i + 1 == count ? endless : (points[i + 1] - points[i]).norm();

@@ -11,6 +11,7 @@
 
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "systems/relief_kernel.hpp"
 #include "systems/run_failure.hpp"
 #include "systems/systems.hpp"
 
@@ -20,9 +21,10 @@ namespace {
 using End = StageEnds::End;
 
 double relative_density(const StageEnds::Cell& cell, const Read<ToolPosition>& at) {
-  const double width = at(Row<Tool>(cell.right), 0) - at(Row<Tool>(cell.left), 0);
-  const double height = at(Row<Tool>(cell.top), 1) - at(Row<Tool>(cell.bottom), 1);
-  return cell.particle_area / (width * height);
+  const Row<Tool> bottom(cell.bottom);
+  const kernels::DieSides sides{at(Row<Tool>(cell.left), 0), at(Row<Tool>(cell.right), 0),
+                                at(Row<Tool>(cell.top), 1), at(bottom, 0), at(bottom, 1)};
+  return cell.particle_area / kernels::die_area(sides, cell.relief);
 }
 
 double value_now(const End& end, const StageEnds& ends, const Read<ToolPosition>& at,

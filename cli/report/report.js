@@ -48,6 +48,7 @@ async function main() {
   fillFits(head.summary);
   fillTransmission(head.summary);
   drawCharts(history);
+  drawShear(history, head.summary);
   await showObserved(head);
   drawFits(head.summary);
   await showPicture(head, history);

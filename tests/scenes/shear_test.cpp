@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "components/servo.hpp"
 #include "experiment.hpp"
@@ -112,6 +114,58 @@ TEST(Servo, StopsWithTheForceReachedWhereItCannotReachMore) {
   }
 }
 
+// A body on an incline: (s + mu) / (1 - mu s) up, (mu - s) / (1 + mu s) down. The way of the disc over the
+// grooves' flanks, mm: up from 0.4 to 1.5, down from 3.3 to 5.
+TEST(Shear, ADiscOverGroovesFollowsTheLawOfTheInclineBothWays) {
+  constexpr double mu = 0.3, s = 0.25;
+  constexpr double up = (s + mu) / (1 - mu * s), down = (mu - s) / (1 + mu * s);
+  Experiment e("shear/groove-law.toml", {"contact.friction=0.3"});
+  int seen = 0;
+  e.run(200, [&] {
+    const double way = e.value("shear/distance");
+    const bool rising = way > 0.4e-3 && way<1.5e-3, falling = way> 3.3e-3 && way < 5e-3;
+    if (!rising && !falling) return;
+    const double wanted = rising ? up : down;
+    EXPECT_NEAR(e.value("shear/friction"), wanted, 0.005 * wanted) << way;
+    ++seen;
+  });
+  EXPECT_GT(seen, 50);
+}
+
+const std::vector<std::string> one_in_its_die =
+    joined(one_sheared, {"stage.load.servo.top.force=1 kN", "stage.load.duration=0.6 ms",
+                         "stage.shear.servo.top.force=1 kN", "stage.shear.duration=0.4 ms",
+                         "stage.shear.move.target.displacement=[\"0.4 mm\", \"0 mm\"]"});
+
+Experiment sheared(const std::string& law) {
+  std::ifstream stream(std::string(PULVIS_SOURCE_DIR) + "/scenes/shear/flat-16.toml");
+  std::ostringstream text;
+  text << stream.rdbuf() << "[[friction]]\nbetween = [\"316L\", \"target\"]\n" << law;
+  return Experiment(load_scene_text(text.str(), "shear.toml", one_in_its_die).scene);
+}
+
+// Of the whole, as of the contact: 0.2 before sliding, then down to 0.1.
+TEST(Shear, StaticPeakAndDynamicMeanAreThoseOfTheLaw) {
+  Experiment e =
+      sheared("coefficient = 0.1\nstatic_coefficient = 0.2\ndecay_length = \"0.02 mm\"\n");
+  e.run(400);
+  const auto figures = e.results.shear().figures();
+  ASSERT_TRUE(figures);
+  EXPECT_NEAR(figures->dynamic_friction, 0.1, 5e-4);
+  EXPECT_GT(figures->static_friction, 0.15);  // points begin to slide one after the other
+  EXPECT_LE(figures->static_friction, 0.2);
+}
+
+// Shear stress at most 20 MPa on what touches, whatever the pressure: the coefficient falls with it.
+TEST(Shear, ShearStrengthCapsTheForce) {
+  Experiment e = sheared("coefficient = 0.3\nshear_strength = \"20 MPa\"\n");
+  e.run(400);
+  const auto figures = e.results.shear().figures();
+  ASSERT_TRUE(figures);
+  EXPECT_LT(figures->dynamic_friction, 0.15);
+  EXPECT_GT(figures->dynamic_friction, 0);
+}
+
 TEST(Servo, IsNotThereWhereNoStageAsks) {
   Experiment e("compaction/regular-25.toml", one_disc);
   EXPECT_FALSE(e.simulation.world().has<ServoTravel>());
@@ -160,6 +214,29 @@ TEST(Profile, ReachesAsFarAsThePowderComesOverIt) {
   for (const Vec2& p : points) EXPECT_LE(p.y(), 0);
 }
 
+// 16 discs stand on the crests of five grooves, which belong to the volume under the punch: a triangle of
+// depth x pitch / 2 each, and what the rounding takes off the crest, r^2 (tan a - a) with flanks at the angle a.
+TEST(Profile, GroovesBelongToTheVolumeOfRelativeDensity) {
+  Experiment e("shear/grooves-16.toml", {"tool.target.depth=1.9 mm"});
+  e.simulation.observe();
+  e.results.sample();
+  const double flank = std::atan(1.9 / 4), disc = std::acos(-1.0) * 25;
+  const double groove = 0.5 * 8 * 1.9 + 0.4 * 0.4 * (std::tan(flank) - flank);
+  EXPECT_NEAR(e.value("relative_density"), 16 * disc / (1600 + 5 * groove), 1e-6);
+}
+
+TEST(StageUntil, ADensityCountsTheGrooves) {
+  Experiment e("shear/grooves-16.toml",
+               joined(one_sheared, {"stage.load.servo.top.force=5 kN", "stage.load.duration=1 ms",
+                                    "stage.load.servo.top.tolerance=1e9",
+                                    "stage.load.until.relative_density=0.8"}));
+  while (e.simulation.world().resource<ToolProgram>().stage_at(e.simulation.clock().time) == 0)
+    e.simulation.run_steps(1);
+  e.simulation.observe();
+  e.results.sample();
+  EXPECT_NEAR(e.value("relative_density"), 0.8, 0.003);
+}
+
 // ---- bad input ----------------------------------------------------------------------------------------
 struct Wrong {
   const char* name;
@@ -206,7 +283,33 @@ INSTANTIATE_TEST_SUITE_P(
               PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\ndepth = \"1 um\"\n",
               "ra", "one of the two"},
         Wrong{"FlatWithPitch", PROFILE "relief = \"flat\"\npitch = \"1 mm\"\n", "pitch",
-              "a flat surface has none"},
+              "only with relief = \"triangle\", \"sine\" or \"trapezoid\""},
+        Wrong{
+            "RoughWithPitch",
+            PROFILE
+            "relief = \"rough\"\npitch = \"1 mm\"\nra = \"1 um\"\ncorrelation_length = \"1 mm\"\n",
+            "pitch", "only with relief"},
+        Wrong{"RoughWithoutRa", PROFILE "relief = \"rough\"\ncorrelation_length = \"1 mm\"\n", "ra",
+              "required key is missing"},
+        Wrong{"RoughWithoutLength", PROFILE "relief = \"rough\"\nra = \"1 um\"\n",
+              "correlation_length", "required key is missing"},
+        Wrong{"RoughTooFine",
+              PROFILE "relief = \"rough\"\nra = \"1 nm\"\ncorrelation_length = \"1 um\"\n",
+              "correlation_length", "allowed: >= "},
+        Wrong{"MeasuredWithoutFile", PROFILE "relief = \"file\"\n", "file",
+              "required key is missing"},
+        Wrong{"FileOfASine",
+              PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\nfile = \"a.csv\"\n",
+              "file", "only with relief = \"file\""},
+        Wrong{"ServoOfAGrip",
+              "[[tool]]\nname = \"hand\"\nshape = \"grip\"\nlow = [\"0 mm\", \"0 mm\"]\nhigh = "
+              "[\"1 mm\", \"1 "
+              "mm\"]\nholds = \"x\"\n" STAGE "[[stage.servo]]\ntool = \"hand\"\nforce = \"1 N\"\n",
+              "servo[0].tool", "is a grip"},
+        Wrong{"ServoAgainstAMove",
+              STAGE "[[stage.servo]]\ntool = \"top\"\nforce = \"1 N\"\n[[stage.move]]\ntool = "
+                    "\"top\"\ndisplacement = [\"0 mm\", \"-1 mm\"]\n",
+              "servo[0].tool", "is moved along its servo's direction"},
         Wrong{"ShareOfASine",
               PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\nflat_share = 0.2\n",
               "flat_share", "trapezoid"}),

@@ -146,12 +146,14 @@ TEST_F(StudyRead, EverythingShippedIsRight) {
     const Study study = load_study(entry.path());
     EXPECT_FALSE(study.spec.expects.empty()) << entry.path();
     EXPECT_FALSE(study.spec.title.empty()) << entry.path();
-    bool steel = false, copper = false;  // each is made for both metals
+    bool steel = false,
+         copper = false;  // each is made for both metals, shear for 316L alone (Sec. 6.2)
     for (const StudyRun& run : study.runs) {
       steel = steel || run.scene.materials[0].name == "316L";
       copper = copper || run.scene.materials[0].name == "OFHC-Cu";
     }
-    EXPECT_TRUE(steel && copper) << entry.path();
+    const bool shear = entry.path().filename().string().starts_with("shear-");
+    EXPECT_TRUE(steel && copper != shear) << entry.path();
     ++studies;
   }
   EXPECT_GE(studies, 5);
