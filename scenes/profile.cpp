@@ -21,6 +21,7 @@ using std::numbers::pi;
 constexpr int chords_of_a_sine = 32;
 constexpr double pitches_beyond = 2;  // what the powder can press aside stays on the relief
 constexpr int most_stations = 20'000;
+constexpr double upright = 1 - 1e-9;  // of a wall's normal along x
 
 double depth_of(const ProfileSpec& relief) {
   return relief.depth ? *relief.depth : depth_for(relief, *relief.ra);
@@ -30,7 +31,7 @@ struct Extent {
   double low, high;  // m
 };
 
-// Of the powder along x, and of the way of the tool under it.
+// Of the powder along x, and as far as it can be pressed aside: to walls that are there.
 Extent powder_extent(const Scene& scene, const std::vector<BodySpec>& bodies) {
   Extent extent{1e300, -1e300};
   for (const BodySpec& body : bodies) {
@@ -41,6 +42,11 @@ Extent powder_extent(const Scene& scene, const std::vector<BodySpec>& bodies) {
       reach = std::max(reach, 1.1 * corner.norm());
     extent.low = std::min(extent.low, body.position.x() - reach);
     extent.high = std::max(extent.high, body.position.x() + reach);
+  }
+  for (const ToolSpec& tool : scene.tools) {
+    if (tool.shape != ToolSpec::Shape::plane || std::abs(tool.normal.x()) < upright) continue;
+    extent.low = std::min(extent.low, tool.point.x());
+    extent.high = std::max(extent.high, tool.point.x());
   }
   return extent;
 }

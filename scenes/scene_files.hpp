@@ -1,4 +1,5 @@
-// The files that a scene reads beside its own: traced outlines, placed particles, sieve curves, height maps.
+// The files that a scene reads beside its own: traced outlines, placed particles, sieve curves, target
+// profiles, height maps.
 #pragma once
 
 #include <cstdint>

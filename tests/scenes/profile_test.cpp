@@ -59,7 +59,6 @@ TEST(RoughProfile, HasNormallyDistributedHeights) {
   EXPECT_NEAR(std::sqrt(square), std::sqrt(std::acos(-1.0) / 2), 0.02);
 }
 
-// g++ and clang++, this machine and the next: no library's exponential is in it.
 TEST(RoughProfile, IsTheSameForASeedAndAnotherForAnother) {
   const std::vector<double> one = rough_heights(1, 5, 64);
   EXPECT_EQ(one, rough_heights(1, 5, 64));
