@@ -87,10 +87,13 @@ void Checkpoints::write(std::int64_t step, double time, const World& world, Stat
   cost_ = last_ - begin;
 }
 
-StoppedRun find_stopped_run(const fs::path& folder) {
+void require_stopped_run(const fs::path& folder) {
   if (!fs::exists(folder / "scene.toml") || !fs::exists(folder / "run.h5"))
     throw CannotResume(
         fmt::format("{}: cannot resume: there is no run (run.h5, scene.toml)", folder.string()));
+}
+
+StoppedRun find_stopped_run(const fs::path& folder) {
   StoppedRun run;
   run.checkpoint = newest_whole(folder);
   check_version(folder, run.checkpoint->info());

@@ -55,6 +55,8 @@ struct StoppedRun {
   std::unique_ptr<Checkpoint> checkpoint;
   LoadedScene scene;
 };
+void require_stopped_run(
+    const std::filesystem::path& folder);  // one that could be: throws CannotResume
 StoppedRun find_stopped_run(const std::filesystem::path& folder);
 
 }  // namespace pulvis

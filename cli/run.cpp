@@ -269,6 +269,7 @@ ExitCode run_scene(const RunOptions& options) {
 
 ExitCode resume_run(const RunOptions& options) {
   take_interrupts();
+  require_stopped_run(options.folder);
   const FolderLock lock(options.folder);
   const StoppedRun stopped_run = find_stopped_run(options.folder);
   const LoadedScene& loaded = stopped_run.scene;

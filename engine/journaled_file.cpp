@@ -79,6 +79,7 @@ void JournaledFile::read(std::uint64_t at, std::span<std::byte> bytes) const {
   const std::size_t got = read_some(file_.get(), at, bytes);
   std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(got), bytes.end(), std::byte{});
   const std::uint64_t end = std::min(at + bytes.size(), committed_);
+  if (at >= end) return;
   auto changed = changed_.lower_bound(at / page_bytes);
   for (; changed != changed_.end() && changed->first * page_bytes < end; ++changed) {
     const std::uint64_t first = std::max(at, changed->first * page_bytes);
