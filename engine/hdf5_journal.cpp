@@ -112,7 +112,11 @@ herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size
 }
 
 herr_t flush(H5FD_t* file, hid_t, hbool_t) {
-  return attempt_change(file, [&] { driven(file).file.commit(); });
+  // Not the half of a frame either, when the file is closed after the disk was full.
+  return attempt_change(file, [&] {
+    if (driven(file).is_broken) throw std::system_error(EIO, std::generic_category(), "commit");
+    driven(file).file.commit();
+  });
 }
 
 herr_t truncate(H5FD_t* file, hid_t, hbool_t) {
