@@ -75,7 +75,11 @@ hdf5::File verified(const fs::path& path) {
     throw DamagedCheckpoint(
         fmt::format("its {} bytes are not those that were written: the checksum is another",
                     head_bytes + content.bytes));
-  return hdf5::File::open(path);
+  try {
+    return hdf5::File::open(path);
+  } catch (const OutputError& error) {
+    throw DamagedCheckpoint(error.reason());
+  }
 }
 
 std::string column_name(const ColumnBase& column) {
