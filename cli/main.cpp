@@ -23,6 +23,7 @@
 #include "scenes/describe.hpp"
 #include "scenes/grips.hpp"
 #include "scenes/lab_settings.hpp"
+#include "scenes/memory_need.hpp"
 #include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
 #include "scenes/read.hpp"
@@ -63,6 +64,10 @@ ExitCode check(const Options& options) {
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
   fmt::print("{}", packing_summary(scene));
   print_meshes(scene);
+  const MemoryNeed need = memory_need(scene);
+  fmt::print("memory: about {}: {} of particles, {} of contacts, {} of results, {} of program\n",
+             bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
+             bytes_text(need.results), bytes_text(need.program));
   fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(),
              bodies.size(), scene.tools.size(), scene.stages.size());
   return ExitCode::done;
@@ -173,6 +178,44 @@ void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
   });
 }
 
+void add_course(CLI::App& command, RunOptions& options) {
+  command.add_flag("--quiet", options.quiet, "print nothing but what goes wrong");
+  command.add_flag("--json", options.json, "the same, and the summary (summary.json) when it ends");
+  command.add_option("--threads", options.threads, "worker threads (default: all processors)")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option("--checkpoint-every", options.checkpoints.every,
+                  "seconds between checkpoints, as the clock on the wall has them")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--checkpoint-steps", options.checkpoints.steps,
+                  "a checkpoint every so many steps, too (of an AFM scene: increments)")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--stop-after", options.checkpoints.stop_after,
+                  "stop at this step with a checkpoint, as an interrupt would (exit code 130)")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_run(CLI::App& app, Options& options, ExitCode& code) {
+  auto* run = app.add_subcommand("run", "run a scene and write its results");
+  add_scene(*run, options);
+  run->add_option("-o,--output", options.run.folder, "results folder (default runs/<scene name>)");
+  run->add_flag("--overwrite", options.run.overwrite,
+                "replace a run that is already in the folder");
+  add_course(*run, options.run);
+  run->callback([&options, &code] { code = run_scene(options.run); });
+}
+
+void add_resume(CLI::App& app, Options& options, ExitCode& code) {
+  auto* resume = app.add_subcommand(
+      "resume", "go on with a run that was stopped or killed, from its last checkpoint");
+  resume->add_option("folder", options.run.folder, "results folder of the run")->required();
+  add_course(*resume, options.run);
+  resume->callback([&options, &code] { code = resume_run(options.run); });
+}
+
 int parse_and_run(int argc, char** argv) {
   Options options;
   ExitCode code = ExitCode::done;
@@ -183,17 +226,10 @@ int parse_and_run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done; 2 bad usage, or a scene that was refused; 3 the run went bad, or not "
       "as\n"
-      "the scene's [[expect]] tables say; 4 disk or memory; 130 interrupted.");
+      "the scene's [[expect]] tables say; 4 disk or memory; 130 interrupted, see resume.");
 
-  auto* run = app.add_subcommand("run", "run a scene and write its results");
-  add_scene(*run, options);
-  run->add_option("-o,--output", options.run.folder, "results folder (default runs/<scene name>)");
-  run->add_option("--threads", options.run.threads, "worker threads (default: all processors)")
-      ->check(CLI::Range(1, 1024));
-  run->add_flag("--overwrite", options.run.overwrite,
-                "replace a run that is already in the folder");
-  run->callback([&] { code = run_scene(options.run); });
-
+  add_run(app, options, code);
+  add_resume(app, options, code);
   add_study(app, options, code);
 
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
@@ -253,6 +289,8 @@ int main(int argc, char** argv) {
   } catch (const SceneError& error) {
     return fail(error.what(), ExitCode::usage);
   } catch (const RunFolderTaken& error) {
+    return fail(error.what(), ExitCode::usage);
+  } catch (const CannotResume& error) {
     return fail(error.what(), ExitCode::usage);
   } catch (const OutputError& error) {
     return fail(error.what(), ExitCode::machine);

@@ -7,24 +7,30 @@
 
 namespace pulvis {
 
-Progress::Progress(double end, std::int64_t elements)
+Progress::Progress(double end, std::int64_t elements, bool shown, const Before& before)
     : end_(end),
       elements_(elements),
+      is_shown_(shown),
+      before_(before),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(Time::now()),
       shown_(start_) {}
 
+Progress::Progress(double end, std::int64_t elements, bool shown)
+    : Progress(end, elements, shown, Before()) {}
+
 double Progress::seconds() const {
-  return std::chrono::duration<double>(Time::now() - start_).count();
+  return before_.seconds + std::chrono::duration<double>(Time::now() - start_).count();
 }
 
 void Progress::show(double time, std::int64_t step) {
+  if (!is_shown_) return;
   const auto now = Time::now();
   if (now - shown_ < (terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10)))
     return;
   shown_ = now;
   const double wall = seconds(), share = time / end_;
-  const double rate = static_cast<double>(step) / wall;
+  const double rate = static_cast<double>(step - before_.step) / (wall - before_.seconds);
   const std::string line = fmt::format(
       "{:5.1f}%  t = {:.4g} s of {:.4g} s, step {}, {:.0f} steps/s, {:.1f} M element-updates/s, "
       "{:.0f} s left",

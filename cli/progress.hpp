@@ -8,16 +8,24 @@ namespace pulvis {
 
 class Progress {
  public:
-  Progress(double end, std::int64_t elements);
+  // Of a run that goes on: how long it had run before, and to which step.
+  struct Before {
+    double seconds = 0;
+    std::int64_t step = 0;
+  };
+  Progress(double end, std::int64_t elements, bool shown, const Before& before);
+  Progress(double end, std::int64_t elements, bool shown);
   // Cheap; prints a few times a second on a terminal, every ten seconds into a log.
   void show(double time, std::int64_t step);
   void finish();
-  double seconds() const;
+  double seconds() const;  // of the run, with those before
 
  private:
   using Time = std::chrono::steady_clock;
   double end_;
   std::int64_t elements_;
+  bool is_shown_;
+  Before before_;
   bool terminal_;
   Time::time_point start_, shown_;
   bool line_open_ = false;

@@ -4,21 +4,18 @@
 #include <oneapi/tbb/info.h>
 #include <spdlog/spdlog.h>
 
-#include <atomic>
-#include <cerrno>
-#include <csignal>
-#include <cstring>
-#include <fstream>
-
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/run_afm.hpp"
 #include "cli/summary.hpp"
+#include "cli/write_text.hpp"
 #include "components/body.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/compaction_curve.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/memory_need.hpp"
 #include "scenes/read.hpp"
 #include "scenes/results.hpp"
 #include "scenes/simulation.hpp"
@@ -28,25 +25,9 @@
 namespace pulvis {
 namespace {
 
-std::atomic<bool> interrupted{false};
-void interrupt(int) { interrupted = true; }
-
-// SIGINT and SIGTERM end the run between two steps; a full disk is an error, not a death.
-void take_signals() {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
-  std::signal(SIGXFSZ, SIG_IGN);
-}
-
 std::filesystem::path folder_of(const RunOptions& options) {
   return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
                                 : options.folder;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
 }
 
 // Where to look first when the energies say that something is wrong: the most distorted element.
@@ -81,6 +62,7 @@ void check_limits(const Scene& scene, const Results& results, const World& world
 
 struct Run {
   const LoadedScene& loaded;
+  const RunOptions& options;
   std::filesystem::path folder;
   int threads;
   std::unique_ptr<Simulation> simulation;
@@ -88,76 +70,123 @@ struct Run {
   Expectations expectations;
   CompactionCurve compaction;
   std::vector<Verdict> verdicts;
-  Recorder recorder;
-  Progress progress;
+  Timetable samples, frames;
+  bool ended = false;  // and its last sample is taken
+  Checkpoints checkpoints;
+  std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<Progress> progress;
 
-  Run(const LoadedScene& scene, const std::filesystem::path& where, int workers,
-      std::unique_ptr<Simulation> built)
+  Run(const LoadedScene& scene, const RunOptions& given, const std::filesystem::path& where,
+      int workers, std::unique_ptr<Simulation> built)
       : loaded(scene),
+        options(given),
         folder(where),
         threads(workers),
         simulation(std::move(built)),
         results(scene.scene, simulation->world()),
         expectations(scene.scene),
         compaction(scene.scene),
-        recorder(where,
-                 {program_version(), program_commit(), scene.scene.title,
-                  fmt::format("{:016x}", scene.hash), scene.scene.seed, workers},
-                 results.mesh(), results.series(), results.fields()),
-        progress(simulation->clock().end, results.elements()) {}
+        samples(clock().end, std::max(scene.scene.output.samples, scene.scene.output.frames)),
+        frames(clock().end, scene.scene.output.frames),
+        checkpoints(scene, where, given.checkpoints) {}
 
-  void record(Timetable& samples, Timetable& frames) {
-    const Clock& clock = simulation->clock();
-    simulation->observe();
-    recorder.sample(clock.time, results.sample());
-    expectations.sample(clock.time, results);
-    compaction.sample(results);
-    samples.pass(clock.time);
-    check_limits(loaded.scene, results, simulation->world());
-    if (!frames.due(clock.time) && !simulation->finished()) return;
-    recorder.frame(clock.time, clock.step, results.frame());
-    frames.pass(clock.time);
+  const Clock& clock() const { return simulation->clock(); }
+
+  void begin() {
+    recorder = std::make_unique<Recorder>(
+        folder,
+        RunAttributes{program_version(), program_commit(), loaded.scene.title,
+                      fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
+        results.mesh(), results.series(), results.fields());
+    progress = std::make_unique<Progress>(clock().end, results.elements(), options.talks());
   }
 
-  // True when the run reached its end, false when it was interrupted.
+  // What the world does not hold of the run's state.
+  template <class Bytes>
+  void state(Bytes& bytes, RecorderPosition& position, double& seconds) {
+    bytes(position, seconds, results, expectations, compaction, samples, frames, ended);
+  }
+
+  void go_on_from(const Checkpoint& checkpoint) {
+    RecorderPosition position;
+    double seconds = 0;
+    const std::vector<std::byte> bytes = checkpoint.run("plane");
+    StateReader reader(bytes);
+    state(reader, position, seconds);
+    const RunMesh mesh = results.mesh();
+    checkpoint.restore(simulation->world());
+    checkpoints.resumed(clock().step);
+    recorder =
+        std::make_unique<Recorder>(folder, mesh, results.series(), results.fields(), position);
+    progress = std::make_unique<Progress>(clock().end, results.elements(), options.talks(),
+                                          Progress::Before{seconds, clock().step});
+  }
+
+  void write_checkpoint() {
+    RecorderPosition position = recorder->position();
+    double seconds = progress->seconds();
+    StateWriter writer;
+    state(writer, position, seconds);
+    checkpoints.write(clock().step, clock().time, simulation->world(), {{"plane", writer.bytes()}});
+  }
+
+  void record() {
+    simulation->observe();
+    recorder->sample(clock().time, results.sample());
+    expectations.sample(clock().time, results);
+    compaction.sample(results);
+    samples.pass(clock().time);
+    check_limits(loaded.scene, results, simulation->world());
+    if (!frames.due(clock().time) && !simulation->finished()) return;
+    recorder->frame(clock().time, clock().step, results.frame());
+    frames.pass(clock().time);
+  }
+
+  bool stops() const { return interrupted() || checkpoints.stops(clock().step); }
+
+  // True when the run reached its end, false when it was interrupted. Checkpoints are taken where a step is
+  // complete and nothing of the next one is known yet: before a sample, if one is due.
   bool go() {
-    const Clock& clock = simulation->clock();
-    const OutputSpec& output = loaded.scene.output;
-    Timetable samples(clock.end, std::max(output.samples, output.frames));
-    Timetable frames(clock.end, output.frames);
-    while (true) {
+    while (!ended) {
+      if (stops()) return false;
+      if (checkpoints.due(clock().step)) write_checkpoint();
       const bool last = simulation->finished();  // before its time where a stage ended early
-      if (last || samples.due(clock.time) || frames.due(clock.time)) record(samples, frames);
-      if (last || simulation->finished()) return true;
-      simulation->move();
+      if (last || samples.due(clock().time) || frames.due(clock().time)) {
+        record();
+        ended = simulation->finished();
+        if (ended) break;
+        simulation->move();
+      }
       simulation->run_until(std::min(samples.next(), frames.next()), [&] {
-        progress.show(clock.time, clock.step);
-        return interrupted.load();
+        progress->show(clock().time, clock().step);
+        return stops() || checkpoints.due(clock().step);
       });
-      if (interrupted) return false;
     }
+    return true;
   }
 
   // `failure` is what stopped the run, if anything did.
   void judge(const std::optional<std::string>& failure) {
-    progress.finish();
-    verdicts = expectations.judge(results, failure, threads, [] { return interrupted.load(); });
+    progress->finish();
+    verdicts = expectations.judge(results, failure, threads, [] { return interrupted(); });
   }
 
   void finish(const std::string& outcome) {
-    progress.finish();
-    recorder.finish(outcome);
-    write_summary(folder, loaded.scene, simulation->world(), results, compaction,
-                  {progress.seconds(), simulation->clock().step, threads,
-                   fmt::format("{:016x}", loaded.hash), outcome},
-                  verdicts);
+    progress->finish();
+    recorder->finish(outcome);
+    write_summary(
+        folder, loaded.scene, simulation->world(), results, compaction,
+        {progress->seconds(), clock().step, threads, fmt::format("{:016x}", loaded.hash), outcome},
+        verdicts);
     write_report(folder);
   }
 };
 
 void print_end(const Run& run) {
+  if (run.options.json) print_summary(run.folder);
+  if (!run.options.talks()) return;
   const Results& r = run.results;
-  const double seconds = run.progress.seconds();
+  const double seconds = run.progress->seconds();
   const std::int64_t steps = run.simulation->clock().step;
   fmt::print("{} steps in {:.2f} s, {:.1f} M element-updates/s; energy balance error {:.3g}\n",
              steps, seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
@@ -184,33 +213,75 @@ ExitCode stopped(Run& run, const std::string& message) {
   if (!expected)
     fmt::print(stderr, "pulvis: the run went bad: {}\nwhat was written before is in {}\n", message,
                run.folder.string());
-  if (!run.verdicts.empty()) print_end(run);
+  if (!run.verdicts.empty() || run.options.json) print_end(run);
   return expected && all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
+}
+
+// From wherever the run stands to its end.
+ExitCode complete(Run& run) {
+  try {
+    bool done = run.go();
+    if (done) run.judge({});
+    done = done && !interrupted();
+    if (!done) run.write_checkpoint();
+    run.finish(done ? "done" : "interrupted");
+    print_end(run);
+    if (done) {
+      run.checkpoints.remove();
+      return all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
+    }
+    fmt::print(stderr, "pulvis: interrupted at step {}; it goes on with: pulvis resume {}\n",
+               run.clock().step, run.folder.string());
+    return ExitCode::interrupted;
+  } catch (const RunFailure& failure) {
+    return stopped(run, failure.what());
+  } catch (const OutputError&) {
+    run.progress->finish();
+    fmt::print(stderr,
+               "pulvis: what was written before is in {}; once the cause is gone it goes on with: "
+               "pulvis resume {}\n",
+               run.folder.string(), run.folder.string());
+    throw;
+  }
+}
+
+int threads_of(const RunOptions& options) {
+  return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
 }
 
 }  // namespace
 
 ExitCode run_scene(const RunOptions& options) {
-  take_signals();
+  take_interrupts();
   const LoadedScene loaded = load_scene(options.scene, options.overrides);
   const std::filesystem::path folder = folder_of(options);
-  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-  if (loaded.scene.afm) return run_afm(loaded, folder, threads, options.overwrite);
-  // Everything that can be refused is refused before the folder is made.
+  const int threads = threads_of(options);
+  if (loaded.scene.afm) return run_afm(loaded, options, folder, threads);
+  // Everything that can be refused is refused before the folder is made, and before memory is taken.
+  require_memory(loaded.scene);
   auto simulation = std::make_unique<Simulation>(loaded.scene, threads);
-  open_run_folder(folder, options.overwrite);
+  const FolderLock lock = open_run_folder(folder, options.overwrite);
   write_text(folder / "scene.toml", loaded.text);
-  Run run(loaded, folder, threads, std::move(simulation));
-  try {
-    const bool done = run.go();
-    if (done) run.judge({});
-    run.finish(done && !interrupted ? "done" : "interrupted");
-    print_end(run);
-    if (!done || interrupted) return ExitCode::interrupted;
-    return all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
-  } catch (const RunFailure& failure) {
-    return stopped(run, failure.what());
-  }
+  Run run(loaded, options, folder, threads, std::move(simulation));
+  run.begin();
+  return complete(run);
+}
+
+ExitCode resume_run(const RunOptions& options) {
+  take_interrupts();
+  require_stopped_run(options.folder);
+  const FolderLock lock(options.folder);
+  const StoppedRun stopped_run = find_stopped_run(options.folder);
+  const LoadedScene& loaded = stopped_run.scene;
+  const CheckpointInfo& at = stopped_run.checkpoint->info();
+  if (options.talks()) fmt::print("resumed at step {}, t = {:.6g} s\n", at.step, at.time);
+  const int threads = threads_of(options);
+  if (loaded.scene.afm) return resume_afm(loaded, options, *stopped_run.checkpoint, threads);
+  require_memory(loaded.scene);
+  Run run(loaded, options, options.folder, threads,
+          std::make_unique<Simulation>(loaded.scene, threads));
+  run.go_on_from(*stopped_run.checkpoint);
+  return complete(run);
 }
 
 }  // namespace pulvis

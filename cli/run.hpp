@@ -1,10 +1,11 @@
-// pulvis run: a scene from its file to its results folder.
+// pulvis run: a scene from its file to its results folder; pulvis resume: what was left of one.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "cli/checkpoints.hpp"
 #include "cli/exit_code.hpp"
 
 namespace pulvis {
@@ -15,8 +16,15 @@ struct RunOptions {
   int threads = 0;               // 0: all processors
   bool overwrite = false;
   std::vector<std::string> overrides;  // key.path=value
+  CheckpointOptions checkpoints;
+  bool quiet = false;  // nothing on the terminal but what goes wrong
+  bool json = false;   // the same, and summary.json on the standard output
+  bool talks() const { return !quiet && !json; }
 };
 
 ExitCode run_scene(const RunOptions& options);
+
+// pulvis resume: goes on with the run of a folder, from its newest checkpoint.
+ExitCode resume_run(const RunOptions& options);
 
 }  // namespace pulvis

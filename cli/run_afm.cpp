@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstring>
-#include <fstream>
 
+#include "cli/interrupt.hpp"
 #include "cli/plan.hpp"
+#include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
+#include "cli/write_text.hpp"
 #include "components/solid.hpp"
 #include "engine/output_error.hpp"
 #include "engine/recorder.hpp"
@@ -26,12 +24,6 @@
 
 namespace pulvis {
 namespace {
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
-}
 
 RunMesh mesh_of(const AfmSimulation& simulation) {
   const World& world = const_cast<AfmSimulation&>(simulation).world();
@@ -80,45 +72,103 @@ std::vector<double> positions(const AfmSimulation& simulation, const RunMesh& me
   return x;
 }
 
-std::atomic<bool> interrupted{false};
-void interrupt(int) { interrupted = true; }
-
 struct ProgrammeEnd {
   bool done = false;
   std::string failure;
 };
 
-// Runs the actions and keeps their history; some twelve frames of the solid, the last one included.
-ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScene& loaded,
-                           int threads, AfmSimulation& simulation, AfmHistory& history) {
-  const RunMesh mesh = mesh_of(simulation);
-  Recorder recorder(folder,
-                    {program_version(), program_commit(), loaded.scene.title,
-                     fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
-                    mesh, afm_series(), {{"position", "m", "of the node", FieldPlace::node, 3}});
-  std::size_t total = 1;
-  for (const ActionSpec& action : loaded.scene.afm->actions)
-    total += static_cast<std::size_t>(action.increments) * (action.back ? 2 : 1);
-  const std::size_t every = std::max<std::size_t>(1, total / 12);
-  const auto frame = [&](double time) {
-    recorder.frame(time, static_cast<std::int64_t>(history.rows.size()),
-                   {positions(simulation, mesh)});
-  };
-  ProgrammeEnd end;
-  try {
-    end.done = simulation.run([&](double time, const std::vector<double>& row) {
-      history.times.push_back(time);
-      history.rows.push_back(row);
-      recorder.sample(time, row);
-      if (history.rows.size() % every == 1 || every == 1) frame(time);
-      return !interrupted;
-    });
-  } catch (const RunFailure& failure) {
-    end.failure = failure.what();
+// The actions being run, their history, and some twelve frames of the solid, the last one included.
+struct ProgrammeRun {
+  const LoadedScene& loaded;
+  AfmSimulation& simulation;
+  AfmHistory& history;
+  RunMesh mesh;
+  Checkpoints checkpoints;
+  AfmPosition position;
+  std::unique_ptr<Recorder> recorder;
+  std::size_t every;
+
+  ProgrammeRun(const LoadedScene& scene, const RunOptions& options,
+               const std::filesystem::path& folder, AfmSimulation& afm, AfmHistory& rows)
+      : loaded(scene),
+        simulation(afm),
+        history(rows),
+        mesh(mesh_of(afm)),
+        checkpoints(scene, folder, options.checkpoints) {
+    std::size_t total = 1;
+    for (const ActionSpec& action : loaded.scene.afm->actions)
+      total += static_cast<std::size_t>(action.increments) * (action.back ? 2 : 1);
+    every = std::max<std::size_t>(1, total / 12);
   }
-  if (!history.times.empty()) frame(history.times.back());
-  recorder.finish(end.done ? "done" : end.failure.empty() ? "interrupted" : end.failure);
-  return end;
+
+  static std::vector<FieldInfo> fields() {
+    return {{"position", "m", "of the node", FieldPlace::node, 3}};
+  }
+
+  void frame(double time) {
+    recorder->frame(time, static_cast<std::int64_t>(history.rows.size()),
+                    {positions(simulation, mesh)});
+  }
+
+  std::int64_t increment() const { return position.told - 1; }
+  bool stops() const { return interrupted() || checkpoints.stops(increment()); }
+
+  void write_checkpoint() {
+    RecorderPosition results = recorder->position();
+    StateWriter writer;
+    writer(results, position, history);
+    checkpoints.write(increment(), history.times.back(), simulation.world(),
+                      {{"afm", writer.bytes()}});
+  }
+
+  // False where the run is to stop here.
+  bool take(double time, const std::vector<double>& row) {
+    history.times.push_back(time);
+    history.rows.push_back(row);
+    recorder->sample(time, row);
+    if (history.rows.size() % every == 1 || every == 1) frame(time);
+    if (stops() || checkpoints.due(increment())) write_checkpoint();
+    return !stops();
+  }
+
+  ProgrammeEnd go(const Checkpoint* from) {
+    std::function<void(World&)> restore;
+    if (from != nullptr) restore = [&](World& world) { from->restore(world); };
+    ProgrammeEnd end;
+    try {
+      end.done = simulation.run(
+          [&](double time, const std::vector<double>& row) { return take(time, row); }, position,
+          restore);
+    } catch (const RunFailure& failure) {
+      end.failure = failure.what();
+    }
+    if (!history.times.empty()) frame(history.times.back());
+    recorder->finish(end.done ? "done" : end.failure.empty() ? "interrupted" : end.failure);
+    if (end.done) checkpoints.remove();
+    return end;
+  }
+};
+
+ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScene& loaded,
+                           const RunOptions& options, int threads, const Checkpoint* from,
+                           AfmSimulation& simulation, AfmHistory& history) {
+  ProgrammeRun run(loaded, options, folder, simulation, history);
+  if (from == nullptr) {
+    run.recorder = std::make_unique<Recorder>(
+        folder,
+        RunAttributes{program_version(), program_commit(), loaded.scene.title,
+                      fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
+        run.mesh, afm_series(), ProgrammeRun::fields());
+  } else {
+    RecorderPosition results;
+    const std::vector<std::byte> bytes = from->run("afm");
+    StateReader reader(bytes);
+    reader(results, run.position, history);
+    run.checkpoints.resumed(run.increment());
+    run.recorder =
+        std::make_unique<Recorder>(folder, run.mesh, afm_series(), ProgrammeRun::fields(), results);
+  }
+  return run.go(from);
 }
 
 std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
@@ -147,16 +197,10 @@ void print_end(const AfmReport& report, const std::filesystem::path& folder) {
   fmt::print("results in {}\n", folder.string());
 }
 
-}  // namespace
-
-ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder, int threads,
-                 bool overwrite) {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
+                  const std::filesystem::path& folder, int threads, const Checkpoint* from,
+                  AfmSimulation& simulation) {
   const auto start = std::chrono::steady_clock::now();
-  AfmSimulation simulation(loaded.scene, threads);
-  open_run_folder(folder, overwrite);
-  write_text(folder / "scene.toml", loaded.text);
   AfmReport report;
   AfmHistory history;
   ProgrammeEnd end{true, ""};
@@ -164,7 +208,7 @@ ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder,
   if (loaded.scene.afm->actions.empty())
     write_frames(folder, loaded, threads, simulation);
   else
-    end = run_programme(folder, loaded, threads, simulation, history);
+    end = run_programme(folder, loaded, options, threads, from, simulation, history);
   if (end.done) report.loops = friction_loops(loaded.scene, history);
   report.elements = simulation.model().elements;
   report.nodes = simulation.model().nodes;
@@ -179,11 +223,32 @@ ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder,
     report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
                             end.failure, threads);
   write_text(folder / "summary.json", afm_summary(loaded, report));
-  print_end(report, folder);
+  if (options.json) print_summary(folder);
+  if (options.talks()) print_end(report, folder);
   const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);
   if (!expected) fmt::print(stderr, "pulvis: the run went bad: {}\n", end.failure);
-  if (!end.done && end.failure.empty()) return ExitCode::interrupted;
+  if (!end.done && end.failure.empty()) {
+    fmt::print(stderr, "pulvis: interrupted at increment {}; it goes on with: pulvis resume {}\n",
+               report.increments, folder.string());
+    return ExitCode::interrupted;
+  }
   return expected && all_met(report.verdicts) ? ExitCode::done : ExitCode::run_failed;
+}
+
+}  // namespace
+
+ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
+                 const std::filesystem::path& folder, int threads) {
+  AfmSimulation simulation(loaded.scene, threads);
+  const FolderLock lock = open_run_folder(folder, options.overwrite);
+  write_text(folder / "scene.toml", loaded.text);
+  return complete(loaded, options, folder, threads, nullptr, simulation);
+}
+
+ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
+                    const Checkpoint& checkpoint, int threads) {
+  AfmSimulation simulation(loaded.scene, threads);
+  return complete(loaded, options, options.folder, threads, &checkpoint, simulation);
 }
 
 ExitCode check_afm_scene(const Scene& scene) {

@@ -1,15 +1,17 @@
-// pulvis run, check and plan for scenes of the family "afm".
+// pulvis run, resume, check and plan for scenes of the family "afm".
 #pragma once
 
 #include <filesystem>
 
-#include "cli/exit_code.hpp"
+#include "cli/run.hpp"
 #include "scenes/read.hpp"
 
 namespace pulvis {
 
-ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder, int threads,
-                 bool overwrite);
+ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
+                 const std::filesystem::path& folder, int threads);
+ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
+                    const Checkpoint& checkpoint, int threads);
 ExitCode check_afm_scene(const Scene& scene);
 ExitCode plan_afm(const Scene& scene, bool dot);
 

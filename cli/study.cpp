@@ -1,18 +1,14 @@
 #include "cli/study.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 
+#include "cli/interrupt.hpp"
 #include "cli/study_jobs.hpp"
 #include "cli/study_report.hpp"
 #include "cli/study_results.hpp"
@@ -26,33 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Time = std::chrono::steady_clock;
-
-std::atomic<bool> interrupted{false};
-void interrupt(int) { interrupted = true; }
-
-void take_signals() {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
-  std::signal(SIGXFSZ, SIG_IGN);
-}
-
-// Two studies in one folder would take each other's runs away. The lock goes with the process.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder)
-      : file_(open((folder / ".study.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (file_ < 0) throw OutputError(folder, "lock the study's folder", std::strerror(errno));
-    if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-    close(file_);
-    throw RunFolderTaken(folder, "start the study here", "another study is running in it");
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  ~FolderLock() { close(file_); }
-
- private:
-  int file_;
-};
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -117,7 +86,7 @@ class StudyRunner {
     run_jobs(jobs, times_.jobs,
              {[&](std::size_t job) { begin(job); },
               [&](std::size_t job, const JobEnd& end) { ended(job, end); }, [&] { show_state(); },
-              [] { return interrupted.load(); }});
+              [] { return interrupted(); }});
     clear_state();
     times_.wall_seconds = seconds();
   }
@@ -167,7 +136,7 @@ class StudyRunner {
     StudyResult& result = results_[waiting_[job]];
     result.code = end.code;
     result.failure = failure_of(end, result.folder / "log.txt");
-    if (interrupted) return;
+    if (interrupted()) return;
     done_ += 1;
     StudyResult told = result;
     read_result(told);
@@ -243,15 +212,16 @@ ExitCode run_study(const StudyOptions& options) {
     print_list(study);
     return ExitCode::done;
   }
-  take_signals();
+  take_interrupts();
   const fs::path folder =
       options.folder.empty() ? fs::path("runs") / options.study.stem() : options.folder;
   make_folder(folder);
-  const FolderLock lock(folder);
+  // Two studies in one folder would take each other's runs away.
+  const FolderLock lock(folder, "another study is running in it");
   std::ofstream(folder / "study.toml") << study.text;
   StudyRunner runner(options, study, folder);
   runner.go();
-  if (interrupted) {
+  if (interrupted()) {
     fmt::print(stderr,
                "pulvis: interrupted; {} of {} runs were finished, the same command goes on\n",
                runner.done(), runner.to_do());

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "cli/summary_compaction.hpp"
@@ -110,6 +111,10 @@ void add_shear(Json& json, const Results& results) {
 
 std::string program_version() { return PULVIS_VERSION; }
 std::string program_commit() { return PULVIS_COMMIT; }
+
+void print_summary(const std::filesystem::path& folder) {
+  std::cout << std::ifstream(folder / "summary.json").rdbuf() << std::flush;
+}
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
                    const Results& results, const CompactionCurve& curve, const RunCost& cost,

@@ -22,6 +22,9 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
                    const Results& results, const CompactionCurve& curve, const RunCost& cost,
                    const std::vector<Verdict>& verdicts);
 
+// The file as it was written, on the standard output.
+void print_summary(const std::filesystem::path& folder);
+
 // Version and commit of this program, as results carry them.
 std::string program_version();
 std::string program_commit();

@@ -132,6 +132,11 @@ struct alignas(64) BlockSums {
   double depth = 0;           // -, largest penetration over edge length; NaN where one is
   std::int32_t deepest = -1;  // its row; none where nothing touches
   std::int32_t touching = 0;  // rows with a touching point
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(energy, friction_work, damping_work, depth, deepest, touching);
+  }
 };
 
 template <class At>
@@ -139,6 +144,11 @@ struct ContactSums {
   static constexpr const char* resource_name =
       std::is_same_v<At, Contact> ? "contact_sums" : "tool_contact_sums";
   std::vector<BlockSums> blocks;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(blocks);
+  }
 };
 
 }  // namespace pulvis

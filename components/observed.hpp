@@ -35,17 +35,32 @@ struct ContactLink {
   double normal_force() const { return force[0] * normal[0] + force[1] * normal[1]; }
   // Along (-n_y, n_x).
   double tangential_force() const { return force[1] * normal[0] - force[0] * normal[1]; }
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(first, second, point, normal, force, length);
+  }
 };
 
 struct ContactNetwork {
   static constexpr const char* resource_name = "contact_network";
   std::vector<ContactLink> pairs;  // each once, sorted by numbers; an outline's folds are none
   std::vector<ContactLink> tools;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(pairs, tools);
+  }
 };
 
 struct ForceChains {
   static constexpr const char* resource_name = "force_chains";
   std::vector<std::int32_t> chain;  // [particles], by number: the particle's chain, from 1; 0: none
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(chain);
+  }
 };
 
 // ---- output.density_cells ---------------------------------------------------------------------------
@@ -63,6 +78,11 @@ struct DensityGrid {
   std::array<double, 4> side{};  // m: x of left and right, y of bottom and top
   std::vector<double> filled;  // m^2, [rows * columns] from the bottom: of the particles in a cell
   std::vector<double> room;    // m^2, of the cell outside of the tools
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(side, filled, room);
+  }
 };
 
 }  // namespace pulvis

@@ -62,6 +62,12 @@ struct Target {
   bool stick = false;    // predictor: every point that touches sticks, whatever the force
   bool servo = false;    // the scanner's height follows so that ...
   double set_point = 0;  // N, ... the target pushes the probe up with this force
+
+  // The rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(position, stick, servo, set_point);
+  }
 };
 
 }  // namespace pulvis

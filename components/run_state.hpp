@@ -24,6 +24,11 @@ struct Clock {
       0;  // m, bound on how far any two surfaces have moved relative to each other so far
   std::int64_t next_look = 0;  // step at which the stable time step is determined anew
   double stiffening = 1;  // -, tangent of the stiffest contact spring over that of an untouched one
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(step, time, dt_before, dt, end, safety, travel, next_look, stiffening);
+  }
 };
 
 // Prescribed motion of the tools: every segment moves one tool by `displacement` over its duration.
@@ -37,10 +42,20 @@ struct ToolProgram {
     int stage = 0;
     // s: when the speed begins to fall although the way is not done; never, unless the stage ends early.
     double cut = std::numeric_limits<double>::infinity();
+
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(tool, begin, duration, ramp, displacement, stage, cut);
+    }
   };
   struct Stage {
     std::string name;
     double begin = 0, end = 0;  // s
+
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(name, begin, end);
+    }
   };
   std::vector<std::string> names;
   std::vector<Point> start;  // m
@@ -53,10 +68,16 @@ struct ToolProgram {
     while (stage < stages.size() && time >= stages[stage].end) ++stage;
     return stage;
   }
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(names, start, segments, stages);
+  }
 };
 
 struct ContactRules {
   static constexpr const char* resource_name = "contact_rules";
+  static constexpr bool fixed = true;
   double stiffness = 1;            // -, k of kappa = k K L/A
   double damping = 0;              // -, share of critical
   double penetration_limit = 0.5;  // -, of the edge length
@@ -96,6 +117,12 @@ struct ContactIndex {
       other_begin;  // [slots + 1] into other_rows: particle is sampled against
   std::vector<std::int32_t> other_rows;
   std::vector<std::int32_t> tool_begin;  // [slots + 1] into tool contact rows
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(skin, neighbourhood, travel_at_bin, look_at, due, bins, neighbour_begin, neighbours,
+          tools_before, sampled_begin, other_begin, other_rows, tool_begin);
+  }
 };
 
 // Sums over the run and of the last step.
@@ -109,6 +136,12 @@ struct Totals {
   double worst_penetration = 0;  // -, the same, of the run
   double least_jacobian = 1;     // -, smallest det F of the run
   std::int64_t touching = 0;     // rows with a touching point now
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(external_work, friction_work, damping_work, contact_energy, penetration,
+          worst_penetration, least_jacobian, touching);
+  }
 };
 
 }  // namespace pulvis

@@ -42,6 +42,12 @@ struct ToolServos {
   };
   std::vector<Servo> servos;
   std::size_t stage = static_cast<std::size_t>(-1);  // in which the last step was
+
+  // The servos are the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(stage);
+  }
 };
 
 // ---- stages that end early ------------------------------------------------------------------------
@@ -55,6 +61,12 @@ struct StageEnds {
     Point direction{};  // the force along it; zero: the size of the resultant
     double value = 0;   // N, m or -
     bool reached = false;
+
+    // The rest is the scene's.
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(reached);
+    }
   };
   struct Cell {  // tools around the powder, and its area: what relative density is
     int left = 0, right = 0, bottom = 0, top = 0;
@@ -65,6 +77,12 @@ struct StageEnds {
   Cell cell;
   std::vector<Point> tools_at_begin;  // m, [tools]: where they stood when the stage began
   std::size_t stage = static_cast<std::size_t>(-1);
+
+  // The cell is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(ends, tools_at_begin, stage);
+  }
 };
 
 }  // namespace pulvis

@@ -75,6 +75,7 @@ struct Shape {
 // like the others (at rest, undeformed) and seen by no contact, no energy and no result.
 struct Bodies {
   static constexpr const char* resource_name = "bodies";
+  static constexpr bool fixed = true;
   static constexpr int nobody = -1;
 
   struct Slot {

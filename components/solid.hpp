@@ -62,6 +62,7 @@ struct BlockTangent : Component<StiffnessBlock, double, 9> {
 // Hexahedra: corners 0-3 counter-clockwise at zeta = -1 seen from +zeta, 4-7 above them.
 struct SolidMesh {
   static constexpr const char* resource_name = "solid_mesh";
+  static constexpr bool fixed = true;
   using Hexahedron = std::array<std::int32_t, 8>;
   // A node that hangs on others moves as their weighted mean; one that hangs on nobody is held.
   struct Support {
@@ -87,6 +88,7 @@ struct SolidMesh {
 // Where the numbers of the elements go: lists made once, added up in their order, whatever the threads.
 struct SolidAssembly {
   static constexpr const char* resource_name = "solid_assembly";
+  static constexpr bool fixed = true;
   struct Share {
     std::int32_t element = 0;
     std::int8_t row = 0, column = 0;  // corners; of a force: row

@@ -28,6 +28,7 @@ struct ToolSurface {
 
 struct ToolShapes {  // only where a tool is no plane
   static constexpr const char* resource_name = "tool_shapes";
+  static constexpr bool fixed = true;
   enum class Kind { plane, polyline, grip };
   std::vector<Kind> kind;            // [tools]
   std::vector<ToolSurface> surface;  // [tools]; empty unless a polyline
@@ -65,6 +66,7 @@ struct GripReaction : Component<GrippedNode, double, 1> {
 
 struct GripIndex {
   static constexpr const char* resource_name = "grip_index";
+  static constexpr bool fixed = true;
   std::vector<std::int32_t> begin;  // [chunks + 1] into gripped nodes
 };
 

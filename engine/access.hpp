@@ -125,6 +125,8 @@ class Read<R> {
 
 template <IsResource R>
 class Write<R> {
+  static_assert(HasState<R>, "a resource that a system writes has a state that checkpoints keep");
+
  public:
   explicit Write(World& world) : resource_(&world.resource<R>()) {}
   static AccessInfo info() { return detail::access_info<R>(AccessMode::write); }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "engine/hdf5_journal.hpp"
 #include "engine/output_error.hpp"
 
 namespace pulvis::hdf5 {
@@ -118,9 +119,11 @@ void Handle::close() noexcept {
 File::File(std::filesystem::path path, Handle handle)
     : path_(std::move(path)), handle_(std::move(handle)) {}
 
-File File::create(const std::filesystem::path& path) {
+File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
   prepare_library();
-  const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, defaults, defaults);
+  const Handle properties(H5Pcreate(H5P_FILE_CREATE));
+  H5Pset_userblock(properties.get(), user_block);
+  const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.get(), defaults);
   if (id < 0) throw OutputError(path, "create the file", reason());
   return {path, Handle(id)};
 }
@@ -128,6 +131,15 @@ File File::create(const std::filesystem::path& path) {
 File File::open(const std::filesystem::path& path) {
   prepare_library();
   const Id id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, defaults);
+  if (id < 0) throw OutputError(path, "open the file", reason());
+  return {path, Handle(id)};
+}
+
+File File::open_to_change(const std::filesystem::path& path) {
+  prepare_library();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_driver(access.get(), journal_driver(), nullptr);
+  const Id id = H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get());
   if (id < 0) throw OutputError(path, "open the file", reason());
   return {path, Handle(id)};
 }
@@ -164,6 +176,10 @@ void File::write(const std::string& dataset, std::span<const double> values, con
 void File::write(const std::string& dataset, std::span<const std::int32_t> values,
                  const Shape& shape, Packing packing) {
   write_any(dataset, H5T_NATIVE_INT32, values.data(), values.size(), shape, packing);
+}
+
+void File::write(const std::string& dataset, std::span<const std::byte> bytes) {
+  write_any(dataset, H5T_NATIVE_UINT8, bytes.data(), bytes.size(), {bytes.size()}, Packing::none);
 }
 
 void File::write_any(const std::string& dataset, Id type, const void* values, std::size_t count,
@@ -205,6 +221,22 @@ void File::append(const std::string& dataset, std::span<const double> values) {
   checked(H5Dwrite(series.get(), H5T_NATIVE_DOUBLE, source.get(), target.get(), defaults,
                    values.data()),
           "write", dataset);
+}
+
+void File::shorten(const std::string& series, std::uint64_t rows) {
+  if (size_of(series) <= rows) return;
+  const hsize_t after = rows;
+  const Handle found(checked(H5Dopen2(handle_.get(), series.c_str(), defaults), "open", series));
+  checked(H5Dset_extent(found.get(), &after), "shorten", series);
+}
+
+void File::remove(const std::string& object) {
+  checked(H5Ldelete(handle_.get(), object.c_str(), defaults), "remove", object);
+}
+
+void File::remove_attribute(const std::string& object, const std::string& name) {
+  checked(H5Adelete_by_name(handle_.get(), object.c_str(), name.c_str(), defaults),
+          "remove the attribute " + name + " of", object);
 }
 
 void File::set_attribute(const std::string& object, const std::string& name, double value) {
@@ -291,6 +323,12 @@ std::vector<std::int32_t> File::read_integers(const std::string& dataset) const 
   std::vector<std::int32_t> values(size_of(dataset));
   if (!values.empty()) read_any(dataset, H5T_NATIVE_INT32, values.data());
   return values;
+}
+
+std::vector<std::byte> File::read_bytes(const std::string& dataset) const {
+  std::vector<std::byte> bytes(size_of(dataset));
+  if (!bytes.empty()) read_any(dataset, H5T_NATIVE_UINT8, bytes.data());
+  return bytes;
 }
 
 bool File::has_attribute(const std::string& object, const std::string& name) const {

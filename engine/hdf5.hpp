@@ -42,8 +42,13 @@ enum class Packing { none, shuffle_gzip };  // the latter for meshes: it gains a
 
 class File {
  public:
-  static File create(const std::filesystem::path& path);  // an existing file is replaced
-  static File open(const std::filesystem::path& path);    // read only
+  // An existing file is replaced. The first `user_block` bytes (0, or a power of two from 512) are left
+  // to the caller.
+  static File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
+  static File open(const std::filesystem::path& path);  // read only
+  // Changes come with a flush as a whole, or not at all, and others may read meanwhile; see
+  // engine/journaled_file.hpp. Opening repairs what a killed program has left.
+  static File open_to_change(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   void flush();  // to the disk: H5Fflush and fsync
@@ -55,12 +60,17 @@ class File {
              Packing packing = Packing::none);
   void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
              Packing packing = Packing::none);
+  void write(const std::string& dataset, std::span<const std::byte> bytes);
   void make_series(const std::string& dataset, std::uint64_t chunk);  // empty, 1-D, extendable
   void append(const std::string& dataset, std::span<const double> values);
   void set_attribute(const std::string& object, const std::string& name, double value);
   void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::uint64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::string_view value);
+
+  void shorten(const std::string& series, std::uint64_t rows);  // no longer than so many
+  void remove(const std::string& object);
+  void remove_attribute(const std::string& object, const std::string& name);
 
   // Reading.
   bool contains(const std::string& object) const;
@@ -70,6 +80,7 @@ class File {
   Shape shape(const std::string& dataset) const;
   std::vector<double> read_doubles(const std::string& dataset) const;
   std::vector<std::int32_t> read_integers(const std::string& dataset) const;
+  std::vector<std::byte> read_bytes(const std::string& dataset) const;
   bool has_attribute(const std::string& object, const std::string& name) const;
   double number_attribute(const std::string& object, const std::string& name) const;
   std::uint64_t unsigned_attribute(const std::string& object, const std::string& name) const;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/file_descriptor.hpp"
 #include "engine/output_error.hpp"
 
 namespace pulvis {
@@ -60,18 +61,88 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
                    const RunMesh& mesh, std::vector<SeriesInfo> series,
                    std::vector<FieldInfo> fields)
     : series_(std::move(series)),
-      fields_((check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
-      file_(hdf5::File::create(folder / "run.h5")),
+      fields_(
+          (check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
+      file_(hdf5::File::create(folder / "run.h5.new")),
       csv_(folder / "history.csv", series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
+      places_{mesh.node_particle.size(), mesh.cell_particle.size()},
       pending_(series_.size()) {
   survive_a_full_quota();
-  places_ = {mesh.node_particle.size(), mesh.cell_particle.size()};
   write_attributes(attributes);
   write_mesh(mesh);
   file_.make_group("/frames");
   make_history();
   file_.flush();
+  file_.close();
+  put_in_place(folder);
+}
+
+// From its first moment on run.h5 can be read, whatever happens.
+void Recorder::put_in_place(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "run.h5";
+  std::error_code error;
+  std::filesystem::rename(file_.path(), path, error);
+  if (error) throw OutputError(path, "put the file in its place", error.message());
+  sync_folder(folder);
+  file_ = hdf5::File::open_to_change(path);
+}
+
+Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
+                   std::vector<SeriesInfo> series, std::vector<FieldInfo> fields,
+                   const RecorderPosition& position)
+    : series_(std::move(series)),
+      fields_((check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),
+      file_(hdf5::File::open_to_change(folder / "run.h5")),
+      csv_(folder / "history.csv", series_),
+      xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
+      places_{mesh.node_particle.size(), mesh.cell_particle.size()},
+      pending_(series_.size()) {
+  survive_a_full_quota();
+  cut(position);
+  write_csv_again();
+}
+
+void Recorder::cut(const RecorderPosition& position) {
+  const auto rows = static_cast<std::uint64_t>(position.samples);
+  for (const SeriesInfo& series : series_) file_.shorten("/history/" + series.name, rows);
+  file_.shorten("/history/time", rows);
+  for (const std::string& frame : file_.children("/frames"))
+    if (std::stoll(frame) >= position.frames) file_.remove("/frames/" + frame);
+  if (file_.has_attribute("/", "outcome")) file_.remove_attribute("/", "outcome");
+  const auto there = static_cast<std::int64_t>(file_.children("/frames").size());
+  if (there != position.frames || file_.shape("/history/time").front() != rows)
+    throw OutputError(
+        file_.path(), "go on",
+        fmt::format("frames or samples are missing: {} and {} are there, {} and {} "
+                    "had been written",
+                    there, file_.shape("/history/time").front(), position.frames, rows));
+  for (; frames_ < there; ++frames_) {
+    const std::string group = fmt::format("/frames/{:06}", frames_);
+    xdmf_.keep(file_.number_attribute(group, "time"), group);
+  }
+  samples_ = position.samples;
+  file_.flush();
+}
+
+void Recorder::write_csv_again() {
+  std::vector<std::vector<double>> columns;
+  for (const SeriesInfo& series : series_)
+    columns.push_back(file_.read_doubles("/history/" + series.name));
+  const std::vector<double> times = file_.read_doubles("/history/time");
+  std::vector<double> row(columns.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    for (std::size_t k = 0; k < columns.size(); ++k) row[k] = columns[k][i];
+    csv_.add(times[i], row);
+  }
+  csv_.flush();
+}
+
+RecorderPosition Recorder::position() {
+  append_history();
+  file_.flush();
+  csv_.flush();
+  return {frames_, samples_};
 }
 
 Recorder::~Recorder() {
@@ -139,6 +210,7 @@ void Recorder::append_history() {
     pending_[i].clear();
   }
   file_.append("/history/time", pending_time_);  // last: every series is at least as long
+  samples_ += static_cast<std::int64_t>(pending_time_.size());
   pending_time_.clear();
 }
 
@@ -151,7 +223,6 @@ void Recorder::frame(double time, std::int64_t step,
   file_.set_attribute(group, "step", step);
   for (std::size_t i = 0; i < fields.size(); ++i) write_field(group, fields_[i], fields[i]);
   append_history();
-  file_.flush();
   file_.set_attribute(group, "complete", std::int64_t{1});
   file_.flush();
   csv_.flush();

@@ -12,7 +12,7 @@
 // XDMF has no plane vectors (components = 2 tells); `position` is not. XDMF shows these fields only.
 //
 // After frame() returns, the frame and every sample before it are on the disk: a killed run loses
-// only what came later. All failures of the machine are OutputError.
+// only what came later, and run.h5 can be read at any time, while the run writes, too. All failures of the machine are OutputError.
 #pragma once
 
 #include <cstdint>
@@ -29,12 +29,28 @@
 
 namespace pulvis {
 
+// How far a run had written its results.
+struct RecorderPosition {
+  std::int64_t frames = 0, samples = 0;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(frames, samples);
+  }
+};
+
 class Recorder {
  public:
   // `folder` exists (open_run_folder made it). `position` (node, as many components as the mesh has
   // dimensions) is the first field.
   Recorder(std::filesystem::path folder, const RunAttributes& attributes, const RunMesh& mesh,
            std::vector<SeriesInfo> series, std::vector<FieldInfo> fields);
+  // Goes on with the files of a run that stopped: what was written after `position` is cut off.
+  Recorder(std::filesystem::path folder, const RunMesh& mesh, std::vector<SeriesInfo> series,
+           std::vector<FieldInfo> fields, const RecorderPosition& position);
+
+  // Everything so far is on the disk then.
+  RecorderPosition position();
 
   // One history row: a value a series, in their order. Kept in memory until the next frame.
   void sample(double time, std::span<const double> values);
@@ -54,8 +70,11 @@ class Recorder {
  private:
   void write_attributes(const RunAttributes& attributes);
   void write_mesh(const RunMesh& mesh);
+  void put_in_place(const std::filesystem::path& folder);
   void make_history();
   void append_history();
+  void cut(const RecorderPosition& position);
+  void write_csv_again();
   void write_field(const std::string& group, const FieldInfo& field,
                    const std::vector<double>& values);
   void describe(const std::string& object, const std::string& unit, const std::string& meaning);
@@ -68,7 +87,7 @@ class Recorder {
   std::vector<std::uint64_t> places_;         // how many of each FieldPlace there are
   std::vector<double> pending_time_;          // samples not yet in run.h5
   std::vector<std::vector<double>> pending_;  // [series][sample]
-  std::int64_t frames_ = 0;
+  std::int64_t frames_ = 0, samples_ = 0;     // samples: in run.h5
   bool open_ = true;
 };
 

@@ -1,5 +1,7 @@
 #include "engine/run_folder.hpp"
 
+#include <sys/file.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -39,11 +41,11 @@ std::error_code try_to_write(const fs::path& folder) {
 }
 
 bool belongs_to_a_run(const std::string& name) {
-  for (const char* const own :
-       {"run.h5", "run.xdmf", "history.csv", "summary.json", "report.html", "pictures"}) {
+  for (const char* const own : {"run.h5", "run.h5.new", "run.h5.journal", "run.xdmf", "history.csv",
+                                "summary.json", "report.html", "pictures"}) {
     if (name == own) return true;
   }
-  return name.starts_with("checkpoint-") && name.ends_with(".h5");
+  return name.starts_with("checkpoint-") && (name.ends_with(".h5") || name.ends_with(".h5.new"));
 }
 
 void remove_old_run(const fs::path& folder) {
@@ -57,7 +59,14 @@ void remove_old_run(const fs::path& folder) {
 
 }  // namespace
 
-void open_run_folder(const fs::path& given, bool overwrite) {
+FolderLock::FolderLock(const fs::path& folder, const char* taken)
+    : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (!folder_) throw OutputError(folder, "open the run's folder", std::strerror(errno));
+  if (flock(folder_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw RunFolderTaken(folder, "use the folder", taken);
+}
+
+FolderLock open_run_folder(const fs::path& given, bool overwrite) {
   const fs::path folder = fs::absolute(given / "").parent_path().lexically_normal();
   std::error_code error;
   if (fs::exists(folder / "run.h5", error) && !overwrite) {
@@ -71,7 +80,9 @@ void open_run_folder(const fs::path& given, bool overwrite) {
     take_away(missing);
     throw OutputError(given, "make the run's folder", error.message());
   }
+  FolderLock lock(folder);
   if (overwrite) remove_old_run(folder);
+  return lock;
 }
 
 }  // namespace pulvis

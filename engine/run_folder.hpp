@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "engine/file_descriptor.hpp"
 #include "engine/output_error.hpp"
 
 namespace pulvis {
@@ -13,10 +14,22 @@ class RunFolderTaken : public OutputError {
   using OutputError::OutputError;
 };
 
+// While it lives, no other process gets a lock of the same folder; it goes with the process, however that
+// ends, and leaves no file behind. A file system that knows no locks gives one to everybody.
+class FolderLock {
+ public:
+  // Throws RunFolderTaken; `taken` says by whom.
+  explicit FolderLock(const std::filesystem::path& folder,
+                      const char* taken = "another run is writing into it");
+
+ private:
+  FileDescriptor folder_;
+};
+
 // Makes the folder, parents included, and checks that files can be written into it. A folder that
 // holds a run.h5 is refused unless `overwrite`; then the old run's own files (run.h5, run.xdmf,
 // history.csv, summary.json, report.html, checkpoint-*.h5, pictures/) go and others stay. A refusal
 // leaves everything as it was: what this call made is taken away again.
-void open_run_folder(const std::filesystem::path& folder, bool overwrite = false);
+FolderLock open_run_folder(const std::filesystem::path& folder, bool overwrite = false);
 
 }  // namespace pulvis

@@ -53,6 +53,22 @@ void World::allocate_transient(const std::vector<TypeKey>& components, int worke
   }
 }
 
+void World::set_column(const ColumnBase& column, std::span<const std::byte> rows) {
+  const auto owner = std::ranges::find_if(tables_, [&](const auto& table) {
+    return std::ranges::find(table.second->columns, &column) != table.second->columns.end();
+  });
+  if (owner == tables_.end()) throw std::logic_error("the column is not the world's");
+  Table& table = *owner->second;
+  ColumnBase& own = **std::ranges::find(table.columns, &column);
+  const std::size_t count = rows.size() / own.row_bytes;
+  const bool fixed = !table.chunk_begin.empty();
+  if (rows.size() % own.row_bytes != 0 || (fixed && count != table.rows))
+    throw BadState("the rows of " + own.place + "/" + own.info.name + " do not fit the scene");
+  if (own.bytes() != rows.size()) own.allocate(count);
+  std::ranges::copy(rows, own.data());
+  table.rows = count;
+}
+
 Table& World::insert_table(TypeKey key, Table table) {
   if (!table.chunk_begin.empty()) {
     const int chunks = static_cast<int>(table.chunk_begin.size()) - 1;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <new>
@@ -16,6 +17,7 @@
 
 #include "engine/component.hpp"
 #include "engine/lane.hpp"
+#include "engine/state_bytes.hpp"
 
 namespace pulvis {
 
@@ -40,8 +42,13 @@ class Buffer {
 
 class ColumnBase {
  public:
-  ColumnBase(ComponentInfo declared, std::string at, int numbers, std::size_t bytes_of_row)
-      : info(declared), place(std::move(at)), count(numbers), row_bytes(bytes_of_row) {}
+  ColumnBase(ComponentInfo declared, std::string at, int numbers, std::size_t bytes_of_row,
+             bool is_transient)
+      : info(declared),
+        place(std::move(at)),
+        count(numbers),
+        row_bytes(bytes_of_row),
+        declared_transient(is_transient) {}
   virtual ~ColumnBase() = default;
   ColumnBase(const ColumnBase&) = delete;
   ColumnBase& operator=(const ColumnBase&) = delete;
@@ -64,8 +71,9 @@ class ColumnBase {
 
   const ComponentInfo info;
   const std::string place;
-  const int count;              // numbers in a row (in a lane of a slot)
-  const std::size_t row_bytes;  // of a row, or of a slot with its lanes
+  const int count;                // numbers in a row (in a lane of a slot)
+  const std::size_t row_bytes;    // of a row, or of a slot with its lanes
+  const bool declared_transient;  // nobody needs it after its step
 
  private:
   Buffer buffer_, transient_;
@@ -91,7 +99,7 @@ class Column : public ColumnBase {
       sizeof(value_type) * C::count * (laned ? lane_count : 1);
 
   explicit Column(const Table& owner)
-      : ColumnBase(C::info, C::Place::name, C::count, bytes_a_row), table(owner) {}
+      : ColumnBase(C::info, C::Place::name, C::count, bytes_a_row, C::transient), table(owner) {}
 
   std::span<const std::byte> of_chunk(int chunk) const override {
     if (table.chunk_begin.empty()) return {};
@@ -115,6 +123,10 @@ class Column : public ColumnBase {
 
 class World {
  public:
+  World() = default;
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
   // A place divided by chunks gets the rows (or slots) of every chunk; another just a number of rows.
   template <class Place>
   void add_table(const std::vector<std::int32_t>& rows_of_chunk);
@@ -164,6 +176,16 @@ class World {
 
   // In the order in which they were added.
   const std::vector<const ColumnBase*>& columns() const { return ordered_; }
+  // Takes over a checkpoint's rows of a column. A place that is not divided by chunks gets as many rows;
+  // all its columns must follow. Throws BadState where they do not fit.
+  void set_column(const ColumnBase& column, std::span<const std::byte> rows);
+  struct SavedResource {
+    std::string name;
+    std::function<std::vector<std::byte>()> state;
+    std::function<void(std::span<const std::byte>)> set_state;
+  };
+  // Those that are not fixed, in the order in which they were added.
+  const std::vector<SavedResource>& saved_resources() const { return saved_resources_; }
   int chunks() const { return chunks_; }
   // Room for what these transient columns hold of a chunk, for every worker.
   void allocate_transient(const std::vector<TypeKey>& components, int workers);
@@ -175,6 +197,7 @@ class World {
   std::map<TypeKey, std::unique_ptr<ColumnBase>> columns_;
   std::map<TypeKey, std::shared_ptr<void>> resources_;
   std::vector<const ColumnBase*> ordered_;
+  std::vector<SavedResource> saved_resources_;
   int chunks_ = 0;
 };
 
@@ -205,8 +228,17 @@ void World::add() {
 
 template <IsResource R, class... Args>
 R& World::emplace(Args&&... args) {
+  static_assert(
+      IsFixed<R> != HasState<R>,
+      "a resource says how a checkpoint keeps it: `static constexpr bool fixed = true` "
+      "where it never changes, else a member template state(); see engine/state_bytes.hpp");
   auto made = std::make_shared<R>(std::forward<Args>(args)...);
   R& result = *made;
+  if constexpr (HasState<R>)
+    if (!has<R>())
+      saved_resources_.push_back(
+          {R::resource_name, [this] { return state_of(resource<R>()); },
+           [this](std::span<const std::byte> bytes) { pulvis::set_state(resource<R>(), bytes); }});
   resources_[type_key<R>()] = std::move(made);
   return result;
 }

@@ -59,7 +59,7 @@ Xdmf::Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
 }
 
 void Xdmf::add(double time, const std::string& group) {
-  grids_ += grid(time, group);
+  keep(time, group);
   replace_file(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<Xdmf Version=\"3.0\">\n<Domain>\n"

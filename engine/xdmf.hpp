@@ -21,6 +21,8 @@ class Xdmf {
   Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
        const std::vector<FieldInfo>& fields);
   void add(double time, const std::string& group);  // group: "/frames/000000"
+  // A frame that run.h5 has already; the file is written with the next one that is added.
+  void keep(double time, const std::string& group) { grids_ += grid(time, group); }
 
  private:
   std::string grid(double time, const std::string& group) const;

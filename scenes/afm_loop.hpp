@@ -38,6 +38,10 @@ struct FrictionLoop {
 struct AfmHistory {
   std::vector<double> times;
   std::vector<std::vector<double>> rows;
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(times, rows);
+  }
   double value(std::size_t sample, const std::string& series) const;
 };
 

@@ -152,7 +152,14 @@ bool AfmProgramme::tell() {
         detector.lateral_gain * spot.lateral, touching, touching > 0 ? sliding / touching : 0,
         elastic_energy(model_), static_cast<double>(iterations_)})
     row.push_back(value);
+  position_.told += 1;
   return record_(time_, row);
+}
+
+bool AfmProgramme::skip() {
+  if (to_skip_ == 0) return false;
+  to_skip_ -= 1;
+  return true;
 }
 
 void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int depth) {
@@ -182,10 +189,11 @@ bool AfmProgramme::way(const std::array<double, 3>& travel, int increments, bool
   const std::array<double, 3> step{travel[0] / increments, travel[1] / increments,
                                    travel[2] / increments};
   for (int i = 0; i < increments; ++i) {
+    const bool made = skip();
     iterations_ = 0;
-    advance(step, servo, 0);
+    if (!made) advance(step, servo, 0);
     time_ += share_ / increments;
-    if (!tell()) return false;
+    if (!made && !tell()) return false;
   }
   return true;
 }
@@ -198,17 +206,21 @@ bool AfmProgramme::press(const ActionSpec& action, double sign) {
 // The set point rises in even steps; the first one finds the surface: the servo needs a touch.
 bool AfmProgramme::press_to_force(const ActionSpec& action) {
   Target& target = model_.world->resource<Target>();
-  const double from = vertical_force();
-  if (from <= 0) {
+  if (to_skip_ == 0) {
+    position_.from = vertical_force();
     const double touch = 1e-3 * std::abs(*action.force) / model_.normal_stiffness;
-    advance({0, 0, touch}, false, 0);
+    if (position_.from <= 0) advance({0, 0, touch}, false, 0);
   }
+  const double from = position_.from;
   for (int i = 1; i <= action.increments; ++i) {
+    const bool made = skip();
     iterations_ = 0;
-    target.set_point = from + (*action.force - from) * i / action.increments;
-    advance({0, 0, 0}, true, 0);
+    if (!made) {
+      target.set_point = from + (*action.force - from) * i / action.increments;
+      advance({0, 0, 0}, true, 0);
+    }
     time_ += 1.0 / action.increments;
-    if (!tell()) return false;
+    if (!made && !tell()) return false;
   }
   return true;
 }
@@ -227,14 +239,19 @@ bool AfmProgramme::scan(const ActionSpec& action) {
 }
 
 bool AfmProgramme::run() {
-  solver_.look();
-  if (!tell()) return false;
+  if (position_.told == 0) {
+    solver_.look();
+    if (!tell()) return false;
+  } else {
+    to_skip_ = position_.told - 1;
+  }
   for (std::size_t i = 0; i < scene_.afm->actions.size(); ++i) {
     const ActionSpec& action = scene_.afm->actions[i];
     using Kind = ActionSpec::Kind;
     bool on = true;
     const double end = static_cast<double>(i + 1);
-    if (action.servo) model_.world->resource<Target>().set_point = vertical_force();
+    if (action.servo && to_skip_ == 0)
+      model_.world->resource<Target>().set_point = vertical_force();
     switch (action.kind) {
       case Kind::press:
         doing_ = "press";

@@ -19,12 +19,29 @@ std::vector<SeriesInfo> afm_series();
 void add_probe(const Scene& scene, AfmModel& model);
 void place_target(const Scene& scene, AfmModel& model, double stiffness);
 
+// Where a programme stands: enough, with the world, to go on.
+struct AfmPosition {
+  std::int64_t told = 0;  // rows of the history so far, the one before the first increment included
+  double from = 0;        // N, vertical force when the press to a force began
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(told, from);
+  }
+};
+
 class AfmProgramme {
  public:
   // `record` gets time (in actions) and a row of the history after every increment; false ends the run.
   using Record = std::function<bool(double time, const std::vector<double>& row)>;
-  AfmProgramme(const Scene& scene, AfmModel& model, StaticSolver& solver, Record record)
-      : scene_(scene), model_(model), solver_(solver), record_(std::move(record)) {}
+  // `position` is kept up to date; it need not be the beginning's.
+  AfmProgramme(const Scene& scene, AfmModel& model, StaticSolver& solver, AfmPosition& position,
+               Record record)
+      : scene_(scene),
+        model_(model),
+        solver_(solver),
+        position_(position),
+        record_(std::move(record)) {}
 
   // False when it was interrupted. Throws RunFailure where an increment cannot be made.
   bool run();
@@ -37,12 +54,15 @@ class AfmProgramme {
   // Moves the target; where no equilibrium is found, in halves.
   void advance(const std::array<double, 3>& travel, bool servo, int depth);
   bool tell();
+  bool skip();  // the increment has been made before
   double vertical_force() const;
 
   const Scene& scene_;
   AfmModel& model_;
   StaticSolver& solver_;
+  AfmPosition& position_;
   Record record_;
+  std::int64_t to_skip_ = 0;     // increments
   double time_ = 0, share_ = 1;  // of the present increment, in actions
   int iterations_ = 0;           // of the last increment, its cuts included
   const char* doing_ = "";

@@ -31,12 +31,14 @@ Calibration AfmSimulation::calibrate_here() {
   return c;
 }
 
-bool AfmSimulation::run(const AfmProgramme::Record& record) {
+bool AfmSimulation::run(const AfmProgramme::Record& record, AfmPosition& position,
+                        const std::function<void(World&)>& restore) {
   bool done = false;
   workers_.run([&] {
     if (model_.normal_stiffness == 0) calibrate_here();
     place_target(scene_, model_, stiffest_);
-    done = AfmProgramme(scene_, model_, *solver_, record).run();
+    if (restore) restore(world());
+    done = AfmProgramme(scene_, model_, *solver_, position, record).run();
   });
   return done;
 }

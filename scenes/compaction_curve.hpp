@@ -21,6 +21,11 @@ struct CompactionSample {
   double top = 0, bottom = 0, lateral = 0;  // N, towards the tool; lateral: mean of both walls
   double width = 0, height = 0;             // m
   double bottom_place = 0;                  // m, y of the bottom punch
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(density, top, bottom, lateral, width, height, bottom_place);
+  }
 };
 
 class CompactionCurve {
@@ -33,6 +38,12 @@ class CompactionCurve {
   std::vector<double> punch_pressures() const;  // Pa, top force / (width thickness)
   const std::string& top() const { return top_; }
   const std::string& bottom() const { return bottom_; }
+
+  // What a checkpoint keeps; the rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(samples_);
+  }
 
  private:
   std::optional<DieCell> cell_;

@@ -41,6 +41,12 @@ class Expectations {
   std::vector<Verdict> judge(const Results& results, const std::optional<std::string>& failure,
                              int threads, const std::function<bool()>& stop = {}) const;
 
+  // What a checkpoint keeps; the rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(times_, values_);
+  }
+
  private:
   const Scene& scene_;
   std::vector<double> times_;

@@ -19,6 +19,10 @@ namespace pulvis {
 struct Energies {
   double kinetic = 0, elastic = 0, plastic = 0, hourglass = 0, contact = 0;
   double friction = 0, damping = 0, external = 0, balance = 0;
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(kinetic, elastic, plastic, hourglass, contact, friction, damping, external, balance);
+  }
   double internal() const { return elastic + plastic + hourglass; }
 };
 
@@ -66,6 +70,13 @@ class Results {
   std::int64_t elements() const { return elements_; }
   const ShearResults& shear() const { return shear_; }
   double end_time() const { return world_.resource<Clock>().end; }
+
+  // What a checkpoint keeps; the rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(last_, energies_, initial_energy_, worst_balance_, largest_energy_, kinetic_internal_,
+          shear_, first_);
+  }
 
  private:
   void take_energies();

@@ -46,9 +46,20 @@ class ShearResults {
   // None before the target has moved.
   std::optional<ShearFigures> figures() const;
 
+  // What a checkpoint keeps; the rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(punch_at_begin_, punch_before_, time_before_, work_, lateral_before_, distance_before_,
+          slip_, samples_, dilation_);
+  }
+
  private:
   struct Sample {
     double distance, friction, normal_stress;
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(distance, friction, normal_stress);
+    }
   };
   double distance_now() const;
   int take_touching(bool sliding);  // sums up slip while sliding; returns how many go along

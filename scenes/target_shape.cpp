@@ -161,6 +161,8 @@ std::shared_ptr<const TargetShape> from_map(const TargetSpec& t, const Scene& sc
   return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), t.spacing);
 }
 
+constexpr std::size_t most_heights = 4'000'000;  // 2000 x 2000, 200 MB of triangles
+
 std::vector<double> numbers_of(const std::string& line, std::size_t number) {
   std::vector<double> row;
   const char* at = line.data();
@@ -189,6 +191,8 @@ std::vector<std::vector<double>> read_height_map(const std::filesystem::path& fi
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
     if (line.empty() || line.front() == '#' || line == "\r") continue;
     rows.push_back(numbers_of(line, number));
+    if (rows.size() * rows.front().size() > most_heights)
+      throw std::runtime_error(fmt::format("more than {} heights", most_heights));
     if (rows.back().size() != rows.front().size())
       throw std::runtime_error(fmt::format("line {}: {} numbers, the first line has {}", number,
                                            rows.back().size(), rows.front().size()));

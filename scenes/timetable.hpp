@@ -12,6 +12,12 @@ class Timetable {
     while (next_ <= count_ && time >= at(next_)) ++next_;
   }
 
+  // What a checkpoint keeps; the rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(next_);
+  }
+
  private:
   double at(int i) const { return i >= count_ ? end_ : end_ * i / count_; }
   double end_;

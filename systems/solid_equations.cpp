@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/state_bytes.hpp"
 #include "systems/run_failure.hpp"
 #include "systems/solid_systems.hpp"
 
@@ -54,6 +56,22 @@ void fill_values(const SolidAssembly& assembly, const Read<BlockTangent>& block,
 }
 
 }  // namespace
+
+std::vector<double> SolidEquations::factorised() const {
+  if (factors == nullptr) return {};
+  return {stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros()};
+}
+
+void SolidEquations::factorise_again(std::vector<double> values) {
+  if (values.empty()) {
+    factors.reset();
+    return;
+  }
+  if (factors == nullptr || static_cast<std::ptrdiff_t>(values.size()) != stiffness.nonZeros())
+    throw BadState("the stiffness of the solid does not fit its mesh");
+  std::copy(values.begin(), values.end(), stiffness.valuePtr());
+  factors->factorize(stiffness);
+}
 
 void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce> force,
               Read<AppliedForce> applied, Optional<Read<Target>> target,

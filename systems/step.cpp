@@ -3,6 +3,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "systems/highest_mode.hpp"
+#include "systems/lost_bodies.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -67,6 +68,7 @@ StepList step_list_of(World& w) {
   force(grips,    "tool_reaction",    tool_reaction);  // theirs is known last
   if (grips) drives();
 
+  observe(tools,   "lost_bodies",     lost_bodies);
   observe(true,    "kinetic_energy",  kinetic_energy);
   observe(true,    "elastic_energy",  elastic_energy<F>);
   observe(plastic, "plastic_work",    plastic_work<F>);

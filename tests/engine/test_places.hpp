@@ -40,6 +40,11 @@ struct Force : Component<Link, double, 1> {
 struct Clockwork {
   static constexpr const char* resource_name = "clockwork";
   double time = 0;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(time);
+  }
 };
 
 }  // namespace pulvis::engine_test

@@ -138,6 +138,41 @@ TEST(Health, NotANumberInTheEnergiesKeepsNoLimit) {
   EXPECT_FALSE(e.results.energy_balance_error() <= 1);
 }
 
+// ---- through a wall -----------------------------------------------------------------------------------
+// Puts particle `number` elsewhere, as an error of any kind would.
+void shift(Experiment& e, int number, double x, double y) {
+  World& world = e.simulation.world();
+  const Bodies& bodies = world.resource<Bodies>();
+  const int slot = bodies.slot_of_number[static_cast<std::size_t>(number)];
+  Column<CurvePosition>& curve = world.column<CurvePosition>();
+  const int first = bodies.slots[static_cast<std::size_t>(slot)].first_control;
+  for (int i = first; i < first + bodies.shape_of_slot(slot).control_points(); ++i) {
+    curve.values()[2 * i] += x;
+    curve.values()[2 * i + 1] += y;
+  }
+}
+
+TEST(Health, BodyLostThroughAWallIsNamed) {
+  Experiment e("compaction/regular-25.toml", {"limits.penetration=1e6"}, 2);
+  e.simulation.run_steps(10);
+  shift(e, 12, 0.2, 0);  // 200 mm to the right: the die is 50 mm wide
+  std::string failure = "none";
+  try {
+    e.simulation.observe();
+  } catch (const RunFailure& found) {
+    failure = found.what();
+  }
+  EXPECT_THAT(failure, StartsWith("lost_bodies: particle 12 has gone through tool 'right': "));
+  EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
+  EXPECT_THAT(failure, ContainsRegex("is 0\\.17[0-9]* m behind it"));
+}
+
+TEST(Health, BodiesInTheirDieAreNotLost) {
+  Experiment e("compaction/regular-25.toml", {}, 2);
+  e.simulation.run_steps(10);
+  EXPECT_NO_THROW(e.simulation.observe());
+}
+
 // ---- limits of the scene --------------------------------------------------------------------------
 TEST(Health, PenetrationLimitNamesParticleAndTool) {
   Experiment e("compaction/unit-cell.toml", {"limits.penetration=0.01"});

@@ -43,17 +43,22 @@ class ProgramTest : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(place); }
 
-  // Starts the program in `place`; its output goes into files there.
-  pid_t start(const Words& arguments) const {
+  // Starts the program in `place`; its output goes into files there. `shell` is run before, by a shell that
+  // then becomes the program: limits.
+  pid_t start(const Words& arguments, const std::string& shell = "") const {
     const pid_t child = fork();
     if (child != 0) return child;
     std::filesystem::current_path(place);
     send_to(place / "out", STDOUT_FILENO);
     send_to(place / "err", STDERR_FILENO);
+    const std::string script = shell + "; exec \"$0\" \"$@\"";
     std::vector<char*> argv{const_cast<char*>("pulvis")};
+    if (!shell.empty())
+      argv = {const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(script.c_str()),
+              const_cast<char*>(PULVIS_PROGRAM)};
     for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
-    execv(PULVIS_PROGRAM, argv.data());
+    execv(shell.empty() ? PULVIS_PROGRAM : "/bin/sh", argv.data());
     _exit(127);
   }
 
@@ -64,7 +69,9 @@ class ProgramTest : public ::testing::Test {
             text_of(place / "out"), text_of(place / "err")};
   }
 
-  Outcome pulvis(const Words& arguments) const { return end_of(start(arguments)); }
+  Outcome pulvis(const Words& arguments, const std::string& shell = "") const {
+    return end_of(start(arguments, shell));
+  }
 
   static std::string scene(const std::string& name) {
     return std::string(PULVIS_SOURCE_DIR) + "/scenes/" + name;

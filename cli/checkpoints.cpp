@@ -1,0 +1,104 @@
+#include "cli/checkpoints.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/summary.hpp"
+#include "engine/output_error.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int run_over_cost = 100;  // a checkpoint costs at most a hundredth of the run
+
+std::string hash_text(const LoadedScene& scene) { return fmt::format("{:016x}", scene.hash); }
+
+std::unique_ptr<Checkpoint> newest_whole(const fs::path& folder) {
+  const std::vector<fs::path> files = checkpoints_in(folder);
+  if (files.empty())
+    throw CannotResume(fmt::format("{}: cannot resume: there is no checkpoint (checkpoint-*.h5)",
+                                   folder.string()));
+  for (const fs::path& file : files) {
+    try {
+      return std::make_unique<Checkpoint>(file);
+    } catch (const DamagedCheckpoint& damage) {
+      fmt::print(stderr, "pulvis: {} is damaged: {}\n", file.string(), damage.what());
+    }
+  }
+  throw OutputError(folder, "resume", "no checkpoint is whole");
+}
+
+void check_version(const fs::path& folder, const CheckpointInfo& info) {
+  if (info.version == program_version() && info.commit == program_commit()) return;
+  throw CannotResume(
+      fmt::format("{}: cannot resume: the checkpoint was written by pulvis {} ({}), this is {} "
+                  "({}), which might go on otherwise; allowed: that program",
+                  folder.string(), info.version, info.commit, program_version(), program_commit()));
+}
+
+// Files that the scene names are looked for where the run found them; beside its copy if they moved along.
+LoadedScene scene_of(const fs::path& folder, const Checkpoint& checkpoint) {
+  std::string original;
+  const std::vector<std::byte> bytes = checkpoint.run("scene_file");
+  StateReader reader(bytes);
+  reader(original);
+  const fs::path copy = folder / "scene.toml";
+  std::error_code ignored;
+  const bool there = fs::is_directory(fs::path(original).parent_path(), ignored);
+  LoadedScene scene = load_scene_text(toml_file_text(copy), there ? fs::path(original) : copy);
+  if (hash_text(scene) != checkpoint.info().scene_hash)
+    throw CannotResume(fmt::format(
+        "{}: cannot resume: the checkpoint is of another scene (hash {}, that of scene.toml and "
+        "the files it names is {})",
+        folder.string(), checkpoint.info().scene_hash, hash_text(scene)));
+  return scene;
+}
+
+}  // namespace
+
+Checkpoints::Checkpoints(const LoadedScene& scene, fs::path folder,
+                         const CheckpointOptions& options)
+    : info_{program_version(), program_commit(), hash_text(scene)},
+      scene_file_(fs::absolute(scene.scene.file).string()),
+      folder_(std::move(folder)),
+      options_(options) {}
+
+bool Checkpoints::due(std::int64_t step) const {
+  if (step == last_step_) return false;
+  if (last_step_ < 0) return true;
+  if (options_.steps > 0 && step % options_.steps == 0) return true;
+  const auto since = Time::now() - last_;
+  return since >= std::chrono::duration<double>(options_.every) && since >= run_over_cost * cost_;
+}
+
+void Checkpoints::write(std::int64_t step, double time, const World& world, StateParts run) {
+  const auto begin = Time::now();
+  info_.step = step;
+  info_.time = time;
+  StateWriter scene_file;
+  scene_file(scene_file_);
+  run["scene_file"] = scene_file.bytes();
+  write_checkpoint(folder_, info_, world, run);
+  last_step_ = step;
+  last_ = Time::now();
+  cost_ = last_ - begin;
+}
+
+void require_stopped_run(const fs::path& folder) {
+  if (!fs::exists(folder / "scene.toml") || !fs::exists(folder / "run.h5"))
+    throw CannotResume(
+        fmt::format("{}: cannot resume: there is no run (run.h5, scene.toml)", folder.string()));
+}
+
+StoppedRun find_stopped_run(const fs::path& folder) {
+  StoppedRun run;
+  run.checkpoint = newest_whole(folder);
+  check_version(folder, run.checkpoint->info());
+  run.scene = scene_of(folder, *run.checkpoint);
+  return run;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,62 @@
+// When a run writes its checkpoints, and from which one `pulvis resume` goes on.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "engine/checkpoint.hpp"
+#include "scenes/read.hpp"
+
+namespace pulvis {
+
+struct CheckpointOptions {
+  double every = 60;            // s of wall time
+  std::int64_t steps = 0;       // and every so many steps (increments of an AFM scene); 0: no
+  std::int64_t stop_after = 0;  // this step the run stops as if it were interrupted; 0: it does not
+};
+
+class Checkpoints {
+ public:
+  Checkpoints(const LoadedScene& scene, std::filesystem::path folder,
+              const CheckpointOptions& options);
+
+  // Cheap: asked after every step. The first one is due at once, so that whatever is killed can go on. The
+  // wall time's are put off while they would cost more than a hundredth of the run.
+  bool due(std::int64_t step) const;
+  bool stops(std::int64_t step) const {
+    return options_.stop_after > 0 && step >= options_.stop_after;
+  }
+  void resumed(std::int64_t step) { last_step_ = step; }
+  void write(std::int64_t step, double time, const World& world, StateParts run);
+  // Nothing is left to go on with.
+  void remove() const { remove_checkpoints(folder_); }
+
+ private:
+  using Time = std::chrono::steady_clock;
+  CheckpointInfo info_;
+  std::string scene_file_;
+  std::filesystem::path folder_;
+  CheckpointOptions options_;
+  std::int64_t last_step_ = -1;
+  Time::time_point last_ = Time::now();
+  Time::duration cost_{};
+};
+
+// The folder has no run that can go on; says why.
+class CannotResume : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// A run that stopped: its newest whole checkpoint and its scene. Damaged ones are named on the terminal.
+struct StoppedRun {
+  std::unique_ptr<Checkpoint> checkpoint;
+  LoadedScene scene;
+};
+void require_stopped_run(
+    const std::filesystem::path& folder);  // one that could be: throws CannotResume
+StoppedRun find_stopped_run(const std::filesystem::path& folder);
+
+}  // namespace pulvis

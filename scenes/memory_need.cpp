@@ -1,0 +1,123 @@
+#include "scenes/memory_need.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "components/body.hpp"
+#include "components/contact.hpp"
+#include "components/highest_mode.hpp"
+#include "engine/machine_memory.hpp"
+#include "engine/output_error.hpp"
+#include "scenes/build.hpp"
+#include "scenes/mesh.hpp"
+#include "scenes/place.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr std::uint64_t program_bytes = 64U << 20U;
+// Of a compacted powder: rows for all that is nearer than the skin, from both sides.
+constexpr double rows_of_an_edge = 3;
+constexpr std::uint64_t copies_of_a_frame =
+    3;  // gathered, on its way into the file, in the journal
+
+template <class... C>
+constexpr std::uint64_t bytes_of() {
+  return (0 + ... + (sizeof(typename C::value_type) * C::count));
+}
+
+template <class F>
+std::uint64_t element_bytes(const Needs& needs) {
+  std::uint64_t bytes = bytes_of<DeviatoricStress<F::points>, MeanStress<F::volumes>>();
+  if (F::stabilised) bytes += bytes_of<HourglassStress>();
+  if (needs.plastic)
+    bytes +=
+        bytes_of<IsochoricScale<F::points>, PlasticMetric<F::points>, PlasticStrain<F::points>>();
+  if (needs.plastic && F::stabilised) bytes += bytes_of<PlasticHourglass>();
+  return bytes;
+}
+
+std::uint64_t element_bytes(const Needs& needs) {
+  switch (needs.formulation) {
+    case ElementSpec::Formulation::four_point:
+      return element_bytes<FourPoint>(needs);
+    case ElementSpec::Formulation::one_point:
+      return element_bytes<OnePoint>(needs);
+    case ElementSpec::Formulation::standard:
+      return element_bytes<Standard>(needs);
+  }
+  return 0;
+}
+
+std::uint64_t row_bytes(const Needs& needs) {
+  using At = Contact;
+  std::uint64_t bytes =
+      bytes_of<ContactPair<At>, ContactReach<At>, ContactLaw<At>, PointForce<At>, ClosestPoint>();
+  if (needs.friction) bytes += bytes_of<ElasticSlip<At>, FrictionCouple>();
+  if (needs.weakening) bytes += bytes_of<FrictionMore<At>, StaticLost<At>>();
+  return bytes;
+}
+
+std::vector<std::uint64_t> particles_of_classes(const Scene& scene) {
+  std::vector<std::uint64_t> count(scene.particles.size());
+  for (const BodySpec& body : scene.bodies) count[static_cast<std::size_t>(body.particle)] += 1;
+  for (const PackingSpec& packing : scene.packings) {
+    if (is_lattice(packing))
+      count[static_cast<std::size_t>(packing.particle)] +=
+          static_cast<std::uint64_t>(particle_count(packing));
+    for (const BodySpec& body : packing.placed) count[static_cast<std::size_t>(body.particle)] += 1;
+  }
+  return count;
+}
+
+}  // namespace
+
+MemoryNeed memory_need(const Scene& scene) {
+  const std::vector<std::uint64_t> particles = particles_of_classes(scene);
+  std::uint64_t all = 0;
+  for (const std::uint64_t count : particles) all += count;
+  const Needs needs = needs_of(scene, all);
+  const bool mode = scene.time.estimate == TimeSpec::Estimate::highest_mode;
+  std::uint64_t node = bytes_of<Position, Velocity, InternalForce>();
+  if (mode) node += bytes_of<HighestMode>();
+  const std::uint64_t control = bytes_of<CurvePosition, CurveBefore, CurveForce>() +
+                                (needs.friction || needs.damping ? bytes_of<CurveVelocity>() : 0);
+  const std::uint64_t outline = bytes_of<ContactForce>() + (mode ? bytes_of<ContactSupport>() : 0);
+
+  MemoryNeed need;
+  need.program = program_bytes;
+  for (std::size_t c = 0; c < particles.size(); ++c) {
+    if (particles[c] == 0) continue;
+    const Shape shape = make_shape(scene.particles[c]);
+    const std::uint64_t lanes = (particles[c] + lane_count - 1) / lane_count * lane_count;
+    const auto nodes = static_cast<std::uint64_t>(shape.nodes.size());
+    const auto edges = static_cast<std::uint64_t>(shape.boundary_nodes);
+    const auto elements = static_cast<std::uint64_t>(shape.elements());
+    need.columns += lanes * (nodes * node + elements * element_bytes(needs));
+    if (needs.contact())
+      need.columns +=
+          lanes * (edges * outline + static_cast<std::uint64_t>(shape.control_points()) * control);
+    need.results += particles[c] * copies_of_a_frame * sizeof(double) * (5 * nodes + 7 * elements);
+    if (needs.contact())
+      need.contacts += static_cast<std::uint64_t>(
+          rows_of_an_edge * static_cast<double>(particles[c] * edges * row_bytes(needs)));
+  }
+  return need;
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (value >= 1e9) return fmt::format("{:.3g} GB", value * 1e-9);
+  return fmt::format("{:.3g} MB", value * 1e-6);
+}
+
+void require_memory(const Scene& scene) {
+  const std::uint64_t need = memory_need(scene).total(), there = available_memory();
+  if (need > there)
+    throw OutputError(scene.file, "run it",
+                      fmt::format("it needs about {} of memory, {} are available", bytes_text(need),
+                                  bytes_text(there)));
+}
+
+}  // namespace pulvis
