@@ -12,6 +12,7 @@
 #include <fstream>
 
 #include "cli/plan.hpp"
+#include "cli/report.hpp"
 #include "cli/summary_afm.hpp"
 #include "components/solid.hpp"
 #include "engine/output_error.hpp"
@@ -179,6 +180,7 @@ ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder,
     report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
                             end.failure, threads);
   write_text(folder / "summary.json", afm_summary(loaded, report));
+  write_report(folder);
   print_end(report, folder);
   const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);
   if (!expected) fmt::print(stderr, "pulvis: the run went bad: {}\n", end.failure);

@@ -35,9 +35,3 @@ const shorts = (id, stride) => decoded(id, Uint16Array, stride);
 const integers = (id, stride) => decoded(id, Int32Array, stride);
 const floats = async id => new Float32Array((await decoded(id, Uint32Array, 1)).buffer);
 
-// The history as a Map of name to {name, unit, meaning, values}.
-async function readHistory(head) {
-  const all = await floats("history"), count = head.samples;
-  return new Map(head.series.map((series, k) =>
-    [series.name, {...series, values: all.subarray(k * count, (k + 1) * count)}]));
-}
