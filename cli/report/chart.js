@@ -21,6 +21,11 @@ darkWished.addEventListener("change", themeChanged);
 
 const markup = text => text.replace(/[&<>"]/g, c => `&#${c.charCodeAt(0)};`);
 
+function isSorted(values) {
+  for (let i = 1; i < values.length; ++i) if (values[i] < values[i - 1]) return false;
+  return true;
+}
+
 const bounds = lists => lists.reduce((range, list) => {
   for (const v of list) {
     if (!Number.isFinite(v)) continue;
@@ -131,7 +136,7 @@ class Chart {
     host.replaceChildren(element("div", {className: "plot-place"}, this.picture, this.over), this.legend, this.readout);
     this.listen();
     this.draw();
-    new ResizeObserver(() => { if (host.clientWidth > 0 && host.clientWidth !== this.width) this.draw(); }).observe(host);
+    onResize(host, () => { if (host.clientWidth > 0 && host.clientWidth !== this.width) this.draw(); });
     onUnits(() => { this.view = null; this.draw(); });
     onTheme(() => this.draw());
   }
@@ -237,8 +242,9 @@ class Chart {
     let best = null, least = Infinity;
     this.spec.lines.forEach((line, i) => {
       if (this.hidden.has(i)) return;
+      const turns = !isSorted(line.x || this.spec.x.values);  // then what is near across counts, too
       for (let k = 0; k < line.values.length; ++k) {
-        const [px, py] = this.pointOf(line, k), far = 9 * (px - x) ** 2 + (py - y) ** 2;
+        const [px, py] = this.pointOf(line, k), far = (px - x) ** 2 + (turns ? (py - y) ** 2 : 0);
         if (far < least) { least = far; best = k; }
       }
     });

@@ -2,6 +2,7 @@
 "use strict";
 
 const MOST_STROKED = 12000;  // edges that are drawn as lines; more are drawn pixel by pixel
+const MOST_SEARCHED = 100000;  // cells whose edges are looked through for outlines
 const LEGEND_WIDTH = 84;
 
 // Edges that one cell alone has: the outlines of the particles. [a0, b0, a1, b1, ...]
@@ -28,12 +29,13 @@ class FieldView {
     this.note = element("p", {className: "note"});
     host.classList.add("field");
     host.replaceChildren(this.canvas, this.tip, this.note);
-    const edges = outlineEdges(run.cells, run.head.mesh.drawn_nodes);
+    const {drawn_cells: cells, drawn_nodes: nodes, fans} = run.head.mesh;
+    const edges = cells <= (fans ? MOST_STROKED : MOST_SEARCHED) ? outlineEdges(run.cells, nodes) : [];
     this.outline = edges.length / 2 <= MOST_STROKED ? edges : [];
     this.view = this.wholeView();
     this.listen();
     for (const on of [onUnits, onTheme, onMap]) on(() => this.draw());
-    new ResizeObserver(() => { if (this.at && host.clientWidth !== this.drawnWidth) this.draw(); }).observe(host);
+    onResize(host, () => { if (this.at && host.clientWidth !== this.drawnWidth) this.draw(); });
   }
 
   // What can be shown: [value, label].
@@ -158,7 +160,7 @@ class FieldView {
   drawCells(ctx) {
     const {ratio, room, height} = this.place, {run, raster} = this;
     raster.resize(Math.max(1, Math.round(room * ratio)), Math.max(1, Math.round(height * ratio)));
-    raster.fill(run.cells, this.at.map(v => v * ratio));
+    raster.fill(run.cells, ratio === 1 ? this.at : this.at.map(v => v * ratio));
     const size = Math.sqrt(this.place.scale ** 2 * (run.head.high[0] - run.head.low[0]) *
       (run.head.high[1] - run.head.low[1]) / run.head.mesh.particles);
     const edged = !this.outline.length && size > 7;  // smaller ones would be outline alone
@@ -282,7 +284,8 @@ class FieldView {
   }
 
   drawScaleBar(ctx) {
-    const {room, height, scale} = this.place, metres = niceTicks(0, 60 / scale, 1.5)[1];
+    const {room, height, scale} = this.place, most = 66 / scale, power = 10 ** Math.floor(Math.log10(most));
+    const metres = [5, 2, 1].find(k => k * power <= most) * power;
     ctx.fillStyle = theme().ink;
     ctx.fillRect(room + 14, height - 6, metres * scale, 3);
     ctx.textAlign = "left";

@@ -2,8 +2,8 @@
 "use strict";
 
 addFigures(({summary: {calibration, loops}}) => [
-  ...(calibration ? [["normal stiffness", withUnit(calibration.k_n, "N/m"), ""],
-                     ["lateral stiffness", withUnit(calibration.k_l, "N/m"), ""]] : []),
+  ...(calibration ? [["normal stiffness", `${digits(calibration.k_n)} N/m`, ""],
+                     ["lateral stiffness", `${digits(calibration.k_l)} N/m`, ""]] : []),
   ...(loops || []).slice(0, 1).flatMap(loop => [["half width of the loop", withUnit(loop.half_width, "N"), ""],
     loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null])]);
 
@@ -28,7 +28,7 @@ addPanel({
     const row = (cells, tag = "td") => table.insertRow().append(...cells.map(textContent => element(tag, {textContent})));
     row(["", "formula", "value", "finite elements"], "th");
     for (const {quantity, name, value, difference} of calibration.closed_forms) {
-      row([quantity, name, withUnit(value, "N/m"), `${difference > 0 ? "+" : ""}${percent(difference)}`]);
+      row([quantity, name, `${digits(value)} N/m`, `${difference > 0 ? "+" : ""}${percent(difference)}`]);
     }
     host.append(element("div", {className: "scroll"}, table), element("p", {className: "note", textContent:
       `Lateral displacement of the tip's end: ${percent(calibration.share_twist)} twist, ` +

@@ -14,7 +14,7 @@ const addFigures = make => { FIGURES.push(make); };
 const figuresOf = run => FIGURES.flatMap(make => make(run)).filter(figure => figure && figure[1]);
 const curvesOf = run => CURVES.flatMap(make => make(run)).filter(group => group && group.lines.length);
 
-const timeAxis = run => ({label: "time", unit: run.unit("time"), values: run.times});
+const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times});
 
 // What a panel works with: the run, and links to the page's one time.
 class Report {
@@ -39,8 +39,9 @@ class Report {
     const canvas = element("canvas", {className: "figure", role: "img"});
     const told = element("p", {className: "note"});
     host.append(canvas, told);
+    let drawn = 0;
     const paint = () => {
-      const ratio = devicePixelRatio || 1, width = host.clientWidth, frame = this.frame();
+      const ratio = devicePixelRatio || 1, width = drawn = host.clientWidth, frame = this.frame();
       const height = Math.min(Math.max(shape * width, 160), 400);
       canvas.style.height = height + "px";
       canvas.width = Math.round(width * ratio);
@@ -57,7 +58,7 @@ class Report {
       CSV: () => saveText(fileName(title) + ".csv", csvOf(columns(this.frame())), "text/csv")}));
     this.timeline.listen(paint);
     [onUnits, onTheme, onMap].forEach(on => on(paint));
-    new ResizeObserver(paint).observe(host);
+    onResize(host, () => { if (host.clientWidth !== drawn) paint(); });
   }
 
   frame() { return this.run.frames[this.run.frameAt(this.timeline.share * this.endTime)]; }

@@ -21,7 +21,7 @@ function placeCurves(report, host) {
     const group = groups[what.value], spec = {...group, x: group.xs[against.value || 0]};
     note.textContent = group.meaning || "";
     if (chart) chart.show(spec);
-    else chart = report.chart(place, spec, {height: 340});
+    else chart = report.chart(place, spec, {height: 400});
     chart.mark(run.sampleAt(report.timeline.share * report.endTime));
   };
   what.onchange = () => {
@@ -71,7 +71,8 @@ function noteOfFrames({frames, head}) {
 async function main() {
   const started = performance.now();
   const run = await Run.load(JSON.parse(document.getElementById("head").textContent));
-  const timeline = new Timeline(document.getElementById("timeline"), run.frames.map(frame => frame.time));
+  const timeline = new Timeline(document.getElementById("timeline"), run.frames.map(frame => frame.time),
+                                {name: run.timeName, unit: run.timeUnit});
   const report = new Report(run, timeline);
   document.getElementById("lead").textContent = leadOf(run);
   document.getElementById("frames-note").textContent = noteOfFrames(run);

@@ -18,7 +18,7 @@ class SolidView {
     host.replaceChildren(this.canvas, this.note);
     this.listen();
     for (const on of [onUnits, onTheme, onMap]) on(() => this.draw());
-    new ResizeObserver(() => { if (this.moved && host.clientWidth !== this.drawnWidth) this.draw(); }).observe(host);
+    onResize(host, () => { if (this.moved && host.clientWidth !== this.drawnWidth) this.draw(); });
   }
 
   get choices() { return [["size", "Displacement"], ["2", "Deflection, along z"], ["1", "Lateral, along y"], ["0", "Along x"]]; }
@@ -89,7 +89,7 @@ class SolidView {
     this.drawAxes(ctx);
     drawScale(ctx, room + 14, 26, height - 60, {low: range[0], high: range[1], unit: "m"});
     const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `drawn ${digits(this.larger)} times larger`;
-    this.note.textContent = `Lever at ${digits(time)}, ${drawn}; most displacement ${withUnit(this.most, "m")}. Drag to turn.`;
+    this.note.textContent = `Lever, ${digits(time, 3)} actions done, ${drawn}; most displacement ${withUnit(this.most, "m")}. Drag to turn.`;
     canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent}`);
     canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }

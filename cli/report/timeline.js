@@ -4,8 +4,8 @@
 
 class Timeline {
   // times: of the frames of the run that sets the pace, s
-  constructor(host, times) {
-    Object.assign(this, {times, end: times.at(-1) || 1, frame: times.length - 1, listeners: [], timer: 0});
+  constructor(host, times, {name = "time", unit = "s"} = {}) {
+    Object.assign(this, {times, unit, name: unit === "s" ? "" : name + " ", end: times.at(-1) || 1, frame: times.length - 1, listeners: [], timer: 0});
     this.share = 1;
     this.button = element("button", {type: "button", className: "play", id: "play", onclick: () => this.toggle()});
     this.slider = element("input", {type: "range", id: "frame", min: 0, max: Math.max(0, times.length - 1),
@@ -14,6 +14,7 @@ class Timeline {
     this.told = element("output", {className: "told", htmlFor: "frame"});
     host.replaceChildren(this.button, this.slider, this.told);
     this.setPlaying(false);
+    this.tell();
     onUnits(() => this.tell());
     addEventListener("keydown", event => this.key(event));
   }
@@ -47,7 +48,7 @@ class Timeline {
 
   tell() {
     if (!this.times.length) return;
-    const text = `${withUnit(this.times[this.frame], "s", 3)} · frame ${this.frame + 1} of ${this.times.length}`;
+    const text = `${this.name}${withUnit(this.times[this.frame], this.unit, 3)} · frame ${this.frame + 1} of ${this.times.length}`;
     this.told.textContent = text;
     this.slider.setAttribute("aria-valuetext", text);
   }

@@ -2,7 +2,7 @@
 "use strict";
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""],
-                  [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
+                  [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"], [1e-15, "f"]];
 const SCALED = new Set(["m", "N", "Pa", "J", "s", "m/s", "V", "W", "N/m"]);
 
 // What the reader has chosen: SI unit to prefix. Whoever shows numbers listens.
@@ -57,6 +57,8 @@ function element(tag, properties, ...children) {
   return made;
 }
 
+// After the layout that the change of size belongs to.
+const onResize = (host, action) => new ResizeObserver(() => requestAnimationFrame(action)).observe(host);
 const percent = value => digits(100 * value, 3) + " %";
 const words = name => name.replaceAll("_", " ");
 const titled = name => words(name).replace(/^./, letter => letter.toUpperCase());
