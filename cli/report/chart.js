@@ -5,11 +5,11 @@
 const LIGHT = {ink: "#1d2733", soft: "#56616f", grid: "#e8ecf1", edge: "#c4cdd8", paper: "#ffffff",
                body: "#e2e6eb", surface: "#3d4855", none: "#c9d0d8",
                lines: ["#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                       "#e69f00", "#56b4e9", "#555555", "#8c6d1f"]};
+                       "#e69f00", "#56b4e9", "#555555", "#8c6d1f", "#882255", "#117733"]};
 const DARK = {ink: "#e6ebf1", soft: "#9aa6b4", grid: "#2a323c", edge: "#4a5563", paper: "#171d24",
               body: "#2b343f", surface: "#a9b4c0", none: "#4b5562",
               lines: ["#56b4e9", "#ff9a57", "#35c9a0", "#e59bc4",
-                      "#f2c14e", "#8fd0ff", "#b4bcc6", "#c9a86a"]};
+                      "#f2c14e", "#8fd0ff", "#b4bcc6", "#c9a86a", "#c77dff", "#b5d99c"]};
 
 const darkWished = matchMedia("(prefers-color-scheme: dark)");
 const isDark = () => (document.documentElement.dataset.theme || (darkWished.matches ? "dark" : "light")) === "dark";

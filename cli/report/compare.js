@@ -88,7 +88,8 @@ async function main() {
   document.getElementById("lead").textContent = names.join(" · ");
   placeSettings(document.getElementById("settings"), new Set(runs.flatMap(run => run.head.series).map(series => series.unit)));
   const views = placeViews(runs, names), pace = views.map(view => view.run).sort((a, b) => b.frames.length - a.frames.length)[0];
-  const timeline = new Timeline(document.getElementById("timeline"), pace ? pace.frames.map(frame => frame.time) : []);
+  const timeline = new Timeline(document.getElementById("timeline"), pace ? pace.frames.map(frame => frame.time / (pace.frames.at(-1).time || 1)) : [],
+                                {name: "share of the run", unit: "-"});
   document.getElementById("timeline").hidden = !pace || pace.frames.length < 2;
   placeCurves(runs, names, timeline);
   fillRuns(runs, names);

@@ -205,7 +205,7 @@ class FieldView {
     const {lines, run} = this, {scale, x, y} = this.place;
     const most = this.mostForce = largest(lines.filter((_, i) => i % 5 === 4)) || 1;
     const size = Math.sqrt((run.head.high[0] - run.head.low[0]) * (run.head.high[1] - run.head.low[1]) /
-      run.head.mesh.particles), widest = Math.max(2, 0.25 * size * scale);
+      run.head.mesh.particles), widest = Math.max(2, 0.15 * size * scale);
     ctx.lineCap = "round";
     for (const [stroke, more] of [["#ffffff", 1.6], ["#b3003c", 0]]) {
       ctx.strokeStyle = stroke;

@@ -16,7 +16,7 @@ addCurves(run => {
     ...xs.filter(a => !a.label.endsWith(first)), timeAxis(run)],
     lines: names.filter(name => run.has(name)).map(name => run.series(name, words(name.replace("/", ", "))))});
   return [group("Force curve", "z", "force", ["probe/force_z"]),
-          group("Friction loop", "y", "force", ["probe/force_y"]),
+          {...group("Friction loop", "y", "force", ["probe/force_y"]), first: Boolean(run.summary.loops)},
           group("Detector", "y", "signal", ["detector/lateral", "detector/normal"])];
 });
 

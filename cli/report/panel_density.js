@@ -8,7 +8,6 @@ function fitting([x0, x1], [y0, y1], width, height, margin) {
   return (x, y) => [left + scale * (x - x0), height - top - scale * (y - y0)];
 }
 
-// The range of colours is that of all frames.
 function drawCells(ctx, width, height, {cells, x, y}, [low, high]) {
   const at = fitting([x[0], x.at(-1)], [y[0], y.at(-1)], width - LEGEND_WIDTH, height, 2);
   const columns = x.length - 1, written = columns <= 8;
@@ -109,12 +108,12 @@ const atTime = frame => `at ${withUnit(frame.time, "s")}`;
 addPanel({
   title: "Local relative density", order: 10, when: hasDensity,
   draw(report, host) {
-    const {x, y} = report.run.frames.at(-1).density, range = bounds([known(report.run.densities)]);
+    const {x, y} = report.run.frames.at(-1).density;
     report.figure(host, {
       title: "Local relative density", shape: (y.at(-1) - y[0]) / (x.at(-1) - x[0]),
-      draw: (ctx, width, height, {density}) => drawCells(ctx, width, height, density, range),
+      draw: (ctx, width, height, {density}) => drawCells(ctx, width, height, density, bounds([known(density.cells)])),
       note: frame => `${titled(rangeText(known(frame.density.cells)))} in ${x.length - 1} × ${y.length - 1} cells ` +
-        `between the tools, ${atTime(frame)}. Colours: range of all frames.`,
+        `between the tools, ${atTime(frame)}.`,
       columns: ({density: {cells, x: xs, y: ys}}) => {
         const wide = xs.length - 1, middle = (lines, i) => (lines[i] + lines[i + 1]) / 2;
         return [{label: "x", unit: "m", values: cells.map((_, c) => middle(xs, c % wide))},
@@ -127,10 +126,9 @@ addPanel({
 addPanel({
   title: "Relative density along the height", order: 11, when: hasDensity,
   draw(report, host) {
-    const range = bounds([known(report.run.frames.flatMap(frame => frame.density.profile))]);
     report.figure(host, {
       title: "Relative density along the height", shape: 0.75,
-      draw: (ctx, width, height, {density}) => drawProfile(ctx, width, height, density, range),
+      draw: (ctx, width, height, {density}) => drawProfile(ctx, width, height, density, bounds([known(density.profile)])),
       note: frame => `Of every row of cells, ${atTime(frame)}.`,
       columns: ({density: {profile, y}}) => [
         {label: "y", unit: "m", values: profile.map((_, j) => (y[j] + y[j + 1]) / 2)},

@@ -12,7 +12,7 @@ addCurves(run => {
   const xs = [run.series("shear/distance", "sliding distance"), timeAxis(run)];
   const group = (title, y, names) => ({title, xs, y, lines: names.filter(name => run.has(name))
     .map(name => run.series(name, words(name.slice("shear/".length))))});
-  return [group("Friction coefficient", "lateral / normal force", ["shear/friction"]),
+  return [{...group("Friction coefficient", "lateral / normal force", ["shear/friction"]), first: true},
           group("Stresses on the target", "stress", ["shear/normal_stress", "shear/lateral_stress", "shear/punch_lateral_stress"]),
           group("Dilation", "way off the target", ["shear/dilation"])];
 });

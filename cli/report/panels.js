@@ -6,13 +6,15 @@ const PANELS = [], CURVES = [], FIGURES = [];
 
 // {title, order, when(run), draw(report, host)}: a card of its own. Small orders stand first.
 const addPanel = panel => { PANELS.push({order: 50, ...panel}); };
-// run => [{title, xs: [x, ...], y, lines}]: choices of the large chart; x and lines as of a Chart.
+// run => [{title, xs: [x, ...], y, lines}]: choices of the large chart; x and lines as of a Chart. Those that
+// are `first` are what the run was made for.
 const addCurves = make => { CURVES.push(make); };
 // run => [[label, value, note], ...]: figures at the top of the page; what is null is left out.
 const addFigures = make => { FIGURES.push(make); };
 
 const figuresOf = run => FIGURES.flatMap(make => make(run)).filter(figure => figure && figure[1]);
-const curvesOf = run => CURVES.flatMap(make => make(run)).filter(group => group && group.lines.length);
+const curvesOf = run => CURVES.flatMap(make => make(run)).filter(group => group && group.lines.length)
+  .sort((a, b) => Boolean(b.first) - Boolean(a.first));
 
 const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times});
 
