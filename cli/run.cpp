@@ -149,7 +149,7 @@ struct Run {
     recorder.finish(outcome);
     write_summary(folder, loaded.scene, simulation->world(), results, compaction,
                   {progress.seconds(), simulation->clock().step, threads,
-                   fmt::format("{:016x}", loaded.hash), outcome},
+                   fmt::format("{:016x}", loaded.hash), outcome, simulation->costs()},
                   verdicts);
     write_report(folder);
   }
