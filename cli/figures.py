@@ -1,42 +1,38 @@
 #!/usr/bin/python3
-"""Pictures of a run for papers and slides: the field of a frame, forces, stress ratio, energies,
-local densities and the contact network.
+"""Figures of a run for papers and slides, and their numbers: the field of a frame, forces, stress ratio,
+energies, local densities, the contact network; of a lever the solid and its curves. `pulvis figure` runs it.
 
-usage: figures.py RUN_FOLDER [--frame N] [--field NAME]
+usage: figures.py RUN_FOLDER [--frame N] [--field NAME] [--series NAME]... [--against NAME]
+                  [--format png|svg|pdf|csv] [-o FILE_OR_FOLDER]
 
-Reads RUN_FOLDER/run.h5 (complete frames only) and summary.json where there is one, and writes
-RUN_FOLDER/pictures/*.png. What a run has not recorded is left out, with a line that says so.
-Needs python3-h5py, python3-numpy and python3-matplotlib.
+Reads RUN_FOLDER/run.h5 (complete frames only) and summary.json where there is one. All figures go into
+RUN_FOLDER/pictures/ (or the folder of -o); what a run has not recorded is left out, with a line that says
+so. With --series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its numbers in SI.
+Needs python3-h5py, python3-numpy and python3-matplotlib. Exit codes: 2 for what is not there, 4 for a machine
+that lacks something.
 """
 import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
-import numpy as np
+try:
+    import matplotlib
+    import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
-from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    from matplotlib.collections import LineCollection, PolyCollection
 
-from figure_parts import STYLE, Run, draw_tools, labelled, outlines, unit_for  # noqa: E402
-from observed_figures import contact_network, density_profile, local_density, rose  # noqa: E402
+    from figures_afm import AFM_FIGURES
+    from figures_observed import contact_network, density_profile, local_density, rose
+    from figures_parts import (STYLE, Run, draw_lines, draw_tools, labelled, outlines, refuse, unit_for,
+                               write_csv)
+except ImportError as error:
+    print(f"figures: {error}; needed: python3-h5py, python3-numpy, python3-matplotlib", file=sys.stderr)
+    sys.exit(4)
 
 DEFAULT_FIELD = "effective_stress"
-
-
-def draw_lines(run, x, lines, ylabel, title):
-    """x: (label, values, unit); lines: [(label, values, unit)] of one unit."""
-    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
-    x_factor, x_unit = unit_for(x[2], x[1])
-    factor, unit = unit_for(lines[0][2], np.concatenate([values for _, values, _ in lines]))
-    for label, values, _ in lines:
-        axes.plot(x_factor * x[1], factor * values, label=label)
-    axes.set_xlabel(labelled(x[0], x_unit))
-    axes.set_ylabel(labelled(ylabel, unit))
-    axes.set_title(f"{title}\n{run.title}", loc="left")
-    axes.legend()
-    return figure
+FORMATS = {".png", ".svg", ".pdf", ".csv"}
 
 
 def time_axis(run):
@@ -94,7 +90,7 @@ def field_picture(run, options):
         values, unit = cell_field(frame, name)
     except KeyError as error:
         if options.field:  # asked for by name
-            sys.exit(f"figures: {error.args[0]}")
+            refuse(error.args[0])
         return None
     return draw_field(run, frame, name, values, unit)
 
@@ -122,36 +118,87 @@ def draw_field(run, frame, name, values, unit):
                    f"{run.title}", loc="left")
     bar = figure.colorbar(faces, ax=axes, shrink=0.9, label=labelled(label, shown))
     bar.outline.set_visible(False)
+    middle = position[quads].mean(axis=1)
+    figure.table = [("x", "m", middle[:, 0]), ("y", "m", middle[:, 1]), (name, unit, values)]
     return figure
 
 
-def main():
+def chosen_series(run, options):
+    """The series that were asked for by name, over another one or over time."""
+    against = options.against or "time"
+    for name in [*options.series, against]:
+        if name not in run.series:
+            refuse(f"no series {name}; there are: {', '.join(sorted(run.series))}")
+    units = {run.series[name].attrs["unit"] for name in options.series}
+    if len(units) > 1:
+        refuse(f"series of different units in one figure: {', '.join(sorted(units))}")
+    lines = [(name, run.values(name), run.series[name].attrs["unit"]) for name in options.series]
+    label = options.series[0] if len(lines) == 1 else "value"
+    return draw_lines(run, (against, run.values(against), run.series[against].attrs["unit"]), lines, label,
+                      ", ".join(options.series))
+
+
+PLANE_FIGURES = {"force": force, "stress_ratio": stress_ratio, "energies": energies,
+                 "local_density": local_density, "density_profile": density_profile,
+                 "contact_network": contact_network, "contact_rose": rose}
+
+
+def save(figure, path):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.suffix == ".csv":
+        write_csv(path, figure.table)
+    else:
+        figure.savefig(path)
+    plt.close(figure)
+    print(path)
+
+
+def save_all(run, options):
+    folder = options.output or options.run_folder / "pictures"
+    names = AFM_FIGURES if run.is_solid else {
+        (options.field or DEFAULT_FIELD).replace(":", "_"): field_picture, **PLANE_FIGURES}
+    for name, draw in names.items():
+        figure = draw(run, options)
+        path = folder / f"{name}.{options.format}"
+        if figure is None or path.suffix == ".csv" and not hasattr(figure, "table"):
+            print(f"figures: nothing recorded for {path.name}")
+        else:
+            save(figure, path)
+
+
+def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("run_folder", type=Path)
     parser.add_argument("--frame", type=int, help="number of a frame, from 0; the last if not said")
     parser.add_argument("--field",
                         help=f"cell field, {DEFAULT_FIELD} if not said; NAME:k for component k")
+    parser.add_argument("--series", action="append", default=[], help="series of the history to draw")
+    parser.add_argument("--against", help="series of the other axis, time if not said")
+    parser.add_argument("--format", choices=["png", "svg", "pdf", "csv"], default="png")
+    parser.add_argument("-o", "--output", type=Path, help="a file, or a folder for all figures")
     options = parser.parse_args()
+    if options.against and not options.series:
+        parser.error("--against says over what --series is drawn")
+    return options
+
+
+def main():
+    options = arguments()
     try:
         run = Run(options.run_folder)
-    except (OSError, ValueError) as error:
-        sys.exit(f"figures: {options.run_folder}: {error}")
-    pictures = options.run_folder / "pictures"
-    pictures.mkdir(exist_ok=True)
+    except (OSError, ValueError, KeyError) as error:
+        refuse(f"{options.run_folder}: {error}")
     plt.rcParams.update(STYLE)
-    field_name = (options.field or DEFAULT_FIELD).replace(":", "_")
-    names = {field_name: field_picture, "force": force,
-             "stress_ratio": stress_ratio, "energies": energies,
-             "local_density": local_density, "density_profile": density_profile,
-             "contact_network": contact_network, "contact_rose": rose}
-    for name, draw in names.items():
-        figure = draw(run, options)
-        if figure is None:
-            print(f"figures: nothing recorded for {name}.png")
-            continue
-        figure.savefig(pictures / f"{name}.png")
-        plt.close(figure)
-        print(pictures / f"{name}.png")
+    file = options.output if options.output and options.output.suffix in FORMATS else None
+    if not options.series and not file:
+        save_all(run, options)
+        return
+    if run.is_solid and not options.series:
+        refuse("one figure of a lever is one of its series: say --series")
+    figure = chosen_series(run, options) if options.series else field_picture(run, options)
+    if figure is None:
+        refuse(f"no frame with {options.field or DEFAULT_FIELD}")
+    save(figure, file or Path(f"{'-'.join(options.series).replace('/', '_')}.{options.format}"))
 
 
 if __name__ == "__main__":

@@ -1,24 +1,12 @@
-#!/usr/bin/python3
-"""Pictures of an AFM run: the deformed solid (first, middle and last frame) and its curves.
-
-usage: figures_afm.py RUN_FOLDER [-o FOLDER]
-"""
-import argparse
-import csv
-from pathlib import Path
-
-import h5py
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+"""Figures of a lever: the deformed solid (first, middle and last frame) and its curves."""
 import numpy as np
+from matplotlib import pyplot as plt
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from figures_parts import draw_lines
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
-CURVES = [("scanner/z", "probe/force_z"), ("scanner/y", "probe/force_y"),
-          ("scanner/y", "detector/lateral"), ("time", "probe/force_z")]
 
 
 def outer_faces(hexahedra):
@@ -43,53 +31,41 @@ def draw_solid(axis, position, faces, parts, title):
     axis.view_init(18, -60)
 
 
-def draw_frames(run, path):
-    frames = sorted(run["frames"])
-    chosen = frames if len(frames) <= 4 else [frames[0], frames[len(frames) // 2], frames[-1]]
-    faces = outer_faces(run["mesh/hexahedra"][:].tolist())
-    parts = run["mesh/cell_particle"][:]
+def solid(run, options):
+    if not run.frames:
+        return None
+    chosen = run.frames if len(run.frames) <= 4 else [run.frames[0], run.frames[len(run.frames) // 2],
+                                                      run.frames[-1]]
+    if options.frame is not None:
+        run.frame(options.frame)
+        chosen = [run.frames[options.frame]]
+    faces = outer_faces(run.file["mesh/hexahedra"][:].tolist())
+    parts = run.file["mesh/cell_particle"][:]
     figure = plt.figure(figsize=(7 * len(chosen), 6))
     for i, name in enumerate(chosen):
-        frame = run["frames"][name]
+        frame = run.file["frames"][name]
         axis = figure.add_subplot(1, len(chosen), i + 1, projection="3d")
         draw_solid(axis, frame["position"][:], faces, parts,
                    f"frame {int(name)}, time {frame.attrs['time']:.3g}")
-    figure.savefig(path, dpi=90, bbox_inches="tight")
-    plt.close(figure)
+    last = position_of(run, chosen[-1])
+    figure.table = [(axis, "m", last[:, k]) for k, axis in enumerate("xyz")]
+    return figure
 
 
-def draw_curves(folder, path):
-    with open(folder / "history.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    units = dict(name.rsplit(" ", 1) for name in rows[0])
-    values = {name.rsplit(" ", 1)[0]: np.array([float(r[i]) for r in rows[1:]])
-              for i, name in enumerate(rows[0])}
-    if "scanner/z" not in values:
-        return False
-    figure, axes = plt.subplots(1, len(CURVES), figsize=(6 * len(CURVES), 4.5))
-    for axis, (x, y) in zip(axes, CURVES):
-        axis.plot(values[x], values[y], ".-", markersize=3, linewidth=0.8)
-        axis.set(xlabel=f"{x} {units[x]}", ylabel=f"{y} {units[y]}")
-        axis.grid(alpha=0.3)
-    figure.tight_layout()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
-    return True
+def position_of(run, name):
+    return run.file["frames"][name]["position"][:]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("-o", "--output", type=Path)
-    options = parser.parse_args()
-    output = options.output or options.folder / "pictures"
-    output.mkdir(parents=True, exist_ok=True)
-    with h5py.File(options.folder / "run.h5", "r") as run:
-        draw_frames(run, output / "solid.png")
-    print(output / "solid.png")
-    if draw_curves(options.folder, output / "curves.png"):
-        print(output / "curves.png")
+def curve(x, y, title):
+    """A figure of two series, where the run has them and the abscissa moves."""
+    def draw(run, _):
+        if x not in run.series or y not in run.series or not np.ptp(run.values(x)) > 0:
+            return None
+        named = [(name, run.values(name), run.series[name].attrs["unit"]) for name in (x, y)]
+        return draw_lines(run, named[0], named[1:], y, title)
+    return draw
 
 
-if __name__ == "__main__":
-    main()
+AFM_FIGURES = {"solid": solid, "force_curve": curve("scanner/z", "probe/force_z", "Force curve"),
+               "friction_loop": curve("scanner/y", "probe/force_y", "Friction loop"),
+               "detector": curve("scanner/y", "detector/lateral", "Lateral signal")}

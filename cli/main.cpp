@@ -8,6 +8,7 @@
 #include <new>
 
 #include "cli/exit_code.hpp"
+#include "cli/figure.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
 #include "cli/reduce.hpp"
@@ -38,7 +39,9 @@ struct Options {
   StudyOptions study;
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
-  std::filesystem::path folder;
+  FigureOptions figure;
+  std::vector<std::filesystem::path> folders;  // of runs to report on
+  std::filesystem::path comparison;
   std::filesystem::path packing = "packing.csv";
 };
 
@@ -83,9 +86,42 @@ ExitCode plan(const Options& options) {
 }
 
 ExitCode report(const Options& options) {
-  write_report(options.folder);
-  fmt::print("{}\n", (options.folder / "report.html").string());
+  const bool several = options.folders.size() > 1 || !options.comparison.empty();
+  const auto page = !several                     ? options.folders.front() / "report.html"
+                    : options.comparison.empty() ? "comparison.html"
+                                                 : options.comparison;
+  several ? write_comparison(options.folders, page) : write_report(options.folders.front());
+  fmt::print("{}\n", page.string());
   return ExitCode::done;
+}
+
+void add_report(CLI::App& app, Options& options, ExitCode& code) {
+  auto* command = app.add_subcommand(
+      "report", "write report.html anew for a finished run, or lay several runs side by side");
+  command->add_option("folders", options.folders, "results folders of runs")->required();
+  command->add_option("-o,--output", options.comparison,
+                      "page that lays the runs side by side (default comparison.html)");
+  command->callback([&] { code = report(options); });
+}
+
+void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
+  auto* command = app.add_subcommand(
+      "figure", "draw pictures of a run for papers (PNG, SVG, PDF), or write their numbers (CSV)");
+  command->add_option("folder", options.folder, "results folder of a run")->required();
+  command->add_option("--field", options.field,
+                      "draw this field of the particles; name:2 is its second component");
+  command->add_option("--frame", options.frame, "number of the frame, from 0 (default: the last)");
+  command
+      ->add_option("--series", options.series, "draw this series of the history; several: overlaid")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--against", options.against, "series of the other axis (default: time)");
+  command->add_option("-o,--output", options.output,
+                      "file, .png .svg .pdf or .csv; without --field and --series a folder for all "
+                      "figures (default: pictures/ in the run's folder)");
+  command->add_option("--format", options.format, "of all figures: png, svg, pdf or csv")
+      ->check(CLI::IsMember({"png", "svg", "pdf", "csv"}));
+  command->callback([&] { code = draw_figures(options); });
 }
 
 ExitCode study(const Options& options) {
@@ -257,9 +293,8 @@ int parse_and_run(int argc, char** argv) {
     code = pack_scene(read_scene(options.run.scene, options.run.overrides), options.packing);
   });
 
-  auto* reports = app.add_subcommand("report", "write report.html anew for a finished run");
-  reports->add_option("folder", options.folder, "results folder of a run")->required();
-  reports->callback([&] { code = report(options); });
+  add_report(app, options, code);
+  add_figure(app, options.figure, code);
 
   ReduceCommand reduce_command;
   add_reduce(app, reduce_command, code);

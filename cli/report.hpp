@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace pulvis {
 
@@ -18,5 +19,10 @@ namespace pulvis {
 //   quality    [{name, value, limit, meaning}]: shown instead of the figures made from the history
 // Throws OutputError where the folder holds no readable run or the report cannot be written.
 void write_report(const std::filesystem::path& run_folder);
+
+// Several runs on one page: their curves over each other, their figures in a table, their fields side by
+// side with one scale and one range of colours.
+void write_comparison(const std::vector<std::filesystem::path>& run_folders,
+                      const std::filesystem::path& page);
 
 }  // namespace pulvis

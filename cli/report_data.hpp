@@ -1,7 +1,5 @@
-// What report.html carries of a run: a head (JSON: names, units, ranges) and packed numbers.
-//
-// Frames are thinned evenly, the last one always kept, so that the file stays small enough to mail:
-// about 15 MB for a hundred particles of 141 quads.
+// What report.html carries of a run: a head (JSON: names, units, ranges) and packed numbers, small enough
+// together to be mailed (about 15 MB at most).
 #pragma once
 
 #include <filesystem>
@@ -11,7 +9,7 @@
 namespace pulvis {
 
 struct ReportSection {
-  std::string name;  // "quads", "history", "frame-3-position", "frame-3-0" (field 0 of frame 3)
+  std::string name;  // "cells", "history", "frame-3-position", "frame-3-0" (field 0 of frame 3)
   std::string text;  // as cli/report_encoding writes it
 };
 
@@ -22,5 +20,9 @@ struct ReportData {
 };
 
 ReportData read_report_data(const std::filesystem::path& run_folder);
+
+// Several runs for one page: the head has them as "runs", the names of their sections begin with "run-0-",
+// "run-1-" and so on.
+ReportData read_comparison(const std::vector<std::filesystem::path>& run_folders);
 
 }  // namespace pulvis

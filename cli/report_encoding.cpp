@@ -70,14 +70,15 @@ std::string encoded(std::span<const float> values) {
   return base64(deflated(planes_of_differences<std::uint32_t>(bits, 1)));
 }
 
-std::vector<std::uint16_t> quantised(std::span<const double> values, const Range& range) {
-  constexpr double levels = 65534;
+std::vector<std::uint16_t> quantised(std::span<const double> values, const Range& range,
+                                     std::size_t levels) {
   const double width = range.high - range.low;
   std::vector<std::uint16_t> codes(values.size(), 65535);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) continue;
     const double share = width > 0 ? (values[i] - range.low) / width : 0;
-    codes[i] = static_cast<std::uint16_t>(std::lround(levels * std::clamp(share, 0.0, 1.0)));
+    codes[i] = static_cast<std::uint16_t>(
+        std::lround(static_cast<double>(levels) * std::clamp(share, 0.0, 1.0)));
   }
   return codes;
 }

@@ -21,7 +21,8 @@ struct Range {
   double low = 0, high = 0;
 };
 
-// 0..65534 over the range; 65535 stands for what is no number.
-std::vector<std::uint16_t> quantised(std::span<const double> values, const Range& range);
+// 0..levels over the range; 65535 stands for what is no number.
+std::vector<std::uint16_t> quantised(std::span<const double> values, const Range& range,
+                                     std::size_t levels = 65534);
 
 }  // namespace pulvis

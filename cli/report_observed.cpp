@@ -1,5 +1,7 @@
 #include "cli/report_observed.hpp"
 
+#include <cmath>
+
 #include "cli/report_encoding.hpp"
 
 namespace pulvis {
@@ -13,16 +15,17 @@ class Observed {
 
   bool has(const std::string& name) const { return file_.contains(frame_ + "/" + name); }
 
-  Json density() const {  // NaN becomes null
-    return {{"cells", numbers("local_density")},
-            {"profile", numbers("density_profile")},
-            {"x", numbers("density_grid/x")},
-            {"y", numbers("density_grid/y")}};
+  Json density() const {
+    return {{"cells", rounded("local_density")},
+            {"profile", rounded("density_profile")},
+            {"x", rounded("density_grid/x")},
+            {"y", rounded("density_grid/y")}};
   }
 
-  Json network() const {
-    return {{"number", numbers("rose/number")},
-            {"force", numbers("rose/force")},
+  Json network(std::size_t lines) const {
+    return {{"number", rounded("rose/number")},
+            {"force", rounded("rose/force")},
+            {"lines", lines},
             {"unit", file_.text_attribute(frame_ + "/contacts/normal_force", "unit")}};
   }
 
@@ -50,19 +53,32 @@ class Observed {
     return file_.read_doubles(frame_ + "/" + name);
   }
 
+  // Six figures, as many as anybody reads; what is no number becomes null.
+  Json rounded(const std::string& name) const {
+    Json list = Json::array();
+    for (const double value : numbers(name)) {
+      const double size = value == 0 || !std::isfinite(value)
+                              ? 1.0
+                              : std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+      list.push_back(std::round(value * size) / size);
+    }
+    return list;
+  }
+
   const hdf5::File& file_;
   std::string frame_;
 };
 
 }  // namespace
 
-void add_observed(const hdf5::File& file, const std::string& frame, Json& head,
-                  std::vector<ReportSection>& sections) {
+void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
+                  Json& entry, std::vector<ReportSection>& sections) {
   const Observed observed(file, frame);
-  if (observed.has("local_density")) head["density"] = observed.density();
+  if (observed.has("local_density")) entry["density"] = observed.density();
   if (!observed.has("contacts")) return;
-  head["network"] = observed.network();
-  sections.push_back({"network", encoded(observed.lines())});
+  const std::vector<float> lines = observed.lines();
+  entry["network"] = observed.network(lines.size() / 5);
+  if (!lines.empty()) sections.push_back({prefix + "network", encoded(lines)});
 }
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// What report.html carries of local densities and of the contact network: those of the last frame.
+// What the report shows of local densities and contacts, where a frame has them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,9 +10,8 @@
 
 namespace pulvis {
 
-// Adds to the head "density" and "network", where the frame ("/frames/000050") has them, and the numbers
-// of the network as sections.
-void add_observed(const hdf5::File& file, const std::string& frame, nlohmann::ordered_json& head,
-                  std::vector<ReportSection>& sections);
+// Adds "density" and "network" to the frame's entry of the report's head, and the lines of the contacts.
+void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
+                  nlohmann::ordered_json& entry, std::vector<ReportSection>& sections);
 
 }  // namespace pulvis

@@ -30,9 +30,9 @@ std::string escaped(std::string_view text) {
 // JSON inside a script element: no text of the run may look like the end of the element.
 std::string harmless(std::string_view json) { return with_replaced(json, {{'<', "\\u003c"}}); }
 
-std::string joined(const std::vector<const char*>& names) {
+std::string joined(const std::vector<std::string>& names) {
   std::string text;
-  for (const char* name : names) text += std::string(report_asset(name)) + "\n";
+  for (const auto& name : names) text += std::string(report_asset(name)) + "\n";
   return text;
 }
 
@@ -46,17 +46,16 @@ std::string carried(const ReportData& data) {
   return text;
 }
 
-std::string part(std::string_view name, const std::vector<const char*>& scripts,
+std::string part(std::string_view name, const std::vector<std::string>& scripts,
                  const ReportData& data) {
   if (name == "title") return escaped(data.title);
-  if (name == "style") return joined({"uPlot.min.css", "report.css"});
-  if (name == "licence") return escaped(report_asset("uPlot.LICENSE"));
+  if (name == "style") return std::string(report_asset("report.css"));
   if (name == "script") return joined(scripts);
   return carried(data);
 }
 
 // The page with every <!--@name@--> replaced; what is put in is not searched again.
-std::string filled(std::string_view page, const std::vector<const char*>& scripts,
+std::string filled(std::string_view page, const std::vector<std::string>& scripts,
                    const ReportData& data) {
   static constexpr std::string_view opening = "<!--@", closing = "@-->";
   std::string text;
@@ -73,7 +72,7 @@ std::string filled(std::string_view page, const std::vector<const char*>& script
 }  // namespace
 
 void write_page(const std::filesystem::path& path, const char* page,
-                const std::vector<const char*>& scripts, const ReportData& data) {
+                const std::vector<std::string>& scripts, const ReportData& data) {
   const std::string text = filled(report_asset(page), scripts, data);
   auto beside = path;
   beside += ".new";

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "cli/report_data.hpp"
@@ -11,6 +11,6 @@ namespace pulvis {
 
 // `page` and `scripts` are names of assets; the data go into elements that payload.js reads.
 void write_page(const std::filesystem::path& path, const char* page,
-                const std::vector<const char*>& scripts, const ReportData& data);
+                const std::vector<std::string>& scripts, const ReportData& data);
 
 }  // namespace pulvis

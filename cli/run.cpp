@@ -174,10 +174,10 @@ struct Run {
   void finish(const std::string& outcome) {
     progress->finish();
     recorder->finish(outcome);
-    write_summary(
-        folder, loaded.scene, simulation->world(), results, compaction,
-        {progress->seconds(), clock().step, threads, fmt::format("{:016x}", loaded.hash), outcome},
-        verdicts);
+    write_summary(folder, loaded.scene, simulation->world(), results, compaction,
+                  {progress->seconds(), clock().step, threads, fmt::format("{:016x}", loaded.hash),
+                   outcome, simulation->costs()},
+                  verdicts);
     write_report(folder);
   }
 };

@@ -8,6 +8,7 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/plan.hpp"
+#include "cli/report.hpp"
 #include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
 #include "cli/write_text.hpp"
@@ -223,6 +224,7 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
     report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
                             end.failure, threads);
   write_text(folder / "summary.json", afm_summary(loaded, report));
+  write_report(folder);
   if (options.json) print_summary(folder);
   if (options.talks()) print_end(report, folder);
   const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);

@@ -133,7 +133,7 @@ void write_study(const std::filesystem::path& folder, const Study& study,
   write_text(folder / "curves.json", curves_json(curves).dump() + "\n");
   write_page(
       folder / "report.html", "study.html",
-      {"uPlot.iife.min.js", "units.js", "payload.js", "charts.js", "compaction.js", "study.js"},
+      {"units.js", "payload.js", "save.js", "chart.js", "fits.js", "study.js"},
       page_data(study, summary, curves));
 }
 

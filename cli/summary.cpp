@@ -144,6 +144,8 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
   add_stages(json, world);
   add_shear(json, results);
   add_compaction(json, scene, curve);
+  for (const SystemCost& system : cost.systems)
+    json["cost"].push_back({{"system", system.system}, {"seconds", system.seconds}});
   if (!verdicts.empty()) json["expectations"] = expectations_json(verdicts);
   const std::filesystem::path path = folder / "summary.json";
   std::ofstream file(path);

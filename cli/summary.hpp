@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "engine/task_graph.hpp"
 #include "scenes/compaction_curve.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/results.hpp"
@@ -16,6 +18,7 @@ struct RunCost {
   std::int64_t steps = 0;
   int threads = 1;
   std::string scene_hash, outcome;
+  std::vector<SystemCost> systems;
 };
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,

@@ -5,6 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 namespace pulvis {
@@ -150,7 +151,26 @@ ColumnsAhead columns_ahead(const std::vector<const System*>& members, const Worl
 struct TaskGraph::Flow {
   using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
 
+  using Time = std::chrono::steady_clock;
+  static constexpr std::int64_t timed_every = 64, timed_first = 4;  // not those with cold caches
+
+  struct alignas(64) Times {      // of one worker; its own cache lines
+    std::vector<double> seconds;  // of each system, in the timed runs
+  };
+
+  bool timed() const { return runs % timed_every == timed_first; }
+
+  void run(std::size_t system, const Chunk& chunk) {
+    if (!timed()) return systems[system].run(chunk);
+    const auto began = Time::now();
+    systems[system].run(chunk);
+    const auto worker = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+    times[worker].seconds[system] += std::chrono::duration<double>(Time::now() - began).count();
+  }
+
   std::vector<System> systems;
+  std::int64_t runs = 0;
+  std::vector<Times> times;
   tbb::flow::graph graph;
   std::optional<tbb::flow::broadcast_node<tbb::flow::continue_msg>> start;
   std::vector<std::unique_ptr<Node>> nodes;
@@ -160,19 +180,22 @@ TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transie
                      const World* world)
     : plan_(derive_plan(systems)), flow_(std::make_unique<Flow>()) {
   flow_->systems = std::move(systems);
+  flow_->times.assign(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+                      {std::vector<double>(flow_->systems.size())});
   const auto stages = group(flow_->systems);
   const bool dropped = transients == Transients::dropped;
   for (std::size_t s = 0; s < stages.size(); ++s) {
-    std::vector<const System*> members;
-    for (const std::size_t i : stages[s]) members.push_back(&flow_->systems[i]);
-    auto body = [members, chunks, dropped, ahead = columns_ahead(members, world),
+    std::vector<const System*> systems_of_stage;
+    for (const std::size_t i : stages[s]) systems_of_stage.push_back(&flow_->systems[i]);
+    auto body = [flow = flow_.get(), members = stages[s], chunks, dropped,
+                 ahead = columns_ahead(systems_of_stage, world),
                  by_chunk = plan_.stages[s].by_chunk](tbb::flow::continue_msg) {
-      if (!by_chunk) return members.front()->run(Chunk{});
+      if (!by_chunk) return flow->run(members.front(), Chunk{});
       tbb::parallel_for(0, chunks, [&](int index) {
         LookAhead list = ahead.list(index, chunks);
         const Chunk chunk{index, dropped ? tbb::this_task_arena::current_thread_index() : -1,
                           &list};
-        for (const System* system : members) system->run(chunk);
+        for (const std::size_t system : members) flow->run(system, chunk);
       });
     };
     flow_->nodes.push_back(std::make_unique<Flow::Node>(flow_->graph, body));
@@ -194,6 +217,21 @@ TaskGraph::TaskGraph(TaskGraph&&) noexcept = default;
 void TaskGraph::run() {
   flow_->start->try_put(tbb::flow::continue_msg{});
   flow_->graph.wait_for_all();
+  ++flow_->runs;
+}
+
+std::vector<SystemCost> TaskGraph::costs() const {
+  const std::int64_t every = Flow::timed_every;
+  const std::int64_t timed = (flow_->runs + every - 1 - Flow::timed_first) / every;
+  const double whole =
+      timed > 0 ? static_cast<double>(flow_->runs) / static_cast<double>(timed) : 0;
+  std::vector<SystemCost> costs;
+  for (std::size_t i = 0; i < flow_->systems.size(); ++i) {
+    double seconds = 0;
+    for (const Flow::Times& worker : flow_->times) seconds += worker.seconds[i];
+    costs.push_back({flow_->systems[i].name, seconds * whole});
+  }
+  return costs;
 }
 
 }  // namespace pulvis

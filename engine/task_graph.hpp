@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,13 @@ struct StagePlan {
   std::vector<std::string> systems;
   bool by_chunk = false;
   std::vector<AccessInfo> accesses;  // union over its systems; write wins over read
+};
+
+// What a system has taken of all workers together. Only every 64th run is timed: looking at the clock costs
+// little then, and a run of thousands of steps is told well.
+struct SystemCost {
+  std::string system;
+  double seconds = 0;
 };
 
 struct GraphPlan {
@@ -48,6 +56,7 @@ class TaskGraph {
   // Runs every stage once. An exception of a system ends the run and comes out here.
   void run();
   const GraphPlan& plan() const { return plan_; }
+  std::vector<SystemCost> costs() const;  // in the order of the list
 
  private:
   struct Flow;

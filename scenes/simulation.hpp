@@ -21,6 +21,7 @@ class Simulation {
   World& world() { return *world_; }
   const Clock& clock() const { return world_->resource<Clock>(); }
   const GraphPlan& plan() const { return step_->plan(); }
+  std::vector<SystemCost> costs() const { return step_->costs(); }
   bool finished() const { return clock().time >= clock().end; }
 
   // Runs plain steps while t_n < `time` and the end of the run, which may come early; `stop` is asked after every step and ends it early. Afterwards

@@ -2,6 +2,8 @@
 
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+
 #include "systems/highest_mode.hpp"
 #include "systems/lost_bodies.hpp"
 #include "systems/systems.hpp"
@@ -140,5 +142,15 @@ void Step::start() {
 void Step::run() { whole_.run(); }
 void Step::observe() { observed_.run(); }
 void Step::move() { motion_.run(); }
+
+std::vector<SystemCost> Step::costs() const {
+  std::vector<SystemCost> all = whole_.costs();
+  for (const TaskGraph* graph : {&observed_, &motion_})
+    for (const SystemCost& cost : graph->costs()) {
+      const auto same = std::ranges::find(all, cost.system, &SystemCost::system);
+      same == all.end() ? all.push_back(cost) : void(same->seconds += cost.seconds);
+    }
+  return all;
+}
 
 }  // namespace pulvis

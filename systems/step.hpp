@@ -29,6 +29,7 @@ class Step {
   void observe();  // forces and energies at t_n...
   void move();     // ...and then the motion that finishes the step
   const GraphPlan& plan() const { return whole_.plan(); }
+  std::vector<SystemCost> costs() const;  // of plain and of sampled steps together
 
  private:
   World& world_;

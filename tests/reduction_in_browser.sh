@@ -39,7 +39,7 @@ if grep ':CONSOLE' "$work/log.txt"; then fail "the console has messages"; fi
 body=$(grep -o '<body[^>]*>' "$work/page.html" | head -1)
 [[ $body != *data-error* ]] || fail "$body"
 [[ $body == *'data-ready="1"'* && $body == *'data-charts="5"'* ]] || fail "not ready: $body"
-drawn=$(grep -o 'class="u-wrap"' "$work/page.html" | wc -l)
+drawn=$(grep -o 'class="plot"' "$work/page.html" | wc -l)
 [[ $drawn -eq 5 ]] || fail "$drawn charts on the page, not 5"
 grep -q 'simulation sim' "$work/page.html" || fail "the simulation is not on the page"
 grep -q '<td>mean of the runs</td>' "$work/page.html" || fail "no mean of the runs"

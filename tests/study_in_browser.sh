@@ -43,7 +43,7 @@ browse --dump-dom >"$work/page.html" 2>"$work/browser.txt" || fail "chromium: $(
 if grep ':CONSOLE' "$work/browser.txt"; then fail "the console has messages"; fi
 body=$(grep -o '<body[^>]*>' "$work/page.html" | head -1)
 [[ $body == *'data-ready="1"'* ]] || fail "not ready: $body"
-[[ $body == *'data-drawn-lines="6"'* ]] || fail "not 3 charts of 2 variations: $body"
+[[ $body == *'data-drawn-lines="6"'* && $(grep -o 'class="curve" d="M' "$work/page.html" | wc -l) -eq 6 ]] || fail "not 3 charts of 2 variations: $body"
 grep -q 'href="friction%3D0.1%2Cseed%3D2/report.html"' "$work/page.html" || fail "no link to a run"
 [[ -f $study/friction=0.1,seed=2/report.html ]] || fail "the link leads nowhere"
 browse --screenshot="$study/report.png" >/dev/null 2>&1

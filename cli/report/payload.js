@@ -10,10 +10,15 @@ function fail(error) {
 addEventListener("error", event => fail(event.error || event.message));
 addEventListener("unhandledrejection", event => fail(event.reason));
 
+function fromBase64(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = letters.charCodeAt(i);
+  return bytes;
+}
+
 async function inflated(id) {
-  const text = document.getElementById(id).textContent;
-  const packed = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const stream = new Blob([fromBase64(document.getElementById(id).textContent)]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
@@ -35,9 +40,3 @@ const shorts = (id, stride) => decoded(id, Uint16Array, stride);
 const integers = (id, stride) => decoded(id, Int32Array, stride);
 const floats = async id => new Float32Array((await decoded(id, Uint32Array, 1)).buffer);
 
-// The history as a Map of name to {name, unit, meaning, values}.
-async function readHistory(head) {
-  const all = await floats("history"), count = head.samples;
-  return new Map(head.series.map((series, k) =>
-    [series.name, {...series, values: all.subarray(k * count, (k + 1) * count)}]));
-}

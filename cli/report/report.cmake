@@ -1,11 +1,12 @@
-# Puts the report's page (this folder) into a target as bytes, and links what packs its data.
+# Puts the report's page (this folder) and the scripts of `pulvis figure` into a target as bytes, and links
+# what packs the page's data.
 
 set(report_folder ${CMAKE_CURRENT_LIST_DIR})
 
 function(add_report_assets target)
   find_package(ZLIB REQUIRED)
   file(GLOB assets CONFIGURE_DEPENDS ${report_folder}/*.html ${report_folder}/*.css
-       ${report_folder}/*.js ${report_folder}/vendor/*)
+       ${report_folder}/*.js ${report_folder}/../figures*.py)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/report_assets.cpp)
   add_custom_command(
     OUTPUT ${source}

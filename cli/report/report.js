@@ -1,57 +1,96 @@
-// Puts the page together. <body> tells how it went: data-ready, data-drawn-quads, or data-error.
+// Puts the page together. <body> tells how it went: data-ready, or data-error.
 "use strict";
 
-function connectControls(picture, head) {
-  const field = document.getElementById("field"), frame = document.getElementById("frame");
-  head.fields.forEach((one, i) => field.add(new Option(words(one.name), i)));
-  field.value = picture.field;
-  field.onchange = () => picture.show({field: Number(field.value)});
-  frame.max = head.frames.length - 1;
-  frame.value = picture.frame;
-  frame.oninput = () => picture.show({frame: Number(frame.value)});
-  const range = document.getElementById("same-range");
-  range.onchange = () => picture.show({sameRange: range.checked});
-  connectPlay(document.getElementById("play"), frame, head.frames.length);
+// The large chart: which curves, against what.
+function placeCurves(report, host) {
+  const {run} = report;
+  const single = run.head.series.filter(({name}) => name !== "time").map(({name, meaning}) =>
+    ({title: name, meaning, xs: [timeAxis(run)], y: name, lines: [run.series(name)]}));
+  const groups = [...curvesOf(run), ...single];
+  if (run.times.length < 2 || !groups.length) return;
+  const what = element("select", {id: "curve"}), against = element("select", {id: "against"});
+  const families = element("optgroup", {label: "Curves"}), others = element("optgroup", {label: "Any recorded series"});
+  groups.forEach((group, i) => (i < groups.length - single.length ? families : others).append(new Option(group.title, i)));
+  what.append(...[families, others].filter(list => list.children.length));
+  const place = element("div", {}), note = element("p", {className: "note"});
+  host.append(element("div", {className: "card-head"}, element("h2", {textContent: "Curves"})),
+              element("div", {className: "controls"}, element("label", {}, "Show ", what),
+                      element("label", {}, "against ", against)), place, note);
+  let chart = null;
+  const show = () => {
+    const group = groups[what.value], spec = {...group, x: group.xs[against.value || 0]};
+    note.textContent = group.meaning || "";
+    if (chart) chart.show(spec);
+    else chart = report.chart(place, spec, {height: 400});
+    chart.mark(run.sampleAt(report.timeline.share * report.endTime));
+  };
+  what.onchange = () => {
+    against.replaceChildren(...groups[what.value].xs.map((x, i) => new Option(x.label, i)));
+    show();
+  };
+  against.onchange = show;
+  what.value = 0;
+  what.onchange();
 }
 
-function connectPlay(button, frame, count) {
-  let timer = 0;
-  const stop = () => { clearInterval(timer); timer = 0; button.textContent = "Play"; };
-  const step = () => {
-    frame.value = Number(frame.value) + 1;
-    frame.oninput();
-    if (Number(frame.value) === count - 1) stop();
+async function placePicture(report, host) {
+  const {run, timeline} = report;
+  if (!run.frames.length) return;
+  const place = element("div", {}), solid = Boolean(run.head.solid);
+  const view = solid ? await SolidView.load(place, run) : new FieldView(place, run);
+  const field = element("select", {id: "field"});
+  view.choices.forEach(([value, label]) => field.add(new Option(label, value)));
+  field.value = solid ? "size" : run.field("effective_stress") >= 0 ? "effective_stress" : view.choices[0][0];
+  field.onchange = () => view.show({shown: field.value});
+  const controls = element("div", {className: "controls"}, element("label", {}, "Show ", field));
+  const tick = (id, label, checked, name) => {
+    const box = element("input", {type: "checkbox", id, checked});
+    box.onchange = () => view.show({[name]: box.checked});
+    controls.append(element("label", {}, box, " " + label));
   };
-  button.onclick = () => {
-    if (timer) { stop(); return; }
-    if (Number(frame.value) === count - 1) frame.value = -1;
-    button.textContent = "Stop";
-    timer = setInterval(step, 120);
-  };
+  if (!solid) tick("same-range", "same colours in all frames", true, "sameRange");
+  if (run.frames.some(frame => frame.network && frame.network.lines)) tick("contacts", "contact forces", false, "contacts");
+  const head = element("div", {className: "card-head"}, element("h2", {textContent: solid ? "Lever" : "Particles"}),
+    saveButtons("picture", {PNG: () => saveCanvas(fileName(`${run.head.title} ${field.value} ${view.frame}`) + ".png", view.canvas)}));
+  host.append(head, controls, place);
+  timeline.listen(share => view.showShare(share));
+  await view.show({shown: field.value});
 }
 
-async function showPicture(head, history) {
-  if (!head.frames.length) return;
-  document.getElementById("picture-section").hidden = false;
-  const picture = new Picture(head, await integers("quads", 4), history);
-  picture.field = Math.max(0, head.fields.findIndex(field => field.name === "effective_stress"));
-  connectControls(picture, head);
-  await picture.show({});
+function noteOfFrames({frames, head}) {
+  if (!frames.length) return "The scene wrote no frames, so there is no picture of its particles: output.frames asks for them.";
+  const parts = [];
+  if (head.all_frames > frames.length) parts.push(`${frames.length} of the ${head.all_frames} frames are in this page`);
+  if (head.mesh && head.mesh.fans) {
+    parts.push(`to keep it small, every particle is drawn as ${head.mesh.fans} triangles with the mean values of its ` +
+               `elements there; holes are drawn over`);
+  }
+  return parts.length ? titled(parts.join("; ")) + ". run.h5 has everything." : "";
 }
 
 async function main() {
-  const head = JSON.parse(document.getElementById("head").textContent);
-  const history = await readHistory(head);
-  document.getElementById("lead").textContent = leadOf(head, history);
-  fillSummary(head, history);
-  fillQuality(head, history);
-  fillFits(head.summary);
-  fillTransmission(head.summary);
-  drawCharts(history);
-  drawShear(history, head.summary);
-  await showObserved(head);
-  drawFits(head.summary);
-  await showPicture(head, history);
+  const started = performance.now();
+  const run = await Run.load(JSON.parse(document.getElementById("head").textContent));
+  const timeline = new Timeline(document.getElementById("timeline"), run.frames.map(frame => frame.time),
+                                {name: run.timeName, unit: run.timeUnit});
+  const report = new Report(run, timeline);
+  document.getElementById("lead").textContent = leadOf(run);
+  document.getElementById("frames-note").textContent = noteOfFrames(run);
+  document.getElementById("timeline").hidden = run.frames.length < 2;
+  placeSettings(document.getElementById("settings"), new Set([...run.head.series, ...(run.head.fields || [])].map(s => s.unit)));
+  const tables = () => [fillFigures, fillSummary, fillQuality, fillCost].forEach(fill => fill(run));
+  tables();
+  onUnits(tables);
+  fillFits(run.summary);
+  fillTransmission(run.summary);
+  if (run.head.scene) {
+    document.getElementById("scene-section").hidden = false;
+    document.getElementById("scene").textContent = run.head.scene;
+  }
+  placeCurves(report, document.getElementById("curve-place"));
+  await placePicture(report, document.getElementById("picture-place"));
+  report.placePanels();
+  document.body.dataset.readyIn = Math.round(performance.now() - started);
   document.body.dataset.ready = "1";
 }
 

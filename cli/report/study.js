@@ -95,23 +95,6 @@ function fillBelow(head) {
   fillTable("below", ["run", "wall µ", ...TRANSMISSION.map(([, title]) => title), ""], rows);
 }
 
-// The area between smallest and largest over the seeds: out along the one, back along the other.
-function fillBand(u, index) {
-  const [xs, ys] = u.data[index], {left, top, width, height} = u.bbox, ctx = u.ctx;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, width, height);
-  ctx.clip();
-  ctx.beginPath();
-  xs.forEach((x, i) => ctx.lineTo(u.valToPos(x, "x", true), u.valToPos(ys[i], "y", true)));
-  ctx.closePath();
-  ctx.globalAlpha = 0.2;
-  ctx.fillStyle = u.series[index].stroke();
-  ctx.fill();
-  ctx.restore();
-  return null;
-}
-
 function lineData(line, numbers) {
   const part = k => numbers.subarray(line.first + k * line.count, line.first + (k + 1) * line.count);
   return {x: part(0), y: part(1), low: line.band ? part(2) : null, high: line.band ? part(3) : null};
@@ -119,36 +102,15 @@ function lineData(line, numbers) {
 
 const seriesLabel = name => words(name).replaceAll("/", " ");
 
-// Every curve has an abscissa of its own: uPlot's mode 2.
-function drawOverlay(host, curve, numbers) {
-  const lines = curve.lines.map(line => ({...line, ...lineData(line, numbers)}));
-  const xUnit = unitFor(curve.x_unit, Math.max(...lines.map(line => largest(line.x))));
-  const yUnit = unitFor(curve.y_unit, Math.max(...lines.map(line => largest(line.y))));
-  const data = [null], series = [null];
-  const add = (x, y, entry) => {
-    data.push([scaled(x, xUnit.factor), scaled(y, yUnit.factor)]);
-    series.push({facets: [{scale: "x", auto: true}, {scale: "y", auto: true}], width: 2,
-                 points: {show: false}, value: legendValue, ...entry});
-  };
-  lines.forEach((line, i) => {
-    const stroke = COLOURS[i % COLOURS.length];
-    if (line.band) {
-      add([...line.x, ...Array.from(line.x).reverse()], [...line.low, ...Array.from(line.high).reverse()],
-          {stroke, label: `${line.variation}, ${line.runs} seeds, from least to most`, paths: fillBand});
-    }
-    add(line.x, line.y, {stroke, label: line.band ? `${line.variation}, mean` : line.variation,
-                         paths: drawInOrder});
+// Every curve has an abscissa of its own, and a band over its seeds.
+function overlay(curve, numbers) {
+  const lines = curve.lines.map(line => {
+    const {x, y, low, high} = lineData(line, numbers);
+    const label = line.band ? `${line.variation}, mean of ${line.runs} seeds, band from least to most` : line.variation;
+    return {label, unit: curve.y_unit, x, values: y, low, high};
   });
-  const xLabel = labelled(seriesLabel(curve.x), xUnit.label);
-  const options = chartOptions(host, xLabel, labelled(seriesLabel(curve.y), yUnit.label), []);
-  options.mode = 2;
-  options.height = 340;
-  options.legend = {live: false};
-  options.cursor = {drag: {x: false, y: false}, points: {show: false}};
-  options.scales = {x: {time: false, range: withMargin(bounds(data.slice(1).map(d => d[0])), 0.02)},
-                    y: {range: withMargin(bounds(data.slice(1).map(d => d[1])), 0.05)}};
-  options.series = series;
-  fitted(new uPlot(options, data, host), host);
+  return {title: seriesLabel(curve.title), x: {label: seriesLabel(curve.x), unit: curve.x_unit, values: []},
+          y: seriesLabel(curve.y), lines};
 }
 
 async function main() {
@@ -161,7 +123,7 @@ async function main() {
   fillBelow(head);
   const drawn = head.curves.filter(curve => curve.lines.length);
   const hosts = drawn.map(curve => card(seriesLabel(curve.title)));  // first all places: they share the width
-  drawn.forEach((curve, i) => drawOverlay(hosts[i], curve, numbers));
+  drawn.forEach((curve, i) => drawChart(hosts[i], overlay(curve, numbers), {height: 340}));
   document.body.dataset.drawnLines = drawn.reduce((sum, curve) => sum + curve.lines.length, 0);
   document.body.dataset.ready = "1";
 }

@@ -2,12 +2,26 @@
 "use strict";
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""],
-                  [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
+                  [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"], [1e-15, "f"]];
 const SCALED = new Set(["m", "N", "Pa", "J", "s", "m/s", "V", "W", "N/m"]);
+
+// What the reader has chosen: SI unit to prefix. Whoever shows numbers listens.
+const chosenPrefixes = new Map();
+const unitListeners = [];
+const onUnits = listener => { unitListeners.push(listener); };
+
+function chooseUnit(unit, prefix) {
+  prefix === null ? chosenPrefixes.delete(unit) : chosenPrefixes.set(unit, prefix);
+  unitListeners.forEach(listener => listener());
+}
 
 // {factor, label}: multiply an SI number by the factor to show it in the labelled unit.
 function unitFor(unit, largest) {
   if (unit === "-" || unit === "") return {factor: 1, label: ""};
+  if (chosenPrefixes.has(unit)) {
+    const chosen = chosenPrefixes.get(unit);
+    return {factor: 1 / PREFIXES.find(([, prefix]) => prefix === chosen)[0], label: chosen + unit};
+  }
   if (!SCALED.has(unit) || !(largest > 0)) return {factor: 1, label: unit};
   const fits = ([size, prefix]) => largest >= size * 0.9995 && !(unit[0] === "m" && size > 1);
   const [size, prefix] = PREFIXES.find(fits) || PREFIXES[PREFIXES.length - 1];
@@ -33,7 +47,18 @@ function withUnit(value, unit, count = 4) {
   return digits(value * shown.factor, count) + (shown.label ? " " + shown.label : "");
 }
 
-const element = (tag, properties) => Object.assign(document.createElement(tag), properties);
+// Properties as of the element; those with a dash and "role" as attributes.
+function element(tag, properties, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties || {})) {
+    name.includes("-") || name === "role" ? made.setAttribute(name, value) : made[name] = value;
+  }
+  made.append(...children);
+  return made;
+}
+
+// After the layout that the change of size belongs to.
+const onResize = (host, action) => new ResizeObserver(() => requestAnimationFrame(action)).observe(host);
 const percent = value => digits(100 * value, 3) + " %";
 const words = name => name.replaceAll("_", " ");
 const titled = name => words(name).replace(/^./, letter => letter.toUpperCase());

@@ -3,6 +3,7 @@
 
 set(arrays "")
 set(choices "")
+set(names "")
 set(number 0)
 foreach(asset ${ASSETS})
   get_filename_component(name ${asset} NAME)
@@ -12,6 +13,7 @@ foreach(asset ${ASSETS})
   string(APPEND arrays "constexpr unsigned char asset_${number}[] = {\n${bytes}};\n")
   string(APPEND choices
          "  if (name == \"${name}\") return view(asset_${number}, sizeof asset_${number});\n")
+  string(APPEND names "\"${name}\", ")
   math(EXPR number "${number} + 1")
 endforeach()
 
@@ -34,6 +36,14 @@ std::string_view view(const unsigned char* bytes, std::size_t size) {
 
 std::string_view report_asset(std::string_view name) {
 ${choices}  throw std::invalid_argument(\"report: no part named \" + std::string(name));
+}
+
+std::vector<std::string> report_assets_named(std::string_view beginning) {
+  std::vector<std::string> found;
+  for (const char* name : {${names}}) {
+    if (std::string_view(name).starts_with(beginning)) found.emplace_back(name);
+  }
+  return found;
 }
 
 }  // namespace pulvis

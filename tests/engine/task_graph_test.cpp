@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "engine/workers.hpp"
@@ -221,6 +223,22 @@ void take(Chunk c, Read<Passing> passing, Write<Heat> heat) {
   heat.chunk(c)(Row<Cell>(0), 0) = passing.chunk(c)(Row<Cell>(0));
 }
 void look(Read<Passing>) {}
+
+// Timed in every 64th run only, told of all of them: a system that sleeps for a millisecond.
+TEST_F(TaskGraphTest, TellsWhatEachSystemTook) {
+  System sleeps = world_system<Write<Force>>("sleeps"), rests = world_system<Write<Ends>>("rests");
+  sleeps.run = [](Chunk) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); };
+  workers.run([&] {
+    TaskGraph graph({sleeps, rests}, chunks);
+    EXPECT_EQ(graph.costs()[0].seconds, 0);
+    for (int i = 0; i < 133; ++i) graph.run();  // three are timed
+    const auto costs = graph.costs();
+    ASSERT_EQ(costs.size(), 2U);
+    EXPECT_EQ(costs[0].system, "sleeps");
+    EXPECT_GE(costs[0].seconds, 0.133);
+    EXPECT_GT(costs[0].seconds, 3 * costs[1].seconds);
+  });
+}
 
 TEST(Transients, AreDroppedOnlyWhereOnePassTouchesThem) {
   World world;

@@ -131,7 +131,7 @@ TEST_F(LabRecords, TheProgramLeavesCurvesFiguresSettingsAndAPage) {
     EXPECT_TRUE(fs::exists(place / "done" / name)) << name;
   const std::string page = text_of(place / "done/report.html");
   EXPECT_THAT(page,
-              AllOf(HasSubstr("uPlot"), HasSubstr("id=\"record-0\""), Not(HasSubstr("<!--@"))));
+              AllOf(HasSubstr("drawChart("), HasSubstr("id=\"record-0\""), Not(HasSubstr("<!--@"))));
   EXPECT_EQ(pulvis(arguments), 2);  // results are there already
   EXPECT_EQ(pulvis(arguments + " --overwrite"), 0);
   EXPECT_EQ(pulvis("reduce done/reduce.toml p.csv l.csv -o again"),

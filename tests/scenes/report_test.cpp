@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +14,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "engine/output_error.hpp"
 #include "tests/scenes/synthetic_run.hpp"
@@ -44,11 +47,12 @@ class ReportTest : public ::testing::Test {
     return report();
   }
 
-  std::string report() const {
+  static std::string text_of(const fs::path& file) {
     std::ostringstream text;
-    text << std::ifstream(folder / "report.html").rdbuf();
+    text << std::ifstream(file).rdbuf();
     return text.str();
   }
+  std::string report() const { return text_of(folder / "report.html"); }
 
   fs::path folder;
   bool keep = false;
@@ -87,7 +91,7 @@ TEST_F(ReportTest, HoldsTheMeshTheHistoryAndEveryFrame) {
   EXPECT_EQ(head["mesh"]["particles"], 16);
   EXPECT_EQ(head["samples"], (run.frames - 1) * run.samples_a_frame + 1);
   EXPECT_EQ(head["series"][0]["name"], "time");
-  EXPECT_EQ(head["fields"].size(), 6U);  // two of one component, one of four; none of the nodes
+  EXPECT_EQ(head["fields"].size(), 7U);  // two of one component, one of four, the speed
   EXPECT_EQ(count_of(page, "<script type=\"application/octet-stream\""),
             2 + head["frames"].size() * (1 + head["fields"].size()));
 }
@@ -121,23 +125,47 @@ TEST_F(ReportTest, ShowsTheLastFrameOfARunOfOneFrame) {
   EXPECT_EQ(head_of(report_of(run))["frames"].size(), 1U);
 }
 
-TEST_F(ReportTest, ShowsLocalDensitiesAndContactsOfTheLastFrame) {
+TEST_F(ReportTest, ShowsLocalDensitiesAndContactsOfEveryFrame) {
   testing::SyntheticRun run;
   run.observed = true;
   const auto head = head_of(report_of(run));
-  EXPECT_EQ(head["density"]["cells"].size(), 4U);
-  EXPECT_TRUE(head["density"]["cells"][1].is_null());  // a tool fills it
-  EXPECT_NEAR(head["density"]["y"].back().get<double>(), 0.97 * 0.8e-3 * 4 + 0.03 * 4e-3, 1e-4);
-  EXPECT_EQ(head["network"]["number"].size(), 18U);
-  EXPECT_THAT(report(), HasSubstr("id=\"network\""));
-  EXPECT_FALSE(head_of(report_of({})).contains("network"));
-  const std::string script = std::string("/usr/bin/python3 '") + PULVIS_SOURCE_DIR +
-                             "/cli/figures.py' '" + folder.string() + "' >/dev/null";
+  const auto& last = head["frames"].back();
+  EXPECT_EQ(last["density"]["cells"].size(), 4U);
+  EXPECT_TRUE(last["density"]["cells"][1].is_null());  // a tool fills it
+  EXPECT_NEAR(last["density"]["y"].back().get<double>(), 0.97 * 0.8e-3 * 4 + 0.03 * 4e-3, 1e-4);
+  EXPECT_EQ(last["network"]["number"].size(), 18U);
+  EXPECT_EQ(last["network"]["lines"], 13);  // twelve pairs, one at the bottom
+  EXPECT_THAT(report(), HasSubstr("id=\"frame-5-network\""));
+  EXPECT_FALSE(head_of(report_of({}))["frames"].back().contains("network"));
+  const std::string command =
+      std::string("'") + PULVIS_PROGRAM + "' figure '" + folder.string() + "' >/dev/null";
   testing::record(run, folder);
   write_report(folder);
-  EXPECT_EQ(std::system(script.c_str()), 0);
+  EXPECT_EQ(std::system(command.c_str()), 0);
   for (const char* name : {"local_density", "density_profile", "contact_network", "contact_rose"})
     EXPECT_TRUE(fs::exists(folder / "pictures" / (std::string(name) + ".png"))) << name;
+}
+
+TEST_F(ReportTest, ShowsTheCurvesOfARunWithoutFrames) {
+  testing::SyntheticRun run;
+  run.pictures = false;
+  const auto head = head_of(report_of(run));
+  EXPECT_EQ(head["frames"].size(), 0U);
+  EXPECT_EQ(head["samples"], (run.frames - 1) * run.samples_a_frame + 1);
+}
+
+TEST_F(ReportTest, LaysSeveralRunsSideBySide) {
+  testing::SyntheticRun wide;
+  wide.columns = 6;
+  testing::record({}, folder / "one");
+  testing::record(wide, folder / "other");
+  write_comparison({folder / "one", folder / "other"}, folder / "report.html");
+  const auto runs = head_of(report())["runs"];
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0]["mesh"]["particles"], 16);
+  EXPECT_EQ(runs[1]["mesh"]["particles"], 24);
+  EXPECT_EQ(runs[1]["folder"], "other");
+  EXPECT_THAT(report(), HasSubstr("id=\"run-1-frame-5-position\""));
 }
 
 // A hundred particles of the usual size: the file can still be mailed.
@@ -152,18 +180,58 @@ TEST_F(ReportTest, StaysSmall) {
   EXPECT_EQ(head["frames"].back()["step"], 94 * 50 * run.samples_a_frame);
 }
 
-// The pictures for papers come from the same folder, by a script.
-TEST_F(ReportTest, HasPicturesDrawnByTheScript) {
+// The figures for papers come from the same folder, drawn by scripts that the program carries.
+TEST_F(ReportTest, HasFiguresForPapers) {
   testing::record({}, folder);
-  const std::string script = std::string("/usr/bin/python3 '") + PULVIS_SOURCE_DIR +
-                             "/cli/figures.py' '" + folder.string() + "'";
-  EXPECT_EQ(std::system((script + " >/dev/null").c_str()), 0);
+  const auto figure = [&](const std::string& options) {
+    const std::string program = std::string("'") + PULVIS_PROGRAM + "' figure '" + folder.string();
+    return std::system((program + "' " + options + " >/dev/null 2>&1").c_str());
+  };
+  EXPECT_EQ(figure(""), 0);
   for (const std::string name : {"effective_stress", "force", "stress_ratio", "energies"}) {
     EXPECT_TRUE(fs::exists(folder / "pictures" / (name + ".png"))) << name;
   }
-  EXPECT_EQ(std::system((script + " --field stress:2 --frame 1 >/dev/null").c_str()), 0);
+  EXPECT_EQ(figure("--field stress:2 --frame 1"), 0);
   EXPECT_TRUE(fs::exists(folder / "pictures" / "stress_2.png"));
-  EXPECT_NE(std::system((script + " --field none >/dev/null 2>&1").c_str()), 0);
+  EXPECT_EQ(figure("--field stress:2 --frame 1 -o " + (folder / "one.svg").string()), 0);
+  EXPECT_THAT(text_of(folder / "one.svg"), HasSubstr("<svg"));
+  EXPECT_NE(figure("--field none"), 0);
+  EXPECT_NE(figure("--series none"), 0);
+}
+
+// What is plotted can be had as numbers: those of the history.
+TEST_F(ReportTest, WritesPlottedSeriesAsNumbers) {
+  testing::record({}, folder);
+  const std::string table = (folder / "f.csv").string();
+  const std::string command = std::string("'") + PULVIS_PROGRAM + "' figure '" + folder.string() +
+                              "' --series tool/top/force_y --against relative_density -o " + table;
+  ASSERT_EQ(std::system((command + " >/dev/null").c_str()), 0);
+  std::istringstream rows(text_of(table)), history(text_of(folder / "history.csv"));
+  std::string row, of_history;
+  std::getline(rows, row);
+  std::getline(history, of_history);
+  EXPECT_EQ(row, "relative_density [-],tool/top/force_y [N]\r");
+  const auto column = [&](const std::string& name) {  // of the history
+    const auto before = of_history.substr(0, of_history.find(name));
+    return static_cast<std::size_t>(std::count(before.begin(), before.end(), ','));
+  };
+  const std::size_t density = column("relative_density"), force = column("tool/top/force_y");
+  std::size_t count = 0;
+  while (std::getline(rows, row) && std::getline(history, of_history)) {
+    std::vector<std::string> cells(1);
+    for (const char c : of_history) {
+      if (c == ',')
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    }
+    double first = 0, second = 0;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf", &first, &second), 2);
+    EXPECT_DOUBLE_EQ(first, std::stod(cells.at(density)));
+    EXPECT_DOUBLE_EQ(second, std::stod(cells.at(force)));
+    ++count;
+  }
+  EXPECT_EQ(count, 101U);
 }
 
 TEST_F(ReportTest, SaysWhichFolderHoldsNoRun) {

@@ -232,7 +232,8 @@ void record(const SyntheticRun& run, const std::filesystem::path& folder) {
   for (int i = 0; i <= samples; ++i) {
     const double time = duration * i / std::max(1, samples);
     recorder.sample(time, row(run, time));
-    if (i % run.samples_a_frame == 0) recorder.frame(time, 94 * i, frame_of(run, share_at(time)));
+    if (run.pictures && i % run.samples_a_frame == 0)
+      recorder.frame(time, 94 * i, frame_of(run, share_at(time)));
   }
   recorder.finish();
   write_summary(run, folder);

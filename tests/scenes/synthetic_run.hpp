@@ -11,6 +11,7 @@ struct SyntheticRun {
   int divisions = 12;         // quads along a disc's width; the disc has their square
   int frames = 6;
   int samples_a_frame = 20;
+  bool pictures = true;  // frames; without them it has its history alone
   bool tools = true;  // punches with their series, and densities
   bool observed =
       false;  // local densities (two columns of cells, one of them all tool) and contacts

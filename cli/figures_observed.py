@@ -3,7 +3,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection, PolyCollection
 
-from figure_parts import draw_tools, labelled, outlines, unit_for
+from figures_parts import draw_tools, labelled, outlines, unit_for
 
 MAPS = 4  # density maps side by side: evenly over the run, the last frame among them
 
@@ -44,6 +44,13 @@ def draw_map(axes, frame, low, high):
     return mesh
 
 
+def density_table(frame):
+    x, y = (frame[f"density_grid/{axis}"][()] for axis in "xy")
+    middle_x, middle_y = np.meshgrid((x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2)
+    return [("x", "m", middle_x.ravel()), ("y", "m", middle_y.ravel()),
+            ("relative density", "-", frame["local_density"][()].ravel())]
+
+
 def local_density(run, options):
     if recorded(run, options, "local_density") is None:
         return None
@@ -59,6 +66,7 @@ def local_density(run, options):
     bar = figure.colorbar(mesh, ax=axes[0].tolist(), label="relative density", shrink=0.85)
     bar.outline.set_visible(False)
     figure.suptitle(f"Local relative density\n{run.title}", x=0.01, ha="left", fontsize=11)
+    figure.table = density_table(frames[-1])
     return figure
 
 
@@ -74,6 +82,7 @@ def density_profile(run, options):
     axes.set(xlabel="relative density", ylabel="y [mm]")
     axes.set_title(f"Relative density along the height\n{run.title}", loc="left")
     axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    figure.table = [("y", "m", (lines[1:] + lines[:-1]) / 2e3), ("relative density", "-", values)]
     return figure
 
 
@@ -117,6 +126,9 @@ def contact_network(run, options):
     axes.set_title(f"Normal contact forces at {when(frame)}{chains}\n{run.title}", loc="left")
     bar = figure.colorbar(drawn, ax=axes, shrink=0.9, label=labelled("normal force", unit))
     bar.outline.set_visible(False)
+    ends = lines.reshape(-1, 4).T / 1e3
+    figure.table = [*((name, "m", end) for name, end in zip(("x1", "y1", "x2", "y2"), ends)),
+                    ("normal force", "N", force)]
     return figure
 
 
@@ -137,4 +149,6 @@ def rose(run, options):
     axes.yaxis.set_major_formatter("{x:.0f} %")
     axes.set_title(f"Directions of the contact normals at {when(frame)}\n{run.title}", loc="left")
     axes.legend(loc="lower right", bbox_to_anchor=(1.1, -0.08))
+    figure.table = [("direction", "rad", middle[:len(number)]), ("share of the number", "-", number),
+                    ("share of the normal force", "-", force)]
     return figure

@@ -1,4 +1,5 @@
 """What the pictures of a run have in common: reading run.h5, units, outlines and tools."""
+import csv
 import json
 import re
 import sys
@@ -12,7 +13,7 @@ PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ
 SCALED = {"m", "N", "Pa", "J", "s", "m/s", "N/m"}
 STYLE = {"figure.dpi": 200, "font.size": 10, "axes.grid": True, "grid.color": "#e3e8ee",
          "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
-         "lines.linewidth": 1.6, "legend.frameon": False, "axes.titlesize": 11,
+         "svg.fonttype": "none", "pdf.fonttype": 42, "lines.linewidth": 1.6, "legend.frameon": False, "axes.titlesize": 11,
          "axes.prop_cycle": plt.cycler(color=COLOURS)}
 
 
@@ -34,12 +35,42 @@ def labelled(name, unit):
     return f"{name} [{unit}]" if unit else name
 
 
+def refuse(why):
+    print(f"figures: {why}", file=sys.stderr)
+    sys.exit(2)
+
+
+def write_csv(path, table):
+    """table: [(name, unit, values)] in SI, of any lengths."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow([f"{name} [{unit}]" for name, unit, _ in table])
+        for i in range(max(len(values) for _, _, values in table)):
+            writer.writerow([repr(float(values[i])) if i < len(values) else "" for _, _, values in table])
+
+
+def draw_lines(run, x, lines, ylabel, title):
+    """x: (label, values, unit); lines: [(label, values, unit)] of one unit."""
+    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    x_factor, x_unit = unit_for(x[2], x[1])
+    factor, unit = unit_for(lines[0][2], np.concatenate([values for _, values, _ in lines]))
+    for label, values, _ in lines:
+        axes.plot(x_factor * x[1], factor * values, label=label)
+    axes.set_xlabel(labelled(x[0], x_unit))
+    axes.set_ylabel(labelled(ylabel, unit))
+    axes.set_title(f"{title}\n{run.title}", loc="left")
+    axes.legend()
+    figure.table = [(label, unit, values) for label, values, unit in [x, *lines]]
+    return figure
+
+
 class Run:
     def __init__(self, folder):
         self.file = h5py.File(folder / "run.h5", "r")
         self.summary = {}
         if (folder / "summary.json").exists():
             self.summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        self.is_solid = "mesh/hexahedra" in self.file
         self.title = self.summary.get("title") or self.file.attrs.get("title") or folder.name
         self.frames = [name for name in sorted(self.file["frames"])
                        if self.file["frames"][name].attrs.get("complete", 0) == 1]
@@ -54,7 +85,7 @@ class Run:
         """The frame of that number, from 0; the last without one."""
         number = len(self.frames) - 1 if number is None else number
         if not -len(self.frames) <= number < len(self.frames):
-            sys.exit(f"figures: frame {number}: there are 0 to {len(self.frames) - 1}")
+            refuse(f"frame {number}: there are 0 to {len(self.frames) - 1}")
         return self.file["frames"][self.frames[number]]
 
     def values(self, name):

@@ -35,17 +35,6 @@ function fillFits({fits}) {
   document.getElementById("fits-note").textContent = range;
 }
 
-function drawFits({fits}) {
-  const curve = fits && fits.curve;
-  if (!curve || !curve.pressure.length) return;
-  const drawn = Object.keys(LAWS).filter(law => curve[law]);
-  if (!drawn.length) return;
-  const lines = [{label: "measured", unit: "-", values: curve.relative_density},
-                 ...drawn.map(law => ({label: LAWS[law][0], unit: "-", values: curve[law]}))];
-  drawChart(card("Relative density against punch pressure, and the fitted laws"),
-            {x: {label: "pressure", unit: "Pa", values: curve.pressure}, y: "relative density", lines});
-}
-
 const TRANSMISSION = [["relative_density", "D"], ["height_over_width", "H/W"],
                       ["lateral_ratio", "K measured"], ["measured", "measured"],
                       ["round_die", "round die"], ["slot", "slot"],

@@ -1,0 +1,26 @@
+// `pulvis figure`: pictures and tables of a run for papers, drawn by the scripts figure*.py, which the
+// program carries. They need python3 with h5py and matplotlib.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.hpp"
+
+namespace pulvis {
+
+struct FigureOptions {
+  std::filesystem::path folder;
+  std::filesystem::path output;  // a file, or a folder for all figures; empty: pictures/ in the run
+  std::string field;
+  std::optional<int> frame;
+  std::vector<std::string> series;
+  std::string against;
+  std::string format = "png";  // of all figures
+};
+
+ExitCode draw_figures(const FigureOptions& options);
+
+}  // namespace pulvis

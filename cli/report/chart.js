@@ -1,0 +1,349 @@
+// The curves. A chart is {title, x, y, lines}: x and each line are {label, unit, values}, values in SI; y is
+// what stands at the axis. A line may have x values of its own (x), and a band around it (low, high).
+"use strict";
+
+const LIGHT = {ink: "#1d2733", soft: "#56616f", grid: "#e8ecf1", edge: "#c4cdd8", paper: "#ffffff",
+               body: "#e2e6eb", surface: "#3d4855", none: "#c9d0d8",
+               lines: ["#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                       "#e69f00", "#56b4e9", "#555555", "#8c6d1f", "#882255", "#117733"]};
+const DARK = {ink: "#e6ebf1", soft: "#9aa6b4", grid: "#2a323c", edge: "#4a5563", paper: "#171d24",
+              body: "#2b343f", surface: "#a9b4c0", none: "#4b5562",
+              lines: ["#56b4e9", "#ff9a57", "#35c9a0", "#e59bc4",
+                      "#f2c14e", "#8fd0ff", "#b4bcc6", "#c9a86a", "#c77dff", "#b5d99c"]};
+
+const darkWished = matchMedia("(prefers-color-scheme: dark)");
+const isDark = () => (document.documentElement.dataset.theme || (darkWished.matches ? "dark" : "light")) === "dark";
+const theme = () => isDark() ? DARK : LIGHT;
+const themeListeners = [];
+const onTheme = listener => { themeListeners.push(listener); };
+const themeChanged = () => themeListeners.forEach(listener => listener());
+darkWished.addEventListener("change", themeChanged);
+
+const markup = text => text.replace(/[&<>"]/g, c => `&#${c.charCodeAt(0)};`);
+
+function isSorted(values) {
+  for (let i = 1; i < values.length; ++i) if (values[i] < values[i - 1]) return false;
+  return true;
+}
+
+const bounds = lists => lists.reduce((range, list) => {
+  for (const v of list) {
+    if (!Number.isFinite(v)) continue;
+    if (v < range[0]) range[0] = v;
+    if (v > range[1]) range[1] = v;
+  }
+  return range;
+}, [Infinity, -Infinity]);
+
+// An end that is zero stays: force curves start on the axis.
+function withMargin([low, high], share) {
+  if (!(low <= high) || (low === 0 && high === 0)) return [0, 1];
+  const margin = (high - low) * share || Math.abs(high) * 0.1;
+  return [low === 0 ? 0 : low - margin, high === 0 ? 0 : high + margin];
+}
+
+// The chart in numbers of the shown units: what is drawn, what the cursor reads.
+function shownChart(spec, hidden) {
+  const xsOf = line => line.x || spec.x.values;
+  const most = lists => Math.max(0, ...lists.map(largest));
+  const x = unitFor(spec.x.unit, most(spec.lines.map(xsOf)));
+  const y = unitFor(spec.lines[0].unit, most(spec.lines.map(line => line.values)));
+  const shown = spec.lines.filter((_, i) => !hidden.has(i));
+  return {x, y, xLabel: labelled(spec.x.label, x.label), yLabel: labelled(spec.y, y.label),
+          whole: {x: withMargin(bounds(shown.map(xsOf)), 0.02).map(v => v * x.factor),
+                  y: withMargin(bounds(shown.flatMap(line => [line.values, line.low || [], line.high || []])), 0.05)
+                    .map(v => v * y.factor)}};
+}
+
+// Where a chart's rectangle lies on its picture, and how numbers get there.
+function chartPlace({x: [x0, x1], y: [y0, y1]}, width, height) {
+  const left = 62, right = width - 12, top = 10, bottom = height - 44;
+  const sx = (right - left) / (x1 - x0), sy = (bottom - top) / (y1 - y0);
+  return {left, right, top, bottom, px: v => left + (v - x0) * sx, py: v => bottom - (v - y0) * sy,
+          xAt: p => x0 + (p - left) / sx, yAt: p => y0 + (bottom - p) / sy};
+}
+
+function pathOf(xs, ys, kx, ky, {px, py}) {
+  let path = "", pen = false;
+  for (let i = 0; i < ys.length; ++i) {
+    const x = xs[i] * kx, y = ys[i] * ky;
+    if (!Number.isFinite(x) || !Number.isFinite(y)) { pen = false; continue; }
+    path += `${pen ? "L" : "M"}${px(x).toFixed(1)} ${py(y).toFixed(1)}`;
+    pen = true;
+  }
+  return path;
+}
+
+function bandOf(xs, line, kx, ky, place) {
+  const there = Array.from(xs), back = there.slice().reverse();
+  return pathOf([...there, ...back], [...line.low, ...Array.from(line.high).reverse()], kx, ky, place) + "Z";
+}
+
+// The picture as text: the page shows it, the buttons save it.
+function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
+  const shown = shownChart(spec, hidden), range = view || shown.whole, rows = legend ? spec.lines.length * 16 : 0;
+  const place = chartPlace(range, width, height), {left, right, top, bottom, px, py} = place;
+  const text = (x, y, anchor, content, more = "") =>
+    `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" ${more}>${markup(content)}</text>`;
+  const line = (x0, y0, x1, y1, stroke) =>
+    `<path d="M${x0.toFixed(1)} ${y0.toFixed(1)}L${x1.toFixed(1)} ${y1.toFixed(1)}" stroke="${stroke}"/>`;
+  const out = [`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height + rows}" ` +
+               `viewBox="0 0 ${width} ${height + rows}" font-family="system-ui, sans-serif" font-size="12" ` +
+               `fill="${colours.soft}">`];
+  if (legend) out.push(`<rect width="100%" height="100%" fill="${colours.paper}"/>`);
+  for (const tick of niceTicks(...range.x, Math.max(3, (right - left) / 90))) {
+    out.push(line(px(tick), top, px(tick), bottom, colours.grid), text(px(tick), bottom + 16, "middle", digits(tick)));
+  }
+  for (const tick of niceTicks(...range.y, 5)) {
+    out.push(line(left, py(tick), right, py(tick), colours.grid), text(left - 7, py(tick) + 4, "end", digits(tick)));
+  }
+  if (range.y[0] < 0 && range.y[1] > 0) out.push(line(left, py(0), right, py(0), colours.edge));
+  out.push(text((left + right) / 2, height - 8, "middle", shown.xLabel),
+           text(0, 0, "middle", shown.yLabel, `transform="translate(13 ${(top + bottom) / 2}) rotate(-90)"`));
+  const clip = `plot-${chartSvg.count = (chartSvg.count || 0) + 1}`;
+  out.push(`<clipPath id="${clip}"><rect x="${left}" y="${top}" width="${right - left}" ` +
+           `height="${bottom - top}"/></clipPath><g clip-path="url(#${clip})" fill="none" ` +
+           `stroke-width="1.8" stroke-linejoin="round">`);
+  spec.lines.forEach((one, i) => {
+    if (hidden.has(i)) return;
+    const stroke = one.colour || colours.lines[i % colours.lines.length], xs = one.x || spec.x.values;
+    if (one.low) {
+      out.push(`<path d="${bandOf(xs, one, shown.x.factor, shown.y.factor, place)}" fill="${stroke}" fill-opacity="0.2"/>`);
+    }
+    out.push(`<path class="curve" d="${pathOf(xs, one.values, shown.x.factor, shown.y.factor, place)}" ` +
+             `stroke="${stroke}"${one.dash ? ` stroke-dasharray="${one.dash.join(" ")}"` : ""}/>`);
+  });
+  out.push("</g>");
+  if (legend) {
+    spec.lines.forEach((one, i) => {
+      const y = height + 16 * i + 6, stroke = one.colour || colours.lines[i % colours.lines.length];
+      out.push(`<rect x="${left}" y="${y - 5}" width="16" height="3" fill="${stroke}"/>`,
+               text(left + 24, y, "start", one.label));
+    });
+  }
+  return out.join("") + "</svg>";
+}
+
+class Chart {
+  // onCursor(sample): the reader points at this sample of the lines.
+  constructor(host, spec, {height = 300, onCursor = null} = {}) {
+    Object.assign(this, {host, spec, height, onCursor, hidden: new Set(), view: null, marked: null});
+    host.classList.add("chart");
+    this.picture = element("div", {className: "plot", tabIndex: 0, role: "img", "aria-label": this.label()});
+    this.over = element("canvas", {className: "over", "aria-hidden": "true"});
+    this.legend = element("div", {className: "legend"});
+    this.readout = element("p", {className: "readout", "aria-live": "off"});
+    host.replaceChildren(element("div", {className: "plot-place"}, this.picture, this.over), this.legend, this.readout);
+    this.listen();
+    this.draw();
+    onResize(host, () => { if (host.clientWidth > 0 && host.clientWidth !== this.width) this.draw(); });
+    onUnits(() => { this.view = null; this.draw(); });
+    onTheme(() => this.draw());
+  }
+
+  label() {
+    const {spec} = this;
+    return `Chart of ${spec.y} against ${spec.x.label}: ${spec.lines.map(line => line.label).join(", ")}. ` +
+      "Plus and minus zoom, 0 shows all.";
+  }
+
+  show(spec) {
+    Object.assign(this, {spec, view: null, hidden: new Set(), marked: null});
+    this.picture.setAttribute("aria-label", this.label());
+    this.draw();
+  }
+
+  draw() {
+    if (!document.contains(this.host)) return;
+    this.width = Math.max(280, this.host.clientWidth);
+    const options = {...this, colours: theme(), legend: false};
+    this.picture.innerHTML = chartSvg(this.spec, options);
+    this.shown = shownChart(this.spec, this.hidden);
+    this.place = chartPlace(this.view || this.shown.whole, this.width, this.height);
+    this.drawLegend();
+    this.drawOver();
+  }
+
+  drawLegend() {
+    const colours = theme().lines;
+    this.legend.replaceChildren(...this.spec.lines.map((line, i) => {
+      const key = element("i", {});
+      key.style.background = line.colour || colours[i % colours.length];
+      const button = element("button", {type: "button", "aria-pressed": String(!this.hidden.has(i)),
+        title: "Show or hide"}, key, line.label);
+      button.onclick = () => {
+        this.hidden.delete(i) || this.hidden.add(i);
+        if (this.hidden.size === this.spec.lines.length) this.hidden.clear();
+        this.draw();
+      };
+      return button;
+    }));
+  }
+
+  pointOf(line, sample) {
+    const xs = line.x || this.spec.x.values;
+    return [this.place.px(xs[sample] * this.shown.x.factor), this.place.py(line.values[sample] * this.shown.y.factor)];
+  }
+
+  // What moves: the cursor, the sample of the frame, the box that is dragged.
+  drawOver() {
+    const ratio = devicePixelRatio || 1, {place, over, width, height} = this, colours = theme();
+    over.width = width * ratio;
+    over.height = height * ratio;
+    over.style.width = width + "px";
+    over.style.height = height + "px";
+    const ctx = over.getContext("2d");
+    ctx.scale(ratio, ratio);
+    const sample = this.at ?? this.marked;
+    if (sample !== null && sample !== undefined) {
+      this.spec.lines.forEach((line, i) => {
+        if (this.hidden.has(i)) return;
+        const [x, y] = this.pointOf(line, Math.min(sample, line.values.length - 1));
+        if (i === 0 || line.x) {
+          ctx.fillStyle = colours.edge;
+          ctx.fillRect(x - 0.5, place.top, 1, place.bottom - place.top);
+        }
+        if (!Number.isFinite(y) || x < place.left - 1 || x > place.right + 1) return;
+        ctx.beginPath();
+        ctx.arc(x, y, 4, 0, 2 * Math.PI);
+        ctx.fillStyle = line.colour || colours.lines[i % colours.lines.length];
+        ctx.fill();
+        ctx.strokeStyle = colours.paper;
+        ctx.lineWidth = 1.5;
+        ctx.stroke();
+      });
+    }
+    if (this.box) {
+      const {x0, y0, x1, y1} = this.box;
+      ctx.fillStyle = "rgba(80, 130, 180, 0.2)";
+      ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
+    }
+    this.tell(sample);
+  }
+
+  tell(sample) {
+    const {spec, shown} = this;
+    if (sample === null || sample === undefined) { this.readout.textContent = ""; return; }
+    const value = (v, unit) => digits(v * unit.factor) + (unit.label ? " " + unit.label : "");
+    const lines = spec.lines.filter((_, i) => !this.hidden.has(i))
+      .map(line => `${line.label} ${value(line.values[Math.min(sample, line.values.length - 1)], shown.y)}`);
+    const xs = spec.x.values || [];
+    this.readout.textContent = (xs.length ? `${spec.x.label} ${value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
+  }
+
+  // The frame that is shown elsewhere belongs to this sample.
+  mark(sample) {
+    this.marked = sample;
+    if (this.at === undefined) this.drawOver();
+  }
+
+  // The sample nearest to a place on the picture, over all lines that are shown.
+  sampleNear(x, y) {
+    let best = null, least = Infinity;
+    this.spec.lines.forEach((line, i) => {
+      if (this.hidden.has(i)) return;
+      const turns = !isSorted(line.x || this.spec.x.values);  // then what is near across counts, too
+      for (let k = 0; k < line.values.length; ++k) {
+        const [px, py] = this.pointOf(line, k), far = (px - x) ** 2 + (turns ? (py - y) ** 2 : 0);
+        if (far < least) { least = far; best = k; }
+      }
+    });
+    return best;
+  }
+
+  zoom(factor, x, y) {
+    const range = this.view || this.shown.whole;
+    const around = ([low, high], middle) => [middle + (low - middle) * factor, middle + (high - middle) * factor];
+    const middle = ([low, high]) => (low + high) / 2;
+    this.view = {x: around(range.x, x ?? middle(range.x)), y: around(range.y, y ?? middle(range.y))};
+    this.draw();
+  }
+
+  zoomToBox({x0, y0, x1, y1}) {
+    const {xAt, yAt} = this.place, sorted = (a, b) => a < b ? [a, b] : [b, a];
+    this.view = {x: sorted(xAt(x0), xAt(x1)), y: sorted(yAt(y0), yAt(y1))};
+    this.draw();
+  }
+
+  listen() {
+    const {picture} = this;
+    const at = event => {
+      const box = picture.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    picture.addEventListener("pointermove", event => {
+      const [x, y] = at(event);
+      if (this.box) {
+        Object.assign(this.box, {x1: x, y1: y});
+      } else {
+        this.at = this.sampleNear(x, y) ?? undefined;
+        if (this.onCursor && this.at !== undefined) this.onCursor(this.at);
+      }
+      this.drawOver();
+    });
+    picture.addEventListener("pointerleave", () => { this.at = undefined; this.drawOver(); });
+    picture.addEventListener("pointerdown", event => {
+      if (event.pointerType !== "mouse" || event.button !== 0) return;
+      const [x, y] = at(event);
+      picture.setPointerCapture(event.pointerId);
+      this.box = {x0: x, y0: y, x1: x, y1: y};
+    });
+    const release = () => {
+      const {box} = this;
+      this.box = null;
+      if (box && Math.abs(box.x1 - box.x0) > 8 && Math.abs(box.y1 - box.y0) > 8) this.zoomToBox(box);
+      else this.drawOver();
+    };
+    picture.addEventListener("pointerup", release);
+    picture.addEventListener("pointercancel", release);
+    picture.addEventListener("dblclick", () => { this.view = null; this.draw(); });
+    picture.addEventListener("wheel", event => {
+      if (!event.ctrlKey && !event.shiftKey) return;  // the page scrolls
+      event.preventDefault();
+      const [x, y] = at(event), turn = event.deltaY || event.deltaX;
+      this.zoom(Math.exp(0.002 * turn), this.place.xAt(x), this.place.yAt(y));
+    }, {passive: false});
+    picture.addEventListener("keydown", event => {
+      if (event.key === "+" || event.key === "=") this.zoom(0.8);
+      else if (event.key === "-") this.zoom(1.25);
+      else if (event.key === "0") { this.view = null; this.draw(); }
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
+  }
+
+  columns() {
+    const {spec} = this;
+    if (!spec.lines.some(line => line.x)) return [spec.x, ...spec.lines];
+    return spec.lines.flatMap(line => [{...spec.x, label: `${spec.x.label}, ${line.label}`,
+                                        values: line.x || spec.x.values}, line]);
+  }
+
+  svg() { return chartSvg(this.spec, {...this, width: 640, height: 400, colours: LIGHT, legend: true}); }
+
+  saving(title) {
+    const name = () => fileName(this.spec.title || title);
+    return saveButtons(title, {
+      SVG: () => saveText(name() + ".svg", this.svg(), "image/svg+xml"),
+      PNG: () => saveAsPng(name() + ".png", this.svg(), 640, 400 + 16 * this.spec.lines.length),
+      CSV: () => saveText(name() + ".csv", csvOf(this.columns()), "text/csv")});
+  }
+}
+
+// A framed place for one figure, under its title and, where given, its controls.
+function card(title, ...controls) {
+  const box = element("section", {className: "card"}), host = element("div", {});
+  const head = element("div", {className: "card-head"}, element("h2", {textContent: title}));
+  box.append(head, ...controls, host);
+  document.getElementById("curves").append(box);
+  return host;
+}
+
+function drawChart(host, spec, options) {
+  const title = spec.title || host.parentElement.querySelector("h2").textContent;
+  const chart = new Chart(host, spec, options), head = host.parentElement.querySelector(".card-head");
+  head.querySelector(".save")?.remove();
+  head.append(chart.saving(title));
+  return chart;
+}

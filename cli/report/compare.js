@@ -1,0 +1,112 @@
+// Several runs side by side: one time, one scale, one range of colours; curves over each other.
+// <body> tells how it went: data-ready, data-views, data-lines, or data-error.
+"use strict";
+
+// Names that tell the runs apart: titles, or folders where titles are alike.
+function namesOf(runs) {
+  const titles = runs.map(run => run.head.title), same = new Set(titles).size < titles.length;
+  return runs.map((run, i) => same ? run.head.folder : titles[i]);
+}
+
+// A curve that all runs have, each with its own abscissa.
+function overlaid(runs, names, title, line, x) {
+  const parts = runs.map((run, i) => {
+    const group = curvesOf(run).find(one => one.title === title);
+    const found = group && group.lines.find(one => one.label === line), axis = group && group.xs.find(one => one.label === x);
+    return found && axis ? {...found, label: names[i], x: axis.values, axis, y: group.y, dash: undefined} : null;
+  }).filter(Boolean);
+  return parts.length < 2 ? null
+    : {title: `${title}: ${line}`, x: {...parts[0].axis, values: []}, y: `${line}, ${parts[0].y}`, lines: parts};
+}
+
+function placeCurves(runs, names, timeline) {
+  let count = 0;
+  for (const group of curvesOf(runs[0])) {
+    for (const {label} of group.lines) {
+      const first = group.xs.map(x => overlaid(runs, names, group.title, label, x.label)).find(Boolean);
+      if (!first) continue;
+      const select = element("select", {}), choices = group.xs.map(x => overlaid(runs, names, group.title, label, x.label));
+      group.xs.forEach((x, i) => { if (choices[i]) select.add(new Option(x.label, i)); });
+      const host = card(first.title, element("div", {className: "controls"}, element("label", {}, "against ", select)));
+      const chart = drawChart(host, first);
+      select.onchange = () => chart.show(choices[select.value]);
+      count += first.lines.length;
+    }
+  }
+  document.body.dataset.lines = count;
+}
+
+function fillRuns(runs, names) {
+  const rows = new Map();
+  runs.forEach((run, i) => {
+    const told = [...figuresOf(run).map(([label, value]) => [label, value]),
+                  ...qualityFigures(run).map(({name, value}) => [name.toLowerCase(), percent(value)]),
+                  ...knownRows(run).filter(([, text]) => text)];
+    for (const [label, text] of told) {
+      if (!rows.has(label)) rows.set(label, Array(runs.length).fill("–"));
+      rows.get(label)[i] = text;
+    }
+  });
+  const table = document.getElementById("runs");
+  table.tHead.replaceChildren();
+  table.tBodies[0].replaceChildren();
+  table.tHead.insertRow().append(...["", ...names].map(textContent => element("th", {scope: "col", textContent})));
+  for (const [label, texts] of rows) {
+    table.tBodies[0].insertRow().append(element("th", {scope: "row", textContent: label}),
+      ...texts.map(textContent => element("td", {textContent})));
+  }
+}
+
+// The views of the runs that have frames, with the largest of them as everybody's scale.
+function placeViews(runs, names) {
+  const host = document.getElementById("pictures"), shown = runs.filter(run => run.frames.length && run.head.mesh);
+  const extent = k => Math.max(...shown.map(({head}) => head.high[k] - head.low[k]));
+  const whole = {width: extent(0), height: extent(1)};
+  return runs.flatMap((run, i) => {
+    const place = element("div", {}), pane = element("div", {className: "pane"}, element("h2", {textContent: names[i]}), place);
+    host.append(pane);
+    if (shown.includes(run)) return [new FieldView(place, run, {whole, most: 420})];
+    place.append(element("p", {className: "note", textContent: "No picture: " + (run.head.solid ?
+      "a lever is shown in its own report." : "the scene wrote no frames.")}));
+    return [];
+  });
+}
+
+// One range for all: of every run, or of the frames that are shown.
+function shareRanges(views) {
+  const alone = FieldView.prototype.range;
+  const common = () => bounds([views.filter(view => view.position && (view.codes || view.shown === "density"))
+    .flatMap(view => alone.call({...viewParts(view), ranges: null}))]);
+  views.forEach(view => { view.ranges = common; });
+}
+const viewParts = view => Object.assign(Object.create(FieldView.prototype), view);
+
+async function main() {
+  const {runs: heads} = JSON.parse(document.getElementById("head").textContent);
+  const runs = await Promise.all(heads.map((head, i) => Run.load(head, `run-${i}-`))), names = namesOf(runs);
+  document.getElementById("names").textContent = `${runs.length} runs side by side`;
+  document.getElementById("lead").textContent = names.join(" · ");
+  placeSettings(document.getElementById("settings"), new Set(runs.flatMap(run => run.head.series).map(series => series.unit)));
+  const views = placeViews(runs, names), pace = views.map(view => view.run).sort((a, b) => b.frames.length - a.frames.length)[0];
+  const timeline = new Timeline(document.getElementById("timeline"), pace ? pace.frames.map(frame => frame.time / (pace.frames.at(-1).time || 1)) : [],
+                                {name: "share of the run", unit: "-"});
+  document.getElementById("timeline").hidden = !pace || pace.frames.length < 2;
+  placeCurves(runs, names, timeline);
+  fillRuns(runs, names);
+  onUnits(() => fillRuns(runs, names));
+  shareRanges(views);
+  const draw = change => Promise.all(views.map(view => view.show(change))).then(() => views.forEach(view => view.draw()));
+  timeline.listen(share => { views.forEach(view => view.showShare(share)); });
+  if (views.length) {
+    const field = element("select", {id: "field"});
+    views[0].choices.forEach(([value, label]) => field.add(new Option(label, value)));
+    field.value = pace.field("effective_stress") >= 0 ? "effective_stress" : views[0].choices[0][0];
+    field.onchange = () => draw({shown: field.value});
+    document.getElementById("controls").append(element("label", {}, "Show ", field));
+    await draw({shown: field.value});
+  }
+  document.body.dataset.views = views.length;
+  document.body.dataset.ready = "1";
+}
+
+main().catch(fail);

@@ -1,0 +1,360 @@
+// The moving picture of a plane run: cells filled by value, outlines, tools, contact forces, density cells.
+"use strict";
+
+const MOST_STROKED = 12000;  // edges that are drawn as lines; more are drawn pixel by pixel
+const MOST_SEARCHED = 100000;  // cells whose edges are looked through for outlines
+const LEGEND_WIDTH = 84;
+
+// Edges that one cell alone has: the outlines of the particles. [a0, b0, a1, b1, ...]
+function outlineEdges(cells, nodes) {
+  const once = new Map();
+  for (let i = 0; i < cells.length; ++i) {
+    const a = cells[i], b = cells[i % 4 === 3 ? i - 3 : i + 1];
+    if (a === b) continue;
+    const key = Math.min(a, b) * nodes + Math.max(a, b);
+    once.has(key) ? once.delete(key) : once.set(key, [a, b]);
+  }
+  return [...once.values()].flat();
+}
+
+class FieldView {
+  // whole: {width, height} in metres that the view shows at first, where views are to have one scale.
+  constructor(host, run, {whole = null, most = 560} = {}) {
+    Object.assign(this, {run, whole, most, shown: "", contacts: false, sameRange: true, ranges: null,
+                         frame: run.frames.length - 1, share: 1, raster: new Raster()});
+    const {low, high} = run.head;
+    this.width = Math.max(high[0] - low[0], high[1] - low[1]) || 1;
+    this.canvas = element("canvas", {className: "picture", tabIndex: 0, role: "img"});
+    this.tip = element("div", {className: "tip", hidden: true});
+    this.note = element("p", {className: "note"});
+    host.classList.add("field");
+    host.replaceChildren(this.canvas, this.tip, this.note);
+    const {drawn_cells: cells, drawn_nodes: nodes, fans} = run.head.mesh;
+    const edges = cells <= (fans ? MOST_STROKED : MOST_SEARCHED) ? outlineEdges(run.cells, nodes) : [];
+    this.outline = edges.length / 2 <= MOST_STROKED ? edges : [];
+    this.view = this.wholeView();
+    this.listen();
+    for (const on of [onUnits, onTheme, onMap]) on(() => this.draw());
+    onResize(host, () => { if (this.at && host.clientWidth !== this.drawnWidth) this.draw(); });
+  }
+
+  // What can be shown: [value, label].
+  get choices() {
+    const fields = this.run.head.fields.map(field => [field.name, titled(field.name)]);
+    if (this.run.densities.length) fields.push(["density", "Local density"]);
+    return [...fields, ["", "Outlines alone"]];
+  }
+
+  wholeView() {
+    const {low: [x0, y0], high: [x1, y1]} = this.run.head, whole = this.whole || {width: x1 - x0, height: y1 - y0};
+    const margin = 0.03 * Math.max(whole.width, whole.height), x = (x0 + x1) / 2, y = (y0 + y1) / 2;
+    return {x0: x - whole.width / 2 - margin, x1: x + whole.width / 2 + margin,
+            y0: y - whole.height / 2 - margin, y1: y + whole.height / 2 + margin};
+  }
+
+  async load() {
+    const {run, frame} = this, field = run.field(this.shown);
+    const [position, codes, lines] = await Promise.all([
+      run.positions(frame), field < 0 ? null : run.codes(frame, field), this.contacts ? run.contactLines(frame) : null]);
+    Object.assign(this, {position, codes, lines, field: run.head.fields[field]});
+  }
+
+  // Asked for faster than it can be unpacked: the last request wins.
+  async show(change) {
+    Object.assign(this, change);
+    if (this.busy) { this.again = true; return this.busy; }
+    this.busy = (async () => {
+      try {
+        do { this.again = false; await this.load(); this.draw(); } while (this.again);
+      } finally { this.busy = null; }
+    })();
+    return this.busy;
+  }
+  showShare(share) {
+    this.share = share;
+    return this.show({frame: this.run.frameAt(share * this.run.frames.at(-1).time)});
+  }
+
+  layout() {
+    const ratio = Math.min(devicePixelRatio || 1, 2), whole = this.wholeView(), {canvas, view} = this;
+    const width = this.drawnWidth = canvas.parentElement.clientWidth, room = width - LEGEND_WIDTH;
+    const height = Math.round(Math.min(Math.max(room * (whole.y1 - whole.y0) / (whole.x1 - whole.x0), 200), this.most));
+    canvas.style.height = height + "px";
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    const scale = Math.min(room / (view.x1 - view.x0), height / (view.y1 - view.y0));
+    const left = (room - scale * (view.x1 - view.x0)) / 2, top = (height - scale * (view.y1 - view.y0)) / 2;
+    this.place = {ratio, width, room, height, scale, x: left - scale * view.x0, y: height - top + scale * view.y0};
+  }
+
+  // Places on the canvas of every node of the frame, x and y interleaved.
+  nodesOnCanvas() {
+    const {scale, x, y} = this.place, step = this.width / 65534, [lowX, lowY] = this.run.head.low;
+    const at = new Float32Array(this.position.length);
+    for (let i = 0; i < at.length; i += 2) {
+      at[i] = x + scale * (lowX + step * this.position[i]);
+      at[i + 1] = y - scale * (lowY + step * this.position[i + 1]);
+    }
+    return at;
+  }
+
+  // The two ends of the colours, in SI.
+  range() {
+    if (this.ranges) return this.ranges(this.shown);
+    const density = this.shown === "density", {run, field, sameRange} = this;
+    if (density) {
+      return bounds([sameRange ? run.densities : this.densityCells().filter(value => value !== null)]);
+    }
+    if (sameRange || !this.codes) return [field.low, field.high];
+    let low = NO_NUMBER, high = -1;
+    for (const code of this.codes) {
+      if (code !== NO_NUMBER) { low = Math.min(low, code); high = Math.max(high, code); }
+    }
+    return low < high ? [this.valueOf(low), this.valueOf(high)] : [field.low, field.high];
+  }
+  valueOf(code) { return this.field.low + (this.field.high - this.field.low) * code / this.field.levels; }
+  densityCells() { return this.run.frames[this.frame].density?.cells || []; }
+
+  draw() {
+    if (!this.position) return;
+    const start = performance.now(), colours = theme();
+    this.layout();
+    const ctx = this.canvas.getContext("2d"), {ratio, room, height} = this.place;
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.font = "12px system-ui, sans-serif";
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(0, 0, room, height);
+    ctx.clip();
+    this.at = this.nodesOnCanvas();
+    this.forTools(ctx, far => ctx.fillRect(-far, 0, 2 * far, far), colours.body);
+    this.drawPolylines(ctx, true);
+    this.drawCells(ctx);
+    if (this.shown === "density") this.drawDensity(ctx);
+    this.drawOutlines(ctx);
+    this.drawSurfaces(ctx);
+    if (this.lines) this.drawContacts(ctx);
+    ctx.restore();
+    this.drawScaleBar(ctx);
+    this.drawLegend(ctx);
+    this.tell();
+    this.canvas.dataset.drawnIn = (performance.now() - start).toFixed(1);
+    this.canvas.dataset.drawn = `${this.frame} ${this.shown}`;
+  }
+
+  // One packed colour a cell.
+  cellColours() {
+    const none = theme().none.match(/\w\w/g).map(two => parseInt(two, 16)), plain = packed(...none);
+    const count = this.run.cells.length / 4, colours = new Uint32Array(count).fill(plain);
+    if (!this.codes) return colours;
+    const [low, high] = this.range(), table = Array.from({length: 256}, (_, i) => packed(...mapColour(i / 255)));
+    const {field} = this, step = (field.high - field.low) / field.levels, factor = high > low ? 256 / (high - low) : 0;
+    for (let c = 0; c < count; ++c) {
+      const code = this.codes[c];
+      if (code === NO_NUMBER) continue;
+      colours[c] = table[Math.max(0, Math.min(255, Math.floor((field.low + step * code - low) * factor)))];
+    }
+    return colours;
+  }
+
+  drawCells(ctx) {
+    const {ratio, room, height} = this.place, {run, raster} = this;
+    raster.resize(Math.max(1, Math.round(room * ratio)), Math.max(1, Math.round(height * ratio)));
+    raster.fill(run.cells, ratio === 1 ? this.at : this.at.map(v => v * ratio));
+    const size = Math.sqrt(this.place.scale ** 2 * (run.head.high[0] - run.head.low[0]) *
+      (run.head.high[1] - run.head.low[1]) / run.head.mesh.particles);
+    const edged = !this.outline.length && size > 7;  // smaller ones would be outline alone
+    const line = packed(...(isDark() ? [12, 16, 21] : [29, 39, 51]));
+    ctx.drawImage(raster.paint(this.cellColours(), edged ? run.particleOf : null, line), 0, 0, room, height);
+  }
+
+  drawOutlines(ctx) {
+    ctx.beginPath();
+    const {outline, at} = this;
+    for (let i = 0; i < outline.length; i += 2) {
+      ctx.moveTo(at[2 * outline[i]], at[2 * outline[i] + 1]);
+      ctx.lineTo(at[2 * outline[i + 1]], at[2 * outline[i + 1] + 1]);
+    }
+    ctx.strokeStyle = isDark() && !this.codes ? "#c4cdd8" : "#1d2733";
+    ctx.lineWidth = 0.7;
+    ctx.stroke();
+  }
+
+  drawDensity(ctx) {
+    const density = this.run.frames[this.frame].density, {scale, x: x0, y: y0} = this.place;
+    if (!density) return;
+    const [low, high] = this.range(), columns = density.x.length - 1;
+    density.cells.forEach((value, c) => {
+      const i = c % columns, j = Math.floor(c / columns);
+      if (value === null) return;
+      const left = x0 + scale * density.x[i], top = y0 - scale * density.y[j + 1];
+      const wide = scale * (density.x[i + 1] - density.x[i]), tall = scale * (density.y[j + 1] - density.y[j]);
+      ctx.globalAlpha = 0.88;
+      ctx.fillStyle = colour(high > low ? (value - low) / (high - low) : 0.5);
+      ctx.fillRect(left, top, wide - 1, tall - 1);
+      ctx.globalAlpha = 1;
+      if (wide < 42) return;
+      ctx.fillStyle = inkOn(high > low ? (value - low) / (high - low) : 0.5);
+      ctx.textAlign = "center";
+      ctx.fillText(value.toFixed(3), left + wide / 2, top + tall / 2 + 4);
+    });
+  }
+
+  // Lines between centres, as wide as their force; five numbers each: both ends, force.
+  drawContacts(ctx) {
+    const {lines, run} = this, {scale, x, y} = this.place;
+    const most = this.mostForce = largest(lines.filter((_, i) => i % 5 === 4)) || 1;
+    const size = Math.sqrt((run.head.high[0] - run.head.low[0]) * (run.head.high[1] - run.head.low[1]) /
+      run.head.mesh.particles), widest = Math.max(2, 0.15 * size * scale);
+    ctx.lineCap = "round";
+    for (const [stroke, more] of [["#ffffff", 1.6], ["#b3003c", 0]]) {
+      ctx.strokeStyle = stroke;
+      for (let i = 0; i < lines.length; i += 5) {
+        const wide = widest * lines[i + 4] / most;
+        if (wide < 0.15) continue;
+        ctx.lineWidth = wide + more;
+        ctx.beginPath();
+        ctx.moveTo(x + scale * lines[i], y - scale * lines[i + 1]);
+        ctx.lineTo(x + scale * lines[i + 2], y - scale * lines[i + 3]);
+        ctx.stroke();
+      }
+    }
+  }
+
+  // Where a tool's point is in this frame.
+  toolPoint(tool, point) {
+    const shift = this.run.toolShift(tool.name, this.run.frames[this.frame].time);
+    return [point[0] + shift[0], point[1] + shift[1]];
+  }
+  get tools() { return this.run.summary.tools || []; }
+
+  // Runs `action` for each plane tool, in axes where its body is all that lies below y = 0.
+  forTools(ctx, action, style) {
+    const {scale, x, y, room, height} = this.place;
+    ctx.fillStyle = style;
+    for (const tool of this.tools) {
+      if (!Array.isArray(tool.point) || !Array.isArray(tool.normal)) continue;
+      const [px, py] = this.toolPoint(tool, tool.point), before = ctx.getTransform();
+      ctx.translate(x + scale * px, y - scale * py);
+      ctx.rotate(Math.atan2(tool.normal[0], tool.normal[1]));
+      action(2 * (room + height));
+      ctx.setTransform(before);
+    }
+  }
+
+  // The surfaces as lines, each only where no other tool's body covers it.
+  drawSurfaces(ctx) {
+    const thick = 2;
+    ctx.save();
+    this.forTools(ctx, far => {
+      ctx.beginPath();
+      ctx.rect(-far, thick - far, 2 * far, far);
+      ctx.clip();
+    });
+    this.forTools(ctx, far => ctx.fillRect(-far, 0, 2 * far, thick), theme().surface);
+    this.drawPolylines(ctx, false);
+    ctx.restore();
+  }
+
+  // Tools given by points: filled to the right of the way along them, or as a line. Both ends go on
+  // straight.
+  drawPolylines(ctx, filled) {
+    const {scale, x, y, room, height} = this.place, far = 2 * (room + height), colours = theme();
+    for (const tool of this.tools) {
+      if (!Array.isArray(tool.points)) continue;
+      const [px, py] = this.toolPoint(tool, [0, 0]);
+      const points = tool.points.map(p => [x + scale * (p[0] + px), y - scale * (p[1] + py)]);
+      const beyond = (end, inner) => {
+        const dx = end[0] - inner[0], dy = end[1] - inner[1], length = Math.hypot(dx, dy);
+        return [far * dx / length, far * dy / length];
+      };
+      const last = points.length - 1;
+      const [ax, ay] = beyond(points[0], points[1]), [bx, by] = beyond(points[last], points[last - 1]);
+      const from = [points[0][0] + ax, points[0][1] + ay], to = [points[last][0] + bx, points[last][1] + by];
+      ctx.beginPath();
+      for (const p of [from, ...points, to]) ctx.lineTo(p[0], p[1]);
+      ctx.strokeStyle = colours.surface;
+      ctx.lineWidth = 2;
+      if (!filled) { ctx.stroke(); continue; }
+      ctx.lineTo(to[0] - by, to[1] + bx);
+      ctx.lineTo(from[0] + ay, from[1] - ax);
+      ctx.fillStyle = colours.body;
+      ctx.fill();
+    }
+  }
+
+  drawScaleBar(ctx) {
+    const {room, height, scale} = this.place, most = 66 / scale, power = 10 ** Math.floor(Math.log10(most));
+    const metres = [5, 2, 1].find(k => k * power <= most) * power;
+    ctx.fillStyle = theme().ink;
+    ctx.fillRect(room + 14, height - 6, metres * scale, 3);
+    ctx.textAlign = "left";
+    ctx.fillText(withUnit(metres, "m"), room + 14, height - 12);
+  }
+
+  drawLegend(ctx) {
+    const {room, height} = this.place, density = this.shown === "density";
+    if (!density && !this.codes) return;
+    const [low, high] = this.range();
+    drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density ? "-" : this.field.unit});
+  }
+
+  tell() {
+    const {run, frame, field} = this, {time, step} = run.frames[frame];
+    const name = this.shown === "density" ? "Local relative density" : field ? titled(field.name) : "Outlines";
+    const meaning = field && this.shown !== "density" ? ` (${field.meaning})` : "";
+    const contacts = this.lines?.length ? ` Lines: normal contact forces, widest ${withUnit(this.mostForce, "N")}.` : "";
+    this.note.textContent = `${name}${meaning} at ${withUnit(time, "s")}, step ${step.toLocaleString("en")}.${contacts}`;
+    this.canvas.setAttribute("aria-label", `Picture of the particles. ${this.note.textContent} ` +
+      "Plus and minus zoom, 0 shows all.");
+  }
+
+  // The value under the pointer, from the picture of the cells' numbers.
+  tellValue(event) {
+    const {ratio, room} = this.place || {}, {offsetX: x, offsetY: y} = event;
+    const cell = this.at && x < room ? this.raster.cells[Math.floor(y * ratio) * this.raster.width + Math.floor(x * ratio)] : -1;
+    const code = cell >= 0 && this.codes ? this.codes[cell] : NO_NUMBER;
+    this.tip.hidden = code === NO_NUMBER || code === undefined;
+    if (this.tip.hidden) return;
+    this.tip.textContent = withUnit(this.valueOf(code), this.field.unit);
+    this.tip.style.left = Math.min(x + 14, room - 60) + "px";
+    this.tip.style.top = Math.max(0, y - 30) + "px";
+  }
+
+  zoomBy(factor, px, py) {
+    const {scale, x, y, room, height} = this.place, {view} = this;
+    const atX = ((px ?? room / 2) - x) / scale, atY = (y - (py ?? height / 2)) / scale;
+    for (const side of ["x0", "x1"]) view[side] = atX + factor * (view[side] - atX);
+    for (const side of ["y0", "y1"]) view[side] = atY + factor * (view[side] - atY);
+    this.draw();
+  }
+  moveBy(px, py) {
+    const {view, place: {scale}} = this;
+    for (const side of ["x0", "x1"]) view[side] -= px / scale;
+    for (const side of ["y0", "y1"]) view[side] += py / scale;
+    this.draw();
+  }
+  showAll() { this.view = this.wholeView(); this.draw(); }
+
+  listen() {
+    const {canvas} = this;
+    canvas.addEventListener("wheel", event => {
+      event.preventDefault();
+      this.zoomBy(Math.exp(0.0015 * event.deltaY), event.offsetX, event.offsetY);
+    }, {passive: false});
+    canvas.addEventListener("pointerdown", event => canvas.setPointerCapture(event.pointerId));
+    canvas.addEventListener("pointermove", event => {
+      event.buttons & 1 ? this.moveBy(event.movementX, event.movementY) : this.tellValue(event);
+    });
+    canvas.addEventListener("pointerleave", () => { this.tip.hidden = true; });
+    canvas.addEventListener("dblclick", () => this.showAll());
+    canvas.addEventListener("keydown", event => {
+      if (event.key === "+" || event.key === "=") this.zoomBy(0.8);
+      else if (event.key === "-") this.zoomBy(1.25);
+      else if (event.key === "0") this.showAll();
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
+  }
+}

@@ -1,0 +1,54 @@
+// Colour maps that the colour-blind can read and a grey printer keeps in order.
+"use strict";
+
+const MAPS = {
+  viridis: [[68, 1, 84], [72, 36, 117], [65, 68, 135], [53, 95, 141], [42, 120, 142], [33, 145, 140],
+            [34, 168, 132], [68, 191, 112], [122, 209, 81], [189, 223, 38], [253, 231, 37]],
+  cividis: [[0, 34, 78], [18, 53, 112], [59, 73, 108], [87, 93, 109], [112, 113, 115], [138, 134, 120],
+            [165, 156, 116], [195, 179, 105], [225, 204, 85], [254, 232, 56]],
+  greys: [[240, 240, 240], [20, 20, 20]],
+};
+let chosenMap = "viridis";
+const mapListeners = [];
+const onMap = listener => { mapListeners.push(listener); };
+
+function chooseMap(name) {
+  chosenMap = name;
+  mapListeners.forEach(listener => listener());
+}
+
+function mapColour(share) {
+  const points = MAPS[chosenMap], last = points.length - 1;
+  const at = Math.min(Math.max(share, 0), 1) * last, i = Math.min(Math.floor(at), last - 1);
+  return [0, 1, 2].map(k => Math.round(points[i][k] + (at - i) * (points[i + 1][k] - points[i][k])));
+}
+
+const colour = share => `rgb(${mapColour(share).join(",")})`;
+
+// Dark or light letters on a cell of that colour.
+function inkOn(share) {
+  const [red, green, blue] = mapColour(share);
+  return 0.299 * red + 0.587 * green + 0.114 * blue > 140 ? "#1d2733" : "#ffffff";
+}
+
+// The legend of a map as a strip from low to high, with its ticks.
+function drawScale(ctx, left, top, tall, {low, high, unit}) {
+  const shown = unitFor(unit, Math.max(Math.abs(low), Math.abs(high))), colours = theme(), wide = 14;
+  for (let i = 0; i < tall; ++i) {
+    ctx.fillStyle = colour(1 - i / (tall - 1));
+    ctx.fillRect(left, top + i, wide, 1.5);
+  }
+  ctx.fillStyle = colours.ink;
+  ctx.textAlign = "left";
+  ctx.textBaseline = "alphabetic";
+  ctx.fillText(shown.label || "–", left, top - 10);
+  if (!(high > low)) {
+    ctx.fillText(digits(low * shown.factor), left + wide + 6, top + 8);
+    return;
+  }
+  for (const tick of niceTicks(low * shown.factor, high * shown.factor, Math.max(2, tall / 50))) {
+    const y = top + tall * (1 - (tick / shown.factor - low) / (high - low));
+    ctx.fillRect(left + wide, y - 0.5, 4, 1);
+    ctx.fillText(digits(tick), left + wide + 8, y + 4);
+  }
+}

@@ -1,0 +1,52 @@
+// A lever of an atomic force microscope: force curve, loop, and its stiffness beside the closed forms.
+"use strict";
+
+addFigures(({summary: {calibration, loops}}) => [
+  ...(calibration ? [["normal stiffness", `${digits(calibration.k_n)} N/m`, ""],
+                     ["lateral stiffness", `${digits(calibration.k_l)} N/m`, ""]] : []),
+  ...(loops || []).slice(0, 1).flatMap(loop => [["half width of the loop", withUnit(loop.half_width, "N"), ""],
+    loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null])]);
+
+addCurves(run => {
+  if (run.family !== "afm") return [];
+  const x = (name, label) => run.has(name) ? [run.series(name, label)] : [];
+  const moved = [...x("scanner/y", "scanner, y"), ...x("scanner/x", "scanner, x"), ...x("scanner/z", "scanner, z")];
+  const xs = moved.filter(axis => largest(axis.values) > 0);
+  const group = (title, first, y, names) => ({title, y, xs: [...xs.filter(a => a.label.endsWith(first)),
+    ...xs.filter(a => !a.label.endsWith(first)), timeAxis(run)],
+    lines: names.filter(name => run.has(name)).map(name => run.series(name, words(name.replace("/", ", "))))});
+  return [group("Force curve", "z", "force", ["probe/force_z"]),
+          {...group("Friction loop", "y", "force", ["probe/force_y"]), first: Boolean(run.summary.loops)},
+          group("Detector", "y", "signal", ["detector/lateral", "detector/normal"])];
+});
+
+addPanel({
+  title: "Stiffness beside the closed forms", order: 20,
+  when: ({summary: {calibration}}) => Boolean(calibration && calibration.closed_forms),
+  draw({run}, host) {
+    const {calibration} = run.summary, table = element("table", {className: "figures"});
+    const row = (cells, tag = "td") => table.insertRow().append(...cells.map(textContent => element(tag, {textContent})));
+    row(["", "formula", "value", "finite elements"], "th");
+    for (const {quantity, name, value, difference} of calibration.closed_forms) {
+      row([quantity, name, `${digits(value)} N/m`, `${difference > 0 ? "+" : ""}${percent(difference)}`]);
+    }
+    host.append(element("div", {className: "scroll"}, table), element("p", {className: "note", textContent:
+      `Lateral displacement of the tip's end: ${percent(calibration.share_twist)} twist, ` +
+      `${percent(calibration.share_bending)} lateral bending, ${percent(calibration.share_tip)} in the tip.`}));
+  },
+});
+
+addPanel({
+  title: "Friction loops", order: 21,
+  when: ({summary: {loops}}) => Boolean(loops && loops.length),
+  draw({run}, host) {
+    const table = element("table", {className: "figures"});
+    const row = (cells, tag = "td") => table.insertRow().append(...cells.map(textContent => element(tag, {textContent})));
+    row(["action", "load", "half width W", "offset Δ", "W / load", "Δ / load"], "th");
+    for (const loop of run.summary.loops) {
+      row([String(loop.action), withUnit(loop.load, "N"), withUnit(loop.half_width, "N"), withUnit(loop.offset, "N"),
+           digits(loop.half_width / loop.load), digits(loop.offset / loop.load)]);
+    }
+    host.append(element("div", {className: "scroll"}, table));
+  },
+});

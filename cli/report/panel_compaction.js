@@ -1,0 +1,22 @@
+// A compaction: its figures, and the laws fitted to its density curve.
+"use strict";
+
+addFigures(run => {
+  const {summary} = run, ratio = run.end("stress_ratio/axial");
+  const density = summary.relative_density ?? run.end("relative_density");
+  if (density === undefined) return [];
+  return [["relative density", digits(density, 4), "at the end"],
+          run.family === "compaction" && ratio > 0 && ["axial stress / yield stress", digits(ratio, 3), "at the end"]];
+});
+
+addPanel({
+  title: "Relative density against punch pressure, and the fitted laws", order: 60,
+  when: ({summary: {fits}}) => Boolean(fits && fits.curve && fits.curve.pressure.length &&
+                                       Object.keys(LAWS).some(law => fits.curve[law])),
+  draw({run}, host) {
+    const {curve} = run.summary.fits, drawn = Object.keys(LAWS).filter(law => curve[law]);
+    const lines = [["measured", curve.relative_density], ...drawn.map(law => [LAWS[law][0], curve[law]])]
+      .map(([label, values], i) => ({label, unit: "-", values, dash: i ? [7, 4] : undefined}));
+    drawChart(host, {x: {label: "pressure", unit: "Pa", values: curve.pressure}, y: "relative density", lines});
+  },
+});

@@ -1,0 +1,73 @@
+// What a family of experiments adds to the report. Each file panel_*.js enters its own parts here when it is
+// read; nothing else has to know them.
+"use strict";
+
+const PANELS = [], CURVES = [], FIGURES = [];
+
+// {title, order, when(run), draw(report, host)}: a card of its own. Small orders stand first.
+const addPanel = panel => { PANELS.push({order: 50, ...panel}); };
+// run => [{title, xs: [x, ...], y, lines}]: choices of the large chart; x and lines as of a Chart. Those that
+// are `first` are what the run was made for.
+const addCurves = make => { CURVES.push(make); };
+// run => [[label, value, note], ...]: figures at the top of the page; what is null is left out.
+const addFigures = make => { FIGURES.push(make); };
+
+const figuresOf = run => FIGURES.flatMap(make => make(run)).filter(figure => figure && figure[1]);
+const curvesOf = run => CURVES.flatMap(make => make(run)).filter(group => group && group.lines.length)
+  .sort((a, b) => Boolean(b.first) - Boolean(a.first));
+
+const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times});
+
+// What a panel works with: the run, and links to the page's one time.
+class Report {
+  constructor(run, timeline) {
+    Object.assign(this, {run, timeline});
+    this.endTime = run.frames.length ? run.frames.at(-1).time : run.times.at(-1) || 1;
+  }
+
+  // A chart over the samples of the run: pointing at it moves the frame, the frame marks it.
+  chart(host, spec, options) {
+    const onCursor = sample => this.timeline.seek(this.run.times[sample] / this.endTime);
+    const chart = drawChart(host, spec, {...options, onCursor});
+    const mark = share => chart.mark(this.run.sampleAt(share * this.endTime));
+    this.timeline.listen(mark);
+    mark(this.timeline.share);
+    return chart;
+  }
+
+  // A canvas that is drawn anew for every frame: draw(ctx, width, height, frame) where the frame has it.
+  // `shape`: height over width; columns(frame): its numbers for a CSV.
+  figure(host, {title, shape, draw, columns, note}) {
+    const canvas = element("canvas", {className: "figure", role: "img"});
+    const told = element("p", {className: "note"});
+    host.append(canvas, told);
+    let drawn = 0;
+    const paint = () => {
+      const ratio = devicePixelRatio || 1, width = drawn = host.clientWidth, frame = this.frame();
+      const height = Math.min(Math.max(shape * width, 160), 400);
+      canvas.style.height = height + "px";
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+      const ctx = canvas.getContext("2d");
+      ctx.scale(ratio, ratio);
+      ctx.font = "12px system-ui, sans-serif";
+      if (frame) draw(ctx, width, height, frame);
+      told.textContent = frame ? note(frame) : "";
+      canvas.setAttribute("aria-label", `${title}. ${told.textContent}`);
+    };
+    host.parentElement.querySelector(".card-head").append(saveButtons(title, {
+      PNG: () => saveCanvas(fileName(title) + ".png", canvas),
+      CSV: () => saveText(fileName(title) + ".csv", csvOf(columns(this.frame())), "text/csv")}));
+    this.timeline.listen(paint);
+    [onUnits, onTheme, onMap].forEach(on => on(paint));
+    onResize(host, () => { if (host.clientWidth !== drawn) paint(); });
+  }
+
+  frame() { return this.run.frames[this.run.frameAt(this.timeline.share * this.endTime)]; }
+
+  placePanels() {
+    for (const panel of PANELS.slice().sort((a, b) => a.order - b.order)) {
+      if (panel.when(this.run)) panel.draw(this, card(panel.title));
+    }
+  }
+}

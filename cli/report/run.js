@@ -1,0 +1,101 @@
+// A run as the page carries it: its head, its series, and frames that are unpacked when they are asked for.
+"use strict";
+
+const NO_NUMBER = 65535, MOST_KEPT_BYTES = 3e8;
+
+class Run {
+  static async load(head, prefix = "") {
+    const run = new Run();
+    Object.assign(run, {head, prefix, summary: head.summary, kept: new Map(), keptBytes: 0});
+    const all = await floats(prefix + "history"), count = head.samples;
+    run.history = new Map(head.series.map((series, k) =>
+      [series.name, {...series, label: series.name, values: all.subarray(k * count, (k + 1) * count)}]));
+    run.times = run.values("time");
+    run.frames = head.frames || [];
+    if (head.mesh && run.frames.length) {
+      run.cells = await integers(prefix + "cells", 4);
+      run.particleOf = particlesOf(run.cells, head.mesh.drawn_nodes);
+    }
+    return run;
+  }
+
+  get family() {
+    if (this.summary.family) return this.summary.family;
+    return this.history.has("shear/friction") ? "shear" : "compaction";
+  }
+  // The programme of a lever is quasi-static: what goes on is the number of its actions that are done.
+  get timeName() { return this.family === "afm" ? "actions done" : "time"; }
+  get timeUnit() { return this.family === "afm" ? "-" : "s"; }
+  has(name) { return this.history.has(name); }
+  values(name) { return this.has(name) ? this.history.get(name).values : new Float32Array(); }
+  unit(name) { return this.has(name) ? this.history.get(name).unit : "-"; }
+  series(name, label) { return {...this.history.get(name), label: label || name}; }
+  named(pattern) {
+    return [...this.history.values()].filter(series => pattern.test(series.name));
+  }
+  end(name) { return this.values(name).at(-1); }
+  frameTime(frame) { return this.frames[frame].time; }
+
+  // The sample at, or just after, a time; the frame nearest to it.
+  sampleAt(time) {
+    let low = 0, high = this.times.length - 1;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      this.times[middle] < time * (1 - 1e-6) ? low = middle + 1 : high = middle;
+    }
+    return low;
+  }
+  frameAt(time) {
+    let best = 0;
+    this.frames.forEach((frame, i) => {
+      if (Math.abs(frame.time - time) < Math.abs(this.frames[best].time - time)) best = i;
+    });
+    return best;
+  }
+
+  // Unpacked once, and forgotten in the order of use when there is too much.
+  async kept_(name, read) {
+    const key = this.prefix + name, there = this.kept.get(key);
+    this.kept.delete(key);
+    const data = there || await read(key);
+    this.kept.set(key, data);
+    if (!there) this.keptBytes += data.byteLength;
+    for (const [old, bytes] of this.kept) {
+      if (this.keptBytes <= MOST_KEPT_BYTES || old === key) break;
+      this.kept.delete(old);
+      this.keptBytes -= bytes.byteLength;
+    }
+    return data;
+  }
+  positions(frame) { return this.kept_(`frame-${frame}-position`, key => shorts(key, 2)); }
+  codes(frame, field) { return this.kept_(`frame-${frame}-${field}`, key => shorts(key, 1)); }
+  displacements(frame) { return this.kept_(`frame-${frame}-displacement`, floats); }
+  async contactLines(frame) {
+    const network = this.frames[frame].network;
+    return network && network.lines ? this.kept_(`frame-${frame}-network`, floats) : new Float32Array();
+  }
+
+  field(name) { return (this.head.fields || []).findIndex(field => field.name === name); }
+  get densities() { return this.frames.flatMap(frame => frame.density ? frame.density.cells : []); }
+
+  // A tool's way from a time to the end, where the summary tells its place.
+  toolShift(name, time) {
+    return ["x", "y"].map(axis => {
+      const values = this.values(`tool/${name}/position_${axis}`);
+      return values.length ? values[this.sampleAt(time)] - values.at(-1) : 0;
+    });
+  }
+}
+
+// Cells that share a node are of one particle: its number for every cell.
+function particlesOf(cells, nodes) {
+  const parent = Int32Array.from({length: nodes}, (_, i) => i);
+  const root = node => {
+    while (parent[node] !== node) node = parent[node] = parent[parent[node]];
+    return node;
+  };
+  for (let i = 0; i < cells.length; i += 4) {
+    for (let k = 1; k < 4; ++k) parent[root(cells[i + k])] = root(cells[i]);
+  }
+  return Int32Array.from({length: cells.length / 4}, (_, c) => root(cells[4 * c]));
+}

@@ -1,0 +1,34 @@
+// What the reader chooses for the whole page: units, colour map, light or dark.
+"use strict";
+
+const UNIT_CHOICES = {N: ["", "k", "M"], Pa: ["k", "M", "G"], m: ["", "m", "µ", "n"], s: ["", "m", "µ"], J: ["", "m", "µ"]};
+
+function picker(label, options, chosen, action) {
+  const select = element("select", {});
+  options.forEach(([value, text]) => select.add(new Option(text, value)));
+  select.value = chosen;
+  select.onchange = () => action(select.value);
+  return element("label", {}, label + " ", select);
+}
+
+// units: those of the page's numbers.
+function placeSettings(host, units) {
+  const choices = Object.entries(UNIT_CHOICES).filter(([unit]) => units.has(unit)).map(([unit, prefixes]) =>
+    picker(unit, [["auto", "auto"], ...prefixes.map(prefix => [prefix, prefix + unit])], "auto",
+           value => chooseUnit(unit, value === "auto" ? null : value)));
+  const menu = element("details", {className: "menu"}, element("summary", {textContent: "Units"}),
+                       element("div", {}, ...choices));
+  const map = picker("Colours", Object.keys(MAPS).map(name => [name, name]), chosenMap, chooseMap);
+  const shade = element("button", {type: "button", id: "shade"});
+  const tell = () => {
+    shade.textContent = isDark() ? "Light" : "Dark";
+    shade.setAttribute("aria-label", `Switch to ${shade.textContent.toLowerCase()} colours`);
+  };
+  shade.onclick = () => {
+    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+    themeChanged();
+  };
+  onTheme(tell);
+  tell();
+  host.append(menu, map, shade);
+}

@@ -1,0 +1,168 @@
+// A lever in three dimensions: its surface, coloured by how far it moved, turned by dragging.
+"use strict";
+
+class SolidView {
+  static async load(host, run) {
+    const view = new SolidView(host, run);
+    [view.faces, view.reference] = await Promise.all([integers(run.prefix + "faces", 4), floats(run.prefix + "reference")]);
+    view.measure();
+    return view;
+  }
+
+  constructor(host, run) {
+    Object.assign(this, {run, frame: run.frames.length - 1, turn: -0.9, tilt: 0.42, zoom: 1, larger: 0,
+                         shown: "size"});
+    this.canvas = element("canvas", {className: "picture", tabIndex: 0, role: "img"});
+    this.note = element("p", {className: "note"});
+    host.classList.add("field");
+    host.replaceChildren(this.canvas, this.note);
+    this.listen();
+    for (const on of [onUnits, onTheme, onMap]) on(() => this.draw());
+    onResize(host, () => { if (this.moved && host.clientWidth !== this.drawnWidth) this.draw(); });
+  }
+
+  get choices() { return [["size", "Displacement"], ["2", "Deflection, along z"], ["1", "Lateral, along y"], ["0", "Along x"]]; }
+
+  measure() {
+    const axis = k => bounds([this.reference.filter((_, i) => i % 3 === k)]);
+    this.box = [0, 1, 2].map(axis);
+    this.middle = this.box.map(([low, high]) => (low + high) / 2);
+    this.size = Math.hypot(...this.box.map(([low, high]) => high - low)) || 1;
+  }
+
+  // Drawn larger than life so that the most of all frames is an eighth of the size, but never smaller.
+  async findScale() {
+    let most = 0;
+    for (let i = 0; i < this.run.frames.length; ++i) most = Math.max(most, largest(await this.run.displacements(i)));
+    this.most = most;
+    const wanted = most > 0 ? this.size / 8 / most : 1, power = 10 ** Math.floor(Math.log10(wanted));
+    this.larger = wanted > 1.5 ? Math.floor(wanted / power) * power : 1;
+  }
+
+  async show(change) {
+    Object.assign(this, change);
+    if (!this.larger) await this.findScale();
+    const frame = this.frame, moved = await this.run.displacements(frame);
+    if (frame !== this.frame) return;
+    this.moved = moved;
+    this.draw();
+  }
+  showShare(share) { return this.show({frame: this.run.frameAt(share * this.run.frames.at(-1).time)}); }
+
+  valueOf(node) {
+    const at = 3 * node, {moved} = this;
+    return this.shown === "size" ? Math.hypot(moved[at], moved[at + 1], moved[at + 2]) : moved[at + Number(this.shown)];
+  }
+
+  // x to the right, y into the page, z up, turned about z and tilted; {x, y, far} in pixels.
+  project() {
+    const count = this.reference.length / 3, out = new Float32Array(3 * count), {height, room} = this.place;
+    const scale = this.zoom * 1.15 * Math.min(room, 1.8 * height) / this.size;
+    const [ct, st, cu, su] = [Math.cos(this.turn), Math.sin(this.turn), Math.cos(this.tilt), Math.sin(this.tilt)];
+    for (let i = 0; i < out.length; i += 3) {
+      const [dx, dy, dz] = [0, 1, 2].map(k => this.reference[i + k] + this.larger * this.moved[i + k] - this.middle[k]);
+      const right = ct * dx - st * dy, deep = st * dx + ct * dy;
+      out[i] = room / 2 + scale * right;
+      out[i + 1] = height / 2 - scale * (cu * dz + su * deep);
+      out[i + 2] = cu * deep - su * dz;
+    }
+    return out;
+  }
+
+  draw() {
+    if (!this.moved) return;
+    const ratio = Math.min(devicePixelRatio || 1, 2), {canvas} = this, width = this.drawnWidth = canvas.parentElement.clientWidth;
+    const height = Math.round(Math.min(Math.max(0.6 * width, 220), 460)), room = width - LEGEND_WIDTH;
+    this.place = {height, room};
+    canvas.style.height = height + "px";
+    canvas.width = width * ratio;
+    canvas.height = height * ratio;
+    const ctx = canvas.getContext("2d");
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.font = "12px system-ui, sans-serif";
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(0, 0, room, height);
+    ctx.clip();
+    const range = this.drawFaces(ctx, this.project());
+    ctx.restore();
+    this.drawAxes(ctx);
+    drawScale(ctx, room + 14, 26, height - 60, {low: range[0], high: range[1], unit: "m"});
+    const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `drawn ${digits(this.larger)} times larger`;
+    this.note.textContent = `Lever, ${digits(time, 3)} actions done, ${drawn}; most displacement ${withUnit(this.most, "m")}. Drag to turn.`;
+    canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent}`);
+    canvas.dataset.drawn = `${this.frame} ${this.shown}`;
+  }
+
+  // Far faces first; their light from the angle they are seen at.
+  drawFaces(ctx, at) {
+    const {faces} = this, count = faces.length / 4, far = new Float32Array(count), value = new Float32Array(count);
+    for (let f = 0; f < count; ++f) {
+      for (let k = 0; k < 4; ++k) {
+        far[f] += at[3 * faces[4 * f + k] + 2];
+        value[f] += this.valueOf(faces[4 * f + k]) / 4;
+      }
+    }
+    const [low, high] = bounds([value]);
+    const order = Array.from(far.keys()).sort((a, b) => far[b] - far[a]);
+    ctx.lineJoin = "round";
+    ctx.lineWidth = 0.4;
+    for (const f of order) {
+      const corner = k => 3 * faces[4 * f + k];
+      const [a, b, c, d] = [0, 1, 2, 3].map(corner);
+      const turned = (at[c] - at[a]) * (at[d + 1] - at[b + 1]) - (at[d] - at[b]) * (at[c + 1] - at[a + 1]);
+      if (turned > 0) continue;  // seen from behind
+      ctx.beginPath();
+      for (const i of [a, b, c, d]) ctx.lineTo(at[i], at[i + 1]);
+      ctx.closePath();
+      ctx.fillStyle = colour(high > low ? (value[f] - low) / (high - low) : 0.5);
+      ctx.strokeStyle = count < 6000 ? "rgba(10, 20, 30, 0.45)" : ctx.fillStyle;
+      ctx.fill();
+      ctx.stroke();
+    }
+    return [low, high];
+  }
+
+  drawAxes(ctx) {
+    const {height} = this.place, x0 = 34, y0 = height - 30, long = 24;
+    const [ct, st, cu, su] = [Math.cos(this.turn), Math.sin(this.turn), Math.cos(this.tilt), Math.sin(this.tilt)];
+    ctx.strokeStyle = ctx.fillStyle = theme().soft;
+    ctx.lineWidth = 1;
+    ctx.textAlign = "center";
+    for (const [name, x, y] of [["x", ct, su * st], ["y", -st, su * ct], ["z", 0, cu]]) {
+      ctx.beginPath();
+      ctx.moveTo(x0, y0);
+      ctx.lineTo(x0 + long * x, y0 - long * y);
+      ctx.stroke();
+      ctx.fillText(name, x0 + 1.4 * long * x, y0 - 1.4 * long * y + 4);
+    }
+  }
+
+  listen() {
+    const {canvas} = this;
+    canvas.addEventListener("wheel", event => {
+      event.preventDefault();
+      this.zoomBy(Math.exp(-0.0015 * event.deltaY));
+    }, {passive: false});
+    canvas.addEventListener("pointerdown", event => canvas.setPointerCapture(event.pointerId));
+    canvas.addEventListener("pointermove", event => {
+      if (event.buttons & 1) this.turnBy(0.008 * event.movementX, 0.008 * event.movementY);
+    });
+    canvas.addEventListener("dblclick", () => { Object.assign(this, {zoom: 1, turn: -0.9, tilt: 0.42}); this.draw(); });
+    canvas.addEventListener("keydown", event => {
+      if (event.key === "+" || event.key === "=") this.zoomBy(1.25);
+      else if (event.key === "-") this.zoomBy(0.8);
+      else if (event.shiftKey && event.key.startsWith("Arrow")) {
+        this.turnBy({ArrowLeft: -0.15, ArrowRight: 0.15}[event.key] || 0, {ArrowUp: -0.15, ArrowDown: 0.15}[event.key] || 0);
+      } else return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
+  }
+  zoomBy(factor) { this.zoom *= factor; this.draw(); }
+  turnBy(turn, tilt) {
+    this.turn += turn;
+    this.tilt = Math.min(1.5, Math.max(-1.5, this.tilt + tilt));
+    this.draw();
+  }
+}

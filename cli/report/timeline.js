@@ -1,0 +1,89 @@
+// One time for the whole page: frames, curves and observations follow it, and each of them can move it.
+// Times are shares of the run, so that runs of different lengths can be shown together.
+"use strict";
+
+class Timeline {
+  // times: of the frames of the run that sets the pace, s
+  constructor(host, times, {name = "time", unit = "s"} = {}) {
+    Object.assign(this, {times, unit, name: unit === "s" ? "" : name + " ", end: times.at(-1) || 1, frame: times.length - 1, listeners: [], timer: 0});
+    this.share = 1;
+    this.button = element("button", {type: "button", className: "play", id: "play", onclick: () => this.toggle()});
+    this.slider = element("input", {type: "range", id: "frame", min: 0, max: Math.max(0, times.length - 1),
+                                    step: 1, value: this.frame, "aria-label": "Frame"});
+    this.slider.oninput = () => this.showFrame(Number(this.slider.value));
+    this.told = element("output", {className: "told", htmlFor: "frame"});
+    host.replaceChildren(this.button, this.slider, this.told);
+    this.setPlaying(false);
+    this.tell();
+    onUnits(() => this.tell());
+    addEventListener("keydown", event => this.key(event));
+  }
+
+  listen(listener) { this.listeners.push(listener); }
+
+  showFrame(frame) {
+    if (!this.times.length) return;
+    this.frame = Math.min(Math.max(frame, 0), this.times.length - 1);
+    this.showShare(this.times[this.frame] / this.end);
+  }
+
+  // From a curve: the share may lie between two frames.
+  seek(share) {
+    if (this.timer) return;
+    if (!this.times.length) return;
+    let best = 0;
+    this.times.forEach((time, i) => {
+      if (Math.abs(time / this.end - share) < Math.abs(this.times[best] / this.end - share)) best = i;
+    });
+    this.frame = best;
+    this.showShare(share);
+  }
+
+  showShare(share) {
+    this.share = share;
+    this.slider.value = this.frame;
+    this.tell();
+    for (const listener of this.listeners) listener(share);
+  }
+
+  tell() {
+    if (!this.times.length) return;
+    const text = `${this.name}${withUnit(this.times[this.frame], this.unit, 3)} · frame ${this.frame + 1} of ${this.times.length}`;
+    this.told.textContent = text;
+    this.slider.setAttribute("aria-valuetext", text);
+  }
+
+  setPlaying(plays) {
+    this.button.textContent = plays ? "❚❚" : "▶";
+    this.button.setAttribute("aria-label", plays ? "Pause" : "Play");
+    this.button.title = (plays ? "Pause" : "Play") + " (space)";
+  }
+
+  toggle() {
+    if (this.timer) {
+      clearInterval(this.timer);
+      this.timer = 0;
+    } else if (this.times.length > 1) {
+      if (this.frame === this.times.length - 1) this.showFrame(0);
+      this.timer = setInterval(() => {
+        this.showFrame(this.frame + 1);
+        if (this.frame === this.times.length - 1) this.toggle();
+      }, Math.min(200, Math.max(60, 6000 / this.times.length)));
+    }
+    this.setPlaying(Boolean(this.timer));
+  }
+
+  // Space plays, arrows step, wherever the keys are not needed for something else.
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const at = event.target;
+    if (at.matches("select, input:not([type=range]), textarea, summary")) return;
+    const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10}[event.key];
+    if (event.key === " " && !at.matches("button")) this.toggle();
+    else if (steps) this.showFrame(this.frame + steps);
+    else if (event.key === "Home") this.showFrame(0);
+    else if (event.key === "End") this.showFrame(this.times.length - 1);
+    else return;
+    event.preventDefault();
+  }
+}

@@ -1,0 +1,195 @@
+// The words of the report: what was run, how it went, and whether its numbers can be believed.
+"use strict";
+
+const countOf = value => Math.round(value).toLocaleString("en");
+
+function did({family, head, summary}) {
+  if (family === "afm") return "A lever was calibrated" + (summary.loops ? " and scanned over a surface" :
+                               (head.frames || []).length && summary.increments ? " and moved against a surface" : "");
+  const particles = `${countOf(head.mesh.particles)} particle${head.mesh.particles === 1 ? "" : "s"}`;
+  if (family === "shear") return `A target was drawn under a compact of ${particles}`;
+  return summary.relative_density === undefined ? `${titled(particles)} were moved and deformed`
+    : `${titled(particles)} ${head.mesh.particles === 1 ? "was" : "were"} pressed to a relative density of ` +
+      digits(summary.relative_density, 3);
+}
+
+// What was done, how it ended, and whether to believe it, in words.
+function leadOf(run) {
+  const {summary, head} = run, figures = qualityFigures(run);
+  const elements = head.mesh ? head.mesh.cells : head.solid ? head.solid.cells : 0;
+  const parts = [`${did(run)}, in ${countOf(elements)} elements.`];
+  if (summary.wall_seconds > 0) parts.push(`Computed in ${duration(summary.wall_seconds)}.`);
+  if (summary.outcome && summary.outcome !== "done") parts.push(`The run ${summary.outcome}.`.replace("run failed", "run went bad"));
+  const beyond = figures.filter(figure => Math.abs(figure.value) > figure.limit);
+  const limited = figures.filter(figure => typeof figure.limit === "number");
+  if (beyond.length) parts.push(`Beyond its limit: ${beyond.map(figure => figure.name.toLowerCase()).join(", ")}.`);
+  else if (limited.length) parts.push("Every quality figure is within its limit.");
+  const missed = (summary.expectations || []).filter(one => !one.met).length;
+  if (summary.expectations) parts.push(missed ? `${missed} of ${summary.expectations.length} expectations not met.`
+                                              : `All ${summary.expectations.length} expectations met.`);
+  return parts.join(" ");
+}
+
+function duration(seconds) {
+  if (seconds < 120) return digits(seconds, 3) + " s";
+  const minutes = Math.round(seconds / 60);
+  return minutes < 120 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}
+
+const bytesInWords = bytes =>
+  bytes >= 1e9 ? digits(bytes / 1e9, 3) + " GB" : digits(bytes / 1e6, 3) + " MB";
+
+function largestForce(run) {
+  let most = {value: 0};
+  for (const {name, values} of run.named(/^tool\/.+\/force_[xy]$/)) {
+    const value = largest(values);
+    if (value > most.value) most = {value, tool: name.split("/")[1]};
+  }
+  return most;
+}
+
+addFigures(run => {
+  const {value, tool} = largestForce(run);
+  return [value > 0 && ["largest force", withUnit(value, "N", 3), `on ${tool}`]];
+});
+
+// Units of a material's numbers: the summary is plain SI.
+const MATERIAL_UNITS = {density: "kg/m³", youngs_modulus: "Pa", poissons_ratio: "-",
+                        yield_stress: "Pa", hardening_modulus: "Pa"};
+
+function materialRows(materials) {
+  const named = key => words(key).replace(/^(young|poisson)s/, (_, name) => `${titled(name)}'s`);
+  const told = (key, value) => `${named(key)} ` +
+    (typeof value === "number" ? withUnit(value, MATERIAL_UNITS[key] || "-") : value);
+  return (Array.isArray(materials) ? materials : []).map(({name, ...numbers}) =>
+    [`Material ${name || ""}`, Object.entries(numbers).map(one => told(...one)).join(", "),
+     ["materials"]]);
+}
+
+// Rows for the keys with a meaning of their own: [label, text or null, the keys it tells].
+function knownRows(run) {
+  const {head, summary: s} = run, has = key => typeof s[key] === "number", count = countOf;
+  const density = has("relative_density") ? s.relative_density : run.end("relative_density");
+  const mesh = head.mesh || {}, force = largestForce(run);
+  return [
+    ["Outcome", s.outcome, ["outcome"]],
+    ["Particles", mesh.particles ? count(mesh.particles) : null, ["particles"]],
+    ["Elements", has("elements") || mesh.cells ? count(s.elements ?? mesh.cells) : null, ["elements"]],
+    ["Final relative density", density === undefined ? null : digits(density),
+     ["relative_density"]],
+    ["Largest force", force.value > 0 ? `${withUnit(force.value, "N")} on ${force.tool}` : null, []],
+    ["Thickness of the slice", has("thickness") ? withUnit(s.thickness, "m") : null, ["thickness"]],
+    ...materialRows(s.materials),
+    ["Simulated time", has("time") ? withUnit(s.time, "s") : null, ["time"]],
+    ["Steps", has("steps") ? count(s.steps) : null, ["steps"]],
+    ["Computing time", has("wall_seconds") ? duration(s.wall_seconds) +
+      (has("threads") ? ` on ${s.threads} thread${s.threads === 1 ? "" : "s"}` : "") : null,
+     ["wall_seconds", "threads"]],
+    ["Speed", has("element_updates_per_second") ?
+      `${digits(s.element_updates_per_second / 1e6, 3)} million element updates a second` : null,
+     ["element_updates_per_second"]],
+    ["Peak memory", has("peak_memory_bytes") ? bytesInWords(s.peak_memory_bytes) : null,
+     ["peak_memory_bytes"]],
+    ["Version", s.version ? s.version + (s.commit ? ` (${s.commit})` : "") : null,
+     ["version", "commit"]],
+  ];
+}
+
+// What the program tells beyond that, one row a number or text, nested names joined.
+function otherRows(value, name, rows) {
+  if (value === null || value === "") return;
+  if (typeof value !== "object") {
+    const text = typeof value === "number" ? digits(value, 6) : String(value);
+    rows.push([titled(name), Number.isInteger(value) ? String(value) : text]);
+  } else if (Array.isArray(value) && value.every(item => typeof item !== "object")) {
+    rows.push([titled(name), value.map(v => typeof v === "number" ? digits(v, 6) : v).join(", ")]);
+  } else {
+    for (const [key, item] of Object.entries(value)) {
+      const inner = Array.isArray(value) && item && item.name ? item.name : key;
+      if (key !== "name") otherRows(item, `${name}, ${words(inner)}`, rows);
+    }
+  }
+}
+
+function fillSummary(run) {
+  const known = knownRows(run);
+  const told = new Set(["title", "tools", "limits", "quality", "energy_balance_error", "family", "shear",
+                        "kinetic_ratio", "penetration", "fits", "transmission", "expectations", "calibration",
+                        "loops", "cost", ...known.flatMap(row => row[2])]);
+  const rows = known.filter(row => row[1]);
+  for (const [key, value] of Object.entries(run.summary)) {
+    if (!told.has(key)) otherRows(value, key, rows);
+  }
+  const table = document.getElementById("summary");
+  table.replaceChildren();
+  for (const [label, text] of rows) {
+    const row = table.insertRow();
+    row.append(element("th", {scope: "row", textContent: label}));
+    row.insertCell().textContent = text;
+  }
+}
+
+function fillFigures(run) {
+  document.getElementById("figures").replaceChildren(...figuresOf(run).map(([label, value, note]) =>
+    element("div", {className: "tile"}, element("dt", {textContent: label}), element("dd", {textContent: value}),
+            element("small", {textContent: note}))));
+}
+
+// Figures made from the history, where the program gave none of its own.
+function qualityFigures(run) {
+  const {summary: s, history} = run, limits = s.limits || {};
+  if (Array.isArray(s.quality)) return s.quality;
+  const most = name => history.has(name) ? largest(history.get(name).values) : NaN;
+  const given = (key, other) => typeof s[key] === "number" ? s[key] : other;
+  const internal = Math.max(most("energy/elastic") || 0, most("energy/plastic") || 0);
+  const balance = given("energy_balance_error",
+    most("energy/balance") / Math.max(internal, most("energy/kinetic") || 0));
+  return [
+    {name: "Energy balance error", value: balance, limit: limits.energy_balance ?? 0.05,
+     meaning: "energy lost or made by the calculation, of the largest energy in the run"},
+    {name: "Kinetic energy", limit: limits.kinetic_energy,
+     value: given("kinetic_ratio", most("energy/kinetic") / internal),
+     meaning: "kinetic energy, of the internal energy"},
+    {name: "Hourglass energy", value: most("energy/hourglass") / internal, limit: 0.03,
+     meaning: "largest energy of bending inside the elements, plastic work included, of the largest internal energy"},
+    {name: "Penetration", value: most("penetration"), limit: limits.penetration,
+     meaning: "deepest overlap of two surfaces, of the length of a boundary edge"},
+  ].filter(figure => Number.isFinite(figure.value));
+}
+
+function fillQuality(run) {
+  const figures = qualityFigures(run), expected = run.summary.expectations || [];
+  document.getElementById("quality-section").hidden = !figures.length && !expected.length;
+  const body = document.querySelector("#quality tbody");
+  body.replaceChildren();
+  const add = (name, note, cells, verdict, good) => {
+    const row = body.insertRow(), head = element("th", {scope: "row", textContent: titled(name)});
+    head.append(element("small", {textContent: note || ""}));
+    row.append(head);
+    cells.forEach(text => { row.insertCell().textContent = text; });
+    row.append(element("td", {className: verdict && (good ? "within" : "beyond"), textContent: verdict}));
+  };
+  for (const {name, meaning, value, limit} of figures) {
+    const limited = typeof limit === "number", within = Math.abs(value) <= limit;
+    add(name, meaning, [percent(value), limited ? percent(limit) : "none set"],
+        limited ? within ? "within" : "beyond" : "", within);
+  }
+  for (const one of expected) {
+    add(one.what, "expected by the scene", [one.measured, one.expected], one.met ? "met" : "NOT met", one.met);
+  }
+}
+
+// What the run cost, by system where the run has counted it.
+function fillCost(run) {
+  const {cost} = run.summary;
+  if (!Array.isArray(cost) || !cost.length) return;
+  document.getElementById("cost-section").hidden = false;
+  const table = document.getElementById("cost"), sum = cost.reduce((total, one) => total + one.seconds, 0);
+  table.replaceChildren();
+  for (const {system, seconds} of cost.slice().sort((a, b) => b.seconds - a.seconds)) {
+    const row = table.insertRow(), bar = element("i", {className: "bar"});
+    bar.style.width = 100 * seconds / cost.reduce((most, one) => Math.max(most, one.seconds), 0) + "%";
+    row.append(element("th", {scope: "row", textContent: words(system)}), element("td", {}, bar),
+               element("td", {textContent: percent(seconds / sum)}), element("td", {textContent: duration(seconds)}));
+  }
+}

@@ -1,0 +1,45 @@
+// What the report draws of a plane mesh: all of it, or, of a mesh too large to be mailed, every particle
+// as a fan of triangles between its centre and points of its outline.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pulvis {
+
+struct PlaneMesh {
+  std::vector<std::int32_t> quads;  // four nodes each
+  std::vector<std::int32_t> cell_particle, node_particle;
+  std::vector<double> reference;  // x, y of the nodes
+
+  std::size_t cells() const { return quads.size() / 4; }
+  std::size_t nodes() const { return node_particle.size(); }
+};
+
+class DrawnMesh {
+ public:
+  static DrawnMesh whole(const PlaneMesh& mesh);
+  // Fans of at most `sectors` triangles; a hole of a particle is drawn over.
+  static DrawnMesh fans(const PlaneMesh& mesh, std::size_t sectors);
+
+  const std::vector<std::int32_t>& cells() const { return cells_; }  // a triangle repeats a node
+  std::size_t cell_count() const { return cells_.size() / 4; }
+  std::size_t node_count() const { return first_.size() - 1; }
+
+  // Means of what the drawn nodes and cells stand for.
+  std::vector<double> positions(std::span<const double> xy) const;
+  std::vector<double> values(std::span<const double> of_cells) const;
+
+ private:
+  void add_fan(const PlaneMesh& mesh, std::span<const std::int32_t> cells, std::size_t sectors);
+  void add_node(std::span<const std::int32_t> mean_of);
+
+  std::vector<std::int32_t> cells_;
+  std::vector<std::int32_t> first_{0},
+      nodes_;                        // drawn node k: nodes_[first_[k]] up to first_[k + 1]
+  std::vector<std::int32_t> drawn_;  // where the value of each cell of the mesh goes
+  std::vector<double> area_;         // of each cell of the mesh
+};
+
+}  // namespace pulvis

@@ -1,0 +1,93 @@
+// Put at the end of a copy of a report by tests/report_in_browser.sh: does what a reader would do, and
+// writes what came of it into the page, one attribute of <body> a question.
+"use strict";
+
+addEventListener("securitypolicyviolation", event => { document.body.dataset.violation = event.blockedURI; });
+
+const until = async condition => {
+  for (let i = 0; i < 400 && !condition(); ++i) await new Promise(done => setTimeout(done, 20));
+  return condition();
+};
+const canvas = () => document.querySelector("canvas.picture");
+const drawn = () => canvas() ? canvas().dataset.drawn : "";
+const drawnAs = wanted => until(() => drawn() === wanted);
+
+// Of the pixels, not of what the page says it has drawn.
+function hashOf(picture) {
+  const copy = new OffscreenCanvas(picture.width, picture.height).getContext("2d", {willReadFrequently: true});
+  copy.drawImage(picture, 0, 0);
+  const {data} = copy.getImageData(0, 0, picture.width, picture.height);
+  let hash = 2166136261;
+  for (const byte of data) hash = Math.imul(hash ^ byte, 16777619);
+  return hash >>> 0;
+}
+
+const key = (name, target = document.body) =>
+  target.dispatchEvent(new KeyboardEvent("keydown", {key: name, bubbles: true, cancelable: true}));
+const told = (name, value) => { document.body.dataset[name] = value; };
+const change = (id, value) => {
+  const select = document.getElementById(id);
+  select.value = value;
+  select.dispatchEvent(new Event("change"));
+};
+
+async function drive() {
+  await until(() => document.body.dataset.ready);
+  told("hasCurves", document.querySelectorAll("path.curve").length > 0);
+  told("network", performance.getEntriesByType("resource").filter(entry => !entry.name.startsWith("data:")).length);
+  if (!canvas()) return;
+  const slider = document.getElementById("frame"), last = Number(slider.max), field = document.getElementById("field").value;
+  const at = (frame, what = field) => `${frame} ${what}`;
+  await drawnAs(at(last));
+  await new Promise(done => setTimeout(done, 300));  // the page has found its width
+  const first = hashOf(canvas());
+  if (last > 0) {
+    slider.value = Math.floor(last / 2);
+    slider.dispatchEvent(new Event("input"));
+    told("scrubbed", await drawnAs(at(Math.floor(last / 2))) && hashOf(canvas()) !== first);
+    key("End");
+    told("back", await drawnAs(at(last)) && hashOf(canvas()) === first);
+    key("ArrowLeft");
+    told("stepped", await drawnAs(at(last - 1)) && hashOf(canvas()) !== first);
+    key("Home");
+    key(" ");
+    told("playing", document.getElementById("play").getAttribute("aria-label") === "Pause" &&
+         await until(() => drawn() !== at(0)));
+    key(" ");
+    key("End");
+    await drawnAs(at(last));
+    const curves = document.querySelector(".plot"), box = curves.getBoundingClientRect();
+    curves.dispatchEvent(new PointerEvent("pointermove", {clientX: box.left + 66, clientY: box.top + box.height / 2}));
+    told("linked", await until(() => Number(drawn().split(" ")[0]) < last / 4));
+    curves.dispatchEvent(new PointerEvent("pointerleave"));
+    key("End");
+    await drawnAs(at(last));
+  }
+  const curve = () => document.querySelector("path.curve").getAttribute("d"), plot = document.querySelector(".plot");
+  if (plot) {
+    const whole = curve();
+    key("+", plot);
+    told("curveZoomed", curve() !== whole);
+    key("0", plot);
+  }
+  key("+", canvas());
+  told("zoomed", hashOf(canvas()) !== first);
+  key(document.getElementById("same-range") ? "0" : "-", canvas());
+  const other = [...document.getElementById("field").options].map(option => option.value).find(value => value !== field);
+  change("field", other);
+  told("otherField", await drawnAs(at(last, other)) && hashOf(canvas()) !== first);
+  change("field", field);
+  await drawnAs(at(last));
+  if (document.getElementById("contacts")) {
+    const before = hashOf(canvas());
+    document.getElementById("contacts").click();
+    told("contacts", await until(() => hashOf(canvas()) !== before));
+    document.getElementById("contacts").click();
+  }
+  const dark = hashOf(canvas());
+  document.getElementById("shade").click();
+  told("dark", hashOf(canvas()) !== dark);
+  document.getElementById("shade").click();
+}
+
+drive().then(() => told("driven", "1"), error => told("driverError", String(error && error.stack || error).replace(/[\n<>]/g, " ")));
