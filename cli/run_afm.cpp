@@ -18,6 +18,7 @@
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/afm_figures.hpp"
+#include "scenes/afm_image.hpp"
 #include "scenes/afm_loop.hpp"
 #include "scenes/afm_scene.hpp"
 #include "scenes/afm_simulation.hpp"
@@ -98,7 +99,7 @@ ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScen
                     mesh, afm_series(), {{"position", "m", "of the node", FieldPlace::node, 3}});
   std::size_t total = 1;
   for (const ActionSpec& action : loaded.scene.afm->actions)
-    total += static_cast<std::size_t>(action.increments) * (action.back ? 2 : 1);
+    total += action.samples();
   const std::size_t every = std::max<std::size_t>(1, total / 12);
   const auto frame = [&](double time) {
     recorder.frame(time, static_cast<std::int64_t>(history.rows.size()),
@@ -117,6 +118,8 @@ ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScen
     end.failure = failure.what();
   }
   if (!history.times.empty()) frame(history.times.back());
+  for (const AfmImage& image : raster_images(loaded.scene, history))
+    recorder.image(image.info, image.lines, image.pixels, image.values);
   recorder.finish(end.done ? "done" : end.failure.empty() ? "interrupted" : end.failure);
   return end;
 }

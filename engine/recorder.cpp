@@ -60,7 +60,8 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
                    const RunMesh& mesh, std::vector<SeriesInfo> series,
                    std::vector<FieldInfo> fields)
     : series_(std::move(series)),
-      fields_((check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
+      fields_(
+          (check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
       file_(hdf5::File::create(folder / "run.h5")),
       csv_(folder / "history.csv", series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
@@ -179,6 +180,14 @@ void Recorder::write_field(const std::string& group, const FieldInfo& field,
   describe(dataset, field.unit, field.meaning);
   file_.set_attribute(dataset, "place", std::string_view(name_of(field.place)));
   file_.set_attribute(dataset, "components", std::int64_t{field.components});
+}
+
+void Recorder::image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
+                     std::span<const double> values) {
+  require(lines * pixels == values.size(), "image " + info.name + " has a wrong length");
+  const std::string dataset = "/images/" + info.name;
+  file_.write(dataset, values, {lines, pixels});
+  describe(dataset, info.unit, info.meaning);
 }
 
 void Recorder::finish(std::string_view outcome) {

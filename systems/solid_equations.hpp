@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <vector>
 
 namespace pulvis {
 
@@ -19,7 +20,13 @@ struct SolidEquations {
   Eigen::VectorXd direction;   // [3 unknowns] m
   double scale = 0;            // N, the forces that must balance: root of the sum of squares
   double set_point_error = 0;  // -, of the servo: what is missing over the set point
-  double height_step = 0;      // m, of the servo, together with the direction
+  // Of the contact, together with the direction:
+  bool contact_solved = true;  // an answer was found
+  double contact_error = 0;    // -, by how much the forces break the law, over the largest
+  Eigen::VectorXd force_step;  // [3 points] N, of the probe
+  double height_step = 0;      // m, of the servo
+  // [points] K^-1 to unit forces on the point, [3 unknowns, 3]; empty until it was asked for
+  std::vector<Eigen::MatrixXd> answers;
 };
 
 }  // namespace pulvis

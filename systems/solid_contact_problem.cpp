@@ -1,0 +1,163 @@
+#include "systems/solid_contact_problem.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace pulvis {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr int most_iterations = 60;
+constexpr double tolerance = 1e-11;  // -, of the largest force
+
+struct Linearised {
+  MatrixXd matrix;  // of the forces, then the servo's row and column
+  VectorXd missing;
+  bool touches = false;
+};
+
+class ContactNewton {
+ public:
+  explicit ContactNewton(const ContactProblem& problem)
+      : problem_(problem), size_(3 * static_cast<Index>(problem.points.size())) {
+    start_.resize(size_);
+    for (Index p = 0; p < size_ / 3; ++p) start_.segment<3>(3 * p) = point(p).force;
+    force_ = start_;
+    if (problem_.set_point) follow();
+  }
+
+  ContactAnswer solve() {
+    int i = 0;
+    for (; i < most_iterations; ++i) {
+      Linearised now = linearise();
+      if (problem_.set_point && !now.touches) {
+        press_nearest();
+        now = linearise();
+      }
+      const double largest =
+          std::max(force_.lpNorm<Eigen::Infinity>(), std::abs(problem_.set_point.value_or(0)));
+      if (now.missing.norm() <= tolerance * largest) return {true, force_, height_, i};
+      const VectorXd step = now.matrix.partialPivLu().solve(now.missing);
+      if (!step.allFinite()) break;
+      force_ += step.head(size_);
+      if (problem_.set_point) height_ += step[size_];
+    }
+    return {false, force_, height_, i};
+  }
+
+ private:
+  const ContactPoint& point(Index p) const { return problem_.points[static_cast<std::size_t>(p)]; }
+
+  kernels::ProbePlace place(Index p) const {
+    const Vector3d moved = problem_.compliance.middleRows<3>(3 * p) * (force_ - start_);
+    return place_on(*problem_.shape, point(p), problem_.end_radius,
+                    point(p).place + moved - height_ * Vector3d::UnitZ());
+  }
+
+  // The target follows the point that pressed hardest: an increment's way along a slope shall not tear the
+  // probe off before the law has been asked.
+  void follow() {
+    Index hardest = -1;
+    double most = 0;
+    for (Index p = 0; p < size_ / 3; ++p) {
+      const double pressing = place(p).normal.dot(start_.segment<3>(3 * p));
+      if (pressing > most) most = pressing, hardest = p;
+    }
+    if (hardest < 0) return;
+    const auto at = place(hardest);
+    height_ = (at.gap + most / point(hardest).law.normal_stiffness) / at.normal.z();
+  }
+
+  // Nothing touches, but the servo wants its force: the nearest point takes it.
+  void press_nearest() {
+    Index nearest = 0;
+    double gap = place(0).gap;
+    for (Index p = 1; p < size_ / 3; ++p)
+      if (place(p).gap < gap) gap = place(p).gap, nearest = p;
+    const double held = force_(Eigen::seqN(2, size_ / 3, 3)).sum();
+    const auto at = place(nearest);
+    force_.segment<3>(3 * nearest) += (*problem_.set_point - held) / at.normal.z() * at.normal;
+    const auto then = place(nearest);
+    height_ += (then.gap + then.normal.dot(force_.segment<3>(3 * nearest)) /
+                               point(nearest).law.normal_stiffness) /
+               then.normal.z();
+  }
+
+  Linearised linearise() const {
+    const bool servo = problem_.set_point.has_value();
+    Linearised now;
+    now.matrix.setZero(size_ + servo, size_ + servo);
+    now.missing.setZero(size_ + servo);
+    for (Index p = 0; p < size_ / 3; ++p) {
+      const auto at = place(p);
+      const Matrix3d s = problem_.compliance.block<3, 3>(3 * p, 3 * p);
+      const double give = at.normal.dot(s * at.normal);
+      const auto r = kernels::probe_equation(point(p).law, at, force_.segment<3>(3 * p), 1 / give,
+                                             1 / (s.trace() - give));
+      now.touches = now.touches || r.state != kernels::ProbeEquation::State::apart;
+      now.missing.segment<3>(3 * p) = -r.residual;
+      now.matrix.block(3 * p, 0, 3, size_) = r.by_place * problem_.compliance.middleRows<3>(3 * p);
+      now.matrix.block<3, 3>(3 * p, 3 * p) += r.by_force;
+      if (servo) {
+        now.matrix.block<3, 1>(3 * p, size_) = -r.by_place.col(2);
+        now.matrix(size_, 3 * p + 2) = 1;
+      }
+    }
+    if (servo)
+      now.missing[size_] = *problem_.set_point - force_(Eigen::seqN(2, size_ / 3, 3)).sum();
+    return now;
+  }
+
+  const ContactProblem& problem_;
+  Index size_;
+  VectorXd start_, force_;
+  double height_ = 0;
+};
+
+}  // namespace
+
+ContactAnswer solve_contact(const ContactProblem& problem) {
+  return ContactNewton(problem).solve();
+}
+
+kernels::ProbePlace place_on(const TargetShape& shape, const ContactPoint& point, double end_radius,
+                             const Vector3d& place) {
+  const auto nearest = shape.nearest({place.x(), place.y(), place.z() + end_radius});
+  return {nearest.distance - end_radius, Vector3d(nearest.normal.data()),
+          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(nearest.turn.data()),
+          place - point.before, point.old_tangential};
+}
+
+Vector3d probe_place(Row<ProbePoint> row, const Read<ReferencePosition>& reference,
+                     const Read<Displacement>& displacement, const Target& target,
+                     const Read<ProbeNode>& node) {
+  const Row<SolidNode> at(node(row));
+  Vector3d place;
+  for (int k = 0; k < 3; ++k)
+    place[k] =
+        reference(at, k) + displacement(at, k) - target.position[static_cast<std::size_t>(k)];
+  return place;
+}
+
+ContactPoint contact_point(Row<ProbePoint> row, const Vector3d& place, const Target& target,
+                           const Read<ProbeStiffness>& stiffness, const Read<ProbeShare>& share,
+                           const Read<ProbeMemory>& memory, const Read<ProbeForce>& force) {
+  ContactPoint point;
+  point.law = {stiffness(row, 0), stiffness(row, 1), target.friction, target.pull_off * share(row),
+               target.range};
+  point.place = place;
+  for (int k = 0; k < 3; ++k) {
+    point.force[k] = force(row, k);
+    point.old_tangential[k] = memory(row, k);
+    point.before[k] = memory(row, 3 + k);
+  }
+  return point;
+}
+
+}  // namespace pulvis
