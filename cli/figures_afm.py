@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Pictures of an AFM run: the deformed solid (first, middle and last frame) and its curves.
+"""Pictures of an AFM run: the deformed solid (first, middle and last frame), its curves, its rasters.
 
 usage: figures_afm.py RUN_FOLDER [-o FOLDER]
 """
@@ -77,6 +77,26 @@ def draw_curves(folder, path):
     return True
 
 
+def draw_images(run, path):
+    """Rasters, way forth above way back; friction also as half of their difference."""
+    actions = sorted(run["images"]) if "images" in run else []
+    if not actions:
+        return False
+    channels = ["topography", "deflection", "friction"]
+    figure, axes = plt.subplots(2 * len(actions), 3, figsize=(15, 9 * len(actions)), squeeze=False)
+    for i, action in enumerate(actions):
+        for j, way in enumerate(["forth", "back"]):
+            for axis, channel in zip(axes[2 * i + j], channels):
+                data = run[f"images/{action}/{channel}_{way}"]
+                picture = axis.imshow(data[:], origin="lower", cmap="afmhot")
+                axis.set(title=f"{action}: {channel}, {way}", xlabel="pixel", ylabel="line")
+                figure.colorbar(picture, ax=axis, label=f"{channel} in {data.attrs['unit']}", shrink=0.8)
+    figure.tight_layout()
+    figure.savefig(path, dpi=80)
+    plt.close(figure)
+    return True
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
@@ -86,6 +106,8 @@ def main():
     output.mkdir(parents=True, exist_ok=True)
     with h5py.File(options.folder / "run.h5", "r") as run:
         draw_frames(run, output / "solid.png")
+        if draw_images(run, output / "images.png"):
+            print(output / "images.png")
     print(output / "solid.png")
     if draw_curves(options.folder, output / "curves.png"):
         print(output / "curves.png")

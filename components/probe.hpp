@@ -61,6 +61,7 @@ struct Target {
   double end_radius = 0;             // m, of a sharp tip's end; 0 for nodes of a meshed surface
   bool servo = false;                // the scanner's height follows so that ...
   double set_point = 0;              // N, ... the target pushes the probe up with this force
+  bool may_jump = false;             // where no equilibrium is near the probe may snap on or off
 };
 
 }  // namespace pulvis

@@ -19,7 +19,7 @@ constexpr int most_iterations = 400;  // of an increment with its halves
 double reach_of(const AfmScene& afm) {
   double way = 0;
   for (const ActionSpec& action : afm.actions) way += std::abs(action.distance);
-  return 2 * (way + afm.lever.length);
+  return 2 * way + 0.1 * afm.lever.length;  // and what the lever may bend
 }
 
 Vec3 place_of(const AfmModel& model, int node) {
@@ -70,6 +70,7 @@ std::vector<SeriesInfo> afm_series() {
       {"contact/points", "-", "points of the probe that touch"},
       {"contact/slides", "-", "share of the points that touch which slide"},
       {"energy/elastic", "J", "stored in lever and probe"},
+      {"energy/released", "J", "by the probe's jumps on and off the surface, until now"},
       {"newton/iterations", "-", "of the increment, with those of its cuts"}};
 }
 
@@ -99,10 +100,10 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   for (int i = 0; i < points; ++i) {
     const auto at = static_cast<std::size_t>(i);
     node[i] = ball ? model.tip.surface[at] : model.contact_node;
-    // Of a meshed surface: a layer as thick as a tenth of its elements, of the probe's own material.
+    // Of a meshed surface: a layer as thick as a hundredth of its elements, of the probe's own material.
     const double area = ball ? model.tip.area[at] : 0;
     penalty[2 * i] = penalty[2 * i + 1] =
-        ball ? 10 * m.youngs_modulus * std::sqrt(area) : stiffer * stiffness;
+        ball ? 100 * m.youngs_modulus * std::sqrt(area) : stiffer * stiffness;
     share[i] = ball && node[i] != model.end.front().node ? 0.0 : 1.0;
   }
   Target& target = world.resource<Target>();
@@ -153,7 +154,7 @@ bool AfmProgramme::tell() {
   for (const double value :
        {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
         detector.lateral_gain * spot.lateral, touching, touching > 0 ? sliding / touching : 0,
-        elastic_energy(model_), static_cast<double>(iterations_)})
+        elastic_energy(model_), released_, static_cast<double>(iterations_)})
     row.push_back(value);
   return record_(time_, row);
 }
@@ -165,9 +166,13 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   target.servo = servo;
   NewtonSettings settings;
   settings.reuse_factors = true;
+  settings.may_jump = depth == most_halvings;
   const NewtonReport report = solver_.equilibrate(settings);
   iterations_ += static_cast<int>(report.residuals.size());
-  if (report.converged) return solver_.remember();
+  if (report.converged) {
+    released_ += report.released;
+    return solver_.remember();
+  }
   target.position = before;
   if (depth == most_halvings || iterations_ > most_iterations)
     throw RunFailure(fmt::format(

@@ -48,6 +48,7 @@ class AfmProgramme {
   Record record_;
   double time_ = 0, share_ = 1;  // of the present increment, in actions
   int iterations_ = 0;           // of the last increment, its cuts included
+  double released_ = 0;          // J, by the probe's jumps until now
   const char* doing_ = "";
 };
 

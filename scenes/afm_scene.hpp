@@ -44,6 +44,7 @@ struct TipSpec {
   double set_back = 0;                      // m, its axis from the lever's end
   double offset = 0;                        // m, its axis from the lever's axis, along y
   int elements = 4;                         // across it
+  double focus = 1;                         // -, of a ball's mesh on its poles
   SourceMark mark;
 };
 

@@ -14,7 +14,7 @@
 //            touches g + N/k = 0,   N^ = N - rho (g + N/k)            where N^ > 0, and then
 //            sticks  w = P (x - x_old) + (t - P t_old)/k_t = 0        where |t^| <= mu N^
 //            slides  t = mu N^ t^/|t^|,   t^ = t - rho_t w
-// Valid    the slope of N's own curvature terms is left out where a point sticks: exact on planes
+// Valid    any smooth surface; the derivatives are those of the equations, kinks apart
 #pragma once
 
 #include <Eigen/Core>
@@ -58,14 +58,17 @@ inline ProbeEquation probe_equation(const ProbeLaw& law, const ProbePlace& at,
   using Eigen::Matrix3d;
   using Eigen::Vector3d;
   const Vector3d& n = at.normal;
-  const Matrix3d nn = n * n.transpose(), p = Matrix3d::Identity() - nn;
+  const Matrix3d &h = at.turn, nn = n * n.transpose(), p = Matrix3d::Identity() - nn;
+  // d (P v) / d place
+  const auto turned = [&](const Vector3d& v) -> Matrix3d {
+    return -n.dot(v) * h - n * (h.transpose() * v).transpose();
+  };
   double slope = 0;
-  const double a = adhesion(law, at.gap, slope);
-  const double pressing = n.dot(f) + a;
-  const Vector3d t = p * f;
-  const Vector3d pressing_by_place = slope * n + at.turn * t;
-  const double missing = at.gap + pressing / law.normal_stiffness;
+  const double a = adhesion(law, at.gap, slope), k = law.normal_stiffness;
+  const double pressing = n.dot(f) + a, missing = at.gap + pressing / k;
   const double augmented = pressing - rho * missing;
+  const Vector3d pressing_by_place = slope * n + h.transpose() * f;
+  const Vector3d missing_by_place = n + pressing_by_place / k;
 
   ProbeEquation r;
   r.pressing = pressing;
@@ -73,33 +76,34 @@ inline ProbeEquation probe_equation(const ProbeLaw& law, const ProbePlace& at,
   if (augmented <= 0) {
     r.residual = f + a * n;
     r.by_force.setIdentity();
-    r.by_place = slope * nn + a * at.turn;
+    r.by_place = slope * nn + a * h;
     return r;
   }
-  const double give = 1 - rho / law.normal_stiffness;
   r.residual = rho * missing * n;
-  r.by_force = (1 - give) * nn;
-  r.by_place = rho * nn + (1 - give) * n * pressing_by_place.transpose();
+  r.by_force = (rho / k) * nn;
+  r.by_place = rho * (n * missing_by_place.transpose() + missing * h);
 
   const double kt = law.tangential_stiffness;
+  const Vector3d t = p * f;
   const Vector3d w = p * at.moved + (t - p * at.old_tangential) / kt;
+  const Matrix3d w_by_place = p + turned(at.moved) + (turned(f) - turned(at.old_tangential)) / kt;
   const Vector3d trial = t - rho_t * w;
   const double size = trial.norm(), bound = law.friction * augmented;
   if (size <= bound) {
     r.state = ProbeEquation::State::sticks;
     r.residual += rho_t * w;
     r.by_force += (rho_t / kt) * p;
-    r.by_place += rho_t * p;
+    r.by_place += rho_t * w_by_place;
     return r;
   }
   r.state = ProbeEquation::State::slides;
   const Vector3d m = trial / size;
-  const Matrix3d across = (bound / size) * (p - m * m.transpose());
+  const Matrix3d across = (bound / size) * (Matrix3d::Identity() - m * m.transpose());
   r.residual += t - bound * m;
-  r.by_force += p - law.friction * give * m * n.transpose() - (1 - rho_t / kt) * across;
-  r.by_place += rho_t * across + law.friction * rho * m * n.transpose() -
-                law.friction * give * m * pressing_by_place.transpose() - n.dot(f) * at.turn -
-                n * (at.turn * t).transpose();
+  r.by_force +=
+      p - law.friction * (1 - rho / k) * m * n.transpose() - (1 - rho_t / kt) * across * p;
+  r.by_place += turned(f) - across * (turned(f) - rho_t * w_by_place) -
+                law.friction * m * (pressing_by_place - rho * missing_by_place).transpose();
   return r;
 }
 

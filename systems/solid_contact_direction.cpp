@@ -100,7 +100,7 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
            contact.moved(p, direction);
   };
   for (int round = 0; round < most_rounds; ++round) {
-    ContactProblem problem{target->shape.get(), target->end_radius, {}, {}, {}};
+    ContactProblem problem{target->shape.get(), target->end_radius, {}, {}, {}, target->may_jump};
     if (target->servo) problem.set_point = target->set_point;
     for (const int p : points)
       problem.points.push_back(contact_point(Row<ProbePoint>(p), place(p, free), *target, stiffness,
@@ -108,6 +108,7 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
     problem.compliance = contact.compliance(points);
     const ContactAnswer answer = solve_contact(problem);
     equations->contact_solved = answer.converged;
+    equations->released = answer.released;
     if (!answer.converged) return;
     equations->height_step = answer.height;
     equations->force_step.setZero(3 * node.rows());

@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int most_iterations = 60;
+constexpr int most_cuts = 12;        // halvings of a step of the line search
+constexpr int most_steps = 400;      // of the flow through a jump
 constexpr double tolerance = 1e-11;  // -, of the largest force
 
 struct Linearised {
@@ -32,7 +34,9 @@ class ContactNewton {
     if (problem_.set_point) follow();
   }
 
-  ContactAnswer solve() {
+  // Full steps settle nearly always in a few iterations; where the normal turns quickly (valleys) they
+  // throw the probe from side to side, and a line search on the residual does not.
+  ContactAnswer solve(bool line_search) {
     int i = 0;
     for (; i < most_iterations; ++i) {
       Linearised now = linearise();
@@ -42,17 +46,28 @@ class ContactNewton {
       }
       const double largest =
           std::max(force_.lpNorm<Eigen::Infinity>(), std::abs(problem_.set_point.value_or(0)));
-      if (now.missing.norm() <= tolerance * largest) return {true, force_, height_, i};
+      if (now.missing.norm() <= tolerance * largest) return {true, force_, height_, i, 0};
       const VectorXd step = now.matrix.partialPivLu().solve(now.missing);
       if (!step.allFinite()) break;
-      force_ += step.head(size_);
-      if (problem_.set_point) height_ += step[size_];
+      move(step, 1);
+      double share = 1;
+      const double before = now.missing.norm();
+      for (int cut = 0; line_search && cut < most_cuts; ++cut) {
+        if (linearise().missing.norm() < (1 - 1e-4 * share) * before) break;
+        share /= 2;
+        move(step, -share);
+      }
     }
-    return {false, force_, height_, i};
+    return {false, force_, height_, i, 0};
   }
 
  private:
   const ContactPoint& point(Index p) const { return problem_.points[static_cast<std::size_t>(p)]; }
+
+  void move(const VectorXd& step, double share) {
+    force_ += share * step.head(size_);
+    if (problem_.set_point) height_ += share * step[size_];
+  }
 
   kernels::ProbePlace place(Index p) const {
     const Vector3d moved = problem_.compliance.middleRows<3>(3 * p) * (force_ - start_);
@@ -120,10 +135,66 @@ class ContactNewton {
   double height_ = 0;
 };
 
+ContactAnswer settle(const ContactProblem& problem) {
+  const ContactAnswer answer = ContactNewton(problem).solve(false);
+  return answer.converged ? answer : ContactNewton(problem).solve(true);
+}
+
+// No equilibrium is near: adhesion draws more steeply than the lever holds. The points flow to the next one
+// against dashpots c that are taken away step by step, x + c S (x - x_k) = x_0 + S (f - f_0); what the
+// dashpots eat is what a real snap radiates.
+ContactAnswer jump(const ContactProblem& problem) {
+  const MatrixXd& s = problem.compliance;
+  const auto size = s.rows();
+  const MatrixXd one = MatrixXd::Identity(size, size);
+  VectorXd x(size), force(size);
+  double steepest = 0;
+  for (Index p = 0; p < size / 3; ++p) {
+    const ContactPoint& point = problem.points[static_cast<std::size_t>(p)];
+    x.segment<3>(3 * p) = point.place;
+    force.segment<3>(3 * p) = point.force;
+    steepest = std::max(steepest, 2 * point.law.pull_off / point.law.range);
+  }
+  const VectorXd unpressed = x - s * force;
+  const double softest = 1 / s.diagonal().maxCoeff();
+  double c = 10 * std::max(steepest, softest), eaten = 0;
+  for (int i = 0; i < most_steps && c > 1e-5 * softest; ++i) {
+    const Eigen::PartialPivLU<MatrixXd> damped(one + c * s);
+    ContactProblem step = problem;
+    step.compliance = damped.solve(s);
+    const VectorXd place = damped.solve(unpressed + c * (s * x)) + step.compliance * force;
+    for (Index p = 0; p < size / 3; ++p) {
+      step.points[static_cast<std::size_t>(p)].place = place.segment<3>(3 * p);
+      step.points[static_cast<std::size_t>(p)].force = force.segment<3>(3 * p);
+    }
+    const ContactAnswer answer = settle(step);
+    if (!answer.converged) {
+      c *= 8;
+      continue;
+    }
+    const VectorXd then = place + step.compliance * (answer.force - force);
+    eaten += c * (then - x).squaredNorm();
+    x = then;
+    force = answer.force;
+    c /= 2;
+  }
+  ContactProblem end = problem;
+  const VectorXd place = unpressed + s * force;
+  for (Index p = 0; p < size / 3; ++p) {
+    end.points[static_cast<std::size_t>(p)].place = place.segment<3>(3 * p);
+    end.points[static_cast<std::size_t>(p)].force = force.segment<3>(3 * p);
+  }
+  ContactAnswer answer = settle(end);
+  answer.released = eaten;
+  return answer;
+}
+
 }  // namespace
 
 ContactAnswer solve_contact(const ContactProblem& problem) {
-  return ContactNewton(problem).solve();
+  ContactAnswer answer = settle(problem);
+  if (!answer.converged && problem.may_jump && !problem.set_point) answer = jump(problem);
+  return answer;
 }
 
 kernels::ProbePlace place_on(const TargetShape& shape, const ContactPoint& point, double end_radius,

@@ -30,6 +30,7 @@ struct ContactProblem {
   std::vector<ContactPoint> points;
   Eigen::MatrixXd compliance;
   std::optional<double> set_point;  // N
+  bool may_jump = false;  // where no equilibrium is near, to the next one that damping leads to
 };
 
 struct ContactAnswer {
@@ -37,6 +38,7 @@ struct ContactAnswer {
   Eigen::VectorXd force;  // [3 points] N
   double height = 0;      // m
   int iterations = 0;
+  double released = 0;  // J, of a jump
 };
 
 ContactAnswer solve_contact(const ContactProblem& problem);

@@ -171,6 +171,7 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   NewtonReport report;
   const auto& equations = world_.resource<SolidEquations>();
   const State start = state();
+  if (world_.has<Target>()) world_.resource<Target>().may_jump = settings.may_jump;
   bool reuse = settings.reuse_factors && equations.factors != nullptr;
   for (int i = 0; i <= settings.iterations; ++i) {
     (reuse ? reuse_ : iterate_).run();
@@ -183,6 +184,7 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
     report.converged = settled(report.residuals, settings);
     if (report.converged) return report;
     if (!equations.contact_solved) break;
+    report.released += equations.released;
     move(1);
     if (i >= 2) search(10 * report.residuals.back(), settings.cuts);
   }

@@ -22,12 +22,14 @@ struct NewtonSettings {
   // The solid's factors are kept from one iteration and increment to the next while they gain a digit each
   // time: a tip drawn over a surface hardly turns its lever. Without it the convergence is quadratic.
   bool reuse_factors = false;
-  int cuts = 12;  // halvings of a step that the line search tries
+  bool may_jump = false;  // of the probe, to an equilibrium further off; nothing smaller will do
+  int cuts = 12;          // halvings of a step that the line search tries
 };
 
 struct NewtonReport {
   bool converged = false;
   std::vector<double> residuals;  // -, before every iteration and after the last one
+  double released = 0;            // J, by a jump of the probe
 };
 
 // Columns and resources that every solid needs; the mesh and the material are there already.
