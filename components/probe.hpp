@@ -25,9 +25,10 @@ struct ProbeShare : Component<ProbePoint, double, 1> {
   static constexpr ComponentInfo info{"share", "-", "of the pull-off force that acts on the point"};
 };
 // What the point carries from one increment to the next.
-struct ProbeMemory : Component<ProbePoint, double, 6> {
+struct ProbeMemory : Component<ProbePoint, double, 7> {
   static constexpr ComponentInfo info{
-      "memory", "N, m", "tangential force, and place on the target, of the last equilibrium"};
+      "memory", "N, m, -",
+      "tangential force, place on the target, whether it touched, of the last equilibrium"};
 };
 struct ProbeForce : Component<ProbePoint, double, 3> {
   static constexpr ComponentInfo info{"force", "N", "of the target on the point"};

@@ -114,7 +114,7 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   double* memory = world.column<ProbeMemory>().values();
   for (int i = 0; i < points; ++i) {
     const Vec3 x = on_target(model, node[i]);
-    for (int k = 0; k < 3; ++k) memory[6 * i + 3 + k] = x[k];
+    for (int k = 0; k < 3; ++k) memory[ProbeMemory::count * i + 3 + k] = x[k];
   }
 }
 

@@ -30,6 +30,8 @@ class PlaneTarget : public TargetShape {
   fcl::Halfspaced half_space_;
 };
 
+constexpr int facets = 200;  // a wavelength: slopes within 1.6%
+
 struct ProfilePoint {
   double along, height;  // m
 };
@@ -47,7 +49,6 @@ std::vector<ProfilePoint> profile(const TargetSpec& t, double reach) {
             {t.position + flank + t.plateau, t.height},
             {t.position + 2 * flank + t.plateau, 0},
             {high + 2 * flank + t.plateau, 0}};
-  constexpr int facets = 200;  // a wavelength: slopes within 1.6%
   std::vector<ProfilePoint> points;
   const double step = t.wavelength / facets;
   for (double x = low - t.wavelength; x <= high + t.wavelength; x += step)
@@ -57,6 +58,8 @@ std::vector<ProfilePoint> profile(const TargetSpec& t, double reach) {
 }
 
 std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
+  const bool wave = t.shape == TargetSpec::Shape::sinusoid;
+  const double unit = wave ? t.wavelength / facets : t.height;
   std::vector<Vec3> points;
   std::vector<fcl::Triangle> triangles;
   const bool lateral = t.direction == Direction::lateral;
@@ -72,7 +75,7 @@ std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
     else
       triangles.insert(triangles.end(), {fcl::Triangle(a, c, b), fcl::Triangle(a, d, c)});
   }
-  return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), t.height);
+  return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), unit);
 }
 
 std::shared_ptr<const TargetShape> from_map(const TargetSpec& t, const Scene& scene) {

@@ -5,7 +5,7 @@
 //          corner otherwise. Ridges are sharp. A valley is rounded: there the distances d_i to its sides
 //          are blended, d = - delta ln sum exp(-d_i / delta), so that a tip in it has one normal, which
 //          turns from one side to the other within some delta.
-// Symbols  delta: m, a thousandth of `unit` (a map's spacing, a profile's height). The blend lies
+// Symbols  delta: m, a thousandth of `unit` (a map's spacing, a profile's height, a wave's facet). The blend lies
 //          delta ln 2 = 7e-4 unit under the sides where they meet and is gone 20 delta away from there.
 #pragma once
 

@@ -11,6 +11,8 @@
 //          A(g) adhesion, N; N = n.f + A pressing force >= 0, N; t = f - (n.f) n; P = 1 - n n^T
 //          x - x_old way since the last equilibrium, m; t_old its tangential force, N
 //            apart   f = -A n                                         where N^ <= 0
+//          A point that touched before keeps the adhesion of contact, A(0), for as long as it may touch:
+//          it leaves when the force draws with A(0), not when an increment's way has opened a gap.
 //            touches g + N/k = 0,   N^ = N - rho (g + N/k)            where N^ > 0, and then
 //            sticks  w = P (x - x_old) + (t - P t_old)/k_t = 0        where |t^| <= mu N^
 //            slides  t = mu N^ t^/|t^|,   t^ = t - rho_t w
@@ -34,6 +36,7 @@ struct ProbePlace {
   Eigen::Vector3d normal;
   Eigen::Matrix3d turn;  // 1/m, d normal / d place
   Eigen::Vector3d moved, old_tangential;
+  bool touched = false;  // at the last equilibrium
 };
 
 struct ProbeEquation {
@@ -65,9 +68,10 @@ inline ProbeEquation probe_equation(const ProbeLaw& law, const ProbePlace& at,
   };
   double slope = 0;
   const double a = adhesion(law, at.gap, slope), k = law.normal_stiffness;
-  const double pressing = n.dot(f) + a, missing = at.gap + pressing / k;
+  const double pressing = n.dot(f) + (at.touched ? law.pull_off : a);
+  const double missing = at.gap + pressing / k;
   const double augmented = pressing - rho * missing;
-  const Vector3d pressing_by_place = slope * n + h.transpose() * f;
+  const Vector3d pressing_by_place = (at.touched ? 0 : slope) * n + h.transpose() * f;
   const Vector3d missing_by_place = n + pressing_by_place / k;
 
   ProbeEquation r;

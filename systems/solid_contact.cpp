@@ -46,6 +46,7 @@ void remember_contact(Read<ReferencePosition> reference, Read<Displacement> disp
       memory(row, k) = touches ? along[k] : 0.0;
       memory(row, 3 + k) = place[k];
     }
+    memory(row, 6) = touches ? 1 : 0;
   }
 }
 

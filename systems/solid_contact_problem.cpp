@@ -200,9 +200,12 @@ ContactAnswer solve_contact(const ContactProblem& problem) {
 kernels::ProbePlace place_on(const TargetShape& shape, const ContactPoint& point, double end_radius,
                              const Vector3d& place) {
   const auto nearest = shape.nearest({place.x(), place.y(), place.z() + end_radius});
-  return {nearest.distance - end_radius, Vector3d(nearest.normal.data()),
+  return {nearest.distance - end_radius,
+          Vector3d(nearest.normal.data()),
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(nearest.turn.data()),
-          place - point.before, point.old_tangential};
+          place - point.before,
+          point.old_tangential,
+          point.touched};
 }
 
 Vector3d probe_place(Row<ProbePoint> row, const Read<ReferencePosition>& reference,
@@ -228,6 +231,7 @@ ContactPoint contact_point(Row<ProbePoint> row, const Vector3d& place, const Tar
     point.old_tangential[k] = memory(row, k);
     point.before[k] = memory(row, 3 + k);
   }
+  point.touched = memory(row, 6) != 0;
   return point;
 }
 

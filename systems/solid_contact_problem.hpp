@@ -22,6 +22,7 @@ struct ContactPoint {
   kernels::ProbeLaw law;
   Eigen::Vector3d place, before;          // m, in the target's frame: now, at the last equilibrium
   Eigen::Vector3d force, old_tangential;  // N, now, at the last equilibrium
+  bool touched = false;                   // then
 };
 
 struct ContactProblem {

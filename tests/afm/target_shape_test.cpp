@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <numbers>
 
 #include "engine/hdf5.hpp"
@@ -103,7 +104,7 @@ class HeightMap : public testing::Test {
   HeightMap() {
     std::filesystem::create_directories(folder);
     std::ofstream text(folder / "map.csv");
-    text << "# a plane\n";
+    text << std::setprecision(17) << "# a plane\n";
     for (int j = 0; j < 5; ++j)
       for (int i = 0; i < 7; ++i) {
         heights.push_back(1e-9 * (3 * i - 2 * j));
