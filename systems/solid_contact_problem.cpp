@@ -45,7 +45,10 @@ class ContactNewton {
         now = linearise();
       }
       const double largest =
-          std::max(force_.lpNorm<Eigen::Infinity>(), std::abs(problem_.set_point.value_or(0)));
+          std::max({force_.lpNorm<Eigen::Infinity>(), std::abs(problem_.set_point.value_or(0)),
+                    std::ranges::max(problem_.points, {}, [](const ContactPoint& point) {
+                      return point.law.pull_off;
+                    }).law.pull_off});
       if (now.missing.norm() <= tolerance * largest) return {true, force_, height_, i, 0};
       const VectorXd step = now.matrix.partialPivLu().solve(now.missing);
       if (!step.allFinite()) break;

@@ -66,7 +66,9 @@ void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce>
     for (const auto& support : mesh->supports_of(n))
       r[3 * mesh->unknown[static_cast<std::size_t>(support.node)] + k] += support.weight * f;
   };
-  double squares = 0, pushed = 0, largest = 0, broken = 0;
+  // Where adhesion and pressure balance, no force is left to compare with but the adhesion.
+  const double pull_off = target ? (*target)->pull_off : 0;
+  double squares = pull_off * pull_off, pushed = 0, largest = pull_off, broken = 0;
   for (int n = 0; n < force.rows(); ++n)
     for (int k = 0; k < 3; ++k) {
       const Row<SolidNode> row(n);

@@ -177,7 +177,8 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
     (reuse ? reuse_ : iterate_).run();
     report.residuals.push_back(error());
     // Factors that do not gain a digit an iteration are too old, until round-off is reached.
-    const bool good = error() <= settings.round_off ||
+    // (The first one started from balance: what the contact's new forces left is no measure.)
+    const bool good = error() <= settings.round_off || i == 1 ||
                       (i > 0 && error() < 0.1 * report.residuals[report.residuals.size() - 2]);
     if (i > 0) reuse = settings.reuse_factors && good;
     if (!std::isfinite(report.residuals.back())) break;
