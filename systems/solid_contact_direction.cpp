@@ -102,13 +102,18 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
   for (int round = 0; round < most_rounds; ++round) {
     ContactProblem problem{target->shape.get(), target->end_radius, {}, {}, {}, target->may_jump};
     if (target->servo) problem.set_point = target->set_point;
-    for (const int p : points)
-      problem.points.push_back(contact_point(Row<ProbePoint>(p), place(p, free), *target, stiffness,
-                                             share, memory, force));
+    for (const int p : points) {
+      const Row<ProbePoint> row(p);
+      problem.points.push_back(
+          contact_point(row, place(p, free), *target, stiffness, share, memory, force));
+      // What has snapped off in an earlier iteration is not held by the adhesion of contact any more.
+      if (equations->jumped && state(row, 3) == 0) problem.points.back().touched = false;
+    }
     problem.compliance = contact.compliance(points);
     const ContactAnswer answer = solve_contact(problem);
     equations->contact_solved = answer.converged;
     equations->released = answer.released;
+    equations->jumped = equations->jumped || answer.released > 0;
     if (!answer.converged) return;
     equations->height_step = answer.height;
     equations->force_step.setZero(3 * node.rows());

@@ -159,6 +159,11 @@ ContactAnswer jump(const ContactProblem& problem) {
     steepest = std::max(steepest, 2 * point.law.pull_off / point.law.range);
   }
   const VectorXd unpressed = x - s * force;
+  const auto in_touch = [&](Index p, const VectorXd& places) {
+    const ContactPoint& point = problem.points[static_cast<std::size_t>(p)];
+    const Vector3d at = places.segment<3>(3 * p);
+    return point.touched && place_on(*problem.shape, point, problem.end_radius, at).gap <= 0;
+  };
   const double softest = 1 / s.diagonal().maxCoeff();
   double c = 10 * std::max(steepest, softest), eaten = 0;
   for (int i = 0; i < most_steps && c > 1e-5 * softest; ++i) {
@@ -169,6 +174,7 @@ ContactAnswer jump(const ContactProblem& problem) {
     for (Index p = 0; p < size / 3; ++p) {
       step.points[static_cast<std::size_t>(p)].place = place.segment<3>(3 * p);
       step.points[static_cast<std::size_t>(p)].force = force.segment<3>(3 * p);
+      step.points[static_cast<std::size_t>(p)].touched = in_touch(p, x);
     }
     const ContactAnswer answer = settle(step);
     if (!answer.converged) {
@@ -186,6 +192,7 @@ ContactAnswer jump(const ContactProblem& problem) {
   for (Index p = 0; p < size / 3; ++p) {
     end.points[static_cast<std::size_t>(p)].place = place.segment<3>(3 * p);
     end.points[static_cast<std::size_t>(p)].force = force.segment<3>(3 * p);
+    end.points[static_cast<std::size_t>(p)].touched = in_touch(p, x);
   }
   ContactAnswer answer = settle(end);
   answer.released = eaten;

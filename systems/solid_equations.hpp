@@ -26,6 +26,7 @@ struct SolidEquations {
   Eigen::VectorXd force_step;  // [3 points] N, of the probe
   double height_step = 0;      // m, of the servo
   double released = 0;         // J, by a jump
+  bool jumped = false;         // in this search for an equilibrium
   // [points] K^-1 to unit forces on the point, [3 unknowns, 3]; empty until it was asked for
   std::vector<Eigen::MatrixXd> answers;
 };

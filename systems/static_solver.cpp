@@ -172,6 +172,7 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   const auto& equations = world_.resource<SolidEquations>();
   const State start = state();
   if (world_.has<Target>()) world_.resource<Target>().may_jump = settings.may_jump;
+  world_.resource<SolidEquations>().jumped = false;
   bool reuse = settings.reuse_factors && equations.factors != nullptr;
   for (int i = 0; i <= settings.iterations; ++i) {
     (reuse ? reuse_ : iterate_).run();
