@@ -66,6 +66,26 @@ def curve(x, y, title):
     return draw
 
 
-AFM_FIGURES = {"solid": solid, "force_curve": curve("scanner/z", "probe/force_z", "Force curve"),
+def images(run, _):
+    """Rasters, way forth above way back; friction also as half of their difference."""
+    if "images" not in run.file:
+        return None
+    actions, channels = sorted(run.file["images"]), ["topography", "deflection", "friction"]
+    figure, axes = plt.subplots(2 * len(actions), 3, figsize=(15, 9 * len(actions)), squeeze=False)
+    figure.table = []
+    for i, action in enumerate(actions):
+        for j, way in enumerate(["forth", "back"]):
+            for axis, channel in zip(axes[2 * i + j], channels):
+                data = run.file[f"images/{action}/{channel}_{way}"]
+                axis.grid(False)
+                picture = axis.imshow(data[:], origin="lower", cmap="afmhot")
+                axis.set(title=f"{action}: {channel}, {way}", xlabel="pixel", ylabel="line")
+                figure.colorbar(picture, ax=axis, label=f"{channel} in {data.attrs['unit']}", shrink=0.8)
+                figure.table.append((f"{action} {channel} {way}, line by line", data.attrs["unit"], data[:].ravel()))
+    figure.tight_layout()
+    return figure
+
+
+AFM_FIGURES = {"solid": solid, "images": images, "force_curve": curve("scanner/z", "probe/force_z", "Force curve"),
                "friction_loop": curve("scanner/y", "probe/force_y", "Friction loop"),
                "detector": curve("scanner/y", "detector/lateral", "Lateral signal")}

@@ -17,6 +17,7 @@
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/afm_figures.hpp"
+#include "scenes/afm_image.hpp"
 #include "scenes/afm_loop.hpp"
 #include "scenes/afm_scene.hpp"
 #include "scenes/afm_simulation.hpp"
@@ -97,8 +98,7 @@ struct ProgrammeRun {
         mesh(mesh_of(afm)),
         checkpoints(scene, folder, options.checkpoints) {
     std::size_t total = 1;
-    for (const ActionSpec& action : loaded.scene.afm->actions)
-      total += static_cast<std::size_t>(action.increments) * (action.back ? 2 : 1);
+    for (const ActionSpec& action : loaded.scene.afm->actions) total += action.samples();
     every = std::max<std::size_t>(1, total / 12);
   }
 
@@ -144,6 +144,8 @@ struct ProgrammeRun {
       end.failure = failure.what();
     }
     if (!history.times.empty()) frame(history.times.back());
+    for (const AfmImage& image : raster_images(loaded.scene, history))
+      recorder->image(image.info, image.lines, image.pixels, image.values);
     recorder->finish(end.done ? "done" : end.failure.empty() ? "interrupted" : end.failure);
     if (end.done) checkpoints.remove();
     return end;

@@ -25,19 +25,19 @@ struct ProbeShare : Component<ProbePoint, double, 1> {
   static constexpr ComponentInfo info{"share", "-", "of the pull-off force that acts on the point"};
 };
 // What the point carries from one increment to the next.
-struct ProbeMemory : Component<ProbePoint, double, 6> {
+struct ProbeMemory : Component<ProbePoint, double, 7> {
   static constexpr ComponentInfo info{
-      "memory", "N, m", "tangential force, and place on the target, of the last equilibrium"};
+      "memory", "N, m, -",
+      "tangential force, place on the target, whether it touched, of the last equilibrium"};
 };
 struct ProbeForce : Component<ProbePoint, double, 3> {
   static constexpr ComponentInfo info{"force", "N", "of the target on the point"};
 };
-struct ProbeTangent : Component<ProbePoint, double, 9> {
-  static constexpr ComponentInfo info{"tangent", "N/m", "- d force / d place, row by row"};
-};
-struct ProbeState : Component<ProbePoint, double, 4> {
+struct ProbeState : Component<ProbePoint, double, 5> {
   static constexpr ComponentInfo info{
-      "state", "m, N, N, -", "gap, normal force, limit of friction, 0 apart 1 sticks 2 slides"};
+      "state", "m, N, N, -, N",
+      "gap, pressing force, limit of friction, 0 apart 1 sticks 2 slides, by how much the force "
+      "breaks the law of contact"};
 };
 
 // The rigid surface: how far a place is from it, and which way is out.
@@ -46,6 +46,7 @@ struct TargetShape {
   struct Nearest {
     double distance = 0;  // m, < 0 inside
     Place normal{0, 0, 1};
+    std::array<double, 9> turn{};  // 1/m, d normal / d place, row by row
   };
   virtual ~TargetShape() = default;
   virtual Nearest nearest(const Place& place) const = 0;
@@ -59,14 +60,14 @@ struct Target {
   double pull_off = 0;               // N, adhesion at contact (DMT); 0: none
   double range = 0;                  // m, over which it fades: 1/(1 + gap/range)^2
   double end_radius = 0;             // m, of a sharp tip's end; 0 for nodes of a meshed surface
-  bool stick = false;    // predictor: every point that touches sticks, whatever the force
-  bool servo = false;    // the scanner's height follows so that ...
-  double set_point = 0;  // N, ... the target pushes the probe up with this force
+  bool servo = false;                // the scanner's height follows so that ...
+  double set_point = 0;              // N, ... the target pushes the probe up with this force
+  bool may_jump = false;             // where no equilibrium is near the probe may snap on or off
 
   // The rest is the scene's.
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(position, stick, servo, set_point);
+    bytes(position, servo, set_point, may_jump);
   }
 };
 

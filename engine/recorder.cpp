@@ -252,6 +252,14 @@ void Recorder::write_field(const std::string& group, const FieldInfo& field,
   file_.set_attribute(dataset, "components", std::int64_t{field.components});
 }
 
+void Recorder::image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
+                     std::span<const double> values) {
+  require(lines * pixels == values.size(), "image " + info.name + " has a wrong length");
+  const std::string dataset = "/images/" + info.name;
+  file_.write(dataset, values, {lines, pixels});
+  describe(dataset, info.unit, info.meaning);
+}
+
 void Recorder::finish(std::string_view outcome) {
   if (!std::exchange(open_, false)) return;
   append_history();

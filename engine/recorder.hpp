@@ -7,6 +7,7 @@
 //        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
 //                               complete = 1, written last: a frame without it is not to be read
 //        /history/<name>        one 1-D dataset a series; /history/time
+//        /images/<name>         [lines, pixels], of a raster
 // Every dataset has the attributes unit and meaning, a field also place (node, cell, particle, list) and
 // components. A field of nodes or cells with two components is stored with a third one of zeros, because
 // XDMF has no plane vectors (components = 2 tells); `position` is not. XDMF shows these fields only.
@@ -57,6 +58,10 @@ class Recorder {
 
   // One frame: the values of each field, in their order, the components of a place together.
   void frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
+
+  // A picture, row by row: [lines, pixels].
+  void image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
+             std::span<const double> values);
 
   // Writes what is left and closes the files; `outcome` says in words how the run ended. Without it
   // the destructor does the same as well as it can, and run.h5 has no outcome.

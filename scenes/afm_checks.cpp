@@ -168,12 +168,12 @@ class AfmChecks {
     const TargetSpec& target = *scene_.afm->target;
     if (target.shape != TargetSpec::Shape::map) return;
     try {
-      const auto heights = read_height_map(scene_.file.parent_path() / target.file);
+      const auto heights = read_height_map(scene_.file.parent_path() / target.file, target.dataset);
       inside_map(TargetSpec::Direction::lateral, heights.size());
       inside_map(TargetSpec::Direction::along, heights.front().size());
     } catch (const std::runtime_error& error) {
       refuse("surface.file", fmt::format("'{}': {}, allowed: lines of numbers in m, separated by "
-                                         "commas, all as long",
+                                         "commas, all as long, or an HDF5 file with the dataset",
                                          target.file, error.what()));
     }
   }
@@ -184,12 +184,16 @@ class AfmChecks {
     double at = 0;
     for (std::size_t i = 0; i < scene_.afm->actions.size(); ++i) {
       const ActionSpec& action = scene_.afm->actions[i];
-      if (action.kind != ActionSpec::Kind::scan || action.direction != direction) continue;
-      if (std::abs(at + action.distance) > bound)
-        refuse(fmt::format("action[{}].distance", i),
+      const bool raster = action.kind == ActionSpec::Kind::raster;
+      if (!raster && action.kind != ActionSpec::Kind::scan) continue;
+      const bool fast = action.direction == direction;
+      if (!fast && !raster) continue;
+      const double way = fast ? action.distance : action.width;
+      if (std::abs(at + way) > bound)
+        refuse(fmt::format("action[{}].{}", i, fast ? "distance" : "width"),
                fmt::format("the scan leaves the map: it comes to {:g} m, allowed: {:g} to {:g} m",
-                           at + action.distance, -bound, bound));
-      if (!action.back) at += action.distance;
+                           at + way, -bound, bound));
+      if (raster ? !fast : !action.back) at += way;
     }
   }
 

@@ -19,7 +19,7 @@ constexpr int most_iterations = 400;  // of an increment with its halves
 double reach_of(const AfmScene& afm) {
   double way = 0;
   for (const ActionSpec& action : afm.actions) way += std::abs(action.distance);
-  return 2 * (way + afm.lever.length);
+  return 2 * way + 0.1 * afm.lever.length;  // and what the lever may bend
 }
 
 Vec3 place_of(const AfmModel& model, int node) {
@@ -28,15 +28,18 @@ Vec3 place_of(const AfmModel& model, int node) {
   return {x[0] + u[0], x[1] + u[1], x[2] + u[2]};
 }
 
+Vec3 on_target(const AfmModel& model, int node) {
+  return place_of(model, node) - Vec3(model.world->resource<Target>().position.data());
+}
+
 // Smallest gap over all points of the probe.
 double smallest_gap(const AfmModel& model) {
   const Target& target = model.world->resource<Target>();
   const auto& nodes = model.world->column<ProbeNode>();
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < nodes.table.rows; ++i) {
-    const Vec3 x = place_of(model, nodes.values()[i]);
-    const auto near = target.shape->nearest({x.x() - target.position[0], x.y() - target.position[1],
-                                             x.z() - target.position[2] + target.end_radius});
+    const Vec3 x = on_target(model, nodes.values()[i]);
+    const auto near = target.shape->nearest({x.x(), x.y(), x.z() + target.end_radius});
     smallest = std::min(smallest, near.distance - target.end_radius);
   }
   return smallest;
@@ -67,6 +70,7 @@ std::vector<SeriesInfo> afm_series() {
       {"contact/points", "-", "points of the probe that touch"},
       {"contact/slides", "-", "share of the points that touch which slide"},
       {"energy/elastic", "J", "stored in lever and probe"},
+      {"energy/released", "J", "by the probe's jumps on and off the surface, until now"},
       {"newton/iterations", "-", "of the increment, with those of its cuts"}};
 }
 
@@ -96,10 +100,10 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   for (int i = 0; i < points; ++i) {
     const auto at = static_cast<std::size_t>(i);
     node[i] = ball ? model.tip.surface[at] : model.contact_node;
-    // Of a meshed surface: a layer as thick as a tenth of its elements, of the probe's own material.
+    // Of a meshed surface: a layer as thick as a hundredth of its elements, of the probe's own material.
     const double area = ball ? model.tip.area[at] : 0;
     penalty[2 * i] = penalty[2 * i + 1] =
-        ball ? 10 * m.youngs_modulus * std::sqrt(area) : stiffer * stiffness;
+        ball ? 100 * m.youngs_modulus * std::sqrt(area) : stiffer * stiffness;
     share[i] = ball && node[i] != model.end.front().node ? 0.0 : 1.0;
   }
   Target& target = world.resource<Target>();
@@ -109,9 +113,8 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   model.first_touch = target.position;
   double* memory = world.column<ProbeMemory>().values();
   for (int i = 0; i < points; ++i) {
-    const Vec3 x = place_of(model, node[i]);
-    for (int k = 0; k < 3; ++k)
-      memory[6 * i + 3 + k] = x[k] - target.position[static_cast<std::size_t>(k)];
+    const Vec3 x = on_target(model, node[i]);
+    for (int k = 0; k < 3; ++k) memory[ProbeMemory::count * i + 3 + k] = x[k];
   }
 }
 
@@ -137,8 +140,9 @@ bool AfmProgramme::tell() {
   double touching = 0, sliding = 0;
   for (std::size_t i = 0; i < points.table.rows; ++i) {
     force += Vec3(points.values() + 3 * i);
-    touching += state[4 * i + 3] > 0 ? 1 : 0;
-    sliding += state[4 * i + 3] > 1 ? 1 : 0;
+    const double kind = state[ProbeState::count * i + 3];
+    touching += kind > 0 ? 1 : 0;
+    sliding += kind > 1 ? 1 : 0;
   }
   add(force);
   add(read(model_.end, u));
@@ -150,7 +154,7 @@ bool AfmProgramme::tell() {
   for (const double value :
        {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
         detector.lateral_gain * spot.lateral, touching, touching > 0 ? sliding / touching : 0,
-        elastic_energy(model_), static_cast<double>(iterations_)})
+        elastic_energy(model_), position_.released, static_cast<double>(iterations_)})
     row.push_back(value);
   position_.told += 1;
   return record_(time_, row);
@@ -169,9 +173,13 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   target.servo = servo;
   NewtonSettings settings;
   settings.reuse_factors = true;
+  settings.may_jump = depth == most_halvings;
   const NewtonReport report = solver_.equilibrate(settings);
   iterations_ += static_cast<int>(report.residuals.size());
-  if (report.converged) return solver_.remember();
+  if (report.converged) {
+    position_.released += report.released;
+    return solver_.remember();
+  }
   target.position = before;
   if (depth == most_halvings || iterations_ > most_iterations)
     throw RunFailure(fmt::format(
@@ -185,13 +193,42 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   advance(half, servo, depth + 1);
 }
 
+void AfmProgramme::refuse_lock(const std::array<double, 3>& travel) const {
+  const World& world = *model_.world;
+  const Target& target = world.resource<Target>();
+  const double length = std::hypot(travel[0], travel[1]);
+  if (length == 0 || target.friction == 0) return;
+  const Vec3 forward(-travel[0] / length, -travel[1] / length, 0);
+  const auto& nodes = world.column<ProbeNode>();
+  const double* state = world.column<ProbeState>().values();
+  for (std::size_t i = 0; i < nodes.table.rows; ++i) {
+    constexpr double sticks = 1, equal = 1e-9;
+    if (state[ProbeState::count * i + 3] != sticks) continue;
+    const Vec3 x = on_target(model_, nodes.values()[i]);
+    const auto near = target.shape->nearest({x.x(), x.y(), x.z() + target.end_radius});
+    const Vec3 n(near.normal.data());
+    if (-n.dot(forward) * target.friction < n.z() * (1 - equal)) continue;
+    throw RunFailure(fmt::format(
+        "{}: the probe has locked at {:.4f} of the programme, with the sample at x {:.4g}, y "
+        "{:.4g} "
+        "m: uphill on a slope of {:.4g} a friction of {:.4g} holds against any force, allowed: "
+        "< {:.4g}",
+        doing_, time_, target.position[0] - model_.first_touch[0],
+        target.position[1] - model_.first_touch[1], -n.dot(forward) / n.z(), target.friction,
+        -n.z() / n.dot(forward)));
+  }
+}
+
 bool AfmProgramme::way(const std::array<double, 3>& travel, int increments, bool servo) {
   const std::array<double, 3> step{travel[0] / increments, travel[1] / increments,
                                    travel[2] / increments};
   for (int i = 0; i < increments; ++i) {
     const bool made = skip();
     iterations_ = 0;
-    if (!made) advance(step, servo, 0);
+    if (!made) {
+      advance(step, servo, 0);
+      refuse_lock(step);
+    }
     time_ += share_ / increments;
     if (!made && !tell()) return false;
   }
@@ -203,14 +240,10 @@ bool AfmProgramme::press(const ActionSpec& action, double sign) {
   return way({0, 0, sign * action.distance}, action.increments, false);
 }
 
-// The set point rises in even steps; the first one finds the surface: the servo needs a touch.
+// The set point rises in even steps.
 bool AfmProgramme::press_to_force(const ActionSpec& action) {
   Target& target = model_.world->resource<Target>();
-  if (to_skip_ == 0) {
-    position_.from = vertical_force();
-    const double touch = 1e-3 * std::abs(*action.force) / model_.normal_stiffness;
-    if (position_.from <= 0) advance({0, 0, touch}, false, 0);
-  }
+  if (to_skip_ == 0) position_.from = std::max(0.0, vertical_force());
   const double from = position_.from;
   for (int i = 1; i <= action.increments; ++i) {
     const bool made = skip();
@@ -236,6 +269,25 @@ bool AfmProgramme::scan(const ActionSpec& action) {
                     (!action.back || way(back, action.increments, action.servo));
   share_ = 1;
   return done;
+}
+
+// A pixel is told when the probe leaves it, at its far end on the way forth, at its near end on the way
+// back. Between the lines the probe is drawn along the slow axis.
+bool AfmProgramme::raster(const ActionSpec& action) {
+  const bool lateral = action.direction == TargetSpec::Direction::lateral;
+  const double d = action.distance;
+  const std::array<double, 3> forth{lateral ? 0 : -d, lateral ? -d : 0, 0};
+  const std::array<double, 3> back{-forth[0], -forth[1], 0};
+  const double apart = action.lines > 1 ? action.width / (action.lines - 1) : 0;
+  const std::array<double, 3> aside{lateral ? -apart : 0, lateral ? 0 : -apart, 0};
+  share_ = 0.5 / action.lines;
+  for (int line = 0; line < action.lines; ++line) {
+    if (line > 0 && to_skip_ == 0) advance(aside, action.servo, 0);
+    if (!way(forth, action.increments, action.servo)) return false;
+    if (!way(back, action.increments, action.servo)) return false;
+  }
+  share_ = 1;
+  return true;
 }
 
 bool AfmProgramme::run() {
@@ -264,6 +316,10 @@ bool AfmProgramme::run() {
       case Kind::scan:
         doing_ = "scan";
         on = scan(action);
+        break;
+      case Kind::raster:
+        doing_ = "raster";
+        on = raster(action);
         break;
       case Kind::hold:
         doing_ = "hold";

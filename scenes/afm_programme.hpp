@@ -23,10 +23,11 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness);
 struct AfmPosition {
   std::int64_t told = 0;  // rows of the history so far, the one before the first increment included
   double from = 0;        // N, vertical force when the press to a force began
+  double released = 0;    // J, by the probe's jumps until now
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(told, from);
+    bytes(told, from, released);
   }
 };
 
@@ -50,9 +51,12 @@ class AfmProgramme {
   bool press(const ActionSpec& action, double sign);
   bool press_to_force(const ActionSpec& action);
   bool scan(const ActionSpec& action);
+  bool raster(const ActionSpec& action);
   bool way(const std::array<double, 3>& travel, int increments, bool servo);
   // Moves the target; where no equilibrium is found, in halves.
   void advance(const std::array<double, 3>& travel, bool servo, int depth);
+  // Friction that no force along the way overcomes, since it grows with the force: stops the run.
+  void refuse_lock(const std::array<double, 3>& travel) const;
   bool tell();
   bool skip();  // the increment has been made before
   double vertical_force() const;

@@ -44,6 +44,7 @@ struct TipSpec {
   double set_back = 0;                      // m, its axis from the lever's end
   double offset = 0;                        // m, its axis from the lever's axis, along y
   int elements = 4;                         // across it
+  double focus = 1;                         // -, of a ball's mesh on its poles
   SourceMark mark;
 };
 
@@ -67,7 +68,8 @@ struct TargetSpec {
   double plateau = 0;     // m, top of a bump
   double position = 0;    // m, where the first flank begins, from under the tip
   double wavelength = 0;  // m, sinusoid
-  std::string file;       // map: heights in m, rows along +y, columns along +x, comma-separated
+  std::string file;       // map: heights in m, rows along +y, columns along +x
+  std::string dataset;    // in it, where it is HDF5
   double spacing = 0;     // m, of the map's points
   double friction = 0;    // -
   double pull_off = 0;    // N
@@ -76,15 +78,22 @@ struct TargetSpec {
 
 // One part of the programme, in `increments` steps at most as long as the way.
 struct ActionSpec {
-  enum class Kind { press, scan, retract, hold } kind = Kind::press;
+  enum class Kind { press, scan, retract, hold, raster } kind = Kind::press;
   std::string name;
   double distance = 0;          // m, of the scanner: up (press, retract: down) or sideways (scan)
   std::optional<double> force;  // N, press: the height follows until the target pushes with this
-  TargetSpec::Direction direction = TargetSpec::Direction::lateral;  // scan: of the probe's motion
+  TargetSpec::Direction direction = TargetSpec::Direction::lateral;  // scan, raster: of the probe
   bool back = true;                                                  // scan: and back again
   bool servo = false;  // scan, hold: the height follows so that the force stays
   int increments = 20;
+  double width = 0;  // m, raster: way along the slow axis, square to the fast one
+  int lines = 0;     // raster
   SourceMark mark;
+
+  std::size_t samples() const {  // of the history
+    const int ways = kind == Kind::raster ? 2 * lines : kind == Kind::scan && back ? 2 : 1;
+    return static_cast<std::size_t>(increments) * static_cast<std::size_t>(ways);
+  }
 };
 
 struct AfmScene {

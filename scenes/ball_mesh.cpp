@@ -14,11 +14,12 @@ namespace {
 // same triple is the same node.
 class BallGrid {
  public:
-  BallGrid(SolidDraft& draft, const Vec3& centre, double radius, int across)
+  BallGrid(SolidDraft& draft, const Vec3& centre, double radius, int across, double focus)
       : draft_(draft),
         centre_(centre),
         radius_(radius),
         n_(across),
+        focus_(focus),
         layers_(std::max(1, across / 2)) {}
 
   // Core point (i, j, k), each 0..n.
@@ -29,10 +30,9 @@ class BallGrid {
     const Vec3 inner = core_place(at[0], at[1], at[2]);
     Vec3 angle;
     for (int a = 0; a < 3; ++a)
-      angle[a] =
-          std::tan(0.25 * std::numbers::pi * (2.0 * at[static_cast<std::size_t>(a)] / n_ - 1));
+      angle[a] = std::tan(0.25 * std::numbers::pi * line(a, at[static_cast<std::size_t>(a)]));
     const Vec3 outer = angle.normalized();
-    const double t = static_cast<double>(layer) / layers_;
+    const double t = 1 - std::pow(1 - static_cast<double>(layer) / layers_, focus_);
     return node({at[0], at[1], at[2], layer}, (1 - t) * inner + t * outer);
   }
   int layers() const { return layers_; }
@@ -40,7 +40,12 @@ class BallGrid {
  private:
   Vec3 core_place(int i, int j, int k) const {
     constexpr double half = 0.42;  // of the radius; the cube's corners reach 0.73
-    return half * Vec3(2.0 * i / n_ - 1, 2.0 * j / n_ - 1, 2.0 * k / n_ - 1);
+    return half * Vec3(line(0, i), line(1, j), line(2, k));
+  }
+  // Grid line between -1 and 1; those along x and y lie closer towards the poles.
+  double line(int axis, int i) const {
+    const double even = 2.0 * i / n_ - 1;
+    return axis == 2 ? even : std::copysign(std::pow(std::abs(even), focus_), even);
   }
   int node(const std::array<int, 4>& key, const Vec3& unit) {
     const auto [entry, fresh] = nodes_.try_emplace(key, 0);
@@ -51,7 +56,9 @@ class BallGrid {
   SolidDraft& draft_;
   Vec3 centre_;
   double radius_;
-  int n_, layers_;
+  int n_;
+  double focus_;
+  int layers_;
   std::map<std::array<int, 4>, int> nodes_;
 };
 
@@ -143,10 +150,10 @@ void try_face(const SolidDraft& draft, const std::array<int, 4>& face, const Vec
 
 }  // namespace
 
-BallMesh add_ball(SolidDraft& draft, const Vec3& centre, double radius, int across) {
+BallMesh add_ball(SolidDraft& draft, const Vec3& centre, double radius, int across, double focus) {
   BallMesh ball;
   ball.centre = centre;
-  BallGrid grid(draft, centre, radius, across);
+  BallGrid grid(draft, centre, radius, across, focus);
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j)
       for (int k = 0; k < across; ++k)

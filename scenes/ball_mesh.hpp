@@ -14,7 +14,7 @@ struct BallMesh {
 };
 
 // `across`: quads along an edge of the core, even, so that the pole is a node.
-BallMesh add_ball(SolidDraft& draft, const Vec3& centre, double radius, int across);
+BallMesh add_ball(SolidDraft& draft, const Vec3& centre, double radius, int across, double focus);
 // Moves a node onto the nearest face of the ball and hangs it there.
 void tie_to_ball(SolidDraft& draft, const BallMesh& ball, int node);
 

@@ -174,6 +174,14 @@ std::vector<Key<TipSpec>> tip_keys() {
         .only_for = all,
         .doc = "Across it; of a ball: across the core of its mesh."},
        integer_to(&TipSpec::elements)},
+      {{.name = "focus",
+        .kind = Kind::number,
+        .range = within(1, 4),
+        .fallback = value_of(1.0),
+        .only_for = "sphere",
+        .doc = "How the ball's mesh is drawn together where it touches: lines at the share s of "
+               "the way from its pole lie at s^focus. 1: evenly."},
+       to(&TipSpec::focus)},
   };
 }
 

@@ -79,10 +79,16 @@ std::vector<Key<TargetSpec>> shape_keys() {
         .kind = Kind::text,
         .required = true,
         .only_for = "map",
-        .doc = "Text file of heights in m, comma-separated: a line for every y, rising, a number "
-               "for every x, rising; as a path from the scene's folder. Its middle lies under the "
-               "tip at the start."},
+        .doc = "Heights in m, as a path from the scene's folder: a text file, comma-separated, a "
+               "line for every y, rising, a number for every x, rising; or an HDF5 file (.h5, "
+               ".hdf5). Its middle lies under the tip at the start."},
        to(&TargetSpec::file)},
+      {{.name = "dataset",
+        .kind = Kind::text,
+        .fallback = value_of("heights"),
+        .only_for = "map",
+        .doc = "Of an HDF5 file: where the heights are in it, [y, x]."},
+       to(&TargetSpec::dataset)},
       length_key("spacing", "map", "Of the points along x and y.", &TargetSpec::spacing),
   };
 }
@@ -139,7 +145,8 @@ const TableDeclaration<ActionSpec>& action() {
          .choices = {{"press", "the surface moves up"},
                      {"scan", "the probe is drawn over the surface"},
                      {"retract", "the surface moves down"},
-                     {"hold", "nothing moves"}},
+                     {"hold", "nothing moves"},
+                     {"raster", "line by line forth and back over an area"}},
          .required = true,
          .doc = "What is done."},
         [](ActionSpec& a, const Decoded& value) {
@@ -150,8 +157,9 @@ const TableDeclaration<ActionSpec>& action() {
          .unit = "m",
          .range = within(-largest_size, largest_size),
          .fallback = value_of("0 m"),
-         .only_for = {"press", "scan", "retract"},
-         .doc = "How far the scanner goes; press: or give `force`."},
+         .only_for = {"press", "scan", "retract", "raster"},
+         .doc = "How far the scanner goes; press: or give `force`. Of a raster: length of a line, "
+                "which begins where the probe is."},
         to(&ActionSpec::distance)},
        {{.name = "force",
          .kind = Kind::quantity,
@@ -165,8 +173,8 @@ const TableDeclaration<ActionSpec>& action() {
          .kind = Kind::choice,
          .choices = {{"lateral", "along y, across the lever"}, {"along", "along x"}},
          .fallback = value_of("lateral"),
-         .only_for = "scan",
-         .doc = "Of the probe's way over the surface."},
+         .only_for = {"scan", "raster"},
+         .doc = "Of the probe's way over the surface; of a raster: of its lines."},
         [](ActionSpec& a, const Decoded& value) {
           a.direction = static_cast<TargetSpec::Direction>(value.index);
         }},
@@ -182,15 +190,24 @@ const TableDeclaration<ActionSpec>& action() {
          .choices = {{"height", "the scanner keeps its height"},
                      {"force", "its height follows so that the vertical force stays"}},
          .fallback = value_of("height"),
-         .only_for = {"scan", "hold"},
+         .only_for = {"scan", "hold", "raster"},
          .doc = "What stays the same."},
         [](ActionSpec& a, const Decoded& value) { a.servo = value.index == 1; }},
        {{.name = "increments",
          .kind = Kind::integer,
          .range = within(1, 100000),
          .fallback = value_of(20),
-         .doc = "Steps of the way (of each way of a scan that returns)."},
-        integer_to(&ActionSpec::increments)}}};
+         .doc =
+             "Steps of the way (of each way of a scan that returns); pixels of a raster's line."},
+        integer_to(&ActionSpec::increments)},
+       length_key("width", "raster", "Of the area, square to its lines.", &ActionSpec::width),
+       {{.name = "lines",
+         .kind = Kind::integer,
+         .range = within(1, 10000),
+         .fallback = value_of(16),
+         .only_for = "raster",
+         .doc = "Of the area: one at its near edge, the others evenly up to its far one."},
+        integer_to(&ActionSpec::lines)}}};
   return declaration;
 }
 

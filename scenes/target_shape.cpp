@@ -1,9 +1,6 @@
 #include "scenes/target_shape.hpp"
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/halfspace.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/narrowphase/distance.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +9,9 @@
 #include <fstream>
 #include <numbers>
 
+#include "engine/hdf5.hpp"
 #include "scenes/solid_draft.hpp"
+#include "scenes/triangle_target.hpp"
 
 namespace pulvis {
 namespace {
@@ -31,71 +30,7 @@ class PlaneTarget : public TargetShape {
   fcl::Halfspaced half_space_;
 };
 
-// Triangles over a rectangle of the plane. FCL finds the nearest one; what is told about it is exact: the
-// distance to its plane where the nearest place is inside it, to its edge or corner otherwise.
-class TriangleTarget : public TargetShape {
- public:
-  // FCL's own tolerances are absolute: lengths are handed over in units of `unit`.
-  TriangleTarget(std::vector<Vec3> points, std::vector<fcl::Triangle> triangles, double unit)
-      : points_(std::move(points)), triangles_(std::move(triangles)), unit_(unit) {
-    auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-    std::vector<Vec3> scaled;
-    for (const Vec3& p : points_) scaled.push_back(p / unit_);
-    model->beginModel();
-    model->addSubModel(scaled, triangles_);
-    model->endModel();
-    surface_ = std::make_unique<fcl::CollisionObjectd>(model);
-  }
-
-  Nearest nearest(const Place& place) const override {
-    const Vec3 p(place[0], place[1], place[2]);
-    fcl::Transform3d at = fcl::Transform3d::Identity();
-    at.translation() = p / unit_;
-    const fcl::CollisionObjectd point(std::make_shared<fcl::Sphered>(1e-9), at);
-    fcl::DistanceRequestd request(true);
-    fcl::DistanceResultd result;
-    fcl::distance(surface_.get(), &point, request, result);
-    return towards(p, static_cast<std::size_t>(result.b1));
-  }
-
- private:
-  // The nearest place of a triangle, and on which side of it the point lies.
-  Nearest towards(const Vec3& p, std::size_t triangle) const {
-    const fcl::Triangle& t = triangles_[triangle];
-    const Vec3 a = points_[t[0]], b = points_[t[1]], c = points_[t[2]];
-    const Vec3 n = (b - a).cross(c - a).normalized();
-    const double height = n.dot(p - a);
-    const Vec3 q = nearest_in(p - height * n, a, b, c, n);
-    const Vec3 off = p - q;
-    const double distance = off.norm();
-    const bool inside = (q - (p - height * n)).norm() <= 1e-9 * (b - a).norm();
-    if (inside || distance == 0) return {height, {n.x(), n.y(), n.z()}};
-    const Vec3 out = (height < 0 ? -off : off) / distance;
-    return {height < 0 ? -distance : distance, {out.x(), out.y(), out.z()}};
-  }
-
-  static Vec3 on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    return a + s * (b - a);
-  }
-
-  static Vec3 nearest_in(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c,
-                         const Vec3& n) {
-    const auto left = [&](const Vec3& x, const Vec3& y) {
-      return n.dot((y - x).cross(p - x)) >= 0;
-    };
-    if (left(a, b) && left(b, c) && left(c, a)) return p;
-    Vec3 best = on_segment(p, a, b);
-    for (const Vec3& q : {on_segment(p, b, c), on_segment(p, c, a)})
-      if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
-    return best;
-  }
-
-  std::vector<Vec3> points_;
-  std::vector<fcl::Triangle> triangles_;
-  double unit_;
-  std::unique_ptr<fcl::CollisionObjectd> surface_;
-};
+constexpr int facets = 200;  // a wavelength: slopes within 1.6%
 
 struct ProfilePoint {
   double along, height;  // m
@@ -114,7 +49,6 @@ std::vector<ProfilePoint> profile(const TargetSpec& t, double reach) {
             {t.position + flank + t.plateau, t.height},
             {t.position + 2 * flank + t.plateau, 0},
             {high + 2 * flank + t.plateau, 0}};
-  constexpr int facets = 200;  // a wavelength: slopes within 1.6%
   std::vector<ProfilePoint> points;
   const double step = t.wavelength / facets;
   for (double x = low - t.wavelength; x <= high + t.wavelength; x += step)
@@ -124,6 +58,8 @@ std::vector<ProfilePoint> profile(const TargetSpec& t, double reach) {
 }
 
 std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
+  const bool wave = t.shape == TargetSpec::Shape::sinusoid;
+  const double unit = wave ? t.wavelength / facets : t.height;
   std::vector<Vec3> points;
   std::vector<fcl::Triangle> triangles;
   const bool lateral = t.direction == Direction::lateral;
@@ -139,11 +75,11 @@ std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
     else
       triangles.insert(triangles.end(), {fcl::Triangle(a, c, b), fcl::Triangle(a, d, c)});
   }
-  return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), t.height);
+  return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), unit);
 }
 
 std::shared_ptr<const TargetShape> from_map(const TargetSpec& t, const Scene& scene) {
-  const auto heights = read_height_map(scene.file.parent_path() / t.file);
+  const auto heights = read_height_map(scene.file.parent_path() / t.file, t.dataset);
   const std::size_t rows = heights.size(), columns = heights.front().size();
   const double x0 = 0.5 * t.spacing * static_cast<double>(columns - 1);
   const double y0 = 0.5 * t.spacing * static_cast<double>(rows - 1);
@@ -181,9 +117,7 @@ std::vector<double> numbers_of(const std::string& line, std::size_t number) {
   return row;
 }
 
-}  // namespace
-
-std::vector<std::vector<double>> read_height_map(const std::filesystem::path& file) {
+std::vector<std::vector<double>> map_from_text(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error("cannot be read");
   std::vector<std::vector<double>> rows;
@@ -197,6 +131,31 @@ std::vector<std::vector<double>> read_height_map(const std::filesystem::path& fi
       throw std::runtime_error(fmt::format("line {}: {} numbers, the first line has {}", number,
                                            rows.back().size(), rows.front().size()));
   }
+  return rows;
+}
+
+std::vector<std::vector<double>> map_from_hdf5(const std::filesystem::path& path,
+                                               const std::string& dataset) {
+  const hdf5::File file = hdf5::File::open(path);
+  if (!file.contains("/" + dataset)) throw std::runtime_error("no dataset '" + dataset + "'");
+  const hdf5::Shape shape = file.shape("/" + dataset);
+  if (shape.size() != 2) throw std::runtime_error("dataset '" + dataset + "' is not [y, x]");
+  const std::vector<double> values = file.read_doubles("/" + dataset);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t j = 0; j < shape[0]; ++j)
+    rows.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(j * shape[1]),
+                      values.begin() + static_cast<std::ptrdiff_t>((j + 1) * shape[1]));
+  for (const double height : values)
+    if (!std::isfinite(height)) throw std::runtime_error("a height that is no number");
+  return rows;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> read_height_map(const std::filesystem::path& file,
+                                                 const std::string& dataset) {
+  const bool binary = file.extension() == ".h5" || file.extension() == ".hdf5";
+  auto rows = binary ? map_from_hdf5(file, dataset) : map_from_text(file);
   if (rows.size() < 2 || rows.front().size() < 2)
     throw std::runtime_error("fewer than two lines of two numbers");
   return rows;

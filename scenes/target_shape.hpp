@@ -14,6 +14,7 @@ std::shared_ptr<const TargetShape> make_target(const TargetSpec& target, const S
                                                double reach);
 
 // Heights of a map file: [rows along y][columns along x], m. Throws std::runtime_error with what is wrong.
-std::vector<std::vector<double>> read_height_map(const std::filesystem::path& file);
+std::vector<std::vector<double>> read_height_map(const std::filesystem::path& file,
+                                                 const std::string& dataset);
 
 }  // namespace pulvis

@@ -1,11 +1,22 @@
-// One point of a probe against a rigid target: force and tangent.
+// One point of a probe against a rigid target: what its force must fulfil, and how that changes.
 //
-// Source   penalty and Coulomb's law with a return map: Simo & Laursen (1992); adhesion as a constant
-//          pull-off force in contact (Derjaguin, Muller & Toporov 1975) that fades outside as 1/(1+g/r)^2
-// Symbols  g gap, m, < 0 in contact; n normal out of the target; N = k <-g> >= 0, N; A(g) adhesion, N;
-//          x place of the point in the target's frame, m; t tangential force, N; P = 1 - n n^T
-//            t_trial = P t_old - k_t P (x - x_old),  |t| <= mu N,  force = (N - A) n + t
-// Valid    the normal is taken as constant over a step of Newton's method: exact on planes
+// Source   Alart & Curnier (1991): the unilateral condition and Coulomb's law as equations that are
+//          differentiable but for their kinks, solved by Newton's method together with equilibrium.
+//          Curnier & Alart's penalties are free numbers: near the stiffness of what is behind the point
+//          (rho) the method settles; the penalties of the law (k), a thousand times as stiff, throw it
+//          from one direction of sliding to the other and back for ever.
+//          Adhesion: a constant pull-off force in contact (Derjaguin, Muller & Toporov 1975) that fades
+//          outside as 1/(1 + g/r)^2.
+// Symbols  f force on the point, N; g gap, m, < 0 inside; n normal out of the target, H = dn/dx, 1/m;
+//          A(g) adhesion, N; N = n.f + A pressing force >= 0, N; t = f - (n.f) n; P = 1 - n n^T
+//          x - x_old way since the last equilibrium, m; t_old its tangential force, N
+//            apart   f = -A n                                         where N^ <= 0
+//          A point that touched before keeps the adhesion of contact, A(0), for as long as it may touch:
+//          it leaves when the force draws with A(0), not when an increment's way has opened a gap.
+//            touches g + N/k = 0,   N^ = N - rho (g + N/k)            where N^ > 0, and then
+//            sticks  w = P (x - x_old) + (t - P t_old)/k_t = 0        where |t^| <= mu N^
+//            slides  t = mu N^ t^/|t^|,   t^ = t - rho_t w
+// Valid    any smooth surface; the derivatives are those of the equations, kinks apart
 #pragma once
 
 #include <Eigen/Core>
@@ -17,15 +28,22 @@ struct ProbeLaw {
   double normal_stiffness, tangential_stiffness;  // N/m
   double friction;                                // -
   double pull_off, range;                         // N, m: of this point
-  bool stick = false;  // predictor of an increment: as if mu were without bound
 };
 
-struct ProbePointForce {
+// Where the point is, and what it carries from the last equilibrium.
+struct ProbePlace {
+  double gap;
+  Eigen::Vector3d normal;
+  Eigen::Matrix3d turn;  // 1/m, d normal / d place
+  Eigen::Vector3d moved, old_tangential;
+  bool touched = false;  // at the last equilibrium
+};
+
+struct ProbeEquation {
   enum class State { apart, sticks, slides };
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  Eigen::Vector3d tangential = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d tangent = Eigen::Matrix3d::Zero();  // - d force / d x
-  double normal_force = 0, limit = 0;                 // N; mu N
+  Eigen::Vector3d residual;            // N, zero where the law is fulfilled
+  Eigen::Matrix3d by_force, by_place;  // -, N/m
+  double pressing, limit;              // N; mu N
   State state = State::apart;
 };
 
@@ -38,39 +56,58 @@ inline double adhesion(const ProbeLaw& law, double gap, double& slope) {
   return law.pull_off * fade * fade;
 }
 
-inline ProbePointForce probe_force(const ProbeLaw& law, double gap, const Eigen::Vector3d& n,
-                                   const Eigen::Vector3d& old_tangential,
-                                   const Eigen::Vector3d& moved) {
+inline ProbeEquation probe_equation(const ProbeLaw& law, const ProbePlace& at,
+                                    const Eigen::Vector3d& f, double rho, double rho_t) {
   using Eigen::Matrix3d;
   using Eigen::Vector3d;
-  ProbePointForce r;
+  const Vector3d& n = at.normal;
+  const Matrix3d &h = at.turn, nn = n * n.transpose(), p = Matrix3d::Identity() - nn;
+  // d (P v) / d place
+  const auto turned = [&](const Vector3d& v) -> Matrix3d {
+    return -n.dot(v) * h - n * (h.transpose() * v).transpose();
+  };
   double slope = 0;
-  const Matrix3d nn = n * n.transpose(), p = Matrix3d::Identity() - nn;
-  r.force = -adhesion(law, gap, slope) * n;
-  r.tangent = slope * nn;
-  if (gap >= 0) return r;
+  const double a = adhesion(law, at.gap, slope), k = law.normal_stiffness;
+  const double pressing = n.dot(f) + (at.touched ? law.pull_off : a);
+  const double missing = at.gap + pressing / k;
+  const double augmented = pressing - rho * missing;
+  const Vector3d pressing_by_place = (at.touched ? 0 : slope) * n + h.transpose() * f;
+  const Vector3d missing_by_place = n + pressing_by_place / k;
 
-  const double k = law.normal_stiffness, kt = law.tangential_stiffness;
-  r.normal_force = -k * gap;
-  r.limit = law.friction * r.normal_force;
-  r.force += r.normal_force * n;
-  r.tangent += k * nn;
-  const Vector3d trial = p * (old_tangential - kt * moved);
-  const double size = trial.norm();
-  if ((size <= r.limit || law.stick) && law.friction > 0) {
-    r.state = ProbePointForce::State::sticks;
-    r.tangential = trial;
-    r.tangent += kt * p;
-  } else {
-    r.state = ProbePointForce::State::slides;
-    if (size > 0 && law.friction > 0) {
-      const Vector3d m = trial / size;
-      r.tangential = r.limit * m;
-      r.tangent +=
-          law.friction * k * m * n.transpose() + (r.limit * kt / size) * (p - m * m.transpose());
-    }
+  ProbeEquation r;
+  r.pressing = pressing;
+  r.limit = law.friction * std::max(0.0, pressing);
+  if (augmented <= 0) {
+    r.residual = f + a * n;
+    r.by_force.setIdentity();
+    r.by_place = slope * nn + a * h;
+    return r;
   }
-  r.force += r.tangential;
+  r.residual = rho * missing * n;
+  r.by_force = (rho / k) * nn;
+  r.by_place = rho * (n * missing_by_place.transpose() + missing * h);
+
+  const double kt = law.tangential_stiffness;
+  const Vector3d t = p * f;
+  const Vector3d w = p * at.moved + (t - p * at.old_tangential) / kt;
+  const Matrix3d w_by_place = p + turned(at.moved) + (turned(f) - turned(at.old_tangential)) / kt;
+  const Vector3d trial = t - rho_t * w;
+  const double size = trial.norm(), bound = law.friction * augmented;
+  if (size <= bound) {
+    r.state = ProbeEquation::State::sticks;
+    r.residual += rho_t * w;
+    r.by_force += (rho_t / kt) * p;
+    r.by_place += rho_t * w_by_place;
+    return r;
+  }
+  r.state = ProbeEquation::State::slides;
+  const Vector3d m = trial / size;
+  const Matrix3d across = (bound / size) * (Matrix3d::Identity() - m * m.transpose());
+  r.residual += t - bound * m;
+  r.by_force +=
+      p - law.friction * (1 - rho / k) * m * n.transpose() - (1 - rho_t / kt) * across * p;
+  r.by_place += turned(f) - across * (turned(f) - rho_t * w_by_place) -
+                law.friction * m * (pressing_by_place - rho * missing_by_place).transpose();
   return r;
 }
 

@@ -71,19 +71,22 @@ void SolidEquations::factorise_again(std::vector<double> values) {
     throw BadState("the stiffness of the solid does not fit its mesh");
   std::copy(values.begin(), values.end(), stiffness.valuePtr());
   factors->factorize(stiffness);
+  answers.clear();
 }
 
 void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce> force,
               Read<AppliedForce> applied, Optional<Read<Target>> target,
               Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
-              Write<SolidEquations> equations) {
+              Optional<Read<ProbeState>> state, Write<SolidEquations> equations) {
   auto& r = equations->residual;
   r.setZero(3 * mesh->unknowns);
   const auto add = [&](int n, int k, double f) {
     for (const auto& support : mesh->supports_of(n))
       r[3 * mesh->unknown[static_cast<std::size_t>(support.node)] + k] += support.weight * f;
   };
-  double squares = 0, pushed = 0;
+  // Where adhesion and pressure balance, no force is left to compare with but the adhesion.
+  const double pull_off = target ? (*target)->pull_off : 0;
+  double squares = pull_off * pull_off, pushed = 0, largest = pull_off, broken = 0;
   for (int n = 0; n < force.rows(); ++n)
     for (int k = 0; k < 3; ++k) {
       const Row<SolidNode> row(n);
@@ -96,7 +99,11 @@ void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce>
       add((*node)(Row<ProbePoint>(i)), k, f);
       squares += f * f;
       if (k == 2) pushed += f;
+      largest = std::max(largest, std::abs(f));
     }
+  for (int i = 0; state && i < state->rows(); ++i)
+    broken = std::max(broken, (*state)(Row<ProbePoint>(i), 4));
+  equations->contact_error = broken == 0 ? 0 : broken / std::max(largest, broken);
   // Where a lever bends, the forces in its elements are far larger than those on it: they set the digits
   // that the balance can have.
   for (const double f : element.values()) squares += f * f;
@@ -116,6 +123,7 @@ void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
     equations->factors->analyzePattern(equations->stiffness);
   }
   equations->factors->factorize(equations->stiffness);
+  equations->answers.clear();
   if (equations->factors->info() != Eigen::Success || !equations->factors->vectorD().allFinite())
     throw RunFailure(fmt::format(
         "factorise: the stiffness of the solid is singular ({} equations): a part hangs loose or "

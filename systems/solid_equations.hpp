@@ -20,15 +20,25 @@ struct SolidEquations {
   Eigen::VectorXd direction;   // [3 unknowns] m
   double scale = 0;            // N, the forces that must balance: root of the sum of squares
   double set_point_error = 0;  // -, of the servo: what is missing over the set point
-  double height_step = 0;      // m, of the servo, together with the direction
+  // Of the contact, together with the direction:
+  bool contact_solved = true;  // an answer was found
+  double contact_error = 0;    // -, by how much the forces break the law, over the largest
+  Eigen::VectorXd force_step;  // [3 points] N, of the probe
+  double height_step = 0;      // m, of the servo
+  double released = 0;         // J, by a jump
+  bool jumped = false;         // in this search for an equilibrium
+  // [points] K^-1 to unit forces on the point, [3 unknowns, 3]; empty until it was asked for
+  std::vector<Eigen::MatrixXd> answers;
 
-  // Factors may be older than the present stiffness of the solid; what they were made from makes them again.
+  // Factors may be older than the present stiffness of the solid; what they were made from makes them again,
+  // and the answers.
   std::vector<double> factorised() const;            // empty before the first factorisation
   void factorise_again(std::vector<double> values);  // throws BadState where the pattern is another
   template <class Bytes>
   void state(Bytes& bytes) {
     std::vector<double> values = factorised();
-    bytes(values, scale, set_point_error, height_step);
+    bytes(values, scale, set_point_error, contact_solved, contact_error, height_step, released,
+          jumped);
     if constexpr (Bytes::reads) factorise_again(std::move(values));
   }
 };

@@ -20,20 +20,22 @@ void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
                    Write<BlockTangent> block);
 void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
                    Read<Target> target, Read<ProbeNode> node, Read<ProbeStiffness> stiffness,
-                   Read<ProbeShare> share, Read<ProbeMemory> memory, Write<ProbeForce> force,
-                   Write<ProbeTangent> tangent, Write<ProbeState> state);
+                   Read<ProbeShare> share, Read<ProbeMemory> memory, Read<ProbeForce> force,
+                   Write<ProbeState> state);
 void remember_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
                       Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
                       Read<ProbeState> state, Write<ProbeMemory> memory);
 void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce> force,
               Read<AppliedForce> applied, Optional<Read<Target>> target,
               Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
-              Write<SolidEquations> equations);
+              Optional<Read<ProbeState>> state, Write<SolidEquations> equations);
 void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
                Write<SolidEquations> equations);
 void newton_direction(Write<SolidEquations> equations);
-void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<ProbeNode> node,
-                       Read<ProbeTangent> tangent, Read<ProbeState> state,
-                       Read<ProbeStiffness> stiffness, Write<SolidEquations> equations);
+void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<ReferencePosition> reference,
+                       Read<Displacement> displacement, Read<ProbeNode> node,
+                       Read<ProbeStiffness> stiffness, Read<ProbeShare> share,
+                       Read<ProbeMemory> memory, Read<ProbeForce> force, Read<ProbeState> state,
+                       Write<SolidEquations> equations);
 
 }  // namespace pulvis

@@ -18,11 +18,16 @@ std::vector<System> evaluation(World& w, bool with_tangent) {
   return list;
 }
 
-// With the solid's factors of an earlier iteration, or new ones. The contact's tangent is always new.
+std::vector<System> linearisation(World& w) {
+  std::vector<System> list = evaluation(w, true);
+  list.push_back(make_system(w, "block_tangent", block_tangent));
+  list.push_back(make_system(w, "factorise", factorise));
+  return list;
+}
+
+// With the solid's factors of an earlier iteration, or new ones. The contact is always solved anew.
 std::vector<System> iteration(World& w, bool new_factors) {
-  std::vector<System> list = evaluation(w, new_factors);
-  if (new_factors) list.push_back(make_system(w, "block_tangent", block_tangent));
-  if (new_factors) list.push_back(make_system(w, "factorise", factorise));
+  std::vector<System> list = new_factors ? linearisation(w) : evaluation(w, false);
   list.push_back(make_system(w, "newton_direction", newton_direction));
   if (w.has<ProbeNode>()) list.push_back(make_system(w, "contact_direction", contact_direction));
   return list;
@@ -60,12 +65,12 @@ void add_probe_columns(World& world, std::size_t points) {
   world.add<ProbeShare>();
   world.add<ProbeMemory>();
   world.add<ProbeForce>();
-  world.add<ProbeTangent>();
   world.add<ProbeState>();
 }
 
 StaticSolver::StaticSolver(World& world)
     : world_(world),
+      linearise_(linearisation(world), world.chunks()),
       iterate_(iteration(world, true), world.chunks()),
       reuse_(iteration(world, false), world.chunks()),
       look_(evaluation(world, false), world.chunks()) {
@@ -81,7 +86,7 @@ void StaticSolver::remember() {
   if (remember_) remember_->run();
 }
 
-void StaticSolver::linearise() { iterate_.run(); }
+void StaticSolver::linearise() { linearise_.run(); }
 
 std::vector<double> StaticSolver::respond(std::span<const double> forces) const {
   const auto& mesh = world_.resource<SolidMesh>();
@@ -124,7 +129,11 @@ void StaticSolver::move(double share) {
   expand(mesh, equations.direction.data(), step.data());
   double* u = world_.column<Displacement>().values();
   for (std::size_t i = 0; i < step.size(); ++i) u[i] += share * step[i];
-  if (world_.has<Target>()) world_.resource<Target>().position[2] += share * equations.height_step;
+  if (!world_.has<Target>()) return;
+  world_.resource<Target>().position[2] += share * equations.height_step;
+  double* force = world_.column<ProbeForce>().values();
+  for (Eigen::Index i = 0; i < equations.force_step.size(); ++i)
+    force[i] += share * equations.force_step[i];
 }
 
 void StaticSolver::search(double allowed, int cuts) {
@@ -143,20 +152,13 @@ double StaticSolver::error() const {
   return size == 0 ? 0 : size / equations.scale;
 }
 
-// What touches first moves with the target: from there a point that slides does so in the right direction,
-// while from the old one Newton's method would throw it from one side of Coulomb's law to the other.
-void StaticSolver::predict(Target& target, bool reuse) {
-  target.stick = true;
-  (reuse ? reuse_ : iterate_).run();
-  target.stick = false;
-  if (std::isfinite(error())) move(1);
-}
-
 // Where a stiff tip hangs on a soft lever, round-off in its displacements leaves more than the tolerance:
 // a small residual that no longer falls is as good as it gets.
 bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& settings) const {
-  const double missing = std::abs(world_.resource<SolidEquations>().set_point_error);
-  if (missing > settings.servo_tolerance) return false;
+  const auto& equations = world_.resource<SolidEquations>();
+  if (std::max(std::abs(equations.set_point_error), equations.contact_error) >
+      settings.contact_tolerance)
+    return false;
   const bool floor =
       r.size() > 1 && r.back() <= settings.round_off && r.back() > 0.1 * r[r.size() - 2];
   return r.back() <= settings.tolerance || floor;
@@ -167,28 +169,47 @@ bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& s
 // a step must not make it grow tenfold; it is halved until it does not.
 NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   NewtonReport report;
-  auto& u = world_.column<Displacement>();
-  const std::vector<double> start(u.values(), u.values() + u.bytes() / sizeof(double));
-  Target* const target = world_.has<Target>() ? &world_.resource<Target>() : nullptr;
-  const double height = target != nullptr ? target->position[2] : 0;
-  bool reuse = settings.reuse_factors && world_.resource<SolidEquations>().factors != nullptr;
-  if (target != nullptr && target->friction > 0) predict(*target, reuse);
+  const auto& equations = world_.resource<SolidEquations>();
+  const State start = state();
+  if (world_.has<Target>()) world_.resource<Target>().may_jump = settings.may_jump;
+  world_.resource<SolidEquations>().jumped = false;
+  bool reuse = settings.reuse_factors && equations.factors != nullptr;
   for (int i = 0; i <= settings.iterations; ++i) {
     (reuse ? reuse_ : iterate_).run();
     report.residuals.push_back(error());
     // Factors that do not gain a digit an iteration are too old, until round-off is reached.
-    const bool good = error() <= settings.round_off ||
+    // (The first one started from balance: what the contact's new forces left is no measure.)
+    const bool good = error() <= settings.round_off || i == 1 ||
                       (i > 0 && error() < 0.1 * report.residuals[report.residuals.size() - 2]);
     if (i > 0) reuse = settings.reuse_factors && good;
     if (!std::isfinite(report.residuals.back())) break;
     report.converged = settled(report.residuals, settings);
     if (report.converged) return report;
+    if (!equations.contact_solved) break;
+    report.released += equations.released;
     move(1);
     if (i >= 2) search(10 * report.residuals.back(), settings.cuts);
   }
-  std::copy(start.begin(), start.end(), u.values());
-  if (target != nullptr) target->position[2] = height;
+  restore(start);
   return report;
+}
+
+StaticSolver::State StaticSolver::state() const {
+  State state;
+  const auto& u = world_.column<Displacement>();
+  state.displacement.assign(u.values(), u.values() + u.bytes() / sizeof(double));
+  if (!world_.has<Target>()) return state;
+  const auto& force = world_.column<ProbeForce>();
+  state.force.assign(force.values(), force.values() + 3 * force.table.rows);
+  state.height = world_.resource<Target>().position[2];
+  return state;
+}
+
+void StaticSolver::restore(const State& state) {
+  std::ranges::copy(state.displacement, world_.column<Displacement>().values());
+  if (!world_.has<Target>()) return;
+  std::ranges::copy(state.force, world_.column<ProbeForce>().values());
+  world_.resource<Target>().position[2] = state.height;
 }
 
 }  // namespace pulvis

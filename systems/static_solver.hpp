@@ -13,22 +13,23 @@
 
 namespace pulvis {
 
-struct Target;
-
 struct NewtonSettings {
-  double tolerance = 1e-10;       // -, residual over the forces that must balance
-  double round_off = 1e-7;        // -, the same, below which a residual that stays is round-off
-  double servo_tolerance = 1e-7;  // -, force that is missing over the set point
-  int iterations = 25;            // after which the increment counts as failed
+  double tolerance = 1e-10;  // -, residual over the forces that must balance
+  double round_off = 1e-7;   // -, the same, below which a residual that stays is round-off
+  double contact_tolerance =
+      1e-7;             // -, force that breaks the law of contact, or that the servo misses
+  int iterations = 25;  // after which the increment counts as failed
   // The solid's factors are kept from one iteration and increment to the next while they gain a digit each
   // time: a tip drawn over a surface hardly turns its lever. Without it the convergence is quadratic.
   bool reuse_factors = false;
-  int cuts = 12;  // halvings of a step that the line search tries
+  bool may_jump = false;  // of the probe, to an equilibrium further off; nothing smaller will do
+  int cuts = 12;          // halvings of a step that the line search tries
 };
 
 struct NewtonReport {
   bool converged = false;
   std::vector<double> residuals;  // -, before every iteration and after the last one
+  double released = 0;            // J, by a jump of the probe
 };
 
 // Columns and resources that every solid needs; the mesh and the material are there already.
@@ -63,12 +64,17 @@ class StaticSolver {
  private:
   void move(double share);
   double error() const;
-  void predict(Target& target, bool reuse);
+  struct State {
+    std::vector<double> displacement, force;
+    double height = 0;
+  };
+  State state() const;
+  void restore(const State& state);
   bool settled(const std::vector<double>& residuals, const NewtonSettings& settings) const;
   void search(double allowed, int cuts);
 
   World& world_;
-  TaskGraph iterate_, reuse_, look_;
+  TaskGraph linearise_, iterate_, reuse_, look_;
   std::unique_ptr<TaskGraph> remember_;
 };
 

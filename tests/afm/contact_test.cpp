@@ -3,26 +3,11 @@
 #include <numbers>
 
 #include "scenes/afm_figures.hpp"
-#include "scenes/afm_loop.hpp"
-#include "tests/afm/lever.hpp"
+#include "systems/run_failure.hpp"
+#include "tests/afm/afm_run.hpp"
 
 namespace pulvis {
 namespace {
-
-AfmHistory history_of(const Scene& scene, int threads = 1) {
-  AfmSimulation simulation(scene, threads);
-  AfmHistory history;
-  simulation.run([&](double time, const std::vector<double>& row) {
-    history.times.push_back(time);
-    history.rows.push_back(row);
-    return true;
-  });
-  return history;
-}
-
-std::string beam_on(const std::string& surface_and_actions) {
-  return beam_with_tip + surface_and_actions;
-}
 
 constexpr const char* press_and_loop = R"(
 [[action]]
@@ -37,29 +22,69 @@ set_point = "force"
 increments = 20
 )";
 
+std::string on_incline(const std::string& lever, double degrees, double friction,
+                       const std::string& actions = press_and_loop) {
+  return lever + "[surface]\nshape = \"plane\"\nfriction = " + std::to_string(friction) +
+         "\nincline = \"" + std::to_string(degrees) + " deg\"\n" + actions;
+}
+
 struct Slope {
-  double degrees, uphill, downhill;  // of L, mu = 0.1
+  const char* lever;
+  double degrees, friction;
 };
 
 class Wedge : public testing::TestWithParam<Slope> {};
 
 TEST_P(Wedge, AStiffTipDrawsWithTheForcesOfTheFormula) {
   const Slope& slope = GetParam();
-  const Scene scene =
-      afm_scene(beam_on("[surface]\nshape = \"plane\"\nfriction = 0.1\nincline = \"" +
-                        std::to_string(slope.degrees) + " deg\"\n" + press_and_loop));
-  const AfmHistory history = history_of(scene);
-  const FrictionLoop loop = friction_loops(scene, history).front();
+  const Scene scene = afm_scene(on_incline(slope.lever, slope.degrees, slope.friction));
+  const FrictionLoop loop = friction_loops(scene, history_of(scene)).front();
+  const double angle = slope.degrees * std::numbers::pi / 180;
+  const double up = wedge::uphill(1, 0, slope.friction, angle);
+  const double down = wedge::downhill(1, 0, slope.friction, angle);
   EXPECT_NEAR(loop.load, 100e-9, 1e-14);
-  EXPECT_NEAR(loop.forth / loop.load, slope.uphill, 0.005 * std::abs(slope.uphill));
-  EXPECT_NEAR(loop.back / loop.load, slope.downhill, 0.005 * std::abs(slope.downhill));
+  EXPECT_NEAR(loop.forth / loop.load, up, 0.005 * std::abs(up));
+  EXPECT_NEAR(loop.back / loop.load, down, 0.005 * std::abs(down));
   if (slope.degrees == 0) return;
   ASSERT_TRUE(loop.friction);  // from volts alone
-  EXPECT_NEAR(*loop.friction, 0.1, 0.002);
+  EXPECT_NEAR(*loop.friction, slope.friction, 0.02 * slope.friction);
 }
 
-INSTANTIATE_TEST_SUITE_P(Slopes, Wedge,
-                         testing::Values(Slope{0, 0.1, -0.1}, Slope{-12.5, -0.11906, -0.32899}));
+INSTANTIATE_TEST_SUITE_P(Beam, Wedge,
+                         testing::Values(Slope{beam_with_tip, 0, 0.1},
+                                         Slope{beam_with_tip, -12.5, 0.1},
+                                         Slope{beam_with_tip, 14, 0.1},
+                                         Slope{beam_with_tip, 30, 0.4}));
+INSTANTIATE_TEST_SUITE_P(V, Wedge,
+                         testing::Values(Slope{v_with_tip, 0, 0.1}, Slope{v_with_tip, -12.5, 0.1},
+                                         Slope{v_with_tip, 14, 0.1}));
+
+TEST(Wedge, ThreadsChangeNoBit) {
+  const Scene scene = afm_scene(on_incline(v_with_tip, 14, 0.1));
+  const AfmHistory one = history_of(scene, 1);
+  for (const int threads : {2, 3}) EXPECT_EQ(history_of(scene, threads).rows, one.rows) << threads;
+}
+
+// On a slope of 1 a coefficient of 1 holds against any force uphill: a longer way only presses harder.
+TEST(Wedge, AProbeThatLocksIsReported) {
+  const Scene scene = afm_scene(on_incline(beam_with_tip, 45, 1));
+  try {
+    history_of(scene);
+    FAIL() << "the scan went on";
+  } catch (const RunFailure& failure) {
+    const std::string what = failure.what();
+    EXPECT_NE(what.find("scan: the probe has locked"), std::string::npos) << what;
+    EXPECT_NE(what.find("allowed: < 1"), std::string::npos) << what;
+  }
+}
+
+// Just below that the formula still holds: T_u/L = (1 + mu)/(1 - mu).
+TEST(Wedge, AProbeThatHardlySlidesUphillStillDoes) {
+  const Scene scene = afm_scene(on_incline(beam_with_tip, 45, 0.9), {"action[1].distance=60 nm"});
+  const FrictionLoop loop = friction_loops(scene, history_of(scene)).front();
+  EXPECT_NEAR(loop.forth / loop.load, 19, 0.1);
+  EXPECT_NEAR(loop.back / loop.load, 1 / 19.0, 0.001);
+}
 
 TEST(Wedge, FrictionComesBackOutOfTheFormula) {
   for (const double degrees : {14.0, -12.5})
@@ -85,7 +110,7 @@ TEST(AfmContact, AFrictionlessSlopeOfOnePushesAsMuchSidewaysAsUp) {
 // while the sample is drawn along y. All the way the lever twists and bends as under a small lateral force;
 // in the end the tip slides along y at mu L and nothing moves any more.
 TEST(AfmContact, TheTipTwistsAndBendsItsLeverUntilItSlips) {
-  const Scene scene = afm_scene(beam_on(R"([surface]
+  const Scene scene = afm_scene(std::string(beam_with_tip) + R"([surface]
 shape = "plane"
 friction = 0.1
 [[action]]
@@ -98,7 +123,7 @@ distance = "1 nm"
 set_point = "force"
 back = "no"
 increments = 40
-)"));
+)");
   AfmSimulation simulation(scene);
   const Calibration c = simulation.calibrate();
   AfmHistory h;
@@ -122,6 +147,39 @@ increments = 40
   EXPECT_NEAR(std::abs(h.value(last, "probe/force_y")), 10e-9, 1e-12);
   EXPECT_LT(std::abs(change("probe/displacement_y", last - 3, last)), 1e-3 * std::abs(moved));
 }
+
+// At the turn of a level loop the tip sticks, the lever twists and bends sideways in the shares that the
+// calibration has, and when the force has gone from mu L to -mu L the tip slips and nothing moves more.
+class Turn : public testing::TestWithParam<const char*> {};
+
+TEST_P(Turn, TwistsAndBendsTheLeverUntilTheTipSlips) {
+  const Scene scene = afm_scene(on_incline(GetParam(), 0, 0.1));
+  AfmSimulation simulation(scene);
+  const Calibration c = simulation.calibrate();
+  const AfmHistory h = history_of(scene);
+  const std::size_t turn = 23, end = h.rows.size() - 1;
+  ASSERT_EQ(h.value(turn, "contact/slides"), 1);
+  std::size_t slip = turn + 1;
+  while (slip <= end && h.value(slip, "contact/slides") == 0) ++slip;
+  ASSERT_GT(slip, turn + 1);
+  ASSERT_LT(slip, end);
+  const auto change = [&](const char* series, std::size_t to) {
+    return h.value(to, series) - h.value(turn, series);
+  };
+  for (std::size_t i = turn + 1; i < slip; ++i) {
+    const double moved = change("probe/displacement_y", i);
+    EXPECT_NEAR(change("foot/displacement_y", i) / moved, c.bending_share, 0.01) << i;
+    EXPECT_NEAR(c.arm * change("foot/twist", i) / moved, c.twist_share, 0.01) << i;
+    // The load has bent the lever: 1% more than the stiffness at rest.
+    EXPECT_NEAR(change("probe/force_y", i) / moved / c.lateral_stiffness, 1, 0.02) << i;
+  }
+  for (std::size_t i = slip; i <= end; ++i) {
+    EXPECT_EQ(h.value(i, "contact/slides"), 1) << i;
+    EXPECT_NEAR(std::abs(h.value(i, "probe/force_y")), 10e-9, 1e-12) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BeamAndV, Turn, testing::Values(beam_with_tip, v_with_tip));
 
 }  // namespace
 }  // namespace pulvis

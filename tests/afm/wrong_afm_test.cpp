@@ -66,6 +66,26 @@ TEST(WrongAfm, ActionsNeedASurfaceAndAForceToKeep) {
             std::string::npos);
 }
 
+// The map of raster.toml reaches 710 nm from its middle to both sides.
+TEST(WrongAfm, AScanThatLeavesTheHeightMapIsRefusedWithTheBound) {
+  const auto refused = [](const std::vector<std::string>& overrides) {
+    try {
+      shipped_afm("raster.toml", overrides);
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refused({}), "accepted");
+  for (const char* key :
+       {"action[3].distance=1400 nm", "action[3].width=1400 nm", "action[1].distance=-720 nm"}) {
+    EXPECT_NE(refused({key}).find("the scan leaves the map"), std::string::npos) << refused({key});
+    EXPECT_NE(refused({key}).find("allowed: -7.1e-07 to 7.1e-07 m"), std::string::npos)
+        << refused({key});
+  }
+  EXPECT_NE(refused({"surface.file=nothing.csv"}).find("cannot be read"), std::string::npos);
+}
+
 TEST(WrongAfm, AVWhoseArmsDoNotMeetIsRefused) {
   const std::string v = R"(family = "afm"
 [[material]]
