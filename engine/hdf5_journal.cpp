@@ -32,7 +32,6 @@ herr_t fail(const std::system_error& error) {
   return -1;
 }
 constexpr haddr_t most_addresses = (haddr_t{1} << 62U) - 1;
-constexpr haddr_t no_address = HADDR_UNDEF;
 #pragma GCC diagnostic pop
 
 template <class Action>

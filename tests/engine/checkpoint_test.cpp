@@ -37,7 +37,6 @@ struct Memory {
 static_assert(IsFixed<Drawing> && !HasState<Drawing>);
 static_assert(HasState<Memory> && !IsFixed<Memory>);
 struct Careless {  // neither: World::emplace and Write refuse to compile with it
-  static constexpr const char* resource_name = "careless";
   double time = 0;
 };
 static_assert(!HasState<Careless> && !IsFixed<Careless>);

@@ -228,7 +228,7 @@ TEST_F(RecorderTest, SaysWhatTheSystemSaidWhereTheFolderIsMissing) {
     Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
     FAIL() << "was not refused";
   } catch (const OutputError& error) {
-    EXPECT_EQ(error.path(), folder / "run.h5");
+    EXPECT_EQ(error.path(), folder / "run.h5.new");
     EXPECT_EQ(error.reason(), "No such file or directory");
   }
 }
