@@ -5,15 +5,14 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
-#include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/run_afm.hpp"
 #include "cli/summary.hpp"
+#include "cli/write_text.hpp"
 #include "components/body.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
@@ -41,12 +40,6 @@ void take_signals() {
 std::filesystem::path folder_of(const RunOptions& options) {
   return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
                                 : options.folder;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
 }
 
 // Where to look first when the energies say that something is wrong: the most distorted element.
