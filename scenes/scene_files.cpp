@@ -22,6 +22,7 @@ std::vector<std::filesystem::path> files_of(const Scene& scene) {
     add(packing.file);
     for (const MixtureClass& mixed : packing.classes) add(mixed.size.file);
   }
+  if (scene.afm) add(scene.afm->tip.file);
   if (scene.afm && scene.afm->target) add(scene.afm->target->file);
   return files;
 }
