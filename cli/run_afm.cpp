@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 
 #include "cli/plan.hpp"
+#include "cli/report_afm.hpp"
 #include "cli/summary_afm.hpp"
+#include "cli/write_text.hpp"
 #include "components/solid.hpp"
-#include "engine/output_error.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/afm_figures.hpp"
@@ -26,12 +25,6 @@
 
 namespace pulvis {
 namespace {
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
-}
 
 RunMesh mesh_of(const AfmSimulation& simulation) {
   const World& world = const_cast<AfmSimulation&>(simulation).world();
@@ -140,6 +133,7 @@ std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
 void print_end(const AfmReport& report, const std::filesystem::path& folder) {
   fmt::print("{}", calibration_text(report.calibration));
   for (const FrictionLoop& loop : report.loops) fmt::print("{}", loop_text(loop));
+  if (report.wedge && report.loops.size() > 1) fmt::print("{}", wedge_summary(*report.wedge));
   fmt::print("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
              report.increments, report.wall_seconds);
   if (!report.verdicts.empty()) fmt::print("expectations\n");
@@ -166,6 +160,7 @@ ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder,
   else
     end = run_programme(folder, loaded, threads, simulation, history);
   if (end.done) report.loops = friction_loops(loaded.scene, history);
+  report.wedge = calibrate_wedge(loaded.scene, report.loops);
   report.elements = simulation.model().elements;
   report.nodes = simulation.model().nodes;
   report.increments = history.rows.empty() ? 0 : history.rows.size() - 1;
@@ -179,6 +174,7 @@ ExitCode run_afm(const LoadedScene& loaded, const std::filesystem::path& folder,
     report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
                             end.failure, threads);
   write_text(folder / "summary.json", afm_summary(loaded, report));
+  write_afm_report(folder, loaded, report, history);
   print_end(report, folder);
   const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);
   if (!expected) fmt::print(stderr, "pulvis: the run went bad: {}\n", end.failure);
