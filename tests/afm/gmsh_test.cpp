@@ -72,8 +72,8 @@ std::string version_4() {
   out << "$EndNodes\n$Elements\n3 " << cells * (2 + Block::layers) << " 1 "
       << cells * (2 + Block::layers) << "\n";
   int tag = 1;
-  for (const auto& [entity, level] : {std::pair{5, 0}, std::pair{6, int{Block::layers}}}) {
-    out << "2 " << entity << " 3 " << cells << "\n";
+  for (const int level : {0, int{Block::layers}}) {
+    out << "2 " << (level == 0 ? 5 : 6) << " 3 " << cells << "\n";
     for_cells([&](int i, int j) { out << tag++ << " " << Block::quad(i, j, level) << "\n"; });
   }
   out << "3 1 5 " << cells * Block::layers << "\n";
