@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "cli/reduction_files.hpp"
+#include "cli/wedge_files.hpp"
 #include "engine/run_folder.hpp"
+#include "scenes/wedge_records.hpp"
 
 namespace pulvis {
 namespace {
@@ -71,10 +74,22 @@ void name_runs(std::vector<lab::RunFiles>& runs) {
   }
 }
 
-Reduction reduced(const ReduceOptions& options) {
-  const Inputs inputs = sorted_inputs(options.files);
+// A file of friction loops among the records says what kind of reduction is wanted.
+lab::LoadedSettings settings_of(const Inputs& inputs, std::vector<std::string> overrides) {
+  const auto loops = std::ranges::find_if(inputs.records, wedge::holds_loops);
+  if (loops != inputs.records.end()) {
+    if (inputs.records.size() > 1)
+      refuse(*loops, "records", "friction loops beside other records, allowed: one file of loops");
+    overrides.push_back(
+        fmt::format("wedge.loops='{}'", std::filesystem::absolute(*loops).string()));
+  }
+  return lab::load_settings(inputs.settings, overrides);
+}
+
+Reduction reduced(const ReduceOptions& options, const Inputs& inputs,
+                  const lab::LoadedSettings& loaded) {
   Reduction all;
-  all.loaded = lab::load_settings(inputs.settings, options.overrides);
+  all.loaded = loaded;
   const lab::Settings& settings = all.loaded.settings;
   std::vector<lab::RunFiles> files = declared_runs(settings);
   add_pairs(files, inputs.records, settings);
@@ -129,7 +144,16 @@ void print_run(const lab::ReducedRun& run) {
 }  // namespace
 
 ExitCode reduce_records(const ReduceOptions& options) {
-  const Reduction all = reduced(options);
+  const Inputs inputs = sorted_inputs(options.files);
+  const lab::LoadedSettings loaded = settings_of(inputs, options.overrides);
+  if (!loaded.settings.wedge.loops.empty()) {
+    const auto calibration = wedge_calibration(loaded.settings);
+    open_folder(options.folder, options.overwrite);
+    write_wedge(options.folder, loaded, calibration);
+    fmt::print("{}results in {}\n", wedge_text(calibration), options.folder.string());
+    return ExitCode::done;
+  }
+  const Reduction all = reduced(options, inputs, loaded);
   open_folder(options.folder, options.overwrite);
   write_reduction(options.folder, all);
   write_reduction_report(options.folder, all);

@@ -2,26 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/summary.hpp"
-#include "engine/output_error.hpp"
+#include "cli/write_text.hpp"
 
 namespace pulvis {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
-}
 
 struct Series {
   std::string heading;

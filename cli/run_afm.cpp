@@ -13,7 +13,6 @@
 #include "cli/summary_afm.hpp"
 #include "cli/write_text.hpp"
 #include "components/solid.hpp"
-#include "engine/output_error.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/afm_figures.hpp"
@@ -193,6 +192,7 @@ std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
 void print_end(const AfmReport& report, const std::filesystem::path& folder) {
   fmt::print("{}", calibration_text(report.calibration));
   for (const FrictionLoop& loop : report.loops) fmt::print("{}", loop_text(loop));
+  if (report.wedge && report.loops.size() > 1) fmt::print("{}", wedge_summary(*report.wedge));
   fmt::print("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
              report.increments, report.wall_seconds);
   if (!report.verdicts.empty()) fmt::print("expectations\n");
@@ -213,6 +213,7 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
   else
     end = run_programme(folder, loaded, options, threads, from, simulation, history);
   if (end.done) report.loops = friction_loops(loaded.scene, history);
+  report.wedge = calibrate_wedge(loaded.scene, report.loops);
   report.elements = simulation.model().elements;
   report.nodes = simulation.model().nodes;
   report.increments = history.rows.empty() ? 0 : history.rows.size() - 1;

@@ -2,26 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "cli/report_encoding.hpp"
 #include "cli/report_page.hpp"
 #include "cli/study_curves.hpp"
 #include "cli/summary.hpp"
-#include "engine/output_error.hpp"
+#include "cli/write_text.hpp"
 
 namespace pulvis {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
-}
 
 Json run_json(const Study& study, const StudyResult& result) {
   Json varied = Json::object();

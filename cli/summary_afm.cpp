@@ -84,6 +84,10 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
             {"increments", report.increments},
             {"calibration", calibration_json(report.calibration)}};
   for (const FrictionLoop& loop : report.loops) json["loops"].push_back(loop_json(loop));
+  if (report.wedge)
+    json["wedge"] = {{"loops", report.loops.size()},
+                     {"friction", report.wedge->friction.value},
+                     {"sensitivity", report.wedge->sensitivity.value}};
   for (const Verdict& verdict : report.verdicts) {
     Json entry{{"what", verdict.what},
                {"measured", verdict.measured},
@@ -105,6 +109,12 @@ std::string loop_text(const FrictionLoop& loop) {
     text += fmt::format("  wedge calibration of the detector: friction {:.5f}, {:.5g} N/V\n",
                         *loop.friction, *loop.sensitivity);
   return text;
+}
+
+std::string wedge_summary(const wedge::Calibration& c) {
+  const wedge::Facet& facet = c.facets.front();
+  return fmt::format("wedge calibration over {} loops at {} loads: friction {:.5f}, {:.5g} N/V\n",
+                     facet.loops, facet.loads, c.friction.value, c.sensitivity.value);
 }
 
 std::string calibration_text(const Calibration& c) {

@@ -15,6 +15,7 @@ namespace pulvis {
 struct AfmReport {
   Calibration calibration;
   std::vector<FrictionLoop> loops;
+  std::optional<wedge::Calibration> wedge;
   std::vector<Verdict> verdicts;
   std::size_t elements = 0, nodes = 0, increments = 0;
   int threads = 1;
@@ -25,5 +26,6 @@ struct AfmReport {
 std::string afm_summary(const LoadedScene& loaded, const AfmReport& report);
 std::string calibration_text(const Calibration& calibration);
 std::string loop_text(const FrictionLoop& loop);
+std::string wedge_summary(const wedge::Calibration& calibration);
 
 }  // namespace pulvis

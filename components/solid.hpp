@@ -54,9 +54,27 @@ struct ElementEnergy : Component<SolidElement, double, 1> {
   static constexpr ComponentInfo info{"element_energy", "J", "strain energy"};
 };
 
+// Only where a material of the solid yields.
+struct SolidYield : Component<SolidElement, double, 2> {
+  static constexpr ComponentInfo info{"solid_yield", "Pa",
+                                      "yield stress, hardening modulus; 0 0: elastic"};
+};
+struct SolidMemory : Component<SolidElement, double, 56> {
+  static constexpr ComponentInfo info{"solid_memory", "-",
+                                      "by Gauss point: plastic strain 11 22 33 2*12 2*23 2*13, "
+                                      "accumulated plastic strain; of the last equilibrium"};
+};
+
 // ---- the stiffness matrix ---------------------------------------------------------------------
 struct BlockTangent : Component<StiffnessBlock, double, 9> {
   static constexpr ComponentInfo info{"block_tangent", "N/m", "3 x 3, row by row"};
+};
+
+// How a hexahedron takes its strains from its corners' displacements; systems/solid_kernel.hpp.
+enum class HexFormulation : std::uint8_t {
+  solid,     // nine incompatible modes
+  plate,     // one layer of a plate, thin along zeta: modes, and transverse shear from its edges
+  standard,  // trilinear displacements alone: locks where it bends
 };
 
 // Hexahedra: corners 0-3 counter-clockwise at zeta = -1 seen from +zeta, 4-7 above them.
@@ -70,7 +88,7 @@ struct SolidMesh {
     double weight = 1;
   };
   std::vector<Hexahedron> hexahedra;
-  std::vector<std::uint8_t> thin;           // [elements] one layer of a plate, thin along zeta
+  std::vector<HexFormulation> formulation;  // [elements]
   std::vector<std::uint8_t> part;           // [elements] 0 lever, 1 coating, 2 tip, 3 glue
   std::vector<std::int32_t> support_begin;  // [nodes + 1]; a free node's only support is itself
   std::vector<Support> supports;

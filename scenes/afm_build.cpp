@@ -76,10 +76,10 @@ int middle_node(const SolidDraft& draft, const Gauge& end) {
   return nearest;
 }
 
-std::array<Lame, 4> part_materials(const Scene& scene) {
+std::array<SolidMaterial, 4> part_materials(const Scene& scene) {
   const AfmScene& afm = *scene.afm;
   const auto of = [&](int material) {
-    return lame_of(scene.materials[static_cast<std::size_t>(material)]);
+    return solid_material(scene.materials[static_cast<std::size_t>(material)]);
   };
   return {of(afm.lever.material), of(afm.lever.coating.value_or(afm.lever.material)),
           of(afm.tip.material), of(afm.tip.glue.value_or(afm.tip.material))};

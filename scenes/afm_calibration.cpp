@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "components/solid.hpp"
-#include "systems/static_solver.hpp"
+#include "scenes/linear_response.hpp"
 
 namespace pulvis {
 namespace {
@@ -24,14 +24,21 @@ Slopes linear_slopes(const AfmModel& model, const std::vector<SlopeGauge>& gauge
   return {s.normal * largest / small, s.lateral * largest / small};
 }
 
-UnitResponse respond(AfmModel& model, const StaticSolver& solver, const Vec3& direction) {
-  const std::vector<double> u = unit_displacements(model, solver, direction);
+LinearResponse unit_response(AfmModel& model, StaticSolver& solver, const Vec3& direction) {
+  std::vector<double> force(3 * model.nodes);
+  for (const auto& support : model.end)
+    for (int k = 0; k < 3; ++k)
+      force[static_cast<std::size_t>(3 * support.node + k)] += support.weight * direction[k];
+  return linear_response(*model.world, solver, force);
+}
+
+UnitResponse respond(AfmModel& model, StaticSolver& solver, const Vec3& direction) {
+  const auto [u, held] = unit_response(model, solver, direction);
   UnitResponse r;
   r.end = read(model.end, u.data());
   r.foot = read(model.foot, u.data());
   r.spot = linear_slopes(model, model.spot, u);
   r.at_foot = linear_slopes(model, {model.foot_slope}, u);
-  const std::vector<double> held = solver.held_forces(u);
   const auto& mesh = model.world->resource<SolidMesh>();
   const double* x = model.world->column<ReferencePosition>().values();
   r.clamp_force.setZero();
@@ -47,16 +54,12 @@ UnitResponse respond(AfmModel& model, const StaticSolver& solver, const Vec3& di
 
 }  // namespace
 
-std::vector<double> unit_displacements(const AfmModel& model, const StaticSolver& solver,
+std::vector<double> unit_displacements(AfmModel& model, StaticSolver& solver,
                                        const Vec3& direction) {
-  std::vector<double> force(3 * model.nodes);
-  for (const auto& support : model.end)
-    for (int k = 0; k < 3; ++k)
-      force[static_cast<std::size_t>(3 * support.node + k)] += support.weight * direction[k];
-  return solver.respond(force);
+  return unit_response(model, solver, direction).displacements;
 }
 
-Calibration calibrate(const Scene& scene, AfmModel& model, const StaticSolver& solver) {
+Calibration calibrate(const Scene& scene, AfmModel& model, StaticSolver& solver) {
   const AfmScene& afm = *scene.afm;
   Calibration c;
   c.normal = respond(model, solver, Vec3::UnitZ());

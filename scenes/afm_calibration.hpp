@@ -31,12 +31,12 @@ struct Calibration {
   std::vector<ClosedForm> closed_forms;
 };
 
-// The world's solver must have been linearised.
+// The world's solver must have been linearised at rest.
 class StaticSolver;
-Calibration calibrate(const Scene& scene, AfmModel& model, const StaticSolver& solver);
+Calibration calibrate(const Scene& scene, AfmModel& model, StaticSolver& solver);
 
 // Displacements [3 nodes] by a force of 1 N at the tip's end.
-std::vector<double> unit_displacements(const AfmModel& model, const StaticSolver& solver,
+std::vector<double> unit_displacements(AfmModel& model, StaticSolver& solver,
                                        const Vec3& direction);
 
 }  // namespace pulvis

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "scenes/lever_mesh.hpp"
+#include "scenes/material_checks.hpp"
+#include "scenes/meshed_tip.hpp"
 #include "scenes/target_shape.hpp"
 #include "scenes/tip_mesh.hpp"
 
@@ -28,6 +31,9 @@ class AfmChecks {
     if (scene_.materials.empty())
       problems_.add({{1, 1}, -1}, "material",
                     "none is declared, allowed: at least one [[material]]");
+    check_materials(scene_, [&](const std::string& path, const std::string& message) {
+      refuse(path, message);
+    });
     coating();
     if (!outline()) return;
     tip();
@@ -109,6 +115,11 @@ class AfmChecks {
   bool foot_on_lever(double reach) const {
     const PlanMesh plan = lever_plan(lever_, lever_foot(lever_, tip_));
     const Vec2 axis = tip_axis(lever_, tip_);
+    if (tip_.solid)
+      return std::ranges::all_of(tip_.solid->foot, [&](int n) {
+        const Vec2 off = tip_.solid->nodes[static_cast<std::size_t>(n)].head<2>();
+        return locate(plan, axis + off).has_value();
+      });
     const bool square = tip_.shape == Shape::block || tip_.shape == Shape::pyramid;
     for (int i = 0; i < 32; ++i) {
       const double angle = 2 * std::numbers::pi * (i + 0.5) / 32;

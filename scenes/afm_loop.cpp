@@ -23,9 +23,7 @@ double downhill(double load, double adhesion, double mu, double slope) {
 
 std::optional<double> friction(double half_width, double offset, double slope) {
   if (half_width == 0 || slope == 0) return {};
-  const double sum = 2 * (offset / half_width) / std::sin(2 * slope);
-  if (!(sum >= 2)) return {};
-  return 2 / (sum + std::sqrt(sum * sum - 4));
+  return friction_of_ratio(offset / half_width, 1, 0, slope);
 }
 
 }  // namespace wedge
@@ -51,7 +49,31 @@ Means means(const AfmHistory& history, const std::string& force, const std::stri
   return {sum.force / n, sum.load / n, sum.volts / n};
 }
 
+bool on_incline(const TargetSpec& target, const ActionSpec& scan) {
+  return target.shape == TargetSpec::Shape::plane && target.incline != 0 &&
+         target.direction == scan.direction;
+}
+
 }  // namespace
+
+std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
+                                                  const std::vector<FrictionLoop>& loops) {
+  std::vector<wedge::Loop> seen;
+  for (const FrictionLoop& loop : loops)
+    if (on_incline(*scene.afm->target, scene.afm->actions[static_cast<std::size_t>(loop.action)]))
+      seen.push_back({scene.afm->target->incline,
+                      loop.load,
+                      loop.volts_half_width,
+                      loop.volts_offset,
+                      {},
+                      {}});
+  if (seen.empty()) return std::nullopt;
+  try {
+    return wedge::calibrate(seen, {scene.afm->target->pull_off, 0, 0});
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
 
 double AfmHistory::value(std::size_t sample, const std::string& series) const {
   static const std::vector<SeriesInfo> all = afm_series();
@@ -84,9 +106,7 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     loop.volts_half_width = 0.5 * sign * (forth.volts - back.volts);
     loop.volts_offset = 0.5 * (forth.volts + back.volts);
     const TargetSpec& target = *scene.afm->target;
-    const bool wedge = target.shape == TargetSpec::Shape::plane && target.incline != 0 &&
-                       target.direction == action.direction;
-    if (wedge) {
+    if (on_incline(target, action)) {
       loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline);
       if (loop.friction) {
         const double s = std::sin(target.incline), c = std::cos(target.incline);

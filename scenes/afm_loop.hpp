@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scenes/scene.hpp"
+#include "scenes/wedge_calibration.hpp"
 
 namespace pulvis {
 
@@ -44,6 +45,11 @@ struct AfmHistory {
   }
   double value(std::size_t sample, const std::string& series) const;
 };
+
+// Of all loops together, from the detector's volts: several loads where the programme has them (Ogletree).
+// Nothing without an incline along the scans, or where no friction fits.
+std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
+                                                  const std::vector<FrictionLoop>& loops);
 
 // Of every scan that goes forth and back; means over the last half of each way.
 std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& history);

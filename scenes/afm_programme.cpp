@@ -172,7 +172,8 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   for (std::size_t k = 0; k < 3; ++k) target.position[k] += travel[k];
   target.servo = servo;
   NewtonSettings settings;
-  settings.reuse_factors = true;
+  // Factors of a solid that flowed are far too soft for one that unloads.
+  settings.reuse_factors = !model_.world->has<SolidYield>();
   settings.may_jump = depth == most_halvings;
   const NewtonReport report = solver_.equilibrate(settings);
   iterations_ += static_cast<int>(report.residuals.size());

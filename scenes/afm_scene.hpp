@@ -5,10 +5,12 @@
 // from the sample. z = 0 is the lever's middle plane (of its own material, without the coating).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "components/solid.hpp"
 #include "scenes/source_mark.hpp"
 
 namespace pulvis {
@@ -28,11 +30,15 @@ struct LeverSpec {
   double coating_thickness = 0;  // m
   double aspect = 10;            // -, edge of an element in the plane over the lever's thickness
   int layers = 1;                // of elements through the thickness
+  int along = 0, across = 0;     // elements of a beam, evenly; 0: by aspect, finer at the foot
+  HexFormulation element = HexFormulation::plate;
   SourceMark mark;
 };
 
+struct TipSolid;  // scenes/meshed_tip.hpp
+
 struct TipSpec {
-  enum class Shape { none, block, pyramid, cone, sphere } shape = Shape::none;
+  enum class Shape { none, block, pyramid, cone, sphere, mesh } shape = Shape::none;
   int material = 0;
   double height = 0;      // m, from the lever's lower face to the tip's end; not of a sphere
   double foot = 0;        // m, width (cone: diameter) where it stands on the lever
@@ -41,6 +47,9 @@ struct TipSpec {
   double radius = 0;      // m, sphere
   double neck_radius = 0, neck_height = 0;  // m, glue between the lever and the sphere's top
   std::optional<int> glue;                  // material of the neck; absent: that of the tip
+  std::string file;                         // mesh: of Gmsh
+  double unit = 1;                          // m, of the file's lengths
+  std::shared_ptr<const TipSolid> solid;    // what it holds
   double set_back = 0;                      // m, its axis from the lever's end
   double offset = 0;                        // m, its axis from the lever's axis, along y
   int elements = 4;                         // across it

@@ -44,7 +44,9 @@ bool AfmSimulation::run(const AfmProgramme::Record& record, AfmPosition& positio
 }
 
 std::vector<double> AfmSimulation::unit_displacements(const Vec3& direction) {
-  return pulvis::unit_displacements(model_, *solver_, direction);
+  std::vector<double> u;
+  workers_.run([&] { u = pulvis::unit_displacements(model_, *solver_, direction); });
+  return u;
 }
 
 NewtonReport AfmSimulation::load_tip(const Vec3& force, const NewtonSettings& settings) {
@@ -53,7 +55,10 @@ NewtonReport AfmSimulation::load_tip(const Vec3& force, const NewtonSettings& se
   for (const auto& support : model_.end)
     for (int k = 0; k < 3; ++k) applied[3 * support.node + k] += support.weight * force[k];
   NewtonReport report;
-  workers_.run([&] { report = solver_->equilibrate(settings); });
+  workers_.run([&] {
+    report = solver_->equilibrate(settings);
+    if (report.converged) solver_->remember();
+  });
   return report;
 }
 

@@ -62,15 +62,9 @@ class BallGrid {
   std::map<std::array<int, 4>, int> nodes_;
 };
 
-// Corners in an order of positive volume.
 void add_oriented(SolidDraft& draft, SolidMesh::Hexahedron corners) {
-  const auto x = [&](std::size_t c) { return draft.nodes[static_cast<std::size_t>(corners[c])]; };
-  const Vec3 a = x(1) - x(0), b = x(3) - x(0), c = x(4) - x(0);
-  if (a.cross(b).dot(c) < 0) {
-    std::swap(corners[1], corners[3]);
-    std::swap(corners[5], corners[7]);
-  }
-  draft.add_hexahedron(corners, SolidPart::tip, false);
+  turn_outside_out(draft.nodes, corners);
+  draft.add_hexahedron(corners, SolidPart::tip, HexFormulation::solid);
 }
 
 std::array<int, 3> on_face(int axis, int value, int u, int v) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <type_traits>
 
+#include "scenes/material_checks.hpp"
 #include "scenes/mesh.hpp"
 #include "scenes/mesh_rounded_rectangle.hpp"
 #include "scenes/mesh_size.hpp"
@@ -32,7 +33,9 @@ class Checks {
 
   void run() {
     something_is_there();
-    materials();
+    check_materials(scene_, [&](const std::string& path, const std::string& message) {
+      refuse(path, message);
+    });
     points_files();
     outlines();
     counts();
@@ -69,24 +72,6 @@ class Checks {
     if (scene_.bodies.empty() && scene_.packings.empty())
       refuse_missing("body", "at least one [[body]] or [[packing]]");
     if (scene_.stages.empty()) refuse_missing("stage", "at least one [[stage]]");
-  }
-
-  // A yield strain of 1 is far beyond any solid; it is nearly always a wrong prefix (GPa for MPa).
-  void materials() {
-    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-      const MaterialSpec& material = scene_.materials[i];
-      const std::string path = fmt::format("material[{}].", i);
-      if (material.yield_stress && *material.yield_stress >= material.youngs_modulus)
-        refuse(path + "yield_stress",
-               fmt::format("{:g} Pa is not below Young's modulus, the material would never yield, "
-                           "allowed: < {:g} Pa",
-                           *material.yield_stress, material.youngs_modulus));
-      if (material.hardening_modulus > material.youngs_modulus)
-        refuse(path + "hardening_modulus",
-               fmt::format("{:g} Pa is above Young's modulus, plastic flow would be stiffer than "
-                           "elasticity, allowed: <= {:g} Pa",
-                           material.hardening_modulus, material.youngs_modulus));
-    }
   }
 
   // A file is read once for all that needs its outline.

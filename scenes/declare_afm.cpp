@@ -72,6 +72,16 @@ std::vector<Key<LeverSpec>> shape_keys() {
   };
 }
 
+Key<LeverSpec> elements_of(const char* name, int LeverSpec::*count, const char* doc) {
+  return {{.name = name,
+           .kind = Kind::integer,
+           .range = within(1, 5000),
+           .only_for = "beam",
+           .doc = doc,
+           .fallback_doc = "as `aspect` says"},
+          integer_to(count)};
+}
+
 std::vector<Key<LeverSpec>> further_lever_keys() {
   return {
       {{.name = "tilt",
@@ -109,11 +119,27 @@ std::vector<Key<LeverSpec>> further_lever_keys() {
         .fallback = value_of(1),
         .doc = "Of elements through the thickness."},
        integer_to(&LeverSpec::layers)},
+      elements_of("elements_along", &LeverSpec::along,
+                  "Elements along it, all as long, instead of `aspect`."),
+      elements_of("elements_across", &LeverSpec::across, "The same across it."),
+      {{.name = "element",
+        .kind = Kind::choice,
+        .choices = {{"plate", "a thin layer: incompatible modes, transverse shear from its edges"},
+                    {"solid", "incompatible modes alone"},
+                    {"standard", "trilinear displacements: it locks, for comparison only"}},
+        .fallback = value_of("plate"),
+        .doc = "How the lever's hexahedra take their strains."},
+       [](LeverSpec& lever, const Decoded& value) {
+         static constexpr HexFormulation order[] = {HexFormulation::plate, HexFormulation::solid,
+                                                    HexFormulation::standard};
+         lever.element = order[value.index];
+       }},
   };
 }
 
 std::vector<Key<TipSpec>> tip_keys() {
-  const Words solid{"block", "pyramid", "cone"}, all{"block", "pyramid", "cone", "sphere"};
+  const Words solid{"block", "pyramid", "cone"}, made{"block", "pyramid", "cone", "sphere"};
+  const Words all{"block", "pyramid", "cone", "sphere", "mesh"};
   return {
       {{.name = "shape",
         .kind = Kind::choice,
@@ -121,7 +147,8 @@ std::vector<Key<TipSpec>> tip_keys() {
                     {"block", "a square prism"},
                     {"pyramid", "square"},
                     {"cone", "round"},
-                    {"sphere", "a colloid probe: a ball on a neck of glue"}},
+                    {"sphere", "a colloid probe: a ball on a neck of glue"},
+                    {"mesh", "hexahedra of a Gmsh file"}},
         .fallback = value_of("none"),
         .doc = "What stands under the lever."},
        [](TipSpec& tip, const Decoded& value) {
@@ -151,18 +178,37 @@ std::vector<Key<TipSpec>> tip_keys() {
       {{.name = "glue",
         .kind = Kind::reference,
         .refers_to = "material",
-        .only_for = "sphere",
-        .doc = "Material of the neck.",
-        .fallback_doc = "that of the ball"},
+        .only_for = {"sphere", "mesh"},
+        .doc = "Material of the neck; of a mesh: of its volume `glue`.",
+        .fallback_doc = "that of the tip"},
        [](TipSpec& tip, const Decoded& value) { tip.glue = value.index; }},
       {{.name = "end_radius",
         .kind = Kind::quantity,
         .unit = "m",
         .range = within(0, largest_size),
         .fallback = value_of("0 m"),
-        .only_for = solid,
+        .only_for = {"block", "pyramid", "cone", "mesh"},
         .doc = "Rounding of the end where it touches a surface; the ball touches as meshed."},
        to(&TipSpec::end_radius)},
+      {{.name = "file",
+        .kind = Kind::text,
+        .required = true,
+        .only_for = "mesh",
+        .doc =
+            "MSH file of Gmsh (2.2 or 4.1, ASCII), as a path from the scene's folder: hexahedra in "
+            "the physical volumes `tip` and, if there is one, `glue`, quads in the physical "
+            "surfaces "
+            "`foot` (at z = 0, tied to the lever's lower face) and `end` (below it). Its axis "
+            "is x = y = 0."},
+       to(&TipSpec::file)},
+      {{.name = "unit",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = above(0, 1),
+        .fallback = value_of("1 um"),
+        .only_for = "mesh",
+        .doc = "What a length of 1 in the file means."},
+       to(&TipSpec::unit)},
       {place_of("set_back", "Distance of its axis from the lever's end."), to(&TipSpec::set_back)},
       {place_of("offset", "Distance of its axis from the lever's axis, along +y."),
        to(&TipSpec::offset)},
@@ -171,7 +217,7 @@ std::vector<Key<TipSpec>> tip_keys() {
         .range = within(2, 64),
         .multiple_of = 2,
         .fallback = value_of(4),
-        .only_for = all,
+        .only_for = made,
         .doc = "Across it; of a ball: across the core of its mesh."},
        integer_to(&TipSpec::elements)},
       {{.name = "focus",

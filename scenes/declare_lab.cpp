@@ -342,11 +342,11 @@ double CompactSpec::poisson() const {
 }
 
 const Language& language() {
-  static const Language tables{view_of(declared_top()),        view_of(declared_press()),
-                               view_of(declared_logger()),     view_of(declared_load_cell()),
-                               view_of(declared_lvdt()),       view_of(declared_compact()),
-                               view_of(declared_clock()),      view_of(declared_analysis()),
-                               view_of(declared_simulation()), view_of(declared_run())};
+  static const Language tables{
+      view_of(declared_top()),       view_of(declared_press()),    view_of(declared_logger()),
+      view_of(declared_load_cell()), view_of(declared_lvdt()),     view_of(declared_compact()),
+      view_of(declared_clock()),     view_of(declared_analysis()), view_of(declared_simulation()),
+      view_of(declared_wedge()),     view_of(declared_run())};
   return tables;
 }
 

@@ -14,6 +14,7 @@ const schema::TableDeclaration<CompactSpec>& declared_compact();
 const schema::TableDeclaration<ClockSpec>& declared_clock();
 const schema::TableDeclaration<AnalysisSpec>& declared_analysis();
 const schema::TableDeclaration<SimulationSpec>& declared_simulation();
+const schema::TableDeclaration<WedgeSpec>& declared_wedge();
 const schema::TableDeclaration<RunSpec>& declared_run();
 
 }  // namespace pulvis::lab

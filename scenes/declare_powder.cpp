@@ -130,7 +130,6 @@ const TableDeclaration<MaterialSpec>& material() {
          .kind = Kind::quantity,
          .unit = "Pa",
          .range = within(1e-3, 1e13),
-         .only_for = compaction_only,
          .doc = "Where plastic flow begins; below Young's modulus.",
          .fallback_doc = "the material stays elastic"},
         to(&MaterialSpec::yield_stress)},
@@ -139,7 +138,6 @@ const TableDeclaration<MaterialSpec>& material() {
          .unit = "Pa",
          .range = within(0, 1e13),
          .fallback = value_of("0 Pa"),
-         .only_for = compaction_only,
          .needs = "yield_stress",
          .doc = "Growth of the yield stress with plastic strain; 0 is perfectly plastic."},
         to(&MaterialSpec::hardening_modulus)}}};

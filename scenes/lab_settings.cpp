@@ -42,11 +42,13 @@ class SettingsReader {
     read_one(declared_clock(), all.clock);
     read_one(declared_analysis(), all.analysis);
     read_one(declared_simulation(), all.simulation);
+    read_one(declared_wedge(), all.wedge);
     read_runs(all.runs);
     return all;
   }
 
   void check(const Settings& all) {
+    if (!all.wedge.loops.empty()) return;  // nothing of the compact is used
     exactly_one("compact.length", all.compact.length.has_value(), "compact.fill_height",
                 all.compact.fill_height.has_value(), "length = \"10 mm\"");
     exactly_one("compact.poissons_ratio", all.compact.poissons_ratio.has_value(), "compact.powder",

@@ -1,4 +1,4 @@
-// What the reduction of sliding-plate tests has to know beside the records: reduce.toml.
+// What the reduction of sliding-plate tests, or of an AFM's friction loops, has to know beside the records: reduce.toml.
 // Sources of the defaults: Kim (thesis), sections 3.2.2 to 3.2.6; declared in declare_lab.cpp.
 #pragma once
 
@@ -69,6 +69,14 @@ struct SimulationSpec {
   std::string target;
 };
 
+struct WedgeSpec {         // another kind of record: friction loops of an AFM
+  std::string loops;       // file, from the folder of the settings; empty: sliding-plate tests
+  double adhesion = 0;     // N
+  double slope_error = 0;  // rad
+  double load_error = 0;   // -
+  double skip = 0;         // -, of a raw trace at each end
+};
+
 struct RunSpec {
   std::string name;
   std::string press, logger;     // files, from the folder of the settings
@@ -87,6 +95,7 @@ struct Settings {
   ClockSpec clock;
   AnalysisSpec analysis;
   SimulationSpec simulation;
+  WedgeSpec wedge;
   std::vector<RunSpec> runs;
 };
 

@@ -17,10 +17,14 @@ std::vector<double> shares_of(std::vector<double> lines) {
 
 PlanMesh beam_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
   const double l = lever.length, w = lever.width;
+  const auto lines = [](int count, const std::vector<double>& graded) {
+    return count > 0 ? even_shares(count) : shares_of(graded);
+  };
   PlanMesh mesh;
   add_patch(mesh, {Vec2(0, -0.5 * w), Vec2(l, -0.5 * w), Vec2(l, 0.5 * w), Vec2(0, 0.5 * w)},
-            shares_of(graded_lines(l, edge, foot.size, foot.x, fewest_along)),
-            shares_of(graded_lines(w, edge, foot.size, foot.y + 0.5 * w, fewest_across)), 1e-9 * l);
+            lines(lever.along, graded_lines(l, edge, foot.size, foot.x, fewest_along)),
+            lines(lever.across, graded_lines(w, edge, foot.size, foot.y + 0.5 * w, fewest_across)),
+            1e-9 * l);
   return mesh;
 }
 
@@ -74,7 +78,7 @@ VOutline v_outline(const LeverSpec& lever) {
 }
 
 PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot) {
-  // More elements than that along a thin lever add round-off, not accuracy.
+  // More elements than that along a thin lever cost time and hardly add accuracy.
   constexpr double most_along = 150;
   const double edge = std::max(lever.aspect * lever.thickness, lever.length / most_along);
   return lever.shape == LeverSpec::Shape::beam ? beam_plan(lever, edge, foot)
@@ -99,7 +103,7 @@ LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever, PlanMesh plan) {
         corners[c + 4] = mesh.node(q[c], level + 1);
       }
       const bool coat = level >= static_cast<std::size_t>(lever.layers);
-      draft.add_hexahedron(corners, coat ? SolidPart::coating : SolidPart::lever, true);
+      draft.add_hexahedron(corners, coat ? SolidPart::coating : SolidPart::lever, lever.element);
     }
   return mesh;
 }

@@ -7,6 +7,7 @@
 #include "scenes/checks.hpp"
 #include "scenes/expect_checks.hpp"
 #include "scenes/fill_packings.hpp"
+#include "scenes/meshed_tip.hpp"
 #include "scenes/override.hpp"
 #include "scenes/profile.hpp"
 #include "scenes/scene_files.hpp"
@@ -191,9 +192,11 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   SceneReader reader(root, problems);
   loaded.scene = reader.read(file);
   problems.throw_if_any();
-  if (loaded.scene.afm)
+  if (loaded.scene.afm) {
+    load_meshed_tip(loaded.scene, reader.origins(), problems);
+    problems.throw_if_any();
     check_afm(loaded.scene, reader.origins(), problems);
-  else
+  } else
     complete_and_check(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
   if (read_other) {

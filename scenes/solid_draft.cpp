@@ -1,5 +1,6 @@
 #include "scenes/solid_draft.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -24,7 +25,7 @@ void trace(const SolidDraft& draft, const SolidMesh::Support& support,
 SolidMesh mesh_of(const SolidDraft& draft) {
   SolidMesh mesh;
   mesh.hexahedra = draft.hexahedra;
-  mesh.thin = draft.thin;
+  mesh.formulation = draft.formulation;
   mesh.part = draft.part;
   mesh.support_begin.push_back(0);
   for (std::size_t n = 0; n < draft.nodes.size(); ++n) {
@@ -97,7 +98,8 @@ void list_blocks(const SolidMesh& mesh, SolidAssembly& assembly) {
   assembly.block_begin.push_back(static_cast<std::int32_t>(assembly.shares.size()));
 }
 
-void fill_columns(const SolidDraft& draft, const std::array<Lame, 4>& materials, World& world) {
+void fill_columns(const SolidDraft& draft, const std::array<SolidMaterial, 4>& materials,
+                  World& world) {
   double* x = world.column<ReferencePosition>().values();
   for (const Vec3& node : draft.nodes)
     for (int k = 0; k < 3; ++k) *x++ = node[k];
@@ -105,6 +107,12 @@ void fill_columns(const SolidDraft& draft, const std::array<Lame, 4>& materials,
   for (const std::uint8_t part : draft.part) {
     *elastic++ = materials[part].lambda;
     *elastic++ = materials[part].mu;
+  }
+  if (!world.has<SolidYield>()) return;
+  double* yield = world.column<SolidYield>().values();
+  for (const std::uint8_t part : draft.part) {
+    *yield++ = materials[part].yield_stress;
+    *yield++ = materials[part].hardening_modulus;
   }
 }
 
@@ -122,18 +130,38 @@ void SolidDraft::hang(int node, std::vector<SolidMesh::Support> on) {
     hanging[static_cast<std::size_t>(node)] = std::move(on);
 }
 
-void SolidDraft::add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart of, bool is_thin) {
+void SolidDraft::add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart of,
+                                HexFormulation how) {
   hexahedra.push_back(corners);
   part.push_back(static_cast<std::uint8_t>(of));
-  thin.push_back(is_thin ? 1 : 0);
+  formulation.push_back(how);
 }
 
-Lame lame_of(const MaterialSpec& m) {
+bool turn_outside_out(const std::vector<Vec3>& nodes, SolidMesh::Hexahedron& corners) {
+  const auto x = [&](std::size_t c) { return nodes[static_cast<std::size_t>(corners[c])]; };
+  const Vec3 a = x(1) - x(0), b = x(3) - x(0), c = x(4) - x(0);
+  if (a.cross(b).dot(c) < 0) {
+    std::swap(corners[1], corners[3]);
+    std::swap(corners[5], corners[7]);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t next = (i + 1) % 4, last = (i + 3) % 4;
+    const double below = (x(next) - x(i)).cross(x(last) - x(i)).dot(x(i + 4) - x(i));
+    const double above =
+        (x(next + 4) - x(i + 4)).cross(x(last + 4) - x(i + 4)).dot(x(i + 4) - x(i));
+    if (!(below > 0 && above > 0)) return false;
+  }
+  return true;
+}
+
+SolidMaterial solid_material(const MaterialSpec& m) {
   const double nu = m.poissons_ratio;
-  return {m.youngs_modulus * nu / ((1 + nu) * (1 - 2 * nu)), m.youngs_modulus / (2 * (1 + nu))};
+  return {m.youngs_modulus * nu / ((1 + nu) * (1 - 2 * nu)), m.youngs_modulus / (2 * (1 + nu)),
+          m.yield_stress.value_or(0), m.hardening_modulus};
 }
 
-std::unique_ptr<World> finish_solid(const SolidDraft& draft, const std::array<Lame, 4>& materials) {
+std::unique_ptr<World> finish_solid(const SolidDraft& draft,
+                                    const std::array<SolidMaterial, 4>& materials) {
   auto world = std::make_unique<World>();
   const auto& mesh = world->emplace<SolidMesh>(mesh_of(draft));
   auto& assembly = world->emplace<SolidAssembly>();
@@ -148,6 +176,9 @@ std::unique_ptr<World> finish_solid(const SolidDraft& draft, const std::array<La
   world->add<ReferencePosition>();
   world->add<LameConstants>();
   add_solid_columns(*world);
+  if (std::ranges::any_of(draft.part,
+                          [&](std::uint8_t part) { return materials[part].yield_stress > 0; }))
+    add_plastic_columns(*world);
   fill_columns(draft, materials, *world);
   return world;
 }

@@ -1,10 +1,13 @@
 #include "scenes/tip_mesh.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "scenes/ball_mesh.hpp"
+#include "scenes/meshed_tip.hpp"
 
 namespace pulvis {
 namespace {
@@ -38,32 +41,31 @@ std::vector<int> add_column(SolidDraft& draft, const PlanMesh& plan, int layers,
         corners[c] = first[static_cast<std::size_t>(level) + 1] + q[c];
         corners[c + 4] = first[static_cast<std::size_t>(level)] + q[c];
       }
-      draft.add_hexahedron(corners, part, false);
+      draft.add_hexahedron(corners, part, HexFormulation::solid);
     }
   return first;
 }
 
-void tie_to_lever(SolidDraft& draft, const LeverMesh& lever, int first, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto node = static_cast<std::size_t>(first) + i;
-    draft.hang(first + static_cast<int>(i), on_lower_face(lever, draft.nodes[node].head<2>()));
-  }
+void tie_to_lever(SolidDraft& draft, const LeverMesh& lever, int node) {
+  draft.hang(node, on_lower_face(lever, draft.nodes[static_cast<std::size_t>(node)].head<2>()));
 }
 
-// Shares of an even pressure on the end's face.
-std::vector<SolidMesh::Support> area_shares(const PlanMesh& plan, int first) {
-  std::vector<double> share(plan.points.size());
+// Shares of an even pressure on the end's faces.
+std::vector<SolidMesh::Support> area_shares(const SolidDraft& draft,
+                                            const std::vector<std::array<int, 4>>& faces,
+                                            int first) {
+  std::map<int, double> share;
   double sum = 0;
-  for (const auto& q : plan.quads) {
-    const auto x = [&](std::size_t c) { return plan.points[static_cast<std::size_t>(q[c])]; };
-    const Vec2 a = x(2) - x(0), b = x(3) - x(1);
-    const double area = 0.5 * (a.x() * b.y() - a.y() * b.x());
-    for (const int corner : q) share[static_cast<std::size_t>(corner)] += 0.25 * area;
+  for (const auto& face : faces) {
+    const auto x = [&](std::size_t c) {
+      return draft.nodes[static_cast<std::size_t>(first + face[c])];
+    };
+    const double area = 0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
+    for (const int corner : face) share[first + corner] += 0.25 * area;
     sum += area;
   }
   std::vector<SolidMesh::Support> supports;
-  for (std::size_t i = 0; i < share.size(); ++i)
-    supports.push_back({first + static_cast<int>(i), share[i] / sum});
+  for (const auto& [node, area] : share) supports.push_back({node, area / sum});
   return supports;
 }
 
@@ -81,8 +83,9 @@ TipMesh add_solid_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh
     const Vec2 xy = axis + 0.5 * ((1 - s) * tip.foot + s * end) * p;
     return Vec3(xy.x(), xy.y(), mesh.levels.front() - s * tip.height);
   });
-  tie_to_lever(draft, mesh, first.front(), plan.points.size());
-  return {area_shares(plan, first.back()), {}, {}};
+  for (std::size_t i = 0; i < plan.points.size(); ++i)
+    tie_to_lever(draft, mesh, first.front() + static_cast<int>(i));
+  return {area_shares(draft, plan.quads, first.back()), {}, {}};
 }
 
 TipMesh add_sphere(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
@@ -100,10 +103,26 @@ TipMesh add_sphere(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& m
     const double s = static_cast<double>(l) / layers;
     return Vec3(axis.x() + off.x(), axis.y() + off.y(), (1 - s) * top + s * bottom);
   });
-  tie_to_lever(draft, mesh, first.front(), plan.points.size());
+  for (std::size_t i = 0; i < plan.points.size(); ++i)
+    tie_to_lever(draft, mesh, first.front() + static_cast<int>(i));
   for (std::size_t i = 0; i < plan.points.size(); ++i)
     tie_to_ball(draft, ball, first.back() + static_cast<int>(i));
   return {{{ball.pole, 1.0}}, ball.lower, ball.lower_area};
+}
+
+TipMesh add_meshed_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
+                       const TipSpec& tip) {
+  const Vec2 axis = tip_axis(lever, tip);
+  const Vec3 root(axis.x(), axis.y(), mesh.levels.front());
+  const auto first = static_cast<int>(draft.nodes.size());
+  for (const Vec3& x : tip.solid->nodes) draft.add_node(root + x);
+  for (std::size_t e = 0; e < tip.solid->hexahedra.size(); ++e) {
+    SolidMesh::Hexahedron corners = tip.solid->hexahedra[e];
+    for (auto& corner : corners) corner += first;
+    draft.add_hexahedron(corners, tip.solid->part[e], HexFormulation::solid);
+  }
+  for (const int node : tip.solid->foot) tie_to_lever(draft, mesh, first + node);
+  return {area_shares(draft, tip.solid->end_faces, first), {}, {}};
 }
 
 }  // namespace
@@ -133,6 +152,7 @@ TipMesh add_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh
                 const TipSpec& tip) {
   if (tip.shape == Shape::none) return {on_lower_face(mesh, tip_axis(lever, tip)), {}, {}};
   if (tip.shape == Shape::sphere) return add_sphere(draft, lever, mesh, tip);
+  if (tip.shape == Shape::mesh) return add_meshed_tip(draft, lever, mesh, tip);
   return add_solid_tip(draft, lever, mesh, tip);
 }
 

@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 
+#include "components/solid.hpp"
+
 namespace pulvis::kernels {
 
 using Corners = Eigen::Matrix<double, 3, 8>;
@@ -25,6 +27,10 @@ using NodalVector = Eigen::Matrix<double, 24, 1>;
 using NodalMatrix = Eigen::Matrix<double, 24, 24>;
 using ShapeGradient = Eigen::Matrix<double, 8, 3>;  // dN_a / dxi_i
 using Modes = Eigen::Matrix<double, 6, 9>;
+using ModeVector = Eigen::Matrix<double, 9, 1>;
+using ModeMatrix = Eigen::Matrix<double, 9, 9>;
+using ModeCoupling = Eigen::Matrix<double, 9, 24>;
+using GeometricMatrix = Eigen::Matrix<double, 8, 8>;
 
 inline constexpr std::array<std::array<int, 2>, 6> voigt_pair{
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
@@ -50,12 +56,31 @@ inline ShapeGradient shape_gradient(const Eigen::Vector3d& xi) {
   return d;
 }
 
+// Derivative of a nodal field by xi_i: a sum of differences along the four edges that run that way. So what
+// both ends share, as top and bottom of a thin lever far from its clamp do, drops out before it is rounded:
+// a strain has the digits of the displacements' differences, not of the displacements.
+inline Eigen::Vector3d gradient_of(const Corners& values, const ShapeGradient& d, int i) {
+  static constexpr int edges[3][4][2] = {{{0, 1}, {3, 2}, {4, 5}, {7, 6}},
+                                         {{0, 3}, {1, 2}, {4, 7}, {5, 6}},
+                                         {{0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& [from, to] : edges[i]) sum += d(to, i) * (values.col(to) - values.col(from));
+  return sum;
+}
+
+inline Eigen::Matrix3d jacobian_of(const Corners& X, const ShapeGradient& d) {
+  Eigen::Matrix3d j;
+  for (int i = 0; i < 3; ++i) j.col(i) = gradient_of(X, d, i);
+  return j;
+}
+
 // Covariant strains e and their derivative b by the corners' displacements, at one point. Written in
 // u, not in the deformed places, so that tiny displacements keep all their digits.
 inline void covariant_strain(const Corners& X, const Corners& u, const ShapeGradient& d, int row,
                              Voigt& e, StrainRows& b) {
   const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
-  const Eigen::Vector3d Gi = X * d.col(i), Gj = X * d.col(j), Ui = u * d.col(i), Uj = u * d.col(j);
+  const Eigen::Vector3d Gi = gradient_of(X, d, i), Gj = gradient_of(X, d, j);
+  const Eigen::Vector3d Ui = gradient_of(u, d, i), Uj = gradient_of(u, d, j);
   const double twice = Gi.dot(Uj) + Gj.dot(Ui) + Ui.dot(Uj);
   const double share = i == j ? 0.5 : 1.0;
   e[row] = share * twice;
@@ -79,14 +104,15 @@ inline Voigt6 strain_transformation(const Eigen::Matrix3d& inverse) {
   return t;
 }
 
-inline Modes natural_modes(const Eigen::Vector3d& xi, bool thin) {
+inline Modes natural_modes(const Eigen::Vector3d& xi, HexFormulation formulation) {
   Modes m = Modes::Zero();
+  if (formulation == HexFormulation::standard) return m;
   m(0, 0) = xi[0];
   m(1, 1) = xi[1];
   m(2, 2) = xi[2];
   m(3, 3) = xi[0];
   m(3, 4) = xi[1];
-  if (thin) {
+  if (formulation == HexFormulation::plate) {
     m(2, 5) = xi[0] * xi[2];
     m(2, 6) = xi[1] * xi[2];
     m(2, 7) = xi[0] * xi[1] * xi[2];
@@ -141,11 +167,11 @@ struct HexPoint {
 
 inline HexPoint hex_point(const Corners& X, const Corners& u, const Eigen::Vector3d& xi,
                           const Voigt6& central, double central_determinant,
-                          const ThinShear* shear) {
+                          HexFormulation formulation, const ThinShear* shear) {
   HexPoint p;
   p.xi = xi;
   p.gradient = shape_gradient(xi);
-  const Eigen::Matrix3d jacobian = X * p.gradient;
+  const Eigen::Matrix3d jacobian = jacobian_of(X, p.gradient);
   p.volume = jacobian.determinant();
   p.transformation = strain_transformation(jacobian.inverse());
   Voigt e = Voigt::Zero();
@@ -161,13 +187,13 @@ inline HexPoint hex_point(const Corners& X, const Corners& u, const Eigen::Vecto
   p.strain = p.transformation * e;
   p.b.noalias() = p.transformation.lazyProduct(b);
   p.modes.noalias() =
-      (central_determinant / p.volume) * central.lazyProduct(natural_modes(xi, shear != nullptr));
+      (central_determinant / p.volume) * central.lazyProduct(natural_modes(xi, formulation));
   return p;
 }
 
 // Adds volume * s^ij dN_a/dxi_i dN_b/dxi_j, what the stress does to a rotating element.
 inline void add_geometric(const HexPoint& p, const Voigt& s, const ThinShear* shear,
-                          Eigen::Matrix<double, 8, 8>& g) {
+                          GeometricMatrix& g) {
   const auto add = [&](const ShapeGradient& d, int row, double stress) {
     const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
     const double share = i == j ? 0.5 : 1.0;
@@ -180,6 +206,46 @@ inline void add_geometric(const HexPoint& p, const Voigt& s, const ThinShear* sh
         p.volume * ThinShear::weight(k, p.xi) * s[ThinShear::row(k)]);
 }
 
+inline std::array<HexPoint, 8> hex_points(const Corners& X, const Corners& u,
+                                          HexFormulation formulation, const ThinShear* shear) {
+  const Eigen::Matrix3d middle = jacobian_of(X, shape_gradient(Eigen::Vector3d::Zero()));
+  const Voigt6 central = strain_transformation(middle.inverse());
+  std::array<HexPoint, 8> points;
+  for (std::size_t g = 0; g < 8; ++g)
+    points[g] = hex_point(X, u, Eigen::Vector3d(corner_sign[g]) / std::sqrt(3.0), central,
+                          middle.determinant(), formulation, shear);
+  return points;
+}
+
+// The modes' equations before anything is added; where there are no modes they stay solvable.
+inline ModeMatrix no_modes_yet(HexFormulation formulation) {
+  return formulation == HexFormulation::standard ? ModeMatrix(ModeMatrix::Identity())
+                                                 : ModeMatrix(ModeMatrix::Zero());
+}
+
+inline double least_volume(const std::array<HexPoint, 8>& points) {
+  double least = points[0].volume;
+  for (const HexPoint& p : points) least = std::min(least, p.volume);
+  return least;
+}
+
+// Adds a point's stress and its derivative c to the tangent, the modes left aside.
+inline void add_tangent(const HexPoint& p, const Voigt& stress, const Voigt6& c,
+                        const ThinShear* shear, NodalMatrix& tangent, GeometricMatrix& geometric) {
+  const StrainRows cb = p.volume * c.lazyProduct(p.b);
+  tangent.noalias() += p.b.transpose().lazyProduct(cb);
+  add_geometric(p, p.transformation.transpose() * stress, shear, geometric);
+}
+
+// Condenses the modes, whose equations' tangent is h, and puts the geometric part on the diagonals.
+inline void finish_tangent(const ModeCoupling& l, const Eigen::LLT<ModeMatrix>& h,
+                           const GeometricMatrix& geometric, NodalMatrix& tangent) {
+  tangent.noalias() -= l.transpose().lazyProduct(h.solve(l).eval());
+  for (int a = 0; a < 8; ++a)
+    for (int b = 0; b < 8; ++b)
+      tangent.block<3, 3>(3 * a, 3 * b).diagonal().array() += geometric(a, b);
+}
+
 struct HexResponse {
   NodalVector force = NodalVector::Zero();    // N, what holds the element in place
   NodalMatrix tangent = NodalMatrix::Zero();  // N/m
@@ -188,47 +254,35 @@ struct HexResponse {
 };
 
 inline HexResponse hex_response(const Corners& X, const Corners& u, double lambda, double mu,
-                                bool thin, bool with_tangent = true) {
-  const Eigen::Matrix3d middle = X * shape_gradient(Eigen::Vector3d::Zero());
-  const Voigt6 central = strain_transformation(middle.inverse());
+                                HexFormulation formulation, bool with_tangent = true) {
   const ThinShear sampled(X, u);
-  const ThinShear* shear = thin ? &sampled : nullptr;
+  const ThinShear* shear = formulation == HexFormulation::plate ? &sampled : nullptr;
   const Voigt6 c = elasticity(lambda, mu);
   HexResponse r;
+  const std::array<HexPoint, 8> points = hex_points(X, u, formulation, shear);
+  r.least_determinant = least_volume(points);
 
-  std::array<HexPoint, 8> points;
-  Eigen::Matrix<double, 9, 9> h = Eigen::Matrix<double, 9, 9>::Zero();
-  Eigen::Matrix<double, 9, 24> l = Eigen::Matrix<double, 9, 24>::Zero();
-  Eigen::Matrix<double, 9, 1> q = Eigen::Matrix<double, 9, 1>::Zero();
-  for (int g = 0; g < 8; ++g) {
-    HexPoint& p = points[static_cast<std::size_t>(g)];
-    p = hex_point(X, u, Eigen::Vector3d(corner_sign[g]) / std::sqrt(3.0), central,
-                  middle.determinant(), shear);
-    r.least_determinant = g == 0 ? p.volume : std::min(r.least_determinant, p.volume);
+  ModeMatrix h = no_modes_yet(formulation);
+  ModeCoupling l = ModeCoupling::Zero();
+  ModeVector q = ModeVector::Zero();
+  for (const HexPoint& p : points) {
     const Eigen::Matrix<double, 9, 6> mc = p.volume * p.modes.transpose().lazyProduct(c);
     h.noalias() += mc.lazyProduct(p.modes);
     if (with_tangent) l.noalias() += mc.lazyProduct(p.b);
     q.noalias() += mc.lazyProduct(p.strain);
   }
-  const Eigen::LLT<Eigen::Matrix<double, 9, 9>> h_factor(h);
-  const Eigen::Matrix<double, 9, 1> alpha = -h_factor.solve(q);
+  const Eigen::LLT<ModeMatrix> h_factor(h);
+  const ModeVector alpha = -h_factor.solve(q);
 
-  Eigen::Matrix<double, 8, 8> geometric = Eigen::Matrix<double, 8, 8>::Zero();
+  GeometricMatrix geometric = GeometricMatrix::Zero();
   for (const HexPoint& p : points) {
     const Voigt strain = p.strain + p.modes * alpha;
     const Voigt stress = c * strain;
     r.energy += 0.5 * p.volume * strain.dot(stress);
     r.force.noalias() += p.volume * p.b.transpose().lazyProduct(stress);
-    if (!with_tangent) continue;
-    const StrainRows cb = p.volume * c.lazyProduct(p.b);
-    r.tangent.noalias() += p.b.transpose().lazyProduct(cb);
-    add_geometric(p, p.transformation.transpose() * stress, shear, geometric);
+    if (with_tangent) add_tangent(p, stress, c, shear, r.tangent, geometric);
   }
-  if (!with_tangent) return r;
-  r.tangent.noalias() -= l.transpose().lazyProduct(h_factor.solve(l).eval());
-  for (int a = 0; a < 8; ++a)
-    for (int b = 0; b < 8; ++b)
-      r.tangent.block<3, 3>(3 * a, 3 * b).diagonal().array() += geometric(a, b);
+  if (with_tangent) finish_tangent(l, h_factor, geometric, r.tangent);
   return r;
 }
 

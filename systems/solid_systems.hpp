@@ -10,11 +10,16 @@ namespace pulvis {
 
 void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                    Read<Displacement> displacement, Read<LameConstants> elastic,
+                   Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
                    Write<ElementForce> force, Write<ElementTangent> tangent,
                    Write<ElementEnergy> energy);
 void element_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                    Read<Displacement> displacement, Read<LameConstants> elastic,
+                   Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
                    Write<ElementForce> force, Write<ElementEnergy> energy);
+void remember_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
+                         Read<Displacement> displacement, Read<LameConstants> elastic,
+                         Read<SolidYield> yield, Write<SolidMemory> memory);
 void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element, Write<SolidForce> force);
 void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
                    Write<BlockTangent> block);

@@ -33,6 +33,15 @@ std::vector<System> iteration(World& w, bool new_factors) {
   return list;
 }
 
+// What an equilibrium leaves behind for the next increment.
+std::vector<System> memory(World& w) {
+  std::vector<System> list;
+  if (w.has<ProbeNode>()) list.push_back(make_system(w, "remember_contact", remember_contact));
+  if (w.has<SolidYield>())
+    list.push_back(make_system(w, "remember_plasticity", remember_plasticity));
+  return list;
+}
+
 // Displacements of all nodes from those of the free ones.
 void expand(const SolidMesh& mesh, const double* free, double* all) {
   const auto nodes = static_cast<int>(mesh.unknown.size());
@@ -58,6 +67,11 @@ void add_solid_columns(World& world) {
   world.emplace<SolidEquations>();
 }
 
+void add_plastic_columns(World& world) {
+  world.add<SolidYield>();
+  world.add<SolidMemory>();
+}
+
 void add_probe_columns(World& world, std::size_t points) {
   world.add_table<ProbePoint>(points);
   world.add<ProbeNode>();
@@ -74,10 +88,8 @@ StaticSolver::StaticSolver(World& world)
       iterate_(iteration(world, true), world.chunks()),
       reuse_(iteration(world, false), world.chunks()),
       look_(evaluation(world, false), world.chunks()) {
-  if (world.has<ProbeNode>())
-    remember_ = std::make_unique<TaskGraph>(
-        std::vector<System>{make_system(world, "remember_contact", remember_contact)},
-        world.chunks());
+  if (auto list = memory(world); !list.empty())
+    remember_ = std::make_unique<TaskGraph>(std::move(list), world.chunks());
 }
 
 StaticSolver::~StaticSolver() = default;
@@ -101,25 +113,6 @@ std::vector<double> StaticSolver::respond(std::span<const double> forces) const 
   std::vector<double> all(forces.size());
   expand(mesh, u.data(), all.data());
   return all;
-}
-
-std::vector<double> StaticSolver::held_forces(std::span<const double> displacements) const {
-  const auto& mesh = world_.resource<SolidMesh>();
-  const double* tangent = world_.column<ElementTangent>().values();
-  std::vector<double> forces(displacements.size());
-  for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e) {
-    const double* k = tangent + ElementTangent::count * e;
-    const auto at = [&](int i) {
-      return static_cast<std::size_t>(3 * mesh.hexahedra[e][static_cast<std::size_t>(i / 3)] +
-                                      i % 3);
-    };
-    for (int i = 0; i < 24; ++i)
-      for (int j = 0; j <= i; ++j, ++k) {
-        forces[at(i)] += *k * displacements[at(j)];
-        if (i != j) forces[at(j)] += *k * displacements[at(i)];
-      }
-  }
-  return forces;
 }
 
 void StaticSolver::move(double share) {

@@ -34,6 +34,8 @@ struct NewtonReport {
 
 // Columns and resources that every solid needs; the mesh and the material are there already.
 void add_solid_columns(World& world);
+// Of a solid some of whose elements yield.
+void add_plastic_columns(World& world);
 // Of a probe of so many points; the target is there already.
 void add_probe_columns(World& world, std::size_t points);
 
@@ -48,15 +50,12 @@ class StaticSolver {
   // Of the last linearisation: displacements [3 nodes] by forces [3 nodes], held and hanging nodes
   // included.
   std::vector<double> respond(std::span<const double> forces) const;
-  // Forces [3 nodes] that the elements put on their nodes at small displacements [3 nodes], of the last
-  // linearisation, with the sign of what a held node receives from its holder.
-  std::vector<double> held_forces(std::span<const double> displacements) const;
   // Newton's method from the present displacements; they are left as they were where it fails, and so is
   // the target's height where a servo moves it.
   NewtonReport equilibrate(const NewtonSettings& settings = {});
   // Evaluates the forces, no tangent.
   void look() { look_.run(); }
-  // What the contact carries on to the next increment, from the present equilibrium.
+  // What contact and plasticity carry on to the next increment, from the present equilibrium.
   void remember();
 
   const GraphPlan& plan() const { return iterate_.plan(); }

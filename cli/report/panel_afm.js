@@ -32,7 +32,9 @@ addPanel({
     }
     host.append(element("div", {className: "scroll"}, table), element("p", {className: "note", textContent:
       `Lateral displacement of the tip's end: ${percent(calibration.share_twist)} twist, ` +
-      `${percent(calibration.share_bending)} lateral bending, ${percent(calibration.share_tip)} in the tip.`}));
+      `${percent(calibration.share_bending)} lateral bending, ${percent(calibration.share_tip)} in the tip. ` +
+      `Torsional stiffness ${digits(calibration.torsional_stiffness)} N m/rad; InvOLS ${digits(calibration.invols_normal)} m/V normal` +
+      (calibration.invols_lateral ? `, ${digits(calibration.invols_lateral)} m/V lateral.` : ".")}));
   },
 });
 
@@ -42,10 +44,12 @@ addPanel({
   draw({run}, host) {
     const table = element("table", {className: "figures"});
     const row = (cells, tag = "td") => table.insertRow().append(...cells.map(textContent => element(tag, {textContent})));
-    row(["action", "load", "half width W", "offset Δ", "W / load", "Δ / load"], "th");
+    row(["action", "load", "half width W", "offset Δ", "W / load", "Δ / load", "W, volts", "Δ, volts", "friction", "N/V"], "th");
     for (const loop of run.summary.loops) {
       row([String(loop.action), withUnit(loop.load, "N"), withUnit(loop.half_width, "N"), withUnit(loop.offset, "N"),
-           digits(loop.half_width / loop.load), digits(loop.offset / loop.load)]);
+           digits(loop.half_width / loop.load), digits(loop.offset / loop.load),
+           withUnit(loop.volts_half_width, "V"), withUnit(loop.volts_offset, "V"),
+           loop.friction ? digits(loop.friction) : "–", loop.sensitivity ? digits(loop.sensitivity) : "–"]);
     }
     host.append(element("div", {className: "scroll"}, table));
   },

@@ -28,7 +28,7 @@ TEST(AfmLever, TheBeamsLateralStiffnessIsTwistAndLateralBending) {
 
 TEST(AfmLever, TheClampHoldsWhatPressesOnTheTip) {
   const Calibration c = calibration_of(beam_with_tip);
-  EXPECT_LT(c.imbalance, 1e-5);  // the stiff tip: round-off by 1e7 N/m against 0.3 N/m
+  EXPECT_LT(c.imbalance, 1e-9);
   // Moment about the clamp: force at x = 439 um, 13.7 um under the middle plane.
   EXPECT_NEAR(c.normal.clamp_moment.y() / 439e-6, 1, 1e-5);
   EXPECT_NEAR(c.lateral.clamp_moment.z() / -439e-6, 1, 1e-5);
@@ -77,15 +77,42 @@ TEST(AfmLever, TheVAgreesWithNeumeisterAndDucker) {
   EXPECT_NEAR(c.bending_share, 0.025, 0.006);
 }
 
-// Up to 1,000 times longer than thick. (Thicker ones are no plates any more: 3EI/L^3 is not the law.)
-TEST(AfmLever, NothingLocksAtExtremeThickness) {
+// 200 to 4,400 times longer than thick. (Thicker ones are no plates any more: 3EI/L^3 is not the law.)
+TEST(AfmLever, NothingLocksAndNoDigitsAreLostAtExtremeThickness) {
   const std::string text = tipless_beam();
-  for (const double t : {0.44, 2.2}) {
+  for (const double t : {0.1, 0.44, 2.2}) {
     const double thick = t * 1e-6, w = 50e-6, l = 440e-6;
-    const double k =
-        calibration_of(text, {"lever.thickness=" + std::to_string(t) + " um"}).normal_stiffness;
-    EXPECT_NEAR(k / (200e9 * w * thick * thick * thick / (4 * l * l * l)), 1.012, 0.006) << t;
+    const Calibration c = calibration_of(text, {"lever.thickness=" + std::to_string(t) + " um"});
+    EXPECT_NEAR(c.normal_stiffness / (200e9 * w * thick * thick * thick / (4 * l * l * l)), 1.012,
+                0.003)
+        << t;
+    EXPECT_LT(c.imbalance, 1e-6) << t;
   }
+}
+
+TEST(AfmLever, AThickLeverOnACoarseMeshIsThatOnAFineOne) {
+  const std::string text = tipless_beam();
+  const double coarse = calibration_of(text, {"lever.thickness=10 um"}).normal_stiffness;
+  const double fine =
+      calibration_of(text, {"lever.thickness=10 um", "lever.aspect=0.5", "lever.layers=3"})
+          .normal_stiffness;
+  EXPECT_NEAR(coarse / fine, 1, 0.01);
+}
+
+// Two bonded layers: E I about the axis where their forces balance.
+TEST(AfmLever, ACoatedLeverIsATwoLayerBeam) {
+  const double e1 = 200e9, e2 = 80e9, t1 = 2e-6, t2 = 0.4e-6, w = 50e-6, l = 440e-6;
+  const double axis = 0.5 * e2 * t2 * (t1 + t2) / (e1 * t1 + e2 * t2);  // above the lever's middle
+  const double ei = w * (e1 * (t1 * t1 * t1 / 12 + t1 * axis * axis) +
+                         e2 * (t2 * t2 * t2 / 12 + t2 * std::pow(0.5 * (t1 + t2) - axis, 2)));
+  const std::string gold =
+      "[[material]]\nname = \"gold\"\nyoungs_modulus = \"80 GPa\"\npoissons_ratio = 0\n";
+  std::string text = tipless_beam();
+  text.insert(text.find("[[material]]"), gold);
+  const Calibration c =
+      calibration_of(text, {"material.lever.poissons_ratio=0", "lever.thickness=2 um",
+                            "lever.coating=gold", "lever.coating_thickness=0.4 um"});
+  EXPECT_NEAR(c.normal_stiffness / (3 * ei / (l * l * l)), 1, 0.002);
 }
 
 // Euler's elastica: a dead force on the end of a cantilever, P L^2/(E I) = 1, 2, 5, 10.

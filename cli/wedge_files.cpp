@@ -1,0 +1,109 @@
+#include "cli/wedge_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "cli/summary.hpp"
+#include "cli/write_text.hpp"
+#include "scenes/wedge_records.hpp"
+
+namespace pulvis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double degree = std::numbers::pi / 180;
+
+Json value_json(const wedge::Value& v) {
+  Json json{{"value", v.value}};
+  if (v.error) json["error"] = *v.error;
+  return json;
+}
+
+Json facet_json(const wedge::Facet& facet) {
+  Json json{{"slope", facet.slope},
+            {"loops", facet.loops},
+            {"loads", facet.loads},
+            {"half_width_by_load", value_json(facet.half_width)},
+            {"offset_by_load", value_json(facet.offset)}};
+  if (facet.adhesion) json["adhesion"] = value_json(*facet.adhesion);
+  if (facet.friction) json["friction"] = value_json(*facet.friction);
+  if (facet.sensitivity) json["sensitivity"] = value_json(*facet.sensitivity);
+  return json;
+}
+
+std::string text_of(const wedge::Value& v, double scale, const char* format_unit) {
+  if (!v.error) return fmt::format("{:.5g} {}", v.value * scale, format_unit);
+  return fmt::format("{:.5g} +- {:.2g} {}", v.value * scale, *v.error * scale, format_unit);
+}
+
+std::string cell(const std::optional<wedge::Value>& v) {
+  if (!v) return ",";
+  return v->error ? fmt::format("{:.9g},{:.4g}", v->value, *v->error)
+                  : fmt::format("{:.9g},", v->value);
+}
+
+std::string facets_csv(const wedge::Calibration& calibration) {
+  std::string text =
+      "slope [rad],loops [-],loads [-],half_width [V/N],half_width_error [V/N],offset [V/N],"
+      "offset_error [V/N],adhesion [N],adhesion_error [N],friction [-],friction_error [-],"
+      "sensitivity [N/V],sensitivity_error [N/V]\n";
+  for (const wedge::Facet& f : calibration.facets)
+    text +=
+        fmt::format("{:.9g},{},{},{},{},{},{},{}\n", f.slope, f.loops, f.loads, cell(f.half_width),
+                    cell(f.offset), cell(f.adhesion), cell(f.friction), cell(f.sensitivity));
+  return text;
+}
+
+}  // namespace
+
+wedge::Calibration wedge_calibration(const lab::Settings& settings) {
+  const lab::WedgeSpec& spec = settings.wedge;
+  const std::filesystem::path file = settings.file.parent_path() / spec.loops;
+  const auto loops = wedge::read_loops(file, spec.skip);
+  try {
+    return wedge::calibrate(loops, {spec.adhesion, spec.slope_error, spec.load_error});
+  } catch (const std::runtime_error& error) {
+    throw SceneError({{file.string(), 1, 1, "", "wedge", error.what()}});
+  }
+}
+
+void write_wedge(const std::filesystem::path& folder, const lab::LoadedSettings& loaded,
+                 const wedge::Calibration& calibration) {
+  Json json{{"title", loaded.settings.title},
+            {"version", program_version()},
+            {"commit", program_commit()},
+            {"friction", value_json(calibration.friction)},
+            {"sensitivity", value_json(calibration.sensitivity)}};
+  if (calibration.crosstalk) json["crosstalk"] = value_json(*calibration.crosstalk);
+  if (calibration.flat_friction) json["flat_friction"] = *calibration.flat_friction;
+  for (const wedge::Facet& facet : calibration.facets) json["facets"].push_back(facet_json(facet));
+  write_text(folder / "facets.csv", facets_csv(calibration));
+  write_text(folder / "reduce.toml", loaded.text);
+  write_text(folder / "summary.json",
+             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+std::string wedge_text(const wedge::Calibration& calibration) {
+  std::string text;
+  for (const wedge::Facet& f : calibration.facets) {
+    text +=
+        fmt::format("slope {:+.4g} deg, {} loops at {} loads: W {}, Delta {}\n", f.slope / degree,
+                    f.loops, f.loads, text_of(f.half_width, 1, "V/N"), text_of(f.offset, 1, "V/N"));
+    if (f.friction)
+      text += fmt::format("  friction {}, sensitivity {}\n", text_of(*f.friction, 1, ""),
+                          text_of(*f.sensitivity, 1e9, "nN/V"));
+    if (f.adhesion) text += fmt::format("  adhesion {}\n", text_of(*f.adhesion, 1e9, "nN"));
+  }
+  text += fmt::format("friction {}\nlateral sensitivity {}\n", text_of(calibration.friction, 1, ""),
+                      text_of(calibration.sensitivity, 1e9, "nN/V"));
+  if (calibration.crosstalk)
+    text += fmt::format("crosstalk of the load {} was taken off; friction on the flat {:.5g}\n",
+                        text_of(*calibration.crosstalk, 1, "V/N"), *calibration.flat_friction);
+  return text;
+}
+
+}  // namespace pulvis

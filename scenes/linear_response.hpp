@@ -1,0 +1,26 @@
+// The solid's answer to small forces, at rest.
+//
+// The factors of the stiffness lose about 1e-16 (L/t)^4 of a lever's bending: the numbers of the matrix are
+// those of its membrane. Forces that the elements find from displacements lose far less
+// (systems/solid_kernel.hpp), so the answer is corrected by what they leave unbalanced: iterative refinement.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/world.hpp"
+#include "systems/static_solver.hpp"
+
+namespace pulvis {
+
+struct LinearResponse {
+  std::vector<double> displacements;  // [3 nodes] m
+  std::vector<double>
+      forces;  // [3 nodes] N, what holds the elements: of held nodes, their holder's
+};
+
+// To forces [3 nodes]. The solver must have been linearised at rest; the world's displacements are used and
+// left at rest.
+LinearResponse linear_response(World& world, StaticSolver& solver, std::span<const double> forces);
+
+}  // namespace pulvis

@@ -1,0 +1,29 @@
+// Tips and probes that were meshed elsewhere (Gmsh) and stand under a lever of Pulvis's own.
+//
+// In the file z = 0 is the lever's lower face, the tip stands below it, its axis is x = y = 0. Groups: the
+// volumes "tip" and, where there is one, "glue"; the surfaces "foot", in z = 0, and "end", where forces act.
+#pragma once
+
+#include <memory>
+
+#include "scenes/afm_scene.hpp"
+#include "scenes/problem.hpp"
+#include "scenes/solid_draft.hpp"
+#include "scenes/table_reader.hpp"
+
+namespace pulvis {
+
+struct TipSolid {
+  std::vector<Vec3> nodes;  // m
+  std::vector<SolidMesh::Hexahedron> hexahedra;
+  std::vector<SolidPart> part;                // [hexahedra]
+  std::vector<int> foot;                      // nodes
+  std::vector<std::array<int, 4>> end_faces;  // nodes
+  double height = 0;                          // m, to the lowest point of the end
+  double reach = 0;                           // m, of the foot from the axis, along x or y
+};
+
+// Reads the file of a tip of shape "mesh" into it; anything wrong is a problem.
+void load_meshed_tip(Scene& scene, const schema::Origins& origins, Problems& problems);
+
+}  // namespace pulvis

@@ -1,0 +1,62 @@
+// Wedge calibration of a simulated microscope: friction and the detector's sensitivity that were put into it come
+// back out of its volts, from one load and from several.
+#include <cmath>
+
+#include "scenes/afm_loop.hpp"
+#include "tests/afm/lever.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr const char* two_loads = R"([surface]
+shape = "plane"
+friction = 0.1
+incline = "-12.5 deg"
+[[action]]
+kind = "press"
+force = "60 nN"
+increments = 3
+[[action]]
+kind = "scan"
+distance = "4 nm"
+set_point = "force"
+increments = 12
+[[action]]
+kind = "press"
+force = "100 nN"
+increments = 3
+[[action]]
+kind = "scan"
+distance = "4 nm"
+set_point = "force"
+increments = 12
+)";
+
+TEST(AfmWedge, FrictionAndSensitivityComeBackOutOfTheVolts) {
+  const Scene scene =
+      afm_scene(std::string(beam_with_tip) + two_loads, {"detector.lateral_gain=2e5 V/rad"});
+  AfmSimulation simulation(scene);
+  // Lateral force by volts, as a small lateral force tells it.
+  const Calibration c = simulation.calibrate();
+  const double sensitivity = 1 / (2e5 * std::abs(c.lateral.spot.lateral));
+  AfmHistory history;
+  simulation.run([&](double time, const std::vector<double>& row) {
+    history.times.push_back(time);
+    history.rows.push_back(row);
+    return true;
+  });
+  const auto loops = friction_loops(scene, history);
+  ASSERT_EQ(loops.size(), 2u);
+  for (const FrictionLoop& loop : loops) {
+    EXPECT_NEAR(loop.friction.value_or(0), 0.1, 0.001);
+    EXPECT_NEAR(std::abs(loop.sensitivity.value_or(0)) / sensitivity, 1, 0.01);
+  }
+  const auto all = calibrate_wedge(scene, loops);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->facets.front().loads, 2);
+  EXPECT_NEAR(all->friction.value, 0.1, 0.001);
+  EXPECT_NEAR(std::abs(all->sensitivity.value) / sensitivity, 1, 0.01);
+}
+
+}  // namespace
+}  // namespace pulvis
