@@ -9,6 +9,7 @@
 namespace pulvis {
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
+  errno = 0;
   std::ofstream file(path, std::ios::binary);
   file << text;
   if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
