@@ -95,7 +95,7 @@ void table(Input input) {
 void height_map(Input input) {
   const fs::path file = file_of(input, "map.csv");
   try {
-    read_height_map(file);
+    read_height_map(file, "");
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::runtime_error&) {
