@@ -114,7 +114,8 @@ TEST(RoughProfile, ComesFromTheScenesSeed) {
 class MeasuredProfile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / "measured_profile";
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("profile_") + test->name());
     std::filesystem::create_directories(folder_);
     std::ifstream scene(std::string(PULVIS_SOURCE_DIR) +
                         "/scenes/studies/scenes/shear-regular-held.toml");
