@@ -1,5 +1,5 @@
 // Every shipped scene, run to its end (large ones: a little): energies balance, dissipation never goes back, nothing goes deep.
-// The extreme ones say themselves what must hold: extreme_test.cpp.
+// The extreme ones say themselves what must hold: expectations_run_test.cpp.
 #include <gtest/gtest.h>
 
 #include <filesystem>
