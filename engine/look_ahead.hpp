@@ -18,6 +18,7 @@ class LookAhead {
   void add(std::span<const std::byte> memory) {
     if (!memory.empty() && count_ < most) parts_[count_++] = memory;
   }
+  bool empty() const { return count_ == 0; }
   // Returns how many lines it asked for.
   int fetch() {
     int line = 0;
@@ -38,10 +39,22 @@ class LookAhead {
   std::size_t count_ = 0, at_ = 0;
 };
 
-// The chunk of a system that computes longer than it loads: it calls look_ahead() once an element, or as
-// often. What is asked for comes from the declarations of the systems after it; see TaskGraph.
+// The chunk of a system that computes longer than it loads. What is asked for comes from the declarations of
+// the systems after it; see TaskGraph.
 struct BusyChunk : Chunk {
-  int look_ahead() const { return ahead != nullptr ? ahead->fetch() : 0; }
+  // Calls body(i) for 0 <= i < elements and looks ahead meanwhile. Where all is in the caches the loop is one that
+  // knows nothing of this: the call in it would cost a tenth.
+  template <class Body>
+  void for_elements(int elements, const Body& body) const {
+    if (ahead == nullptr) {
+      for (int i = 0; i < elements; ++i) body(i);
+    } else {
+      for (int i = 0; i < elements; ++i) {
+        ahead->fetch();
+        body(i);
+      }
+    }
+  }
 };
 
 }  // namespace pulvis

@@ -194,7 +194,7 @@ TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transie
       tbb::parallel_for(0, chunks, [&](int index) {
         LookAhead list = ahead.list(index, chunks);
         const Chunk chunk{index, dropped ? tbb::this_task_arena::current_thread_index() : -1,
-                          &list};
+                          list.empty() ? nullptr : &list};
         for (const std::size_t system : members) flow->run(system, chunk);
       });
     };

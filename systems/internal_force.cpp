@@ -89,8 +89,7 @@ void chunk_force(BusyChunk chunk, const Views<F>& views, const ChunkView<Positio
   for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n)
     f(Row<Node>(n), 0) = f(Row<Node>(n), 1) = Lane{};
 
-  for (int i = 0; i < shape.elements(); ++i) {
-    chunk.look_ahead();
+  chunk.for_elements(shape.elements(), [&](int i) {
     const Quad& quad = shape.quads[static_cast<std::size_t>(i)];
     const auto flux = stress_flux(views, quad_map<F::points>(x, quad), shape, Row<Element>(i));
     const auto out = kernels::node_forces(flux, 0.25 * thickness);
@@ -98,7 +97,7 @@ void chunk_force(BusyChunk chunk, const Views<F>& views, const ChunkView<Positio
       f(quad[k], 0) += out.x[k];
       f(quad[k], 1) += out.y[k];
     }
-  }
+  });
 }
 
 }  // namespace

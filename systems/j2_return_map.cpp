@@ -122,16 +122,11 @@ template <class F>
     const Bending bending{hourglass->chunk(chunk), plastic->chunk(chunk),
                           (1.0 / 3.0) * modulus / shear, 3.0 * shear / modulus, 1.0 / modulus};
     Lane spent{};
-    for (int i = 0; i < shape.elements(); ++i) {
-      chunk.look_ahead();
-      spent += return_element(v, bending, shape, Row<Element>(i));
-    }
+    chunk.for_elements(shape.elements(),
+                       [&](int i) { spent += return_element(v, bending, shape, Row<Element>(i)); });
     work->chunk(chunk)(particle) += spent * bodies->thickness;
   } else {
-    for (int i = 0; i < shape.elements(); ++i) {
-      chunk.look_ahead();
-      return_element(v, shape, Row<Element>(i));
-    }
+    chunk.for_elements(shape.elements(), [&](int i) { return_element(v, shape, Row<Element>(i)); });
   }
 }
 template decltype(j2_return_map<FourPoint>) j2_return_map<FourPoint>;

@@ -287,8 +287,9 @@ TEST_F(TaskGraphTest, BusySystemLooksAheadToWhatOthersOfItsPassTouch) {
   ASSERT_TRUE(busy.busy);
   std::vector<int> lines(chunks);
   busy.run = [&](Chunk c) {
+    if (c.ahead == nullptr) return;
     for (int more = -1; more != 0;)
-      lines[static_cast<std::size_t>(c.index)] += more = BusyChunk{c}.look_ahead();
+      lines[static_cast<std::size_t>(c.index)] += more = c.ahead->fetch();
   };
   const auto bytes = [&](TypeKey key) {
     return static_cast<int>(world.find(key)->of_chunk(0).size());
