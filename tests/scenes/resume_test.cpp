@@ -272,6 +272,7 @@ for i in range(600):
     try:
         with h5py.File('watched/run.h5', 'r') as f:
             for name, frame in f['frames'].items():
+                if frame is None: raise KeyError(name)  # h5py's way to say that a link leads nowhere yet
                 assert frame.attrs['complete'] == 1, name
                 assert frame['position'][...].shape[1] == 2, name
             seen.add(len(f['frames']))
