@@ -13,17 +13,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 out=${3:-$work/reduced}
 
-browse() {  # browse OPTION...
-  timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
-    --disable-background-networking --disable-component-update --disable-sync \
-    --user-data-dir="$work/profile" --virtual-time-budget=10000 --enable-logging=stderr \
-    --window-size=1200,2300 "$@" "file://$out/report.html"
-}
-
-fail() {
-  echo "FAILED: $1" >&2
-  exit 1
-}
+source "$(dirname "$0")/browser.sh"
 
 mkdir "$work/sim"
 cat >"$work/sim/history.csv" <<'CSV'
@@ -34,14 +24,12 @@ time [s],tool/target/position_x [m],tool/target/force_x [N],tool/target/force_y 
 CSV
 "$pulvis" reduce "$source_dir/scenes/lab/reduce.toml" --simulation "$work/sim" --overwrite -o "$out" \
   >"$work/out.txt" || fail "the reduction: $(tail -5 "$work/out.txt")"
-browse --dump-dom >"$work/page.html" 2>"$work/log.txt" || fail "chromium: $(tail -3 "$work/log.txt")"
-if grep ':CONSOLE' "$work/log.txt"; then fail "the console has messages"; fi
-body=$(grep -o '<body[^>]*>' "$work/page.html" | head -1)
+body=$(body_of reduction "$out/report.html" 1200,2300 ready)
 [[ $body != *data-error* ]] || fail "$body"
 [[ $body == *'data-ready="1"'* && $body == *'data-charts="5"'* ]] || fail "not ready: $body"
 drawn=$(grep -o 'class="plot"' "$work/page.html" | wc -l)
 [[ $drawn -eq 5 ]] || fail "$drawn charts on the page, not 5"
 grep -q 'simulation sim' "$work/page.html" || fail "the simulation is not on the page"
 grep -q '<td>mean of the runs</td>' "$work/page.html" || fail "no mean of the runs"
-browse --screenshot="$out/report.png" >/dev/null 2>&1
+picture_of "$out/report.html" 1200,2300 "$out/report.png"
 echo "ok: reduction"

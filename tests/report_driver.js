@@ -12,6 +12,18 @@ const canvas = () => document.querySelector("canvas.picture");
 const drawn = () => canvas() ? canvas().dataset.drawn : "";
 const drawnAs = wanted => until(() => drawn() === wanted);
 
+// The page draws anew when it has found its width (fonts, a scroll bar), and says so in no attribute: ten frames of
+// the browser in a row, not a time, without another width. A busy machine renders few frames in a time.
+async function widthFound() {
+  const rendered = () => new Promise(done => requestAnimationFrame(() => setTimeout(done, 0)));
+  for (let same = 0, before = 0, i = 0; same < 10 && i < 400; ++i) {
+    await rendered();
+    const host = canvas().parentElement.clientWidth;
+    same = host === before ? same + 1 : 0;
+    before = host;
+  }
+}
+
 // Of the pixels, not of what the page says it has drawn.
 function hashOf(picture) {
   const copy = new OffscreenCanvas(picture.width, picture.height).getContext("2d", {willReadFrequently: true});
@@ -39,7 +51,7 @@ async function drive() {
   const slider = document.getElementById("frame"), last = Number(slider.max), field = document.getElementById("field").value;
   const at = (frame, what = field) => `${frame} ${what}`;
   await drawnAs(at(last));
-  await new Promise(done => setTimeout(done, 300));  // the page has found its width
+  await widthFound();
   const first = hashOf(canvas());
   if (last > 0) {
     slider.value = Math.floor(last / 2);

@@ -15,35 +15,18 @@ trap 'rm -rf "$work"' EXIT
 reports=${4:-$work/reports}
 mkdir -p "$reports"
 
-browse() {  # browse PAGE SIZE OPTION...
-  timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
-    --disable-background-networking --disable-component-update --disable-sync \
-    --host-resolver-rules='MAP * ~NOTFOUND' --user-data-dir="$work/profile" \
-    --virtual-time-budget=60000 --enable-logging=stderr --window-size="$2" "${@:3}" "file://$1"
-}
-
-fail() {
-  echo "FAILED: $1" >&2
-  exit 1
-}
-
-body_of() {  # body_of NAME PAGE SIZE: the <body> tag of the page after its scripts
-  browse "$2" "$3" --dump-dom >"$work/page.html" 2>"$work/log.txt" || fail "$1: chromium: $(tail -3 "$work/log.txt")"
-  if grep ':CONSOLE' "$work/log.txt"; then fail "$1: the console has messages"; fi
-  grep -o '<body[^>]*>' "$work/page.html" | head -1
-}
+source "$(dirname "$0")/browser.sh"
 
 # check NAME [QUESTION...]: the report of that folder is driven, and each question answered with true
 check() {
-  local name=$1 page=$work/driven.html body question
+  local name=$1 body question
   shift
-  { cat "$reports/$name/report.html"; echo '<script>'; cat "$source_dir/tests/report_driver.js"; echo '</script>'; } >"$page"
-  body=$(body_of "$name" "$page" 1200,2000)
+  body=$(body_of "$name" "$reports/$name/report.html" 1200,2000 driven "$source_dir/tests/report_driver.js")
   [[ $body != *data-error* && $body != *data-driver-error* && $body != *data-violation* ]] || fail "$name: $body"
   [[ $body == *'data-ready="1"'* && $body == *'data-driven="1"'* ]] || fail "$name: not ready: $body"
   [[ $body == *'data-network="0"'* ]] || fail "$name: something was loaded: $body"
   for question in "$@"; do [[ $body == *"data-$question=\"true\""* ]] || fail "$name: not $question: $body"; done
-  browse "$reports/$name/report.html" 1200,2000 --screenshot="$reports/$name/report.png" >/dev/null 2>&1
+  picture_of "$reports/$name/report.html" 1200,2000 "$reports/$name/report.png"
   echo "ok: $name"
 }
 
@@ -68,11 +51,11 @@ check lever "${everything[@]}"
 check ShowsTheCurvesOfARunWithoutFrames has-curves
 
 "$pulvis" report "$reports/compaction" "$reports/StaysSmall" -o "$work/comparison.html" >/dev/null || fail "report A B"
-body=$(body_of comparison "$work/comparison.html" 1200,2000)
+body=$(body_of comparison "$work/comparison.html" 1200,2000 ready)
 [[ $body == *'data-ready="1"'* && $body == *'data-views="2"'* ]] || fail "comparison: $body"
 [[ $body =~ data-lines=\"([0-9]+)\" && ${BASH_REMATCH[1]} -ge 4 ]] || fail "comparison: too few curves: $body"
 echo "ok: comparison"
 
-body=$(body_of phone "$reports/compaction/report.html" 500,900)
+body=$(body_of phone "$reports/compaction/report.html" 500,900 ready)
 [[ $body == *'data-ready="1"'* && $body != *data-error* ]] || fail "phone width: $body"
 echo "ok: phone width"

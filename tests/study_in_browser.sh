@@ -14,17 +14,7 @@ trap 'rm -rf "$work"' EXIT
 study=${3:-$work}/study
 mkdir -p "$study"
 
-fail() {
-  echo "FAILED: $1" >&2
-  exit 1
-}
-
-browse() {  # browse OPTION...
-  timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
-    --disable-background-networking --disable-component-update --disable-sync \
-    --user-data-dir="$work/profile" --virtual-time-budget=10000 --enable-logging=stderr \
-    --window-size=1200,2400 "$@" "file://$study/report.html"
-}
+source "$(dirname "$0")/browser.sh"
 
 cat >"$work/study.toml" <<TOML
 scene = "$scene"
@@ -39,14 +29,12 @@ contact.friction = [0.1, 0.3]
 TOML
 "$pulvis" study "$work/study.toml" -o "$study" >"$work/log.txt" || fail "the study: $(tail -3 "$work/log.txt")"
 
-browse --dump-dom >"$work/page.html" 2>"$work/browser.txt" || fail "chromium: $(tail -3 "$work/browser.txt")"
-if grep ':CONSOLE' "$work/browser.txt"; then fail "the console has messages"; fi
-body=$(grep -o '<body[^>]*>' "$work/page.html" | head -1)
+body=$(body_of study "$study/report.html" 1200,2400 ready)
 [[ $body == *'data-ready="1"'* ]] || fail "not ready: $body"
 [[ $body == *'data-drawn-lines="6"'* && $(grep -o 'class="curve" d="M' "$work/page.html" | wc -l) -eq 6 ]] || fail "not 3 charts of 2 variations: $body"
 grep -q 'href="friction%3D0.1%2Cseed%3D2/report.html"' "$work/page.html" || fail "no link to a run"
 [[ -f $study/friction=0.1,seed=2/report.html ]] || fail "the link leads nowhere"
-browse --screenshot="$study/report.png" >/dev/null 2>&1
+picture_of "$study/report.html" 1200,2400 "$study/report.png"
 /usr/bin/python3 - "$study/report.png" <<'PYTHON' || fail "a curve or its colour is missing"
 import sys
 from matplotlib.image import imread
