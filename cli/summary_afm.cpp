@@ -56,6 +56,7 @@ Json calibration_json(const Calibration& c) {
 Json loop_json(const FrictionLoop& loop) {
   Json json{{"action", loop.action},
             {"load", loop.load},
+            {"slides", loop.slides},
             {"forth", loop.forth},
             {"back", loop.back},
             {"half_width", loop.half_width},
@@ -105,6 +106,11 @@ std::string loop_text(const FrictionLoop& loop) {
       "Delta/L {:.5f}\n",
       loop.action, loop.load, loop.half_width, loop.offset, loop.half_width / loop.load,
       loop.offset / loop.load);
+  if (!loop.full())
+    text += fmt::format(
+        "  the probe sticks in {:.0f}% of the half of a way that W is taken from: a longer scan "
+        "is needed\n",
+        100 * (1 - loop.slides));
   if (loop.friction)
     text += fmt::format("  wedge calibration of the detector: friction {:.5f}, {:.5g} N/V\n",
                         *loop.friction, *loop.sensitivity);

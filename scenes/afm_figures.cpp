@@ -49,6 +49,8 @@ const std::vector<LoopFigure>& loop_figures() {
   using L = const FrictionLoop&;
   static const std::vector<LoopFigure> all{
       {{"loop/load", "N", "mean vertical force"}, [](L l) { return l.load; }},
+      {{"loop/slides", "-", "of the touching points, how many slide where W is taken"},
+       [](L l) { return l.slides; }},
       {{"loop/forth", "N", "mean lateral force that draws the probe forth"},
        [](L l) { return l.forth; }},
       {{"loop/back", "N", "the same on the way back"}, [](L l) { return l.back; }},

@@ -31,7 +31,7 @@ std::optional<double> friction(double half_width, double offset, double slope) {
 namespace {
 
 struct Means {
-  double force = 0, load = 0, volts = 0;
+  double force = 0, load = 0, volts = 0, slides = 0;
 };
 
 Means means(const AfmHistory& history, const std::string& force, const std::string& volts,
@@ -43,10 +43,11 @@ Means means(const AfmHistory& history, const std::string& force, const std::stri
     sum.force -= history.value(i, force);  // what draws the probe is the opposite of what holds it
     sum.load += history.value(i, "probe/force_z");
     sum.volts -= history.value(i, volts);
+    sum.slides += history.value(i, "contact/slides");
     ++samples;
   }
   const double n = std::max(samples, 1);
-  return {sum.force / n, sum.load / n, sum.volts / n};
+  return {sum.force / n, sum.load / n, sum.volts / n, sum.slides / n};
 }
 
 bool on_incline(const TargetSpec& target, const ActionSpec& scan) {
@@ -60,7 +61,8 @@ std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
                                                   const std::vector<FrictionLoop>& loops) {
   std::vector<wedge::Loop> seen;
   for (const FrictionLoop& loop : loops)
-    if (on_incline(*scene.afm->target, scene.afm->actions[static_cast<std::size_t>(loop.action)]))
+    if (loop.full() &&
+        on_incline(*scene.afm->target, scene.afm->actions[static_cast<std::size_t>(loop.action)]))
       seen.push_back({scene.afm->target->incline,
                       loop.load,
                       loop.volts_half_width,
@@ -99,6 +101,7 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     FrictionLoop loop;
     loop.action = static_cast<int>(a);
     loop.load = 0.5 * (forth.load + back.load);
+    loop.slides = std::min(forth.slides, back.slides);
     loop.forth = forth.force;
     loop.back = back.force;
     loop.half_width = 0.5 * sign * (forth.force - back.force);
@@ -106,7 +109,7 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     loop.volts_half_width = 0.5 * sign * (forth.volts - back.volts);
     loop.volts_offset = 0.5 * (forth.volts + back.volts);
     const TargetSpec& target = *scene.afm->target;
-    if (on_incline(target, action)) {
+    if (loop.full() && on_incline(target, action)) {
       loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline);
       if (loop.friction) {
         const double s = std::sin(target.incline), c = std::cos(target.incline);

@@ -27,13 +27,17 @@ std::optional<double> friction(double half_width, double offset, double slope);
 }  // namespace wedge
 
 struct FrictionLoop {
-  int action = 0;                     // the scan's position in the programme
-  double load = 0;                    // N, mean vertical force while sliding
+  int action = 0;   // the scan's position in the programme
+  double load = 0;  // N, mean vertical force
+  // -, of the touching points, how many slide where the means are taken. Below 1 the scan was too short for the
+  // probe to let go: W is not that of friction, and nothing is recovered from it.
+  double slides = 0;
   double forth = 0, back = 0;         // N, mean force along the scan that draws the probe
   double half_width = 0, offset = 0;  // N, W and Delta
   double volts_half_width = 0, volts_offset = 0;  // V, of the lateral detector
   std::optional<double> friction;     // recovered from the volts, on an incline along the scan
   std::optional<double> sensitivity;  // N/V, recovered with it
+  bool full() const { return slides > 1 - 1e-3; }
 };
 
 struct AfmHistory {

@@ -181,10 +181,10 @@ class Reader {
       std::size_t own = 0;
       auto block = line("Nodes");
       take(block, "Nodes", dimension, entity, parametric, own);
-      std::vector<std::size_t> tags(own);
-      for (auto& tag : tags) {
+      std::vector<std::size_t> tags;  // grows line by line: the count is only what the file claims
+      for (std::size_t n = 0; n < own; ++n) {
         auto one = line("Nodes");
-        take(one, "Nodes", tag);
+        take(one, "Nodes", tags.emplace_back());
       }
       for (const std::size_t tag : tags) {
         auto one = line("Nodes");

@@ -52,5 +52,8 @@ addPanel({
            loop.friction ? digits(loop.friction) : "–", loop.sensitivity ? digits(loop.sensitivity) : "–"]);
     }
     host.append(element("div", {className: "scroll"}, table));
+    const sticks = run.summary.loops.filter(loop => loop.slides < 1 - 1e-3).map(loop => loop.action);
+    if (sticks.length) host.append(element("p", {className: "note", textContent:
+      `In action ${sticks.join(", ")} the probe still sticks where W is taken from: a longer scan is needed.`}));
   },
 });

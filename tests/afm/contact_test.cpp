@@ -9,23 +9,8 @@
 namespace pulvis {
 namespace {
 
-constexpr const char* press_and_loop = R"(
-[[action]]
-kind = "press"
-force = "100 nN"
-increments = 3
-
-[[action]]
-kind = "scan"
-distance = "4 nm"
-set_point = "force"
-increments = 20
-)";
-
-std::string on_incline(const std::string& lever, double degrees, double friction,
-                       const std::string& actions = press_and_loop) {
-  return lever + "[surface]\nshape = \"plane\"\nfriction = " + std::to_string(friction) +
-         "\nincline = \"" + std::to_string(degrees) + " deg\"\n" + actions;
+std::string on_incline(const std::string& lever, double degrees, double friction) {
+  return lever + inclined_plane(degrees, friction) + press_and_scan(20);
 }
 
 struct Slope {
@@ -84,6 +69,22 @@ TEST(Wedge, AProbeThatHardlySlidesUphillStillDoes) {
   const FrictionLoop loop = friction_loops(scene, history_of(scene)).front();
   EXPECT_NEAR(loop.forth / loop.load, 19, 0.1);
   EXPECT_NEAR(loop.back / loop.load, 1 / 19.0, 0.001);
+}
+
+// A lever drawn by less than what friction of 1 holds it back (1.4 nm each way): the loop is told, and no friction
+// is read out of it.
+TEST(Wedge, ALoopOfAProbeThatSticksGivesNoFriction) {
+  const auto loop_of = [](const char* distance) {
+    const Scene scene = afm_scene(on_incline(beam_with_tip, 14, 1),
+                                  {std::string("action[1].distance=") + distance});
+    return friction_loops(scene, history_of(scene)).front();
+  };
+  const FrictionLoop sticks = loop_of("4 nm"), slides = loop_of("20 nm");
+  EXPECT_LT(sticks.slides, 0.9);
+  EXPECT_FALSE(sticks.friction);
+  EXPECT_FALSE(sticks.sensitivity);
+  EXPECT_GT(slides.slides, 1 - 1e-3);
+  EXPECT_NEAR(slides.half_width / slides.load, 1.13257, 0.005 * 1.13257);
 }
 
 TEST(Wedge, FrictionComesBackOutOfTheFormula) {

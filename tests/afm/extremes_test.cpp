@@ -4,24 +4,8 @@
 namespace pulvis {
 namespace {
 
-constexpr const char* loop_on_a_slope = R"(
-[surface]
-shape = "plane"
-friction = 0.1
-incline = "14 deg"
-[[action]]
-kind = "press"
-force = "100 nN"
-increments = 3
-[[action]]
-kind = "scan"
-distance = "4 nm"
-set_point = "force"
-increments = 8
-)";
-
 void expect_the_formula(const std::string& lever, const std::vector<std::string>& overrides) {
-  const Scene scene = afm_scene(lever + loop_on_a_slope, overrides);
+  const Scene scene = afm_scene(lever + inclined_plane(14, 0.1) + press_and_scan(8), overrides);
   const FrictionLoop loop = friction_loops(scene, history_of(scene)).front();
   EXPECT_NEAR(loop.half_width / loop.load, 0.106283, 0.005 * 0.106283);
   EXPECT_NEAR(loop.offset / loop.load, 0.251978, 0.005 * 0.251978);

@@ -139,6 +139,10 @@ TEST_F(GmshTip, WhatCannotBeUsedIsRefusedWithItsLineAndWhatIsAllowed) {
               HasSubstr("is folded"));
   EXPECT_THAT(refusal(good.substr(0, good.rfind('\n', good.size() / 2) + 1)),
               HasSubstr("ends too early"));
+  // A count is only what the file claims: no memory is taken for it.
+  EXPECT_THAT(refusal(replaced(version_4(), fmt::format("3 1 0 {}\n", Block::nodes()),
+                               "3 1 0 1000000000000000\n")),
+              HasSubstr("Nodes"));
   EXPECT_THAT(refusal("no mesh"), HasSubstr("allowed: an MSH file"));
 }
 

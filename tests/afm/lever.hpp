@@ -38,6 +38,19 @@ foot = "2 um"
 set_back = "1 um"
 )";
 
+// Pressed to a force in three steps, then a way forth and back at that force.
+inline std::string press_and_scan(int increments, const std::string& force = "100 nN") {
+  return "[[action]]\nkind = \"press\"\nforce = \"" + force +
+         "\"\nincrements = 3\n"
+         "[[action]]\nkind = \"scan\"\ndistance = \"4 nm\"\nset_point = \"force\"\nincrements = " +
+         std::to_string(increments) + "\n";
+}
+
+inline std::string inclined_plane(double degrees, double friction) {
+  return "[surface]\nshape = \"plane\"\nfriction = " + std::to_string(friction) + "\nincline = \"" +
+         std::to_string(degrees) + " deg\"\n";
+}
+
 inline std::string tipless_beam() {
   const std::string text(beam_with_tip);
   return text.substr(0, text.find("[tip]"));

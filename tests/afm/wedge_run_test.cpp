@@ -8,33 +8,10 @@
 namespace pulvis {
 namespace {
 
-constexpr const char* two_loads = R"([surface]
-shape = "plane"
-friction = 0.1
-incline = "-12.5 deg"
-[[action]]
-kind = "press"
-force = "60 nN"
-increments = 3
-[[action]]
-kind = "scan"
-distance = "4 nm"
-set_point = "force"
-increments = 12
-[[action]]
-kind = "press"
-force = "100 nN"
-increments = 3
-[[action]]
-kind = "scan"
-distance = "4 nm"
-set_point = "force"
-increments = 12
-)";
-
 TEST(AfmWedge, FrictionAndSensitivityComeBackOutOfTheVolts) {
-  const Scene scene =
-      afm_scene(std::string(beam_with_tip) + two_loads, {"detector.lateral_gain=2e5 V/rad"});
+  const Scene scene = afm_scene(std::string(beam_with_tip) + inclined_plane(-12.5, 0.1) +
+                                    press_and_scan(12, "60 nN") + press_and_scan(12, "100 nN"),
+                                {"detector.lateral_gain=2e5 V/rad"});
   AfmSimulation simulation(scene);
   // Lateral force by volts, as a small lateral force tells it.
   const Calibration c = simulation.calibrate();
