@@ -84,10 +84,16 @@ struct PointForce : Component<At, double, 2 * edge_points> {
                                       "on the sampled edge: x y of every point"};
 };
 
-// Closest point of each Gauss point on the other particle's curve: edge number + parameter in it.
+// Where the curves of a row lie in the list of control points: its particles' shapes need not be asked.
+struct ContactPlace : Component<Contact, std::int32_t, 2> {
+  static constexpr ComponentInfo info{
+      "place", "-", "control points: first of the sampled edge, first of the other outline"};
+};
+// Closest point of each Gauss point on the other particle's curve.
 struct ClosestPoint : Component<Contact, double, edge_points> {
   static constexpr ComponentInfo info{"closest_point", "-",
-                                      "edge number + parameter on the other curve"};
+                                      "first control point of an edge of the other outline, from "
+                                      "that outline's first, + parameter"};
 };
 
 // ---- only where the scene has friction -----------------------------------------------------------

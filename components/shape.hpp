@@ -61,6 +61,8 @@ struct Shape {
   std::vector<std::int32_t> curve_begin;  // [control points + 1] into curve_terms
   std::vector<CurveTerm> curve_terms;
   std::vector<Edge> edges;
+  std::vector<std::int32_t>
+      edge_from;  // [control points]: the edge whose first control point it is
   std::vector<CornerMoment> corner_moment;  // [elements]
   std::vector<double>
       contact_frequency;           // 1/m^2, [elements]: rho omega^2 / (k K) of its edges' springs

@@ -48,6 +48,11 @@ inline void store_half(const Lane& a, int half, double* four) {
 
 // The four lanes of a half of x and y in turn: x y x y ...
 inline void store_pairs_of_half(const Lane& x, const Lane& y, int half, double* eight) {
+#ifdef __AVX512F__
+  const __m512i pairs = half == 0 ? _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11)
+                                  : _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+  _mm512_storeu_pd(eight, _mm512_permutex2var_pd(x.part[0], pairs, y.part[0]));
+#else
   std::array<double, 4> a, b;
   store_half(x, half, a.data());
   store_half(y, half, b.data());
@@ -55,6 +60,7 @@ inline void store_pairs_of_half(const Lane& x, const Lane& y, int half, double* 
     eight[2 * i] = a[i];
     eight[2 * i + 1] = b[i];
   }
+#endif
 }
 
 // x y x y x y x y

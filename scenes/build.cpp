@@ -239,6 +239,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
   if (needs.friction || needs.damping) world.add<CurveVelocity>();
   if (needs.pairs) {
     add_row_columns<Contact>(world, needs);
+    world.add<ContactPlace>();
     world.add<ClosestPoint>();
     if (needs.friction) world.add<FrictionCouple>();
   }

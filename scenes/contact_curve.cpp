@@ -36,6 +36,13 @@ double face_smoothing(int i, int edges) {
   return i == 1 || i == edges - 1 ? 1.0 / 11 : 1.0 / 12;
 }
 
+void push_edge(Shape& shape, const Shape::Edge& edge) {
+  shape.edge_from.resize(static_cast<std::size_t>(shape.control_points()), Shape::no_edge);
+  shape.edge_from[static_cast<std::size_t>(edge.first_control)] =
+      static_cast<std::int32_t>(shape.edges.size());
+  shape.edges.push_back(edge);
+}
+
 void push_face(Shape& shape, int first, int edges, int boundary_nodes) {
   const auto node = [&](int i) { return (first + i) % boundary_nodes; };
   std::vector<Terms> y;
@@ -60,7 +67,7 @@ void push_face(Shape& shape, int first, int edges, int boundary_nodes) {
     edge.first_control = first_control + e;
     edge.previous = e > 0 ? first_edge + e - 1 : Shape::no_edge;
     edge.next = e + 1 < edges ? first_edge + e + 1 : Shape::no_edge;
-    shape.edges.push_back(edge);
+    push_edge(shape, edge);
   }
 }
 
@@ -98,7 +105,7 @@ void close_curve(Shape& shape, const Smoothing& smoothing) {
     edge.first_control = e;
     edge.previous = (e + n - 1) % n;
     edge.next = (e + 1) % n;
-    shape.edges.push_back(edge);
+    push_edge(shape, edge);
   }
 }
 

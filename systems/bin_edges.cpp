@@ -120,7 +120,8 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
                Read<Density> density, Read<CurvePosition> control, Write<ContactIndex> index,
                Structural<Contact> structure, Write<ContactPair<Contact>> pair,
                Write<ContactLaw<Contact>> law, Write<ContactReach<Contact>> reach,
-               Write<ClosestPoint> closest, Optional<Write<FrictionMore<Contact>>> more) {
+               Write<ContactPlace> place, Write<ClosestPoint> closest,
+               Optional<Write<FrictionMore<Contact>>> more) {
   if (!index->due) return;
   BySlot<std::int32_t> neighbours =
       particle_neighbours(*bodies, control.values(), index->neighbourhood);
@@ -147,8 +148,13 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
     // What was found to be the far side of a thin part stays that (edge_contact).
     if (!(known && reach(row) == far_side))
       reach(row) = known || key.slot != key.other ? 0 : unseen;
+    place(row, 0) = slots[static_cast<std::size_t>(key.slot)].first_control + edge.first_control;
+    place(row, 1) = slots[static_cast<std::size_t>(key.other)].first_control;
+    const int start = bodies->shape_of_slot(key.other)
+                          .edges[static_cast<std::size_t>(found.all[r].start)]
+                          .first_control;
     if (!known)
-      for (int g = 0; g < edge_points; ++g) closest(row, g) = found.all[r].start + 0.5;
+      for (int g = 0; g < edge_points; ++g) closest(row, g) = start + 0.5;
   });
   list_other_rows(found, *index);
   index->sampled_begin = std::move(found.begin);

@@ -47,9 +47,9 @@ void add_sampled(const std::array<ControlForce, edge_points>& by_point, const do
 
 // The opposite forces on the other body, at the closest point of each Gauss point. `edge_force`: of the
 // body's first edge.
-void add_other(const Polynomial& n, const Shape& shape, const double* closest, const double* f,
-               const double* couple, double* edge_force) {
-  std::array<int, edge_points> edge;
+void add_other(const Polynomial& n, const double* closest, const double* f, const double* couple,
+               double* edge_force) {
+  std::array<int, edge_points> edge;  // by its first control point
   std::array<ControlForce, edge_points> force;
   for (int g = 0; g < edge_points; ++g) {
     const auto at = static_cast<std::size_t>(g);
@@ -59,8 +59,7 @@ void add_other(const Polynomial& n, const Shape& shape, const double* closest, c
     if (couple != nullptr) force[at] = fma(n.slope(u), force_at(couple, g), force[at]);
   }
   const auto subtract = [&](int e, const ControlForce& sum) {
-    double* out =
-        edge_force + CurveForce::count * shape.edges[static_cast<std::size_t>(e)].first_control;
+    double* out = edge_force + CurveForce::count * e;
     (ControlForce::load(out) - sum).store(out);
   };
   // The points of an edge stand against one or two of the other's as a rule: no waiting for memory then.
@@ -107,7 +106,7 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
 }  // namespace
 
 [[gnu::flatten]] void contact_force(Chunk chunk, Read<Bodies> bodies, Read<ContactIndex> index,
-                                    Optional<Read<ContactPair<Contact>>> pair,
+                                    Optional<Read<ContactPlace>> place,
                                     Optional<Read<ContactTouches<Contact>>> touches,
                                     Optional<Read<PointForce<Contact>>> point_force,
                                     Optional<Read<ClosestPoint>> closest,
@@ -132,7 +131,7 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
     for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
       const Row<Contact> row(r);
       if ((*touches)(row) == 0) continue;
-      prefetch(&(*pair)(row, 1));
+      prefetch(&(*place)(row));
       prefetch(&(*point_force)(row));
     }
   };
@@ -151,29 +150,31 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto slot = static_cast<std::size_t>(lane_count * chunk.index + lane);
     double* own = all + static_cast<std::size_t>(lane) * numbers;
-    const auto edge = [&](std::int32_t e) {
-      return own + CurveForce::count * shape.edges[static_cast<std::size_t>(e)].first_control;
-    };
-    if (pair) {
+    if (place) {
+      const int first_control = bodies->slots[slot].first_control;
       fetch_sampled(slot + 1);
       for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
         const Row<Contact> row(r);
         if ((*touches)(row) != 0)
-          add_sampled(by_point, &(*point_force)(row), edge((*pair)(row, 1)));
+          add_sampled(by_point, &(*point_force)(row),
+                      own + CurveForce::count * ((*place)(row, 0) - first_control));
       }
       for (int k = index->other_begin[slot]; k < index->other_begin[slot + 1]; ++k) {
         fetch_other(static_cast<std::size_t>(k));
         const Row<Contact> row(index->other_rows[static_cast<std::size_t>(k)]);
         if ((*touches)(row) != 0)
-          add_other(n, shape, &(*closest)(row), &(*point_force)(row),
-                    couple ? &(*couple)(row) : nullptr, own);
+          add_other(n, &(*closest)(row), &(*point_force)(row), couple ? &(*couple)(row) : nullptr,
+                    own);
       }
     }
     if (tool_pair) {
       for (int r = index->tool_begin[slot]; r < index->tool_begin[slot + 1]; ++r) {
         const Row<ToolContact> row(r);
         if ((*tool_touches)(row) != 0)
-          add_sampled(by_point, &(*tool_force)(row), edge((*tool_pair)(row, 1)));
+          add_sampled(
+              by_point, &(*tool_force)(row),
+              own + CurveForce::count *
+                        shape.edges[static_cast<std::size_t>((*tool_pair)(row, 1))].first_control);
       }
     }
   }

@@ -39,9 +39,12 @@ class Outlines {
   Outlines(const Bodies& bodies, std::span<const double> control)
       : bodies_(bodies), control_(control) {}
   Curve edge(int slot, int edge) const {
-    const int first =
-        bodies_.slots[static_cast<std::size_t>(slot)].first_control +
-        bodies_.shape_of_slot(slot).edges[static_cast<std::size_t>(edge)].first_control;
+    return from(slot,
+                bodies_.shape_of_slot(slot).edges[static_cast<std::size_t>(edge)].first_control);
+  }
+  // The edge with that first control point of the outline.
+  Curve from(int slot, int control) const {
+    const int first = bodies_.slots[static_cast<std::size_t>(slot)].first_control + control;
     return Curve(control_.data() + 2 * static_cast<std::size_t>(first));
   }
   int number(int slot) const { return bodies_.slots[static_cast<std::size_t>(slot)].number; }
@@ -127,8 +130,8 @@ std::vector<ContactLink> pairs(const Bodies& bodies, const ContactIndex& index,
                                const Read<ClosestPoint>& closest) {
   const auto add_row = [&](Row<Contact> row, double side, Gathered& contact) {
     const auto normal_at = [&](const Point&, int g) {
-      const int edge = static_cast<int>(closest(row, g));
-      return outlines.edge(pair(row, 2), edge).normal(closest(row, g) - edge);
+      const int control = static_cast<int>(closest(row, g));
+      return outlines.from(pair(row, 2), control).normal(closest(row, g) - control);
     };
     add_points(outlines.edge(pair(row, 0), pair(row, 1)), force, row, side, normal_at, contact);
   };

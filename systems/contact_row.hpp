@@ -201,12 +201,15 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
   sums.blocks.resize(static_cast<std::size_t>(blocks));
   tbb::parallel_for(0, (blocks + blocks_of_a_task - 1) / blocks_of_a_task, [&](int task) {
     const int first = task * blocks_of_a_task, last = std::min(blocks, first + blocks_of_a_task);
-    std::array<Row<At>, most_rows_of_a_task> found;
+    std::array<std::int32_t, most_rows_of_a_task> found;
     std::array<std::size_t, most_blocks> end;
     std::size_t count = 0;
     for (int block = first; block < last; ++block) {
-      for (int r = block * rows_of_a_block; r < std::min(rows, (block + 1) * rows_of_a_block); ++r)
-        if (active(Row<At>(r))) found[count++] = Row<At>(r);
+      // No branch: which rows are active follows no pattern.
+      for (int r = block * rows_of_a_block; r < std::min(rows, (block + 1) * rows_of_a_block); ++r) {
+        found[count] = r;
+        count += active(Row<At>(r)) ? 1 : 0;
+      }
       if (count % 2 != 0) {
         found[count] = found[count - 1];
         ++count;
@@ -214,10 +217,10 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
       end[static_cast<std::size_t>(block - first)] = count;
     }
     const auto ask = [&](std::size_t i) {
-      if (from_memory && i < count) fetch(found[i]);
+      if (from_memory && i < count) fetch(Row<At>(found[i]));
     };
     const auto ask_other = [&](std::size_t i) {
-      if (from_memory && i < count) fetch_other(found[i]);
+      if (from_memory && i < count) fetch_other(Row<At>(found[i]));
     };
     for (std::size_t i = 0; i < rows_before; ++i) ask(i);
     for (std::size_t i = 0; i < rows_before_other; ++i) ask_other(i);
@@ -229,7 +232,7 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
           ask(i + k + rows_before);
           ask_other(i + k + rows_before_other);
         }
-        look_at(RowPair<At>{found[i], found[i + 1]}, sum);
+        look_at(RowPair<At>{Row<At>(found[i]), Row<At>(found[i + 1])}, sum);
       }
       sums.blocks[static_cast<std::size_t>(block)] = sum;
     }

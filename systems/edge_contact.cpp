@@ -18,13 +18,15 @@ constexpr unsigned half_of(unsigned bits, int half) { return bits >> (half * edg
 
 // The curves of the other particles as the closest-point search walks them, of both rows.
 struct OtherCurves {
-  std::array<const Shape*, 2> shape;
-  std::array<const double*, 2> position;
-  std::array<const double*, 2> velocity;  // null where the scene needs none
+  std::array<int, 2> slot;
+  std::array<std::size_t, 2> first;  // control point of the outline
+  const double* position;            // of all control points
+  const double* velocity;            // null where the scene needs none
 };
 
 using Indices = std::array<std::int64_t, lanes>;
 
+// Edges go by their first control point here, counted in their outline.
 struct LaneEdges {
   Indices edge;
   Lane u;
@@ -52,37 +54,38 @@ struct CurveLanes {
   kernels::Cubic<Lane> x, y;
 };
 
-// Where the control points of each lane's edge begin in the list of the other particle's coordinates.
-Indices places(const std::array<const Shape*, 2>& shape, const Indices& edge) {
-  Indices first;
-  for (std::size_t l = 0; l < lanes; ++l)
-    first[l] = 2 * shape[l / edge_points]->edges[static_cast<std::size_t>(edge[l])].first_control;
-  return first;
-}
-CurveLanes gather(const std::array<const double*, 2>& points, const Indices& first) {
+CurveLanes gather(const OtherCurves& other, const double* points, const Indices& edge) {
+  const std::array<const double*, 2> outline{points + 2 * other.first[0],
+                                             points + 2 * other.first[1]};
   std::array<const double*, lanes> control;
-  for (std::size_t l = 0; l < lanes; ++l) control[l] = points[l / edge_points] + first[l];
+  for (std::size_t l = 0; l < lanes; ++l) control[l] = outline[l / edge_points] + 2 * edge[l];
   const auto y = columns_of(control);
   return {kernels::cubic(y[0], y[2], y[4], y[6]), kernels::cubic(y[1], y[3], y[5], y[7])};
 }
 
+int edge_number(const Shape& shape, std::int64_t first_control) {
+  return shape.edge_from[static_cast<std::size_t>(first_control)];
+}
+
 // Points that leave their edge go on in the next one, or stop at a corner. Returns the lanes that stand
 // where they stood, at a corner.
-unsigned cross_edges(const std::array<const Shape*, 2>& shape, const Lane& before, LaneEdges& at) {
+unsigned cross_edges(const Bodies& bodies, const OtherCurves& other, const Lane& before,
+                     LaneEdges& at) {
   std::array<double, lanes> u, u_before;
   at.u.store(u.data());
   before.store(u_before.data());
   unsigned stay = 0;
   for (std::size_t l = 0; l < lanes; ++l) {
     if (u[l] >= 0 && u[l] <= 1) continue;
-    const Shape::Edge& edge = shape[l / edge_points]->edges[static_cast<std::size_t>(at.edge[l])];
+    const Shape& shape = bodies.shape_of_slot(other.slot[l / edge_points]);
+    const Shape::Edge& edge = shape.edges[static_cast<std::size_t>(edge_number(shape, at.edge[l]))];
     const bool forward = u[l] > 1;
     const int neighbour = forward ? edge.next : edge.previous;
     if (neighbour == Shape::no_edge) {
       u[l] = forward ? 1 : 0;
       if (u[l] == u_before[l]) stay |= 1U << l;
     } else {
-      at.edge[l] = neighbour;
+      at.edge[l] = shape.edges[static_cast<std::size_t>(neighbour)].first_control;
       u[l] = std::clamp(u[l] + (forward ? -1 : 1), 0.0, 1.0);
     }
   }
@@ -91,25 +94,25 @@ unsigned cross_edges(const std::array<const Shape*, 2>& shape, const Lane& befor
 }
 
 constexpr int most_steps = 40;
-// Of an edge. A Newton step that short leaves about its square, and the gap is exact to the square of that.
-constexpr double step_tolerance = 2e-6;
+// Of an edge. A Newton step that short leaves about its square, 1e-8 of an edge: by as much the normal may be turned,
+// and the gap, whose slope vanishes there, is exact to round-off. (2e-6 asks most points for a second step; forces of
+// 25 discs under 7,000 steps then differ by 1e-6.)
+constexpr double step_tolerance = 1e-4;
 
 // Where the points stand against the curves. `beyond`: closest to a corner, from outside its edge.
 struct Closest {
   LaneEdges at;
-  Indices first;  // see places()
   CurveLanes curve;
   Lane rx, ry;  // from the curve to the point, m
   unsigned beyond = 0;
 };
 
 // Every lane stops by itself, so that no point depends on the others.
-[[gnu::flatten]] Closest closest_points(const OtherCurves& other, const PointLanes& points,
-                                        const LaneEdges& start) {
+[[gnu::flatten]] Closest closest_points(const Bodies& bodies, const OtherCurves& other,
+                                        const PointLanes& points, const LaneEdges& start) {
   Closest c;
   c.at = start;
-  c.first = places(other.shape, start.edge);
-  c.curve = gather(other.position, c.first);
+  c.curve = gather(other, other.position, c.at.edge);
   unsigned done = 0;
   for (int step = 0;; ++step) {
     c.rx = points.x - c.curve.x.value(c.at.u);
@@ -122,10 +125,9 @@ struct Closest {
     c.at.u = select(LaneMask::of(done), before, before + du);
     done |= (abs(du) < step_tolerance).bits();
     if (any((c.at.u < 0.0) | (c.at.u > 1.0))) {
-      c.beyond |= cross_edges(other.shape, before, c.at);
+      c.beyond |= cross_edges(bodies, other, before, c.at);
       done |= c.beyond;
-      c.first = places(other.shape, c.at.edge);
-      c.curve = gather(other.position, c.first);
+      c.curve = gather(other, other.position, c.at.edge);
     }
     if (done == all_lanes || step == most_steps) break;
   }
@@ -139,17 +141,19 @@ struct Closest {
                                       const PointLanes& velocity) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
   const Lane over_length = 1.0 / sqrt(fma(sx, sx, sy * sy));
-  RowMotion m{};
+  RowMotion m;
   m.over_slope = over_length;
   m.nx = sy * over_length;
   m.ny = -sx * over_length;
   m.gap = -fma(c.rx, m.nx, c.ry * m.ny);
-  if (other.velocity[0] != nullptr) {
-    const CurveLanes v = gather(other.velocity, c.first);
+  if (other.velocity != nullptr) {
+    const CurveLanes v = gather(other, other.velocity, c.at.edge);
     const Lane wx = velocity.x - v.x.value(c.at.u), wy = velocity.y - v.y.value(c.at.u);
     const Lane turn = fma(v.x.slope(c.at.u), m.nx, v.y.slope(c.at.u) * m.ny) * over_length;
     m.gap_rate = -fma(wx, m.nx, wy * m.ny);
     m.slip_rate = fma(wy, m.nx, -(wx * m.ny)) - m.gap * turn;
+  } else {
+    m.gap_rate = m.slip_rate = Lane{};
   }
   return m;
 }
@@ -160,7 +164,7 @@ struct Closest {
 bool is_far_side(const Closest& c, int half, int edge, const Shape& shape, bool unseen, Lane& gap) {
   double deepest = -1;
   for (int l = half * edge_points; l < (half + 1) * edge_points; ++l) {
-    const auto there = static_cast<int>(c.at.edge[static_cast<std::size_t>(l)]);
+    const int there = edge_number(shape, c.at.edge[static_cast<std::size_t>(l)]);
     if (edges_between(there, edge, static_cast<int>(shape.edges.size())) < least_fold) gap[l] = -1;
     deepest = std::max(deepest, gap[l]);
   }
@@ -183,9 +187,9 @@ void set_couple(const RowMotion& m, const Lane& along, unsigned touching,
 
 void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
                   Optional<Read<CurveVelocity>> velocity, Write<ClosestPoint> closest,
-                  Read<ContactPair<Contact>> pair, Write<ContactTouches<Contact>> touches,
-                  Write<ContactReach<Contact>> reach, Read<ContactLaw<Contact>> law,
-                  Write<PointForce<Contact>> force,
+                  Read<ContactPair<Contact>> pair, Read<ContactPlace> place,
+                  Write<ContactTouches<Contact>> touches, Write<ContactReach<Contact>> reach,
+                  Read<ContactLaw<Contact>> law, Write<PointForce<Contact>> force,
                   Optional<Write<ElasticSlip<Contact>>> elastic_slip,
                   Optional<Read<FrictionMore<Contact>>> more,
                   Optional<Write<StaticLost<Contact>>> lost, Optional<Write<FrictionCouple>> couple,
@@ -193,26 +197,17 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
   const RowColumns<Contact> columns{pair, touches, reach, law, force, elastic_slip, more, lost};
   const double* points = position.values().data();
   const double* rates = velocity ? velocity->values().data() : nullptr;
-  const auto first_control = [&](int slot) {
-    return 2 *
-           static_cast<std::size_t>(bodies->slots[static_cast<std::size_t>(slot)].first_control);
-  };
+  const auto number = [](std::int32_t control) { return static_cast<std::size_t>(control); };
 
   const auto look_at = [&](const RowPair<Contact>& rows, BlockSums& block) {
-    OtherCurves other;
-    std::array<std::size_t, 2> own;  // first control point of the sampled edge
-    for (std::size_t i = 0; i < 2; ++i) {
-      const int slot = pair(rows[i], 0), partner = pair(rows[i], 2);
-      other.shape[i] = &bodies->shape_of_slot(partner);
-      other.position[i] = points + first_control(partner);
-      other.velocity[i] = rates != nullptr ? rates + first_control(partner) : nullptr;
-      own[i] = first_control(slot) +
-               2 * static_cast<std::size_t>(bodies->shape_of_slot(slot)
-                                                .edges[static_cast<std::size_t>(pair(rows[i], 1))]
-                                                .first_control);
-    }
+    const OtherCurves other{{pair(rows[0], 2), pair(rows[1], 2)},
+                            {number(place(rows[0], 1)), number(place(rows[1], 1))},
+                            points,
+                            rates};
+    const std::array<std::size_t, 2> own{2 * number(place(rows[0], 0)),
+                                         2 * number(place(rows[1], 0))};
     const PointLanes at = edge_points_at(points + own[0], points + own[1]);
-    const Closest c = closest_points(other, at, unpack(at_points(closest, rows)));
+    const Closest c = closest_points(*bodies, other, at, unpack(at_points(closest, rows)));
     const Lane found = pack(c.at);
     for (int i = 0; i < 2; ++i) store_half(found, i, &closest(rows[static_cast<std::size_t>(i)]));
 
@@ -225,8 +220,8 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
     for (int i = 0; i < rows_in(rows); ++i) {
       const Row<Contact> row = rows[static_cast<std::size_t>(i)];
       if (pair(row, 2) == pair(row, 0) &&
-          is_far_side(c, i, pair(row, 1), *other.shape[static_cast<std::size_t>(i)],
-                      reach(row) == unseen, motion.gap)) {
+          is_far_side(c, i, pair(row, 1), bodies->shape_of_slot(pair(row, 2)), reach(row) == unseen,
+                      motion.gap)) {
         set_apart(columns, row, far_side);
       } else if (half_of((motion.gap > 0.0).bits(), i) != 0) {
         touching |= 1U << i;
@@ -243,14 +238,14 @@ void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
       pair.rows(), *sums, [&](Row<Contact> row) { return clock->travel >= reach(row); },
       [&](Row<Contact> row) {
         fetch(columns, row);
+        prefetch(&place(row));
         prefetch(&closest(row));
         if (couple) prefetch(&(*couple)(row));
       },
       [&](Row<Contact> row) {  // both outlines, the other where it was met last
         const std::size_t other =
-            first_control(pair(row, 2)) + 2 * static_cast<std::size_t>(closest(row, 1));
-        const std::size_t own =
-            first_control(pair(row, 0)) + 2 * static_cast<std::size_t>(pair(row, 1));
+            2 * (number(place(row, 1)) + static_cast<std::size_t>(closest(row, 1)));
+        const std::size_t own = 2 * number(place(row, 0));
         for (const double* list : {points, rates}) {
           if (list == nullptr) continue;
           for (const std::size_t at : {other, own}) {

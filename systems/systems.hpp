@@ -27,7 +27,7 @@ void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<To
 void bin_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                Read<CurvePosition>, Write<ContactIndex>, Structural<Contact>,
                Write<ContactPair<Contact>>, Write<ContactLaw<Contact>>,
-               Write<ContactReach<Contact>>, Write<ClosestPoint>,
+               Write<ContactReach<Contact>>, Write<ContactPlace>, Write<ClosestPoint>,
                Optional<Write<FrictionMore<Contact>>>);
 void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                     Read<CurvePosition>, Read<ToolPosition>, Read<ToolNormal>, Write<ContactIndex>,
@@ -38,8 +38,9 @@ void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<De
 
 // ---- narrow phase -----------------------------------------------------------------------------
 void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
-                  Write<ClosestPoint>, Read<ContactPair<Contact>>, Write<ContactTouches<Contact>>,
-                  Write<ContactReach<Contact>>, Read<ContactLaw<Contact>>,
+                  Write<ClosestPoint>, Read<ContactPair<Contact>>, Read<ContactPlace>,
+                  Write<ContactTouches<Contact>>, Write<ContactReach<Contact>>,
+                  Read<ContactLaw<Contact>>,
                   Write<PointForce<Contact>>, Optional<Write<ElasticSlip<Contact>>>,
                   Optional<Read<FrictionMore<Contact>>>, Optional<Write<StaticLost<Contact>>>,
                   Optional<Write<FrictionCouple>>, Write<ContactSums<Contact>>);
@@ -65,7 +66,7 @@ void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
                     Write<Totals>);
 
 // ---- chunk by chunk: forces of the bodies -------------------------------------------------------
-void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<ContactPair<Contact>>>,
+void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<ContactPlace>>,
                    Optional<Read<ContactTouches<Contact>>>, Optional<Read<PointForce<Contact>>>,
                    Optional<Read<ClosestPoint>>, Optional<Read<FrictionCouple>>,
                    Optional<Read<ContactPair<ToolContact>>>,

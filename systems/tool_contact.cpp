@@ -28,7 +28,7 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
   const auto gap_to = [&](Row<ToolContact> row, const PointLanes& at, double farthest) {
     const Row<Tool> tool(pair(row, 2));
     const Lane rx = at.x - tool_position(tool, 0), ry = at.y - tool_position(tool, 1);
-    RowMotion m{};
+    RowMotion m;
     if (range && (*shapes)->is(tool.value, ToolShapes::Kind::polyline)) {
       // Farther than an edge the range of pieces tells nothing; see bin_tool_edges.
       const auto nearest = kernels::nearest_on_surface(
@@ -69,6 +69,7 @@ void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> po
         set_apart(columns, rows[static_cast<std::size_t>(i)], clock->travel - deepest);
     }
     if (touching == 0) return;
+    m.gap_rate = m.slip_rate = Lane{};
     if (rates != nullptr) {
       const PointLanes speed = edge_points_at(rates + first[0], rates + first[1]);
       const Row<Tool> a(pair(rows[0], 2)), b(pair(rows[1], 2));
