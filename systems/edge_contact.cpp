@@ -94,10 +94,9 @@ unsigned cross_edges(const Bodies& bodies, const OtherCurves& other, const Lane&
 }
 
 constexpr int most_steps = 40;
-// Of an edge. A Newton step that short leaves about its square, 1e-8 of an edge: by as much the normal may be turned,
-// and the gap, whose slope vanishes there, is exact to round-off. (2e-6 asks most points for a second step; forces of
-// 25 discs under 7,000 steps then differ by 1e-6.)
-constexpr double step_tolerance = 1e-4;
+// Of an edge. A Newton step that short leaves about its square, and the gap is exact to the square of that. (With 1e-5
+// the normals carry so much round-off on that micrometres and metres part by more than 1e-9; docs/performance.md.)
+constexpr double step_tolerance = 2e-6;
 
 // Where the points stand against the curves. `beyond`: closest to a corner, from outside its edge.
 struct Closest {
