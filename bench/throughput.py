@@ -3,6 +3,7 @@
   /usr/bin/python3 bench/throughput.py                      everything, a quarter of an hour: leave it alone
   /usr/bin/python3 bench/throughput.py --cases 100,1683     these cases, and the run of the thesis
   /usr/bin/python3 bench/throughput.py --quick              does it work? seconds; times mean nothing
+  /usr/bin/python3 bench/throughput.py --cases= --runs run-1683,run-10000 --rounds 1    half an hour: the long runs
 
 Adds rows to bench/results/throughput/<machine>.csv. A case whose final state is not, bit by bit, the one in
 hashes.csv beside it was not the same computation: its times are refused and the exit code is 1, unless
@@ -29,9 +30,16 @@ CASES = ("100", "1683", "10000", "100-dense", "100-four-point")
 COLUMNS = ("case", "threads", "line", "unit", "best", "median", "rounds", "updates_per_s", "share",
            "steps", "hash", "version", "commit", "compiler", "instruction_set", "date")
 HASH_COLUMNS = ("case", "steps", "version", "hash", "commit", "date")
-THESIS_SCENE = "scenes/compaction/regular-100.toml"
-THESIS_DURATION = "7.45 ms"  # of the pressing, for some 94,000 steps
-UPDATES = ("step", "kernels")  # lines that stand for a whole element-update, or the bodies' part of it
+# Whole runs of the program, from the command line to the report: scene and what is changed in it.
+RUNS = {
+    "thesis": ("regular-100.toml", ("stage.press.duration=7.45 ms",)),  # some 94,000 steps
+    "run-1683": ("hexagonal-1683.toml", ()),  # to a relative density of 0.95
+    "run-10000": ("regular-100.toml", (  # pressed 2.9% in some 20,000 steps: 18 heights a second, as the others
+        "packing[0].rows=100", "packing[0].columns=100",
+        'tool.right.point=["1000 mm", "0 mm"]', 'tool.top.point=["0 mm", "1000 mm"]',
+        "stage.press.duration=1.65 ms", 'stage.press.move[0].displacement=["0 mm", "-29.5 mm"]')),
+}
+QUICK_CHANGES = ("stage.press.duration=20 us", 'stage.press.move[0].displacement=["0 mm", "-0.1 mm"]')
 RATES = ("GFLOP/s", "GB/s")  # where more is better
 
 
@@ -93,9 +101,10 @@ class Measured:
                                                                    benchmark.get("share"))
 
 
-def measure_case(measured, build, case, rounds):
+def measure_case(measured, build, case, rounds, lines="."):
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
         run([build / "bench/throughput", f"--cases={case}", f"--rounds={rounds}",
+             f"--benchmark_filter={lines}",
              "--benchmark_out_format=json", f"--benchmark_out={file.name}"])
         output = json.load(file)
     measured.context = output["context"]
@@ -103,21 +112,21 @@ def measure_case(measured, build, case, rounds):
         measured.add(benchmark)
 
 
-def measure_thesis(measured, build, rounds, quick):
-    """100 particles, pressed by a tenth of the height, from the command line to the report."""
-    changes = ("stage.press.duration=20 us", 'stage.press.move[0].displacement=["0 mm", "-0.1 mm"]')
-    changes = changes if quick else (f"stage.press.duration={THESIS_DURATION}",)
-    line = measured.line("thesis", "run", 2, "s")
+def measure_run(measured, build, name, rounds, quick):
+    scene, changes = RUNS[name]
+    changes = QUICK_CHANGES if quick else changes
     for _ in range(rounds):
         with tempfile.TemporaryDirectory() as folder:
             start = time.perf_counter()
-            run([build / "cli/pulvis", "run", ROOT / THESIS_SCENE, "-o", f"{folder}/run",
+            run([build / "cli/pulvis", "run", ROOT / "scenes/compaction" / scene, "-o", f"{folder}/run",
                  "--threads", "2", *(word for c in changes for word in ("--set", c))])
-            line.add(time.perf_counter() - start)
+            measured.line(name, "run", 2, "s").add(time.perf_counter() - start)
             summary = json.loads(pathlib.Path(f"{folder}/run/summary.json").read_text())
-        keep_state(measured, "thesis", (summary["steps"], summary["state_hash"]))
-    measured.line("thesis", "memory/peak", 2, "B/element").add(
-        summary["peak_memory_bytes"] / summary["elements"])
+        keep_state(measured, name, (summary["steps"], summary["state_hash"]))
+        per_element = 1 / summary["elements"]
+        measured.line(name, "run/step", 2, "ns/element-step").add(
+            1e9 * summary["wall_seconds"] / summary["steps"] * per_element)
+        measured.line(name, "memory/peak", 2, "B/element").add(summary["peak_memory_bytes"] * per_element)
 
 
 def keep_state(measured, case, state):
@@ -172,7 +181,7 @@ def rows_of(measured, stamp):
         yield {"case": case, "threads": threads, "line": name, "unit": line.unit,
                "best": f"{line.best:.6g}", "median": f"{line.median:.6g}",
                "rounds": len(line.values),
-               "updates_per_s": f"{1e9 / line.median:.4g}" if name in UPDATES else "",
+               "updates_per_s": f"{1e9 / line.median:.4g}" if name in throughput_report.UPDATES else "",
                "share": f"{statistics.median(line.shares):.4g}" if line.shares else "",
                "steps": steps, "hash": state, **context, "date": stamp}
 
@@ -201,6 +210,7 @@ def keep(measured, folder, accept):
 def parsed(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--cases", default=",".join(CASES), help="default: %(default)s")
+    parser.add_argument("--runs", default="thesis", help=f"of {', '.join(RUNS)}; default: %(default)s")
     parser.add_argument("--rounds", type=int, default=5, help="default: %(default)s")
     parser.add_argument("--quick", action="store_true", help="one round of one case, nothing counted")
     parser.add_argument("--no-counts", action="store_true", help="leave callgrind out")
@@ -217,11 +227,13 @@ def measure(options):
     if not options.no_counts:
         counts.require_tools()  # before minutes are spent
     measured = Measured()
-    cases = options.cases.split(",")
-    for case in cases:
+    for case in filter(None, options.cases.split(",")):
         print(f"{case}: {options.rounds} rounds, load {os.getloadavg()[0]:.2f}", file=sys.stderr)
         measure_case(measured, options.build, case, options.rounds)
-    measure_thesis(measured, options.build, options.rounds, options.quick)
+    if not measured.context:
+        measure_case(measured, options.build, "100", 1, "^machine/")
+    for name in filter(None, options.runs.split(",")):
+        measure_run(measured, options.build, name, options.rounds, options.quick)
     if not options.no_counts:
         measure_counts(measured, options.build, throughput_report.COUNTED)
     return measured

@@ -3,6 +3,7 @@ import re
 
 CONTACT = re.compile(r"^system/.*(contact|bin|tool_reaction)")
 LARGER = ("1683", "10000")  # than 100 particles, else alike
+UPDATES = ("step", "kernels", "run/step")  # whole element-updates, or the bodies' part of them
 COUNTED = "100"  # whose instructions and operations are counted: those of the larger cases too
 THESIS_STEPS = 94_000
 
@@ -43,6 +44,8 @@ def derive(measured):
 
 def derive_thesis(measured):
     """A run of about as many steps stands for the thesis's; a shorter one does not."""
+    if "thesis" not in measured.states:
+        return
     run, (steps, _) = measured.lines["thesis", "run", 2], measured.states["thesis"]
     if abs(steps / THESIS_STEPS - 1) < 0.05:
         scaled = measured.line("thesis", "94,000_steps", 2, "s")
@@ -103,7 +106,7 @@ def show_lines(measured):
     print(f"\n{'case':<16}{'line':<28}{'threads':>7}{'best':>11}{'median':>11} {'unit':<18}"
           f"{'M updates/s':>11}{'share':>8}")
     for (case, name, threads), line in measured.lines.items():
-        updates = f"{1e3 / line.median:11.1f}" if name in ("step", "kernels") else f"{'':11}"
+        updates = f"{1e3 / line.median:11.1f}" if name in UPDATES else f"{'':11}"
         share = f"{sorted(line.shares)[len(line.shares) // 2]:8.1%}" if line.shares else ""
         print(f"{case:<16}{name:<28}{threads:>7}{line.best:11.4g}{line.median:11.4g} "
               f"{line.unit:<18}{updates}{share}")
