@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "cli/summary.hpp"
@@ -66,9 +67,12 @@ Checkpoints::Checkpoints(const LoadedScene& scene, fs::path folder,
       folder_(std::move(folder)),
       options_(options) {}
 
-bool Checkpoints::due(std::int64_t step) const {
+bool Checkpoints::due(std::int64_t step, double time) const {
   if (step == last_step_) return false;
   if (last_step_ < 0) return true;
+  if (options_.time > 0 &&
+      std::floor(time / options_.time) > std::floor(info_.time / options_.time))
+    return true;
   if (options_.steps > 0 && step % options_.steps == 0) return true;
   const auto since = Time::now() - last_;
   return since >= std::chrono::duration<double>(options_.every) && since >= run_over_cost * cost_;

@@ -13,6 +13,7 @@ namespace pulvis {
 
 struct CheckpointOptions {
   double every = 60;            // s of wall time
+  double time = 0;              // and every so much simulated time, s; 0: no
   std::int64_t steps = 0;       // and every so many steps (increments of an AFM scene); 0: no
   std::int64_t stop_after = 0;  // this step the run stops as if it were interrupted; 0: it does not
 };
@@ -24,11 +25,14 @@ class Checkpoints {
 
   // Cheap: asked after every step. The first one is due at once, so that whatever is killed can go on. The
   // wall time's are put off while they would cost more than a hundredth of the run.
-  bool due(std::int64_t step) const;
+  bool due(std::int64_t step, double time) const;
   bool stops(std::int64_t step) const {
     return options_.stop_after > 0 && step >= options_.stop_after;
   }
-  void resumed(std::int64_t step) { last_step_ = step; }
+  void resumed(std::int64_t step, double time) {
+    last_step_ = step;
+    info_.time = time;
+  }
   void write(std::int64_t step, double time, const World& world, StateParts run);
   // Nothing is left to go on with.
   void remove() const { remove_checkpoints(folder_); }

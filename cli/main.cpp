@@ -30,6 +30,7 @@
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/study_read.hpp"
+#include "scenes/units.hpp"
 
 namespace pulvis {
 namespace {
@@ -224,6 +225,20 @@ void add_course(CLI::App& command, RunOptions& options) {
                   "seconds between checkpoints, as the clock on the wall has them")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command
+      .add_option_function<std::string>(
+          "--checkpoint-time",
+          [&options](const std::string& text) {
+            try {
+              options.checkpoints.time = parse_quantity(text, "s");
+            } catch (const UnitError& error) {
+              throw CLI::ValidationError("--checkpoint-time", error.what());
+            }
+            if (!(options.checkpoints.time > 0))
+              throw CLI::ValidationError("--checkpoint-time", text + ", allowed: > 0 s");
+          },
+          "a checkpoint every so much simulated time, as \"0.5 ms\", too")
+      ->type_name("TIME");
   command
       .add_option("--checkpoint-steps", options.checkpoints.steps,
                   "a checkpoint every so many steps, too (of an AFM scene: increments)")

@@ -115,7 +115,7 @@ struct Run {
     state(reader, position, seconds);
     const RunMesh mesh = results.mesh();
     checkpoint.restore(simulation->world());
-    checkpoints.resumed(clock().step);
+    checkpoints.resumed(clock().step, clock().time);
     recorder =
         std::make_unique<Recorder>(folder, mesh, results.series(), results.fields(), position);
     progress = std::make_unique<Progress>(clock().end, results.elements(), options.talks(),
@@ -149,7 +149,7 @@ struct Run {
   bool go() {
     while (!ended) {
       if (stops()) return false;
-      if (checkpoints.due(clock().step)) write_checkpoint();
+      if (checkpoints.due(clock().step, clock().time)) write_checkpoint();
       const bool last = simulation->finished();  // before its time where a stage ended early
       if (last || samples.due(clock().time) || frames.due(clock().time)) {
         record();
@@ -159,7 +159,7 @@ struct Run {
       }
       simulation->run_until(std::min(samples.next(), frames.next()), [&] {
         progress->show(clock().time, clock().step);
-        return stops() || checkpoints.due(clock().step);
+        return stops() || checkpoints.due(clock().step, clock().time);
       });
     }
     return true;

@@ -127,7 +127,7 @@ struct ProgrammeRun {
     history.rows.push_back(row);
     recorder->sample(time, row);
     if (history.rows.size() % every == 1 || every == 1) frame(time);
-    if (stops() || checkpoints.due(increment())) write_checkpoint();
+    if (stops() || checkpoints.due(increment(), time)) write_checkpoint();
     return !stops();
   }
 
@@ -166,7 +166,7 @@ ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScen
     const std::vector<std::byte> bytes = from->run("afm");
     StateReader reader(bytes);
     reader(results, run.position, history);
-    run.checkpoints.resumed(run.increment());
+    run.checkpoints.resumed(run.increment(), history.times.back());
     run.recorder =
         std::make_unique<Recorder>(folder, run.mesh, afm_series(), ProgrammeRun::fields(), results);
   }
@@ -203,6 +203,9 @@ void print_end(const AfmReport& report, const std::filesystem::path& folder) {
 ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
                   const std::filesystem::path& folder, int threads, const Checkpoint* from,
                   AfmSimulation& simulation) {
+  if (options.checkpoints.time > 0)
+    throw SceneError({{loaded.scene.file, 1, 1, "", "--checkpoint-time",
+                       "a lever's programme has no time, allowed: --checkpoint-steps"}});
   const auto start = std::chrono::steady_clock::now();
   AfmReport report;
   AfmHistory history;

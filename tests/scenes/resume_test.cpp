@@ -142,6 +142,24 @@ INSTANTIATE_TEST_SUITE_P(
         Course{"FrictionLoop", "afm/loop-beam-0.toml", {}, 0, {{1, 1}, {3, 1}, {9, 2}, {30, 1}}}),
     [](const auto& test) { return std::string(test.param.name); });
 
+TEST_F(ResumeTest, CheckpointsFollowTheSimulatedTime) {
+  const Course course{"", "compaction/regular-25.toml", fast_punch, 0, {}};
+  Words words = with(run_words(course, "run"), {"--checkpoint-time", "10 us"});
+  ASSERT_EQ(pulvis(until(words, 450, 1)).code, 130);  // some 35 us
+  const auto files = checkpoints("run");              // the newest first: that of the stop
+  ASSERT_EQ(files.size(), 2U);
+  const double stopped = Checkpoint(files[0]).info().time;
+  EXPECT_GT(stopped, 30e-6);
+  EXPECT_LT(stopped, 40e-6);
+  EXPECT_NEAR(Checkpoint(files[1]).info().time, 30e-6, 0.2e-6);
+  const Outcome wrong = pulvis(with(run_words(course, "no"), {"--checkpoint-time", "10 mm"}));
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err + wrong.out, HasSubstr("--checkpoint-time"));
+  EXPECT_EQ(
+      pulvis({"run", scene("afm/loop-beam-0.toml"), "-o", "afm", "--checkpoint-time", "1 s"}).code,
+      2);
+}
+
 // ---- killed -----------------------------------------------------------------------------------------
 class KilledRun : public ResumeTest {
  protected:
