@@ -183,12 +183,14 @@ ExitCode reduce(const ReduceCommand& command) {
 
 void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
   ReduceOptions& options = command.options;
-  auto* reduces = app.add_subcommand(
-      "reduce", "reduce raw records of sliding-plate friction tests to curves, figures, a report");
+  auto* reduces = app.add_subcommand("reduce",
+                                     "reduce raw records of sliding-plate friction tests, or an "
+                                     "AFM's friction loops on slopes, to "
+                                     "curves, figures, a report");
   reduces->add_option(
       "files", options.files,
       "records (CSV) of press and data logger, told apart by their columns and paired "
-      "in order; settings (.toml)");
+      "in order; or one file of an AFM's friction loops; settings (.toml)");
   reduces
       ->add_option("--set", options.overrides,
                    "a key of the settings: key.path=value, e.g. \"compact.length=10 mm\"")
@@ -204,9 +206,15 @@ void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
   reduces->add_option("--reference", command.reference, "print the settings' reference instead")
       ->check(CLI::IsMember({"text", "schema"}));
   reduces->footer(
-      "The compact's length and Poisson's ratio (or powder) have to be given. Example:\n"
+      "Sliding-plate tests: the compact's length and Poisson's ratio (or powder) have to be "
+      "given.\n"
       "  pulvis reduce press-1.csv logger-1.csv press-2.csv logger-2.csv \\\n"
       "      --set \"compact.length=10 mm\" --set compact.powder=316L -o reduced\n"
+      "Friction loops on slopes that are known (columns slope, load, and half_width, offset or "
+      "raw\n"
+      "traces forth, back, in volts): friction coefficient and sensitivity of the lateral "
+      "detector.\n"
+      "  pulvis reduce loops.csv --set \"wedge.slope_error=0.2 deg\" -o wedge\n"
       "File formats, equations and how each figure is taken: docs/laboratory.md; all settings:\n"
       "docs/reduce.md, or --reference text.");
   reduces->callback([&] {

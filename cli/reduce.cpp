@@ -147,10 +147,11 @@ ExitCode reduce_records(const ReduceOptions& options) {
   const Inputs inputs = sorted_inputs(options.files);
   const lab::LoadedSettings loaded = settings_of(inputs, options.overrides);
   if (!loaded.settings.wedge.loops.empty()) {
-    const auto calibration = wedge_calibration(loaded.settings);
+    const WedgeReduction calibrated = wedge_reduction(loaded);
     open_folder(options.folder, options.overwrite);
-    write_wedge(options.folder, loaded, calibration);
-    fmt::print("{}results in {}\n", wedge_text(calibration), options.folder.string());
+    write_wedge(options.folder, calibrated);
+    write_wedge_report(options.folder, calibrated);
+    fmt::print("{}results in {}\n", wedge_text(calibrated.calibration), options.folder.string());
     return ExitCode::done;
   }
   const Reduction all = reduced(options, inputs, loaded);

@@ -1,4 +1,5 @@
-// pulvis reduce: raw records of sliding-plate tests to friction curves, figures and a report.
+// pulvis reduce: raw records of sliding-plate tests, or an AFM's friction loops on slopes, to friction, figures
+// and a report.
 #pragma once
 
 #include <filesystem>

@@ -132,7 +132,7 @@ class ReportMaker {
 
 void write_reduction_report(const std::filesystem::path& folder, const Reduction& reduction) {
   write_page(folder / "report.html", "reduction.html",
-             {"units.js", "payload.js", "save.js", "chart.js", "reduction.js"},
+             {"units.js", "payload.js", "save.js", "chart.js", "tables.js", "reduction.js"},
              ReportMaker(reduction).made());
 }
 

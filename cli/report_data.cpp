@@ -105,7 +105,7 @@ ReportData read_report_data(const std::filesystem::path& run_folder) {
 
 ReportData read_comparison(const std::vector<std::filesystem::path>& run_folders) {
   Json head{{"runs", Json::array()}};
-  ReportData data;
+  ReportData data{"Comparison: ", "", {}};
   for (std::size_t i = 0; i < run_folders.size(); ++i) {
     Reader run(run_folders[i], frame_budget / run_folders.size());
     for (auto& section : run.sections)

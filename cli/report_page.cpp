@@ -73,7 +73,9 @@ std::string filled(std::string_view page, const std::vector<std::string>& script
 
 void write_page(const std::filesystem::path& path, const char* page,
                 const std::vector<std::string>& scripts, const ReportData& data) {
-  const std::string text = filled(report_asset(page), scripts, data);
+  std::string text;
+  for (const char* asset : {"head.html", page, "tail.html"})
+    text += filled(report_asset(asset), scripts, data);
   auto beside = path;
   beside += ".new";
   std::ofstream file(beside, std::ios::binary);

@@ -9,7 +9,8 @@
 
 namespace pulvis {
 
-// `page` and `scripts` are names of assets; the data go into elements that payload.js reads.
+// `page`, which stands between head.html and tail.html, and `scripts` are names of assets; the data go into
+// elements that payload.js reads.
 void write_page(const std::filesystem::path& path, const char* page,
                 const std::vector<std::string>& scripts, const ReportData& data);
 

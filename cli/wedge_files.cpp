@@ -60,20 +60,22 @@ std::string facets_csv(const wedge::Calibration& calibration) {
 
 }  // namespace
 
-wedge::Calibration wedge_calibration(const lab::Settings& settings) {
-  const lab::WedgeSpec& spec = settings.wedge;
-  const std::filesystem::path file = settings.file.parent_path() / spec.loops;
-  const auto loops = wedge::read_loops(file, spec.skip);
+WedgeReduction wedge_reduction(const lab::LoadedSettings& loaded) {
+  const lab::WedgeSpec& spec = loaded.settings.wedge;
+  WedgeReduction reduction{loaded, loaded.settings.file.parent_path() / spec.loops, {}, {}};
+  reduction.loops = wedge::read_loops(reduction.file, spec.skip);
   try {
-    return wedge::calibrate(loops, {spec.adhesion, spec.slope_error, spec.load_error});
+    reduction.calibration =
+        wedge::calibrate(reduction.loops, {spec.adhesion, spec.slope_error, spec.load_error});
   } catch (const std::runtime_error& error) {
-    throw SceneError({{file.string(), 1, 1, "", "wedge", error.what()}});
+    throw SceneError({{reduction.file.string(), 1, 1, "", "wedge", error.what()}});
   }
+  return reduction;
 }
 
-void write_wedge(const std::filesystem::path& folder, const lab::LoadedSettings& loaded,
-                 const wedge::Calibration& calibration) {
-  Json json{{"title", loaded.settings.title},
+nlohmann::ordered_json wedge_json(const WedgeReduction& reduction) {
+  const wedge::Calibration& calibration = reduction.calibration;
+  Json json{{"title", reduction.loaded.settings.title},
             {"version", program_version()},
             {"commit", program_commit()},
             {"friction", value_json(calibration.friction)},
@@ -81,10 +83,14 @@ void write_wedge(const std::filesystem::path& folder, const lab::LoadedSettings&
   if (calibration.crosstalk) json["crosstalk"] = value_json(*calibration.crosstalk);
   if (calibration.flat_friction) json["flat_friction"] = *calibration.flat_friction;
   for (const wedge::Facet& facet : calibration.facets) json["facets"].push_back(facet_json(facet));
-  write_text(folder / "facets.csv", facets_csv(calibration));
-  write_text(folder / "reduce.toml", loaded.text);
+  return json;
+}
+
+void write_wedge(const std::filesystem::path& folder, const WedgeReduction& reduction) {
+  write_text(folder / "facets.csv", facets_csv(reduction.calibration));
+  write_text(folder / "reduce.toml", reduction.loaded.text);
   write_text(folder / "summary.json",
-             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+             wedge_json(reduction).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::string wedge_text(const wedge::Calibration& calibration) {

@@ -2,19 +2,32 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "scenes/lab_settings.hpp"
 #include "scenes/wedge_calibration.hpp"
 
 namespace pulvis {
 
+struct WedgeReduction {
+  lab::LoadedSettings loaded;
+  std::filesystem::path file;  // of the loops
+  std::vector<wedge::Loop> loops;
+  wedge::Calibration calibration;
+};
+
 // Of the loops that the settings name; throws SceneError where they fit no friction.
-wedge::Calibration wedge_calibration(const lab::Settings& settings);
+WedgeReduction wedge_reduction(const lab::LoadedSettings& loaded);
+
+// What summary.json holds, all in SI units.
+nlohmann::ordered_json wedge_json(const WedgeReduction& reduction);
 
 // summary.json, facets.csv and the settings.
-void write_wedge(const std::filesystem::path& folder, const lab::LoadedSettings& loaded,
-                 const wedge::Calibration& calibration);
+void write_wedge(const std::filesystem::path& folder, const WedgeReduction& reduction);
+
+void write_wedge_report(const std::filesystem::path& folder, const WedgeReduction& reduction);
 
 std::string wedge_text(const wedge::Calibration& calibration);
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "components/shape.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/outline_curve.hpp"
 
 namespace pulvis {
 
@@ -13,10 +13,13 @@ void mesh_outline(const RectangleOutline& rectangle, const RectangleMesh& mesh, 
 void mesh_outline(const RoundedRectangleOutline& rectangle, const RoundedRectangleMesh& mesh,
                   double phase, Shape& shape);
 void mesh_outline(const RingOutline& ring, const RingMesh& mesh, double phase, Shape& shape);
-void mesh_outline(const EllipseOutline& outline, const StarMesh& mesh, double phase, Shape& shape);
-void mesh_outline(const SuperellipseOutline& outline, const StarMesh& mesh, double phase,
-                  Shape& shape);
-void mesh_outline(const PolygonOutline& outline, const StarMesh& mesh, double phase, Shape& shape);
-void mesh_outline(const PointsOutline& outline, const StarMesh& mesh, double phase, Shape& shape);
+
+// Of every outline that is a curve; its mesh does not turn.
+void mesh_star(const OutlineCurve& curve, const StarMesh& mesh, Shape& shape);
+template <class Curved>
+requires requires(const Curved& outline) { curve_of(outline); }
+void mesh_outline(const Curved& outline, const StarMesh& mesh, double /*phase*/, Shape& shape) {
+  mesh_star(curve_of(outline), mesh, shape);
+}
 
 }  // namespace pulvis

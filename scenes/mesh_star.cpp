@@ -1,4 +1,4 @@
-// Ellipse, superellipse, polygon, points: an O-grid in any outline that one point inside sees as a whole.
+// An O-grid in any curve that one point inside sees as a whole: ellipse, superellipse, polygon, points.
 #include "scenes/boundary_nodes.hpp"
 #include "scenes/contact_curve.hpp"
 #include "scenes/mesh_outlines.hpp"
@@ -22,6 +22,8 @@ Point centre_of(const std::vector<Point>& nodes) {
   return {centre.x(), centre.y()};
 }
 
+}  // namespace
+
 void mesh_star(const OutlineCurve& curve, const StarMesh& mesh, Shape& shape) {
   const BoundaryNodes boundary = boundary_nodes(curve, mesh.boundary_edges);
   SmoothOutline outline;
@@ -37,21 +39,6 @@ void mesh_star(const OutlineCurve& curve, const StarMesh& mesh, Shape& shape) {
     cornered_curve(shape, boundary.corners);
   else
     close_curve(shape, {outline.c, 0});
-}
-
-}  // namespace
-
-void mesh_outline(const EllipseOutline& outline, const StarMesh& mesh, double, Shape& shape) {
-  mesh_star(curve_of(outline), mesh, shape);
-}
-void mesh_outline(const SuperellipseOutline& outline, const StarMesh& mesh, double, Shape& shape) {
-  mesh_star(curve_of(outline), mesh, shape);
-}
-void mesh_outline(const PolygonOutline& outline, const StarMesh& mesh, double, Shape& shape) {
-  mesh_star(curve_of(outline), mesh, shape);
-}
-void mesh_outline(const PointsOutline& outline, const StarMesh& mesh, double, Shape& shape) {
-  mesh_star(curve_of(outline), mesh, shape);
 }
 
 }  // namespace pulvis

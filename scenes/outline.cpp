@@ -38,8 +38,10 @@ double area_of(const SuperellipseOutline& o) {
   const double g = std::lgamma(1 + 1 / o.exponent), h = std::lgamma(1 + 2 / o.exponent);
   return o.width * o.height * std::exp(2 * g - h);
 }
-double area_of(const PolygonOutline& o) { return curve_of(o).area(); }
-double area_of(const PointsOutline& o) { return curve_of(o).area(); }
+template <class CurvedOutline>
+double area_of(const CurvedOutline& o) {
+  return curve_of(o).area();
+}
 
 std::vector<Vec2> polygon_of(const RoundedBox& box, double deviation) {
   // The sagitta of a chord over the angle 2 a is r (1 - cos a).

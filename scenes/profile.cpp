@@ -148,9 +148,8 @@ class ProfileChecks {
       : relief_(tool.relief), path_(std::move(path)), origins_(origins), problems_(problems) {}
 
   void run() {
-    const bool repeats = relief_.kind == Kind::triangle || relief_.kind == Kind::sine ||
-                         relief_.kind == Kind::trapezoid;
     const bool rough = relief_.kind == Kind::rough, measured = relief_.kind == Kind::file;
+    const bool repeats = relief_.kind != Kind::flat && !rough && !measured;
     belongs("pitch", repeats, "\"triangle\", \"sine\" or \"trapezoid\"");
     belongs("depth", repeats, "\"triangle\", \"sine\" or \"trapezoid\"");
     belongs("ra", repeats || rough, "\"triangle\", \"sine\", \"trapezoid\" or \"rough\"");

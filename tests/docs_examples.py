@@ -1,4 +1,5 @@
-"""Runs the examples of docs/results.md that read results, on a small run.
+"""Runs the examples of docs/results.md that read results, on a small run; and every file that a page of docs/ or
+the README names must be there.
 
 usage: docs_examples.py PULVIS SOURCE_DIR
 """
@@ -13,8 +14,28 @@ EXPECTED = {"h5py": r"largest force on the punch: \S+ N\nmean effective stress: 
             "meshio": r"^0 s: largest effective stress \S+ Pa\n(.+ s: largest effective stress \S+ Pa\n)+$"}
 
 
+# `systems/j2_kernel.hpp`, `scenes/afm`; not patterns (`mesh_<outline>.cpp`), nor what a build or a run makes.
+NAMED = re.compile(r"`(?:\./)?((?:cli|scenes|systems|components|engine|tests|bench|docs)/[\w./+-]+)`")
+LINKED = re.compile(r"\]\(([\w./-]+\.(?:md|png|json))[#)]")
+
+
+def check_names(source):
+    missing, found = [], 0
+    for page in [source / "README.md", *sorted((source / "docs").glob("*.md"))]:
+        text = page.read_text(encoding="utf-8")
+        files = [source / name for name in NAMED.findall(text)] + [page.parent / name for name in LINKED.findall(text)]
+        # A name without its ending stands for a header and its source.
+        missing += [f"{page.name}: {file.relative_to(source)}" for file in files
+                    if not file.exists() and not list(file.parent.glob(file.name + ".*"))]
+        found += len(files)
+    if missing or found < 100:
+        sys.exit(f"named in the docs, but not there ({found} names in all):\n" + "\n".join(missing))
+    print(f"ok: {found} files named in the docs")
+
+
 def main():
     program, source = sys.argv[1], Path(sys.argv[2])
+    check_names(source)
     text = (source / "docs/results.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", text, re.S)
     with tempfile.TemporaryDirectory() as folder:

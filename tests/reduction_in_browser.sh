@@ -1,5 +1,6 @@
 #!/bin/bash
-# Opens the report of a reduction in headless Chromium: it must draw its charts and raise no error, offline.
+# Opens the reports of both reductions in headless Chromium: they must draw their charts and raise no error, offline;
+# of the wedge calibration, figures and lines must be those of the loops.
 #
 # usage: reduction_in_browser.sh PULVIS SOURCE_DIR [FOLDER]
 #   PULVIS      the program
@@ -33,3 +34,14 @@ grep -q 'simulation sim' "$work/page.html" || fail "the simulation is not on the
 grep -q '<td>mean of the runs</td>' "$work/page.html" || fail "no mean of the runs"
 picture_of "$out/report.html" 1200,2300 "$out/report.png"
 echo "ok: reduction"
+
+wedge=$out/wedge
+"$pulvis" reduce "$source_dir/scenes/lab/wedge.toml" --overwrite -o "$wedge" >"$work/out.txt" ||
+  fail "the wedge calibration: $(tail -5 "$work/out.txt")"
+body=$(body_of wedge "$wedge/report.html" 1200,2000 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="2"'* ]] || fail "not ready: $body"
+/usr/bin/python3 "$(dirname "$0")/wedge_page.py" "$work/page.html" "$source_dir/scenes/lab/wedge-truth.json" ||
+  fail "the page of the wedge calibration"
+picture_of "$wedge/report.html" 1200,2000 "$wedge/report.png"
+echo "ok: wedge calibration"

@@ -56,6 +56,32 @@ body=$(body_of comparison "$work/comparison.html" 1200,2000 ready)
 [[ $body =~ data-lines=\"([0-9]+)\" && ${BASH_REMATCH[1]} -ge 4 ]] || fail "comparison: too few curves: $body"
 echo "ok: comparison"
 
+"$pulvis" run "$source_dir/scenes/afm/calibration-beam.toml" --threads 1 --set "lever.thickness=3 um" --overwrite \
+  -o "$reports/thick-lever" >"$work/run.txt" 2>&1 || fail "the thick lever: $(tail -3 "$work/run.txt")"
+"$pulvis" report "$reports/lever" "$reports/thick-lever" "$reports/compaction" -o "$reports/levers.html" >/dev/null ||
+  fail "report of levers"
+body=$(body_of levers "$reports/levers.html" 1200,2000 ready)
+[[ $body == *'data-ready="1"'* && $body == *'data-views="3"'* ]] || fail "levers: $body"
+[[ $(grep -o '<h2>Stiffness beside the closed forms: ' "$work/page.html" | wc -l) -eq 2 ]] || fail "levers: not both calibrations"
+[[ $(grep -o 'data-drawn="' "$work/page.html" | wc -l) -eq 3 ]] || fail "levers: a picture is missing"
+picture_of "$reports/levers.html" 1200,2000 "$reports/levers.png"
+echo "ok: comparison of levers"
+
+# The panel that docs/extending.md gives as an example, put where a panel's file would be read.
+/usr/bin/python3 - "$source_dir/docs/extending.md" "$reports/compaction/report.html" >"$work/panel.html" <<'PYTHON'
+import re
+import sys
+
+docs, page = (open(name, encoding="utf-8").read() for name in sys.argv[1:])
+(example,) = re.findall(r"```js\n(.*?)```", docs, re.S)
+before, after = page.split("main().catch(fail);")
+print(before + example.replace('"use strict";', "") + "main().catch(fail);" + after)
+PYTHON
+body=$(body_of panel "$work/panel.html" 1200,2000 ready)
+[[ $body == *'data-ready="1"'* && $body != *data-error* ]] || fail "panel of the docs: $body"
+grep -q '<h2>Time step</h2>' "$work/page.html" || fail "the panel of the docs is not on the page"
+echo "ok: panel of docs/extending.md"
+
 body=$(body_of phone "$reports/compaction/report.html" 500,900 ready)
 [[ $body == *'data-ready="1"'* && $body != *data-error* ]] || fail "phone width: $body"
 echo "ok: phone width"

@@ -1,5 +1,6 @@
 // The curves. A chart is {title, x, y, lines}: x and each line are {label, unit, values}, values in SI; y is
-// what stands at the axis. A line may have x values of its own (x), and a band around it (low, high).
+// what stands at the axis. A line may have x values of its own (x), and a band around it (low, high). One that
+// isMarks is drawn as marks with bars from low to high, and over them the line that was fitted (fit: x, values).
 "use strict";
 
 const LIGHT = {ink: "#1d2733", soft: "#56616f", grid: "#e8ecf1", edge: "#c4cdd8", paper: "#ffffff",
@@ -49,10 +50,11 @@ function shownChart(spec, hidden) {
   const x = unitFor(spec.x.unit, most(spec.lines.map(xsOf)));
   const y = unitFor(spec.lines[0].unit, most(spec.lines.map(line => line.values)));
   const shown = spec.lines.filter((_, i) => !hidden.has(i));
+  const fits = shown.map(line => line.fit).filter(Boolean);
   return {x, y, xLabel: labelled(spec.x.label, x.label), yLabel: labelled(spec.y, y.label),
-          whole: {x: withMargin(bounds(shown.map(xsOf)), 0.02).map(v => v * x.factor),
-                  y: withMargin(bounds(shown.flatMap(line => [line.values, line.low || [], line.high || []])), 0.05)
-                    .map(v => v * y.factor)}};
+          whole: {x: withMargin(bounds([...shown.map(xsOf), ...fits.map(fit => fit.x)]), 0.02).map(v => v * x.factor),
+                  y: withMargin(bounds([...shown.flatMap(line => [line.values, line.low || [], line.high || []]),
+                                        ...fits.map(fit => fit.values)]), 0.05).map(v => v * y.factor)}};
 }
 
 // Where a chart's rectangle lies on its picture, and how numbers get there.
@@ -77,6 +79,15 @@ function pathOf(xs, ys, kx, ky, {px, py}) {
 function bandOf(xs, line, kx, ky, place) {
   const there = Array.from(xs), back = there.slice().reverse();
   return pathOf([...there, ...back], [...line.low, ...Array.from(line.high).reverse()], kx, ky, place) + "Z";
+}
+
+// Circles, and bars where an error is known.
+function marksOf(xs, line, kx, ky, {px, py}, stroke) {
+  return Array.from(line.values, (value, i) => {
+    const x = px(xs[i] * kx).toFixed(1), y = v => py(v * ky).toFixed(1);
+    return `<circle class="mark" cx="${x}" cy="${y(value)}" r="3.5" fill="${stroke}"/>` +
+      (line.high[i] > line.low[i] ? `<path d="M${x} ${y(line.low[i])}L${x} ${y(line.high[i])}" stroke="${stroke}"/>` : "");
+  }).join("");
 }
 
 // The picture as text: the page shows it, the buttons save it.
@@ -107,6 +118,14 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
   spec.lines.forEach((one, i) => {
     if (hidden.has(i)) return;
     const stroke = one.colour || colours.lines[i % colours.lines.length], xs = one.x || spec.x.values;
+    if (one.isMarks) {
+      out.push(marksOf(xs, one, shown.x.factor, shown.y.factor, place, stroke));
+      if (one.fit) {
+        out.push(`<path class="curve" d="${pathOf(one.fit.x, one.fit.values, shown.x.factor, shown.y.factor, place)}" ` +
+                 `stroke="${stroke}"/>`);
+      }
+      return;
+    }
     if (one.low) {
       out.push(`<path d="${bandOf(xs, one, shown.x.factor, shown.y.factor, place)}" fill="${stroke}" fill-opacity="0.2"/>`);
     }

@@ -1,5 +1,5 @@
 // Several runs side by side: one time, one scale, one range of colours; curves over each other.
-// <body> tells how it went: data-ready, data-views, data-lines, or data-error.
+// <body> tells how it went: data-ready, data-views, data-lines, data-panels, or data-error.
 "use strict";
 
 // Names that tell the runs apart: titles, or folders where titles are alike.
@@ -57,19 +57,54 @@ function fillRuns(runs, names) {
   }
 }
 
-// The views of the runs that have frames, with the largest of them as everybody's scale.
-function placeViews(runs, names) {
+// What each run's own report has in cards, run beside run, a row for each kind of card.
+function placePanels(runs, names, timeline) {
+  const reports = runs.map(run => new Report(run, timeline)), last = document.getElementById("runs-section");
+  let count = 0;
+  for (const panel of panelsInOrder()) {
+    const row = element("div", {className: "cards"});
+    last.before(row);
+    reports.forEach((report, i) => {
+      if (!panel.when(report.run)) return;
+      const host = card(`${panel.title}: ${names[i]}`);
+      row.append(host.parentElement);
+      panel.draw(report, host);
+      ++count;
+    });
+  }
+  document.body.dataset.panels = count;
+}
+
+// The views of the runs that have frames; particles have the largest of them as everybody's scale.
+async function placeViews(runs, names) {
   const host = document.getElementById("pictures"), shown = runs.filter(run => run.frames.length && run.head.mesh);
   const extent = k => Math.max(...shown.map(({head}) => head.high[k] - head.low[k]));
-  const whole = {width: extent(0), height: extent(1)};
-  return runs.flatMap((run, i) => {
+  const whole = {width: extent(0), height: extent(1)}, views = [];
+  for (const [i, run] of runs.entries()) {
     const place = element("div", {}), pane = element("div", {className: "pane"}, element("h2", {textContent: names[i]}), place);
     host.append(pane);
-    if (shown.includes(run)) return [new FieldView(place, run, {whole, most: 420})];
-    place.append(element("p", {className: "note", textContent: "No picture: " + (run.head.solid ?
-      "a lever is shown in its own report." : "the scene wrote no frames.")}));
-    return [];
-  });
+    if (shown.includes(run)) views.push(new FieldView(place, run, {whole, most: 420}));
+    else if (run.frames.length && run.head.solid) views.push(await SolidView.load(place, run));
+    else place.append(element("p", {className: "note", textContent: "No picture: the scene wrote no frames."}));
+  }
+  return views;
+}
+
+// Of all views of a kind at once: what they show, and contact forces where there are some.
+async function placeControls(views, wanted, {id, name}) {
+  if (!views.length) return;
+  const controls = document.getElementById("controls"), field = element("select", {id});
+  const show = change => Promise.all(views.map(view => view.show(change))).then(() => views.forEach(view => view.draw()));
+  views[0].choices.forEach(([value, label]) => field.add(new Option(label, value)));
+  field.value = views[0].choices.some(([value]) => value === wanted) ? wanted : views[0].choices[0][0];
+  field.onchange = () => show({shown: field.value});
+  controls.append(element("label", {}, name + " ", field));
+  if (views.some(({run}) => run.frames.some(frame => frame.network && frame.network.lines))) {
+    const box = element("input", {type: "checkbox"});
+    box.onchange = () => show({contacts: box.checked});
+    controls.append(element("label", {}, box, " contact forces"));
+  }
+  await show({shown: field.value});
 }
 
 // One range for all: of every run, or of the frames that are shown.
@@ -87,24 +122,20 @@ async function main() {
   document.getElementById("names").textContent = `${runs.length} runs side by side`;
   document.getElementById("lead").textContent = names.join(" · ");
   placeSettings(document.getElementById("settings"), new Set(runs.flatMap(run => run.head.series).map(series => series.unit)));
-  const views = placeViews(runs, names), pace = views.map(view => view.run).sort((a, b) => b.frames.length - a.frames.length)[0];
+  const views = await placeViews(runs, names), pace = views.map(view => view.run).sort((a, b) => b.frames.length - a.frames.length)[0];
   const timeline = new Timeline(document.getElementById("timeline"), pace ? pace.frames.map(frame => frame.time / (pace.frames.at(-1).time || 1)) : [],
                                 {name: "share of the run", unit: "-"});
   document.getElementById("timeline").hidden = !pace || pace.frames.length < 2;
   placeCurves(runs, names, timeline);
+  placePanels(runs, names, timeline);
   fillRuns(runs, names);
   onUnits(() => fillRuns(runs, names));
-  shareRanges(views);
-  const draw = change => Promise.all(views.map(view => view.show(change))).then(() => views.forEach(view => view.draw()));
+  const fields = views.filter(view => view instanceof FieldView), solids = views.filter(view => view instanceof SolidView);
+  shareRanges(fields);
   timeline.listen(share => { views.forEach(view => view.showShare(share)); });
-  if (views.length) {
-    const field = element("select", {id: "field"});
-    views[0].choices.forEach(([value, label]) => field.add(new Option(label, value)));
-    field.value = pace.field("effective_stress") >= 0 ? "effective_stress" : views[0].choices[0][0];
-    field.onchange = () => draw({shown: field.value});
-    document.getElementById("controls").append(element("label", {}, "Show ", field));
-    await draw({shown: field.value});
-  }
+  const both = fields.length > 0 && solids.length > 0;
+  await placeControls(fields, "effective_stress", {id: "field", name: both ? "Particles" : "Show"});
+  await placeControls(solids, "size", {id: both ? "lever-field" : "field", name: both ? "Levers" : "Show"});
   document.body.dataset.views = views.length;
   document.body.dataset.ready = "1";
 }

@@ -6,6 +6,7 @@ const PANELS = [], CURVES = [], FIGURES = [];
 
 // {title, order, when(run), draw(report, host)}: a card of its own. Small orders stand first.
 const addPanel = panel => { PANELS.push({order: 50, ...panel}); };
+const panelsInOrder = () => PANELS.slice().sort((a, b) => a.order - b.order);
 // run => [{title, xs: [x, ...], y, lines}]: choices of the large chart; x and lines as of a Chart. Those that
 // are `first` are what the run was made for.
 const addCurves = make => { CURVES.push(make); };
@@ -55,9 +56,10 @@ class Report {
       told.textContent = frame ? note(frame) : "";
       canvas.setAttribute("aria-label", `${title}. ${told.textContent}`);
     };
+    const name = fileName(host.parentElement.querySelector("h2").textContent);  // of the run, too, beside others
     host.parentElement.querySelector(".card-head").append(saveButtons(title, {
-      PNG: () => saveCanvas(fileName(title) + ".png", canvas),
-      CSV: () => saveText(fileName(title) + ".csv", csvOf(columns(this.frame())), "text/csv")}));
+      PNG: () => saveCanvas(name + ".png", canvas),
+      CSV: () => saveText(name + ".csv", csvOf(columns(this.frame())), "text/csv")}));
     this.timeline.listen(paint);
     [onUnits, onTheme, onMap].forEach(on => on(paint));
     onResize(host, () => { if (host.clientWidth !== drawn) paint(); });
@@ -66,7 +68,7 @@ class Report {
   frame() { return this.run.frames[this.run.frameAt(this.timeline.share * this.endTime)]; }
 
   placePanels() {
-    for (const panel of PANELS.slice().sort((a, b) => a.order - b.order)) {
+    for (const panel of panelsInOrder()) {
       if (panel.when(this.run)) panel.draw(this, card(panel.title));
     }
   }

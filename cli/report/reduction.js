@@ -11,16 +11,6 @@ async function readTable(head, name) {
 
 const inMm = value => `${digits(value * 1e3, 3)} mm`;
 
-const withError = (value, error, count = 3) =>
-  error === undefined ? digits(value, count) : `${digits(value, count)} ± ${digits(error, 2)}`;
-
-function addRow(table, cells, isHead) {
-  const row = table.insertRow();
-  for (const text of cells) {
-    row.append(element(isHead ? "th" : "td", {textContent: text ?? "–"}));
-  }
-}
-
 function fillFigures(summary) {
   const table = document.getElementById("figures");
   addRow(table, ["", "static", "at", "dynamic", "trend per 10 mm", "stick-slip", "in shear force",

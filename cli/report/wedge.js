@@ -1,0 +1,73 @@
+// The page of a wedge calibration: friction loops in volts against the load, with the lines that were fitted, and
+// what they say about friction and the detector.
+// <body> tells how it went: data-ready, data-charts, or data-error.
+"use strict";
+
+const inDegrees = slope => `${slope > 0 ? "+" : ""}${digits(slope * 180 / Math.PI, 4)}°`;
+const mean = values => values.reduce((sum, v) => sum + v, 0) / values.length;
+
+// A facet's loops as marks, and the line through them: least squares pass through the mean of both. One load
+// gives no line.
+function facetLine(facet, loops, key, slope) {
+  const own = loops.filter(loop => loop.slope === facet.slope);
+  const x = own.map(loop => loop.load), values = own.map(loop => loop[key]);
+  const error = own.map(loop => loop[`${key}_error`] ?? 0);
+  const at = load => mean(values) + slope * (load - mean(x)), ends = [0, Math.max(...x)];
+  return {label: inDegrees(facet.slope), unit: "V", x, values, isMarks: true,
+          low: values.map((v, i) => v - error[i]), high: values.map((v, i) => v + error[i]),
+          fit: facet.loads > 1 ? {x: ends, values: ends.map(at)} : undefined};
+}
+
+function placeCharts({facets, crosstalk}, loops) {
+  const load = {label: "load", unit: "N", values: []};
+  const draw = (title, y, key, slopeOf) => drawChart(card(title),
+    {x: load, y, lines: facets.map(facet => facetLine(facet, loops, key, slopeOf(facet)))});
+  draw("Half-width W of the loops against load", "half-width W", "half_width", facet => facet.half_width_by_load.value);
+  const taken = crosstalk ? crosstalk.value : 0;  // of the others' offsets, not of the flat facet's own
+  draw("Offset Δ of the loops against load", "offset Δ", "offset",
+       facet => facet.offset_by_load.value + (facet.friction ? taken : 0));
+  return 2;
+}
+
+function fillTables(summary, loops) {
+  const facets = document.getElementById("facets");
+  addRow(facets, ["slope", "loops", "loads", "W′", "Δ′", "adhesion", "friction", "sensitivity"], true);
+  for (const facet of summary.facets) {
+    addRow(facets, [inDegrees(facet.slope), facet.loops, facet.loads, measured(facet.half_width_by_load, "V/N"),
+      measured(facet.offset_by_load, "V/N"), measured(facet.adhesion, "N"),
+      facet.friction || summary.flat_friction === undefined ? measured(facet.friction)
+        : `${digits(summary.flat_friction)}, with the sensitivity below`,
+      measured(facet.sensitivity, "N/V")]);
+  }
+  addRow(facets, ["all", "", "", "", "", "", measured(summary.friction), measured(summary.sensitivity, "N/V")]);
+  const table = document.getElementById("loops");
+  addRow(table, ["slope", "load", "half-width W", "offset Δ"], true);
+  for (const loop of loops) {
+    const of = key => measured({value: loop[key], error: loop[`${key}_error`]}, "V");
+    addRow(table, [inDegrees(loop.slope), withUnit(loop.load, "N"), of("half_width"), of("offset")]);
+  }
+}
+
+function fillTiles(summary) {
+  const tile = (name, value, note) => document.getElementById("tiles").append(element("div", {className: "tile"},
+    element("dt", {textContent: name}), element("dd", {textContent: value}), element("small", {textContent: note})));
+  const inclined = summary.facets.filter(facet => facet.friction).length;
+  tile("friction coefficient", measured(summary.friction), `of ${inclined} inclined facet${inclined > 1 ? "s" : ""}`);
+  tile("lateral sensitivity", measured(summary.sensitivity, "N/V"), "force by detector signal");
+  if (summary.crosstalk) tile("signal of the load itself", measured(summary.crosstalk, "V/N"), "of the flat facet, taken off");
+  if (summary.flat_friction !== undefined) tile("friction on the flat", digits(summary.flat_friction), "with that sensitivity: a check");
+}
+
+function main() {
+  const {summary, loops, file, settings} = JSON.parse(document.getElementById("head").textContent);
+  document.getElementById("lead").textContent = `${loops.length} friction loops on ${summary.facets.length} ` +
+    `facet${summary.facets.length > 1 ? "s" : ""}, from ${file}.`;
+  document.getElementById("version").textContent = `Version ${summary.version} (${summary.commit}).`;
+  document.getElementById("settings-text").textContent = settings;
+  fillTiles(summary);
+  fillTables(summary, loops);
+  document.body.dataset.charts = placeCharts(summary, loops);
+  document.body.dataset.ready = "1";
+}
+
+main();
