@@ -1,7 +1,12 @@
 // An elastic ball, meshed finely where it touches, on a rigid plane: Hertz's force, radius and pressure.
 #include <cmath>
 #include <numbers>
+#include <set>
 
+#include "engine/workers.hpp"
+#include "scenes/ball_mesh.hpp"
+#include "systems/solid_equations.hpp"
+#include "systems/static_solver.hpp"
 #include "tests/afm/afm_run.hpp"
 
 namespace pulvis {
@@ -9,60 +14,62 @@ namespace {
 
 constexpr double modulus = 115e9 / (1 - 0.35 * 0.35), ball = 8e-6;  // E*, R of hertz-ball.toml
 
-// The scanner's way is Hertz's approach and what lever, neck and the rest of the ball give: d = (F/K)^(2/3) + C F.
-// Both constants from a press, by least squares on d/F^(2/3).
-struct Approach {
-  double stiffness = 0;   // N/m^(3/2), K
-  double compliance = 0;  // m/N, C
-  double misfit = 0;      // -, of the largest way
-};
-
-Approach approach_of(const AfmHistory& h) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (std::size_t i = 1; i < h.rows.size(); ++i) {
-    const double f = h.value(i, "probe/force_z"), local = std::pow(f, 2.0 / 3);
-    const double a = f / local, b = h.value(i, "scanner/z") / local;
-    n += 1, x += a, y += b, xx += a * a, xy += a * b;
-  }
-  Approach fit;
-  fit.compliance = (n * xy - x * y) / (n * xx - x * x);
-  fit.stiffness = std::pow((y - fit.compliance * x) / n, -1.5);
-  for (std::size_t i = 1; i < h.rows.size(); ++i) {
-    const double f = h.value(i, "probe/force_z"), d = h.value(i, "scanner/z");
-    const double fitted = std::pow(f / fit.stiffness, 2.0 / 3) + fit.compliance * f;
-    fit.misfit = std::max(fit.misfit, std::abs(fitted - d) / last(h, "scanner/z"));
-  }
-  return fit;
-}
-
 struct Errors {
-  double radius = 0, pressure = 0, stiffness = 0;
+  double force = 0, radius = 0, pressure = 0;  // -, over Hertz's
 };
 
-Errors errors_of(const std::vector<std::string>& mesh) {
-  const Scene scene = shipped_afm("hertz-ball.toml", mesh);
-  const AfmHistory h = history_of(scene);
-  const double f = last(h, "probe/force_z");
-  EXPECT_NEAR(f, 2e-3, 1e-9);
+Errors errors_at(const AfmHistory& h, std::size_t i) {
+  const double f = h.value(i, "probe/force_z"), approach = h.value(i, "scanner/z");
   const double a = std::cbrt(0.75 * f * ball / modulus);
-  const Approach fit = approach_of(h);
-  EXPECT_LT(fit.misfit, 0.003);
-  const Errors errors{last(h, "contact/radius") / a - 1,
-                      last(h, "contact/pressure") / (1.5 * f / (std::numbers::pi * a * a)) - 1,
-                      fit.stiffness / (4.0 / 3 * modulus * std::sqrt(ball)) - 1};
-  std::cout << errors.radius << " " << errors.pressure << " " << errors.stiffness << " "
-            << fit.compliance << " " << fit.misfit << " " << last(h, "contact/points") << "\n";
-  return errors;
+  return {f / (4.0 / 3 * modulus * std::sqrt(ball) * std::pow(approach, 1.5)) - 1,
+          h.value(i, "contact/radius") / a - 1,
+          h.value(i, "contact/pressure") / (1.5 * f / (std::numbers::pi * a * a)) - 1};
 }
 
-TEST(HertzBall, AMeshedBallTakesHertzsForceRadiusAndPressureWhereItsMeshResolvesThem) {
-  const Errors fine = errors_of({});
-  EXPECT_LT(std::abs(fine.radius), 0.03);
-  EXPECT_LT(std::abs(fine.pressure), 0.03);
-  EXPECT_LT(std::abs(fine.stiffness), 0.03);
-  const Errors coarse = errors_of({"tip.contact_edge=0.16 um"});
-  EXPECT_GT(std::abs(coarse.radius), std::abs(fine.radius));
-  EXPECT_GT(std::abs(coarse.stiffness), std::abs(fine.stiffness));
+// The radius of contact is five elements long at last, of the coarser mesh two and a half. The plane's way is the
+// approach: what lever and neck give is 0.2% of it.
+TEST(HertzBall, TakesHertzsForceRadiusAndPressureWhereItsMeshResolvesThem) {
+  const AfmHistory fine = history_of(shipped_afm("hertz-ball.toml"));
+  const AfmHistory coarse =
+      history_of(shipped_afm("hertz-ball.toml", {"tip.contact_edge=0.08 um"}));
+  for (std::size_t i = 1; i < fine.rows.size(); ++i)
+    EXPECT_LT(std::abs(errors_at(fine, i).force), 0.03) << i;
+  const std::size_t end = fine.rows.size() - 1;
+  const Errors few = errors_at(coarse, end), many = errors_at(fine, end);
+  EXPECT_LT(std::abs(many.radius), 0.03);
+  EXPECT_LT(std::abs(many.pressure), 0.03);
+  EXPECT_LT(std::abs(many.force), 0.5 * std::abs(few.force));
+  EXPECT_LT(std::abs(many.radius), 0.67 * std::abs(few.radius));
+  EXPECT_LT(std::abs(many.pressure), 0.67 * std::abs(few.pressure));
+}
+
+// Nodes in the middle of larger faces and edges hang: an even strain passes through all the same, and leaves
+// no force on any node inside.
+TEST(HertzBall, ADividedMeshPassesThePatchTest) {
+  SolidDraft draft;
+  const BallMesh mesh = add_ball(draft, {{1e-6, 2e-6, 3e-6}, 8e-6, 4, 0.2e-6, 1e-6});
+  const SolidMaterial material{100e9, 50e9, 0, 0};
+  const auto world = finish_solid(draft, {material, material, material, material});
+  Eigen::Matrix3d gradient;
+  gradient << 1, 2, -1, 0.5, -2, 3, 1.5, 0, 1;
+  gradient *= 1e-3;
+  double* u = world->column<Displacement>().values();
+  for (std::size_t n = 0; n < draft.nodes.size(); ++n)
+    Eigen::Map<Eigen::Vector3d>(u + 3 * n) = gradient * draft.nodes[n];
+  Workers(1).run([&] { StaticSolver(*world).look(); });
+  std::set<int> outside;
+  for (const auto& face : mesh.faces) outside.insert(face.begin(), face.end());
+  const auto& solid = world->resource<SolidMesh>();
+  const auto& residual = world->resource<SolidEquations>().residual;
+  int inside = 0, hanging = 0;
+  for (std::size_t n = 0; n < draft.nodes.size(); ++n) {
+    hanging += solid.unknown[n] < 0 ? 1 : 0;
+    if (solid.unknown[n] < 0 || outside.contains(static_cast<int>(n))) continue;
+    ++inside;
+    EXPECT_LT(residual.segment<3>(3 * solid.unknown[n]).norm(), 1e-10 * residual.norm()) << n;
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(hanging, 100);
 }
 
 }  // namespace
