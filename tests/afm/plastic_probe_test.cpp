@@ -1,9 +1,10 @@
 // A colloid probe of copper that is pressed beyond yield and let go.
 #include <cmath>
+#include <numbers>
 
 #include "components/solid.hpp"
 #include "scenes/afm_loop.hpp"
-#include "tests/afm/lever.hpp"
+#include "tests/afm/afm_run.hpp"
 
 namespace pulvis {
 namespace {
@@ -157,6 +158,33 @@ TEST(PlasticProbe, APillarKeepsThePlasticStrainOfSimpleCompression) {
     ASSERT_TRUE(simulation.load_tip({0, 0, stress * area}).converged) << stress;
   EXPECT_GT(1 - law.released, 0.01);
   EXPECT_NEAR(shortening(simulation, length) / (1 - law.released), 1, 1e-4);
+}
+
+// Fully plastic, a ball's mesh resolves it: the pressure is Tabor's, even, so that 5/2 <r^2>, which the
+// programme calls contact/radius^2, is 5/4 a^2. Unloading is elastic: 2 E* a at first, and the plane is left
+// when 2/pi (of an even pressure) to 3/4 (of Hertz's) of F/(E* a) has sprung back.
+TEST(PlasticProbe, AResolvedBallHasTaborsPressureAndLeavesADentByElasticUnloading) {
+  const AfmHistory h = history_of(shipped_afm("plastic-probe.toml"));
+  ASSERT_EQ(h.rows.size(), 10u);
+  const std::size_t top = 3;
+  const double f = h.value(top, "probe/force_z"), reduced = young / (1 - 0.35 * 0.35);
+  const double a = std::sqrt(0.8) * h.value(top, "contact/radius");
+  const double pressure = f / (std::numbers::pi * a * a) / yield;
+  EXPECT_GT(pressure, 2.8);
+  EXPECT_LT(pressure, 3.15);
+  const auto raised = [&](std::size_t i) {
+    return h.value(top, "scanner/z") - h.value(i, "scanner/z");
+  };
+  const double stiffness = (f - h.value(top + 1, "probe/force_z")) / raised(top + 1);
+  EXPECT_NEAR(stiffness / (2 * reduced * a), 1, 0.05);
+  // The end of unloading goes as Hertz's power 3/2.
+  const double before = std::pow(h.value(top + 3, "probe/force_z"), 2.0 / 3);
+  const double after = std::pow(h.value(top + 4, "probe/force_z"), 2.0 / 3);
+  const double left =
+      raised(top + 4) + (raised(top + 4) - raised(top + 3)) * after / (before - after);
+  EXPECT_GT(left / (f / (reduced * a)), 2 / std::numbers::pi);
+  EXPECT_LT(left / (f / (reduced * a)), 0.75);
+  EXPECT_GT(h.value(top, "scanner/z"), 5 * left);  // the dent
 }
 
 }  // namespace
