@@ -29,7 +29,6 @@ struct AfmModel {
   TipMesh tip;
   int contact_node = 0;                 // of a sharp tip's end: the one in its middle
   double normal_stiffness = 0;          // N/m, at rest; 0 until it was calibrated
-  std::array<double, 3> first_touch{};  // m, where the target was then
   std::size_t nodes = 0, elements = 0;
 };
 

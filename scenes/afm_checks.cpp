@@ -98,6 +98,7 @@ class AfmChecks {
                                             tip_.neck_radius, tip_.radius));
       return;
     }
+    if (!contact_mesh()) return;
     const double reach = foot_reach(tip_);
     const std::string size = tip_.shape == Shape::sphere ? "tip.neck_radius" : "tip.foot";
     if (reach >= half_width_at(lever_.length - tip_.set_back) && reach > 0)
@@ -110,6 +111,23 @@ class AfmChecks {
              fmt::format("the tip's foot (x = {:g} m, y = {:g} m, reaching {:g} m) is not on the "
                          "lever, allowed: {:g} m <= set_back < {:g} m and a foot on the lever",
                          lever_.length - tip_.set_back, tip_.offset, reach, reach, lever_.length));
+  }
+
+  // What a mesh that is drawn together at the pole comes to: some 3 (reach/edge)^3 elements.
+  bool contact_mesh() {
+    if (!tip_.contact_edge) return true;
+    const double edge = *tip_.contact_edge;
+    if (edge < tip_.radius / 1000)
+      refuse("tip.contact_edge",
+             fmt::format("{:g} m is too small for this ball, allowed: >= {:g} m", edge,
+                         tip_.radius / 1000));
+    const double most = std::min(24 * edge, 0.5 * tip_.radius);
+    if (tip_.contact_reach && *tip_.contact_reach > most)
+      refuse("tip.contact_reach",
+             fmt::format("{:g} m: the fine mesh is too large, allowed: <= {:g} m (24 times "
+                         "contact_edge, half the radius)",
+                         *tip_.contact_reach, most));
+    return good_;
   }
 
   bool foot_on_lever(double reach) const {

@@ -9,6 +9,7 @@
 #include "scenes/afm_scene.hpp"
 #include "scenes/target_shape.hpp"
 #include "systems/run_failure.hpp"
+#include "systems/solid_contact_problem.hpp"
 
 namespace pulvis {
 namespace {
@@ -22,14 +23,10 @@ double reach_of(const AfmScene& afm) {
   return 2 * way + 0.1 * afm.lever.length;  // and what the lever may bend
 }
 
-Vec3 place_of(const AfmModel& model, int node) {
+Vec3 on_target(const AfmModel& model, int node) {
   const double* x = model.world->column<ReferencePosition>().values() + 3 * node;
   const double* u = model.world->column<Displacement>().values() + 3 * node;
-  return {x[0] + u[0], x[1] + u[1], x[2] + u[2]};
-}
-
-Vec3 on_target(const AfmModel& model, int node) {
-  return place_of(model, node) - Vec3(model.world->resource<Target>().position.data());
+  return place_from(model.world->resource<Target>(), Vec3(x), Vec3(u));
 }
 
 // Smallest gap over all points of the probe.
@@ -43,6 +40,31 @@ double smallest_gap(const AfmModel& model) {
     smallest = std::min(smallest, near.distance - target.end_radius);
   }
   return smallest;
+}
+
+struct ContactPatch {
+  double radius = 0, pressure = 0;  // m, Pa
+};
+
+ContactPatch contact_patch(const AfmModel& model) {
+  ContactPatch patch;
+  if (model.tip.area.empty()) return patch;
+  const auto& nodes = model.world->column<ProbeNode>();
+  const double* state = model.world->column<ProbeState>().values();
+  double sum = 0, square = 0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < nodes.table.rows; ++i) {
+    const double pressing = state[ProbeState::count * i + 1];
+    if (state[ProbeState::count * i + 3] == 0 || pressing <= 0) continue;
+    const auto at = on_target(model, nodes.values()[i]).head<2>().eval();
+    sum += pressing;
+    first += pressing * at;
+    square += pressing * at.squaredNorm();
+    patch.pressure = std::max(patch.pressure, pressing / model.tip.area[i]);
+  }
+  if (sum > 0)
+    patch.radius = std::sqrt(2.5 * std::max(0.0, square / sum - (first / sum).squaredNorm()));
+  return patch;
 }
 
 }  // namespace
@@ -68,6 +90,10 @@ std::vector<SeriesInfo> afm_series() {
       {"detector/normal", "V", "normal gain times slope"},
       {"detector/lateral", "V", "lateral gain times slope"},
       {"contact/points", "-", "points of the probe that touch"},
+      {"contact/radius", "m",
+       "of a ball: root of 5/2 of the mean square distance of the pressing forces from their "
+       "middle, which is Hertz's radius of contact"},
+      {"contact/pressure", "Pa", "of a ball: the largest on its nodes"},
       {"contact/slides", "-", "share of the points that touch which slide"},
       {"energy/elastic", "J", "stored in lever and probe"},
       {"energy/released", "J", "by the probe's jumps on and off the surface, until now"},
@@ -108,9 +134,9 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   }
   Target& target = world.resource<Target>();
   const Vec3 end = read(model.end, world.column<ReferencePosition>().values());
-  target.position = {end.x(), end.y(), end.z()};
-  for (int i = 0; i < 100; ++i) target.position[2] += smallest_gap(model);
-  model.first_touch = target.position;
+  target.origin = {end.x(), end.y(), end.z()};
+  target.travel = {};
+  for (int i = 0; i < 100; ++i) target.origin[2] += smallest_gap(model);
   double* memory = world.column<ProbeMemory>().values();
   for (int i = 0; i < points; ++i) {
     const Vec3 x = on_target(model, node[i]);
@@ -133,7 +159,7 @@ bool AfmProgramme::tell() {
   const auto add = [&](const Vec3& v) {
     for (int k = 0; k < 3; ++k) row.push_back(v[k]);
   };
-  add(Vec3(target.position.data()) - Vec3(model_.first_touch.data()));
+  add(Vec3(target.travel.data()));
   Vec3 force = Vec3::Zero();
   const auto& points = world.column<ProbeForce>();
   const double* state = world.column<ProbeState>().values();
@@ -149,12 +175,14 @@ bool AfmProgramme::tell() {
   row.push_back(read(model_.foot, u).y());
   row.push_back(slopes(model_, {model_.foot_slope}, u).lateral);
   add(clamp_force(model_));
+  const ContactPatch patch = contact_patch(model_);
   const Slopes spot = slopes(model_, model_.spot, u);
   const DetectorSpec& detector = scene_.afm->detector;
   for (const double value :
        {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
-        detector.lateral_gain * spot.lateral, touching, touching > 0 ? sliding / touching : 0,
-        elastic_energy(model_), position_.released, static_cast<double>(iterations_)})
+        detector.lateral_gain * spot.lateral, touching, patch.radius, patch.pressure,
+        touching > 0 ? sliding / touching : 0, elastic_energy(model_), position_.released,
+        static_cast<double>(iterations_)})
     row.push_back(value);
   position_.told += 1;
   return record_(time_, row);
@@ -168,8 +196,8 @@ bool AfmProgramme::skip() {
 
 void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int depth) {
   Target& target = model_.world->resource<Target>();
-  const auto before = target.position;
-  for (std::size_t k = 0; k < 3; ++k) target.position[k] += travel[k];
+  const auto before = target.travel;
+  for (std::size_t k = 0; k < 3; ++k) target.travel[k] += travel[k];
   target.servo = servo;
   NewtonSettings settings;
   // Factors of a solid that flowed are far too soft for one that unloads.
@@ -181,14 +209,13 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
     position_.released += report.released;
     return solver_.remember();
   }
-  target.position = before;
+  target.travel = before;
   if (depth == most_halvings || iterations_ > most_iterations)
     throw RunFailure(fmt::format(
         "{}: no equilibrium at {:.4f} of the programme, with the sample at x {:.4g}, y {:.4g}, "
         "z {:.4g} m, after {} halvings of the increment; residual {:.2g} of the forces that must "
         "balance: the probe has locked, jumped or left the surface",
-        doing_, time_, before[0] - model_.first_touch[0], before[1] - model_.first_touch[1],
-        before[2] - model_.first_touch[2], depth, report.residuals.back()));
+        doing_, time_, before[0], before[1], before[2], depth, report.residuals.back()));
   const std::array<double, 3> half{travel[0] / 2, travel[1] / 2, travel[2] / 2};
   advance(half, servo, depth + 1);
   advance(half, servo, depth + 1);
@@ -214,8 +241,7 @@ void AfmProgramme::refuse_lock(const std::array<double, 3>& travel) const {
         "{:.4g} "
         "m: uphill on a slope of {:.4g} a friction of {:.4g} holds against any force, allowed: "
         "< {:.4g}",
-        doing_, time_, target.position[0] - model_.first_touch[0],
-        target.position[1] - model_.first_touch[1], -n.dot(forward) / n.z(), target.friction,
+        doing_, time_, target.travel[0], target.travel[1], -n.dot(forward) / n.z(), target.friction,
         -n.z() / n.dot(forward)));
   }
 }

@@ -53,7 +53,8 @@ struct TipSpec {
   double set_back = 0;                      // m, its axis from the lever's end
   double offset = 0;                        // m, its axis from the lever's axis, along y
   int elements = 4;                         // across it
-  double focus = 1;                         // -, of a ball's mesh on its poles
+  std::optional<double> contact_edge;       // m, of a ball's elements where it touches
+  std::optional<double> contact_reach;      // m, how far around its pole; absent: eight edges
   SourceMark mark;
 };
 

@@ -7,94 +7,77 @@
 #include <map>
 #include <numbers>
 
+#include "scenes/ball_cells.hpp"
+
 namespace pulvis {
 namespace {
 
-// Points of the ball by their number on the grid of the cube [-n, n]^3 stretched by the layers: the
-// same triple is the same node.
+// Points of the ball by their numbers: the same numbers are the same node.
 class BallGrid {
  public:
-  BallGrid(SolidDraft& draft, const Vec3& centre, double radius, int across, double focus)
-      : draft_(draft),
-        centre_(centre),
-        radius_(radius),
-        n_(across),
-        focus_(focus),
-        layers_(std::max(1, across / 2)) {}
+  BallGrid(SolidDraft& draft, const BallShape& shape, const BallCells& cells)
+      : draft_(draft), shape_(shape), across_(cells.across()), layers_(cells.layers()) {}
 
-  // Core point (i, j, k), each 0..n.
-  int core(int i, int j, int k) { return node({i, j, k, 0}, core_place(i, j, k)); }
-
-  // Point of a shell: (i, j, k) on the core's surface, layer 0 is the core, layers() the ball's surface.
-  int shell(const std::array<int, 3>& at, int layer) {
-    const Vec3 inner = core_place(at[0], at[1], at[2]);
-    Vec3 angle;
-    for (int a = 0; a < 3; ++a)
-      angle[a] = std::tan(0.25 * std::numbers::pi * line(a, at[static_cast<std::size_t>(a)]));
-    const Vec3 outer = angle.normalized();
-    const double t = 1 - std::pow(1 - static_cast<double>(layer) / layers_, focus_);
-    return node({at[0], at[1], at[2], layer}, (1 - t) * inner + t * outer);
-  }
-  int layers() const { return layers_; }
-
- private:
-  Vec3 core_place(int i, int j, int k) const {
+  Vec3 place(const BallKey& at) const {
     constexpr double half = 0.42;  // of the radius; the cube's corners reach 0.73
-    return half * Vec3(line(0, i), line(1, j), line(2, k));
+    Vec3 inner, angle;
+    for (int a = 0; a < 3; ++a) {
+      const double line = 2.0 * at[static_cast<std::size_t>(a)] / across_ - 1;
+      inner[a] = half * line;
+      angle[a] = std::tan(0.25 * std::numbers::pi * line);
+    }
+    const double t = static_cast<double>(at[3]) / layers_;
+    const Vec3 unit = t == 0 ? inner : Vec3((1 - t) * inner + t * angle.normalized());
+    return shape_.centre + shape_.radius * unit;
   }
-  // Grid line between -1 and 1; those along x and y lie closer towards the poles.
-  double line(int axis, int i) const {
-    const double even = 2.0 * i / n_ - 1;
-    return axis == 2 ? even : std::copysign(std::pow(std::abs(even), focus_), even);
-  }
-  int node(const std::array<int, 4>& key, const Vec3& unit) {
-    const auto [entry, fresh] = nodes_.try_emplace(key, 0);
-    if (fresh) entry->second = draft_.add_node(centre_ + radius_ * unit);
+  int node(const BallKey& at) {
+    const auto [entry, fresh] = nodes_.try_emplace(at, 0);
+    if (fresh) entry->second = draft_.add_node(place(at));
     return entry->second;
   }
 
+ private:
   SolidDraft& draft_;
-  Vec3 centre_;
-  double radius_;
-  int n_;
-  double focus_;
-  int layers_;
-  std::map<std::array<int, 4>, int> nodes_;
+  BallShape shape_;
+  int across_, layers_;
+  std::map<BallKey, int> nodes_;
 };
 
-void add_oriented(SolidDraft& draft, SolidMesh::Hexahedron corners) {
-  turn_outside_out(draft.nodes, corners);
-  draft.add_hexahedron(corners, SolidPart::tip, HexFormulation::solid);
+// As small as `edge` where it may touch, and outside by half its distance larger.
+void divide_at_pole(BallCells& cells, const BallGrid& grid, const BallShape& shape) {
+  const Vec3 pole = shape.centre - shape.radius * Vec3::UnitZ();
+  cells.divide([&](const BallCell& cell) {
+    std::array<Vec3, 8> x;
+    for (std::size_t c = 0; c < 8; ++c) x[c] = grid.place(cell[c]);
+    double nearest = std::numeric_limits<double>::infinity(), size = 0;
+    for (std::size_t c = 0; c < 8; ++c) {
+      nearest = std::min(nearest, (x[c] - pole).norm());
+      size = std::max(size, (x[c] - x[c < 4 ? (c + 1) % 4 : c - 4]).norm());
+    }
+    return size > *shape.edge + 0.5 * std::max(0.0, nearest - shape.reach);
+  });
 }
 
-std::array<int, 3> on_face(int axis, int value, int u, int v) {
-  std::array<int, 3> at{};
-  at[static_cast<std::size_t>(axis)] = value;
-  at[static_cast<std::size_t>((axis + 1) % 3)] = u;
-  at[static_cast<std::size_t>((axis + 2) % 3)] = v;
-  return at;
+void hang_between(SolidDraft& draft, BallGrid& grid, const BallCells& cells) {
+  for (const auto& hanging : cells.hanging()) {
+    const int node = grid.node(hanging.point);
+    Vec3& x = draft.nodes[static_cast<std::size_t>(node)];
+    x.setZero();
+    std::vector<SolidMesh::Support> on;
+    for (const BallKey& key : hanging.on) {
+      on.push_back({grid.node(key), 1.0 / static_cast<double>(hanging.on.size())});
+      x += on.back().weight * draft.nodes[static_cast<std::size_t>(on.back().node)];
+    }
+    draft.hang(node, std::move(on));
+  }
 }
 
-void add_shells(SolidDraft& draft, BallGrid& grid, int n, BallMesh& ball) {
-  for (int side = 0; side < 6; ++side)
-    for (int u = 0; u < n; ++u)
-      for (int v = 0; v < n; ++v) {
-        const int value = side % 2 == 0 ? 0 : n;
-        const std::array<std::array<int, 3>, 4> at{
-            on_face(side / 2, value, u, v), on_face(side / 2, value, u + 1, v),
-            on_face(side / 2, value, u + 1, v + 1), on_face(side / 2, value, u, v + 1)};
-        for (int l = 0; l < grid.layers(); ++l) {
-          SolidMesh::Hexahedron corners;
-          for (std::size_t c = 0; c < 4; ++c) {
-            corners[c] = grid.shell(at[c], l);
-            corners[c + 4] = grid.shell(at[c], l + 1);
-          }
-          add_oriented(draft, corners);
-        }
-        std::array<int, 4> face;
-        for (std::size_t c = 0; c < 4; ++c) face[c] = grid.shell(at[c], grid.layers());
-        ball.faces.push_back(face);
-      }
+// A node that hangs touches with those it hangs on.
+void share_area(const SolidDraft& draft, int node, double share,
+                std::map<std::int32_t, double>& area) {
+  const auto& hanging = draft.hanging[static_cast<std::size_t>(node)];
+  if (hanging.empty()) area[node] += share;
+  for (const auto& support : hanging) share_area(draft, support.node, support.weight * share, area);
 }
 
 void list_lower_half(const SolidDraft& draft, BallMesh& ball) {
@@ -102,7 +85,7 @@ void list_lower_half(const SolidDraft& draft, BallMesh& ball) {
   for (const auto& face : ball.faces) {
     const auto x = [&](std::size_t c) { return draft.nodes[static_cast<std::size_t>(face[c])]; };
     const double share = 0.125 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
-    for (const int node : face) area[node] += share;
+    for (const int node : face) share_area(draft, node, share, area);
   }
   double lowest = std::numeric_limits<double>::infinity();
   for (const auto& [node, share] : area) {
@@ -144,18 +127,28 @@ void try_face(const SolidDraft& draft, const std::array<int, 4>& face, const Vec
 
 }  // namespace
 
-BallMesh add_ball(SolidDraft& draft, const Vec3& centre, double radius, int across, double focus) {
+BallMesh add_ball(SolidDraft& draft, const BallShape& shape) {
   BallMesh ball;
-  ball.centre = centre;
-  BallGrid grid(draft, centre, radius, across, focus);
-  for (int i = 0; i < across; ++i)
-    for (int j = 0; j < across; ++j)
-      for (int k = 0; k < across; ++k)
-        add_oriented(draft,
-                     {grid.core(i, j, k), grid.core(i + 1, j, k), grid.core(i + 1, j + 1, k),
-                      grid.core(i, j + 1, k), grid.core(i, j, k + 1), grid.core(i + 1, j, k + 1),
-                      grid.core(i + 1, j + 1, k + 1), grid.core(i, j + 1, k + 1)});
-  add_shells(draft, grid, across, ball);
+  ball.centre = shape.centre;
+  BallCells cells(shape.across);
+  BallGrid grid(draft, shape, cells);
+  if (shape.edge) divide_at_pole(cells, grid, shape);
+  std::vector<SolidMesh::Hexahedron> hexahedra;
+  for (const BallCell& cell : cells.cells()) {
+    SolidMesh::Hexahedron corners;
+    for (std::size_t c = 0; c < 8; ++c) corners[c] = grid.node(cell[c]);
+    hexahedra.push_back(corners);
+  }
+  hang_between(draft, grid, cells);
+  for (SolidMesh::Hexahedron& corners : hexahedra) {
+    turn_outside_out(draft.nodes, corners);
+    draft.add_hexahedron(corners, SolidPart::tip, HexFormulation::solid);
+  }
+  for (const auto& face : cells.surface()) {
+    std::array<int, 4> nodes;
+    for (std::size_t c = 0; c < 4; ++c) nodes[c] = grid.node(face[c]);
+    ball.faces.push_back(nodes);
+  }
   list_lower_half(draft, ball);
   return ball;
 }

@@ -1,5 +1,7 @@
-// A ball of hexahedra: a cubic core in six shells.
+// A ball of hexahedra: a cubic core in six shells, finer at the pole where that is wanted.
 #pragma once
+
+#include <optional>
 
 #include "scenes/solid_draft.hpp"
 
@@ -13,8 +15,14 @@ struct BallMesh {
   std::vector<double> lower_area;         // m^2, their shares of it
 };
 
-// `across`: quads along an edge of the core, even, so that the pole is a node.
-BallMesh add_ball(SolidDraft& draft, const Vec3& centre, double radius, int across, double focus);
+struct BallShape {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;
+  int across = 4;              // cells along an edge of the core, even, so that the pole is a node
+  std::optional<double> edge;  // m, of the cells around the pole, as far as ...
+  double reach = 0;            // m, ... this from it; larger outside
+};
+BallMesh add_ball(SolidDraft& draft, const BallShape& shape);
 // Moves a node onto the nearest face of the ball and hangs it there.
 void tie_to_ball(SolidDraft& draft, const BallMesh& ball, int node);
 

@@ -220,14 +220,26 @@ std::vector<Key<TipSpec>> tip_keys() {
         .only_for = made,
         .doc = "Across it; of a ball: across the core of its mesh."},
        integer_to(&TipSpec::elements)},
-      {{.name = "focus",
-        .kind = Kind::number,
-        .range = within(1, 4),
-        .fallback = value_of(1.0),
+      {{.name = "contact_edge",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = within(smallest_size, largest_size),
         .only_for = "sphere",
-        .doc = "How the ball's mesh is drawn together where it touches: lines at the share s of "
-               "the way from its pole lie at s^focus. 1: evenly."},
-       to(&TipSpec::focus)},
+        .doc =
+            "Edge of the ball's elements where it touches: some are divided in eight until none is "
+            "larger there, ever fewer with the distance. Hertz's circle of contact wants five or "
+            "more of them on its radius.",
+        .fallback_doc = "all are as `elements` says"},
+       to(&TipSpec::contact_edge)},
+      {{.name = "contact_reach",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = within(smallest_size, largest_size),
+        .only_for = "sphere",
+        .needs = "contact_edge",
+        .doc = "How far around its lowest point they are as small as that.",
+        .fallback_doc = "eight times `contact_edge`"},
+       to(&TipSpec::contact_reach)},
   };
 }
 

@@ -93,7 +93,9 @@ TipMesh add_sphere(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& m
   const Vec2 axis = tip_axis(lever, tip);
   const double top = mesh.levels.front(), r = tip.radius;
   const Vec3 centre(axis.x(), axis.y(), top - tip.neck_height - r);
-  const BallMesh ball = add_ball(draft, centre, r, tip.elements, tip.focus);
+  const BallMesh ball =
+      add_ball(draft, {centre, r, tip.elements, tip.contact_edge,
+                       tip.contact_reach.value_or(8 * tip.contact_edge.value_or(0))});
 
   const PlanMesh plan = unit_disc(std::max(2, tip.elements / 2));
   constexpr int layers = 2;

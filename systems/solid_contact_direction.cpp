@@ -99,6 +99,7 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
     return probe_place(Row<ProbePoint>(p), reference, displacement, *target, node) +
            contact.moved(p, direction);
   };
+  equations->contact_change = 1;
   for (int round = 0; round < most_rounds; ++round) {
     ContactProblem problem{target->shape.get(), target->end_radius, {}, {}, {}, target->may_jump};
     if (target->servo) problem.set_point = target->set_point;
@@ -124,6 +125,8 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
       equations->force_step.segment<3>(3 * points[i]) = change;
       equations->direction += contact.answer(points[i]) * change;
     }
+    const double most = equations->force_step.lpNorm<Eigen::Infinity>();
+    equations->contact_change = most == 0 ? 0 : most / std::max(most, equations->largest_force);
     // Points that come to touch by that are asked as well.
     std::vector<int> more;
     for (int p = 0; p < node.rows(); ++p) {

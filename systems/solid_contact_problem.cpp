@@ -222,11 +222,14 @@ Vector3d probe_place(Row<ProbePoint> row, const Read<ReferencePosition>& referen
                      const Read<Displacement>& displacement, const Target& target,
                      const Read<ProbeNode>& node) {
   const Row<SolidNode> at(node(row));
-  Vector3d place;
-  for (int k = 0; k < 3; ++k)
-    place[k] =
-        reference(at, k) + displacement(at, k) - target.position[static_cast<std::size_t>(k)];
-  return place;
+  Vector3d x, u;
+  for (int k = 0; k < 3; ++k) x[k] = reference(at, k), u[k] = displacement(at, k);
+  return place_from(target, x, u);
+}
+
+Vector3d place_from(const Target& target, const Vector3d& reference, const Vector3d& displacement) {
+  return (reference - Vector3d(target.origin.data())) +
+         (displacement - Vector3d(target.travel.data()));
 }
 
 ContactPoint contact_point(Row<ProbePoint> row, const Vector3d& place, const Target& target,

@@ -48,6 +48,11 @@ ContactAnswer solve_contact(const ContactProblem& problem);
 kernels::ProbePlace place_on(const TargetShape& shape, const ContactPoint& point, double end_radius,
                              const Eigen::Vector3d& place);
 
+// On the target, in the order of sums that keeps the digits of a displacement: a stiff probe's forces depend
+// on a billionth of it.
+Eigen::Vector3d place_from(const Target& target, const Eigen::Vector3d& reference,
+                           const Eigen::Vector3d& displacement);
+
 Eigen::Vector3d probe_place(Row<ProbePoint> row, const Read<ReferencePosition>& reference,
                             const Read<Displacement>& displacement, const Target& target,
                             const Read<ProbeNode>& node);

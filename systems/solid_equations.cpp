@@ -103,6 +103,7 @@ void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce>
     }
   for (int i = 0; state && i < state->rows(); ++i)
     broken = std::max(broken, (*state)(Row<ProbePoint>(i), 4));
+  equations->largest_force = largest;
   equations->contact_error = broken == 0 ? 0 : broken / std::max(largest, broken);
   // Where a lever bends, the forces in its elements are far larger than those on it: they set the digits
   // that the balance can have.

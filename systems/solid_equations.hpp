@@ -23,6 +23,8 @@ struct SolidEquations {
   // Of the contact, together with the direction:
   bool contact_solved = true;  // an answer was found
   double contact_error = 0;    // -, by how much the forces break the law, over the largest
+  double contact_change = 0;   // -, by how much they change in the step that fulfils it, the same
+  double largest_force = 0;    // N, of the probe's points
   Eigen::VectorXd force_step;  // [3 points] N, of the probe
   double height_step = 0;      // m, of the servo
   double released = 0;         // J, by a jump
@@ -37,8 +39,8 @@ struct SolidEquations {
   template <class Bytes>
   void state(Bytes& bytes) {
     std::vector<double> values = factorised();
-    bytes(values, scale, set_point_error, contact_solved, contact_error, height_step, released,
-          jumped);
+    bytes(values, scale, set_point_error, contact_solved, contact_error, contact_change,
+          largest_force, height_step, released, jumped);
     if constexpr (Bytes::reads) factorise_again(std::move(values));
   }
 };

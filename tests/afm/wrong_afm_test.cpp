@@ -52,6 +52,30 @@ set_back = "50 um"
   EXPECT_NE(refusal(ball, {"tip.radius=20 um"}).find("allowed: < 2e-05 m"), std::string::npos);
 }
 
+TEST(WrongAfm, AContactMeshThatIsTooFineOrTooLargeIsRefusedWithTheBound) {
+  const std::string ball = tipless_beam() + R"([tip]
+shape = "sphere"
+material = "stiff"
+radius = "10 um"
+neck_radius = "5 um"
+neck_height = "1 um"
+set_back = "50 um"
+)";
+  const auto refused = [&](const std::vector<std::string>& overrides, const char* what) {
+    const std::string text = refusal(ball, overrides);
+    EXPECT_NE(text.find(what), std::string::npos) << text;
+  };
+  refused({}, "accepted");
+  refused({"tip.contact_edge=0.1 um", "tip.contact_reach=2 um"}, "accepted");
+  refused({"tip.contact_edge=9 nm"},
+          "tip.contact_edge: 9e-09 m is too small for this ball, "
+          "allowed: >= 1e-08 m");
+  refused({"tip.contact_edge=0.1 um", "tip.contact_reach=3 um"}, "allowed: <= 2.4e-06 m");
+  refused({"tip.contact_reach=3 um"}, "contact_edge");
+  EXPECT_NE(refusal(beam_with_tip, {"tip.contact_edge=0.1 um"}).find("tip.contact_edge"),
+            std::string::npos);
+}
+
 TEST(WrongAfm, ALaserBesideTheLeverIsRefused) {
   expect_refusal({"laser.position=450 um"}, "laser.position");
   expect_refusal({"laser.offset=20 um", "laser.radius=10 um"}, "laser.position");
