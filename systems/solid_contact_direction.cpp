@@ -126,7 +126,16 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
       equations->direction += contact.answer(points[i]) * change;
     }
     const double most = equations->force_step.lpNorm<Eigen::Infinity>();
-    equations->contact_change = most == 0 ? 0 : most / std::max(most, equations->largest_force);
+    double moved = 0, way = Vector3d(target->travel.data()).norm();
+    for (const int p : points) {
+      const Vector3d step =
+          contact.moved(p, equations->direction) - answer.height * Vector3d::UnitZ();
+      moved = std::max(moved, step.norm());
+    }
+    // A probe that slides steadily moves on under forces that stay.
+    equations->contact_change =
+        std::max(most == 0 ? 0 : most / std::max(most, equations->largest_force),
+                 moved == 0 ? 0 : moved / std::max(moved, way));
     // Points that come to touch by that are asked as well.
     std::vector<int> more;
     for (int p = 0; p < node.rows(); ++p) {
