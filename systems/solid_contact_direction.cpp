@@ -11,6 +11,7 @@
 // Runs     after newton_direction, whose answer is y
 // Active   when the scene has a surface
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "systems/solid_contact_problem.hpp"
@@ -127,6 +128,11 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
     }
     const double most = equations->force_step.lpNorm<Eigen::Infinity>();
     equations->contact_change = most == 0 ? 0 : most / std::max(most, equations->largest_force);
+    const double deflection = problem.compliance.diagonal().maxCoeff() * equations->largest_force;
+    if (target->servo && answer.height != 0)
+      equations->contact_change =
+          std::max(equations->contact_change,
+                   std::abs(answer.height) / std::max(std::abs(answer.height), deflection));
     // Points that come to touch by that are asked as well.
     std::vector<int> more;
     for (int p = 0; p < node.rows(); ++p) {
