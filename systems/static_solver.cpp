@@ -146,16 +146,17 @@ double StaticSolver::error() const {
 }
 
 // Where a stiff tip hangs on a soft lever, round-off in its displacements leaves more than the tolerance:
-// a small residual that no longer falls is as good as it gets. The law of contact holds where its forces fit the
-// places, or where they have stopped changing: the places of a ball a thousand times stiffer than its lever are
-// good to 1e-13 of its way, which is 1e-5 of its forces.
+// a small residual that no longer falls is as good as it gets. Then the law of contact holds where its forces
+// fit the places, or where both have stopped changing: the places of a ball a
+// thousand times stiffer than its lever are good to 1e-13 of its way, which is 1e-5 of its forces.
 bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& settings) const {
   const auto& equations = world_.resource<SolidEquations>();
-  const double contact = std::min(equations.contact_error, equations.contact_change);
-  if (std::max(std::abs(equations.set_point_error), contact) > settings.contact_tolerance)
-    return false;
   const bool floor =
       r.size() > 1 && r.back() <= settings.round_off && r.back() > 0.1 * r[r.size() - 2];
+  const double contact =
+      floor ? std::min(equations.contact_error, equations.contact_change) : equations.contact_error;
+  if (std::max(std::abs(equations.set_point_error), contact) > settings.contact_tolerance)
+    return false;
   return r.back() <= settings.tolerance || floor;
 }
 
