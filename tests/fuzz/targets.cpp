@@ -173,7 +173,8 @@ void curve(Input input) {
 
 // Records of instruments: a press, a data logger, friction loops of an AFM.
 void record(Input input) {
-  static const lab::Settings settings = lab::load_settings({}, {}).settings;
+  static const lab::Settings settings =
+      lab::load_settings({}, {"compact.length=10 mm", "compact.powder=316L"}).settings;
   const fs::path file = file_of(input, "record.csv");
   refused_or_read([&] { lab::instrument_of(file, settings); });
   refused_or_read([&] { lab::read_press(file, settings); });
