@@ -198,7 +198,8 @@ TEST(StateBytes, AbsurdLengthsTakeNoMemory) {
   EXPECT_THROW(set_state(*std::make_unique<Clockwork>(), std::vector<std::byte>(9)), BadState);
   const std::array two{std::byte{2}};
   bool truth = false;
-  EXPECT_THROW(StateReader(two)(truth), BadState);
+  StateReader of_two{two};
+  EXPECT_THROW(of_two(truth), BadState);
   StateReader reader(writer.bytes());
   reader(number);
   EXPECT_TRUE(reader.at_end());
