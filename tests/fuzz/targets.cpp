@@ -161,7 +161,9 @@ void curve(Input input) {
   refused_or_read([&] {
     const SieveCurve sieve = read_sieve_curve(file);
     must(sieve.size() >= 2);
-    for (const SizeShare& s : sizes_of({.kind = SizeLaw::Kind::sieve}, sieve, 3))
+    SizeLaw law;
+    law.kind = SizeLaw::Kind::sieve;
+    for (const SizeShare& s : sizes_of(law, sieve, 3))
       must(std::isfinite(s.size) && s.size > 0 && std::isfinite(s.share));
   });
   PointsOutline outline;
