@@ -93,6 +93,12 @@ class StateReader {
   void take(T& value) {
     take_raw(&value, sizeof value);
   }
+  void take(bool& value) {  // no other byte may lie in a bool
+    std::uint8_t byte = 0;
+    take(byte);
+    if (byte > 1) throw BadState("a truth value is neither 0 nor 1");
+    value = byte == 1;
+  }
   void take(std::string& text) {
     text.resize(take_count(1));
     take_raw(text.data(), text.size());

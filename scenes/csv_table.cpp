@@ -293,8 +293,14 @@ void only(const Table& table, const std::vector<std::string>& names) {
 std::vector<double> numbers(const Table& table, std::size_t column, double factor) {
   std::vector<double> values;
   values.reserve(table.rows.size());
-  for (std::size_t row = 0; row < table.rows.size(); ++row)
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
     values.push_back(number_in(table, row, column) * factor);
+    if (std::abs(values.back()) > largest_number)
+      refuse(table, row, column,
+             fmt::format("'{}' is {:g} in SI units, allowed: up to {:g}",
+                         table.rows[row][column].text.substr(0, longest_shown), values.back(),
+                         largest_number));
+  }
   return values;
 }
 

@@ -20,6 +20,9 @@
 
 namespace pulvis::csv {
 
+// Beyond any quantity in SI units; products of a few of them are finite.
+inline constexpr double largest_number = 1e30;
+
 struct Column {
   std::string name;
   std::string unit;  // as written; empty: none is given
@@ -59,7 +62,8 @@ std::size_t column_at(const Table& table, const std::string& name);  // refused 
 // Refuses a header with other columns than these, or with one of them twice.
 void only(const Table& table, const std::vector<std::string>& names);
 
-// A column in the SI unit `unit`; "" for numbers without one. Every cell must hold a finite number.
+// A column in the SI unit `unit`; "" for numbers without one. Every cell must hold a finite number,
+// not beyond the largest.
 std::vector<double> numbers(const Table& table, std::size_t column, const std::string& unit);
 
 // The same for a column whose unit the caller has read: each number times `factor`.

@@ -12,6 +12,8 @@
 namespace pulvis {
 namespace {
 
+constexpr double farthest = 1;  // m, of a node from the axis: no tip is as large
+
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& message) {
   throw SceneError({{file.string(), 1, 1, "", "tip.file", message}});
 }
@@ -33,16 +35,37 @@ void take_hexahedra(const GmshMesh& mesh, const std::filesystem::path& file, Tip
     refuse(file, "has no hexahedra in a volume named tip, allowed: a physical volume \"tip\"");
 }
 
+using Face = std::array<int, 4>;
+
+Face sorted(Face face) {
+  std::ranges::sort(face);
+  return face;
+}
+
+// Faces that one hexahedron has alone.
+std::set<Face> surface_of(const TipSolid& tip) {
+  std::set<Face> surface;
+  const auto meet = [&](const Face& face) {
+    const auto [at, is_new] = surface.insert(sorted(face));
+    if (!is_new) surface.erase(at);
+  };
+  for (const auto& h : tip.hexahedra) {
+    meet({h[0], h[1], h[2], h[3]});
+    meet({h[4], h[5], h[6], h[7]});
+    for (std::size_t i = 0; i < 4; ++i) meet({h[i], h[(i + 1) % 4], h[i + 4], h[(i + 1) % 4 + 4]});
+  }
+  return surface;
+}
+
 void take_surfaces(const GmshMesh& mesh, const std::filesystem::path& file, TipSolid& tip) {
-  std::set<int> used, foot;
-  for (const auto& h : tip.hexahedra) used.insert(h.begin(), h.end());
+  const std::set<Face> surface = surface_of(tip);
+  std::set<int> foot;
   for (const auto& quad : mesh.quads) {
     if (quad.group != "foot" && quad.group != "end") continue;
-    for (const int n : quad.corners)
-      if (!used.contains(n))
-        refuse(file, fmt::format("a quad of '{}' has a node that no hexahedron has, allowed: "
-                                 "surfaces of the volumes",
-                                 quad.group));
+    if (!surface.contains(sorted(quad.corners)))
+      refuse(file, fmt::format("a quad of '{}' is no face of a hexahedron, or lies between two, "
+                               "allowed: surfaces of the volumes",
+                               quad.group));
     if (quad.group == "foot") foot.insert(quad.corners.begin(), quad.corners.end());
     if (quad.group == "end") tip.end_faces.push_back(quad.corners);
   }
@@ -52,6 +75,7 @@ void take_surfaces(const GmshMesh& mesh, const std::filesystem::path& file, TipS
   for (const auto& face : tip.end_faces)
     for (const int n : face)
       tip.height = std::max(tip.height, -tip.nodes[static_cast<std::size_t>(n)].z());
+  if (!(tip.height > 0)) refuse(file, "the end does not lie below z = 0, allowed: z < 0");
   for (const int n : tip.foot) {
     const Vec3& x = tip.nodes[static_cast<std::size_t>(n)];
     tip.reach = std::max(tip.reach, x.head<2>().cwiseAbs().maxCoeff());
@@ -84,7 +108,12 @@ void drop_unused(TipSolid& tip) {
 TipSolid tip_of(const std::filesystem::path& file, double unit) {
   const GmshMesh mesh = read_gmsh(file);
   TipSolid tip;
-  for (const auto& x : mesh.nodes) tip.nodes.push_back(unit * x);
+  for (const auto& x : mesh.nodes) {
+    tip.nodes.push_back(unit * x);
+    if (tip.nodes.back().cwiseAbs().maxCoeff() > farthest)
+      refuse(file, fmt::format("a node lies {:g} m away, allowed: up to {:g} m",
+                               tip.nodes.back().cwiseAbs().maxCoeff(), farthest));
+  }
   take_hexahedra(mesh, file, tip);
   take_surfaces(mesh, file, tip);
   drop_unused(tip);

@@ -1,12 +1,14 @@
 // Points of a traced outline from a CSV file.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 
 #include "scenes/closed_spline.hpp"
+#include "scenes/csv_table.hpp"
 #include "scenes/outline_checks.hpp"
 #include "scenes/units.hpp"
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr std::size_t fewest_points = 8, most_points = 20'000;
 constexpr std::uintmax_t largest_file = 4U << 20U;  // bytes
+constexpr double closest = 1e-9;                    // of the diagonal, from point to point
 constexpr double most_smoothing = 0.05;             // of the root of the area
 
 struct BadFile {
@@ -73,10 +76,27 @@ class PointsReader {
     if (points_.size() < fewest_points)
       throw BadFile{0, fmt::format("{} points are too few for an outline, allowed: at least {}",
                                    points_.size(), fewest_points)};
+    refuse_coinciding();
     return points_;
   }
 
  private:
+  // Curves through points that hardly differ bend without bound.
+  void refuse_coinciding() const {
+    Vec2 low = points_[0], high = low;
+    for (const Vec2& p : points_) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const double least = std::max(closest * (high - low).norm(), 1e-18);  // m
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if ((points_[(i + 1) % points_.size()] - points_[i]).norm() <= least)
+        throw BadFile{lines_[i],
+                      fmt::format("the next point is nearer than {:g} m, allowed: at least {:g} "
+                                  "of the outline's diagonal",
+                                  least, closest)};
+  }
+
   void take(const std::vector<std::string>& cells) {
     if (cells.size() != 2)
       throw BadFile{line_, fmt::format("{} columns, allowed: two, x and y", cells.size())};
@@ -92,7 +112,11 @@ class PointsReader {
     if (points_.size() == most_points)
       throw BadFile{
           line_, fmt::format("more than {} points, allowed: at most {}", most_points, most_points)};
+    if (point.cwiseAbs().maxCoeff() > csv::largest_number)
+      throw BadFile{line_, fmt::format("a point {:g} m away, allowed: up to {:g} m",
+                                       point.cwiseAbs().maxCoeff(), csv::largest_number)};
     points_.push_back(point);
+    lines_.push_back(line_);
   }
 
   void set_unit(const std::vector<std::string>& header) {
@@ -116,6 +140,7 @@ class PointsReader {
   double factor_ = 0;  // m a unit; 0: not known yet
   int line_ = 0;
   std::vector<Vec2> points_;
+  std::vector<int> lines_;  // of each point
 };
 
 std::vector<Vec2> points_in(const std::filesystem::path& path, const std::string& unit) {

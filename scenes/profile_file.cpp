@@ -8,6 +8,7 @@ namespace pulvis {
 namespace {
 
 constexpr std::size_t fewest_points = 3, most_points = 20'000;
+constexpr double shortest = 1e-12;  // m, of a profile: squares of lengths below it vanish
 
 void check(const csv::Table& table, const std::vector<double>& x) {
   if (x.size() < fewest_points || x.size() > most_points)
@@ -20,6 +21,10 @@ void check(const csv::Table& table, const std::vector<double>& x) {
           fmt::format("x goes from {:.6g} m {} {:.6g} m: the profile overhangs or turns back, "
                       "allowed: x that rises from row to row",
                       x[i - 1], x[i] < x[i - 1] ? "back to" : "on to", x[i]));
+  if (x.back() - x.front() < shortest)
+    csv::refuse(table, "x",
+                fmt::format("a profile of {:g} m, allowed: at least {:g} m", x.back() - x.front(),
+                            shortest));
 }
 
 // Instruments stand tilted: heights are those above the least squares line.

@@ -16,6 +16,8 @@ namespace {
 constexpr int samples = 256;         // of every part of a law, by the midpoint rule
 constexpr double normal_limits = 3;  // deviations from the mean, where nothing else is said
 
+constexpr double least_size = 1e-12;  // m, of a sieve: less is no powder
+
 using Quantile = std::function<double(double)>;  // size by the share that is smaller
 
 Quantile uniform(const SizeLaw& law) {
@@ -79,7 +81,8 @@ void check_point(const csv::Table& table, std::size_t i, const SieveCurve& curve
   const auto refuse = [&](const char* column, const std::string& message) {
     csv::refuse(table, i, csv::column_at(table, column), message);
   };
-  if (p.size <= 0) refuse("size", fmt::format("size {:g} m, allowed: > 0", p.size));
+  if (p.size < least_size)
+    refuse("size", fmt::format("size {:g} m, allowed: >= {:g} m", p.size, least_size));
   if (p.passing < 0 || p.passing > 1)
     refuse("passing", fmt::format("passing {:g}, allowed: from 0 to 1", p.passing));
   if (i == 0 && p.passing != 0)

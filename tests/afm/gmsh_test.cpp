@@ -139,6 +139,10 @@ TEST_F(GmshTip, WhatCannotBeUsedIsRefusedWithItsLineAndWhatIsAllowed) {
               HasSubstr("is folded"));
   EXPECT_THAT(refusal(good.substr(0, good.rfind('\n', good.size() / 2) + 1)),
               HasSubstr("ends too early"));
+  EXPECT_THAT(refusal(replaced(good, "\n1 3 2 1 5 10 11 16 15", "\n1 3 2 1 5 10 11 16 20")),
+              HasSubstr("a quad of 'foot' is no face of a hexahedron"));
+  EXPECT_THAT(refusal(replaced(good, "\n10 -1 -1 ", "\n10 -1e9 -1 ")),
+              HasSubstr("allowed: up to 1 m"));
   // A count is only what the file claims: no memory is taken for it.
   EXPECT_THAT(refusal(replaced(version_4(), fmt::format("3 1 0 {}\n", Block::nodes()),
                                "3 1 0 1000000000000000\n")),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -195,6 +196,10 @@ TEST(StateBytes, AbsurdLengthsTakeNoMemory) {
   double number = 0;
   EXPECT_THROW(set_state(*std::make_unique<Clockwork>(), std::vector<std::byte>(3)), BadState);
   EXPECT_THROW(set_state(*std::make_unique<Clockwork>(), std::vector<std::byte>(9)), BadState);
+  const std::array two{std::byte{2}};
+  bool truth = false;
+  StateReader of_two{two};
+  EXPECT_THROW(of_two(truth), BadState);
   StateReader reader(writer.bytes());
   reader(number);
   EXPECT_TRUE(reader.at_end());

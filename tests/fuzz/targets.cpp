@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 
 #include "components/observed.hpp"
@@ -14,11 +16,17 @@
 #include "engine/journaled_file.hpp"
 #include "engine/output_error.hpp"
 #include "scenes/csv_table.hpp"
+#include "scenes/lab_record.hpp"
 #include "scenes/lab_settings.hpp"
+#include "scenes/meshed_tip.hpp"
+#include "scenes/outline_checks.hpp"
 #include "scenes/packing_file.hpp"
+#include "scenes/profile_file.hpp"
 #include "scenes/read.hpp"
+#include "scenes/size_law.hpp"
 #include "scenes/study_read.hpp"
 #include "scenes/target_shape.hpp"
+#include "scenes/wedge_records.hpp"
 
 namespace pulvis::fuzz {
 namespace {
@@ -49,6 +57,11 @@ fs::path file_of(Input input, const char* name) {
   const fs::path file = own_folder() / name;
   std::ofstream(file, std::ios::binary | std::ios::trunc) << text_of(input);
   return file;
+}
+
+// What was not refused can be computed with: a reader that lets NaN through has let the user down.
+void must(bool holds) {
+  if (!holds) std::abort();
 }
 
 // Filling a die takes seconds by right: without random packings.
@@ -113,6 +126,64 @@ void packing(Input input) {
   }
 }
 
+// A meshed tip as Gmsh writes it, up to the solid it becomes.
+void mesh(Input input) {
+  Scene scene;
+  scene.file = own_folder() / "scene.toml";
+  scene.afm = std::make_shared<AfmScene>();
+  scene.afm->tip.shape = TipSpec::Shape::mesh;
+  scene.afm->tip.file = file_of(input, "tip.msh").filename();
+  scene.afm->tip.unit = 1e-6;
+  Problems problems(scene.file, {});
+  load_meshed_tip(scene, {}, problems);
+  if (scene.afm->tip.solid == nullptr) return;
+  const TipSolid& tip = *scene.afm->tip.solid;
+  must(tip.height > 0 && tip.reach > 0);
+  for (const Vec3& x : tip.nodes) must(x.allFinite());
+  for (const auto& corners : tip.hexahedra)
+    for (const auto n : corners) must(n >= 0 && static_cast<std::size_t>(n) < tip.nodes.size());
+}
+
+template <class Read>
+void refused_or_read(const Read& read) {
+  try {
+    read();
+  } catch (const SceneError&) {
+  }
+}
+
+// What scenes take from files of two columns: profiles of walls, sieve curves, traced outlines.
+void curve(Input input) {
+  const fs::path file = file_of(input, "curve.csv");
+  refused_or_read([&] {
+    for (const Vec2& p : read_profile(file)) must(p.allFinite());
+  });
+  refused_or_read([&] {
+    const SieveCurve sieve = read_sieve_curve(file);
+    must(sieve.size() >= 2);
+    SizeLaw law;
+    law.kind = SizeLaw::Kind::sieve;
+    for (const SizeShare& s : sizes_of(law, sieve, 3))
+      must(std::isfinite(s.size) && s.size > 0 && std::isfinite(s.share));
+  });
+  PointsOutline outline;
+  outline.file = file.filename();
+  outline.smoothing = 1e-9;
+  if (!read_points(file.parent_path(), outline).empty()) return;
+  for (const Vec2& p : outline.points) must(p.allFinite());
+}
+
+// Records of instruments: a press, a data logger, friction loops of an AFM.
+void record(Input input) {
+  static const lab::Settings settings =
+      lab::load_settings({}, {"compact.length=10 mm", "compact.powder=316L"}).settings;
+  const fs::path file = file_of(input, "record.csv");
+  refused_or_read([&] { lab::instrument_of(file, settings); });
+  refused_or_read([&] { lab::read_press(file, settings); });
+  refused_or_read([&] { lab::read_logger(file, settings); });
+  if (wedge::holds_loops(file)) refused_or_read([&] { wedge::read_loops(file, 0.1); });
+}
+
 void state(Input input) {
   const auto bytes = std::as_bytes(input);
   const auto attempt = [&](auto object) {
@@ -146,6 +217,7 @@ void journal(Input input) {
 constexpr std::array all{
     Target{"scene", scene}, Target{"study", study},           Target{"settings", settings},
     Target{"table", table}, Target{"packing", packing},       Target{"height_map", height_map},
+    Target{"mesh", mesh},   Target{"curve", curve},           Target{"record", record},
     Target{"state", state}, Target{"checkpoint", checkpoint}, Target{"journal", journal}};
 
 }  // namespace

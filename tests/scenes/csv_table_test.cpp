@@ -58,6 +58,8 @@ TEST(CsvTable, RefusesWhatIsNoNumber) {
               StartsWith("t.csv:2:2: table: a NUL byte, allowed: text"));
   EXPECT_THAT(message_of([] { column("x [m]\n1e999\n", "x", "m"); }),
               HasSubstr("no finite number"));
+  EXPECT_THAT(message_of([] { column("x [km]\n1e29\n", "x", "m"); }),
+              StartsWith("t.csv:2:1: x: '1e29' is 1e+32 in SI units, allowed: up to 1e+30"));
 }
 
 TEST(CsvTable, RefusesRowsOfAnotherLength) {

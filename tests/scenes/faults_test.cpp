@@ -44,6 +44,21 @@ class Faults : public ProgramTest {
     return frames.size();
   }
 
+  static bool may_mount() {
+    return std::system("unshare -m mount -t tmpfs none /mnt 2>/dev/null") == 0;
+  }
+
+  // Runs the program where `mount` has mounted what nobody else sees, and `after` before that is gone.
+  Outcome mounted(const std::string& mount, const Words& words,
+                  const std::string& after = "true") const {
+    std::string command = "cd '" + place.string() + "' && unshare -m sh -c '" + mount +
+                          " && { \"$@\" >out 2>err; code=$?; " + after +
+                          "; exit $code; }' sh '" PULVIS_PROGRAM "'";
+    for (const std::string& word : words) command += " '" + word + "'";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), text_of(place / "out"), text_of(place / "err")};
+  }
+
   void wait_for_frames(std::size_t count) const {
     for (int tries = 0; tries < 6000; ++tries) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -75,17 +90,40 @@ TEST_F(Faults, AFullDiskIsNamed) {
 
 // A file system of 5 MB of the run's own; needs the right to mount one.
 TEST_F(Faults, AFullFileSystemKeepsTheFramesBefore) {
-  if (std::system("unshare -m true 2>/dev/null") != 0) GTEST_SKIP() << "may not mount";
-  std::string command =
-      "cd '" + place.string() +
-      "' && mkdir run && unshare -m sh -c 'mount -t tmpfs -o size=5m none run && \"$@\" 2>err; "
-      "code=$?; cp run/run.h5 saved.h5; exit $code' sh '" PULVIS_PROGRAM "'";
-  for (const std::string& word : long_run()) command += " '" + word + "'";
-  const int status = std::system((command + " >/dev/null").c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 4);
-  EXPECT_THAT(text_of(place / "err"), HasSubstr("No space left on device"));
+  if (!may_mount()) GTEST_SKIP() << "may not mount";
+  fs::create_directory(place / "run");
+  const Outcome end =
+      mounted("mount -t tmpfs -o size=5m none run", long_run(), "cp run/run.h5 saved.h5");
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, HasSubstr("No space left on device"));
   fs::rename(place / "saved.h5", place / "run" / "run.h5");
   EXPECT_GT(whole_frames(), 5U);
+}
+
+TEST_F(Faults, AFolderMountedReadOnlyIsNamed) {
+  if (!may_mount()) GTEST_SKIP() << "may not mount";
+  fs::create_directory(place / "run");
+  const Outcome end = mounted("mount -t tmpfs -o ro none run", long_run());
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, ContainsRegex("run[/a-z.0-9-]*: cannot .*: Read-only file system"));
+  EXPECT_TRUE(fs::is_empty(place / "run"));
+}
+
+// The disk of a run that was stopped comes back read-only: its frames can be read, and it goes on as soon as
+// it may write again.
+TEST_F(Faults, AStoppedRunMountedReadOnlyKeepsItsFrames) {
+  if (!may_mount()) GTEST_SKIP() << "may not mount";
+  ASSERT_EQ(pulvis(long_run(), "ulimit -f 6000").code, 4);
+  const std::size_t frames = whole_frames();
+  EXPECT_GT(frames, 2U);
+  const Outcome end =
+      mounted("mount --bind run run && mount -o remount,bind,ro run", {"resume", "run"});
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, ContainsRegex("run[/a-z.0-9-]*: cannot .*: Read-only file system"));
+  EXPECT_EQ(whole_frames(), frames);
+  const Outcome rest = pulvis({"resume", "run"});
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(whole_frames(), 101U);
 }
 
 TEST_F(Faults, AFolderThatVanishesIsNamed) {

@@ -196,6 +196,7 @@ TEST_F(SieveFile, IsRefusedAtItsLine) {
                {"size [mm],passing\n3,0\n6,0.5\n5,1\n", "allowed: > 0.006 m", 4},
                {"size [mm],passing\n3,0\n6,0.5\n7,0.4\n", "allowed: >= 0.5", 4},
                {"size [mm],passing\n3,0\n6,0.5\n", "allowed: 1 in the last row", 3},
+               {"size [mm],passing\n1e-20,0\n6,1\n", "allowed: >= 1e-12 m", 2},
                {"size,passing\n3,0\n6,1\n", "has no unit, allowed: one that converts to m", 1},
                {"size [kg],passing\n3,0\n6,1\n", "allowed: a unit that converts to m", 1},
                {"size [mm],passing\n3,0\n6\n", "has 1 fields, allowed: 2", 3},

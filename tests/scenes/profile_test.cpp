@@ -191,6 +191,8 @@ TEST_F(MeasuredProfile, OverhangIsRefusedWithItsLine) {
 
 TEST_F(MeasuredProfile, BadFilesAreRefused) {
   EXPECT_THAT(refusal(), HasSubstr("surface.csv:1:1: table: there is no such file"));
+  write("x [m], height [um]\n0, 1\n1e-200, 2\n2e-200, 0\n");
+  EXPECT_THAT(refusal(), HasSubstr("allowed: at least 1e-12 m"));
   write("x, height\n0, 1\n10, 2\n60, 0\n");
   EXPECT_THAT(refusal(), HasSubstr("has no unit"));
   write("x [mm], z [um]\n0, 1\n10, 2\n60, 0\n");

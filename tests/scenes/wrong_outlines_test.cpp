@@ -163,6 +163,9 @@ TEST_F(PointsFile, IsRefusedAtItsLine) {
   wrong("x (mm), y (mm)\n1, 2\n3, four\n", ".csv:3: 'four' is no number", "x, y");
   wrong("x (mm), y (mm)\n1, 2, 3\n", ".csv:2: 3 columns", "two");
   wrong("x (mm), y (mm)\n1, 2\n1, 2\n", ".csv:3: the same point", "each once");
+  wrong(circle("x (mm), y (mm)\n10, 0\n10.000000001, 0\n"), ".csv:2: the next point is nearer",
+        "1e-09 of the outline's diagonal");
+  wrong("x (mm), y (mm)\n1e40, 2\n", ".csv:2: a point 1e+37 m away", "up to 1e+30 m");
   wrong("x (mm), y (um)\n1, 2\n", ".csv:1: x is in 'mm' and y in 'um'", "one unit");
   wrong("x (kg), y (kg)\n1, 2\n", ".csv:1: unit:", "a length");
   wrong(circle("x, y\n"), ".csv:1: no unit", "the key unit");
