@@ -117,10 +117,11 @@ class AfmChecks {
   bool contact_mesh() {
     if (!tip_.contact_edge) return true;
     const double edge = *tip_.contact_edge;
-    if (edge < tip_.radius / 1000)
+    const double least = tip_.radius / 1000, coarse = tip_.radius / 4;
+    if (edge < least || edge > coarse)
       refuse("tip.contact_edge",
-             fmt::format("{:g} m is too small for this ball, allowed: >= {:g} m", edge,
-                         tip_.radius / 1000));
+             fmt::format("{:g} m is too {} for this ball, allowed: {:g} to {:g} m", edge,
+                         edge < least ? "small" : "large", least, coarse));
     const double most = std::min(24 * edge, 0.5 * tip_.radius);
     if (tip_.contact_reach && *tip_.contact_reach > most)
       refuse("tip.contact_reach",

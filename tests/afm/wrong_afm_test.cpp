@@ -69,7 +69,8 @@ set_back = "50 um"
   refused({"tip.contact_edge=0.1 um", "tip.contact_reach=2 um"}, "accepted");
   refused({"tip.contact_edge=9 nm"},
           "tip.contact_edge: 9e-09 m is too small for this ball, "
-          "allowed: >= 1e-08 m");
+          "allowed: 1e-08 to 2.5e-06 m");
+  refused({"tip.contact_edge=20 um"}, "too large for this ball, allowed: ");
   refused({"tip.contact_edge=0.1 um", "tip.contact_reach=3 um"}, "allowed: <= 2.4e-06 m");
   refused({"tip.contact_reach=3 um"}, "contact_edge");
   EXPECT_NE(refusal(beam_with_tip, {"tip.contact_edge=0.1 um"}).find("tip.contact_edge"),
