@@ -150,11 +150,11 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
       reach(row) = known || key.slot != key.other ? 0 : unseen;
     place(row, 0) = slots[static_cast<std::size_t>(key.slot)].first_control + edge.first_control;
     place(row, 1) = slots[static_cast<std::size_t>(key.other)].first_control;
+    if (known) return;
     const int start = bodies->shape_of_slot(key.other)
                           .edges[static_cast<std::size_t>(found.all[r].start)]
                           .first_control;
-    if (!known)
-      for (int g = 0; g < edge_points; ++g) closest(row, g) = start + 0.5;
+    for (int g = 0; g < edge_points; ++g) closest(row, g) = start + 0.5;
   });
   list_other_rows(found, *index);
   index->sampled_begin = std::move(found.begin);

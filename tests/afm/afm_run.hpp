@@ -8,8 +8,7 @@
 
 namespace pulvis {
 
-inline AfmHistory history_of(const Scene& scene, int threads = 1) {
-  AfmSimulation simulation(scene, threads);
+inline AfmHistory history_of(AfmSimulation& simulation) {
   AfmHistory history;
   simulation.run([&](double time, const std::vector<double>& row) {
     history.times.push_back(time);
@@ -17,6 +16,10 @@ inline AfmHistory history_of(const Scene& scene, int threads = 1) {
     return true;
   });
   return history;
+}
+inline AfmHistory history_of(const Scene& scene, int threads = 1) {
+  AfmSimulation simulation(scene, threads);
+  return history_of(simulation);
 }
 
 inline double last(const AfmHistory& h, const std::string& series) {

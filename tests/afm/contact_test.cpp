@@ -127,12 +127,7 @@ increments = 40
 )");
   AfmSimulation simulation(scene);
   const Calibration c = simulation.calibrate();
-  AfmHistory h;
-  simulation.run([&](double time, const std::vector<double>& row) {
-    h.times.push_back(time);
-    h.rows.push_back(row);
-    return true;
-  });
+  const AfmHistory h = history_of(simulation);
   const std::size_t begin = 3, last = h.rows.size() - 1;
   const auto change = [&](const char* series, std::size_t a, std::size_t b) {
     return h.value(b, series) - h.value(a, series);

@@ -9,18 +9,22 @@
 namespace pulvis {
 namespace {
 
-constexpr const char* copper_probe = R"(family = "afm"
-[[material]]
-name = "lever"
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
+// Materials: copper, and an elastic one for the lever.
+std::string copper_and(const std::string& lever, const std::string& youngs_modulus) {
+  return R"(family = "afm"
 [[material]]
 name = "cu"
 youngs_modulus = "115 GPa"
 poissons_ratio = 0.35
 yield_stress = "50 MPa"
 hardening_modulus = "440 MPa"
-[lever]
+[[material]]
+poissons_ratio = 0.3
+name = ")" +
+         lever + "\"\nyoungs_modulus = \"" + youngs_modulus + "\"\n";
+}
+
+const std::string copper_probe = copper_and("lever", "200 GPa") + R"([lever]
 shape = "beam"
 material = "lever"
 length = "100 um"
@@ -53,14 +57,7 @@ struct ForceCurve {
 };
 
 ForceCurve curve_of(const std::vector<std::string>& overrides) {
-  const Scene scene = afm_scene(copper_probe, overrides);
-  AfmHistory history;
-  AfmSimulation simulation(scene);
-  simulation.run([&](double time, const std::vector<double>& row) {
-    history.times.push_back(time);
-    history.rows.push_back(row);
-    return true;
-  });
+  const AfmHistory history = history_of(afm_scene(copper_probe, overrides));
   ForceCurve curve;
   for (std::size_t i = 0; i < history.rows.size(); ++i) {
     curve.height.push_back(history.value(i, "scanner/z"));
@@ -90,18 +87,7 @@ TEST(PlasticProbe, UnloadsLikeAnElasticOneThatIsShorterByItsDent) {
 // A square pillar of copper under a stiff lever, pressed evenly on its end: far from its foot it is in simple
 // compression, and keeps (sigma - sigma_y)/H of its length when it is let go. The strain is Green's, the stress
 // its conjugate: sigma = F/(A lambda), lambda^2 = 1 + 2 E.
-constexpr const char* pillar = R"(family = "afm"
-[[material]]
-name = "stiff"
-youngs_modulus = "10 TPa"
-poissons_ratio = 0.3
-[[material]]
-name = "cu"
-youngs_modulus = "115 GPa"
-poissons_ratio = 0.35
-yield_stress = "50 MPa"
-hardening_modulus = "440 MPa"
-[lever]
+const std::string pillar = copper_and("stiff", "10 TPa") + R"([lever]
 shape = "beam"
 material = "stiff"
 length = "60 um"

@@ -2,8 +2,7 @@
 // back out of its volts, from one load and from several.
 #include <cmath>
 
-#include "scenes/afm_loop.hpp"
-#include "tests/afm/lever.hpp"
+#include "tests/afm/afm_run.hpp"
 
 namespace pulvis {
 namespace {
@@ -16,12 +15,7 @@ TEST(AfmWedge, FrictionAndSensitivityComeBackOutOfTheVolts) {
   // Lateral force by volts, as a small lateral force tells it.
   const Calibration c = simulation.calibrate();
   const double sensitivity = 1 / (2e5 * std::abs(c.lateral.spot.lateral));
-  AfmHistory history;
-  simulation.run([&](double time, const std::vector<double>& row) {
-    history.times.push_back(time);
-    history.rows.push_back(row);
-    return true;
-  });
+  const AfmHistory history = history_of(simulation);
   const auto loops = friction_loops(scene, history);
   ASSERT_EQ(loops.size(), 2u);
   for (const FrictionLoop& loop : loops) {

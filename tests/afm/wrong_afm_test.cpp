@@ -38,29 +38,25 @@ TEST(WrongAfm, AFootWiderThanTheLeverIsRefusedWithTheBound) {
   expect_refusal({"tip.foot=60 um", "tip.set_back=31 um"}, "allowed: < 5e-05 m");
 }
 
-TEST(WrongAfm, AGlueNeckWiderThanTheLeverOrTheBallIsRefused) {
-  const std::string ball = tipless_beam() + R"([tip]
+std::string beam_with_ball(const std::string& radius, const std::string& neck_radius) {
+  return tipless_beam() + R"([tip]
 shape = "sphere"
 material = "stiff"
-radius = "40 um"
-neck_radius = "30 um"
 neck_height = "1 um"
 set_back = "50 um"
-)";
+radius = ")" +
+         radius + "\"\nneck_radius = \"" + neck_radius + "\"\n";
+}
+
+TEST(WrongAfm, AGlueNeckWiderThanTheLeverOrTheBallIsRefused) {
+  const std::string ball = beam_with_ball("40 um", "30 um");
   EXPECT_NE(refusal(ball).find("tip.neck_radius"), std::string::npos) << refusal(ball);
   EXPECT_NE(refusal(ball).find("allowed: < 2.5e-05 m"), std::string::npos) << refusal(ball);
   EXPECT_NE(refusal(ball, {"tip.radius=20 um"}).find("allowed: < 2e-05 m"), std::string::npos);
 }
 
 TEST(WrongAfm, AContactMeshThatIsTooFineOrTooLargeIsRefusedWithTheBound) {
-  const std::string ball = tipless_beam() + R"([tip]
-shape = "sphere"
-material = "stiff"
-radius = "10 um"
-neck_radius = "5 um"
-neck_height = "1 um"
-set_back = "50 um"
-)";
+  const std::string ball = beam_with_ball("10 um", "5 um");
   const auto refused = [&](const std::vector<std::string>& overrides, const char* what) {
     const std::string text = refusal(ball, overrides);
     EXPECT_NE(text.find(what), std::string::npos) << text;
