@@ -58,12 +58,20 @@ concept IsResource = !IsComponent<R> && requires {
 };
 
 class LookAhead;
+class World;
 
 // One chunk of laned rows: the eight particles that a chunk system works on.
 struct Chunk {
   std::int32_t index = 0;
   std::int32_t worker = -1;    // whose transient rows are used; -1: the chunk's own
   LookAhead* ahead = nullptr;  // for busy systems; see BusyChunk
+};
+
+// Of a system that divides the whole world into tasks far smaller than a chunk. It begins when the chunks that can
+// be computed beside it have been taken: its tasks then fill the time in which a thread would wait for another's
+// chunk.
+struct SmallTasks {
+  explicit SmallTasks(World&) {}
 };
 
 // Identity of a component, resource or place type at run time.

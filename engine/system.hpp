@@ -3,7 +3,7 @@
 //   void integrate(Chunk chunk, Read<Clock> clock, Read<NodeMass> m, Write<Velocity> v, ...);
 //
 // With a leading Chunk it works on the rows of one chunk and may be fused with its neighbours in the
-// step list; without, it works on the whole world.
+// step list; without, it works on the whole world, and in many small tasks where it takes SmallTasks.
 #pragma once
 
 #include <concepts>
@@ -22,7 +22,8 @@ struct System {
   std::string name;
   When when = When::every_step;
   bool by_chunk = false;
-  bool busy = false;  // takes a BusyChunk
+  bool busy = false;         // takes a BusyChunk
+  bool small_tasks = false;  // takes SmallTasks
   std::vector<AccessInfo> accesses;
   std::function<void(Chunk)> run;  // a world system ignores the chunk
 };
@@ -39,7 +40,8 @@ bool present(const World& world) { return static_cast<bool>(Access(const_cast<Wo
 
 template <class Access>
 void declare(const World& world, std::vector<AccessInfo>& accesses) {
-  if (present<Access>(world)) accesses.push_back(Access::info());
+  if constexpr (!std::is_same_v<Access, SmallTasks>)
+    if (present<Access>(world)) accesses.push_back(Access::info());
 }
 
 void check_chunk_writes(const System& system);
@@ -49,7 +51,7 @@ void check_chunk_writes(const System& system);
 template <std::derived_from<Chunk> C, class... Access>
 System make_system(World& world, std::string name, void (*function)(C, Access...),
                    When when = When::every_step) {
-  System system{std::move(name), when, true, std::is_same_v<C, BusyChunk>, {}, {}};
+  System system{std::move(name), when, true, std::is_same_v<C, BusyChunk>, false, {}, {}};
   (detail::declare<Access>(world, system.accesses), ...);
   system.run = [function, handles = std::tuple<Access...>(Access(world)...)](Chunk chunk) {
     std::apply([&](const auto&... handle) { function(C{chunk}, handle...); }, handles);
@@ -61,7 +63,8 @@ System make_system(World& world, std::string name, void (*function)(C, Access...
 template <class... Access>
 System make_system(World& world, std::string name, void (*function)(Access...),
                    When when = When::every_step) {
-  System system{std::move(name), when, false, false, {}, {}};
+  System system{
+      std::move(name), when, false, false, (std::is_same_v<Access, SmallTasks> || ...), {}, {}};
   (detail::declare<Access>(world, system.accesses), ...);
   system.run = [function, handles = std::tuple<Access...>(Access(world)...)](Chunk) {
     std::apply([&](const auto&... handle) { function(handle...); }, handles);

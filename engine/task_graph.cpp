@@ -1,12 +1,13 @@
 #include "engine/task_graph.hpp"
 
 #include <oneapi/tbb/flow_graph.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
 #include <optional>
+
+#include "engine/deal.hpp"
 
 namespace pulvis {
 
@@ -146,6 +147,25 @@ ColumnsAhead columns_ahead(const std::vector<const System*>& members, const Worl
   return ahead;
 }
 
+bool waits_for(const GraphPlan& plan, int later, int earlier) {
+  return std::ranges::any_of(plan.edges, [&](const auto& edge) {
+    return edge.second == later && (edge.first == earlier || waits_for(plan, edge.first, earlier));
+  });
+}
+
+// The stages whose chunks are taken before `stage` begins, which may then be computing still: they can start
+// with the step, and nothing waits for them that does not wait for `stage` too.
+std::vector<int> stages_before_small_tasks(const GraphPlan& plan, int stage) {
+  std::vector<int> found;
+  for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
+    const bool beside = std::ranges::none_of(plan.edges, [&](const auto& edge) {
+      return edge.second == s || (edge.first == s && !waits_for(plan, edge.second, stage));
+    });
+    if (beside && plan.stages[static_cast<std::size_t>(s)].by_chunk) found.push_back(s);
+  }
+  return found;
+}
+
 }  // namespace
 
 struct TaskGraph::Flow {
@@ -158,6 +178,14 @@ struct TaskGraph::Flow {
     std::vector<double> seconds;  // of each system, in the timed runs
   };
 
+  struct Stage {
+    std::vector<std::size_t> systems;
+    bool by_chunk;
+    ColumnsAhead ahead;
+    Deal deal;
+    std::vector<Stage*> first;  // whose chunks are taken before this one begins
+  };
+
   bool timed() const { return runs % timed_every == timed_first; }
 
   void run(std::size_t system, const Chunk& chunk) {
@@ -168,7 +196,23 @@ struct TaskGraph::Flow {
     times[worker].seconds[system] += std::chrono::duration<double>(Time::now() - began).count();
   }
 
+  void run_chunk(const Stage& stage, int index) {
+    LookAhead list = stage.ahead.list(index, stage.deal.pieces());
+    const int worker = drops ? tbb::this_task_arena::current_thread_index() : -1;
+    const Chunk chunk{index, worker, list.empty() ? nullptr : &list};
+    for (const std::size_t system : stage.systems) run(system, chunk);
+  }
+
+  void run_stage(Stage& stage) {
+    if (stage.by_chunk) return for_pieces(stage.deal, [&](int index) { run_chunk(stage, index); });
+    for (Stage* other : stage.first)
+      while (const std::optional<int> index = other->deal.take()) run_chunk(*other, *index);
+    run(stage.systems.front(), Chunk{});
+  }
+
   std::vector<System> systems;
+  bool drops = false;  // transients
+  std::vector<std::unique_ptr<Stage>> stages;
   std::int64_t runs = 0;
   std::vector<Times> times;
   tbb::flow::graph graph;
@@ -182,24 +226,25 @@ TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transie
   flow_->systems = std::move(systems);
   flow_->times.assign(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
                       {std::vector<double>(flow_->systems.size())});
+  flow_->drops = transients == Transients::dropped;
   const auto stages = group(flow_->systems);
-  const bool dropped = transients == Transients::dropped;
   for (std::size_t s = 0; s < stages.size(); ++s) {
-    std::vector<const System*> systems_of_stage;
-    for (const std::size_t i : stages[s]) systems_of_stage.push_back(&flow_->systems[i]);
-    auto body = [flow = flow_.get(), members = stages[s], chunks, dropped,
-                 ahead = columns_ahead(systems_of_stage, world),
-                 by_chunk = plan_.stages[s].by_chunk](tbb::flow::continue_msg) {
-      if (!by_chunk) return flow->run(members.front(), Chunk{});
-      tbb::parallel_for(0, chunks, [&](int index) {
-        LookAhead list = ahead.list(index, chunks);
-        const Chunk chunk{index, dropped ? tbb::this_task_arena::current_thread_index() : -1,
-                          list.empty() ? nullptr : &list};
-        for (const std::size_t system : members) flow->run(system, chunk);
-      });
-    };
-    flow_->nodes.push_back(std::make_unique<Flow::Node>(flow_->graph, body));
+    std::vector<const System*> members;
+    for (const std::size_t i : stages[s]) members.push_back(&flow_->systems[i]);
+    flow_->stages.push_back(std::make_unique<Flow::Stage>(
+        Flow::Stage{stages[s],
+                    plan_.stages[s].by_chunk,
+                    columns_ahead(members, world),
+                    Deal(chunks, tbb::this_task_arena::max_concurrency()),
+                    {}}));
+    flow_->nodes.push_back(std::make_unique<Flow::Node>(
+        flow_->graph, [flow = flow_.get(), stage = flow_->stages.back().get()](
+                          tbb::flow::continue_msg) { flow->run_stage(*stage); }));
   }
+  for (std::size_t s = 0; s < stages.size(); ++s)
+    if (flow_->systems[stages[s].front()].small_tasks)
+      for (const int other : stages_before_small_tasks(plan_, static_cast<int>(s)))
+        flow_->stages[s]->first.push_back(flow_->stages[static_cast<std::size_t>(other)].get());
   flow_->start.emplace(flow_->graph);
   std::vector<bool> has_predecessor(stages.size());
   for (const auto& [earlier, later] : plan_.edges) {
@@ -215,6 +260,7 @@ TaskGraph::~TaskGraph() = default;
 TaskGraph::TaskGraph(TaskGraph&&) noexcept = default;
 
 void TaskGraph::run() {
+  for (const auto& stage : flow_->stages) stage->deal.restart();
   flow_->start->try_put(tbb::flow::continue_msg{});
   flow_->graph.wait_for_all();
   ++flow_->runs;

@@ -2,14 +2,13 @@
 // four Gauss points, turn gap and slip into forces, and book the energies.
 #pragma once
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <cmath>
 #include <limits>
 
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/deal.hpp"
 #include "engine/lane_memory.hpp"
 #include "engine/prefetch.hpp"
 #include "systems/contact_kernel.hpp"
@@ -199,14 +198,17 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
   const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
   const int blocks_of_a_task = std::clamp(blocks / least_tasks, 1, most_blocks);
   sums.blocks.resize(static_cast<std::size_t>(blocks));
-  tbb::parallel_for(0, (blocks + blocks_of_a_task - 1) / blocks_of_a_task, [&](int task) {
+  Deal tasks((blocks + blocks_of_a_task - 1) / blocks_of_a_task,
+             tbb::this_task_arena::max_concurrency());
+  for_pieces(tasks, [&](int task) {
     const int first = task * blocks_of_a_task, last = std::min(blocks, first + blocks_of_a_task);
     std::array<std::int32_t, most_rows_of_a_task> found;
     std::array<std::size_t, most_blocks> end;
     std::size_t count = 0;
     for (int block = first; block < last; ++block) {
       // No branch: which rows are active follows no pattern.
-      for (int r = block * rows_of_a_block; r < std::min(rows, (block + 1) * rows_of_a_block); ++r) {
+      for (int r = block * rows_of_a_block; r < std::min(rows, (block + 1) * rows_of_a_block);
+           ++r) {
         found[count] = r;
         count += active(Row<At>(r)) ? 1 : 0;
       }

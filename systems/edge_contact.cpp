@@ -184,7 +184,7 @@ void set_couple(const RowMotion& m, const Lane& along, unsigned touching,
 
 }  // namespace
 
-void edge_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
+void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
                   Optional<Read<CurveVelocity>> velocity, Write<ClosestPoint> closest,
                   Read<ContactPair<Contact>> pair, Read<ContactPlace> place,
                   Write<ContactTouches<Contact>> touches, Write<ContactReach<Contact>> reach,

@@ -37,18 +37,19 @@ void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<De
                     Optional<Write<FrictionMore<ToolContact>>>);
 
 // ---- narrow phase -----------------------------------------------------------------------------
-void edge_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
-                  Write<ClosestPoint>, Read<ContactPair<Contact>>, Read<ContactPlace>,
-                  Write<ContactTouches<Contact>>, Write<ContactReach<Contact>>,
-                  Read<ContactLaw<Contact>>,
-                  Write<PointForce<Contact>>, Optional<Write<ElasticSlip<Contact>>>,
-                  Optional<Read<FrictionMore<Contact>>>, Optional<Write<StaticLost<Contact>>>,
-                  Optional<Write<FrictionCouple>>, Write<ContactSums<Contact>>);
-void tool_contact(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<CurveVelocity>>,
-                  Read<ToolPosition>, Read<ToolVelocity>, Read<ToolNormal>,
-                  Read<ContactPair<ToolContact>>, Write<ContactTouches<ToolContact>>,
-                  Write<ContactReach<ToolContact>>, Read<ContactLaw<ToolContact>>,
-                  Write<PointForce<ToolContact>>, Optional<Write<ElasticSlip<ToolContact>>>,
+void edge_contact(SmallTasks, Read<Bodies>, Read<Clock>, Read<CurvePosition>,
+                  Optional<Read<CurveVelocity>>, Write<ClosestPoint>, Read<ContactPair<Contact>>,
+                  Read<ContactPlace>, Write<ContactTouches<Contact>>, Write<ContactReach<Contact>>,
+                  Read<ContactLaw<Contact>>, Write<PointForce<Contact>>,
+                  Optional<Write<ElasticSlip<Contact>>>, Optional<Read<FrictionMore<Contact>>>,
+                  Optional<Write<StaticLost<Contact>>>, Optional<Write<FrictionCouple>>,
+                  Write<ContactSums<Contact>>);
+void tool_contact(SmallTasks, Read<Bodies>, Read<Clock>, Read<CurvePosition>,
+                  Optional<Read<CurveVelocity>>, Read<ToolPosition>, Read<ToolVelocity>,
+                  Read<ToolNormal>, Read<ContactPair<ToolContact>>,
+                  Write<ContactTouches<ToolContact>>, Write<ContactReach<ToolContact>>,
+                  Read<ContactLaw<ToolContact>>, Write<PointForce<ToolContact>>,
+                  Optional<Write<ElasticSlip<ToolContact>>>,
                   Optional<Read<FrictionMore<ToolContact>>>,
                   Optional<Write<StaticLost<ToolContact>>>, Optional<Read<ToolShapes>>,
                   Optional<Read<SurfaceRange>>, Write<ContactSums<ToolContact>>);

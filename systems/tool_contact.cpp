@@ -10,7 +10,7 @@
 
 namespace pulvis {
 
-void tool_contact(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
+void tool_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
                   Optional<Read<CurveVelocity>> velocity, Read<ToolPosition> tool_position,
                   Read<ToolVelocity> tool_velocity, Read<ToolNormal> tool_normal,
                   Read<ContactPair<ToolContact>> pair, Write<ContactTouches<ToolContact>> touches,

@@ -215,6 +215,50 @@ TEST_F(TaskGraphTest, ExceptionOfASystemComesOutOfRunAndStopsWhatFollows) {
   EXPECT_FALSE(went_on);
 }
 
+// ---- small tasks beside chunks ------------------------------------------------------------------
+// Chunks that were begun when the system of small tasks began, the least of many runs.
+int chunks_begun_before(const std::vector<System>& systems, Workers& workers) {
+  std::atomic<int> begun = 0, least = chunks;
+  std::vector<System> counted = systems;
+  for (System& system : counted) {
+    const auto inner = system.run;
+    if (system.by_chunk)
+      system.run = [&begun, inner](Chunk c) { ++begun, inner(c); };
+    else if (system.small_tasks)
+      system.run = [&begun, &least](Chunk) { least = std::min<int>(least, begun); };
+  }
+  workers.run([&] {
+    TaskGraph graph(counted, chunks);
+    for (int i = 0; i < 100; ++i, begun = 0) {
+      graph.run();
+      EXPECT_EQ(begun, chunks);
+    }
+  });
+  return least;
+}
+
+TEST_F(TaskGraphTest, SmallTasksBeginWhenTheChunksBesideThemHaveBeenTaken) {
+  const System small = world_system<SmallTasks, Write<Force>>("small");
+  ASSERT_TRUE(small.small_tasks);
+  ASSERT_EQ(small.accesses.size(), 1U);
+  const System beside = chunk_system<Write<Heat>>("beside");
+  const System last = world_system<Read<Heat>, Read<Force>>("last");
+  Workers one(1);
+  EXPECT_EQ(chunks_begun_before({beside, small, last}, one), chunks);
+  // A chunk that another thread has taken may not have begun yet.
+  EXPECT_GT(chunks_begun_before({beside, small, last}, workers), chunks - 4);
+}
+
+// `hurried` would come while a helper still has a chunk of what it reads.
+TEST_F(TaskGraphTest, SmallTasksDoNotHelpWhereSomebodyWaitsForTheChunksAlone) {
+  const System small = world_system<SmallTasks, Write<Force>>("small");
+  const System beside = chunk_system<Write<Heat>>("beside");
+  const System hurried = world_system<Read<Heat>, Write<Ends>>("hurried");
+  const System last = world_system<Read<Ends>, Read<Force>>("last");
+  Workers one(1);
+  EXPECT_LT(chunks_begun_before({beside, small, hurried, last}, one), chunks);
+}
+
 // ---- transient components -----------------------------------------------------------------------
 void leave(Chunk c, Write<Passing> passing) {
   passing.chunk(c)(Row<Cell>(0)) = Lane(c.index + 1.0);
