@@ -63,6 +63,27 @@ inline void store_pairs_of_half(const Lane& x, const Lane& y, int half, double* 
 #endif
 }
 
+// x and y of every lane side by side, those of lane l at first + l apart.
+inline void store_pairs(const Lane& x, const Lane& y, double* first, std::size_t apart) {
+#ifdef __AVX512F__
+  const __m512d even = _mm512_unpacklo_pd(x.part[0], y.part[0]);  // lanes 0 2 4 6
+  const __m512d odd = _mm512_unpackhi_pd(x.part[0], y.part[0]);
+  const auto put = [&](int l, __m128d pair) {
+    _mm_storeu_pd(first + static_cast<std::size_t>(l) * apart, pair);
+  };
+  put(0, _mm512_castpd512_pd128(even)), put(1, _mm512_castpd512_pd128(odd));
+  put(2, _mm512_extractf64x2_pd(even, 1)), put(3, _mm512_extractf64x2_pd(odd, 1));
+  put(4, _mm512_extractf64x2_pd(even, 2)), put(5, _mm512_extractf64x2_pd(odd, 2));
+  put(6, _mm512_extractf64x2_pd(even, 3)), put(7, _mm512_extractf64x2_pd(odd, 3));
+#else
+  for (int l = 0; l < lane_count; ++l) {
+    double* pair = first + static_cast<std::size_t>(l) * apart;
+    pair[0] = x[l];
+    pair[1] = y[l];
+  }
+#endif
+}
+
 // x y x y x y x y
 inline Lane repeat_pair(const double* xy) {
 #if defined(__AVX512F__)

@@ -3,8 +3,11 @@
 // Source   systems/contact_kernel.hpp (cubic B-spline of smoothed boundary nodes)
 // Runs     after integrate; its curves are what the next step's contacts see
 // Active   when anything can touch
+#include <array>
+
 #include "components/contact.hpp"
 #include "engine/access.hpp"
+#include "engine/lane_memory.hpp"
 #include "systems/systems.hpp"
 
 namespace pulvis {
@@ -14,15 +17,19 @@ struct ControlLanes {
   Lane x, y;
 };
 
-template <class Nodes>
-ControlLanes control_point(const Shape& shape, const Nodes& nodes, int c) {
-  ControlLanes y{};
+// Control point c of what the nodes carry: where they are, how fast they move. As many lists at once as are asked
+// for, since finding the nodes takes as long as adding them up.
+template <class... Nodes>
+std::array<ControlLanes, sizeof...(Nodes)> control_points(const Shape& shape, int c,
+                                                          const Nodes&... nodes) {
+  std::array<ControlLanes, sizeof...(Nodes)> y{};
   for (std::int32_t t = shape.curve_begin[static_cast<std::size_t>(c)];
        t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
     const Shape::CurveTerm& term = shape.curve_terms[static_cast<std::size_t>(t)];
     const Row<Node> node(term.node.value);  // boundary nodes come first among the nodes
-    y.x += term.weight * nodes(node, 0);
-    y.y += term.weight * nodes(node, 1);
+    std::size_t list = 0;
+    ((y[list].x += term.weight * nodes(node, 0), y[list].y += term.weight * nodes(node, 1), ++list),
+     ...);
   }
   return y;
 }
@@ -30,10 +37,8 @@ ControlLanes control_point(const Shape& shape, const Nodes& nodes, int c) {
 // From lanes to the plain list, particle after particle.
 template <class View>
 void put(const View& list, int control_points, int c, const ControlLanes& y) {
-  for (int lane = 0; lane < lane_count; ++lane) {
-    list(Row<ControlPoint>(lane * control_points + c), 0) = y.x[lane];
-    list(Row<ControlPoint>(lane * control_points + c), 1) = y.y[lane];
-  }
+  store_pairs(y.x, y.y, &list(Row<ControlPoint>(c), 0),
+              2 * static_cast<std::size_t>(control_points));
 }
 
 }  // namespace
@@ -46,11 +51,12 @@ void put(const View& list, int control_points, int c, const ControlLanes& y) {
   const auto nodes = x.chunk(chunk);
   const auto rates = v.chunk(chunk);
   Lane fastest{};
-  for (int c = 0; c < shape.control_points(); ++c) {
-    put(position.chunk(chunk), shape.control_points(), c, control_point(shape, nodes, c));
-    const ControlLanes rate = control_point(shape, rates, c);
+  const int count = shape.control_points();
+  for (int c = 0; c < count; ++c) {
+    const auto [at, rate] = control_points(shape, c, nodes, rates);
+    put(position.chunk(chunk), count, c, at);
     fastest = max(fastest, rate.x * rate.x + rate.y * rate.y);
-    if (velocity) put(velocity->chunk(chunk), shape.control_points(), c, rate);
+    if (velocity) put(velocity->chunk(chunk), count, c, rate);
   }
   speed.chunk(chunk)(Row<Particle>()) = sqrt(fastest);
 }
