@@ -125,6 +125,15 @@ TEST(LaneMemory, PairsTakeTurns) {
   std::array<double, 8> out{};
   store_pairs_of_half(x, y, 1, out.data());
   EXPECT_EQ(out, (std::array<double, 8>{4, 14, 5, 15, 6, 16, 7, 17}));
+
+  constexpr std::size_t apart = 3;
+  std::array<double, apart * lane_count> list{};
+  store_pairs(x, y, list.data(), apart);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    EXPECT_EQ(list[apart * l], x[static_cast<int>(l)]);
+    EXPECT_EQ(list[apart * l + 1], y[static_cast<int>(l)]);
+    EXPECT_EQ(list[apart * l + 2], 0);  // what lies between them is left alone
+  }
 }
 
 TEST(LaneMemory, SumsOfAHalfArePairwiseInFixedOrder) {
