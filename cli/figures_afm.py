@@ -1,6 +1,7 @@
 """Figures of a lever: the deformed solid (first, middle and last frame) and its curves."""
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.collections import PolyCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from figures_parts import draw_lines
@@ -14,8 +15,9 @@ def outer_faces(hexahedra):
     seen = {}
     for cell, corners in enumerate(hexahedra):
         for face in FACES:
-            nodes = tuple(corners[i] for i in face)
-            seen.setdefault(tuple(sorted(nodes)), []).append((nodes, cell))
+            nodes = tuple(dict.fromkeys(corners[i] for i in face))  # of a tetrahedron three, two or one are left
+            if len(nodes) > 2:
+                seen.setdefault(tuple(sorted(nodes)), []).append((nodes, cell))
     return [faces[0] for faces in seen.values() if len(faces) == 1]
 
 
@@ -46,9 +48,69 @@ def solid(run, options):
         frame = run.file["frames"][name]
         axis = figure.add_subplot(1, len(chosen), i + 1, projection="3d")
         draw_solid(axis, frame["position"][:], faces, parts,
-                   f"frame {int(name)}, time {frame.attrs['time']:.3g}")
+                   f"frame {int(name)}, {'actions done' if 'scanner/z' in run.series else 'load case'} "
+                   f"{frame.attrs['time']:.3g}")
     last = position_of(run, chosen[-1])
     figure.table = [(axis, "m", last[:, k]) for k, axis in enumerate("xyz")]
+    return figure
+
+
+EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+
+
+def cut(position, y):
+    """The polygon in x and z where the plane y goes through a cell, its corners in turn; nothing elsewhere."""
+    side = position[:, 1] - y
+    points = [position[a] + side[a] / (side[a] - side[b]) * (position[b] - position[a])
+              for a, b in EDGES if side[a] * side[b] < 0]
+    if len(points) < 3:
+        return None
+    points = np.array(points)[:, [0, 2]]
+    off = points - points.mean(axis=0)
+    return points[np.argsort(np.arctan2(off[:, 1], off[:, 0]))]
+
+
+def plastic_zones(run, options):
+    """A section through the tip along the lever, around what has flowed: under the largest force, and at the end."""
+    if not run.frames or "plastic_strain" not in run.file["frames"][run.frames[0]]:
+        return None
+    strains = [run.file["frames"][name]["plastic_strain"][:] for name in run.frames]
+    rows = [int(run.file["frames"][name].attrs["step"]) - 1 for name in run.frames]
+    chosen = [int(np.argmax(run.values("probe/force_z")[rows])), len(run.frames) - 1]
+    if options.frame is not None:
+        run.frame(options.frame)
+        chosen = [options.frame]
+    cells, reference = run.file["mesh/hexahedra"][:], run.file["mesh/reference"][:]
+    flowed = np.flatnonzero(np.max(strains, axis=0) > 1e-6)
+    if not flowed.size:
+        return None
+    zone = reference[cells[flowed]].reshape(-1, 3)
+    middle, reach = zone.mean(axis=0), 0.7 * np.ptp(zone, axis=0)[[0, 2]].max()
+    near = np.flatnonzero(np.abs(reference[cells].mean(axis=1) - middle).max(axis=1) < 3 * reach)
+    top = max(strains[i].max() for i in chosen)
+    figure, axes = plt.subplots(1, len(chosen), figsize=(7 * len(chosen), 5.5), squeeze=False)
+    figure.table = []
+    for axis, i in zip(axes[0], chosen):
+        position = position_of(run, run.frames[i])
+        shift = position[cells[flowed]].reshape(-1, 3).mean(axis=0)
+        polygons, colours = [], []
+        for cell in near:
+            polygon = cut(position[cells[cell]], shift[1] + 1e-4 * reach)
+            if polygon is not None:
+                polygons.append((polygon - shift[[0, 2]]) * 1e6)
+                colours.append(strains[i][cell])
+        drawn = PolyCollection(polygons, array=np.array(colours), cmap="inferno_r", edgecolors="#00000040",
+                               linewidths=0.4)
+        drawn.set_clim(0, top)
+        axis.add_collection(drawn)
+        axis.set(xlim=(-1e6 * reach, 1e6 * reach), ylim=(-1e6 * reach, 1e6 * reach), aspect="equal",
+                 xlabel="x in µm", ylabel="z in µm",
+                 title=f"frame {int(run.frames[i])}: at most {strains[i].max():.3g}")
+        axis.grid(False)
+        figure.colorbar(drawn, ax=axis, label="accumulated plastic strain", shrink=0.85)
+        figure.table.append((f"frame {int(run.frames[i])}: plastic strain by cell", "-", strains[i]))
+    figure.suptitle("Plastic zones, section through the tip along the lever")
+    figure.tight_layout()
     return figure
 
 
@@ -86,6 +148,7 @@ def images(run, _):
     return figure
 
 
-AFM_FIGURES = {"solid": solid, "images": images, "force_curve": curve("scanner/z", "probe/force_z", "Force curve"),
+AFM_FIGURES = {"solid": solid, "plastic_zones": plastic_zones, "images": images,
+               "force_curve": curve("scanner/z", "probe/force_z", "Force curve"),
                "friction_loop": curve("scanner/y", "probe/force_y", "Friction loop"),
                "detector": curve("scanner/y", "detector/lateral", "Lateral signal")}

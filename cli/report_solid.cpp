@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 #include "cli/report_encoding.hpp"
 #include "cli/report_frames.hpp"
@@ -21,6 +22,16 @@ struct Surface {
   std::vector<std::int32_t> faces, parts;  // four nodes a face; its part
 };
 
+// What is the same for both cells at a face; of a triangle, as hexahedra drawn together to tetrahedra have
+// them, whichever corner stands there twice; nothing where less than that is left of it.
+std::optional<Face> key_of(Face face) {
+  std::ranges::sort(face);
+  const auto repeated = std::unique(face.begin(), face.end());
+  if (repeated - face.begin() < 3) return {};
+  std::fill(repeated, face.end(), -1);
+  return face;
+}
+
 // Faces that one hexahedron alone has.
 Surface surface_of(const std::vector<std::int32_t>& hexahedra,
                    const std::vector<std::int32_t>& part) {
@@ -31,11 +42,11 @@ Surface surface_of(const std::vector<std::int32_t>& hexahedra,
   std::map<Face, Seen> seen;
   for (std::size_t cell = 0; cell < part.size(); ++cell)
     for (const auto& corners : faces_of_cell) {
-      Face face{}, key{};
+      Face face{};
       for (std::size_t k = 0; k < 4; ++k) face[k] = hexahedra[8 * cell + corners[k]];
-      key = face;
-      std::ranges::sort(key);
-      Seen& one = seen[key];
+      const auto key = key_of(face);
+      if (!key) continue;
+      Seen& one = seen[*key];
       one = {face, part[cell], one.count + 1};
     }
   Surface surface;

@@ -26,6 +26,9 @@
 namespace pulvis {
 namespace {
 
+// A lever's programme has no time.
+const SeriesInfo actions_done{"actions", "-", "actions done, a part of one included"};
+
 RunMesh mesh_of(const AfmSimulation& simulation) {
   const World& world = const_cast<AfmSimulation&>(simulation).world();
   const auto& solid = world.resource<SolidMesh>();
@@ -34,6 +37,11 @@ RunMesh mesh_of(const AfmSimulation& simulation) {
   for (const auto& hexahedron : solid.hexahedra)
     mesh.hexahedra.insert(mesh.hexahedra.end(), hexahedron.begin(), hexahedron.end());
   mesh.cell_particle.assign(solid.part.begin(), solid.part.end());
+  // Drawn by their corners, as hexahedra that are drawn together to a tetrahedron.
+  for (const auto& t : solid.tetrahedra)
+    for (const std::size_t corner : {0, 1, 2, 2, 3, 3, 3, 3}) mesh.hexahedra.push_back(t[corner]);
+  mesh.cell_particle.insert(mesh.cell_particle.end(), solid.tetrahedron_part.begin(),
+                            solid.tetrahedron_part.end());
   mesh.node_particle.assign(solid.unknown.size(), 0);
   mesh.reference.assign(reference.values(), reference.values() + 3 * solid.unknown.size());
   return mesh;
@@ -49,7 +57,8 @@ void write_frames(const std::filesystem::path& folder, const LoadedScene& loaded
                      fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
                     mesh, {{"tip/displacement", "m", "of the tip's end, as drawn"}},
                     {{"position", "m", "deformed, drawn larger than life", FieldPlace::node, 3},
-                     {"displacement", "m", "as drawn", FieldPlace::node, 3}});
+                     {"displacement", "m", "as drawn", FieldPlace::node, 3}},
+                    {"load_case", "-", "0 at rest, then a force normal, lateral, along the lever"});
   const double drawn = 0.1 * loaded.scene.afm->lever.length;
   const std::array<Vec3, 4> directions{Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitY(), Vec3::UnitX()};
   for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -71,6 +80,17 @@ std::vector<double> positions(const AfmSimulation& simulation, const RunMesh& me
   std::vector<double> x = mesh.reference;
   for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
   return x;
+}
+
+// Of every cell the mean of its Gauss points; tetrahedra are elastic.
+std::vector<double> plastic_strain(const AfmSimulation& simulation, const RunMesh& mesh) {
+  const World& world = const_cast<AfmSimulation&>(simulation).world();
+  const auto& memory = world.column<SolidMemory>();
+  std::vector<double> strain(mesh.cell_particle.size());
+  for (std::size_t e = 0; e < memory.table.rows; ++e)
+    for (std::size_t g = 0; g < 8; ++g)
+      strain[e] += memory.values()[SolidMemory::count * e + 7 * g + 6] / 8;
+  return strain;
 }
 
 struct ProgrammeEnd {
@@ -101,13 +121,17 @@ struct ProgrammeRun {
     every = std::max<std::size_t>(1, total / 12);
   }
 
-  static std::vector<FieldInfo> fields() {
-    return {{"position", "m", "of the node", FieldPlace::node, 3}};
+  bool yields() const { return simulation.world().has<SolidMemory>(); }
+  std::vector<FieldInfo> fields() const {
+    std::vector<FieldInfo> all{{"position", "m", "of the node", FieldPlace::node, 3}};
+    if (yields()) all.push_back({"plastic_strain", "-", "accumulated, mean over the element"});
+    return all;
   }
 
   void frame(double time) {
-    recorder->frame(time, static_cast<std::int64_t>(history.rows.size()),
-                    {positions(simulation, mesh)});
+    std::vector<std::vector<double>> values{positions(simulation, mesh)};
+    if (yields()) values.push_back(plastic_strain(simulation, mesh));
+    recorder->frame(time, static_cast<std::int64_t>(history.rows.size()), values);
   }
 
   std::int64_t increment() const { return position.told - 1; }
@@ -160,15 +184,15 @@ ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScen
         folder,
         RunAttributes{program_version(), program_commit(), loaded.scene.title,
                       fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
-        run.mesh, afm_series(), ProgrammeRun::fields());
+        run.mesh, afm_series(), run.fields(), actions_done);
   } else {
     RecorderPosition results;
     const std::vector<std::byte> bytes = from->run("afm");
     StateReader reader(bytes);
     reader(results, run.position, history);
     run.checkpoints.resumed(run.increment(), history.times.back());
-    run.recorder =
-        std::make_unique<Recorder>(folder, run.mesh, afm_series(), ProgrammeRun::fields(), results);
+    run.recorder = std::make_unique<Recorder>(folder, run.mesh, afm_series(), run.fields(), results,
+                                              actions_done);
   }
   return run.go(from);
 }

@@ -52,18 +52,24 @@ struct TargetShape {
   virtual Nearest nearest(const Place& place) const = 0;
 };
 
+// A ball of elastic material that adheres (JKR); work 0: none does.
+struct AdhesiveBall {
+  double modulus = 0, radius = 0, work = 0;  // E/(1 - nu^2) Pa, m, J/m^2
+};
+
 struct Target {
   static constexpr const char* resource_name = "target";
   std::shared_ptr<const TargetShape> shape;
   std::array<double, 3> origin{};  // m, of the shape, where it was first touched
   std::array<double, 3> travel{};  // m, of the scanner since then
   double friction = 0;             // -, Coulomb
-  double pull_off = 0;             // N, adhesion at contact (DMT); 0: none
-  double range = 0;                // m, over which it fades: 1/(1 + gap/range)^2
-  double end_radius = 0;           // m, of a sharp tip's end; 0 for nodes of a meshed surface
-  bool servo = false;              // the scanner's height follows so that ...
-  double set_point = 0;            // N, ... the target pushes the probe up with this force
-  bool may_jump = false;           // where no equilibrium is near the probe may snap on or off
+  double pull_off = 0;             // N, adhesion at contact; 0: none
+  AdhesiveBall ball;      // whose law takes the place of the normal penalty and of DMT's force
+  double range = 0;       // m, over which it fades: 1/(1 + gap/range)^2
+  double end_radius = 0;  // m, of a sharp tip's end; 0 for nodes of a meshed surface
+  bool servo = false;     // the scanner's height follows so that ...
+  double set_point = 0;   // N, ... the target pushes the probe up with this force
+  bool may_jump = false;  // where no equilibrium is near the probe may snap on or off
 
   // The rest is the scene's.
   template <class Bytes>

@@ -1,5 +1,5 @@
 // Columns and resources of a deformable solid in space that is solved quasi-statically: eight-node
-// hexahedra, nodes, and the blocks of the stiffness matrix. Nothing of it is there unless the scene has a
+// hexahedra, ten-node tetrahedra, nodes, and the blocks of the stiffness matrix. Nothing of it is there unless the scene has a
 // lever (family = "afm").
 #pragma once
 
@@ -18,6 +18,10 @@ struct SolidNode {
 };
 struct SolidElement {  // eight-node hexahedron
   static constexpr const char* name = "solid_element";
+  static constexpr bool laned = false, by_chunk = true;
+};
+struct SolidTetrahedron {  // of ten nodes; only where a mesh from a file has them
+  static constexpr const char* name = "solid_tetrahedron";
   static constexpr bool laned = false, by_chunk = true;
 };
 struct StiffnessBlock {  // 3 x 3 numbers: how one node's displacement acts on another's force
@@ -54,6 +58,20 @@ struct ElementEnergy : Component<SolidElement, double, 1> {
   static constexpr ComponentInfo info{"element_energy", "J", "strain energy"};
 };
 
+struct TetrahedronLame : Component<SolidTetrahedron, double, 2> {
+  static constexpr ComponentInfo info{"tetrahedron_lame", "Pa", "lambda, mu"};
+};
+struct TetrahedronForce : Component<SolidTetrahedron, double, 30> {
+  static constexpr ComponentInfo info{"tetrahedron_force", "N", "of the stresses, by node: x y z"};
+};
+struct TetrahedronTangent : Component<SolidTetrahedron, double, 465> {
+  static constexpr ComponentInfo info{"tetrahedron_tangent", "N/m",
+                                      "d force / d displacement, lower triangle row by row"};
+};
+struct TetrahedronEnergy : Component<SolidTetrahedron, double, 1> {
+  static constexpr ComponentInfo info{"tetrahedron_energy", "J", "strain energy"};
+};
+
 // Only where a material of the solid yields.
 struct SolidYield : Component<SolidElement, double, 2> {
   static constexpr ComponentInfo info{"solid_yield", "Pa",
@@ -77,11 +95,13 @@ enum class HexFormulation : std::uint8_t {
   standard,  // trilinear displacements alone: locks where it bends
 };
 
-// Hexahedra: corners 0-3 counter-clockwise at zeta = -1 seen from +zeta, 4-7 above them.
+// Hexahedra: corners 0-3 counter-clockwise at zeta = -1 seen from +zeta, 4-7 above them. Tetrahedra: corners
+// 0-3, 3 where 0-1-2 run counter-clockwise away from it, then the middles of the edges 01 12 02 03 23 13.
 struct SolidMesh {
   static constexpr const char* resource_name = "solid_mesh";
   static constexpr bool fixed = true;
   using Hexahedron = std::array<std::int32_t, 8>;
+  using Tetrahedron = std::array<std::int32_t, 10>;
   // A node that hangs on others moves as their weighted mean; one that hangs on nobody is held.
   struct Support {
     std::int32_t node = 0;
@@ -90,11 +110,14 @@ struct SolidMesh {
   std::vector<Hexahedron> hexahedra;
   std::vector<HexFormulation> formulation;  // [elements]
   std::vector<std::uint8_t> part;           // [elements] 0 lever, 1 coating, 2 tip, 3 glue
-  std::vector<std::int32_t> support_begin;  // [nodes + 1]; a free node's only support is itself
+  std::vector<Tetrahedron> tetrahedra;
+  std::vector<std::uint8_t> tetrahedron_part;  // [tetrahedra]
+  std::vector<std::int32_t> support_begin;     // [nodes + 1]; a free node's only support is itself
   std::vector<Support> supports;
   std::vector<std::int32_t> unknown;      // [nodes] block of three equations; -1: held or hanging
   std::int32_t unknowns = 0;              // free nodes
   std::vector<std::int32_t> chunk_begin;  // [chunks + 1] into hexahedra
+  std::vector<std::int32_t> tetrahedron_begin;  // [chunks + 1] into tetrahedra
 
   std::span<const Support> supports_of(int n) const {
     const auto first = static_cast<std::size_t>(support_begin[static_cast<std::size_t>(n)]);
@@ -109,7 +132,8 @@ struct SolidAssembly {
   static constexpr bool fixed = true;
   struct Share {
     std::int32_t element = 0;
-    std::int8_t row = 0, column = 0;  // corners; of a force: row
+    std::int8_t row = 0, column = 0;  // of its nodes; of a force: row
+    bool tetrahedron = false;
     double weight = 1;
   };
   std::vector<std::int32_t> force_begin;  // [nodes + 1] into forces

@@ -11,10 +11,11 @@
 
 namespace pulvis {
 
-HistoryCsv::HistoryCsv(std::filesystem::path path, const std::vector<SeriesInfo>& series)
+HistoryCsv::HistoryCsv(std::filesystem::path path, const SeriesInfo& abscissa,
+                       const std::vector<SeriesInfo>& series)
     : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
   if (!file_) fail("create the file");
-  std::string header = "time [s]";
+  std::string header = abscissa.name + " [" + abscissa.unit + "]";
   for (const auto& one : series) header += "," + one.name + " [" + one.unit + "]";
   write(header + "\n");
 }

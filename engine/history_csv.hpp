@@ -1,5 +1,6 @@
 // history.csv: the history as a table for a spreadsheet, with the same numbers as run.h5 (17
-// digits, so that reading them back gives the same bits). First column time, header "name [unit]".
+// digits, so that reading them back gives the same bits). First column what the samples follow, header
+// "name [unit]".
 #pragma once
 
 #include <cstdio>
@@ -15,7 +16,8 @@ namespace pulvis {
 
 class HistoryCsv {
  public:
-  HistoryCsv(std::filesystem::path path, const std::vector<SeriesInfo>& series);
+  HistoryCsv(std::filesystem::path path, const SeriesInfo& abscissa,
+             const std::vector<SeriesInfo>& series);
   void add(double time, std::span<const double> values);
   void flush();
   void close();

@@ -14,6 +14,9 @@ struct SeriesInfo {     // one series of the history: a number a sample
   std::string meaning;  // a line for the reader
 };
 
+// What the samples follow: the first column of history.csv; /history/time of run.h5 has its unit.
+inline const SeriesInfo simulated_time{"time", "s", "simulated time"};
+
 // `list`: rows of their own, as many as there are at that time.
 enum class FieldPlace { node, cell, particle, list };
 

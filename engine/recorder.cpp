@@ -59,12 +59,12 @@ void survive_a_full_quota() {
 
 Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes,
                    const RunMesh& mesh, std::vector<SeriesInfo> series,
-                   std::vector<FieldInfo> fields)
+                   std::vector<FieldInfo> fields, const SeriesInfo& abscissa)
     : series_(std::move(series)),
       fields_(
           (check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
       file_(hdf5::File::create(folder / "run.h5.new")),
-      csv_(folder / "history.csv", series_),
+      csv_(folder / "history.csv", abscissa, series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
       pending_(series_.size()) {
@@ -72,7 +72,7 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
   write_attributes(attributes);
   write_mesh(mesh);
   file_.make_group("/frames");
-  make_history();
+  make_history(abscissa);
   file_.flush();
   file_.close();
   put_in_place(folder);
@@ -90,11 +90,11 @@ void Recorder::put_in_place(const std::filesystem::path& folder) {
 
 Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
                    std::vector<SeriesInfo> series, std::vector<FieldInfo> fields,
-                   const RecorderPosition& position)
+                   const RecorderPosition& position, const SeriesInfo& abscissa)
     : series_(std::move(series)),
       fields_((check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),
       file_(hdf5::File::open_to_change(folder / "run.h5")),
-      csv_(folder / "history.csv", series_),
+      csv_(folder / "history.csv", abscissa, series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
       pending_(series_.size()) {
@@ -188,9 +188,9 @@ void Recorder::write_mesh(const RunMesh& mesh) {
   describe("/mesh/reference", "m", "positions of the nodes before the first step");
 }
 
-void Recorder::make_history() {
+void Recorder::make_history(const SeriesInfo& abscissa) {
   file_.make_series("/history/time", history_chunk);
-  describe("/history/time", "s", "simulated time");
+  describe("/history/time", abscissa.unit, abscissa.meaning);
   for (const auto& series : series_) {
     file_.make_series("/history/" + series.name, history_chunk);
     describe("/history/" + series.name, series.unit, series.meaning);

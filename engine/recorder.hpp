@@ -45,10 +45,12 @@ class Recorder {
   // `folder` exists (open_run_folder made it). `position` (node, as many components as the mesh has
   // dimensions) is the first field.
   Recorder(std::filesystem::path folder, const RunAttributes& attributes, const RunMesh& mesh,
-           std::vector<SeriesInfo> series, std::vector<FieldInfo> fields);
+           std::vector<SeriesInfo> series, std::vector<FieldInfo> fields,
+           const SeriesInfo& abscissa = simulated_time);
   // Goes on with the files of a run that stopped: what was written after `position` is cut off.
   Recorder(std::filesystem::path folder, const RunMesh& mesh, std::vector<SeriesInfo> series,
-           std::vector<FieldInfo> fields, const RecorderPosition& position);
+           std::vector<FieldInfo> fields, const RecorderPosition& position,
+           const SeriesInfo& abscissa = simulated_time);
 
   // Everything so far is on the disk then.
   RecorderPosition position();
@@ -76,7 +78,7 @@ class Recorder {
   void write_attributes(const RunAttributes& attributes);
   void write_mesh(const RunMesh& mesh);
   void put_in_place(const std::filesystem::path& folder);
-  void make_history();
+  void make_history(const SeriesInfo& abscissa);
   void append_history();
   void cut(const RecorderPosition& position);
   void write_csv_again();

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenes/adhesion.hpp"
+#include "scenes/meshed_lever.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -13,37 +16,27 @@ Eigen::Matrix3d tilted(double angle) {
   return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
 }
 
-Gauge on_plane(const LeverMesh& lever, const Vec2& point, double z) {
-  const auto place = locate(lever.plan, point);
-  const auto weights = place->weights();
-  std::size_t level = 0;
-  while (level + 2 < lever.levels.size() && lever.levels[level + 1] < z) ++level;
-  const double s = (z - lever.levels[level]) / (lever.levels[level + 1] - lever.levels[level]);
-  Gauge gauge;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const int p = lever.plan.quads[static_cast<std::size_t>(place->quad)][c];
-    gauge.push_back({lever.node(p, level), (1 - s) * weights[c]});
-    gauge.push_back({lever.node(p, level + 1), s * weights[c]});
-  }
-  return gauge;
-}
+using Side = std::optional<LeverMesh::Point> (LeverMesh::*)(const Vec2& point) const;
 
 // Differences over half an element to both sides, or to the one that is there.
-Gauge difference(const LeverMesh& lever, const Vec2& point, const Vec2& step, double z) {
-  const Vec2 ahead = locate(lever.plan, point + step) ? Vec2(point + step) : point;
-  const Vec2 behind = locate(lever.plan, point - step) ? Vec2(point - step) : point;
-  const double distance = (ahead - behind).norm();
-  Gauge gauge = on_plane(lever, ahead, z);
+Gauge difference(const LeverMesh& lever, Side side, const Vec2& point, const Vec2& step) {
+  auto ahead = (lever.*side)(point + step), behind = (lever.*side)(point - step);
+  const double distance = (ahead ? step.norm() : 0) + (behind ? step.norm() : 0);
+  if (!ahead) ahead = (lever.*side)(point);
+  if (!behind) behind = (lever.*side)(point);
+  Gauge gauge = ahead->gauge;
   for (auto& support : gauge) support.weight /= distance;
-  for (const auto& support : on_plane(lever, behind, z))
+  for (const auto& support : behind->gauge)
     gauge.push_back({support.node, -support.weight / distance});
   return gauge;
 }
 
-SlopeGauge slope_at(const LeverMesh& lever, const LeverSpec& spec, const Vec2& point, double z) {
-  const double reach = spec.shape == LeverSpec::Shape::beam ? spec.width : spec.arm_width;
-  const double step = 0.05 * reach;
-  return {difference(lever, point, {step, 0}, z), difference(lever, point, {0, step}, z)};
+SlopeGauge slope_at(const LeverMesh& lever, const LeverSpec& spec, Side side, const Vec2& point) {
+  using Shape = LeverSpec::Shape;
+  const double step = spec.shape == Shape::mesh   ? spec.thickness
+                      : spec.shape == Shape::beam ? 0.05 * spec.width
+                                                  : 0.05 * spec.arm_width;
+  return {difference(lever, side, point, {step, 0}), difference(lever, side, point, {0, step})};
 }
 
 // A spot of even brightness: its middle, and a ring of eight points that stands for the rest (exact for
@@ -52,13 +45,13 @@ std::vector<SlopeGauge> laser_spot(const Scene& scene, const LeverMesh& lever) {
   const LaserSpec& laser = scene.afm->laser;
   const Vec2 axis = tip_axis(scene.afm->lever, scene.afm->tip);
   const Vec2 middle(laser.position.value_or(axis.x()), laser.offset);
-  const double back = lever.levels.back();
-  if (laser.radius == 0) return {slope_at(lever, scene.afm->lever, middle, back)};
+  constexpr Side back = &LeverMesh::on_back;
+  if (laser.radius == 0) return {slope_at(lever, scene.afm->lever, back, middle)};
   std::vector<SlopeGauge> spot;
   for (int i = 0; i < 8; ++i) {
     const double angle = 0.25 * std::numbers::pi * (i + 0.5), r = laser.radius / std::sqrt(2.0);
-    spot.push_back(slope_at(lever, scene.afm->lever,
-                            middle + r * Vec2(std::cos(angle), std::sin(angle)), back));
+    spot.push_back(slope_at(lever, scene.afm->lever, back,
+                            middle + r * Vec2(std::cos(angle), std::sin(angle))));
   }
   return spot;
 }
@@ -92,21 +85,23 @@ AfmModel build_afm(const Scene& scene) {
   AfmModel model;
   SolidDraft draft;
   const LeverMesh lever =
-      add_lever(draft, afm.lever, lever_plan(afm.lever, lever_foot(afm.lever, afm.tip)));
-  model.tip = add_tip(draft, afm.lever, lever, afm.tip);
+      afm.lever.solid
+          ? add_meshed_lever(draft, afm.lever)
+          : add_lever(draft, afm.lever, lever_plan(afm.lever, lever_foot(afm.lever, afm.tip)));
+  const Eigen::Matrix3d turn = tilted(afm.lever.tilt);
+  model.tip = add_tip(draft, afm.lever, lever, afm.tip, adhesive_normal(scene, turn));
   model.end = model.tip.end;
   model.contact_node = middle_node(draft, model.end);
   const Vec2 axis = tip_axis(afm.lever, afm.tip);
-  model.foot = on_plane(lever, axis, 0);
-  model.foot_slope = slope_at(lever, afm.lever, axis, 0);
+  model.foot = lever.on_middle(axis)->gauge;
+  model.foot_slope = slope_at(lever, afm.lever, &LeverMesh::on_middle, axis);
   model.spot = laser_spot(scene, lever);
-  const Eigen::Matrix3d turn = tilted(afm.lever.tilt);
   for (Vec3& x : draft.nodes) x = turn * x;
   model.axis = turn.col(0);
   model.side = turn.col(1);
   model.up = turn.col(2);
   model.nodes = draft.nodes.size();
-  model.elements = draft.hexahedra.size();
+  model.elements = draft.hexahedra.size() + draft.tetrahedra.size();
   model.world = finish_solid(draft, part_materials(scene));
   return model;
 }
@@ -121,9 +116,12 @@ Vec3 clamp_force(const AfmModel& model) {
 }
 
 double elastic_energy(const AfmModel& model) {
-  const auto& energy = model.world->column<ElementEnergy>();
   double sum = 0;
-  for (std::size_t e = 0; e < energy.table.rows; ++e) sum += energy.values()[e];
+  const auto add = [&](const auto& energy) {
+    for (std::size_t e = 0; e < energy.table.rows; ++e) sum += energy.values()[e];
+  };
+  add(model.world->column<ElementEnergy>());
+  if (model.world->has<TetrahedronEnergy>()) add(model.world->column<TetrahedronEnergy>());
   return sum;
 }
 

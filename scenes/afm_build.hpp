@@ -10,9 +10,6 @@
 
 namespace pulvis {
 
-// A weighted mean of nodes: displacements are read there, forces put there.
-using Gauge = std::vector<SolidMesh::Support>;
-
 // A place on the lever's back and how its surface leans: differences of displacements along the lever
 // and across it.
 struct SlopeGauge {
@@ -27,8 +24,8 @@ struct AfmModel {
   SlopeGauge foot_slope;         // there
   std::vector<SlopeGauge> spot;  // points of the laser spot, on the lever's back
   TipMesh tip;
-  int contact_node = 0;                 // of a sharp tip's end: the one in its middle
-  double normal_stiffness = 0;          // N/m, at rest; 0 until it was calibrated
+  int contact_node = 0;         // of a sharp tip's end: the one in its middle
+  double normal_stiffness = 0;  // N/m, at rest; 0 until it was calibrated
   std::size_t nodes = 0, elements = 0;
 };
 

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "scenes/lever_mesh.hpp"
 #include "scenes/material_checks.hpp"
+#include "scenes/meshed_lever.hpp"
 #include "scenes/meshed_tip.hpp"
 #include "scenes/target_shape.hpp"
 #include "scenes/tip_mesh.hpp"
@@ -39,6 +42,8 @@ class AfmChecks {
     tip();
     laser();
     mesh_size();
+    tetrahedra();
+    adhesion();
     actions();
   }
 
@@ -52,13 +57,13 @@ class AfmChecks {
   }
 
   void coating() {
-    if (lever_.coating && lever_.coating_thickness == 0)
+    if (lever_.coating && lever_.coating_thickness == 0 && !lever_.solid)
       refuse("lever.coating_thickness", "required key is missing, allowed: a quantity in m");
   }
 
   // False where no plan can be drawn.
   bool outline() {
-    if (lever_.shape == LeverSpec::Shape::beam) return good_;
+    if (lever_.shape != LeverSpec::Shape::v) return good_;
     if (lever_.half_angle.has_value() == lever_.base_width.has_value()) {
       refuse("lever.half_angle",
              "neither or both of half_angle and base_width are given, allowed: "
@@ -86,6 +91,7 @@ class AfmChecks {
   }
 
   double half_width_at(double x) const {
+    if (lever_.solid) return std::numeric_limits<double>::infinity();  // the mesh has the say
     if (lever_.shape == LeverSpec::Shape::beam) return 0.5 * lever_.width;
     const VOutline v = v_outline(lever_);
     return (v.apex - x) * std::tan(v.half_angle);
@@ -96,6 +102,13 @@ class AfmChecks {
       refuse("tip.neck_radius", fmt::format("{:g} m: the neck is not thinner than the ball, "
                                             "allowed: < {:g} m",
                                             tip_.neck_radius, tip_.radius));
+      return;
+    }
+    if (tip_.shape == Shape::mesh && tip_.file.empty() &&
+        !(lever_.solid && !lever_.solid->end.empty())) {
+      refuse("tip.file",
+             "required key is missing, allowed: a file, or a lever of shape mesh whose file has "
+             "the volume tip");
       return;
     }
     if (!contact_mesh()) return;
@@ -136,7 +149,7 @@ class AfmChecks {
     const Vec2 axis = tip_axis(lever_, tip_);
     if (tip_.solid)
       return std::ranges::all_of(tip_.solid->foot, [&](int n) {
-        const Vec2 off = tip_.solid->nodes[static_cast<std::size_t>(n)].head<2>();
+        const Vec2 off = tip_.solid->solid.nodes[static_cast<std::size_t>(n)].head<2>();
         return locate(plan, axis + off).has_value();
       });
     const bool square = tip_.shape == Shape::block || tip_.shape == Shape::pyramid;
@@ -151,26 +164,80 @@ class AfmChecks {
 
   void laser() {
     const LaserSpec& laser = scene_.afm->laser;
-    const PlanMesh plan = lever_plan(lever_, lever_foot(lever_, tip_));
+    const PlanMesh plan =
+        lever_.solid ? lever_.solid->back.plan : lever_plan(lever_, lever_foot(lever_, tip_));
     const Vec2 middle(laser.position.value_or(lever_.length - tip_.set_back), laser.offset);
     for (int i = 0; i < 8; ++i) {
       const double angle = 0.25 * std::numbers::pi * i;
       if (locate(plan, middle + laser.radius * Vec2(std::cos(angle), std::sin(angle)))) continue;
       refuse("laser.position",
              fmt::format("the spot (x = {:g} m, y = {:g} m, radius {:g} m) is not on the lever, "
-                         "allowed: 0 to {:g} m along it, within {:g} m of its axis there",
-                         middle.x(), middle.y(), laser.radius, lever_.length,
-                         half_width_at(middle.x())));
+                         "allowed: {}",
+                         middle.x(), middle.y(), laser.radius,
+                         lever_.solid
+                             ? "on the elements of the file's surface 'back'"
+                             : fmt::format("0 to {:g} m along it, within {:g} m of its axis there",
+                                           lever_.length, half_width_at(middle.x()))));
       return;
     }
   }
 
+  // Tetrahedra have no plastic memory.
+  void tetrahedra() {
+    const auto yields = [&](int material) {
+      return scene_.materials[static_cast<std::size_t>(material)].yield_stress.has_value();
+    };
+    const auto check = [&](const GmshSolid& solid, const std::string& path) {
+      if (solid.tetrahedra.empty()) return;
+      for (const auto& [part, material, key] :
+           {std::tuple{SolidPart::lever, lever_.material, "lever.material"},
+            {SolidPart::coating, lever_.coating.value_or(lever_.material), "lever.coating"},
+            {SolidPart::tip, tip_.material, "tip.material"},
+            {SolidPart::glue, tip_.glue.value_or(tip_.material), "tip.glue"}})
+        if (solid.has(part) && yields(material))
+          refuse(key, fmt::format("it yields, but {} has tetrahedra, which are elastic, allowed: "
+                                  "hexahedra, or a material without a yield_stress",
+                                  path));
+    };
+    if (lever_.solid) check(lever_.solid->solid, "lever.file");
+    if (tip_.solid) check(tip_.solid->solid, "tip.file");
+  }
+
   void mesh_size() {
     constexpr std::size_t most = 200'000;  // hexahedra: 600 MB with the factors
-    const std::size_t count = lever_plan(lever_, lever_foot(lever_, tip_)).quads.size() *
-                              static_cast<std::size_t>(lever_.layers);
+    const std::size_t count =
+        lever_.solid ? lever_.solid->solid.hexahedra.size() + lever_.solid->solid.tetrahedra.size()
+                     : lever_plan(lever_, lever_foot(lever_, tip_)).quads.size() *
+                           static_cast<std::size_t>(lever_.layers);
     if (count > most)
-      refuse("lever.aspect", fmt::format("{} elements, allowed: {} at most", count, most));
+      refuse(lever_.solid ? "lever.file" : "lever.aspect",
+             fmt::format("{} elements, allowed: {} at most", count, most));
+  }
+
+  // JKR is the law of a ball on a plane, its elasticity included.
+  void adhesion() {
+    if (!scene_.afm->target) return;
+    const TargetSpec& target = *scene_.afm->target;
+    const auto only_with = [&](const char* key, const char* law, bool given) {
+      if (given)
+        refuse(key, fmt::format("is of another law, allowed: with adhesion = \"{}\"", law));
+    };
+    if (target.adhesion == TargetSpec::Adhesion::dmt)
+      return only_with("surface.work_of_adhesion", "jkr", target.work != 0);
+    only_with("surface.pull_off", "dmt", target.pull_off != 0);
+    if (target.work == 0)
+      refuse("surface.work_of_adhesion", "required key is missing, allowed: a quantity in J/m^2");
+    if (tip_.shape != Shape::sphere)
+      refuse("surface.adhesion",
+             "jkr is the law of an elastic ball, allowed: a tip of shape sphere");
+    if (target.shape != TargetSpec::Shape::plane)
+      refuse("surface.adhesion",
+             "jkr is the law of a ball on a plane, allowed: a surface of shape "
+             "plane");
+    if (tip_.contact_edge)
+      refuse("tip.contact_edge",
+             "with jkr the ball touches by its law, not by its mesh, allowed: "
+             "not given");
   }
 
   void actions() {

@@ -104,6 +104,7 @@ std::vector<ClosedForm> closed_forms(const Scene& scene) {
   const TipSpec& tip = scene.afm->tip;
   const MaterialSpec& m = scene.materials[static_cast<std::size_t>(lever.material)];
   const double h = tip.shape == TipSpec::Shape::none ? 0 : tip_height(tip) + 0.5 * lever.thickness;
+  if (lever.shape == LeverSpec::Shape::mesh) return {};  // of a drawing, which a mesh has not
   return lever.shape == LeverSpec::Shape::beam ? of_beam(lever, m, lever.length - tip.set_back, h)
                                                : of_v(lever, tip, m, h);
 }

@@ -1,4 +1,5 @@
 #include "scenes/afm_loop.hpp"
+#include "scenes/adhesion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +72,7 @@ std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
                       {}});
   if (seen.empty()) return std::nullopt;
   try {
-    return wedge::calibrate(seen, {scene.afm->target->pull_off, 0, 0});
+    return wedge::calibrate(seen, {pull_off_force(scene), 0, 0});
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }

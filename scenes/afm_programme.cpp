@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "components/probe.hpp"
+#include "scenes/adhesion.hpp"
 #include "scenes/afm_scene.hpp"
 #include "scenes/target_shape.hpp"
+#include "systems/jkr_kernel.hpp"
 #include "systems/run_failure.hpp"
 #include "systems/solid_contact_problem.hpp"
 
@@ -46,8 +48,17 @@ struct ContactPatch {
   double radius = 0, pressure = 0;  // m, Pa
 };
 
+ContactPatch adhesive_patch(const AfmModel& model, const AdhesiveBall& ball) {
+  const double* state = model.world->column<ProbeState>().values();
+  if (state[3] == 0) return {};
+  const double radius = kernels::jkr_radius(ball, -state[0]);
+  return {radius, kernels::jkr_pressure(ball, radius)};
+}
+
 ContactPatch contact_patch(const AfmModel& model) {
   ContactPatch patch;
+  if (const auto& ball = model.world->resource<Target>().ball; ball.work > 0)
+    return adhesive_patch(model, ball);
   if (model.tip.area.empty()) return patch;
   const auto& nodes = model.world->column<ProbeNode>();
   const double* state = model.world->column<ProbeState>().values();
@@ -92,8 +103,9 @@ std::vector<SeriesInfo> afm_series() {
       {"contact/points", "-", "points of the probe that touch"},
       {"contact/radius", "m",
        "of a ball: root of 5/2 of the mean square distance of the pressing forces from their "
-       "middle, which is Hertz's radius of contact"},
-      {"contact/pressure", "Pa", "of a ball: the largest on its nodes"},
+       "middle, which is Hertz's radius of contact; of an adhesive one that of its law"},
+      {"contact/pressure", "Pa",
+       "of a ball: the largest on its nodes; of an adhesive one that in the middle"},
       {"contact/slides", "-", "share of the points that touch which slide"},
       {"energy/elastic", "J", "stored in lever and probe"},
       {"energy/released", "J", "by the probe's jumps on and off the surface, until now"},
@@ -103,13 +115,14 @@ std::vector<SeriesInfo> afm_series() {
 void add_probe(const Scene& scene, AfmModel& model) {
   const AfmScene& afm = *scene.afm;
   World& world = *model.world;
-  const bool ball = afm.tip.shape == TipSpec::Shape::sphere;
+  const bool ball = !model.tip.surface.empty();
   auto& target = world.emplace<Target>();
   target.shape = make_target(*afm.target, scene, reach_of(afm));
   target.friction = afm.target->friction;
-  target.pull_off = afm.target->pull_off;
+  target.pull_off = pull_off_force(scene);
+  target.ball = adhesive_ball(scene);
   target.range = afm.target->range;
-  target.end_radius = ball ? 0 : afm.tip.end_radius;
+  target.end_radius = afm.tip.end_radius;  // a ball has none
   add_probe_columns(world, ball ? model.tip.surface.size() : 1);
 }
 
@@ -117,7 +130,7 @@ void add_probe(const Scene& scene, AfmModel& model) {
 void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   constexpr double stiffer = 1e3;
   World& world = *model.world;
-  const bool ball = scene.afm->tip.shape == TipSpec::Shape::sphere;
+  const bool ball = !model.tip.surface.empty();
   auto* node = world.column<ProbeNode>().values();
   double* penalty = world.column<ProbeStiffness>().values();
   double* share = world.column<ProbeShare>().values();

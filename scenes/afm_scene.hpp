@@ -15,8 +15,10 @@
 
 namespace pulvis {
 
+struct LeverSolid;  // scenes/meshed_lever.hpp
+
 struct LeverSpec {
-  enum class Shape { beam, v } shape = Shape::beam;
+  enum class Shape { beam, v, mesh } shape = Shape::beam;
   int material = 0;
   double length = 0;                 // m, clamp to end
   double width = 0;                  // m, beam
@@ -32,6 +34,9 @@ struct LeverSpec {
   int layers = 1;                // of elements through the thickness
   int along = 0, across = 0;     // elements of a beam, evenly; 0: by aspect, finer at the foot
   HexFormulation element = HexFormulation::plate;
+  std::string file;                         // mesh: of Gmsh
+  double unit = 1;                          // m, of the file's lengths
+  std::shared_ptr<const LeverSolid> solid;  // what it holds; length and thickness are its own
   SourceMark mark;
 };
 
@@ -47,14 +52,15 @@ struct TipSpec {
   double radius = 0;      // m, sphere
   double neck_radius = 0, neck_height = 0;  // m, glue between the lever and the sphere's top
   std::optional<int> glue;                  // material of the neck; absent: that of the tip
-  std::string file;                         // mesh: of Gmsh
+  std::string file;                         // mesh: of Gmsh; empty: the tip is in the lever's
   double unit = 1;                          // m, of the file's lengths
   std::shared_ptr<const TipSolid> solid;    // what it holds
   double set_back = 0;                      // m, its axis from the lever's end
   double offset = 0;                        // m, its axis from the lever's axis, along y
   int elements = 4;                         // across it
   std::optional<double> contact_edge;       // m, of a ball's elements where it touches
-  std::optional<double> contact_reach;      // m, how far around its pole; absent: eight edges
+  std::optional<double>
+      contact_reach;  // m, how far around its pole; absent: eight edges, half the radius at most
   SourceMark mark;
 };
 
@@ -82,8 +88,10 @@ struct TargetSpec {
   std::string dataset;    // in it, where it is HDF5
   double spacing = 0;     // m, of the map's points
   double friction = 0;    // -
-  double pull_off = 0;    // N
-  double range = 0;       // m, of adhesion
+  enum class Adhesion { dmt, jkr } adhesion = Adhesion::dmt;
+  double pull_off = 0;  // N, DMT
+  double range = 0;     // m, of adhesion, DMT
+  double work = 0;      // J/m^2, JKR
 };
 
 // One part of the programme, in `increments` steps at most as long as the way.

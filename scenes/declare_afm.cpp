@@ -28,7 +28,9 @@ std::vector<Key<LeverSpec>> shape_keys() {
   return {
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices = {{"beam", "a rectangular strip"}, {"v", "two arms that meet in an apex plate"}},
+        .choices = {{"beam", "a rectangular strip"},
+                    {"v", "two arms that meet in an apex plate"},
+                    {"mesh", "hexahedra or tetrahedra of a Gmsh file"}},
         .required = true,
         .doc = "Outline of the lever seen from above."},
        [](LeverSpec& lever, const Decoded& value) {
@@ -40,9 +42,11 @@ std::vector<Key<LeverSpec>> shape_keys() {
         .required = true,
         .doc = "Its material."},
        index_to(&LeverSpec::material)},
-      {length_of("length", true, {}, "From the clamp to the end (of a pointed V: to its point)."),
+      {length_of("length", true, {"beam", "v"},
+                 "From the clamp to the end (of a pointed V: to its point)."),
        to(&LeverSpec::length)},
-      {length_of("thickness", true, {}, "Without the coating."), to(&LeverSpec::thickness)},
+      {length_of("thickness", true, {"beam", "v"}, "Without the coating."),
+       to(&LeverSpec::thickness)},
       {length_of("width", true, "beam", "Of the strip."), to(&LeverSpec::width)},
       {length_of("arm_width", true, "v", "Square across an arm."), to(&LeverSpec::arm_width)},
       {{.name = "half_angle",
@@ -69,6 +73,27 @@ std::vector<Key<LeverSpec>> shape_keys() {
         .only_for = "v",
         .doc = "Of the blunt end; 0: the lever ends in a point."},
        to(&LeverSpec::apex_width)},
+      {{.name = "file",
+        .kind = Kind::text,
+        .required = true,
+        .only_for = "mesh",
+        .doc =
+            "MSH file of Gmsh (2.2 or 4.1, ASCII), as a path from the scene's folder: hexahedra of "
+            "eight nodes or tetrahedra of ten in the physical volumes `lever` and, if there are "
+            "such, `coating`, `tip` and `glue`; physical surfaces `clamp` (held), `face` (towards "
+            "the sample, what is under a tip included), `back` (where the laser shines) and, with "
+            "a "
+            "tip, `end`. The clamp is at x = 0, the lever runs along +x, its middle lies in z = 0, "
+            "the sample is below."},
+       to(&LeverSpec::file)},
+      {{.name = "unit",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = above(0, 1),
+        .required = true,
+        .only_for = "mesh",
+        .doc = "What a length of 1 in the file means."},
+       to(&LeverSpec::unit)},
   };
 }
 
@@ -102,6 +127,7 @@ std::vector<Key<LeverSpec>> further_lever_keys() {
         .kind = Kind::quantity,
         .unit = "m",
         .range = within(smallest_size, largest_size),
+        .only_for = {"beam", "v"},
         .needs = "coating",
         .doc = "Of that layer.",
         .fallback_doc = "must be given with `coating`"},
@@ -110,6 +136,7 @@ std::vector<Key<LeverSpec>> further_lever_keys() {
         .kind = Kind::number,
         .range = within(0.5, 100),
         .fallback = value_of(10.0),
+        .only_for = {"beam", "v"},
         .doc = "Edge of the elements in the plane over the thickness; 20 to 150 elements "
                "lie along the lever and at least 4 across it (an arm) all the same."},
        to(&LeverSpec::aspect)},
@@ -117,6 +144,7 @@ std::vector<Key<LeverSpec>> further_lever_keys() {
         .kind = Kind::integer,
         .range = within(1, 16),
         .fallback = value_of(1),
+        .only_for = {"beam", "v"},
         .doc = "Of elements through the thickness."},
        integer_to(&LeverSpec::layers)},
       elements_of("elements_along", &LeverSpec::along,
@@ -128,7 +156,9 @@ std::vector<Key<LeverSpec>> further_lever_keys() {
                     {"solid", "incompatible modes alone"},
                     {"standard", "trilinear displacements: it locks, for comparison only"}},
         .fallback = value_of("plate"),
-        .doc = "How the lever's hexahedra take their strains."},
+        .doc =
+            "How the lever's hexahedra take their strains. Those of a file that are no thin layers "
+            "want `solid`; tetrahedra have no choice."},
        [](LeverSpec& lever, const Decoded& value) {
          static constexpr HexFormulation order[] = {HexFormulation::plate, HexFormulation::solid,
                                                     HexFormulation::standard};
@@ -148,7 +178,7 @@ std::vector<Key<TipSpec>> tip_keys() {
                     {"pyramid", "square"},
                     {"cone", "round"},
                     {"sphere", "a colloid probe: a ball on a neck of glue"},
-                    {"mesh", "hexahedra of a Gmsh file"}},
+                    {"mesh", "hexahedra or tetrahedra of a Gmsh file"}},
         .fallback = value_of("none"),
         .doc = "What stands under the lever."},
        [](TipSpec& tip, const Decoded& value) {
@@ -192,14 +222,13 @@ std::vector<Key<TipSpec>> tip_keys() {
        to(&TipSpec::end_radius)},
       {{.name = "file",
         .kind = Kind::text,
-        .required = true,
         .only_for = "mesh",
         .doc =
-            "MSH file of Gmsh (2.2 or 4.1, ASCII), as a path from the scene's folder: hexahedra in "
-            "the physical volumes `tip` and, if there is one, `glue`, quads in the physical "
-            "surfaces "
-            "`foot` (at z = 0, tied to the lever's lower face) and `end` (below it). Its axis "
-            "is x = y = 0."},
+            "MSH file of Gmsh (2.2 or 4.1, ASCII), as a path from the scene's folder: hexahedra of "
+            "eight nodes or tetrahedra of ten in the physical volumes `tip` and, if there is one, "
+            "`glue`; physical surfaces `foot` (at z = 0, tied to the lever's lower face) and `end` "
+            "(below it). Its axis is x = y = 0.",
+        .fallback_doc = "the tip is in `lever.file`"},
        to(&TipSpec::file)},
       {{.name = "unit",
         .kind = Kind::quantity,
@@ -238,7 +267,7 @@ std::vector<Key<TipSpec>> tip_keys() {
         .only_for = "sphere",
         .needs = "contact_edge",
         .doc = "How far around its lowest point they are as small as that.",
-        .fallback_doc = "eight times `contact_edge`"},
+        .fallback_doc = "eight times `contact_edge`, half the radius at most"},
        to(&TipSpec::contact_reach)},
   };
 }

@@ -109,6 +109,26 @@ std::vector<Key<TargetSpec>> law_keys() {
         .doc =
             "Adhesion (DMT): attraction in contact, which adds to the force that friction sees."},
        to(&TargetSpec::pull_off)},
+      {{.name = "adhesion",
+        .kind = Kind::choice,
+        .choices = {{"dmt", "a force `pull_off`, whatever touches"},
+                    {"jkr",
+                     "Johnson, Kendall & Roberts: an elastic ball on a plane, "
+                     "`work_of_adhesion`"}},
+        .fallback = value_of("dmt"),
+        .doc = "Law of attraction. With JKR the ball touches by its own law of approach, neck and "
+               "contact radius, not by its mesh; it pulls off with 3/2 pi w R, which adds to the "
+               "force that friction sees."},
+       [](TargetSpec& s, const Decoded& value) {
+         s.adhesion = static_cast<TargetSpec::Adhesion>(value.index);
+       }},
+      {{.name = "work_of_adhesion",
+        .kind = Kind::quantity,
+        .unit = "J/m^2",
+        .range = within(1e-6, 1e3),
+        .doc = "w of JKR: what it costs to part an area of the ball and the surface.",
+        .fallback_doc = "must be given with `adhesion = \"jkr\"`"},
+       to(&TargetSpec::work)},
       {{.name = "adhesion_range",
         .kind = Kind::quantity,
         .unit = "m",

@@ -12,25 +12,28 @@
 namespace pulvis {
 namespace {
 
-constexpr int line2 = 1, quad4 = 3, hexahedron8 = 5, point1 = 15;
+constexpr int line2 = 1, quad4 = 3, hexahedron8 = 5, line3 = 8, triangle6 = 9, tetrahedron10 = 11,
+              point1 = 15;
 
 const char* name_of(int type) {
   switch (type) {
     case 2:
-      return "a triangle";
+      return "a triangle of three nodes";
     case 4:
-      return "a tetrahedron";
+      return "a tetrahedron of four nodes";
     case 6:
       return "a prism";
     case 7:
       return "a pyramid";
-    case 9:
     case 10:
-    case 11:
     case 12:
+    case 13:
+    case 14:
     case 16:
     case 17:
-      return "of second order";
+    case 18:
+    case 19:
+      return "another one of second order";
     default:
       return "of an unknown kind";
   }
@@ -194,38 +197,39 @@ class Reader {
     end("$EndNodes");
   }
 
-  template <std::size_t Count>
-  std::array<int, Count> corners(std::istringstream& from) {
-    std::array<int, Count> at;
-    for (int& corner : at) {
+  std::vector<int> nodes_of(std::istringstream& from, std::size_t count) {
+    std::vector<int> at(count);
+    for (int& node : at) {
       std::size_t tag = 0;
       take(from, "Elements", tag);
       const auto found = places_.find(tag);
       if (found == places_.end())
         refuse("Elements", fmt::format("node {} is not there, allowed: nodes of $Nodes", tag));
-      corner = found->second;
+      node = found->second;
     }
     return at;
   }
 
   void add_element(std::istringstream& from, int type, int dimension, int physical) {
     const auto name = names_.find({dimension, physical});
-    if (name == names_.end() || type == point1 || type == line2) return;
-    if (type == hexahedron8)
-      mesh_.hexahedra.push_back({corners<8>(from), name->second});
-    else if (type == quad4)
-      mesh_.quads.push_back({corners<4>(from), name->second});
+    if (name == names_.end() || type == point1 || type == line2 || type == line3) return;
+    if (type == hexahedron8 || type == tetrahedron10)
+      mesh_.volumes.push_back({nodes_of(from, type == hexahedron8 ? 8 : 10), name->second, line_});
+    else if (type == quad4 || type == triangle6)
+      mesh_.facets.push_back({nodes_of(from, type == quad4 ? 4 : 6), name->second, line_});
     else
-      refuse("Elements",
-             fmt::format("an element of group '{}' is {} (type {}), allowed: hexahedra of eight "
-                         "nodes (type 5) and quads of four (type 3), as transfinite, recombined or "
-                         "subdivided meshes have them",
-                         name->second, name_of(type), type));
+      refuse(
+          "Elements",
+          fmt::format("an element of group '{}' is {} (type {}), allowed: hexahedra of eight "
+                      "nodes (type 5) with quads of four (type 3), as transfinite, recombined or "
+                      "subdivided meshes have them, tetrahedra of ten (type 11) with triangles "
+                      "of six (type 9), as Mesh.ElementOrder = 2 makes them",
+                      name->second, name_of(type), type));
   }
 
   void elements_2() {
-    static const std::map<int, int> dimensions{{point1, 0}, {line2, 1}, {2, 2},  {quad4, 2},
-                                               {9, 2},      {10, 2},    {16, 2}, {8, 1}};
+    static const std::map<int, int> dimensions{{point1, 0}, {line2, 1},     {2, 2},  {quad4, 2},
+                                               {line3, 1},  {triangle6, 2}, {10, 2}, {16, 2}};
     std::size_t count = 0;
     auto head = line("Elements");
     take(head, "Elements", count);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/meshed_lever.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -78,6 +80,7 @@ VOutline v_outline(const LeverSpec& lever) {
 }
 
 PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot) {
+  if (lever.shape == LeverSpec::Shape::mesh) return lever.solid->face.plan;
   // More elements than that along a thin lever cost time and hardly add accuracy.
   constexpr double most_along = 150;
   const double edge = std::max(lever.aspect * lever.thickness, lever.length / most_along);
@@ -85,22 +88,54 @@ PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot) {
                                                : v_plan(lever, edge, foot);
 }
 
-LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever, PlanMesh plan) {
-  LeverMesh mesh{std::move(plan), {}};
+std::optional<LeverMesh::Point> LeverMesh::on(std::size_t level, const Vec2& point) const {
+  const LeverLevel& at = levels[level];
+  const auto place = locate(*at.plan, point);
+  if (!place) return {};
+  Point found;
+  for (const auto& [p, weight] : *place) {
+    found.gauge.push_back({at.node[static_cast<std::size_t>(p)], weight});
+    found.z += weight * at.z[static_cast<std::size_t>(p)];
+  }
+  return found;
+}
+
+std::optional<LeverMesh::Point> LeverMesh::on_middle(const Vec2& point) const {
+  std::optional<Point> below = on(0, point), above = on(1, point);
+  for (std::size_t level = 2; above && above->z < 0 && level < levels.size(); ++level) {
+    below = std::move(above);
+    above = on(level, point);
+  }
+  if (!below || !above) return {};
+  const double s = -below->z / (above->z - below->z);
+  Point middle;
+  for (const auto& [node, weight] : below->gauge) middle.gauge.push_back({node, (1 - s) * weight});
+  for (const auto& [node, weight] : above->gauge) middle.gauge.push_back({node, s * weight});
+  return middle;
+}
+
+LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever, const PlanMesh& plan) {
+  LeverMesh mesh;
+  const auto shared = std::make_shared<const PlanMesh>(plan);
   const double t = lever.thickness;
-  for (int i = 0; i <= lever.layers; ++i) mesh.levels.push_back(t * i / lever.layers - 0.5 * t);
-  if (lever.coating) mesh.levels.push_back(0.5 * t + lever.coating_thickness);
-  for (const double z : mesh.levels)
-    for (const Vec2& p : mesh.plan.points) {
-      const int node = draft.add_node({p.x(), p.y(), z});
-      draft.held[static_cast<std::size_t>(node)] = std::abs(p.x()) < 1e-9 * lever.length ? 1 : 0;
+  std::vector<double> levels;
+  for (int i = 0; i <= lever.layers; ++i) levels.push_back(t * i / lever.layers - 0.5 * t);
+  if (lever.coating) levels.push_back(0.5 * t + lever.coating_thickness);
+  for (const double z : levels) {
+    LeverLevel level{shared, {}, std::vector<double>(plan.points.size(), z)};
+    for (const Vec2& p : plan.points) {
+      level.node.push_back(draft.add_node({p.x(), p.y(), z}));
+      draft.held[static_cast<std::size_t>(level.node.back())] =
+          std::abs(p.x()) < 1e-9 * lever.length ? 1 : 0;
     }
-  for (std::size_t level = 0; level + 1 < mesh.levels.size(); ++level)
-    for (const auto& q : mesh.plan.quads) {
+    mesh.levels.push_back(std::move(level));
+  }
+  for (std::size_t level = 0; level + 1 < levels.size(); ++level)
+    for (const auto& q : plan.quads) {
       SolidMesh::Hexahedron corners;
       for (std::size_t c = 0; c < 4; ++c) {
-        corners[c] = mesh.node(q[c], level);
-        corners[c + 4] = mesh.node(q[c], level + 1);
+        corners[c] = mesh.levels[level].node[static_cast<std::size_t>(q[c])];
+        corners[c + 4] = mesh.levels[level + 1].node[static_cast<std::size_t>(q[c])];
       }
       const bool coat = level >= static_cast<std::size_t>(lever.layers);
       draft.add_hexahedron(corners, coat ? SolidPart::coating : SolidPart::lever, lever.element);

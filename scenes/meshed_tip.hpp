@@ -4,23 +4,19 @@
 // volumes "tip" and, where there is one, "glue"; the surfaces "foot", in z = 0, and "end", where forces act.
 #pragma once
 
-#include <memory>
-
 #include "scenes/afm_scene.hpp"
+#include "scenes/gmsh_solid.hpp"
 #include "scenes/problem.hpp"
-#include "scenes/solid_draft.hpp"
 #include "scenes/table_reader.hpp"
 
 namespace pulvis {
 
 struct TipSolid {
-  std::vector<Vec3> nodes;  // m
-  std::vector<SolidMesh::Hexahedron> hexahedra;
-  std::vector<SolidPart> part;                // [hexahedra]
-  std::vector<int> foot;                      // nodes
-  std::vector<std::array<int, 4>> end_faces;  // nodes
-  double height = 0;                          // m, to the lowest point of the end
-  double reach = 0;                           // m, of the foot from the axis, along x or y
+  GmshSolid solid;
+  std::vector<int> foot;              // nodes
+  std::vector<std::vector<int>> end;  // nodes of its facets
+  double height = 0;                  // m, to the lowest point of the end
+  double reach = 0;                   // m, of the foot from the axis, along x or y
 };
 
 // Reads the file of a tip of shape "mesh" into it; anything wrong is a problem.

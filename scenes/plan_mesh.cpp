@@ -37,7 +37,26 @@ std::optional<PlaceInQuad> place_in(const std::array<Vec2, 4>& x, const Vec2& po
     if (step.norm() < 1e-13) break;
   }
   if (std::abs(xi) > 1 + inside || std::abs(eta) > 1 + inside) return {};
-  return PlaceInQuad{0, xi, eta};
+  return PlaceInQuad{xi, eta};
+}
+
+// Shape functions of second order where the edges are straight.
+std::optional<std::array<double, 6>> weights_in_triangle(const std::array<Vec2, 3>& x,
+                                                         const Vec2& point) {
+  Eigen::Matrix2d edges;
+  edges << x[1] - x[0], x[2] - x[0];
+  const Vec2 s = edges.inverse() * (point - x[0]);
+  const double a = 1 - s.x() - s.y(), b = s.x(), c = s.y();
+  if (!(std::min({a, b, c}) >= -inside)) return {};
+  return std::array<double, 6>{a * (2 * a - 1), b * (2 * b - 1), c * (2 * c - 1),
+                               4 * a * b,       4 * b * c,       4 * c * a};
+}
+
+template <std::size_t Count, class Corners>
+std::vector<PlanShare> shares(const Corners& nodes, const std::array<double, Count>& weights) {
+  std::vector<PlanShare> shares;
+  for (std::size_t c = 0; c < Count; ++c) shares.push_back({nodes[c], weights[c]});
+  return shares;
 }
 
 }  // namespace
@@ -142,18 +161,17 @@ std::array<double, 4> PlaceInQuad::weights() const {
           0.25 * (1 - xi) * (1 + eta)};
 }
 
-std::optional<PlaceInQuad> locate(const PlanMesh& mesh, const Vec2& point) {
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-    std::array<Vec2, 4> x;
-    for (std::size_t c = 0; c < 4; ++c)
-      x[c] = mesh.points[static_cast<std::size_t>(mesh.quads[q][c])];
+std::optional<std::vector<PlanShare>> locate(const PlanMesh& mesh, const Vec2& point) {
+  const auto at = [&](int p) { return mesh.points[static_cast<std::size_t>(p)]; };
+  for (const auto& q : mesh.quads) {
+    const std::array<Vec2, 4> x{at(q[0]), at(q[1]), at(q[2]), at(q[3])};
     const double size = std::max((x[2] - x[0]).norm(), (x[3] - x[1]).norm());
     if ((point - x[0]).norm() > 2 * size) continue;
-    if (auto place = place_in(x, point)) {
-      place->quad = static_cast<int>(q);
-      return place;
-    }
+    if (const auto place = place_in(x, point)) return shares(q, place->weights());
   }
+  for (const auto& t : mesh.triangles)
+    if (const auto weights = weights_in_triangle({at(t[0]), at(t[1]), at(t[2])}, point))
+      return shares(t, *weights);
   return {};
 }
 

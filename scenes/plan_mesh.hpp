@@ -13,6 +13,9 @@ namespace pulvis {
 struct PlanMesh {
   std::vector<Vec2> points;               // m
   std::vector<std::array<int, 4>> quads;  // counter-clockwise
+  // Of six nodes: corners counter-clockwise, then the middles of the edges 01, 12, 20. None in what Pulvis
+  // meshes itself.
+  std::vector<std::array<int, 6>> triangles;
 };
 
 // A grid of points, `along` by `across` quads, that runs counter-clockwise from i to j.
@@ -34,11 +37,14 @@ PlanMesh with_mirror_image(const PlanMesh& half, double tolerance);
 // `edge` at most; at least `fewest` intervals.
 std::vector<double> graded_lines(double length, double edge, double fine, double at, int fewest);
 struct PlaceInQuad {
-  int quad = 0;
   double xi = 0, eta = 0;  // in [-1, 1]
   std::array<double, 4> weights() const;
 };
-// Where a point lies; nothing outside of the mesh.
-std::optional<PlaceInQuad> locate(const PlanMesh& mesh, const Vec2& point);
+struct PlanShare {
+  int point = 0;
+  double weight = 0;
+};
+// What a field at a place takes from the mesh's points; nothing outside of the mesh.
+std::optional<std::vector<PlanShare>> locate(const PlanMesh& mesh, const Vec2& point);
 
 }  // namespace pulvis

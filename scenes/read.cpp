@@ -7,6 +7,7 @@
 #include "scenes/checks.hpp"
 #include "scenes/expect_checks.hpp"
 #include "scenes/fill_packings.hpp"
+#include "scenes/meshed_lever.hpp"
 #include "scenes/meshed_tip.hpp"
 #include "scenes/override.hpp"
 #include "scenes/profile.hpp"
@@ -193,6 +194,7 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   loaded.scene = reader.read(file);
   problems.throw_if_any();
   if (loaded.scene.afm) {
+    load_meshed_lever(loaded.scene, reader.origins(), problems);
     load_meshed_tip(loaded.scene, reader.origins(), problems);
     problems.throw_if_any();
     check_afm(loaded.scene, reader.origins(), problems);

@@ -23,6 +23,7 @@ std::vector<std::filesystem::path> files_of(const Scene& scene) {
     for (const MixtureClass& mixed : packing.classes) add(mixed.size.file);
   }
   for (const ToolSpec& tool : scene.tools) add(tool.relief.file);
+  if (scene.afm) add(scene.afm->lever.file);
   if (scene.afm) add(scene.afm->tip.file);
   if (scene.afm && scene.afm->target) add(scene.afm->target->file);
   return files;

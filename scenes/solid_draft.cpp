@@ -22,6 +22,33 @@ void trace(const SolidDraft& draft, const SolidMesh::Support& support,
     trace(draft, {next.node, support.weight * next.weight}, supports);
 }
 
+// As many chunks of either kind, for there is one number of them.
+void divide(SolidMesh& mesh) {
+  const auto hexahedra = static_cast<std::int32_t>(mesh.hexahedra.size());
+  const auto tetrahedra = static_cast<std::int32_t>(mesh.tetrahedra.size());
+  for (std::int32_t e = 0; e < std::max(hexahedra, tetrahedra); e += elements_of_chunk) {
+    mesh.chunk_begin.push_back(std::min(e, hexahedra));
+    mesh.tetrahedron_begin.push_back(std::min(e, tetrahedra));
+  }
+  mesh.chunk_begin.push_back(hexahedra);
+  mesh.tetrahedron_begin.push_back(tetrahedra);
+}
+
+std::vector<std::int32_t> rows_of(const std::vector<std::int32_t>& begin) {
+  std::vector<std::int32_t> rows;
+  for (std::size_t c = 0; c + 1 < begin.size(); ++c) rows.push_back(begin[c + 1] - begin[c]);
+  return rows;
+}
+
+// Calls `each(element, its nodes, whether it is a tetrahedron)`.
+template <class Each>
+void for_elements(const SolidMesh& mesh, const Each& each) {
+  for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e)
+    each(static_cast<std::int32_t>(e), mesh.hexahedra[e], false);
+  for (std::size_t e = 0; e < mesh.tetrahedra.size(); ++e)
+    each(static_cast<std::int32_t>(e), mesh.tetrahedra[e], true);
+}
+
 SolidMesh mesh_of(const SolidDraft& draft) {
   SolidMesh mesh;
   mesh.hexahedra = draft.hexahedra;
@@ -37,18 +64,19 @@ SolidMesh mesh_of(const SolidDraft& draft) {
     for (const auto& [node, weight] : supports) mesh.supports.push_back({node, weight});
     mesh.support_begin.push_back(static_cast<std::int32_t>(mesh.supports.size()));
   }
-  const auto elements = static_cast<std::int32_t>(draft.hexahedra.size());
-  for (std::int32_t e = 0; e < elements; e += elements_of_chunk) mesh.chunk_begin.push_back(e);
-  mesh.chunk_begin.push_back(elements);
+  mesh.tetrahedra = draft.tetrahedra;
+  mesh.tetrahedron_part = draft.tetrahedron_part;
+  divide(mesh);
   return mesh;
 }
 
 void list_forces(const SolidMesh& mesh, std::size_t nodes, SolidAssembly& assembly) {
   std::vector<std::vector<SolidAssembly::Share>> of_node(nodes);
-  for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e)
-    for (std::size_t a = 0; a < 8; ++a)
-      of_node[static_cast<std::size_t>(mesh.hexahedra[e][a])].push_back(
-          {static_cast<std::int32_t>(e), static_cast<std::int8_t>(a), 0, 1.0});
+  for_elements(mesh, [&](std::int32_t element, const auto& of_element, bool tetrahedron) {
+    for (std::size_t a = 0; a < of_element.size(); ++a)
+      of_node[static_cast<std::size_t>(of_element[a])].push_back(
+          {element, static_cast<std::int8_t>(a), 0, tetrahedron, 1.0});
+  });
   assembly.force_begin.push_back(0);
   for (const auto& shares : of_node) {
     assembly.forces.insert(assembly.forces.end(), shares.begin(), shares.end());
@@ -63,19 +91,20 @@ struct PlacedShare {
 
 std::vector<PlacedShare> placed_shares(const SolidMesh& mesh) {
   std::vector<PlacedShare> placed;
-  for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e)
-    for (std::size_t a = 0; a < 8; ++a)
-      for (std::size_t b = 0; b < 8; ++b)
-        for (const auto& r : mesh.supports_of(mesh.hexahedra[e][a]))
-          for (const auto& c : mesh.supports_of(mesh.hexahedra[e][b])) {
+  for_elements(mesh, [&](std::int32_t element, const auto& nodes, bool tetrahedron) {
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        for (const auto& r : mesh.supports_of(nodes[a]))
+          for (const auto& c : mesh.supports_of(nodes[b])) {
             const std::int32_t row = mesh.unknown[static_cast<std::size_t>(r.node)];
             const std::int32_t column = mesh.unknown[static_cast<std::size_t>(c.node)];
             if (row >= column)
               placed.push_back({column,
                                 row,
-                                {static_cast<std::int32_t>(e), static_cast<std::int8_t>(a),
-                                 static_cast<std::int8_t>(b), r.weight * c.weight}});
+                                {element, static_cast<std::int8_t>(a), static_cast<std::int8_t>(b),
+                                 tetrahedron, r.weight * c.weight}});
           }
+  });
   std::ranges::stable_sort(placed, {}, [](const PlacedShare& p) {
     return std::pair{p.column, p.row};
   });
@@ -103,11 +132,15 @@ void fill_columns(const SolidDraft& draft, const std::array<SolidMaterial, 4>& m
   double* x = world.column<ReferencePosition>().values();
   for (const Vec3& node : draft.nodes)
     for (int k = 0; k < 3; ++k) *x++ = node[k];
-  double* elastic = world.column<LameConstants>().values();
-  for (const std::uint8_t part : draft.part) {
-    *elastic++ = materials[part].lambda;
-    *elastic++ = materials[part].mu;
-  }
+  const auto fill_lame = [&](double* elastic, const std::vector<std::uint8_t>& parts) {
+    for (const std::uint8_t part : parts) {
+      *elastic++ = materials[part].lambda;
+      *elastic++ = materials[part].mu;
+    }
+  };
+  fill_lame(world.column<LameConstants>().values(), draft.part);
+  if (world.has<TetrahedronLame>())
+    fill_lame(world.column<TetrahedronLame>().values(), draft.tetrahedron_part);
   if (!world.has<SolidYield>()) return;
   double* yield = world.column<SolidYield>().values();
   for (const std::uint8_t part : draft.part) {
@@ -135,6 +168,11 @@ void SolidDraft::add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart 
   hexahedra.push_back(corners);
   part.push_back(static_cast<std::uint8_t>(of));
   formulation.push_back(how);
+}
+
+void SolidDraft::add_tetrahedron(const SolidMesh::Tetrahedron& of_nodes, SolidPart of) {
+  tetrahedra.push_back(of_nodes);
+  tetrahedron_part.push_back(static_cast<std::uint8_t>(of));
 }
 
 bool turn_outside_out(const std::vector<Vec3>& nodes, SolidMesh::Hexahedron& corners) {
@@ -168,13 +206,14 @@ std::unique_ptr<World> finish_solid(const SolidDraft& draft,
   list_forces(mesh, draft.nodes.size(), assembly);
   list_blocks(mesh, assembly);
   world->add_table<SolidNode>(draft.nodes.size());
-  std::vector<std::int32_t> rows;
-  for (std::size_t c = 0; c + 1 < mesh.chunk_begin.size(); ++c)
-    rows.push_back(mesh.chunk_begin[c + 1] - mesh.chunk_begin[c]);
-  world->add_table<SolidElement>(rows);
+  world->add_table<SolidElement>(rows_of(mesh.chunk_begin));
   world->add_table<StiffnessBlock>(assembly.block_row.size());
   world->add<ReferencePosition>();
   world->add<LameConstants>();
+  if (!mesh.tetrahedra.empty()) {
+    world->add_table<SolidTetrahedron>(rows_of(mesh.tetrahedron_begin));
+    add_tetrahedron_columns(*world);
+  }
   add_solid_columns(*world);
   if (std::ranges::any_of(draft.part,
                           [&](std::uint8_t part) { return materials[part].yield_stress > 0; }))

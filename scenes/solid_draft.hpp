@@ -1,4 +1,4 @@
-// A solid in the making: nodes, hexahedra, what holds them. finish_solid() turns it into the tables,
+// A solid in the making: nodes, elements, what holds them. finish_solid() turns it into the tables,
 // columns and lists that the solver works on.
 #pragma once
 
@@ -21,8 +21,10 @@ enum class SolidPart : std::uint8_t { lever, coating, tip, glue };
 struct SolidDraft {
   std::vector<Vec3> nodes;  // m
   std::vector<SolidMesh::Hexahedron> hexahedra;
-  std::vector<HexFormulation> formulation;               // [hexahedra]
-  std::vector<std::uint8_t> part;                        // [hexahedra] SolidPart
+  std::vector<HexFormulation> formulation;  // [hexahedra]
+  std::vector<std::uint8_t> part;           // [hexahedra] SolidPart
+  std::vector<SolidMesh::Tetrahedron> tetrahedra;
+  std::vector<std::uint8_t> tetrahedron_part;            // [tetrahedra] SolidPart
   std::vector<std::uint8_t> held;                        // [nodes]
   std::vector<std::vector<SolidMesh::Support>> hanging;  // [nodes] empty: free or held
 
@@ -30,6 +32,7 @@ struct SolidDraft {
   // The supports may hang themselves; a held node stays held.
   void hang(int node, std::vector<SolidMesh::Support> on);
   void add_hexahedron(const SolidMesh::Hexahedron& corners, SolidPart of, HexFormulation how);
+  void add_tetrahedron(const SolidMesh::Tetrahedron& of_nodes, SolidPart of);
 };
 
 // Puts the corners into an order of positive volume; false where one of them has none: it is folded.

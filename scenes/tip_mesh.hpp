@@ -22,8 +22,10 @@ double foot_reach(const TipSpec& tip);
 // thickness that does. Without a tip: nothing in particular happens there.
 LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip);
 
-// Without a tip: the point of the lever's lower face under its axis.
+// Without a tip: the point of the lever's lower face under its axis. A ball that touches by a law of its own
+// does so where the normal `out` of the sample, in the lever's frame, meets it: a point that moves with the
+// ball as a whole, since the law has the ball's own yielding in it.
 TipMesh add_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
-                const TipSpec& tip);
+                const TipSpec& tip, const std::optional<Vec3>& out = {});
 
 }  // namespace pulvis

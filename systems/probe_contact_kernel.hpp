@@ -16,11 +16,17 @@
 //            touches g + N/k = 0,   N^ = N - rho (g + N/k)            where N^ > 0, and then
 //            sticks  w = P (x - x_old) + (t - P t_old)/k_t = 0        where |t^| <= mu N^
 //            slides  t = mu N^ t^/|t^|,   t^ = t - rho_t w
+//          An elastic ball that adheres (JKR, systems/jkr_kernel.hpp) touches, where it has a force since then
+//          or g <= 0, as long as the spring rho finds a stable equilibrium with it:
+//            touches n.f = F*,   F* + rho delta* = n.f - rho g,   F* = F_JKR(delta*),   N = F* + 3/2 pi w R
+//            apart   f = 0
 // Valid    any smooth surface; the derivatives are those of the equations, kinks apart
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
+
+#include "systems/jkr_kernel.hpp"
 
 namespace pulvis::kernels {
 
@@ -28,6 +34,7 @@ struct ProbeLaw {
   double normal_stiffness, tangential_stiffness;  // N/m
   double friction;                                // -
   double pull_off, range;                         // N, m: of this point
+  AdhesiveBall ball{};
 };
 
 // Where the point is, and what it carries from the last equilibrium.
@@ -56,16 +63,84 @@ inline double adhesion(const ProbeLaw& law, double gap, double& slope) {
   return law.pull_off * fade * fade;
 }
 
+// d (P v) / d place
+inline Eigen::Matrix3d turned(const ProbePlace& at, const Eigen::Vector3d& v) {
+  return -at.normal.dot(v) * at.turn - at.normal * (at.turn.transpose() * v).transpose();
+}
+
+// What friction may bear, and how that changes.
+struct FrictionBound {
+  double size = 0;  // N
+  Eigen::RowVector3d by_force = Eigen::RowVector3d::Zero(), by_place = Eigen::RowVector3d::Zero();
+};
+
+// Adds the law along the surface to a point that touches.
+inline void add_friction(const ProbeLaw& law, const ProbePlace& at, const Eigen::Vector3d& f,
+                         double rho_t, const FrictionBound& bound, ProbeEquation& r) {
+  using Eigen::Matrix3d;
+  using Eigen::Vector3d;
+  const Matrix3d p = Matrix3d::Identity() - at.normal * at.normal.transpose();
+  const double kt = law.tangential_stiffness;
+  const Vector3d t = p * f;
+  const Vector3d w = p * at.moved + (t - p * at.old_tangential) / kt;
+  const Matrix3d w_by_place =
+      p + turned(at, at.moved) + (turned(at, f) - turned(at, at.old_tangential)) / kt;
+  const Vector3d trial = t - rho_t * w;
+  const double size = trial.norm();
+  if (size <= bound.size) {
+    r.state = ProbeEquation::State::sticks;
+    r.residual += rho_t * w;
+    r.by_force += (rho_t / kt) * p;
+    r.by_place += rho_t * w_by_place;
+    return;
+  }
+  r.state = ProbeEquation::State::slides;
+  const Vector3d m = trial / size;
+  const Matrix3d across = (bound.size / size) * (Matrix3d::Identity() - m * m.transpose());
+  r.residual += t - bound.size * m;
+  r.by_force += p - m * bound.by_force - (1 - rho_t / kt) * across * p;
+  r.by_place += turned(at, f) - across * (turned(at, f) - rho_t * w_by_place) - m * bound.by_place;
+}
+
+inline ProbeEquation adhesive_ball_equation(const ProbeLaw& law, const ProbePlace& at,
+                                            const Eigen::Vector3d& f, double rho, double rho_t) {
+  const Eigen::Vector3d& n = at.normal;
+  const Eigen::Matrix3d &h = at.turn, nn = n * n.transpose();
+  const double tau = n.dot(f) - rho * at.gap;
+  ProbeEquation r;
+  JkrAnswer balance;
+  // Without a force it has let go, in this search for an equilibrium or before: to be drawn back from afar by
+  // what the spring alone would allow is no way to touch.
+  const bool held = at.touched && f.squaredNorm() > 0;
+  if (held || at.gap <= 0 || tau >= 0) balance = jkr_balance(JkrScale(law.ball), 1, rho, tau);
+  if (!balance.holds) {
+    r.residual = f;
+    r.by_force.setIdentity();
+    r.by_place.setZero();
+    r.pressing = r.limit = 0;
+    return r;
+  }
+  const double missing = n.dot(f) - balance.force;
+  const Eigen::RowVector3d f_turned = (h.transpose() * f).transpose();
+  r.residual = missing * n;
+  r.by_force = (1 - balance.slope) * nn;
+  r.by_place =
+      n * ((1 - balance.slope) * f_turned + balance.slope * rho * n.transpose()) + missing * h;
+  r.pressing = balance.force + law.pull_off;
+  r.limit = law.friction * std::max(0.0, r.pressing);
+  const double share = law.friction * balance.slope;
+  add_friction(law, at, f, rho_t,
+               {r.limit, share * n.transpose(), share * (f_turned - rho * n.transpose())}, r);
+  return r;
+}
+
 inline ProbeEquation probe_equation(const ProbeLaw& law, const ProbePlace& at,
                                     const Eigen::Vector3d& f, double rho, double rho_t) {
   using Eigen::Matrix3d;
   using Eigen::Vector3d;
+  if (law.ball.work > 0) return adhesive_ball_equation(law, at, f, rho, rho_t);
   const Vector3d& n = at.normal;
-  const Matrix3d &h = at.turn, nn = n * n.transpose(), p = Matrix3d::Identity() - nn;
-  // d (P v) / d place
-  const auto turned = [&](const Vector3d& v) -> Matrix3d {
-    return -n.dot(v) * h - n * (h.transpose() * v).transpose();
-  };
+  const Matrix3d &h = at.turn, nn = n * n.transpose();
   double slope = 0;
   const double a = adhesion(law, at.gap, slope), k = law.normal_stiffness;
   const double pressing = n.dot(f) + (at.touched ? law.pull_off : a);
@@ -86,28 +161,10 @@ inline ProbeEquation probe_equation(const ProbeLaw& law, const ProbePlace& at,
   r.residual = rho * missing * n;
   r.by_force = (rho / k) * nn;
   r.by_place = rho * (n * missing_by_place.transpose() + missing * h);
-
-  const double kt = law.tangential_stiffness;
-  const Vector3d t = p * f;
-  const Vector3d w = p * at.moved + (t - p * at.old_tangential) / kt;
-  const Matrix3d w_by_place = p + turned(at.moved) + (turned(f) - turned(at.old_tangential)) / kt;
-  const Vector3d trial = t - rho_t * w;
-  const double size = trial.norm(), bound = law.friction * augmented;
-  if (size <= bound) {
-    r.state = ProbeEquation::State::sticks;
-    r.residual += rho_t * w;
-    r.by_force += (rho_t / kt) * p;
-    r.by_place += rho_t * w_by_place;
-    return r;
-  }
-  r.state = ProbeEquation::State::slides;
-  const Vector3d m = trial / size;
-  const Matrix3d across = (bound / size) * (Matrix3d::Identity() - m * m.transpose());
-  r.residual += t - bound * m;
-  r.by_force +=
-      p - law.friction * (1 - rho / k) * m * n.transpose() - (1 - rho_t / kt) * across * p;
-  r.by_place += turned(f) - across * (turned(f) - rho_t * w_by_place) -
-                law.friction * m * (pressing_by_place - rho * missing_by_place).transpose();
+  add_friction(law, at, f, rho_t,
+               {law.friction * augmented, law.friction * (1 - rho / k) * n.transpose(),
+                law.friction * (pressing_by_place - rho * missing_by_place).transpose()},
+               r);
   return r;
 }
 

@@ -143,7 +143,7 @@ ContactAnswer settle(const ContactProblem& problem) {
   return answer.converged ? answer : ContactNewton(problem).solve(true);
 }
 
-// No equilibrium is near: adhesion draws more steeply than the lever holds. The points flow to the next one
+// No equilibrium is near: adhesion (DMT) draws more steeply than the lever holds. The points flow to the next one
 // against dashpots c that are taken away step by step, x + c S (x - x_k) = x_0 + S (f - f_0); what the
 // dashpots eat is what a real snap radiates.
 ContactAnswer jump(const ContactProblem& problem) {
@@ -203,7 +203,10 @@ ContactAnswer jump(const ContactProblem& problem) {
 
 ContactAnswer solve_contact(const ContactProblem& problem) {
   ContactAnswer answer = settle(problem);
-  if (!answer.converged && problem.may_jump && !problem.set_point) answer = jump(problem);
+  // The law of an adhesive ball jumps of itself.
+  const bool by_law = problem.points.front().law.ball.work > 0;
+  if (!answer.converged && problem.may_jump && !problem.set_point && !by_law)
+    answer = jump(problem);
   return answer;
 }
 
@@ -237,7 +240,7 @@ ContactPoint contact_point(Row<ProbePoint> row, const Vector3d& place, const Tar
                            const Read<ProbeMemory>& memory, const Read<ProbeForce>& force) {
   ContactPoint point;
   point.law = {stiffness(row, 0), stiffness(row, 1), target.friction, target.pull_off * share(row),
-               target.range};
+               target.range,      target.ball};
   point.place = place;
   for (int k = 0; k < 3; ++k) {
     point.force[k] = force(row, k);

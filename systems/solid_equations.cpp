@@ -74,7 +74,8 @@ void SolidEquations::factorise_again(std::vector<double> values) {
   answers.clear();
 }
 
-void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce> force,
+void residual(Read<SolidMesh> mesh, Read<ElementForce> element,
+              Optional<Read<TetrahedronForce>> tetrahedron, Read<SolidForce> force,
               Read<AppliedForce> applied, Optional<Read<Target>> target,
               Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
               Optional<Read<ProbeState>> state, Write<SolidEquations> equations) {
@@ -108,6 +109,8 @@ void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce>
   // Where a lever bends, the forces in its elements are far larger than those on it: they set the digits
   // that the balance can have.
   for (const double f : element.values()) squares += f * f;
+  if (tetrahedron)
+    for (const double f : tetrahedron->values()) squares += f * f;
   equations->scale = std::sqrt(squares);
   const bool servo = target && (*target)->servo;
   equations->set_point_error =

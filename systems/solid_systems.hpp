@@ -17,12 +17,20 @@ void element_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> re
                    Read<Displacement> displacement, Read<LameConstants> elastic,
                    Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
                    Write<ElementForce> force, Write<ElementEnergy> energy);
+void solid_tetrahedron(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
+                       Read<Displacement> displacement, Read<TetrahedronLame> elastic,
+                       Write<TetrahedronForce> force, Write<TetrahedronTangent> tangent,
+                       Write<TetrahedronEnergy> energy);
+void tetrahedron_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
+                       Read<Displacement> displacement, Read<TetrahedronLame> elastic,
+                       Write<TetrahedronForce> force, Write<TetrahedronEnergy> energy);
 void remember_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                          Read<Displacement> displacement, Read<LameConstants> elastic,
                          Read<SolidYield> yield, Write<SolidMemory> memory);
-void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element, Write<SolidForce> force);
+void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element,
+                 Optional<Read<TetrahedronForce>> tetrahedron, Write<SolidForce> force);
 void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
-                   Write<BlockTangent> block);
+                   Optional<Read<TetrahedronTangent>> tetrahedron, Write<BlockTangent> block);
 void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
                    Read<Target> target, Read<ProbeNode> node, Read<ProbeStiffness> stiffness,
                    Read<ProbeShare> share, Read<ProbeMemory> memory, Read<ProbeForce> force,
@@ -30,7 +38,8 @@ void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displac
 void remember_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
                       Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
                       Read<ProbeState> state, Write<ProbeMemory> memory);
-void residual(Read<SolidMesh> mesh, Read<ElementForce> element, Read<SolidForce> force,
+void residual(Read<SolidMesh> mesh, Read<ElementForce> element,
+              Optional<Read<TetrahedronForce>> tetrahedron, Read<SolidForce> force,
               Read<AppliedForce> applied, Optional<Read<Target>> target,
               Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
               Optional<Read<ProbeState>> state, Write<SolidEquations> equations);

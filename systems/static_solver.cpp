@@ -11,8 +11,11 @@ namespace {
 // ---- the order of an equilibrium iteration: a newcomer's first page ---------------------------
 std::vector<System> evaluation(World& w, bool with_tangent) {
   std::vector<System> list{with_tangent ? make_system(w, "solid_element", solid_element)
-                                        : make_system(w, "element_force", element_force),
-                           make_system(w, "solid_force", solid_force)};
+                                        : make_system(w, "element_force", element_force)};
+  if (w.has<TetrahedronForce>())
+    list.push_back(with_tangent ? make_system(w, "solid_tetrahedron", solid_tetrahedron)
+                                : make_system(w, "tetrahedron_force", tetrahedron_force));
+  list.push_back(make_system(w, "solid_force", solid_force));
   if (w.has<ProbeNode>()) list.push_back(make_system(w, "probe_contact", probe_contact));
   list.push_back(make_system(w, "residual", residual));
   return list;
@@ -65,6 +68,13 @@ void add_solid_columns(World& world) {
   world.add<ElementEnergy>();
   world.add<BlockTangent>();
   world.emplace<SolidEquations>();
+}
+
+void add_tetrahedron_columns(World& world) {
+  world.add<TetrahedronLame>();
+  world.add<TetrahedronForce>();
+  world.add<TetrahedronTangent>();
+  world.add<TetrahedronEnergy>();
 }
 
 void add_plastic_columns(World& world) {

@@ -34,6 +34,8 @@ struct NewtonReport {
 
 // Columns and resources that every solid needs; the mesh and the material are there already.
 void add_solid_columns(World& world);
+// Of a solid that has tetrahedra.
+void add_tetrahedron_columns(World& world);
 // Of a solid some of whose elements yield.
 void add_plastic_columns(World& world);
 // Of a probe of so many points; the target is there already.

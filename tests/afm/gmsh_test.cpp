@@ -131,7 +131,7 @@ TEST_F(GmshTip, WhatCannotBeUsedIsRefusedWithItsLineAndWhatIsAllowed) {
   EXPECT_THAT(refusal(replaced(good, "2.2 0 8", "3.0 0 8")), HasSubstr("allowed: 2.2, 4.1"));
   EXPECT_THAT(
       refusal(replaced(good, "33 5 2 7 1 10 11 16 15 35 36 41 40", "33 4 2 7 1 10 11 16 35")),
-      HasSubstr("is a tetrahedron (type 4), allowed: hexahedra"));
+      HasSubstr("is a tetrahedron of four nodes (type 4), allowed: hexahedra"));
   EXPECT_THAT(refusal(replaced(good, "\"end\"", "\"bottom\"")), HasSubstr("\"foot\" and \"end\""));
   EXPECT_THAT(refusal(replaced(good, "33 5 2 7 1 10 11", "33 5 2 7 1 9999 11")),
               HasSubstr("node 9999 is not there"));
@@ -140,7 +140,7 @@ TEST_F(GmshTip, WhatCannotBeUsedIsRefusedWithItsLineAndWhatIsAllowed) {
   EXPECT_THAT(refusal(good.substr(0, good.rfind('\n', good.size() / 2) + 1)),
               HasSubstr("ends too early"));
   EXPECT_THAT(refusal(replaced(good, "\n1 3 2 1 5 10 11 16 15", "\n1 3 2 1 5 10 11 16 20")),
-              HasSubstr("a quad of 'foot' is no face of a hexahedron"));
+              HasSubstr("an element of 'foot' is no face of a volume's element"));
   EXPECT_THAT(refusal(replaced(good, "\n10 -1 -1 ", "\n10 -1e9 -1 ")),
               HasSubstr("allowed: up to 1 m"));
   // A count is only what the file claims: no memory is taken for it.

@@ -18,6 +18,7 @@
 #include "scenes/csv_table.hpp"
 #include "scenes/lab_record.hpp"
 #include "scenes/lab_settings.hpp"
+#include "scenes/meshed_lever.hpp"
 #include "scenes/meshed_tip.hpp"
 #include "scenes/outline_checks.hpp"
 #include "scenes/packing_file.hpp"
@@ -126,6 +127,16 @@ void packing(Input input) {
   }
 }
 
+void must_be_sound(const GmshSolid& solid) {
+  for (const Vec3& x : solid.nodes) must(x.allFinite());
+  const auto inside = [&](const auto& elements) {
+    for (const auto& nodes : elements)
+      for (const auto n : nodes) must(n >= 0 && static_cast<std::size_t>(n) < solid.nodes.size());
+  };
+  inside(solid.hexahedra);
+  inside(solid.tetrahedra);
+}
+
 // A meshed tip as Gmsh writes it, up to the solid it becomes.
 void mesh(Input input) {
   Scene scene;
@@ -139,9 +150,26 @@ void mesh(Input input) {
   if (scene.afm->tip.solid == nullptr) return;
   const TipSolid& tip = *scene.afm->tip.solid;
   must(tip.height > 0 && tip.reach > 0);
-  for (const Vec3& x : tip.nodes) must(x.allFinite());
-  for (const auto& corners : tip.hexahedra)
-    for (const auto n : corners) must(n >= 0 && static_cast<std::size_t>(n) < tip.nodes.size());
+  must_be_sound(tip.solid);
+}
+
+// A meshed lever, the same way.
+void lever(Input input) {
+  Scene scene;
+  scene.file = own_folder() / "scene.toml";
+  scene.afm = std::make_shared<AfmScene>();
+  scene.afm->lever.shape = LeverSpec::Shape::mesh;
+  scene.afm->lever.file = file_of(input, "lever.msh").filename();
+  scene.afm->lever.unit = 1e-6;
+  Problems problems(scene.file, {});
+  load_meshed_lever(scene, {}, problems);
+  if (scene.afm->lever.solid == nullptr) return;
+  const LeverSolid& solid = *scene.afm->lever.solid;
+  must(solid.length > 0 && solid.thickness > 0);
+  must_be_sound(solid.solid);
+  for (const LeverSide* side : {&solid.face, &solid.back})
+    for (const int n : side->node)
+      must(n >= 0 && static_cast<std::size_t>(n) < solid.solid.nodes.size());
 }
 
 template <class Read>
@@ -215,10 +243,11 @@ void journal(Input input) {
 }
 
 constexpr std::array all{
-    Target{"scene", scene}, Target{"study", study},           Target{"settings", settings},
-    Target{"table", table}, Target{"packing", packing},       Target{"height_map", height_map},
-    Target{"mesh", mesh},   Target{"curve", curve},           Target{"record", record},
-    Target{"state", state}, Target{"checkpoint", checkpoint}, Target{"journal", journal}};
+    Target{"scene", scene},    Target{"study", study},     Target{"settings", settings},
+    Target{"table", table},    Target{"packing", packing}, Target{"height_map", height_map},
+    Target{"mesh", mesh},      Target{"lever", lever},     Target{"curve", curve},
+    Target{"record", record},  Target{"state", state},     Target{"checkpoint", checkpoint},
+    Target{"journal", journal}};
 
 }  // namespace
 
