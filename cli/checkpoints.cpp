@@ -105,4 +105,15 @@ StoppedRun find_stopped_run(const fs::path& folder) {
   return run;
 }
 
+bool can_go_on(const fs::path& folder, std::uint64_t scene_hash) {
+  try {
+    require_stopped_run(folder);
+    return find_stopped_run(folder).scene.hash == scene_hash;
+  } catch (const CannotResume&) {
+  } catch (const OutputError&) {  // no checkpoint is whole
+  } catch (const SceneError&) {   // somebody changed scene.toml
+  }
+  return false;
+}
+
 }  // namespace pulvis

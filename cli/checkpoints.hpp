@@ -62,5 +62,7 @@ struct StoppedRun {
 void require_stopped_run(
     const std::filesystem::path& folder);  // one that could be: throws CannotResume
 StoppedRun find_stopped_run(const std::filesystem::path& folder);
+// Whether `resume` would take up what stopped there, and that is a run of the scene of this hash.
+bool can_go_on(const std::filesystem::path& folder, std::uint64_t scene_hash);
 
 }  // namespace pulvis

@@ -159,7 +159,8 @@ void add_study(CLI::App& app, Options& options, ExitCode& code) {
       ->add_option("--threads-per-run", options.study.threads,
                    "threads of each run (default: one, more where runs are fewer than processors)")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--fresh", options.study.fresh, "run everything again, finished runs too");
+  command->add_flag("--fresh", options.study.fresh,
+                    "run everything from its beginning, finished and broken off runs too");
   command->add_flag("--list", options.study.list, "check everything, print the runs, run nothing");
   command->add_option("--reference", options.reference, "print the study language instead: text")
       ->check(CLI::IsMember({"text"}));

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "cli/checkpoints.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/study_jobs.hpp"
 #include "cli/study_report.hpp"
@@ -68,6 +69,7 @@ class StudyRunner {
       result.run = &run;
       result.folder = folder_ / run.name;
       result.kept = !options.fresh && state_of(result.folder, run.hash) == RunState::finished;
+      result.resumed = !options.fresh && !result.kept && can_go_on(result.folder, run.hash);
       results_.push_back(std::move(result));
     }
     for (std::size_t i = 0; i < results_.size(); ++i)
@@ -80,6 +82,8 @@ class StudyRunner {
     fmt::print("{} runs: {} to do, {} finished before; {} at once, {} thread{} each\n",
                results_.size(), waiting_.size(), kept, times_.jobs, times_.threads,
                times_.threads == 1 ? "" : "s");
+    const auto resumed = std::ranges::count(results_, true, &StudyResult::resumed);
+    if (resumed > 0) fmt::print("broken off before, resumed at their checkpoints: {}\n", resumed);
     std::fflush(stdout);
     std::vector<Job> jobs;
     for (const std::size_t i : waiting_) jobs.push_back(job_of(results_[i]));
@@ -113,9 +117,12 @@ class StudyRunner {
 
  private:
   Job job_of(const StudyResult& result) const {
+    const fs::path log = result.folder / "log.txt";
+    const std::string threads = std::to_string(times_.threads);
+    if (result.resumed) return {{"resume", result.folder.string(), "--threads", threads}, log};
     Job job{{"run", result.run->file.string(), "-o", result.folder.string(), "--overwrite",
-             "--threads", std::to_string(times_.threads)},
-            result.folder / "log.txt"};
+             "--threads", threads},
+            log};
     for (const std::string& change : result.run->overrides)
       job.arguments.insert(job.arguments.end(), {"--set", change});
     return job;

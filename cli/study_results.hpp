@@ -20,10 +20,11 @@ RunState state_of(const std::filesystem::path& folder, std::uint64_t scene_hash)
 struct StudyResult {
   const StudyRun* run = nullptr;
   std::filesystem::path folder;
-  bool kept = false;    // found finished
-  int code = 0;         // exit code of the run; of a kept one as it must have been
-  std::string failure;  // why it is not as it should be; empty: good
-  bool usable = false;  // it reached its end: its curves can be compared
+  bool kept = false;     // found finished
+  bool resumed = false;  // found broken off, with a checkpoint to go on from
+  int code = 0;          // exit code of the run; of a kept one as it must have been
+  std::string failure;   // why it is not as it should be; empty: good
+  bool usable = false;   // it reached its end: its curves can be compared
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
 
   // A series of the study (scenes/study_series.hpp); empty where the run has left none.

@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class StudyCommand : public ProgramTest {
  protected:
@@ -191,6 +192,45 @@ TEST_F(StudyCommand, InterruptStopsCleanly) {
   EXPECT_EQ(summary(results / "friction=0.1")["outcome"], "interrupted");
   EXPECT_FALSE(fs::exists(results / "friction=0.3"));
   EXPECT_FALSE(fs::exists(results / "report.html"));
+}
+
+// Not only runs that are missing: what of one was done is not done again, and its bits are those of a run
+// that nobody stopped.
+TEST_F(StudyCommand, AnInterruptedRunGoesOnAtItsCheckpoint) {
+  write("[0.1]", "", "400 us");
+  const pid_t program = start(command());
+  ASSERT_TRUE(comes([&] { return fs::exists(results / "friction=0.1" / "run.h5"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  kill(program, SIGINT);
+  ASSERT_EQ(end_of(program).code, 130);
+  const auto stopped = summary(results / "friction=0.1");
+  ASSERT_EQ(stopped["outcome"], "interrupted");
+
+  const Outcome rest = study();
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_THAT(rest.out, HasSubstr("broken off before, resumed at their checkpoints: 1\n"));
+  EXPECT_THAT(text_of(results / "friction=0.1" / "log.txt"),
+              HasSubstr("resumed at step " + stopped["steps"].dump() + ","));
+  const auto ended = summary(results / "friction=0.1");
+  const std::string history = text_of(results / "friction=0.1" / "history.csv");
+  const Outcome fresh = study({"--fresh"});
+  EXPECT_THAT(fresh.out, Not(HasSubstr("broken off")));
+  EXPECT_EQ(summary(results / "friction=0.1")["state_hash"], ended["state_hash"]);
+  EXPECT_EQ(text_of(results / "friction=0.1" / "history.csv"), history);
+}
+
+// The scene is another one now: its run begins anew instead of going on with the old one.
+TEST_F(StudyCommand, AnInterruptedRunOfAnotherSceneDoesNotGoOn) {
+  write("[0.1]", "", "2 ms");
+  const pid_t program = start(command());
+  ASSERT_TRUE(comes([&] { return fs::exists(results / "friction=0.1" / "run.h5"); }));
+  kill(program, SIGINT);
+  ASSERT_EQ(end_of(program).code, 130);
+  write("[0.1]");
+  const Outcome end = study();
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_THAT(end.out, Not(HasSubstr("broken off")));
+  EXPECT_EQ(summary(results / "friction=0.1")["outcome"], "done");
 }
 
 TEST_F(StudyCommand, TwoInOneFolderAreRefused) {
