@@ -1,6 +1,8 @@
 // A lever in three dimensions: its surface, coloured by how far it moved, turned by dragging.
 "use strict";
 
+const FIRST_VIEW = {turn: -0.9, tilt: 0.42};
+
 class SolidView {
   static async load(host, run) {
     const view = new SolidView(host, run);
@@ -10,7 +12,7 @@ class SolidView {
   }
 
   constructor(host, run) {
-    Object.assign(this, {run, frame: run.frames.length - 1, turn: -0.9, tilt: 0.42, zoom: 1, larger: 0,
+    Object.assign(this, {run, frame: run.frames.length - 1, ...FIRST_VIEW, zoom: 1, larger: 0,
                          shown: "size"});
     this.canvas = element("canvas", {className: "picture", tabIndex: 0, role: "img"});
     this.note = element("p", {className: "note"});
@@ -54,17 +56,33 @@ class SolidView {
     return this.shown === "size" ? Math.hypot(moved[at], moved[at + 1], moved[at + 2]) : moved[at + Number(this.shown)];
   }
 
+  // Pixels a metre that show the whole of it as it stands at first, with as much of it that moves; `zoom` is over that.
+  fit() {
+    const [right, up] = [0, 1].map(k => {
+      const [low, high] = bounds([this.corners().map(corner => this.seen(corner, FIRST_VIEW)[k])]);
+      return high - low + this.larger * this.most;
+    });
+    return 0.95 * Math.min(this.place.room / right, this.place.height / up);
+  }
+  corners() {
+    return [0, 1, 2, 3, 4, 5, 6, 7].map(i => [0, 1, 2].map(k => this.box[k][i >> k & 1] - this.middle[k]));
+  }
+
+  // How far to the right, up and away.
+  seen([dx, dy, dz], {turn, tilt}) {
+    const [ct, st, cu, su] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
+    const deep = st * dx + ct * dy;
+    return [ct * dx - st * dy, cu * dz + su * deep, cu * deep - su * dz];
+  }
+
   // x to the right, y into the page, z up, turned about z and tilted; {x, y, far} in pixels.
   project() {
-    const count = this.reference.length / 3, out = new Float32Array(3 * count), {height, room} = this.place;
-    const scale = this.zoom * 1.15 * Math.min(room, 1.8 * height) / this.size;
-    const [ct, st, cu, su] = [Math.cos(this.turn), Math.sin(this.turn), Math.cos(this.tilt), Math.sin(this.tilt)];
+    const out = new Float32Array(this.reference.length), {height, room} = this.place;
+    const scale = this.zoom * this.fit();
     for (let i = 0; i < out.length; i += 3) {
-      const [dx, dy, dz] = [0, 1, 2].map(k => this.reference[i + k] + this.larger * this.moved[i + k] - this.middle[k]);
-      const right = ct * dx - st * dy, deep = st * dx + ct * dy;
-      out[i] = room / 2 + scale * right;
-      out[i + 1] = height / 2 - scale * (cu * dz + su * deep);
-      out[i + 2] = cu * deep - su * dz;
+      const from = [0, 1, 2].map(k => this.reference[i + k] + this.larger * this.moved[i + k] - this.middle[k]);
+      const [right, up, far] = this.seen(from, this);
+      out.set([room / 2 + scale * right, height / 2 - scale * up, far], i);
     }
     return out;
   }
@@ -148,7 +166,7 @@ class SolidView {
     canvas.addEventListener("pointermove", event => {
       if (event.buttons & 1) this.turnBy(0.008 * event.movementX, 0.008 * event.movementY);
     });
-    canvas.addEventListener("dblclick", () => { Object.assign(this, {zoom: 1, turn: -0.9, tilt: 0.42}); this.draw(); });
+    canvas.addEventListener("dblclick", () => { Object.assign(this, {zoom: 1, ...FIRST_VIEW}); this.draw(); });
     canvas.addEventListener("keydown", event => {
       if (event.key === "+" || event.key === "=") this.zoomBy(1.25);
       else if (event.key === "-") this.zoomBy(0.8);
