@@ -1,6 +1,6 @@
 """Levers: stiffness against mesh, element, thickness and run time; prints the tables of docs/accuracy.md.
 
-  /usr/bin/python3 bench/levers.py [table-4.2] [table-4.3] [thickness] [fronts]      (all: some five minutes)
+  /usr/bin/python3 bench/levers.py [table-4.2] [table-4.3] [thickness] [fronts]      (all: a quarter of an hour)
 
 Fronts are printed as tables and drawn (--draw FILE.png).
 """
