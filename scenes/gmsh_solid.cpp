@@ -8,6 +8,7 @@
 
 #include "scenes/gmsh_file.hpp"
 #include "scenes/problem.hpp"
+#include "systems/solid_tetrahedron_kernel.hpp"
 
 namespace pulvis {
 namespace {
@@ -16,9 +17,7 @@ constexpr double farthest = 1;  // m, of a node from the origin: no tip and no l
 
 using Facet = std::vector<int>;
 
-// Of Gmsh's tetrahedron: the corners between which the nodes 4 to 9 lie, and its four faces.
-constexpr std::array<std::array<std::size_t, 2>, 6> edges{
-    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
+// Of Gmsh's tetrahedron, whose nodes are numbered as the element's (kernels::tetrahedron_edge).
 constexpr std::array<std::array<std::size_t, 6>, 4> faces_of_tetrahedron{
     {{0, 1, 2, 4, 5, 6}, {0, 1, 3, 4, 9, 7}, {0, 2, 3, 6, 8, 7}, {1, 2, 3, 5, 8, 9}}};
 constexpr std::array<std::array<std::size_t, 4>, 6> faces_of_hexahedron{
@@ -101,17 +100,19 @@ class SolidReader {
     SolidMesh::Tetrahedron nodes;
     std::ranges::copy(element.nodes, nodes.begin());
     double longest = 0;
-    for (const auto& [a, b] : edges)
-      longest = std::max(longest, (at(nodes[b]) - at(nodes[a])).norm());
+    const auto corner = [&](int c) { return at(nodes[static_cast<std::size_t>(c)]); };
+    for (const auto& [from, to] : kernels::tetrahedron_edge)
+      longest = std::max(longest, (corner(to) - corner(from)).norm());
     const Vec3 a = at(nodes[1]) - at(nodes[0]), b = at(nodes[2]) - at(nodes[0]),
                c = at(nodes[3]) - at(nodes[0]);
     const double volume = a.cross(b).dot(c);
     if (!(std::abs(volume) > flat * longest * longest * longest))
       refuse(element.line,
              fmt::format("a tetrahedron of '{}' is flat, allowed: positive volume", element.group));
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const Vec3 middle = 0.5 * (at(nodes[edges[e][0]]) + at(nodes[edges[e][1]]));
-      if (!((at(nodes[4 + e]) - middle).norm() <= bent * longest))
+    int between = 4;
+    for (const auto& [from, to] : kernels::tetrahedron_edge) {
+      const Vec3 middle = 0.5 * (corner(from) + corner(to));
+      if (!((corner(between++) - middle).norm() <= bent * longest))
         refuse(element.line,
                fmt::format("a tetrahedron of '{}' has a curved edge, or one whose node is not in "
                            "its middle, allowed: straight edges (Mesh.SecondOrderLinear = 1)",
