@@ -12,6 +12,10 @@ namespace {
 // x and y of four control points, as they lie in memory.
 using ControlForce = Lane;
 
+// The edges, by their first control point, that bear a force on some particle of the chunk. The others are
+// passed over: their forces stay zero from step to step.
+using Touched = std::vector<std::uint8_t>;
+
 // N_a(u) for a = 0..3, each of them for x and for y, as polynomials of u.
 struct Polynomial {
   ControlForce a, b, c, d;
@@ -48,7 +52,7 @@ void add_sampled(const std::array<ControlForce, edge_points>& by_point, const do
 // The opposite forces on the other body, at the closest point of each Gauss point. `edge_force`: of the
 // body's first edge.
 void add_other(const Polynomial& n, const double* closest, const double* f, const double* couple,
-               double* edge_force) {
+               double* edge_force, Touched& touched) {
   std::array<int, edge_points> edge;  // by its first control point
   std::array<ControlForce, edge_points> force;
   for (int g = 0; g < edge_points; ++g) {
@@ -60,6 +64,7 @@ void add_other(const Polynomial& n, const double* closest, const double* f, cons
   }
   const auto subtract = [&](int e, const ControlForce& sum) {
     double* out = edge_force + CurveForce::count * e;
+    touched[static_cast<std::size_t>(e)] = 1;
     (ControlForce::load(out) - sum).store(out);
   };
   // The points of an edge stand against one or two of the other's as a rule: no waiting for memory then.
@@ -82,17 +87,25 @@ void add_other(const Polynomial& n, const double* closest, const double* f, cons
 // Forces of edges to boundary nodes, eight particles at once: an edge's four control points each, then the
 // transpose of y = S x. `edge_force`: of the first particle's first edge, `numbers` a particle.
 template <class Nodes>
-void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
+void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const Touched& touched,
               const Nodes& node_force) {
   for (int node = 0; node < shape.boundary_nodes; ++node)
     node_force(Row<BoundaryNode>(node), 0) = node_force(Row<BoundaryNode>(node), 1) = Lane{};
   std::array<Lane, 8> sum{};  // x y of control points c ... c + 3, of the edges up to c
+  int borne = 0;              // of these, how many may bear a force
   for (int c = 0; c < shape.control_points(); ++c) {
-    std::array<const double*, lane_count> rows;
-    for (std::size_t l = 0; l < lane_count; ++l)
-      rows[l] = edge_force + l * numbers + static_cast<std::size_t>(c) * CurveForce::count;
-    const auto of_edge = columns_of(rows);
-    for (std::size_t k = 0; k < 8; ++k) sum[k] += of_edge[k];
+    if (touched[static_cast<std::size_t>(c)] != 0) {
+      std::array<const double*, lane_count> rows;
+      for (std::size_t l = 0; l < lane_count; ++l)
+        rows[l] = edge_force + l * numbers + static_cast<std::size_t>(c) * CurveForce::count;
+      const auto of_edge = columns_of(rows);
+      for (std::size_t k = 0; k < 8; ++k) sum[k] += of_edge[k];
+      for (std::size_t l = 0; l < lane_count; ++l)
+        Lane{}.store(edge_force + l * numbers + static_cast<std::size_t>(c) * CurveForce::count);
+      borne = 4;
+    }
+    if (borne == 0) continue;
+    --borne;
     for (std::int32_t t = shape.curve_begin[static_cast<std::size_t>(c)];
          t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
       const Shape::CurveTerm& term = shape.curve_terms[static_cast<std::size_t>(t)];
@@ -121,7 +134,7 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
   double* all = &curve_force.chunk(chunk)(Row<ControlPoint>(0));
   const std::size_t numbers =  // of a particle
       CurveForce::count * static_cast<std::size_t>(shape.control_points());
-  std::fill(all, all + lane_count * numbers, 0.0);
+  Touched touched(static_cast<std::size_t>(shape.control_points()));
 
   const bool from_memory = index->other_rows.size() > rows_in_cache;
   // The rows that touch are some among many and stand anywhere: their lines are asked for before they are
@@ -147,6 +160,10 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
     if (couple) prefetch(&(*couple)(row));
   };
 
+  const auto sampled = [&](const double* force, double* own, int edge) {
+    touched[static_cast<std::size_t>(edge)] = 1;
+    add_sampled(by_point, force, own + CurveForce::count * edge);
+  };
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto slot = static_cast<std::size_t>(lane_count * chunk.index + lane);
     double* own = all + static_cast<std::size_t>(lane) * numbers;
@@ -156,29 +173,26 @@ void to_nodes(const Shape& shape, const double* edge_force, std::size_t numbers,
       for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
         const Row<Contact> row(r);
         if ((*touches)(row) != 0)
-          add_sampled(by_point, &(*point_force)(row),
-                      own + CurveForce::count * ((*place)(row, 0) - first_control));
+          sampled(&(*point_force)(row), own, (*place)(row, 0) - first_control);
       }
       for (int k = index->other_begin[slot]; k < index->other_begin[slot + 1]; ++k) {
         fetch_other(static_cast<std::size_t>(k));
         const Row<Contact> row(index->other_rows[static_cast<std::size_t>(k)]);
         if ((*touches)(row) != 0)
           add_other(n, &(*closest)(row), &(*point_force)(row), couple ? &(*couple)(row) : nullptr,
-                    own);
+                    own, touched);
       }
     }
     if (tool_pair) {
       for (int r = index->tool_begin[slot]; r < index->tool_begin[slot + 1]; ++r) {
         const Row<ToolContact> row(r);
         if ((*tool_touches)(row) != 0)
-          add_sampled(
-              by_point, &(*tool_force)(row),
-              own + CurveForce::count *
-                        shape.edges[static_cast<std::size_t>((*tool_pair)(row, 1))].first_control);
+          sampled(&(*tool_force)(row), own,
+                  shape.edges[static_cast<std::size_t>((*tool_pair)(row, 1))].first_control);
       }
     }
   }
-  to_nodes(shape, all, numbers, node_force.chunk(chunk));
+  to_nodes(shape, all, numbers, touched, node_force.chunk(chunk));
 }
 
 }  // namespace pulvis
