@@ -51,7 +51,7 @@ struct Cubic {
   T curvature(T u) const { return fma(u, 6.0 * d, 2.0 * c); }
 };
 template <class T>
-Cubic<T> cubic(T y0, T y1, T y2, T y3) {
+[[gnu::always_inline]] inline Cubic<T> cubic(T y0, T y1, T y2, T y3) {
   const T outer = y0 + y2;
   return {fma(1.0 / 6.0, outer, (2.0 / 3.0) * y1), 0.5 * (y2 - y0), fma(0.5, outer, -y1),
           fma(1.0 / 6.0, y3 - y0, 0.5 * (y1 - y2))};

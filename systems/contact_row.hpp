@@ -96,6 +96,22 @@ Lane at_rows(const Access& column, const RowPair<At>& rows, int number) {
   return halves(column(rows[0], number), column(rows[1], number));
 }
 
+// The sums of a block while it is looked at: lane by lane, and added up at its end.
+struct LaneSums {
+  Lane energy{}, friction_work{}, damping_work{};
+  BlockSums block;  // the other numbers
+
+  BlockSums added_up() const {
+    BlockSums sums = block;
+    const SumsOfHalves ab = sums_of_halves(energy, friction_work);
+    const SumsOfHalves c = sums_of_halves(damping_work, Lane{});
+    sums.energy = ab.a[0] + ab.a[1];
+    sums.friction_work = ab.b[0] + ab.b[1];
+    sums.damping_work = c.a[0] + c.a[1];
+    return sums;
+  }
+};
+
 // Books the depth of a row: the first NaN, or the deepest.
 template <class At>
 void book_depth(Row<At> row, double depth, BlockSums& sums) {
@@ -126,21 +142,23 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const RowPair<At>& 
   return friction;
 }
 
+inline constexpr std::array<unsigned, 4> lanes_of_halves{0x00, 0x0f, 0xf0, 0xff};
+
 // Forces of the rows of a pair that touch (bit 0, bit 1), and what they add to the sums of their block.
 // `share` of kappa: one half where the other particle samples back. Returns the friction traction times
 // weight [N] (the couple of the other body needs it).
 template <class At>
 [[gnu::flatten]] Lane set_touching(const RowColumns<At>& c, const RowPair<At>& rows,
                                    unsigned touching, const RowMotion& m, double share, double dt,
-                                   BlockSums& block) {
+                                   LaneSums& sums) {
   using Law = ContactLaw<At>;
   const Lane weight = at_points(c.law, rows, Law::weight);
   const std::array<double, 2> stiffness{share * c.law(rows[0], Law::stiffness),
                                         share * c.law(rows[1], Law::stiffness)};
   const Lane kappa = halves(stiffness[0], stiffness[1]);
-  const auto normal =
-      kernels::normal_traction(m.gap, m.gap_rate, kappa, share * at_rows(c.law, rows, Law::damping),
-                               at_rows(c.law, rows, Law::over_length));
+  const Lane over_length = at_rows(c.law, rows, Law::over_length);
+  const auto normal = kernels::normal_traction(
+      m.gap, m.gap_rate, kappa, share * at_rows(c.law, rows, Law::damping), over_length);
   Lane along{}, spring{}, friction_work{}, energy = normal.spring_energy;
   if (c.elastic_slip) {
     const auto friction = friction_of(c, rows, touching, m.slip_rate * dt, normal.pressure, kappa,
@@ -154,21 +172,21 @@ template <class At>
   const Lane push = normal.pressure * weight;
   const Lane fx = fma(push, m.nx, -(along * m.ny)), fy = fma(push, m.ny, along * m.nx);
   const Lane damping_work = normal.damping_power * weight * dt;
-  const SumsOfHalves sums = sums_of_halves(energy, friction_work);
-  const SumsOfHalves damped = sums_of_halves(damping_work, Lane{});
+  const LaneMask touch = LaneMask::of(lanes_of_halves[touching]);
+  sums.energy += select(touch, energy, Lane{});
+  sums.friction_work += select(touch, friction_work, Lane{});
+  sums.damping_work += select(touch, damping_work, Lane{});
+  const Lane depth = m.gap * over_length;
+  const bool deeper = any(touch & ~(depth <= sums.block.depth));
   for (int half = 0; half < 2; ++half) {
     if ((touching >> half & 1) == 0) continue;
-    const auto at = static_cast<std::size_t>(half);
-    const Row<At> row = rows[at];
+    const Row<At> row = rows[static_cast<std::size_t>(half)];
     c.touches(row) = 1;
     c.reach(row) = 0;
     store_pairs_of_half(fx, fy, half, &c.force(row));
     if (c.elastic_slip) store_half(spring, half, &(*c.elastic_slip)(row));
-    block.touching += 1;
-    block.energy += sums.a[at];
-    block.friction_work += sums.b[at];
-    block.damping_work += damped.a[at];
-    book_depth(row, greatest_of_half(m.gap, half) * c.law(row, Law::over_length), block);
+    sums.block.touching += 1;
+    if (deeper) book_depth(row, greatest_of_half(depth, half), sums.block);
   }
   return along;
 }
@@ -186,13 +204,19 @@ inline constexpr int rows_in_cache = 16384;
 inline constexpr int least_tasks = 64, most_blocks = 16;  // of a task
 inline constexpr std::size_t most_rows_of_a_task = most_blocks * (rows_of_a_block + 1);
 
-// Calls look_at(pair, sums of its block) for all active rows, two by two. Which rows make a pair does not
-// depend on threads. Rows that are not active are apart and add nothing. `fetch(row)` and then
+// What a pair computes waits for itself, step by step, and no processor looks ahead as far as the next pair: where
+// a register holds all points of a pair, two pairs go side by side. With more registers they fill the time alone.
+inline constexpr bool two_pairs_at_once = simd::registers == 1;
+
+// Calls look_at(pair, sums of its block) for all active rows, two by two; look_at_two(pair, pair, sums), where it is
+// given and pays, for two pairs. Which rows make a pair does not depend on threads. Rows that are not active are apart and add nothing. `fetch(row)` and then
 // `fetch_other(row)`, which may use what the first has asked for, come some rows before; a task has several
 // blocks, so that the first rows of the next are asked for while the last of one are looked at.
-template <class At, class Active, class Fetch, class FetchOther, class LookAt>
+template <class At, class Active, class Fetch, class FetchOther, class LookAt,
+          class LookAtTwo = std::nullptr_t>
 void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, const Fetch& fetch,
-                      const FetchOther& fetch_other, const LookAt& look_at) {
+                      const FetchOther& fetch_other, const LookAt& look_at,
+                      const LookAtTwo& look_at_two = {}) {
   constexpr std::size_t rows_before = 24, rows_before_other = 12;
   const bool from_memory = rows > rows_in_cache;
   const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
@@ -228,15 +252,19 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
     for (std::size_t i = 0; i < rows_before_other; ++i) ask_other(i);
     std::size_t i = 0;
     for (int block = first; block < last; ++block) {
-      BlockSums sum;
-      for (; i < end[static_cast<std::size_t>(block - first)]; i += 2) {
+      LaneSums sum;
+      const std::size_t stop = end[static_cast<std::size_t>(block - first)];
+      const auto pair = [&](std::size_t at) {
         for (std::size_t k = 0; k < 2; ++k) {
-          ask(i + k + rows_before);
-          ask_other(i + k + rows_before_other);
+          ask(at + k + rows_before);
+          ask_other(at + k + rows_before_other);
         }
-        look_at(RowPair<At>{Row<At>(found[i]), Row<At>(found[i + 1])}, sum);
-      }
-      sums.blocks[static_cast<std::size_t>(block)] = sum;
+        return RowPair<At>{Row<At>(found[at]), Row<At>(found[at + 1])};
+      };
+      if constexpr (two_pairs_at_once && !std::is_null_pointer_v<LookAtTwo>)
+        for (; i + 4 <= stop; i += 4) look_at_two(pair(i), pair(i + 2), sum);
+      for (; i < stop; i += 2) look_at(pair(i), sum);
+      sums.blocks[static_cast<std::size_t>(block)] = sum.added_up();
     }
   });
 }

@@ -54,7 +54,10 @@ struct CurveLanes {
   kernels::Cubic<Lane> x, y;
 };
 
-CurveLanes gather(const OtherCurves& other, const double* points, const Indices& edge) {
+// Functions of one pair of rows that are inline in the loop over all: what they pass stays in registers then.
+[[gnu::always_inline, gnu::flatten]] inline CurveLanes gather(const OtherCurves& other,
+                                                              const double* points,
+                                                              const Indices& edge) {
   const std::array<const double*, 2> outline{points + 2 * other.first[0],
                                              points + 2 * other.first[1]};
   std::array<const double*, lanes> control;
@@ -93,51 +96,47 @@ unsigned cross_edges(const Bodies& bodies, const OtherCurves& other, const Lane&
   return stay;
 }
 
-constexpr int most_steps = 40;
+constexpr int most_steps = 41;
 // Of an edge. A Newton step that short leaves about its square, and the gap is exact to the square of that. (With 1e-5
 // the normals carry so much round-off on that micrometres and metres part by more than 1e-9; docs/performance.md.)
 constexpr double step_tolerance = 2e-6;
 
-// Where the points stand against the curves. `beyond`: closest to a corner, from outside its edge.
+// Where the points of a pair of rows stand against the other curves. `beyond`: closest to a corner, from outside
+// its edge.
 struct Closest {
+  OtherCurves other;
+  PointLanes points;
   LaneEdges at;
   CurveLanes curve;
   Lane rx, ry;  // from the curve to the point, m
-  unsigned beyond = 0;
+  unsigned beyond = 0, done = 0;
+
+  [[gnu::always_inline]] void offset() {
+    rx = points.x - curve.x.value(at.u);
+    ry = points.y - curve.y.value(at.u);
+  }
+  // Every lane stops by itself, so that no point depends on the others.
+  [[gnu::always_inline]] void step(const Bodies& bodies) {
+    offset();
+    const Lane way = kernels::closest_point_step(rx, ry, curve.x.slope(at.u), curve.y.slope(at.u),
+                                                 curve.x.curvature(at.u), curve.y.curvature(at.u));
+    const Lane du = min(max(way, -1.0), 1.0);
+    const Lane before = at.u;
+    at.u = select(LaneMask::of(done), before, before + du);
+    done |= (abs(du) < step_tolerance).bits();
+    if (any((at.u < 0.0) | (at.u > 1.0))) cross(bodies, before);
+  }
+  // Seldom: out of the way of the steps.
+  [[gnu::noinline]] void cross(const Bodies& bodies, const Lane& before) {
+    beyond |= cross_edges(bodies, other, before, at);
+    done |= beyond;
+    curve = gather(other, other.position, at.edge);
+  }
 };
 
-// Every lane stops by itself, so that no point depends on the others.
-[[gnu::flatten]] Closest closest_points(const Bodies& bodies, const OtherCurves& other,
-                                        const PointLanes& points, const LaneEdges& start) {
-  Closest c;
-  c.at = start;
-  c.curve = gather(other, other.position, c.at.edge);
-  unsigned done = 0;
-  for (int step = 0;; ++step) {
-    c.rx = points.x - c.curve.x.value(c.at.u);
-    c.ry = points.y - c.curve.y.value(c.at.u);
-    const Lane way =
-        kernels::closest_point_step(c.rx, c.ry, c.curve.x.slope(c.at.u), c.curve.y.slope(c.at.u),
-                                    c.curve.x.curvature(c.at.u), c.curve.y.curvature(c.at.u));
-    const Lane du = min(max(way, -1.0), 1.0);
-    const Lane before = c.at.u;
-    c.at.u = select(LaneMask::of(done), before, before + du);
-    done |= (abs(du) < step_tolerance).bits();
-    if (any((c.at.u < 0.0) | (c.at.u > 1.0))) {
-      c.beyond |= cross_edges(bodies, other, before, c.at);
-      done |= c.beyond;
-      c.curve = gather(other, other.position, c.at.edge);
-    }
-    if (done == all_lanes || step == most_steps) break;
-  }
-  c.rx = points.x - c.curve.x.value(c.at.u);
-  c.ry = points.y - c.curve.y.value(c.at.u);
-  return c;
-}
-
 // How the points move against the curves; both rates vanish in a common rigid motion.
-[[gnu::flatten]] RowMotion row_motion(const OtherCurves& other, const Closest& c,
-                                      const PointLanes& velocity) {
+[[gnu::always_inline, gnu::flatten]] inline RowMotion row_motion(const Closest& c,
+                                                                 const PointLanes& velocity) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
   const Lane over_length = 1.0 / sqrt(fma(sx, sx, sy * sy));
   RowMotion m;
@@ -145,8 +144,8 @@ struct Closest {
   m.nx = sy * over_length;
   m.ny = -sx * over_length;
   m.gap = -fma(c.rx, m.nx, c.ry * m.ny);
-  if (other.velocity != nullptr) {
-    const CurveLanes v = gather(other, other.velocity, c.at.edge);
+  if (c.other.velocity != nullptr) {
+    const CurveLanes v = gather(c.other, c.other.velocity, c.at.edge);
     const Lane wx = velocity.x - v.x.value(c.at.u), wy = velocity.y - v.y.value(c.at.u);
     const Lane turn = fma(v.x.slope(c.at.u), m.nx, v.y.slope(c.at.u) * m.ny) * over_length;
     m.gap_rate = -fma(wx, m.nx, wy * m.ny);
@@ -198,23 +197,34 @@ void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
   const double* rates = velocity ? velocity->values().data() : nullptr;
   const auto number = [](std::int32_t control) { return static_cast<std::size_t>(control); };
 
-  const auto look_at = [&](const RowPair<Contact>& rows, BlockSums& block) {
-    const OtherCurves other{{pair(rows[0], 2), pair(rows[1], 2)},
-                            {number(place(rows[0], 1)), number(place(rows[1], 1))},
-                            points,
-                            rates};
-    const std::array<std::size_t, 2> own{2 * number(place(rows[0], 0)),
-                                         2 * number(place(rows[1], 0))};
-    const PointLanes at = edge_points_at(points + own[0], points + own[1]);
-    const Closest c = closest_points(*bodies, other, at, unpack(at_points(closest, rows)));
+  const auto begin = [&](const RowPair<Contact>& rows) __attribute__((always_inline)) {
+    Closest c;
+    c.other = {{pair(rows[0], 2), pair(rows[1], 2)},
+               {number(place(rows[0], 1)), number(place(rows[1], 1))},
+               points,
+               rates};
+    c.points = edge_points_at(points + 2 * number(place(rows[0], 0)),
+                              points + 2 * number(place(rows[1], 0)));
+    c.at = unpack(at_points(closest, rows));
+    c.curve = gather(c.other, points, c.at.edge);
+    return c;
+  };
+  const auto motion_at = [&](const RowPair<Contact>& rows, Closest& c)
+      __attribute__((always_inline)) {
+    c.offset();
     const Lane found = pack(c.at);
     for (int i = 0; i < 2; ++i) store_half(found, i, &closest(rows[static_cast<std::size_t>(i)]));
-
-    const PointLanes speed =
-        rates != nullptr ? edge_points_at(rates + own[0], rates + own[1]) : PointLanes{};
-    RowMotion motion = row_motion(other, c, speed);
+    const PointLanes speed = rates != nullptr
+                                 ? edge_points_at(rates + 2 * number(place(rows[0], 0)),
+                                                  rates + 2 * number(place(rows[1], 0)))
+                                 : PointLanes{};
+    RowMotion motion = row_motion(c, speed);
     // Past a corner: outside the other body.
     motion.gap = select(LaneMask::of(c.beyond), -1.0, motion.gap);
+    return motion;
+  };
+  const auto act = [&](const RowPair<Contact>& rows, const Closest& c, RowMotion& motion,
+                       LaneSums& sum) __attribute__((always_inline)) {
     unsigned touching = 0;
     for (int i = 0; i < rows_in(rows); ++i) {
       const Row<Contact> row = rows[static_cast<std::size_t>(i)];
@@ -230,8 +240,25 @@ void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
       }
     }
     if (touching == 0) return;
-    const Lane along = set_touching(columns, rows, touching, motion, 0.5, clock->dt_before, block);
+    const Lane along = set_touching(columns, rows, touching, motion, 0.5, clock->dt_before, sum);
     if (couple) set_couple(motion, along, touching, rows, *couple);
+  };
+  const auto look_at = [&](const RowPair<Contact>& rows, LaneSums& sum) {
+    Closest c = begin(rows);
+    for (int step = 0; c.done != all_lanes && step < most_steps; ++step) c.step(*bodies);
+    RowMotion motion = motion_at(rows, c);
+    act(rows, c, motion, sum);
+  };
+  const auto look_at_two = [&](const RowPair<Contact>& a, const RowPair<Contact>& b,
+                               LaneSums& sum) {
+    Closest to_a = begin(a), to_b = begin(b);
+    for (int step = 0; (to_a.done & to_b.done) != all_lanes && step < most_steps; ++step) {
+      to_a.step(*bodies);
+      to_b.step(*bodies);
+    }
+    RowMotion of_a = motion_at(a, to_a), of_b = motion_at(b, to_b);
+    act(a, to_a, of_a, sum);
+    act(b, to_b, of_b, sum);
   };
   for_active_pairs<Contact>(
       pair.rows(), *sums, [&](Row<Contact> row) { return clock->travel >= reach(row); },
@@ -253,7 +280,7 @@ void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
           }
         }
       },
-      look_at);
+      look_at, look_at_two);
 }
 
 }  // namespace pulvis

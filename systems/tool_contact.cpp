@@ -43,7 +43,7 @@ void tool_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
     }
     return m;
   };
-  const auto look_at = [&](const RowPair<ToolContact>& rows, BlockSums& block) {
+  const auto look_at = [&](const RowPair<ToolContact>& rows, LaneSums& sum) {
     std::array<const Shape::Edge*, 2> edge;
     std::array<std::size_t, 2> first;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -78,7 +78,7 @@ void tool_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
       m.gap_rate = -(wx * m.nx + wy * m.ny);
       m.slip_rate = wy * m.nx - wx * m.ny;
     }
-    set_touching(columns, rows, touching, m, 1.0, clock->dt_before, block);
+    set_touching(columns, rows, touching, m, 1.0, clock->dt_before, sum);
   };
   for_active_pairs<ToolContact>(
       pair.rows(), *sums, [&](Row<ToolContact> row) { return clock->travel >= reach(row); },
