@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# The Debian package, unpacked somewhere else, holds a program that runs, and all that its scenes read:
+# package.sh BUILD_DIR
+set -euo pipefail
+build=$(readlink -f -- "$1")
+place=$(mktemp -d)
+trap 'rm -rf -- "$place"' EXIT
+
+cpack --config "$build/CPackConfig.cmake" -G DEB -B "$place" >"$place/log" || { cat "$place/log"; exit 1; }
+dpkg-deb -x "$place"/*.deb "$place/root"
+for library in libtbb12 libhdf5 libfcl; do
+  dpkg-deb -f "$place"/*.deb Depends | grep -q "$library" || { echo "does not depend on $library"; exit 1; }
+done
+
+usr=$place/root/usr
+ldd "$usr/bin/pulvis" | grep -q "libpulvis_core.so => $usr/bin/../lib/pulvis/" ||
+  { echo "takes another core library:"; ldd "$usr/bin/pulvis"; exit 1; }
+cd -- "$place"
+failed=0
+for scene in "$usr"/share/pulvis/scenes/{afm,basic,shear,extreme}/*.toml; do
+  "$usr/bin/pulvis" check "$scene" >"$place/log" 2>&1 || { cat "$place/log"; failed=1; }
+done
+"$usr/bin/pulvis" run "$usr/share/pulvis/scenes/compaction/unit-cell.toml" -o run --quiet
+test -s run/report.html
+test -s "$usr/share/doc/pulvis/scene.schema.json"
+exit "$failed"
