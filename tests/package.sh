@@ -8,13 +8,15 @@ trap 'rm -rf -- "$place"' EXIT
 
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$place" >"$place/log" || { cat "$place/log"; exit 1; }
 dpkg-deb -x "$place"/*.deb "$place/root"
+depends=$(dpkg-deb -f "$place"/*.deb Depends)
 for library in libtbb12 libhdf5 libfcl; do
-  dpkg-deb -f "$place"/*.deb Depends | grep -q "$library" || { echo "does not depend on $library"; exit 1; }
+  [[ $depends == *$library* ]] || { echo "does not depend on $library"; exit 1; }
 done
 
 usr=$place/root/usr
-ldd "$usr/bin/pulvis" | grep -q "libpulvis_core.so => $usr/bin/../lib/pulvis/" ||
-  { echo "takes another core library:"; ldd "$usr/bin/pulvis"; exit 1; }
+libraries=$(ldd "$usr/bin/pulvis")
+[[ $libraries == *"libpulvis_core.so => $usr/bin/../lib/pulvis/"* ]] ||
+  { echo "takes another core library:"; echo "$libraries"; exit 1; }
 cd -- "$place"
 failed=0
 for scene in "$usr"/share/pulvis/scenes/{afm,basic,shear,extreme}/*.toml; do
