@@ -12,8 +12,8 @@ namespace {
 // x and y of four control points, as they lie in memory.
 using ControlForce = Lane;
 
-// The edges, by their first control point, that bear a force on some particle of the chunk. The others are
-// passed over: their forces stay zero from step to step.
+// The edges, by their first control point, that bear a force on some particle of the chunk. The others are passed
+// over: their forces are zero, since to_nodes clears what it has read and nobody else writes them.
 using Touched = std::vector<std::uint8_t>;
 
 // N_a(u) for a = 0..3, each of them for x and for y, as polynomials of u.

@@ -209,9 +209,10 @@ inline constexpr std::size_t most_rows_of_a_task = most_blocks * (rows_of_a_bloc
 inline constexpr bool two_pairs_at_once = simd::registers == 1;
 
 // Calls look_at(pair, sums of its block) for all active rows, two by two; look_at_two(pair, pair, sums), where it is
-// given and pays, for two pairs. Which rows make a pair does not depend on threads. Rows that are not active are apart and add nothing. `fetch(row)` and then
-// `fetch_other(row)`, which may use what the first has asked for, come some rows before; a task has several
-// blocks, so that the first rows of the next are asked for while the last of one are looked at.
+// given and pays, for two pairs. Which rows make a pair does not depend on threads. Rows that are not active are
+// apart and add nothing. `fetch(row)` and then `fetch_other(row)`, which may use what the first has asked for, come
+// some rows before; a task has several blocks, so that the first rows of the next are asked for while the last of
+// one are looked at.
 template <class At, class Active, class Fetch, class FetchOther, class LookAt,
           class LookAtTwo = std::nullptr_t>
 void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, const Fetch& fetch,
