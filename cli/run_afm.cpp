@@ -21,6 +21,7 @@
 #include "scenes/afm_scene.hpp"
 #include "scenes/afm_simulation.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/state_hash.hpp"
 #include "systems/run_failure.hpp"
 
 namespace pulvis {
@@ -244,6 +245,7 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
   report.elements = simulation.model().elements;
   report.nodes = simulation.model().nodes;
   report.increments = history.rows.empty() ? 0 : history.rows.size() - 1;
+  report.state_hash = state_hash_text(simulation.world());
   report.threads = threads;
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -83,6 +83,7 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
             {"elements", report.elements},
             {"nodes", report.nodes},
             {"increments", report.increments},
+            {"state_hash", report.state_hash},
             {"calibration", calibration_json(report.calibration)}};
   for (const FrictionLoop& loop : report.loops) json["loops"].push_back(loop_json(loop));
   if (report.wedge)

@@ -20,7 +20,7 @@ struct AfmReport {
   std::size_t elements = 0, nodes = 0, increments = 0;
   int threads = 1;
   double wall_seconds = 0;
-  std::string outcome;
+  std::string outcome, state_hash;
 };
 
 std::string afm_summary(const LoadedScene& loaded, const AfmReport& report);

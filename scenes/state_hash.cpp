@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "components/contact.hpp"
+#include "components/probe.hpp"
 #include "components/run_state.hpp"
+#include "components/solid.hpp"
 #include "engine/fnv1a.hpp"
 
 namespace pulvis {
@@ -86,9 +88,32 @@ class StateHash {
   std::uint64_t hash_ = fnv1a_start;
 };
 
+// Of a column that has no lanes: its rows stand in the order of the mesh.
+template <class C>
+void add_column(const World& world, std::uint64_t& hash) {
+  if (!world.has<C>()) return;
+  const Column<C>& column = world.column<C>();
+  hash = fnv1a_words(std::span(column.data(), column.bytes()), hash);
+}
+
+std::uint64_t solid_hash(const World& world) {
+  std::uint64_t hash = fnv1a_start;
+  add_column<Displacement>(world, hash);
+  add_column<AppliedForce>(world, hash);
+  add_column<SolidMemory>(world, hash);
+  add_column<ProbeForce>(world, hash);
+  add_column<ProbeMemory>(world, hash);
+  // Target, and the stiffness that the factors were made from: they may serve the next increment again.
+  for (const World::SavedResource& resource : world.saved_resources())
+    hash = fnv1a(resource.state(), hash);
+  return hash;
+}
+
 }  // namespace
 
-std::uint64_t state_hash(const World& world) { return StateHash(world).value(); }
+std::uint64_t state_hash(const World& world) {
+  return world.has<SolidMesh>() ? solid_hash(world) : StateHash(world).value();
+}
 
 std::string state_hash_text(const World& world) {
   return fmt::format("{:016x}", state_hash(world));

@@ -13,6 +13,8 @@ namespace pulvis {
 // the scene; and over the edges that touch, with their elastic slip, in the order of their particles'
 // numbers. Chunks, lanes, threads and contact rows that do not touch have no part in it, nor have columns
 // that a step makes anew from these.
+// Of a solid (AFM), which has no clock: over the displacements, loads and plastic state that an increment begins
+// with, the forces and memory of the probe's points, and the resources that a checkpoint keeps.
 std::uint64_t state_hash(const World& world);
 
 // As files write it: 16 hexadecimal digits.

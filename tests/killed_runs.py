@@ -65,7 +65,7 @@ def frames_seen(folder):
 
 def everything_in(folder):
     found = {"history.csv": (folder / "history.csv").read_bytes(),
-             "state": json.loads((folder / "summary.json").read_text()).get("state_hash")}
+             "state": json.loads((folder / "summary.json").read_text())["state_hash"]}
     with h5py.File(folder / "run.h5", "r") as file:
         for group in ("frames", "history"):
             file[group].visititems(

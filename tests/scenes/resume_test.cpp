@@ -39,10 +39,11 @@ class ResumeTest : public ProgramTest {
   };
 
   Left left_in(const std::string& folder) const {
-    Left left{
-        text_of(place / folder / "history.csv"), text_of(place / folder / "run.xdmf"), "", {}};
     const auto summary = nlohmann::json::parse(text_of(place / folder / "summary.json"));
-    if (summary.contains("state_hash")) left.state_hash = summary["state_hash"];
+    Left left{text_of(place / folder / "history.csv"),
+              text_of(place / folder / "run.xdmf"),
+              summary.at("state_hash"),
+              {}};
     const auto file = hdf5::File::open(place / folder / "run.h5");
     for (const std::string group : {"/history", "/frames"})
       for (const std::string& name : file.datasets_below(group)) {
