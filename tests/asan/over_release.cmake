@@ -1,0 +1,34 @@
+# Memory and undefined behaviour: the core library and the readers that take bytes apart are built with the address
+# and undefined-behaviour sanitizers, everything else comes from the other build. Whatever memory the programs hand to
+# the library is watched too, since the sanitizer gives it out.
+# (Not the tests that run Python, whose own leaks would be reported, nor one that asks for an exit code: leave.cpp.)
+add_borrowed_tests(memory asan engine ${PULVIS_PROGRAMS_OF}/tests/test_engine
+                   --gtest_filter=-RecorderTest.WritesAnXdmf*:RecorderTest.TurnsAFullDisk*)
+add_borrowed_tests(memory asan systems ${PULVIS_PROGRAMS_OF}/tests/test_systems --gtest_filter=BroadPhase.*:Contact.*)
+
+set(readers csv_table document document_guard gmsh_file gmsh_solid lab_record meshed_lever meshed_tip override
+            packing_file points_file profile_file scene_text table_reader target_shape wedge_records)
+list(TRANSFORM readers REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/scenes/\\1.cpp")
+# These objects come before the archive, which then gives only the rest.
+add_executable(replay_over_release fuzz/replay.cpp fuzz/targets.cpp ${readers})
+target_link_libraries(replay_over_release PRIVATE ${PULVIS_PROGRAMS_OF}/scenes/libpulvis_scenes.a pulvis_core
+                      PkgConfig::tomlplusplus fcl nlohmann_json::nlohmann_json ${UDUNITS2})
+precompile(replay_over_release)
+add_test(NAME memory.readers COMMAND replay_over_release ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus)
+set_tests_properties(memory.readers PROPERTIES LABELS memory TIMEOUT ${PULVIS_TEST_TIMEOUT})
+
+# That a report fails a test, in such a mixture too.
+add_library(told SHARED asan/told_library.cpp)
+target_link_libraries(told PRIVATE pulvis_rules)
+add_executable(test_told asan/told_test.cpp)
+target_compile_options(test_told PRIVATE -fno-sanitize=all)
+target_link_options(test_told PRIVATE -fno-sanitize=all)
+target_link_libraries(test_told PRIVATE pulvis_rules told)
+add_borrowed(memory told-right asan $<TARGET_FILE:test_told> right)
+function(add_told mode report)
+  add_borrowed(memory told-${mode} asan ${CMAKE_CURRENT_SOURCE_DIR}/asan/told.sh ${report} $<TARGET_FILE:test_told> ${mode})
+endfunction()
+add_told(beyond-end "AddressSanitizer: heap-buffer-overflow")
+add_told(after-free "AddressSanitizer: heap-use-after-free")
+add_told(leak "LeakSanitizer: detected memory leaks")
+add_told(overflow "runtime error: signed integer overflow")
