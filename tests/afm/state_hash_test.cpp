@@ -2,13 +2,14 @@
 #include "scenes/state_hash.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <cstdint>
 #include <span>
 
 #include "components/probe.hpp"
 #include "components/solid.hpp"
 #include "systems/solid_equations.hpp"
 #include "tests/afm/afm_run.hpp"
+#include "tests/scenes/last_bit.hpp"
 
 namespace pulvis {
 namespace {
@@ -49,16 +50,7 @@ class SolidStateHashOf : public ::testing::Test {
   SolidStateHashOf() : scene(loop(0.1, soft)), simulation(scene) { history_of(simulation); }
   World& world() { return simulation.world(); }
 
-  // Whether the last bit of `value` counts.
-  bool sees(double& value) {
-    const std::uint64_t before = state_hash(world());
-    const double kept = value;
-    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1U);
-    const bool seen = state_hash(world()) != before;
-    value = kept;
-    EXPECT_EQ(state_hash(world()), before);
-    return seen;
-  }
+  bool sees(double& value) { return last_bit_counts(world(), value); }
   template <class C>
   bool sees_ends() {
     Column<C>& column = world().column<C>();

@@ -4,10 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
+#include <cstdint>
 
 #include "scenes/place.hpp"
 #include "tests/scenes/experiment.hpp"
+#include "tests/scenes/last_bit.hpp"
 
 namespace pulvis {
 namespace {
@@ -59,16 +60,7 @@ class StateHashOf : public ::testing::Test {
   StateHashOf() : simulation(fast_scene()) { simulation.run_steps(400); }
   World& world() { return simulation.world(); }
 
-  // Whether the last bit of `value` counts.
-  bool sees(double& value) {
-    const std::uint64_t before = state_hash(world());
-    const double kept = value;
-    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1U);
-    const bool seen = state_hash(world()) != before;
-    value = kept;
-    EXPECT_EQ(state_hash(world()), before);
-    return seen;
-  }
+  bool sees(double& value) { return last_bit_counts(world(), value); }
   // Of the first and the last number of a particle in a laned column.
   template <class C>
   std::array<bool, 2> sees_ends(int slot) {
