@@ -8,6 +8,7 @@
 #include "scenes/afm_scene.hpp"
 #include "scenes/afm_simulation.hpp"
 #include "scenes/read.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 
@@ -67,7 +68,7 @@ inline Calibration calibration_of(const std::string& text,
 }
 
 inline Scene shipped_afm(const std::string& file, const std::vector<std::string>& overrides = {}) {
-  return read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/afm/" + file, overrides);
+  return read_scene(paths::source_dir() + "/scenes/afm/" + file, overrides);
 }
 
 }  // namespace pulvis

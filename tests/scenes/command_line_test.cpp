@@ -13,6 +13,7 @@
 
 #include "engine/hdf5.hpp"
 #include "program.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -179,7 +180,7 @@ TEST_F(CommandLine, CheckCountsWhatIsThereAndWritesNothing) {
 
 TEST_F(CommandLine, CheckPrintsTheSceneLanguage) {
   EXPECT_EQ(pulvis({"check", "--reference", "text"}).out,
-            text_of(std::string(PULVIS_SOURCE_DIR) + "/docs/scene.md"));
+            text_of(paths::source_dir() + "/docs/scene.md"));
   EXPECT_TRUE(nlohmann::json::parse(pulvis({"check", "--reference", "schema"}).out).is_object());
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "scenes/state_hash.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -105,7 +106,7 @@ TEST(ContactNetwork, ChangesTheMomentumOfEveryParticle) {
 
 // Held, with damping enough for it to come to rest: the forces on each particle cancel.
 TEST(ContactNetwork, IsInEquilibriumAtRest) {
-  Scene scene = read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/compaction/regular-25.toml",
+  Scene scene = read_scene(paths::source_dir() + "/scenes/compaction/regular-25.toml",
                            with(pressed, {"contact.damping=0.5"}));
   scene.stages.emplace_back().duration = 2e-3;
   Experiment e(std::move(scene));
@@ -135,7 +136,7 @@ TEST(ContactNetwork, OfASquareMatrixHasFourNeighboursInTwoDirections) {
 // The right wall comes in, too, that the neighbours beside stay in touch.
 TEST(ContactNetwork, OfAHexagonalPackingHasSixNeighboursInThreeDirections) {
   Scene scene = read_scene(
-      PULVIS_SOURCE_DIR "/scenes/compaction/hexagonal-1683.toml",
+      paths::source_dir() + "/scenes/compaction/hexagonal-1683.toml",
       {"packing[0].rows=7", "packing[0].columns=6", "tool.right.point=[\"60 mm\", \"0 mm\"]",
        "tool.top.point=[\"0 mm\", \"61.961524228 mm\"]", "stage.press.duration=0.8 ms",
        "stage.press.move[0].displacement=[\"0 mm\", \"-1 mm\"]", "contact.friction=0",

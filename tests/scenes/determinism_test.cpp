@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/hdf5.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -109,7 +110,7 @@ class ProgramDeterminism : public ::testing::Test {
   void TearDown() override { fs::remove_all(place); }
 
   hdf5::File run(const std::string& name, int threads) const {
-    std::string command = std::string("'") + PULVIS_PROGRAM + "' run '" + PULVIS_SOURCE_DIR +
+    std::string command = std::string("'") + paths::program() + "' run '" + paths::source_dir() +
                           "/scenes/compaction/regular-25.toml' -o '" + (place / name).string() +
                           "' --set output.frames=4 --set output.samples=40 --threads " +
                           std::to_string(threads);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 // Scenes of a folder below scenes/, without those that take minutes.
 std::vector<std::string> fast_scenes(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(PULVIS_SOURCE_DIR "/scenes/" + folder)) {
+  for (const auto& entry : fs::directory_iterator(paths::source_dir() + "/scenes/" + folder)) {
     const std::string name = entry.path().stem().string();
     if (entry.path().extension() == ".toml" && name.find("slow") == std::string::npos &&
         name != "raster")
@@ -34,7 +35,7 @@ void run_scene(const std::string& scene, const std::string& options) {
   fs::create_directories(place);
   const std::string at = place.string();
   const int status =
-      std::system(("'" PULVIS_PROGRAM "' run '" PULVIS_SOURCE_DIR "/scenes/" + scene +
+      std::system(("'" + paths::program() + "' run '" + paths::source_dir() + "/scenes/" + scene +
                    ".toml' --threads 1 " + options + " -o '" + at + "/run' > '" + at + "/out' 2>&1")
                       .c_str());
   std::ostringstream printed;

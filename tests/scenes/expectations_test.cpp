@@ -14,6 +14,7 @@
 
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -132,8 +133,8 @@ class Program : public testing::Test {
   int run(const std::string& text, const std::string& more = "") {
     std::ofstream(place / "scene.toml") << text;
     const std::string at = place.string();
-    const int status = std::system(("'" PULVIS_PROGRAM "' run '" + at + "/scene.toml' -o '" + at +
-                                    "/run' --overwrite --threads 1 " + more + " > '" + at +
+    const int status = std::system(("'" + paths::program() + "' run '" + at + "/scene.toml' -o '" +
+                                    at + "/run' --overwrite --threads 1 " + more + " > '" + at +
                                     "/out' 2> '" + at + "/err'")
                                        .c_str());
     std::ostringstream printed;

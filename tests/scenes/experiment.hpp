@@ -11,6 +11,7 @@
 #include "scenes/results.hpp"
 #include "scenes/simulation.hpp"
 #include "systems/contact_kernel.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 
@@ -18,8 +19,7 @@ class Experiment {
  public:
   explicit Experiment(const std::string& scene_file, const std::vector<std::string>& overrides = {},
                       int threads = 1)
-      : Experiment(read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/" + scene_file, overrides),
-                   threads) {}
+      : Experiment(read_scene(paths::source_dir() + "/scenes/" + scene_file, overrides), threads) {}
   explicit Experiment(Scene given, int threads = 1)
       : scene(std::move(given)), simulation(scene, threads), results(scene, simulation.world()) {}
 

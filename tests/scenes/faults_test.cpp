@@ -10,6 +10,7 @@
 #include "engine/hdf5.hpp"
 #include "program.hpp"
 #include "scenes/memory_need.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -52,8 +53,8 @@ class Faults : public ProgramTest {
   Outcome mounted(const std::string& mount, const Words& words,
                   const std::string& after = "true") const {
     std::string command = "cd '" + place.string() + "' && unshare -m sh -c '" + mount +
-                          " && { \"$@\" >out 2>err; code=$?; " + after +
-                          "; exit $code; }' sh '" PULVIS_PROGRAM "'";
+                          " && { \"$@\" >out 2>err; code=$?; " + after + "; exit $code; }' sh '" +
+                          paths::program() + "'";
     for (const std::string& word : words) command += " '" + word + "'";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), text_of(place / "out"), text_of(place / "err")};

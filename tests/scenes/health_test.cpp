@@ -11,6 +11,7 @@
 #include <regex>
 
 #include "systems/run_failure.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -204,7 +205,7 @@ nlohmann::json summary_of_a_bad_run(const std::string& limit) {
   const fs::path folder =
       fs::temp_directory_path() / ("pulvis-health-" + std::to_string(getpid()) + limit);
   const std::string command =
-      std::string("'") + PULVIS_PROGRAM + "' run '" + PULVIS_SOURCE_DIR +
+      std::string("'") + paths::program() + "' run '" + paths::source_dir() +
       "/scenes/compaction/regular-25.toml' -o '" + folder.string() +
       "' --set 'stage.press.duration=50 us' --set output.frames=10 --set output.samples=50 --set "
       "'stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]' --set limits." +

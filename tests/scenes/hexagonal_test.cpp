@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "scenes/place.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -32,7 +33,7 @@ TEST(Hexagonal, PushesBothWallsAlike) {
 }
 
 TEST(Hexagonal, TheShippedSceneHasAsManyParticlesAsItsNameSays) {
-  const Scene scene = read_scene(PULVIS_SOURCE_DIR "/scenes/compaction/hexagonal-1683.toml");
+  const Scene scene = read_scene(paths::source_dir() + "/scenes/compaction/hexagonal-1683.toml");
   EXPECT_EQ(place_bodies(scene).size(), 1683U);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -30,7 +31,7 @@ TEST(Hilbert, GoesThroughEveryCellOnceAndFromNeighbourToNeighbour) {
 // 256 discs in random order: those that touch stand near each other in memory all the same.
 TEST(MemoryOrder, NeighboursAreNearWhateverTheOrderOfTheScene) {
   Scene scene = read_scene(
-      PULVIS_SOURCE_DIR "/scenes/compaction/regular-100.toml",
+      paths::source_dir() + "/scenes/compaction/regular-100.toml",
       {"packing[0].rows=16", "packing[0].columns=16", "tool.right.point=[\"160 mm\", \"0 mm\"]",
        "tool.top.point=[\"0 mm\", \"160 mm\"]"});
   const PackingSpec packing = scene.packings[0];

@@ -1,5 +1,6 @@
 // The core library is built for several instruction sets: all of them give the same bits.
 #include "engine/instruction_set.hpp"
+#include "tests/paths.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ std::vector<std::string> variants() {
       __builtin_cpu_supports("avx512cd"))
     folders.emplace_back("glibc-hwcaps/x86-64-v4");
   std::erase_if(folders, [](const std::string& folder) {
-    return !fs::exists(fs::path(PULVIS_LIBRARIES) / folder / "libpulvis_core.so");
+    return !fs::exists(fs::path(paths::libraries()) / folder / "libpulvis_core.so");
   });
   return folders;
 }
@@ -36,10 +37,10 @@ json summary_with(const std::string& variant, const std::string& options) {
   const fs::path place = fs::temp_directory_path() / ("pulvis-variant-" + std::to_string(getpid()));
   fs::remove_all(place);
   fs::create_directories(place / "lib");
-  fs::create_symlink(fs::path(PULVIS_LIBRARIES) / variant / "libpulvis_core.so",
+  fs::create_symlink(fs::path(paths::libraries()) / variant / "libpulvis_core.so",
                      place / "lib" / "libpulvis_core.so");
-  const std::string command = "LD_LIBRARY_PATH='" + (place / "lib").string() +
-                              "' '" PULVIS_PROGRAM "' run '" PULVIS_SOURCE_DIR
+  const std::string command = "LD_LIBRARY_PATH='" + (place / "lib").string() + "' '" +
+                              paths::program() + "' run '" + paths::source_dir() +
                               "/scenes/compaction/regular-25.toml' --set "
                               "stage.press.duration=80us --threads 1 " +
                               options + " -o '" + (place / "run").string() + "' > /dev/null 2>&1";

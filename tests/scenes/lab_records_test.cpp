@@ -12,6 +12,7 @@
 
 #include "scenes/lab_simulation.hpp"
 #include "sliding_test.hpp"
+#include "tests/paths.hpp"
 #include "wrong.hpp"
 
 namespace pulvis::lab {
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const fs::path shipped = fs::path(PULVIS_SOURCE_DIR) / "scenes/lab";
+const fs::path shipped = fs::path(paths::source_dir()) / "scenes/lab";
 
 std::string text_of(const fs::path& file) {
   std::ostringstream text;
@@ -67,7 +68,7 @@ class LabRecords : public ::testing::Test {
 
   int pulvis(const std::string& arguments) const {
     const std::string command =
-        "cd '" + place.string() + "' && '" PULVIS_PROGRAM "' " + arguments + " > out 2> err";
+        "cd '" + place.string() + "' && '" + paths::program() + "' " + arguments + " > out 2> err";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -130,8 +131,8 @@ TEST_F(LabRecords, TheProgramLeavesCurvesFiguresSettingsAndAPage) {
   for (const char* name : {"reduced-run-1.csv", "curves.csv", "summary.json", "reduce.toml"})
     EXPECT_TRUE(fs::exists(place / "done" / name)) << name;
   const std::string page = text_of(place / "done/report.html");
-  EXPECT_THAT(page,
-              AllOf(HasSubstr("drawChart("), HasSubstr("id=\"record-0\""), Not(HasSubstr("<!--@"))));
+  EXPECT_THAT(
+      page, AllOf(HasSubstr("drawChart("), HasSubstr("id=\"record-0\""), Not(HasSubstr("<!--@"))));
   EXPECT_EQ(pulvis(arguments), 2);  // results are there already
   EXPECT_EQ(pulvis(arguments + " --overwrite"), 0);
   EXPECT_EQ(pulvis("reduce done/reduce.toml p.csv l.csv -o again"),
@@ -281,7 +282,7 @@ TEST_F(LabRecords, SettingsAreCheckedLikeAScene) {
 }
 
 TEST_F(LabRecords, TheReferenceOfTheSettingsIsCurrent) {
-  const fs::path docs = fs::path(PULVIS_SOURCE_DIR) / "docs";
+  const fs::path docs = fs::path(paths::source_dir()) / "docs";
   EXPECT_EQ(text_of(docs / "reduce.md"), reference());
   EXPECT_EQ(text_of(docs / "reduce.schema.json"), json_schema());
 }

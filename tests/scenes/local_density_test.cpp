@@ -7,6 +7,7 @@
 
 #include "components/observed.hpp"
 #include "scenes/die_sides.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -23,7 +24,7 @@ double sum(const std::vector<double>& values) {
 
 // The scene with its planes drawn back by half a millimetre.
 Scene with_room(const std::string& file, const std::vector<std::string>& overrides) {
-  Scene scene = read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/" + file, overrides);
+  Scene scene = read_scene(paths::source_dir() + "/scenes/" + file, overrides);
   for (ToolSpec& tool : scene.tools) tool.point -= 0.5e-3 * tool.normal;
   return scene;
 }
@@ -126,7 +127,7 @@ TEST(LocalDensity, HasTheTrueSurfaceOfAPolyline) {
 }
 
 TEST(DieSides, NeedOneToolOnEachSide) {
-  Scene scene = read_scene(PULVIS_SOURCE_DIR "/scenes/compaction/unit-cell.toml");
+  Scene scene = read_scene(paths::source_dir() + "/scenes/compaction/unit-cell.toml");
   ASSERT_TRUE(die_sides(scene));
   Scene twice = scene;
   twice.tools.push_back(twice.tools.front());

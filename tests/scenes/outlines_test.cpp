@@ -7,6 +7,7 @@
 
 #include "components/body.hpp"
 #include "experiment.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 // A shipped scene whose first particle has another outline and mesh.
 Scene with_outline(const std::string& file, const std::string& outline,
                    const std::vector<std::string>& overrides) {
-  std::ifstream stream(std::string(PULVIS_SOURCE_DIR) + "/scenes/" + file);
+  std::ifstream stream(paths::source_dir() + "/scenes/" + file);
   std::stringstream text;
   text << stream.rdbuf();
   std::string scene = text.str();

@@ -7,6 +7,7 @@
 
 #include "experiment.hpp"
 #include "scenes/rough_profile.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -70,8 +71,7 @@ const std::vector<std::string> rough{"tool.target.relief=rough", "tool.target.ra
 
 Scene flat_with(std::vector<std::string> target, const std::vector<std::string>& more = {}) {
   target.insert(target.end(), more.begin(), more.end());
-  return read_scene(
-      std::string(PULVIS_SOURCE_DIR) + "/scenes/studies/scenes/shear-regular-held.toml", target);
+  return read_scene(paths::source_dir() + "/scenes/studies/scenes/shear-regular-held.toml", target);
 }
 
 double height_at(const std::vector<Vec2>& points, double x) {
@@ -117,8 +117,7 @@ class MeasuredProfile : public testing::Test {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::path(testing::TempDir()) / (std::string("profile_") + test->name());
     std::filesystem::create_directories(folder_);
-    std::ifstream scene(std::string(PULVIS_SOURCE_DIR) +
-                        "/scenes/studies/scenes/shear-regular-held.toml");
+    std::ifstream scene(paths::source_dir() + "/scenes/studies/scenes/shear-regular-held.toml");
     std::ofstream(folder_ / "scene.toml") << scene.rdbuf();
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

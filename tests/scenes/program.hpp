@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <vector>
+#include "tests/paths.hpp"
 
 namespace pulvis {
 
@@ -51,14 +52,15 @@ class ProgramTest : public ::testing::Test {
     std::filesystem::current_path(place);
     send_to(place / "out", STDOUT_FILENO);
     send_to(place / "err", STDERR_FILENO);
+    const std::string program = paths::program();
     const std::string script = shell + "; exec \"$0\" \"$@\"";
     std::vector<char*> argv{const_cast<char*>("pulvis")};
     if (!shell.empty())
       argv = {const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(script.c_str()),
-              const_cast<char*>(PULVIS_PROGRAM)};
+              const_cast<char*>(program.c_str())};
     for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
-    execv(shell.empty() ? PULVIS_PROGRAM : "/bin/sh", argv.data());
+    execv(shell.empty() ? program.c_str() : "/bin/sh", argv.data());
     _exit(127);
   }
 
@@ -74,7 +76,7 @@ class ProgramTest : public ::testing::Test {
   }
 
   static std::string scene(const std::string& name) {
-    return std::string(PULVIS_SOURCE_DIR) + "/scenes/" + name;
+    return paths::source_dir() + "/scenes/" + name;
   }
 
   std::filesystem::path place;

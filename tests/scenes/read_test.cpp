@@ -8,13 +8,14 @@
 #include <numbers>
 
 #include "shipped_scenes.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path folder = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
+const std::filesystem::path folder = std::filesystem::path(paths::source_dir()) / "scenes";
 
 constexpr const char* smallest = R"(family = "compaction"
 [[material]]

@@ -2,6 +2,7 @@
 // To renew them: pulvis check --print-reference, or copy what the failing test found.
 #include "scenes/describe.hpp"
 #include "scenes/schema.hpp"
+#include "tests/paths.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,7 +14,7 @@ namespace pulvis {
 namespace {
 
 std::string committed(const std::string& name) {
-  std::ifstream file(std::string(PULVIS_SOURCE_DIR) + "/docs/" + name);
+  std::ifstream file(paths::source_dir() + "/docs/" + name);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/output_error.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/synthetic_run.hpp"
 
 namespace pulvis {
@@ -138,7 +139,7 @@ TEST_F(ReportTest, ShowsLocalDensitiesAndContactsOfEveryFrame) {
   EXPECT_THAT(report(), HasSubstr("id=\"frame-5-network\""));
   EXPECT_FALSE(head_of(report_of({}))["frames"].back().contains("network"));
   const std::string command =
-      std::string("'") + PULVIS_PROGRAM + "' figure '" + folder.string() + "' >/dev/null";
+      std::string("'") + paths::program() + "' figure '" + folder.string() + "' >/dev/null";
   testing::record(run, folder);
   write_report(folder);
   EXPECT_EQ(std::system(command.c_str()), 0);
@@ -184,7 +185,8 @@ TEST_F(ReportTest, StaysSmall) {
 TEST_F(ReportTest, HasFiguresForPapers) {
   testing::record({}, folder);
   const auto figure = [&](const std::string& options) {
-    const std::string program = std::string("'") + PULVIS_PROGRAM + "' figure '" + folder.string();
+    const std::string program =
+        std::string("'") + paths::program() + "' figure '" + folder.string();
     return std::system((program + "' " + options + " >/dev/null 2>&1").c_str());
   };
   EXPECT_EQ(figure(""), 0);
@@ -203,7 +205,7 @@ TEST_F(ReportTest, HasFiguresForPapers) {
 TEST_F(ReportTest, WritesPlottedSeriesAsNumbers) {
   testing::record({}, folder);
   const std::string table = (folder / "f.csv").string();
-  const std::string command = std::string("'") + PULVIS_PROGRAM + "' figure '" + folder.string() +
+  const std::string command = std::string("'") + paths::program() + "' figure '" + folder.string() +
                               "' --series tool/top/force_y --against relative_density -o " + table;
   ASSERT_EQ(std::system((command + " >/dev/null").c_str()), 0);
   std::istringstream rows(text_of(table)), history(text_of(folder / "history.csv"));

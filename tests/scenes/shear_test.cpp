@@ -10,6 +10,7 @@
 #include "right_scene.hpp"
 #include "scenes/profile.hpp"
 #include "systems/run_failure.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -138,7 +139,7 @@ const std::vector<std::string> one_in_its_die =
                          "stage.shear.move.target.displacement=[\"0.4 mm\", \"0 mm\"]"});
 
 Experiment sheared(const std::string& law) {
-  std::ifstream stream(std::string(PULVIS_SOURCE_DIR) + "/scenes/shear/flat-16.toml");
+  std::ifstream stream(paths::source_dir() + "/scenes/shear/flat-16.toml");
   std::ostringstream text;
   text << stream.rdbuf() << "[[friction]]\nbetween = [\"316L\", \"target\"]\n" << law;
   return Experiment(load_scene_text(text.str(), "shear.toml", one_in_its_die).scene);
@@ -206,7 +207,7 @@ TEST(Profile, HasTheRoughnessThatIsAskedFor) {
 }
 
 TEST(Profile, ReachesAsFarAsThePowderComesOverIt) {
-  const Scene scene = read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/shear/grooves-16.toml");
+  const Scene scene = read_scene(paths::source_dir() + "/scenes/shear/grooves-16.toml");
   const std::vector<Vec2>& points = scene.tools.at(2).points;
   // The target goes 2 mm to the right: powder of 0 to 40 mm stands over -2 to 40 mm of it.
   EXPECT_LT(points.front().x(), -2e-3);

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <vector>
+#include "tests/paths.hpp"
 
 namespace pulvis {
 
 inline std::vector<std::filesystem::path> shipped_scenes() {
-  const std::filesystem::path root = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
+  const std::filesystem::path root = std::filesystem::path(paths::source_dir()) / "scenes";
   std::vector<std::filesystem::path> scenes;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const std::filesystem::path folder = entry.path().parent_path();

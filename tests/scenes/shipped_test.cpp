@@ -6,13 +6,14 @@
 
 #include "experiment.hpp"
 #include "shipped_scenes.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
 
 // Those of studies belong to their studies, which ask for trends.
 std::vector<std::string> shipped() {
-  const std::filesystem::path root = std::filesystem::path(PULVIS_SOURCE_DIR) / "scenes";
+  const std::filesystem::path root = std::filesystem::path(paths::source_dir()) / "scenes";
   std::vector<std::string> scenes;
   for (const std::filesystem::path& file : shipped_scenes()) {
     const std::string name = std::filesystem::relative(file, root).string();

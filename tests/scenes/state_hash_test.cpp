@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "scenes/place.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 #include "tests/scenes/last_bit.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 // The punch at 25 m/s on average: the upper rows touch, slide and flow plastically.
 Scene fast_scene() {
   return read_scene(
-      PULVIS_SOURCE_DIR "/scenes/compaction/regular-25.toml",
+      paths::source_dir() + "/scenes/compaction/regular-25.toml",
       {"stage.press.duration=50 us", "stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]"});
 }
 

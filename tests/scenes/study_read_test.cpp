@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "scenes/problem.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::string shipped = std::string(PULVIS_SOURCE_DIR) + "/scenes/";
+const std::string shipped = paths::source_dir() + "/scenes/";
 const std::string matrix = "scene = \"" + shipped + "compaction/regular-25.toml\"\n";
 
 class StudyRead : public ::testing::Test {
@@ -226,7 +227,7 @@ TEST_F(StudyRead, ExpectationsThatSayNothingOrTooMuchAreRefused) {
 
 TEST_F(StudyRead, TheReferenceIsTheOneInTheDocs) {
   std::ostringstream text;
-  text << std::ifstream(std::string(PULVIS_SOURCE_DIR) + "/docs/study.md").rdbuf();
+  text << std::ifstream(paths::source_dir() + "/docs/study.md").rdbuf();
   EXPECT_EQ(study_reference(), text.str()) << "pulvis study --reference text > docs/study.md";
 }
 

@@ -9,6 +9,7 @@
 
 #include "scenes/read.hpp"
 #include "scenes/study_series.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -72,8 +73,7 @@ TEST(StudyFigure, RoughnessOfASmoothCurveIsNextToNothing) {
 class StudyVerdict : public ::testing::Test {
  protected:
   StudyVerdict() {
-    const Scene scene =
-        read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/compaction/regular-25.toml");
+    const Scene scene = read_scene(paths::source_dir() + "/scenes/compaction/regular-25.toml");
     for (const char* name : {"a", "b", "b2", "c"}) {
       StudyRun run;
       run.name = name;
@@ -165,8 +165,7 @@ TEST_F(StudyVerdict, ARunThatFailedMeetsNothing) {
 
 // Derived series, from a history that was made up.
 TEST(StudySeries, AreMadeOfTheHistory) {
-  const Scene scene =
-      read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/compaction/regular-25.toml");
+  const Scene scene = read_scene(paths::source_dir() + "/scenes/compaction/regular-25.toml");
   const History history = [](const std::string& name) -> Values {
     if (name == "tool/top/position_y") return {0.050, 0.047, 0.046};
     if (name == "tool/right/position_x") return {0.050, 0.050, 0.050};

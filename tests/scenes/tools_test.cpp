@@ -7,6 +7,7 @@
 #include "components/body.hpp"
 #include "components/surface.hpp"
 #include "experiment.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -272,7 +273,7 @@ TEST(Polyline, ThreadsDoNotChangeABit) {
 TEST(Polyline, HasNoRelativeDensity) {
   Experiment e("basic/groove-wedge.toml");
   EXPECT_FALSE(die_cell(e.scene));
-  Scene die = read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/compaction/unit-cell.toml");
+  Scene die = read_scene(paths::source_dir() + "/scenes/compaction/unit-cell.toml");
   ASSERT_TRUE(die_cell(die));
   die.tools.push_back(die.tools.front());
   die.tools.back().shape = ToolSpec::Shape::grip;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "right_scene.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -67,8 +68,7 @@ TEST(RightOutput, IsAccepted) {
 
 TEST(WrongOutput, ContactsOfAParticleThatNothingCanTouch) {
   try {
-    read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/basic/spinning-disc.toml",
-               {"output.contacts=true"});
+    read_scene(paths::source_dir() + "/scenes/basic/spinning-disc.toml", {"output.contacts=true"});
     FAIL() << "was accepted";
   } catch (const SceneError& error) {
     EXPECT_EQ(error.errors().front().key, "output.contacts");

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "systems/skin_kernel.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
 namespace pulvis {
@@ -128,7 +129,7 @@ TEST(SkinCheck, NoContactIsMissedOnAPolyline) {
 
 // ---- not for what surfaces move together --------------------------------------------------------------
 Scene flight(double apart) {
-  Scene scene = read_scene(PULVIS_SOURCE_DIR "/scenes/basic/oblique-impact.toml");
+  Scene scene = read_scene(paths::source_dir() + "/scenes/basic/oblique-impact.toml");
   for (BodySpec& body : scene.bodies) {
     body.velocity = Vec2(100, -50);
     body.angular_velocity = 0;
