@@ -25,6 +25,9 @@ std::unique_ptr<Checkpoint> newest_whole(const fs::path& folder) {
   for (const fs::path& file : files) {
     try {
       return std::make_unique<Checkpoint>(file);
+    } catch (const OtherFormat& other) {
+      throw CannotResume(
+          fmt::format("{}: cannot resume: {}: {}", folder.string(), file.string(), other.what()));
     } catch (const DamagedCheckpoint& damage) {
       fmt::print(stderr, "pulvis: {} is damaged: {}\n", file.string(), damage.what());
     }

@@ -12,8 +12,8 @@
 #include <set>
 
 #include "engine/file_descriptor.hpp"
-#include "engine/fnv1a.hpp"
 #include "engine/output_error.hpp"
+#include "engine/xxh3.hpp"
 
 namespace pulvis {
 namespace {
@@ -29,30 +29,37 @@ using Head = std::array<char, head_bytes>;
 }
 
 struct Content {
-  std::uint64_t bytes = 0, checksum = fnv1a_start;
+  std::uint64_t bytes = 0, checksum = 0;
 };
 
 // Of all that follows the head.
 Content content_of(const FileDescriptor& file, const fs::path& path) {
   std::vector<std::byte> piece(std::size_t{1} << 20);
+  Xxh3 checksum;
   Content content;
   while (true) {
     const ssize_t got = pread(file.get(), piece.data(), piece.size(),
                               static_cast<off_t>(head_bytes + content.bytes));
     if (got < 0) fail(path, "read the checkpoint");
-    if (got == 0) return content;
+    if (got == 0) break;
     content.bytes += static_cast<std::uint64_t>(got);
-    content.checksum =
-        fnv1a_words(std::span(piece).first(static_cast<std::size_t>(got)), content.checksum);
+    checksum.add(std::span(piece).first(static_cast<std::size_t>(got)));
   }
+  content.checksum = checksum.value();
+  return content;
 }
 
 Head head_of(const Content& content) {
   Head head{};
-  const std::string text = fmt::format("pulvis checkpoint 1\nbytes {}\nfnv1a of words {:016x}\n",
-                                       content.bytes, content.checksum);
+  const std::string text =
+      fmt::format("pulvis checkpoint 2\nbytes {}\nxxh3 {:016x}\n", content.bytes, content.checksum);
   std::ranges::copy(text, head.begin());
   return head;
+}
+
+bool is_of_format_1(const Head& head) {
+  const std::string_view text(head.data(), head.size());
+  return text.starts_with("pulvis checkpoint 1\n") && text.find("\nfnv1a of words ") != text.npos;
 }
 
 void sign(const fs::path& path) {
@@ -70,6 +77,8 @@ hdf5::File verified(const fs::path& path) {
   Head head{};
   if (pread(file.get(), head.data(), head.size(), 0) != static_cast<ssize_t>(head.size()))
     throw DamagedCheckpoint("it is cut short");
+  if (is_of_format_1(head))
+    throw OtherFormat("an older pulvis wrote it, in format 1; allowed: format 2");
   const Content content = content_of(file, path);
   if (head != head_of(content))
     throw DamagedCheckpoint(

@@ -1,7 +1,7 @@
 // Checkpoints: the whole state of a run in one file, from which it goes on as if it had never stopped.
 //
 // <folder>/checkpoint-000000001234.h5, the number is the step:
-//   512 bytes of text       "pulvis checkpoint", size and checksum of all that follows (HDF5's user block)
+//   512 bytes of text       "pulvis checkpoint", size and XXH3 of all that follows (HDF5's user block)
 //   /                       version, commit, scene_hash, step, time
 //   /columns/<place>/<name> bytes of every column that is not transient
 //   /resources/<name>       bytes of every resource that is not fixed
@@ -43,6 +43,12 @@ void remove_checkpoints(const std::filesystem::path& folder);
 class DamagedCheckpoint : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// An earlier version of the program wrote it.
+class OtherFormat : public DamagedCheckpoint {
+ public:
+  using DamagedCheckpoint::DamagedCheckpoint;
 };
 
 class Checkpoint {

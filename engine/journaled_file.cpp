@@ -10,12 +10,12 @@
 #include <system_error>
 #include <vector>
 
-#include "engine/fnv1a.hpp"
+#include "engine/xxh3.hpp"
 
 namespace pulvis {
 namespace {
 
-constexpr std::uint64_t journal_mark = 0x31304c4e4a564c50U;  // "PLVJNL01"
+constexpr std::uint64_t journal_mark = 0x32304c4e4a564c50U;  // "PLVJNL02"
 
 void require(bool done, const char* what) {
   if (!done) throw std::system_error(errno, std::generic_category(), what);
@@ -53,7 +53,7 @@ std::uint64_t size_on_disk(int file) {
 
 }  // namespace
 
-// The journal: this, then so many times a page's number and its bytes, then the checksum of all before.
+// The journal: this, then so many times a page's number and its bytes, then the XXH3 of all before.
 struct JournalHead {
   std::uint64_t mark = journal_mark;
   std::uint64_t end = 0;   // of the bytes that pages may change
@@ -126,7 +126,7 @@ void JournaledFile::write_journal() const {
     put(std::as_bytes(std::span(&index, 1)));
     put(page);
   }
-  const std::uint64_t checksum = fnv1a_words(bytes);
+  const std::uint64_t checksum = xxh3(bytes);
   const FileDescriptor journal(
       ::open(journal_path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   require(static_cast<bool>(journal), "open the journal");
@@ -164,7 +164,7 @@ void JournaledFile::recover() {
   std::memcpy(&checksum, bytes.data() + content, sizeof checksum);
   if (head.mark != journal_mark || (content - sizeof head) % entry != 0 ||
       head.pages != (content - sizeof head) / entry ||
-      checksum != fnv1a_words(std::span(bytes).first(content)))
+      checksum != xxh3(std::span(bytes).first(content)))
     return;
   for (std::size_t at = sizeof head; at < content; at += entry) {
     std::uint64_t index = 0;

@@ -1,7 +1,7 @@
 #include "scenes/read.hpp"
 #include "scenes/afm_scene.hpp"
 
-#include "engine/fnv1a.hpp"
+#include "engine/xxh3.hpp"
 #include "scenes/accuracy.hpp"
 #include "scenes/afm_checks.hpp"
 #include "scenes/checks.hpp"
@@ -250,6 +250,6 @@ Scene read_scene_alone(const std::filesystem::path& file) {
   return load(toml_file_text(file), file).scene;
 }
 
-std::uint64_t scene_hash(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
+std::uint64_t scene_hash(const std::string& text) { return xxh3(std::as_bytes(std::span(text))); }
 
 }  // namespace pulvis

@@ -4,7 +4,7 @@
 #include <span>
 #include <sstream>
 
-#include "engine/fnv1a.hpp"
+#include "engine/xxh3.hpp"
 #include "scenes/afm_scene.hpp"
 
 namespace pulvis {
@@ -34,7 +34,7 @@ std::uint64_t hash_with_files(const Scene& scene, std::uint64_t hash) {
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream content;
     content << stream.rdbuf();
-    hash = fnv1a(std::as_bytes(std::span(content.view())), hash);
+    hash = xxh3(std::as_bytes(std::span(content.view())), hash);
   }
   return hash;
 }

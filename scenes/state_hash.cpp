@@ -10,7 +10,7 @@
 #include "components/probe.hpp"
 #include "components/run_state.hpp"
 #include "components/solid.hpp"
-#include "engine/fnv1a.hpp"
+#include "engine/xxh3.hpp"
 
 namespace pulvis {
 namespace {
@@ -26,13 +26,13 @@ class StateHash {
     for (const int slot : bodies_.slot_of_number) add_particle(slot);
     add_contacts<Contact>([this](int slot) { return number_in(slot); });
     add_contacts<ToolContact>([](int tool) { return tool; });
-    return hash_;
+    return hash_.value();
   }
 
  private:
   template <class T>
   void add(const T& value) {
-    hash_ = fnv1a(std::as_bytes(std::span(&value, 1)), hash_);
+    hash_.add(std::as_bytes(std::span(&value, 1)));
   }
 
   void add_particle(int slot) {
@@ -85,28 +85,27 @@ class StateHash {
   const World& world_;
   const Bodies& bodies_;
   const Clock& clock_;
-  std::uint64_t hash_ = fnv1a_start;
+  Xxh3 hash_;
 };
 
 // Of a column that has no lanes: its rows stand in the order of the mesh.
 template <class C>
-void add_column(const World& world, std::uint64_t& hash) {
+void add_column(const World& world, Xxh3& hash) {
   if (!world.has<C>()) return;
   const Column<C>& column = world.column<C>();
-  hash = fnv1a_words(std::span(column.data(), column.bytes()), hash);
+  hash.add(std::span(column.data(), column.bytes()));
 }
 
 std::uint64_t solid_hash(const World& world) {
-  std::uint64_t hash = fnv1a_start;
+  Xxh3 hash;
   add_column<Displacement>(world, hash);
   add_column<AppliedForce>(world, hash);
   add_column<SolidMemory>(world, hash);
   add_column<ProbeForce>(world, hash);
   add_column<ProbeMemory>(world, hash);
   // Target, and the stiffness that the factors were made from: they may serve the next increment again.
-  for (const World::SavedResource& resource : world.saved_resources())
-    hash = fnv1a(resource.state(), hash);
-  return hash;
+  for (const World::SavedResource& resource : world.saved_resources()) hash.add(resource.state());
+  return hash.value();
 }
 
 }  // namespace

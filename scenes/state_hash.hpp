@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// FNV-1a over the clock; over positions, velocities and plastic state, particle by particle in the order of
+// XXH3 over the clock; over positions, velocities and plastic state, particle by particle in the order of
 // the scene; and over the edges that touch, with their elastic slip, in the order of their particles'
 // numbers. Chunks, lanes, threads and contact rows that do not touch have no part in it, nor have columns
 // that a step makes anew from these.

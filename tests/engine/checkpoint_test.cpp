@@ -144,6 +144,47 @@ TEST_F(CheckpointTest, AFlippedByteIsRecognised) {
   EXPECT_NO_THROW(Checkpoint{file});
 }
 
+// What a sum of words lets through: the same change in two of them, two that changed places.
+TEST_F(CheckpointTest, ChangedPairsOfWordsAreRecognised) {
+  write(1);
+  const fs::path file = checkpoints_in(folder).front();
+  const std::string right = content(file);
+  const auto refused = [&](const std::string& wrong) {
+    if (wrong == right) return true;
+    std::ofstream(file, std::ios::binary) << wrong;
+    try {
+      const Checkpoint checkpoint(file);
+      return false;
+    } catch (const DamagedCheckpoint&) {
+      return true;
+    }
+  };
+  for (std::size_t a = 512; a + 8 <= right.size(); a += 328)
+    for (std::size_t b = a + 8; b + 8 <= right.size(); b += 1016) {
+      for (const int bit : {63, 62, 31, 0}) {
+        std::string wrong = right;
+        for (const std::size_t at : {a + bit / 8, b + bit / 8})
+          wrong[at] = static_cast<char>(wrong[at] ^ (1 << (bit % 8)));
+        EXPECT_TRUE(refused(wrong)) << "bit " << bit << " of the words at " << a << " and " << b;
+      }
+      std::string swapped = right, inverted = right;
+      for (std::size_t i = 0; i < 8; ++i) {
+        std::swap(swapped[a + i], swapped[b + i]);
+        inverted[a + i] = static_cast<char>(~inverted[a + i]);
+        inverted[b + i] = static_cast<char>(~inverted[b + i]);
+      }
+      EXPECT_TRUE(refused(swapped)) << "words at " << a << " and " << b;
+      EXPECT_TRUE(refused(inverted)) << "words at " << a << " and " << b;
+    }
+}
+
+TEST_F(CheckpointTest, TheFormatBeforeIsToldFromDamage) {
+  std::ofstream(folder / "checkpoint-000000000001.h5", std::ios::binary)
+      << "pulvis checkpoint 1\nbytes 6144\nfnv1a of words 4769b3d663aebcb0\n"
+      << std::string(6600, '\0');
+  EXPECT_THROW(Checkpoint{checkpoints_in(folder).front()}, OtherFormat);
+}
+
 TEST_F(CheckpointTest, AShortOrForeignFileIsRecognised) {
   write(1);
   const fs::path file = checkpoints_in(folder).front();

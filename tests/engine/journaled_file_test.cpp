@@ -125,6 +125,16 @@ TEST_F(JournaledFileTest, AJournalThatIsNotWholeIsNoCommit) {
     JournaledFile file(path, JournaledFile::Open::existing);
     EXPECT_EQ(got(file, 0, 8), "old text") << at;
   }
+  constexpr std::size_t top = 7;  // the byte of a word with its highest bit
+  for (std::size_t a = 40 + top; a + 8 < journal.size(); a += 408)
+    for (std::size_t b = a + 8; b < journal.size(); b += 1016) {
+      std::string flipped = journal;
+      for (const std::size_t at : {a, b}) flipped[at] = static_cast<char>(flipped[at] ^ 0x80);
+      std::ofstream(path, std::ios::binary) << "old text";
+      std::ofstream(folder / "file.journal", std::ios::binary) << flipped;
+      JournaledFile file(path, JournaledFile::Open::existing);
+      EXPECT_EQ(got(file, 0, 8), "old text") << a << " and " << b;
+    }
 }
 
 TEST_F(JournaledFileTest, MissingFileAndFolderAreErrors) {
