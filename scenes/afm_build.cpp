@@ -1,5 +1,7 @@
 #include "scenes/afm_build.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/afm_scene.hpp"
+#include "scenes/rotation.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -10,11 +12,6 @@
 
 namespace pulvis {
 namespace {
-
-// The lever is built flat and then turned about y: its end comes down by the chip's tilt.
-Eigen::Matrix3d tilted(double angle) {
-  return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
-}
 
 using Side = std::optional<LeverMesh::Point> (LeverMesh::*)(const Vec2& point) const;
 
@@ -51,7 +48,7 @@ std::vector<SlopeGauge> laser_spot(const Scene& scene, const LeverMesh& lever) {
   for (int i = 0; i < 8; ++i) {
     const double angle = 0.25 * std::numbers::pi * (i + 0.5), r = laser.radius / std::sqrt(2.0);
     spot.push_back(slope_at(lever, scene.afm->lever, back,
-                            middle + r * Vec2(std::cos(angle), std::sin(angle))));
+                            middle + r * Vec2(portable::cos(angle), portable::sin(angle))));
   }
   return spot;
 }
@@ -88,7 +85,8 @@ AfmModel build_afm(const Scene& scene) {
       afm.lever.solid
           ? add_meshed_lever(draft, afm.lever)
           : add_lever(draft, afm.lever, lever_plan(afm.lever, lever_foot(afm.lever, afm.tip)));
-  const Eigen::Matrix3d turn = tilted(afm.lever.tilt);
+  // Built flat, then turned: its end comes down by the chip's tilt.
+  const Eigen::Matrix3d turn = rotation_about_y(afm.lever.tilt);
   model.tip = add_tip(draft, afm.lever, lever, afm.tip, adhesive_normal(scene, turn));
   model.end = model.tip.end;
   model.contact_node = middle_node(draft, model.end);
@@ -138,8 +136,8 @@ Slopes slopes(const AfmModel& model, const std::vector<SlopeGauge>& gauges,
   for (const SlopeGauge& gauge : gauges) {
     const Vec3 along = model.axis + read(gauge.along, displacement);
     const Vec3 across = model.side + read(gauge.across, displacement);
-    mean.normal += std::atan2(along.dot(model.up), along.dot(model.axis));
-    mean.lateral += std::atan2(across.dot(model.up), across.dot(model.side));
+    mean.normal += portable::atan2(along.dot(model.up), along.dot(model.axis));
+    mean.lateral += portable::atan2(across.dot(model.up), across.dot(model.side));
   }
   const auto count = static_cast<double>(gauges.size());
   return {mean.normal / count, mean.lateral / count};

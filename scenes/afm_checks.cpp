@@ -1,4 +1,5 @@
 #include "scenes/afm_checks.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/afm_scene.hpp"
 
 #include <fmt/format.h>
@@ -76,13 +77,13 @@ class AfmChecks {
       return false;
     }
     const VOutline v = v_outline(lever_);
-    const double widest = v.apex * std::sin(v.half_angle);
+    const double widest = v.apex * portable::sin(v.half_angle);
     if (v.inner <= 0)
       refuse("lever.arm_width",
              fmt::format("{:g} m: the arms of this V grow together at the clamp, "
                          "allowed: < {:g} m",
                          lever_.arm_width, widest));
-    const double least = (v.apex - lever_.length) * std::sin(v.half_angle);
+    const double least = (v.apex - lever_.length) * portable::sin(v.half_angle);
     if (v.inner >= lever_.length)
       refuse("lever.arm_width", fmt::format("{:g} m: the arms of this V do not meet before its "
                                             "end, allowed: > {:g} m",
@@ -94,7 +95,7 @@ class AfmChecks {
     if (lever_.solid) return std::numeric_limits<double>::infinity();  // the mesh has the say
     if (lever_.shape == LeverSpec::Shape::beam) return 0.5 * lever_.width;
     const VOutline v = v_outline(lever_);
-    return (v.apex - x) * std::tan(v.half_angle);
+    return (v.apex - x) * portable::tan(v.half_angle);
   }
 
   void tip() {
@@ -155,7 +156,7 @@ class AfmChecks {
     const bool square = tip_.shape == Shape::block || tip_.shape == Shape::pyramid;
     for (int i = 0; i < 32; ++i) {
       const double angle = 2 * std::numbers::pi * (i + 0.5) / 32;
-      Vec2 off(std::cos(angle), std::sin(angle));
+      Vec2 off(portable::cos(angle), portable::sin(angle));
       if (square) off /= off.cwiseAbs().maxCoeff();
       if (!locate(plan, axis + reach * off)) return false;
     }
@@ -169,7 +170,8 @@ class AfmChecks {
     const Vec2 middle(laser.position.value_or(lever_.length - tip_.set_back), laser.offset);
     for (int i = 0; i < 8; ++i) {
       const double angle = 0.25 * std::numbers::pi * i;
-      if (locate(plan, middle + laser.radius * Vec2(std::cos(angle), std::sin(angle)))) continue;
+      if (locate(plan, middle + laser.radius * Vec2(portable::cos(angle), portable::sin(angle))))
+        continue;
       refuse("laser.position",
              fmt::format("the spot (x = {:g} m, y = {:g} m, radius {:g} m) is not on the lever, "
                          "allowed: {}",

@@ -1,4 +1,5 @@
 #include "scenes/afm_loop.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/adhesion.hpp"
 
 #include <algorithm>
@@ -13,12 +14,12 @@ namespace pulvis {
 namespace wedge {
 
 double uphill(double load, double adhesion, double mu, double slope) {
-  const double s = std::sin(slope), c = std::cos(slope);
+  const double s = portable::sin(slope), c = portable::cos(slope);
   return (load * (s + mu * c) + mu * adhesion) / (c - mu * s);
 }
 
 double downhill(double load, double adhesion, double mu, double slope) {
-  const double s = std::sin(slope), c = std::cos(slope);
+  const double s = portable::sin(slope), c = portable::cos(slope);
   return (load * (s - mu * c) - mu * adhesion) / (c + mu * s);
 }
 
@@ -113,7 +114,7 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     if (loop.full() && on_incline(target, action)) {
       loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline);
       if (loop.friction) {
-        const double s = std::sin(target.incline), c = std::cos(target.incline);
+        const double s = portable::sin(target.incline), c = portable::cos(target.incline);
         const double mu = *loop.friction;
         loop.sensitivity = mu * loop.load / (c * c - mu * mu * s * s) / loop.volts_half_width;
       }

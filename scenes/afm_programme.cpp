@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "components/probe.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/adhesion.hpp"
 #include "scenes/afm_scene.hpp"
 #include "scenes/target_shape.hpp"
@@ -237,7 +238,7 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
 void AfmProgramme::refuse_lock(const std::array<double, 3>& travel) const {
   const World& world = *model_.world;
   const Target& target = world.resource<Target>();
-  const double length = std::hypot(travel[0], travel[1]);
+  const double length = portable::hypot(travel[0], travel[1]);
   if (length == 0 || target.friction == 0) return;
   const Vec3 forward(-travel[0] / length, -travel[1] / length, 0);
   const auto& nodes = world.column<ProbeNode>();

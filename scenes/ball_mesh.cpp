@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
 #include "scenes/ball_cells.hpp"
 
 namespace pulvis {
@@ -24,7 +25,7 @@ class BallGrid {
     for (int a = 0; a < 3; ++a) {
       const double line = 2.0 * at[static_cast<std::size_t>(a)] / across_ - 1;
       inner[a] = half * line;
-      angle[a] = std::tan(0.25 * std::numbers::pi * line);
+      angle[a] = portable::tan(0.25 * std::numbers::pi * line);
     }
     const double t = static_cast<double>(at[3]) / layers_;
     const Vec3 unit = t == 0 ? inner : Vec3((1 - t) * inner + t * angle.normalized());

@@ -12,6 +12,7 @@
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/drives.hpp"
 #include "scenes/grips.hpp"
 #include "scenes/highest_mode.hpp"
@@ -257,7 +258,8 @@ void fill_bodies(World& world, const Layout& layout) {
     const Shape& shape = layout.bodies.shape_of_chunk(chunk);
     const auto first =
         static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(chunk.index)]);
-    const double c = placed ? std::cos(placed->turn) : 1, s = placed ? std::sin(placed->turn) : 0;
+    const double c = placed ? portable::cos(placed->turn) : 1,
+                 s = placed ? portable::sin(placed->turn) : 0;
     for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
       const Point p = shape.nodes[n];
       const Vec2 arm(c * p[0] - s * p[1], s * p[0] + c * p[1]);

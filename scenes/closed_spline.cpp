@@ -4,6 +4,8 @@
 #include <Eigen/SparseCore>
 #include <cmath>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -81,12 +83,12 @@ std::vector<Vec2> smoothed_points(const std::vector<Vec2>& points, double distan
   double low = -36, high = 6;  // powers of e
   for (int i = 0; i < 50; ++i) {
     const double middle = 0.5 * (low + high);
-    const Columns at = knots(std::pow(perimeter, 3) * std::exp(middle));
+    const Columns at = knots(perimeter * perimeter * perimeter * portable::exp(middle));
     const double root_mean_square =
         std::sqrt((at - given).squaredNorm() / static_cast<double>(points.size()));
     (root_mean_square < distance ? low : high) = middle;
   }
-  return points_of(knots(std::pow(perimeter, 3) * std::exp(0.5 * (low + high))));
+  return points_of(knots(perimeter * perimeter * perimeter * portable::exp(0.5 * (low + high))));
 }
 
 }  // namespace pulvis

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/portable_math.hpp"
 #include "systems/contact_kernel.hpp"
 
 namespace pulvis {
@@ -139,7 +140,7 @@ void measure_edges(Shape& shape) {
         tx += slope[a] * control[static_cast<std::size_t>(edge.first_control) + a][0];
         ty += slope[a] * control[static_cast<std::size_t>(edge.first_control) + a][1];
       }
-      edge.weight[g] = kernels::edge_w[g] * std::hypot(tx, ty);
+      edge.weight[g] = kernels::edge_w[g] * portable::hypot(tx, ty);
       edge.length += edge.weight[g];
     }
     const std::size_t element = behind[static_cast<std::size_t>(i)];

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
 #include "scenes/closed_spline.hpp"
 #include "scenes/outline_curve.hpp"
+#include "scenes/rotation.hpp"
 
 namespace pulvis {
 namespace {
@@ -23,10 +25,10 @@ Piece flat(const Vec2& from, const Vec2& to) {
 // A quarter of a superellipse over the polar angle of (x/a, y/b): smooth at its ends for any exponent > 1.
 Point on_superellipse(const SuperellipseOutline& o, int quarter, double t) {
   const double angle = pi / 2 * t, n = o.exponent;
-  const double c = std::cos(angle), s = std::sin(angle);
-  const double sum = std::pow(c, n) + std::pow(s, n);
-  const double radius = std::pow(sum, -1 / n);
-  const double slope = -radius / sum * (c * std::pow(s, n - 1) - s * std::pow(c, n - 1));
+  const double c = portable::cos(angle), s = portable::sin(angle);
+  const double sum = portable::pow(c, n) + portable::pow(s, n);
+  const double radius = portable::pow(sum, -1 / n);
+  const double slope = -radius / sum * (c * portable::pow(s, n - 1) - s * portable::pow(c, n - 1));
   Vec2 at(radius * c, radius * s), rate(slope * c - radius * s, slope * s + radius * c);
   rate *= pi / 2;
   for (int turn = 0; turn < quarter; ++turn) {
@@ -41,14 +43,13 @@ Point on_superellipse(const SuperellipseOutline& o, int quarter, double t) {
 Piece arc(const Vec2& before, const Vec2& corner, const Vec2& after, double rounding, double from,
           double to) {
   const Vec2 in = (corner - before).normalized(), out = (after - corner).normalized();
-  const double turn = std::atan2(cross(in, out), in.dot(out));
+  const double turn = portable::atan2(cross(in, out), in.dot(out));
   const double side = turn < 0 ? -1 : 1;  // the centre lies to the left of a convex corner
   const Vec2 start = corner - cut_by_rounding(before, corner, after, rounding) * in;
   const Vec2 arm(in.y() * side * rounding, -in.x() * side * rounding);  // from the centre
   const Vec2 centre = start - arm;
   return [=](double t) {
-    const Eigen::Rotation2Dd rotation(turn * (from + t * (to - from)));
-    const Vec2 here = rotation * arm;
+    const Vec2 here = rotation(turn * (from + t * (to - from))) * arm;
     return Point{centre + here, turn * (to - from) * Vec2(-here.y(), here.x())};
   };
 }
@@ -71,7 +72,7 @@ std::vector<Vec2> regular(int sides, double diameter) {
   std::vector<Vec2> corners;
   for (int i = 0; i < sides; ++i) {
     const double angle = -pi / 2 + pi / sides * (2 * i - 1);
-    corners.push_back(diameter / 2 * Vec2(std::cos(angle), std::sin(angle)));
+    corners.push_back(diameter / 2 * Vec2(portable::cos(angle), portable::sin(angle)));
   }
   return corners;
 }
@@ -86,7 +87,7 @@ std::vector<Vec2> corners_of(const PolygonOutline& polygon) {
 
 double cut_by_rounding(const Vec2& before, const Vec2& corner, const Vec2& after, double rounding) {
   const Vec2 in = (corner - before).normalized(), out = (after - corner).normalized();
-  return rounding * std::tan(0.5 * std::abs(std::atan2(cross(in, out), in.dot(out))));
+  return rounding * portable::tan(0.5 * std::abs(portable::atan2(cross(in, out), in.dot(out))));
 }
 
 OutlineCurve curve_of(const EllipseOutline& outline) {
@@ -94,7 +95,8 @@ OutlineCurve curve_of(const EllipseOutline& outline) {
   std::vector<Piece> pieces;
   for (int quarter = 0; quarter < 4; ++quarter)
     pieces.push_back([=](double t) {
-      const double angle = pi / 2 * (quarter + t), c = std::cos(angle), s = std::sin(angle);
+      const double angle = pi / 2 * (quarter + t), c = portable::cos(angle),
+                   s = portable::sin(angle);
       return Point{half.cwiseProduct(Vec2(c, s)), pi / 2 * half.cwiseProduct(Vec2(-s, c))};
     });
   return {std::move(pieces), false};

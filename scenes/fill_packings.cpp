@@ -122,7 +122,7 @@ class RandomPacking {
       BodySpec body;
       body.particle = classes_[shape];
       body.position = packing_.corner + unit_ * Vec2(at.x, at.y);
-      body.angle = portable::angle_of(pose.turn);
+      body.angle = portable::atan2(pose.turn.s, pose.turn.c);
       body.mark = packing_.mark;
       packing_.placed.push_back(body);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/portable_math.hpp"
 #include "scenes/meshed_lever.hpp"
 
 namespace pulvis {
@@ -34,7 +35,7 @@ PlanMesh beam_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
 // elements keep their shape towards a point, and finer at the foot.
 std::vector<double> apex_lines(const VOutline& v, double end, double edge, const LeverFoot& foot) {
   const double length = end - v.inner;
-  const double slope = std::tan(v.half_angle);
+  const double slope = portable::tan(v.half_angle);
   std::vector<double> lines{0};
   while (lines.back() < length) {
     const double x = v.inner + lines.back();
@@ -48,14 +49,14 @@ std::vector<double> apex_lines(const VOutline& v, double end, double edge, const
 
 PlanMesh v_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
   const VOutline v = v_outline(lever);
-  const double slope = std::tan(v.half_angle), tolerance = 1e-9 * lever.length;
+  const double slope = portable::tan(v.half_angle), tolerance = 1e-9 * lever.length;
   // A pointed lever is cut off where it is a fiftieth of an arm wide: nothing beyond carries load.
   const double end = std::min(lever.length, v.apex - 0.01 * lever.arm_width / slope);
   const Vec2 inner(v.inner, 0), outer(v.inner, (v.apex - v.inner) * slope);
   const double width = std::max((v.apex - std::min(foot.x, end)) * slope, foot.size);
   const auto across =
       shares_of(graded_lines(1, edge / lever.arm_width, foot.size / width, 0, fewest_across));
-  const double arm = v.inner / std::cos(v.half_angle);
+  const double arm = v.inner / portable::cos(v.half_angle);
   PlanMesh half;
   add_patch(half, {Vec2(0, v.inner * slope), inner, outer, Vec2(0, v.apex * slope)},
             shares_of(graded_lines(arm, edge, lever.arm_width / 8, arm, fewest_along)), across,
@@ -72,10 +73,10 @@ VOutline v_outline(const LeverSpec& lever) {
   if (lever.half_angle)
     v.half_angle = *lever.half_angle;
   else
-    v.half_angle = std::atan(0.5 * (*lever.base_width - lever.apex_width) / lever.length);
-  v.apex = lever.length + 0.5 * lever.apex_width / std::tan(v.half_angle);
-  v.inner = v.apex - lever.arm_width / std::sin(v.half_angle);
-  v.base_width = 2 * v.apex * std::tan(v.half_angle);
+    v.half_angle = portable::atan(0.5 * (*lever.base_width - lever.apex_width) / lever.length);
+  v.apex = lever.length + 0.5 * lever.apex_width / portable::tan(v.half_angle);
+  v.inner = v.apex - lever.arm_width / portable::sin(v.half_angle);
+  v.base_width = 2 * v.apex * portable::tan(v.half_angle);
   return v;
 }
 

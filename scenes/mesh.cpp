@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/portable_math.hpp"
 #include "scenes/contact_curve.hpp"
 #include "scenes/mass_shares.hpp"
 #include "scenes/mesh_outlines.hpp"
@@ -84,7 +85,8 @@ double least_corner_sine(const Shape& shape) {
       const Point& a = shape.nodes[static_cast<std::size_t>(q[(k + 1) % 4].value)];
       const Point& b = shape.nodes[static_cast<std::size_t>(q[(k + 3) % 4].value)];
       const double ax = a[0] - p[0], ay = a[1] - p[1], bx = b[0] - p[0], by = b[1] - p[1];
-      least = std::min(least, (ax * by - ay * bx) / (std::hypot(ax, ay) * std::hypot(bx, by)));
+      least = std::min(least,
+                       (ax * by - ay * bx) / (portable::hypot(ax, ay) * portable::hypot(bx, by)));
     }
   return least;
 }
@@ -95,7 +97,7 @@ double shortest_edge(const Shape& shape) {
     for (std::size_t k = 0; k < 4; ++k) {
       const Point& p = shape.nodes[static_cast<std::size_t>(q[k].value)];
       const Point& r = shape.nodes[static_cast<std::size_t>(q[(k + 1) % 4].value)];
-      least = std::min(least, std::hypot(r[0] - p[0], r[1] - p[1]));
+      least = std::min(least, portable::hypot(r[0] - p[0], r[1] - p[1]));
     }
   return least;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/portable_math.hpp"
 #include "scenes/contact_curve.hpp"
 #include "scenes/mesh_outlines.hpp"
 #include "scenes/mesh_round.hpp"
@@ -19,7 +20,7 @@ namespace {
 std::vector<double> pole_edges(int edges, double refinement) {
   std::vector<double> length;
   for (int e = 0; e < edges; ++e)
-    length.push_back(std::pow(refinement, std::abs(2 * e + 1 - edges) / double(edges) - 1));
+    length.push_back(portable::pow(refinement, std::abs(2 * e + 1 - edges) / double(edges) - 1));
   return length;
 }
 
@@ -30,7 +31,7 @@ int pole_share(int edges, double refinement) {
   for (int pole = edges / 2; pole <= std::max(edges / 2, edges - 2); ++pole) {
     const std::vector<double> length = pole_edges(pole, refinement);
     const double total = std::accumulate(length.begin(), length.end(), 0.0);
-    const double jump = std::abs(std::log((edges - pole) / total));
+    const double jump = std::abs(portable::log((edges - pole) / total));
     if (jump >= least) continue;
     least = jump;
     best = pole;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
 #include "scenes/contact_curve.hpp"
 #include "scenes/o_grid.hpp"
 #include "scenes/smooth_outline.hpp"
@@ -60,7 +61,7 @@ double frequency_bound(const std::vector<Point>& nodes, const std::vector<Quad>&
     double bound = kernels::frequency_bound(kernels::mode_spread(a, {1, 0, 1}), bulk, mu, 1.0, 0.0);
     if (e < boundary) {
       const double slope =
-          std::hypot(at(1)[0] - at(0)[0], at(1)[1] - at(0)[1]) / (4 * determinant(a));
+          portable::hypot(at(1)[0] - at(0)[0], at(1)[1] - at(0)[1]) / (4 * determinant(a));
       bound += 2 * springs * bulk * slope * slope;
     }
     highest = std::max(highest, bound);
@@ -82,7 +83,7 @@ double mean_edge(const std::vector<Point>& outline) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Point& a = outline[i];
     const Point& b = outline[(i + 1) % outline.size()];
-    perimeter += std::hypot(b[0] - a[0], b[1] - a[1]);
+    perimeter += portable::hypot(b[0] - a[0], b[1] - a[1]);
   }
   return perimeter / static_cast<double>(outline.size());
 }
@@ -126,7 +127,7 @@ std::vector<Point> best_nodes(const RoundGrid& round, const OGrid& grid,
 }  // namespace
 
 Point turned(const Point& p, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = portable::cos(angle), s = portable::sin(angle);
   return {c * p[0] - s * p[1], s * p[0] + c * p[1]};
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
 #include "scenes/mesh_outlines.hpp"
 #include "scenes/mesh_round.hpp"
 #include "scenes/o_grid.hpp"
@@ -21,7 +22,7 @@ constexpr int least_arc_edges = 4;
 std::vector<double> growing(int edges, double first, double ratio) {
   std::vector<double> length;
   for (int e = 0; e < edges; ++e)
-    length.push_back(first * std::pow(ratio, std::min(e, edges - 1 - e) + 1));
+    length.push_back(first * portable::pow(ratio, std::min(e, edges - 1 - e) + 1));
   return length;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -110,7 +112,7 @@ std::vector<double> ring_shares(int rings, double refinement) {
   double total = 0;
   std::vector<double> thickness;
   for (int r = 0; r < rings; ++r) {
-    thickness.push_back(std::pow(refinement, rings > 1 ? r / (rings - 1.0) : 0));
+    thickness.push_back(portable::pow(refinement, rings > 1 ? r / (rings - 1.0) : 0));
     total += thickness.back();
   }
   for (const double t : thickness) share.push_back(share.back() - t / total);

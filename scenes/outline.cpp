@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
 #include "scenes/outline_curve.hpp"
 
 namespace pulvis {
@@ -35,8 +36,9 @@ double area_of(const RingOutline& o) {
 
 double area_of(const EllipseOutline& o) { return pi / 4 * o.width * o.height; }
 double area_of(const SuperellipseOutline& o) {
-  const double g = std::lgamma(1 + 1 / o.exponent), h = std::lgamma(1 + 2 / o.exponent);
-  return o.width * o.height * std::exp(2 * g - h);
+  const double g = portable::log_gamma(1 + 1 / o.exponent),
+               h = portable::log_gamma(1 + 2 / o.exponent);
+  return o.width * o.height * portable::exp(2 * g - h);
 }
 template <class CurvedOutline>
 double area_of(const CurvedOutline& o) {
@@ -47,7 +49,7 @@ std::vector<Vec2> polygon_of(const RoundedBox& box, double deviation) {
   // The sagitta of a chord over the angle 2 a is r (1 - cos a).
   const double share = std::clamp(deviation / std::max(box.radius, deviation), 0.0, 1.0);
   const int chords =
-      box.radius > 0 ? static_cast<int>(std::ceil(pi / 4 / std::acos(1 - share))) : 0;
+      box.radius > 0 ? static_cast<int>(std::ceil(pi / 4 / portable::acos(1 - share))) : 0;
   std::vector<Vec2> points;
   for (int corner = 0; corner < 4; ++corner) {
     const Vec2 centre(corner % 3 == 0 ? box.half.x() : -box.half.x(),
@@ -56,7 +58,7 @@ std::vector<Vec2> polygon_of(const RoundedBox& box, double deviation) {
     const bool meets_next = chords > 0 && (corner % 2 == 0 ? box.half.x() : box.half.y()) == 0;
     for (int i = 0; i <= chords - (meets_next ? 1 : 0); ++i) {
       const double angle = pi / 2 * (corner + (chords > 0 ? static_cast<double>(i) / chords : 0));
-      points.push_back(centre + box.radius * Vec2(std::cos(angle), std::sin(angle)));
+      points.push_back(centre + box.radius * Vec2(portable::cos(angle), portable::sin(angle)));
     }
   }
   return points;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
 #include "scenes/outline_curve.hpp"
 #include "scenes/star.hpp"
 
@@ -50,7 +51,7 @@ Faults crossing(const std::vector<Vec2>& points, const std::string& key, const s
 }
 
 double turn_at(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return std::atan2(cross(b - a, c - b), (b - a).dot(c - b));
+  return portable::atan2(cross(b - a, c - b), (b - a).dot(c - b));
 }
 
 // Of the corners as given: their numbers are the user's.

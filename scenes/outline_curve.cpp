@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -19,7 +21,7 @@ constexpr std::size_t samples_wanted = 2048, fewest_a_piece = 8;
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Angle of a tangent that turns by less than half a turn.
-double turn_between(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
+double turn_between(const Vec2& a, const Vec2& b) { return portable::atan2(cross(a, b), a.dot(b)); }
 
 }  // namespace
 

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/portable_math.hpp"
+#include "scenes/rotation.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -14,9 +17,9 @@ double length_of(const Outline& outline) { return std::sqrt(outline_area(outline
 // Half sizes of a box, and its corners and axes in space.
 struct TurnedBox {
   Vec2 half, centre;
-  Eigen::Rotation2Dd turn;
+  Eigen::Matrix2d turn;
   TurnedBox(const BodySpec& body, const RoundedBox& box)
-      : half(box.half), centre(body.position), turn(body.angle) {}
+      : half(box.half), centre(body.position), turn(rotation(body.angle)) {}
   std::array<Vec2, 4> corners() const {
     std::array<Vec2, 4> list;
     for (std::size_t i = 0; i < 4; ++i)
@@ -26,14 +29,14 @@ struct TurnedBox {
   }
   // How far a point lies from the box; inside, how far from its nearest side, negative.
   double distance(const Vec2& point) const {
-    const Vec2 beyond = (turn.inverse() * (point - centre)).cwiseAbs() - half;
+    const Vec2 beyond = (turn.transpose() * (point - centre)).cwiseAbs() - half;
     return beyond.maxCoeff() <= 0 ? beyond.maxCoeff() : beyond.cwiseMax(0).norm();
   }
   // Largest gap between this box and points along one of its axes; negative where they overlap.
   double gap(const std::array<Vec2, 4>& points) const {
     Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
     for (const Vec2& point : points) {
-      const Vec2 p = turn.inverse() * (point - centre);
+      const Vec2 p = turn.transpose() * (point - centre);
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
@@ -71,7 +74,7 @@ OutlineDepths::OutlineDepths(const Scene& scene) {
 }
 
 RigidPose OutlineDepths::pose(const BodySpec& body) const {
-  const portable::Turn turn{std::cos(body.angle), std::sin(body.angle)};
+  const portable::Turn turn{portable::cos(body.angle), portable::sin(body.angle)};
   const portable::V2 at{body.position.x() / unit_, body.position.y() / unit_};
   return {at + turn * shapes_[static_cast<std::size_t>(body.particle)].centroid, turn};
 }

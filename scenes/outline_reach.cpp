@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scenes/outline.hpp"
+#include "scenes/rotation.hpp"
 
 namespace pulvis {
 namespace {
@@ -16,7 +17,7 @@ constexpr double fine = 1e-6;  // deviation of the polygon, of a particle's size
 }  // namespace
 
 double reach_along(const Outline& outline, double angle, const Vec2& direction) {
-  const Vec2 own = Eigen::Rotation2Dd(-angle) * direction;
+  const Vec2 own = rotation(-angle) * direction;
   if (const auto box = rounded_box(outline)) return box->radius + own.cwiseAbs().dot(box->half);
   double farthest = std::numeric_limits<double>::lowest();
   for (const Vec2& p : outline_polygon(outline, fine * std::sqrt(outline_area(outline))))

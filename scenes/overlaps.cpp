@@ -7,6 +7,7 @@
 #include "scenes/outline_reach.hpp"
 #include "scenes/place.hpp"
 #include "scenes/problem.hpp"
+#include "scenes/rotation.hpp"
 #include "scenes/surface.hpp"
 #include "scenes/surface_overlap.hpp"
 
@@ -63,7 +64,7 @@ Geometry geometry(const Outline& outline, double depth) {
 Pose pose(const BodySpec& body) {
   Pose result = Pose::Identity();
   result.translation() << body.position.x(), body.position.y(), 0;
-  result.linear() = Eigen::AngleAxisd(body.angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  result.linear() = rotation_about_z(body.angle);
   return result;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -132,7 +134,7 @@ PlanMesh unit_disc(int across) {
     add_grid(mesh, layers, across, 1e-6, [&](int i, int j) {
       const double s = 2.0 * j / across - 1, t = static_cast<double>(i) / layers;
       const double angle = 0.25 * std::numbers::pi * s;
-      const Vec2 inner(core, core * s), outer(std::cos(angle), std::sin(angle));
+      const Vec2 inner(core, core * s), outer(portable::cos(angle), portable::sin(angle));
       const Vec2 x = (1 - t) * inner + t * outer;
       return side == 0   ? x
              : side == 1 ? Vec2(-x.y(), x.x())

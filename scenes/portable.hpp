@@ -1,11 +1,14 @@
 // Arithmetic for what must come out alike on every machine and with every compiler and mathematical
 // library, as a random packing does: after some thousand collisions one different last bit is another
 // packing. Sums, products, quotients and square roots are rounded alike everywhere (IEEE 754); sines and
-// exponentials of libraries are not, nor are the distributions of <random>.
+// exponentials of libraries are not (engine/portable_math.hpp has some that are), nor are the distributions of
+// <random>.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+
+#include "engine/portable_math.hpp"
 
 namespace pulvis::portable {
 
@@ -34,9 +37,6 @@ inline Turn turned(Turn r, double half) {
   return {next.c * norm, next.s * norm};
 }
 
-double angle_of(Turn turn);           // rad, in (-pi, pi]
-double exponential(double x);         // within some units in the last place
-double logarithm(double x);           // x > 0
 double normal_probability(double z);  // P(Z <= z) of the standard normal law
 double normal_quantile(double p);     // its inverse, 0 < p < 1
 

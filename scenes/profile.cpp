@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
 #include "scenes/outline.hpp"
 #include "scenes/place.hpp"
 #include "scenes/profile_file.hpp"
@@ -134,7 +135,7 @@ std::vector<Vec2> one_pitch(const ProfileSpec& relief) {
   if (relief.kind == Kind::sine)
     for (int i = 0; i < chords_of_a_sine; ++i) {
       const double x = static_cast<double>(i) / chords_of_a_sine;
-      points.push_back({p * x, -0.5 * d * (1 - std::cos(2 * pi * x))});
+      points.push_back({p * x, -0.5 * d * (1 - portable::cos(2 * pi * x))});
     }
   return points;
 }

@@ -210,7 +210,8 @@ Results::Results(const Scene& scene, const World& world)
   for (const int slot : world.resource<Bodies>().slot_of_number)
     mass_per_thickness += world.column<Density>().values()[static_cast<std::size_t>(slot)] *
                           world.resource<Bodies>().shape_of_slot(slot).area;
-  tool_energy_ = 0.5 * mass_per_thickness * scene.thickness * std::pow(fastest_tool(scene), 2);
+  const double fastest = fastest_tool(scene);
+  tool_energy_ = 0.5 * mass_per_thickness * scene.thickness * fastest * fastest;
   for (std::size_t i = 0; i < series_.size(); ++i) position_[series_[i].name] = i;
 
   fields_ = {{"position", "m", "of the node", FieldPlace::node, 2},

@@ -25,7 +25,7 @@ std::vector<double> smoothed(const std::vector<double>& noise) {
   std::vector<double> kernel;
   for (int k = -reach; k <= reach; ++k) {
     const double x = static_cast<double>(k) / stations_a_length;
-    kernel.push_back(portable::exponential(-2 * x * x));
+    kernel.push_back(portable::exp(-2 * x * x));
   }
   std::vector<double> heights(noise.size());
   for (int i = 0; i < count; ++i)

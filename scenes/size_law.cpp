@@ -43,15 +43,13 @@ Quantile normal(const SizeLaw& law) {
 // With mean m and deviation s of the size itself: sigma^2 = log(1 + s^2/m^2), mu = log m - sigma^2/2.
 Quantile lognormal(const SizeLaw& law) {
   const double ratio = law.deviation / law.mean;
-  const double variance = portable::logarithm(1 + ratio * ratio), sigma = std::sqrt(variance);
+  const double variance = portable::log(1 + ratio * ratio), sigma = std::sqrt(variance);
   const auto standard = [&](std::optional<double> size, double otherwise) {
-    return size ? (portable::logarithm(*size / law.mean) + variance / 2) / sigma : otherwise;
+    return size ? (portable::log(*size / law.mean) + variance / 2) / sigma : otherwise;
   };
   constexpr double far = 8;  // where the law ends in double precision
   const Quantile z = cut_normal(standard(law.least, -far), standard(law.largest, far));
-  return [=, m = law.mean](double p) {
-    return m * portable::exponential(sigma * z(p) - variance / 2);
-  };
+  return [=, m = law.mean](double p) { return m * portable::exp(sigma * z(p) - variance / 2); };
 }
 
 Quantile sieved(const SieveCurve& curve) {

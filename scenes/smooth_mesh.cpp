@@ -6,6 +6,8 @@
 #include <deque>
 #include <limits>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -66,7 +68,7 @@ class Quality {
                 Eigen::VectorXd& gradient) const {
     const Eigen::Vector2d a = at(x, quad, k + 1) - at(x, quad, k);
     const Eigen::Vector2d b = at(x, quad, k + 3) - at(x, quad, k);
-    const double d = a.x() * b.y() - a.y() * b.x(), root = std::hypot(bound, d);
+    const double d = a.x() * b.y() - a.y() * b.x(), root = portable::hypot(bound, d);
     const double chi = 0.5 * (d + root);
     const double f =
         ((1 - size_share_) * (a.squaredNorm() + b.squaredNorm()) + size_share_ * (d * d + 1)) / chi;
@@ -121,7 +123,8 @@ class Lbfgs {
 // straight side) the measure is a wall too steep to leave, so that 1/determinant is made gentle there.
 constexpr double open_corner = 1e-3, least_bound = 1e-6;
 double bound_for(double least_determinant) {
-  return least_determinant > open_corner ? least_bound : std::hypot(0.1, 0.2 * least_determinant);
+  return least_determinant > open_corner ? least_bound
+                                         : portable::hypot(0.1, 0.2 * least_determinant);
 }
 
 struct State {

@@ -3,25 +3,29 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
 double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1]; }
-double distance(const Point& a, const Point& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
+double distance(const Point& a, const Point& b) {
+  return portable::hypot(b[0] - a[0], b[1] - a[1]);
+}
 
 double angle_between(const Point& a, const Point& b) {
-  return std::abs(std::atan2(cross(a, b), dot(a, b)));
+  return std::abs(portable::atan2(cross(a, b), dot(a, b)));
 }
 
 // On an even arc with the angle theta to both neighbours, whose nodes stand at radius r for the polygon's
 // area, a curve with knots at the nodes passes at r ((4 + 2 cos theta)/6) (1 + 2 c w + 4 d w^2) with
 // w = 1 - cos theta; this c makes it 1. Elsewhere theta is the mean of both sides.
 double arc_smoothing(double theta, double d) {
-  const double w = 1 - std::cos(theta);
+  const double w = 1 - portable::cos(theta);
   if (w < 1e-8) return 1.0 / 12;  // the limit, which round-off would spoil
-  const double r = std::sqrt(theta / std::sin(theta));
-  return (6 / (r * (4 + 2 * std::cos(theta))) - 1 - 4 * d * w * w) / (2 * w);
+  const double r = std::sqrt(theta / portable::sin(theta));
+  return (6 / (r * (4 + 2 * portable::cos(theta))) - 1 - 4 * d * w * w) / (2 * w);
 }
 
 // f of "the polygon through at + f shift has this area": the area is a + b f + q f^2.
@@ -47,11 +51,11 @@ struct HalfSide {
   }
   // Along the side, and how far inside of the flat.
   Point at(double s) const {
-    const double along = std::min(std::abs(s), flat) + radius * std::sin(turn(s));
-    return {s < 0 ? -along : along, radius * (1 - std::cos(turn(s)))};
+    const double along = std::min(std::abs(s), flat) + radius * portable::sin(turn(s));
+    return {s < 0 ? -along : along, radius * (1 - portable::cos(turn(s)))};
   }
   Point normal(double s) const {
-    return {s < 0 ? -std::sin(turn(s)) : std::sin(turn(s)), -std::cos(turn(s))};
+    return {s < 0 ? -portable::sin(turn(s)) : portable::sin(turn(s)), -portable::cos(turn(s))};
   }
   // Between the chord from s to t and the side: the polygon over the ends of the flat in between, and the
   // segments of the arcs.
@@ -63,7 +67,7 @@ struct HalfSide {
       if (to <= from || to > t) continue;
       const double theta = std::abs(turn(to) - turn(from));
       const Point p = at(to), here{p[0] - origin[0], p[1] - origin[1]};
-      area += 0.5 * cross(before, here) + 0.5 * radius * radius * (theta - std::sin(theta));
+      area += 0.5 * cross(before, here) + 0.5 * radius * radius * (theta - portable::sin(theta));
       before = here;
       from = to;
     }

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -43,7 +45,7 @@ double windings(const std::vector<Vec2>& polygon, const Vec2& centre) {
   double angle = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 a = polygon[i] - centre, b = polygon[(i + 1) % polygon.size()] - centre;
-    angle += std::atan2(cross(a, b), a.dot(b));
+    angle += portable::atan2(cross(a, b), a.dot(b));
   }
   return angle / (2 * std::numbers::pi);
 }

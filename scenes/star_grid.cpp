@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/portable_math.hpp"
 #include "scenes/smooth_mesh.hpp"
 
 namespace pulvis {
@@ -52,7 +53,7 @@ std::vector<MirrorLine> mirror_lines(const std::vector<Point>& boundary, const P
   const int n = static_cast<int>(boundary.size());
   const auto at = [&](int i) { return boundary[wrapped(i, boundary.size())]; };
   const auto distance = [](const Point& a, const Point& b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1]);
+    return portable::hypot(a[0] - b[0], a[1] - b[1]);
   };
   const double tolerance = 1e-6 * distance(at(0), centre);
   const auto mirrors = [&](int m) {
@@ -87,7 +88,7 @@ double size_share(const std::vector<Point>& boundary) {
   double least = std::numeric_limits<double>::max(), most = 0;
   for (std::size_t i = 0; i < boundary.size(); ++i) {
     const Point &a = boundary[i], &b = boundary[(i + 1) % boundary.size()];
-    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    const double length = portable::hypot(b[0] - a[0], b[1] - a[1]);
     least = std::min(least, length);
     most = std::max(most, length);
   }

@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/portable_math.hpp"
+#include "scenes/rotation.hpp"
 #include "systems/surface_search.hpp"
 
 namespace pulvis {
@@ -158,9 +160,9 @@ std::vector<Vec2> drawn_points(const ToolSurface& surface) {
       drawn.push_back(centre);
       continue;
     }
-    const double turn = std::atan2(cross(t, next), t.dot(next));
+    const double turn = portable::atan2(cross(t, next), t.dot(next));
     for (int k = 0; k <= chords; ++k)
-      drawn.push_back(centre + Eigen::Rotation2Dd(turn * k / chords) * (p.radius * left_of(t)));
+      drawn.push_back(centre + rotation(turn * k / chords) * (p.radius * left_of(t)));
   }
   return drawn;
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "scenes/rotation.hpp"
 #include "systems/surface_kernel.hpp"
 
 namespace pulvis {
@@ -62,16 +63,16 @@ double signed_distance(const ToolSurface& surface, const Vec2& at) {
 double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
                      const RoundedBox& outline) {
   const Vec2& half = outline.half;
-  const Eigen::Rotation2Dd turn(angle);
+  const Eigen::Matrix2d turn = rotation(angle);
   double depth = nothing;
   for (const Vec2& corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
     depth = std::max(depth, -signed_distance(surface, centre + turn * corner.cwiseProduct(half)));
   for (const ToolSurface::Piece& p : surface.pieces) {
-    const Vec2 from = turn.inverse() * (Vec2(p.x, p.y) - centre);
-    const Vec2 t = turn.inverse() * Vec2(p.tx, p.ty);
+    const Vec2 from = turn.transpose() * (Vec2(p.x, p.y) - centre);
+    const Vec2 t = turn.transpose() * Vec2(p.tx, p.ty);
     depth = std::max(depth, piercing_depth(from, t, p.low, p.high, half));
     if (p.side <= 0) continue;
-    const Vec2 corner = turn.inverse() * (Vec2(p.corner_x, p.corner_y) - centre);
+    const Vec2 corner = turn.transpose() * (Vec2(p.corner_x, p.corner_y) - centre);
     depth = std::max(depth, p.radius - distance_to_rectangle(corner, half));
   }
   return outline.radius + depth;
@@ -80,13 +81,13 @@ double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angl
 // The same of a polygon whose sides are short: a piece that passes through it leaves corners of it behind.
 double depth_in_tool(const ToolSurface& surface, const Vec2& centre, double angle,
                      const std::vector<Vec2>& polygon) {
-  const Eigen::Rotation2Dd turn(angle);
+  const Eigen::Matrix2d turn = rotation(angle);
   double depth = nothing;
   for (const Vec2& corner : polygon)
     depth = std::max(depth, -signed_distance(surface, centre + turn * corner));
   for (const ToolSurface::Piece& p : surface.pieces) {
     if (p.side <= 0) continue;
-    const Vec2 corner = turn.inverse() * (Vec2(p.corner_x, p.corner_y) - centre);
+    const Vec2 corner = turn.transpose() * (Vec2(p.corner_x, p.corner_y) - centre);
     depth = std::max(depth, p.radius - distance_to_polygon(corner, polygon));
   }
   return depth;

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "engine/hdf5.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/solid_draft.hpp"
 #include "scenes/triangle_target.hpp"
 
@@ -53,7 +54,8 @@ std::vector<ProfilePoint> profile(const TargetSpec& t, double reach) {
   const double step = t.wavelength / facets;
   for (double x = low - t.wavelength; x <= high + t.wavelength; x += step)
     points.push_back(
-        {x, 0.5 * t.height * std::sin(2 * std::numbers::pi * (x - t.position) / t.wavelength)});
+        {x,
+         0.5 * t.height * portable::sin(2 * std::numbers::pi * (x - t.position) / t.wavelength)});
   return points;
 }
 
@@ -165,10 +167,10 @@ std::shared_ptr<const TargetShape> make_target(const TargetSpec& t, const Scene&
                                                double reach) {
   if (t.shape == TargetSpec::Shape::map) return from_map(t, scene);
   if (t.shape != TargetSpec::Shape::plane) return extruded(t, reach);
-  const double rise = std::sin(t.incline);
+  const double rise = portable::sin(t.incline);
   return std::make_shared<PlaneTarget>(t.direction == Direction::lateral
-                                           ? Vec3(0, -rise, std::cos(t.incline))
-                                           : Vec3(-rise, 0, std::cos(t.incline)));
+                                           ? Vec3(0, -rise, portable::cos(t.incline))
+                                           : Vec3(-rise, 0, portable::cos(t.incline)));
 }
 
 }  // namespace pulvis

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <map>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -137,7 +139,7 @@ TargetShape::Nearest TriangleTarget::blended(const std::vector<Side>& sides) con
   Vec3 mean = Vec3::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Side& side : sides) {
-    const double weight = std::exp((least - side.distance) / delta_);
+    const double weight = portable::exp((least - side.distance) / delta_);
     sum += weight;
     mean += weight * side.normal;
     spread += weight * (side.turn - side.normal * side.normal.transpose() / delta_);
@@ -147,7 +149,7 @@ TargetShape::Nearest TriangleTarget::blended(const std::vector<Side>& sides) con
   const double length = mean.norm();
   const Vec3 n = mean / length;
   const Eigen::Matrix3d turn = (Eigen::Matrix3d::Identity() - n * n.transpose()) * spread / length;
-  Nearest result{least - delta_ * std::log(sum), {n.x(), n.y(), n.z()}, {}};
+  Nearest result{least - delta_ * portable::log(sum), {n.x(), n.y(), n.z()}, {}};
   for (int i = 0; i < 9; ++i) result.turn[static_cast<std::size_t>(i)] = turn(i / 3, i % 3);
   return result;
 }

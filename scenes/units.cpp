@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 
@@ -100,15 +101,26 @@ std::string dimension(const ut_unit* unit) {
   return text == "1" ? std::string() : text;
 }
 
+// udunits raises prefixes to powers with the library's pow: 1e27 may come out with another last bit. Where few
+// digits say what was meant, they are taken.
+double decimal(double factor) {
+  constexpr double last_bits = 8 * std::numeric_limits<double>::epsilon();
+  const std::string digits = fmt::format("{:.13e}", factor);
+  double meant = factor;
+  std::from_chars(digits.data(), digits.data() + digits.size(), meant);
+  return std::abs(meant - factor) <= last_bits * std::abs(factor) ? meant : factor;
+}
+
 // Dividing by a whole number rounds once where multiplying by 0.001 rounds twice: "15 mm" becomes
 // the double nearest to 0.015, and lengths that touch on paper touch here.
 double scaled(double value, double factor) {
   constexpr double equal = 1e-12;  // relative to the factor
   const double whole = std::round(factor);
-  if (whole >= 1 && std::abs(factor - whole) <= equal * factor) return value * whole;
+  if (whole >= 1 && std::abs(factor - whole) <= equal * factor) return value * decimal(whole);
   const double inverse = std::round(1 / factor);
-  if (inverse >= 1 && std::abs(1 / factor - inverse) <= equal * inverse) return value / inverse;
-  return value * factor;
+  if (inverse >= 1 && std::abs(1 / factor - inverse) <= equal * inverse)
+    return value / decimal(inverse);
+  return value * decimal(factor);
 }
 
 double converted(double value, ut_unit* given, const std::string& wanted, std::string_view whole) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "engine/lane.hpp"
+#include "engine/portable_math.hpp"
 
 namespace pulvis::kernels {
 
@@ -111,7 +112,7 @@ T refine_inverse_cube_root(T a, T y) {
 }
 
 inline double wide_inverse_cube_root(double a) {
-  if (!(a > 0.5 && a < 2)) return 1 / std::cbrt(a);
+  if (!(a > 0.5 && a < 2)) return 1 / portable::cbrt(a);
   const double x = a - 1.25;  // least relative error of degree 4: 1.1e-3
   const double y =
       0.92867438 + x * (-0.24146973 + x * (0.12257569 + x * (-0.12062945 + x * 0.09144541)));

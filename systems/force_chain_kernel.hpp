@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "components/shape.hpp"
+#include "engine/portable_math.hpp"
 
 namespace pulvis::kernels {
 
@@ -33,8 +34,8 @@ struct MajorCompression {
 
 inline MajorCompression major_compression(const PlaneStress& s) {
   const double middle = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
-  const double angle = 0.5 * std::atan2(-s.xy, -half);  // of the smallest normal stress
-  return {std::hypot(half, s.xy) - middle, {std::cos(angle), std::sin(angle)}};
+  const double angle = 0.5 * portable::atan2(-s.xy, -half);  // of the smallest normal stress
+  return {portable::hypot(half, s.xy) - middle, {portable::cos(angle), portable::sin(angle)}};
 }
 
 inline constexpr int least_of_a_chain = 3;
@@ -63,7 +64,7 @@ inline std::vector<std::int32_t> force_chains(
   for (const auto& [a, b] : touching) {
     const auto p = static_cast<std::size_t>(a), q = static_cast<std::size_t>(b);
     const Point way{centre[q][0] - centre[p][0], centre[q][1] - centre[p][1]};
-    const double length = std::hypot(way[0], way[1]);
+    const double length = portable::hypot(way[0], way[1]);
     if (!leads_on(p, way, length) || !leads_on(q, way, length)) continue;
     const std::size_t one = leader_of(p), other = leader_of(q);
     leader[std::max(one, other)] = std::min(one, other);

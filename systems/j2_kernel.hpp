@@ -14,6 +14,7 @@
 // Valid    theta > 0, det F > 0; any strain
 #pragma once
 
+#include "engine/portable_math.hpp"
 #include "systems/element_kernel.hpp"
 
 namespace pulvis::kernels {
@@ -182,7 +183,7 @@ T isochoric_energy(const Matrix2<T>& f, const Symmetric3<T>& c, T mu) {
   return 0.5 * mu * (r * r * trace(left_cauchy_green(f, c)) - 3.0);
 }
 inline double volumetric_energy(double bulk_modulus, double theta) {
-  return 0.5 * bulk_modulus * (0.5 * (theta * theta - 1) - std::log(theta));
+  return 0.5 * bulk_modulus * (0.5 * (theta * theta - 1) - portable::log(theta));
 }
 
 }  // namespace pulvis::kernels

@@ -16,6 +16,7 @@
 #include <numbers>
 
 #include "components/probe.hpp"
+#include "engine/portable_math.hpp"
 
 namespace pulvis::kernels {
 
@@ -23,8 +24,8 @@ struct JkrScale {
   double radius = 0, force = 0, approach = 0;  // a_m, pi w R/6, a_m^2/R
 
   explicit JkrScale(const AdhesiveBall& ball)
-      : radius(std::cbrt(std::numbers::pi * ball.work * ball.radius * ball.radius /
-                         (8 * ball.modulus))),
+      : radius(portable::cbrt(std::numbers::pi * ball.work * ball.radius * ball.radius /
+                              (8 * ball.modulus))),
         force(std::numbers::pi * ball.work * ball.radius / 6),
         approach(radius * radius / ball.radius) {}
   double force_at(double q) const { return force * q * q * q * (q * q * q - 6); }
@@ -52,7 +53,7 @@ inline JkrAnswer jkr_balance(const JkrScale& law, double share_f, double rho, do
   const auto slope = [&](double q) {
     return share_f * law.force_slope(q) + rho * law.approach_slope(q);
   };
-  double low = 1, high = std::cbrt(3.0);
+  double low = 1, high = portable::cbrt(3.0);
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     (slope(middle) < 0 ? low : high) = middle;

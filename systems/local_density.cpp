@@ -7,6 +7,7 @@
 // Active   when the scene asks for density cells
 #include <limits>
 
+#include "engine/portable_math.hpp"
 #include "systems/cell_area_kernel.hpp"
 #include "systems/systems.hpp"
 
@@ -23,7 +24,7 @@ std::vector<Point> chain_of(const std::vector<Point>& surface, Point tool, doubl
   std::vector<Point> chain{{}};
   for (const Point& p : surface) chain.push_back({tool[0] + p[0], tool[1] + p[1]});
   const auto beyond = [far](const Point& end, const Point& inner) {
-    const double dx = end[0] - inner[0], dy = end[1] - inner[1], length = std::hypot(dx, dy);
+    const double dx = end[0] - inner[0], dy = end[1] - inner[1], length = portable::hypot(dx, dy);
     return Point{end[0] + far * dx / length, end[1] + far * dy / length};
   };
   chain.front() = beyond(chain[1], chain[2]);

@@ -14,14 +14,15 @@
 #include <vector>
 
 #include "components/observed.hpp"
+#include "engine/portable_math.hpp"
 
 namespace pulvis::kernels {
 
 struct Fabric {
   double xx = 0, xy = 0, yy = 0;
-  double anisotropy() const { return 2 * std::hypot(0.5 * (xx - yy), xy); }
+  double anisotropy() const { return 2 * portable::hypot(0.5 * (xx - yy), xy); }
   // rad, in (-pi/2, pi/2]: of the direction that most contacts face.
-  double angle() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
+  double angle() const { return 0.5 * portable::atan2(2 * xy, xx - yy); }
 };
 
 inline Fabric fabric(std::span<const ContactLink> links) {
@@ -70,7 +71,7 @@ inline Rose rose(std::span<const ContactLink> links) {
   double all = 0;
   for (const ContactLink& link : links) all += link.normal_force();
   for (const ContactLink& link : links) {
-    const double turn = std::atan2(link.normal[1], link.normal[0]) / std::numbers::pi;
+    const double turn = portable::atan2(link.normal[1], link.normal[0]) / std::numbers::pi;
     const auto nearest = static_cast<int>(std::lround(rose_sectors * turn));
     const auto sector = static_cast<std::size_t>((nearest + rose_sectors) % rose_sectors);
     rose.number[sector] += 1 / static_cast<double>(links.size());

@@ -147,6 +147,8 @@ ContactAnswer settle(const ContactProblem& problem) {
 // against dashpots c that are taken away step by step, x + c S (x - x_k) = x_0 + S (f - f_0); what the
 // dashpots eat is what a real snap radiates.
 ContactAnswer jump(const ContactProblem& problem) {
+  // Eigen cuts large products, and with them their sums, by the caches of the processor at hand.
+  Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20);
   const MatrixXd& s = problem.compliance;
   const auto size = s.rows();
   const MatrixXd one = MatrixXd::Identity(size, size);

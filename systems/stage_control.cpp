@@ -11,6 +11,7 @@
 
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "engine/portable_math.hpp"
 #include "systems/relief_kernel.hpp"
 #include "systems/run_failure.hpp"
 #include "systems/systems.hpp"
@@ -33,11 +34,11 @@ double value_now(const End& end, const StageEnds& ends, const Read<ToolPosition>
   if (end.kind == StageEnds::Kind::density) return relative_density(ends.cell, at);
   if (end.kind == StageEnds::Kind::displacement) {
     const Point& from = ends.tools_at_begin[static_cast<std::size_t>(end.tool)];
-    return std::hypot(at(tool, 0) - from[0], at(tool, 1) - from[1]);
+    return portable::hypot(at(tool, 0) - from[0], at(tool, 1) - from[1]);
   }
   const double along = force(tool, 0) * end.direction[0] + force(tool, 1) * end.direction[1];
   const bool any_way = end.direction == Point{};
-  return any_way ? std::hypot(force(tool, 0), force(tool, 1)) : -along;
+  return any_way ? portable::hypot(force(tool, 0), force(tool, 1)) : -along;
 }
 
 // How long its tools take to come to rest; 0 where none is on its way.

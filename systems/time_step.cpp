@@ -9,6 +9,7 @@
 // Runs     stable_time_step every few steps, while the stresses of a chunk are at hand; advance_clock last
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/portable_math.hpp"
 #include "systems/contact_kernel.hpp"
 #include "systems/element_bound.hpp"
 #include "systems/systems.hpp"
@@ -73,9 +74,9 @@ double farthest_way(const ToolProgram& program, const Optional<Read<ServoVelocit
   for (int t = 0; t < static_cast<int>(program.names.size()); ++t) {
     const Point now = tool_position_at(program, t, time);
     const Point next = tool_position_at(program, t, time + dt);
-    double way = std::hypot(next[0] - now[0], next[1] - now[1]);
+    double way = portable::hypot(next[0] - now[0], next[1] - now[1]);
     const Row<Tool> tool(t);
-    if (servo) way += std::hypot((*servo)(tool, 0), (*servo)(tool, 1)) * dt;
+    if (servo) way += portable::hypot((*servo)(tool, 0), (*servo)(tool, 1)) * dt;
     farthest = std::max(farthest, way);
   }
   return farthest;

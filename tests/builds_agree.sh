@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds of the program give the same bits: builds_agree.sh SOURCE_DIR PROGRAM PROGRAM...
 # Runs scenes of all families with 1, 2, 3 and 8 threads with each program (THREADS="1 3": with these), so many times
-# each (RUNS=3; 1), or some of the scenes (SCENES="impact loop"); prints the hashes of the last state and of the
+# each (RUNS=3; 1), or some of the scenes (SCENES="impact loop"), or as on other processors too, by what glibc is
+# told not to use (PROCESSORS="all -FMA,-FMA4,-AVX2"); prints the hashes of the last state and of the
 # history, and fails where one differs from the first. Other builds are made on demand:
 # cmake --preset debug && cmake --build --preset debug --target pulvis (or clang-release).
 set -euo pipefail
@@ -26,13 +27,14 @@ run() {  # PROGRAM NAME THREADS SCENE OPTION...
   local program=$1 name=$2 threads=$3 scene=$4 hash
   shift 4
   [[ " ${SCENES:-$name} " == *" $name "* ]] || return 0
-  "$program" run "$source/scenes/$scene" -o "$place/run" --overwrite --threads "$threads" "$@" \
+  GLIBC_TUNABLES=$tunables "$program" run "$source/scenes/$scene" -o "$place/run" --overwrite \
+    --threads "$threads" "$@" \
     >/dev/null
   hash=$(sed -n 's/.*"state_hash": "\([0-9a-f]\{16\}\)".*/\1 /p' "$place/run/summary.json")
   [[ $hash ]] || { echo "$program gives no state_hash of $name" >&2; exit 1; }
   hash+=$(sha256sum <"$place/run/history.csv" | cut -c 1-16)
   : "${expected[$name]:=$hash}"
-  printf '%-22s %s threads %s  %s\n' "$name" "$threads" "$hash" "$program"
+  printf '%-22s %s threads %s  %s %s\n' "$name" "$threads" "$hash" "$program" "$tunables"
   if [[ $hash != "${expected[$name]}" ]]; then
     echo "    differs from ${expected[$name]}"
     status=1
@@ -51,8 +53,12 @@ all() {  # PROGRAM THREADS
 }
 
 for program in "$@"; do
-  for threads in ${THREADS:-1 2 3 8}; do
-    for ((i = 0; i < ${RUNS:-1}; ++i)); do all "$program" "$threads"; done
+  for processor in ${PROCESSORS:-all}; do
+    tunables=
+    if [[ $processor != all ]]; then tunables=glibc.cpu.hwcaps=$processor; fi
+    for threads in ${THREADS:-1 2 3 8}; do
+      for ((i = 0; i < ${RUNS:-1}; ++i)); do all "$program" "$threads"; done
+    done
   done
 done
 if ((${#expected[@]} == 0)); then

@@ -1,4 +1,5 @@
-// The core library is built for several instruction sets: all of them give the same bits.
+// The core library is built for several instruction sets, and the library of the C language has several of its
+// functions: all of them give the same bits.
 #include "engine/instruction_set.hpp"
 #include "tests/paths.hpp"
 
@@ -7,9 +8,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace pulvis {
 namespace {
@@ -32,22 +35,41 @@ std::vector<std::string> variants() {
   return folders;
 }
 
+fs::path own_place() {
+  return fs::temp_directory_path() / ("pulvis-variant-" + std::to_string(getpid()));
+}
+
+struct Ended {
+  json summary;
+  std::string history;
+};
+
+// `environment`: assignments before the command.
+Ended run(const std::string& environment, const std::string& scene, const std::string& options,
+          int code = 0) {
+  const fs::path folder = own_place() / "run";
+  const std::string command = environment + " '" + paths::program() + "' run '" +
+                              paths::source_dir() + "/scenes/" + scene + "' " + options + " -o '" +
+                              folder.string() + "' > /dev/null 2>&1";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), code) << command;
+  Ended ended{json::parse(std::ifstream(folder / "summary.json")), {}};
+  std::ostringstream history;
+  history << std::ifstream(folder / "history.csv").rdbuf();
+  ended.history = history.str();
+  fs::remove_all(own_place());
+  return ended;
+}
+
 // Runs a scene with one variant alone where the loader looks first. Discs that flow, rub and are damped.
 json summary_with(const std::string& variant, const std::string& options) {
-  const fs::path place = fs::temp_directory_path() / ("pulvis-variant-" + std::to_string(getpid()));
+  const fs::path place = own_place() / "lib";
   fs::remove_all(place);
-  fs::create_directories(place / "lib");
+  fs::create_directories(place);
   fs::create_symlink(fs::path(paths::libraries()) / variant / "libpulvis_core.so",
-                     place / "lib" / "libpulvis_core.so");
-  const std::string command = "LD_LIBRARY_PATH='" + (place / "lib").string() + "' '" +
-                              paths::program() + "' run '" + paths::source_dir() +
-                              "/scenes/compaction/regular-25.toml' --set "
-                              "stage.press.duration=80us --threads 1 " +
-                              options + " -o '" + (place / "run").string() + "' > /dev/null 2>&1";
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << command;
-  json summary = json::parse(std::ifstream(place / "run" / "summary.json"));
-  fs::remove_all(place);
-  return summary;
+                     place / "libpulvis_core.so");
+  return run("LD_LIBRARY_PATH='" + place.string() + "'", "compaction/regular-25.toml",
+             "--set stage.press.duration=80us --threads 1 " + options)
+      .summary;
 }
 
 class InstructionSets : public testing::TestWithParam<std::string> {};
@@ -73,6 +95,50 @@ INSTANTIATE_TEST_SUITE_P(Formulations, InstructionSets,
                          [](const auto& set) {
                            return set.param.empty() ? "OnePoint" : "FourPoint";
                          });
+
+struct Family {
+  const char *name, *scene, *options;
+};
+void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
+
+// On a processor without fused multiply-adds glibc takes other sines, exponentials and powers, and the loader the
+// portable variant. A few steps: such functions have their part in what is made at the start and in levers,
+// and a multiply-add is a long call there.
+class WithoutFma : public testing::TestWithParam<Family> {};
+
+TEST_P(WithoutFma, AScenesBitsAreTheSame) {
+  constexpr int stopped = 130;
+  const auto& [name, scene, options] = GetParam();
+  const Ended with = run("", scene, options, stopped);
+  const Ended without =
+      run("GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2", scene, options, stopped);
+  EXPECT_EQ(without.summary["instruction_set"], "portable");
+  EXPECT_EQ(with.summary["state_hash"], without.summary["state_hash"]);
+  EXPECT_EQ(with.history, without.history);
+  EXPECT_GT(std::ranges::count(with.history, '\n'), 1);
+}
+
+constexpr const char* rough =
+    "--set tool.target.relief=rough --set 'tool.target.ra=0.3 mm' --set "
+    "'tool.target.correlation_length=3 mm' --set 'tool.target.rounding=0.65 mm' --stop-after 10";
+
+INSTANTIATE_TEST_SUITE_P(
+    Families, WithoutFma,
+    testing::Values(Family{"RandomDiscs", "compaction/random-100.toml", "--stop-after 10"},
+                    Family{"RandomSizes", "studies/scenes/random-sizes.toml", "--stop-after 5"},
+                    Family{"RandomShapes", "studies/scenes/random-shapes.toml", "--stop-after 5"},
+                    Family{"RoughTarget", "studies/scenes/shear-regular-held.toml", rough},
+                    Family{"Ellipse", "basic/ellipse-plates.toml", "--stop-after 10"},
+                    Family{"TracedGrain", "basic/traced-grain.toml", "--stop-after 10"},
+                    Family{"TurnedSquare", "extreme/corner-in-rough-valley-slow.toml",
+                           "--stop-after 20"},
+                    Family{"BeamOnASlope", "afm/loop-beam+14.toml", "--stop-after 4"},
+                    Family{"V", "afm/loop-v-12.5.toml", "--stop-after 4"},
+                    Family{"ColloidProbe", "afm/colloid-cu.toml", "--stop-after 2"},
+                    Family{"HeightMap", "afm/raster.toml", "--stop-after 2"},
+                    Family{"Waves", "afm/sinusoid.toml", "--stop-after 2"},
+                    Family{"Jkr", "afm/jkr-force-curve.toml", "--stop-after 4"}),
+    [](const auto& family) { return family.param.name; });
 
 }  // namespace
 }  // namespace pulvis
