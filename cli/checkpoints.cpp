@@ -43,16 +43,8 @@ void check_version(const fs::path& folder, const CheckpointInfo& info) {
                   folder.string(), info.version, info.commit, program_version(), program_commit()));
 }
 
-// Files that the scene names are looked for where the run found them; beside its copy if they moved along.
 LoadedScene scene_of(const fs::path& folder, const Checkpoint& checkpoint) {
-  std::string original;
-  const std::vector<std::byte> bytes = checkpoint.run("scene_file");
-  StateReader reader(bytes);
-  reader(original);
-  const fs::path copy = folder / "scene.toml";
-  std::error_code ignored;
-  const bool there = fs::is_directory(fs::path(original).parent_path(), ignored);
-  LoadedScene scene = load_scene_text(toml_file_text(copy), there ? fs::path(original) : copy);
+  LoadedScene scene = load_scene(folder / "scene.toml");
   if (hash_text(scene) != checkpoint.info().scene_hash)
     throw CannotResume(fmt::format(
         "{}: cannot resume: the checkpoint is of another scene (hash {}, that of scene.toml and "
@@ -66,7 +58,6 @@ LoadedScene scene_of(const fs::path& folder, const Checkpoint& checkpoint) {
 Checkpoints::Checkpoints(const LoadedScene& scene, fs::path folder,
                          const CheckpointOptions& options)
     : info_{program_version(), program_commit(), hash_text(scene)},
-      scene_file_(fs::absolute(scene.scene.file).string()),
       folder_(std::move(folder)),
       options_(options) {}
 
@@ -81,13 +72,10 @@ bool Checkpoints::due(std::int64_t step, double time) const {
   return since >= std::chrono::duration<double>(options_.every) && since >= run_over_cost * cost_;
 }
 
-void Checkpoints::write(std::int64_t step, double time, const World& world, StateParts run) {
+void Checkpoints::write(std::int64_t step, double time, const World& world, const StateParts& run) {
   const auto begin = Time::now();
   info_.step = step;
   info_.time = time;
-  StateWriter scene_file;
-  scene_file(scene_file_);
-  run["scene_file"] = scene_file.bytes();
   write_checkpoint(folder_, info_, world, run);
   last_step_ = step;
   last_ = Time::now();

@@ -33,14 +33,13 @@ class Checkpoints {
     last_step_ = step;
     info_.time = time;
   }
-  void write(std::int64_t step, double time, const World& world, StateParts run);
+  void write(std::int64_t step, double time, const World& world, const StateParts& run);
   // Nothing is left to go on with.
   void remove() const { remove_checkpoints(folder_); }
 
  private:
   using Time = std::chrono::steady_clock;
   CheckpointInfo info_;
-  std::string scene_file_;
   std::filesystem::path folder_;
   CheckpointOptions options_;
   std::int64_t last_step_ = -1;

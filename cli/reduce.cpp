@@ -39,17 +39,16 @@ Inputs sorted_inputs(const Paths& files) {
   return inputs;
 }
 
-std::vector<lab::RunFiles> declared_runs(const lab::Settings& settings) {
-  const std::filesystem::path folder = settings.file.parent_path();
+std::vector<lab::RunFiles> files_of(const std::vector<lab::RunSpec>& specs,
+                                    const std::filesystem::path& folder) {
   std::vector<lab::RunFiles> runs;
-  for (const lab::RunSpec& run : settings.runs)
+  for (const lab::RunSpec& run : specs)
     runs.push_back({run.name, folder / run.press, folder / run.logger, run.offset});
   return runs;
 }
 
 // The first record of the press belongs to the first of the logger, and so on.
-void add_pairs(std::vector<lab::RunFiles>& runs, const Paths& records,
-               const lab::Settings& settings) {
+std::vector<lab::RunSpec> pairs_of(const Paths& records, const lab::Settings& settings) {
   Paths presses, loggers;
   for (const std::filesystem::path& file : records) {
     const bool is_press = lab::instrument_of(file, settings) == lab::Instrument::press;
@@ -60,8 +59,14 @@ void add_pairs(std::vector<lab::RunFiles>& runs, const Paths& records,
            fmt::format("{} of the press and {} of the logger are given, allowed: one of each for "
                        "every run, in the same order",
                        presses.size(), loggers.size()));
+  std::vector<lab::RunSpec> runs;
   for (std::size_t i = 0; i < presses.size(); ++i)
-    runs.push_back({"", presses[i], loggers[i], std::nullopt});
+    runs.push_back({fmt::format("run-{}", settings.runs.size() + i + 1),
+                    std::filesystem::absolute(presses[i]).string(),
+                    std::filesystem::absolute(loggers[i]).string(),
+                    std::nullopt,
+                    {}});
+  return runs;
 }
 
 void name_runs(std::vector<lab::RunFiles>& runs) {
@@ -80,8 +85,8 @@ lab::LoadedSettings settings_of(const Inputs& inputs, std::vector<std::string> o
   if (loops != inputs.records.end()) {
     if (inputs.records.size() > 1)
       refuse(*loops, "records", "friction loops beside other records, allowed: one file of loops");
-    overrides.push_back(
-        fmt::format("wedge.loops='{}'", std::filesystem::absolute(*loops).string()));
+    const std::string path = std::filesystem::absolute(*loops).string();
+    overrides.push_back("wedge.loops=" + document::value_text({path, {}}));
   }
   return lab::load_settings(inputs.settings, overrides);
 }
@@ -91,8 +96,11 @@ Reduction reduced(const ReduceOptions& options, const Inputs& inputs,
   Reduction all;
   all.loaded = loaded;
   const lab::Settings& settings = all.loaded.settings;
-  std::vector<lab::RunFiles> files = declared_runs(settings);
-  add_pairs(files, inputs.records, settings);
+  std::vector<lab::RunSpec> runs = settings.runs;
+  const std::vector<lab::RunSpec> given = pairs_of(inputs.records, settings);
+  lab::add_runs(all.loaded, given);
+  runs.insert(runs.end(), given.begin(), given.end());
+  std::vector<lab::RunFiles> files = files_of(runs, settings.file.parent_path());
   if (files.empty())
     refuse(settings.file, "run",
            "there is none, allowed: [[run]] tables, or records (CSV) on the command line");

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
 #include "cli/write_text.hpp"
 
@@ -160,6 +161,7 @@ void write_reduction(const std::filesystem::path& folder, const Reduction& reduc
   for (const lab::ReducedRun& run : reduction.runs)
     write_text(folder / ("reduced-" + run.name + ".csv"), run_csv(run.curve));
   write_text(folder / "curves.csv", curves_csv(reduction));
+  save_inputs(folder, reduction.loaded.inputs);
   write_text(folder / "reduce.toml", reduction.loaded.text);
   const Json json = reduction_json(reduction);
   write_text(folder / "summary.json",

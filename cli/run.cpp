@@ -8,8 +8,8 @@
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/run_afm.hpp"
+#include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
-#include "cli/write_text.hpp"
 #include "components/body.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
@@ -261,7 +261,7 @@ ExitCode run_scene(const RunOptions& options) {
   require_memory(loaded.scene);
   auto simulation = std::make_unique<Simulation>(loaded.scene, threads);
   const FolderLock lock = open_run_folder(folder, options.overwrite);
-  write_text(folder / "scene.toml", loaded.text);
+  save_scene(folder, loaded);
   Run run(loaded, options, folder, threads, std::move(simulation));
   run.begin();
   return complete(run);

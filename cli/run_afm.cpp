@@ -9,6 +9,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/plan.hpp"
 #include "cli/report.hpp"
+#include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
 #include "cli/write_text.hpp"
@@ -275,7 +276,7 @@ ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
                  const std::filesystem::path& folder, int threads) {
   AfmSimulation simulation(loaded.scene, threads);
   const FolderLock lock = open_run_folder(folder, options.overwrite);
-  write_text(folder / "scene.toml", loaded.text);
+  save_scene(folder, loaded);
   return complete(loaded, options, folder, threads, nullptr, simulation);
 }
 

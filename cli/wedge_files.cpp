@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
 #include "cli/write_text.hpp"
 #include "scenes/wedge_records.hpp"
@@ -88,6 +89,7 @@ nlohmann::ordered_json wedge_json(const WedgeReduction& reduction) {
 
 void write_wedge(const std::filesystem::path& folder, const WedgeReduction& reduction) {
   write_text(folder / "facets.csv", facets_csv(reduction.calibration));
+  save_inputs(folder, reduction.loaded.inputs);
   write_text(folder / "reduce.toml", reduction.loaded.text);
   write_text(folder / "summary.json",
              wedge_json(reduction).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

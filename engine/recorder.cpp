@@ -110,6 +110,7 @@ void Recorder::cut(const RecorderPosition& position) {
   for (const std::string& frame : file_.children("/frames"))
     if (std::stoll(frame) >= position.frames) file_.remove("/frames/" + frame);
   if (file_.has_attribute("/", "outcome")) file_.remove_attribute("/", "outcome");
+  if (file_.contains("/images")) file_.remove("/images");  // made anew when the run ends
   const auto there = static_cast<std::int64_t>(file_.children("/frames").size());
   if (there != position.frames || file_.shape("/history/time").front() != rows)
     throw OutputError(

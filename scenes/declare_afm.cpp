@@ -74,7 +74,7 @@ std::vector<Key<LeverSpec>> shape_keys() {
         .doc = "Of the blunt end; 0: the lever ends in a point."},
        to(&LeverSpec::apex_width)},
       {{.name = "file",
-        .kind = Kind::text,
+        .kind = Kind::file,
         .required = true,
         .only_for = "mesh",
         .doc =
@@ -221,7 +221,7 @@ std::vector<Key<TipSpec>> tip_keys() {
         .doc = "Rounding of the end where it touches a surface; the ball touches as meshed."},
        to(&TipSpec::end_radius)},
       {{.name = "file",
-        .kind = Kind::text,
+        .kind = Kind::file,
         .only_for = "mesh",
         .doc =
             "MSH file of Gmsh (2.2 or 4.1, ASCII), as a path from the scene's folder: hexahedra of "

@@ -72,7 +72,7 @@ std::vector<Key<ExpectSpec>> bound_keys() {
         .fallback_doc = "no such value"},
        bound_to(&ExpectSpec::equals)},
       {{.name = "like",
-        .kind = Kind::text,
+        .kind = Kind::scene,
         .needs = "series",
         .doc = "Another scene, as a path from this one's folder. It is run too, with as many "
                "samples, and its series is the value that is expected.",

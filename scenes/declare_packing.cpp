@@ -119,7 +119,7 @@ std::vector<Key<PackingSpec>> die_keys() {
 
 Key<PackingSpec> file_key() {
   return {{.name = "file",
-           .kind = Kind::text,
+           .kind = Kind::file,
            .required = true,
            .only_for = "csv",
            .doc = "Path from the scene's folder. Columns class, x, y, angle, and scale where "
@@ -231,7 +231,7 @@ std::vector<Key<MixtureClass>> size_keys() {
           limit_key("least", &SizeLaw::least, "No particle is smaller."),
           limit_key("largest", &SizeLaw::largest, "No particle is larger."),
           {{.name = "file",
-            .kind = Kind::text,
+            .kind = Kind::file,
             .required = true,
             .only_for = "sieve",
             .doc = "Path from the scene's folder. Columns size (unit in the header, `size [mm]`) "

@@ -261,7 +261,7 @@ const TableDeclaration<ParticleSpec>& particle() {
         outline_to(
             [](auto& o, double value) requires requires { o.rounding; } { o.rounding = value; })},
        {{.name = "file",
-         .kind = Kind::text,
+         .kind = Kind::file,
          .required = true,
          .only_for = "points",
          .doc = "CSV, one point x, y a line in order, relative to the scene's folder; its first "

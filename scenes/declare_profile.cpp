@@ -47,7 +47,7 @@ Key<ToolSpec> relief_key() {
 Key<ToolSpec> file_key() {
   return {
       {.name = "file",
-       .kind = Kind::text,
+       .kind = Kind::file,
        .only_for = "profile",
        .doc = "CSV file, relative to the scene, with the columns `x` and `height` and the unit "
               "of each in the header: `x [mm], height [um]`. x must rise from row to row. A tilt "

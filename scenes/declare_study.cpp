@@ -155,7 +155,7 @@ const TableDeclaration<StudySpec>& study_top_level() {
          .fallback_doc = "the name of the file"},
         to(&StudySpec::title)},
        {{.name = "scene",
-         .kind = Kind::text,
+         .kind = Kind::scene,
          .doc = "The scene that is varied, as a path from this file's folder.",
          .fallback_doc = "none: every variation names its own"},
         to(&StudySpec::scene)},
@@ -180,7 +180,7 @@ const TableDeclaration<VariationSpec>& study_variation() {
          .doc = "What it is called in the report, in expectations and as a folder."},
         to(&VariationSpec::name)},
        {{.name = "scene",
-         .kind = Kind::text,
+         .kind = Kind::scene,
          .doc = "Its scene, as a path from this file's folder.",
          .fallback_doc = "the study's `scene`"},
         to(&VariationSpec::scene)}}};

@@ -76,7 +76,7 @@ std::vector<Key<TargetSpec>> shape_keys() {
        to(&TargetSpec::position)},
       length_key("wavelength", "sinusoid", "Of the wave.", &TargetSpec::wavelength),
       {{.name = "file",
-        .kind = Kind::text,
+        .kind = Kind::file,
         .required = true,
         .only_for = "map",
         .doc = "Heights in m, as a path from the scene's folder: a text file, comma-separated, a "

@@ -13,7 +13,7 @@ const TableDeclaration<WedgeSpec>& declared_wedge() {
        "friction "
        "coefficient and sensitivity of the lateral detector."},
       {{{.name = "loops",
-         .kind = Kind::text,
+         .kind = Kind::file,
          .doc = "The loops (CSV), as a path from the folder of this file. A file of loops on the "
                 "command line stands for it.",
          .fallback_doc = "sliding-plate tests are reduced"},

@@ -84,12 +84,13 @@ std::string name(const KeyInfo& key, const Value& value) {
   return text;
 }
 
-std::string line_of_text(const KeyInfo& key, const Value& value) {
+std::string line_of_text(const KeyInfo& key, const Value& value, std::size_t longest = 200) {
   const std::string& text = word(key, value);
   const bool control = std::any_of(text.begin(), text.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
   });
-  if (control || text.size() > 200) refuse(key, value, "the text is too long or not on one line");
+  if (control || text.size() > longest)
+    refuse(key, value, "the text is too long or not on one line");
   return text;
 }
 
@@ -251,6 +252,10 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       break;
     case Kind::text:
       result.text = line_of_text(key, value);
+      break;
+    case Kind::file:
+    case Kind::scene:
+      result.text = line_of_text(key, value, 1000);
       break;
     case Kind::name:
       result.text = name(key, value);

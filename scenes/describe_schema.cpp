@@ -87,6 +87,10 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::text:
       json = {{"type", "string"}, {"maxLength", 200}};
       break;
+    case Kind::file:
+    case Kind::scene:
+      json = {{"type", "string"}, {"maxLength", 1000}};
+      break;
     case Kind::name:
       json = {{"type", "string"}, {"pattern", "^[A-Za-z0-9_.+-]{1,64}$"}};
       break;

@@ -3,6 +3,7 @@
 #include "scenes/declare_lab.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/override.hpp"
+#include "scenes/read.hpp"
 #include "scenes/scene_text.hpp"
 #include "scenes/table_reader.hpp"
 
@@ -109,6 +110,12 @@ document::Table parsed(const std::string& text, Problems& problems) {
   }
 }
 
+void make_complete(LoadedSettings& loaded) {
+  document::Table root = loaded.root;
+  loaded.inputs = keep_inputs(root, loaded.settings.file.parent_path(), {}, language());
+  loaded.text = scene_text(root, language());
+}
+
 }  // namespace
 
 std::string reference() { return reference_of(introduction, language()); }
@@ -126,12 +133,26 @@ LoadedSettings load_settings_text(const std::string& text, const std::filesystem
   problems.throw_if_any();
   schema::fill_defaults(root, language());
   SettingsReader reader(root, problems);
-  LoadedSettings loaded{reader.read(file), ""};
+  LoadedSettings loaded{reader.read(file)};
   problems.throw_if_any();
   reader.check(loaded.settings);
   problems.throw_if_any();
-  loaded.text = scene_text(root, language());
+  loaded.root = std::move(root);
+  make_complete(loaded);
   return loaded;
+}
+
+void add_runs(LoadedSettings& loaded, const std::vector<RunSpec>& runs) {
+  if (runs.empty()) return;
+  if (document::find(loaded.root, "run") == nullptr)
+    loaded.root.push_back({"run", {}, {document::Array{}, {}}});
+  auto& tables = document::find(loaded.root, "run")->value.get<document::Array>();
+  for (const RunSpec& run : runs)
+    tables.push_back({document::Table{{"name", {}, {run.name, {}}},
+                                      {"press", {}, {run.press, {}}},
+                                      {"logger", {}, {run.logger, {}}}},
+                      {}});
+  make_complete(loaded);
 }
 
 LoadedSettings load_settings(const std::filesystem::path& file,

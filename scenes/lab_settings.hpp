@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenes/read.hpp"
-#include "scenes/schema.hpp"
+#include "scenes/scene_files.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -101,8 +101,14 @@ struct Settings {
 
 struct LoadedSettings {
   Settings settings;
-  std::string text;  // as TOML, with overrides and defaults
+  document::Table root = {};  // what they were read from, with overrides and defaults
+  // The same as TOML. It stands alone: its paths lead to copies of the records beside it.
+  std::string text = {};
+  std::vector<InputFile> inputs = {};
 };
+
+// Of `runs`, each with records and a name, as [[run]] tables behind those that are there.
+void add_runs(LoadedSettings& loaded, const std::vector<RunSpec>& runs);
 
 const schema::Language& language();
 std::string reference();    // docs/reduce.md

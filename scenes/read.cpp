@@ -178,10 +178,20 @@ Table parsed(const std::string& text, Problems& problems) {
   throw SceneError({{file.string(), 1, 1, "", "scene", message}});
 }
 
-using ReadOther = std::function<Scene(const std::filesystem::path&)>;
+// What an accuracy asked for stands in the meshes, and what the scene is expected to do does not concern the
+// one that is compared with it.
+void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, bool alone) {
+  std::erase_if(root, [&](const document::Entry& entry) {
+    return entry.key == "accuracy" || (alone && entry.key == "expect");
+  });
+  loaded.inputs = keep_inputs(root, loaded.scene.file.parent_path(), others);
+  loaded.text = scene_text(root);
+  loaded.hash = hash_with_inputs(loaded.inputs, scene_hash(loaded.text));
+}
 
+// `alone`: without what is expected of it.
 LoadedScene load(const std::string& text, const std::filesystem::path& file,
-                 const std::vector<std::string>& overrides = {}, const ReadOther& read_other = {}) {
+                 const std::vector<std::string>& overrides = {}, bool alone = false) {
   Problems problems(file, overrides);
   Table root = parsed(text, problems);
   apply_overrides(root, overrides, problems);
@@ -201,7 +211,11 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   } else
     complete_and_check(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
-  if (read_other) {
+  OtherScenes others;
+  if (!alone) {
+    const auto read_other = [&](const std::filesystem::path& other) {
+      return (others[other] = load(toml_file_text(other), other, {}, true)).scene;
+    };
     complete_and_check_expectations(loaded.scene, read_other, reader.origins(), problems);
     problems.throw_if_any();
   }
@@ -209,8 +223,7 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   problems.throw_if_any();
   make_profiles(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
-  loaded.text = scene_text(root);
-  loaded.hash = hash_with_files(loaded.scene, scene_hash(loaded.text));
+  make_complete(loaded, root, others, alone);
   return loaded;
 }
 
@@ -234,7 +247,7 @@ std::string toml_file_text(const std::filesystem::path& file, const char* kind) 
 
 LoadedScene load_scene_text(const std::string& text, const std::filesystem::path& file,
                             const std::vector<std::string>& overrides) {
-  return load(text, file, overrides, read_scene_alone);
+  return load(text, file, overrides);
 }
 
 LoadedScene load_scene(const std::filesystem::path& file,
@@ -247,7 +260,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 }
 
 Scene read_scene_alone(const std::filesystem::path& file) {
-  return load(toml_file_text(file), file).scene;
+  return load(toml_file_text(file), file, {}, true).scene;
 }
 
 std::uint64_t scene_hash(const std::string& text) { return xxh3(std::as_bytes(std::span(text))); }

@@ -4,6 +4,7 @@
 
 #include "scenes/problem.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/scene_files.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,8 +15,11 @@ namespace pulvis {
 
 struct LoadedScene {
   Scene scene;
-  std::string text;  // the scene as run, as TOML: overrides and defaults included, one fixed layout
-  // Of that text and of the files that it names: the same for every scene that says the same.
+  // The scene as run, as TOML: overrides and defaults included, one fixed layout. It stands alone: its paths
+  // lead to copies of the files that it names, as a run's folder keeps them.
+  std::string text;
+  std::vector<InputFile> inputs;
+  // Of that text and of those files: the same for every scene that says the same.
   std::uint64_t hash = 0;
 };
 

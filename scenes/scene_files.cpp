@@ -1,41 +1,124 @@
 #include "scenes/scene_files.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <span>
-#include <sstream>
 
 #include "engine/xxh3.hpp"
-#include "scenes/afm_scene.hpp"
+#include "scenes/read.hpp"
 
 namespace pulvis {
+namespace {
 
-std::vector<std::filesystem::path> files_of(const Scene& scene) {
-  std::vector<std::filesystem::path> files;
-  const auto add = [&](const std::string& name) {
-    if (!name.empty()) files.push_back(scene.file.parent_path() / name);
-  };
-  for (const ParticleSpec& particle : scene.particles)
-    if (const auto* traced = std::get_if<PointsOutline>(&particle.outline);
-        traced != nullptr && particle.class_of < 0)  // sizes of a packing share their class's file
-      add(traced->file);
-  for (const PackingSpec& packing : scene.packings) {
-    add(packing.file);
-    for (const MixtureClass& mixed : packing.classes) add(mixed.size.file);
-  }
-  for (const ToolSpec& tool : scene.tools) add(tool.relief.file);
-  if (scene.afm) add(scene.afm->lever.file);
-  if (scene.afm) add(scene.afm->tip.file);
-  if (scene.afm && scene.afm->target) add(scene.afm->target->file);
-  return files;
+namespace fs = std::filesystem;
+using document::Table;
+using document::Value;
+
+// At most so many bytes of `name`, cut between characters: what is added must fit in a file's name.
+std::string shortened(std::string name) {
+  constexpr std::size_t longest = 100;
+  if (name.size() <= longest) return name;
+  std::size_t length = longest;
+  while (length > 0 && (static_cast<unsigned char>(name[length]) & 0xC0U) == 0x80U) --length;
+  name.resize(length);
+  return name;
 }
 
-std::uint64_t hash_with_files(const Scene& scene, std::uint64_t hash) {
-  for (const std::filesystem::path& file : files_of(scene)) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    hash = xxh3(std::as_bytes(std::span(content.view())), hash);
+std::string marked(const std::string& name, std::uint64_t hash) {
+  const std::string mark = fmt::format("-{:08x}", hash >> 32U);
+  return name.ends_with(mark) ? name : shortened(name) + mark;
+}
+
+class InputKeeper {
+ public:
+  InputKeeper(const fs::path& folder, const OtherScenes& others, const schema::Language& language)
+      : folder_(folder), others_(others), language_(language) {}
+
+  void look_through(Table& table, const std::string& path) {
+    const schema::TableView& view = *schema::find_table(path, language_);
+    for (document::Entry& entry : table)
+      if (const schema::KeyInfo* key = schema::find_key(view, entry.key))
+        look_at(*key, entry.value);
+      else
+        look_below(entry.value, schema::joined_path(path, entry.key));
   }
+
+  std::vector<InputFile> inputs;
+
+ private:
+  void look_below(Value& value, const std::string& path) {
+    if (schema::find_table(path, language_) == nullptr) return;
+    if (auto* table = value.as<Table>()) look_through(*table, path);
+    if (document::is_array_of_tables(value))
+      for (Value& element : value.get<document::Array>()) look_through(element.get<Table>(), path);
+  }
+
+  void look_at(const schema::KeyInfo& key, Value& value) {
+    auto* path = value.as<std::string>();
+    if (path == nullptr || path->empty()) return;
+    if (key.kind == schema::Kind::file) *path = keep_file(folder_ / *path).string();
+    const auto other = others_.find(folder_ / *path);
+    if (key.kind == schema::Kind::scene && other != others_.end())
+      *path = keep_scene(other->first, other->second).string();
+  }
+
+  fs::path keep_file(const fs::path& source) {
+    const std::uint64_t hash = file_hash(source);
+    const std::string name = marked(source.stem().string(), hash);
+    return add({source, "inputs" / fs::path(name + source.extension().string()), {}, hash});
+  }
+
+  // In a folder of its own, with the files that it names.
+  fs::path keep_scene(const fs::path& source, const LoadedScene& other) {
+    const bool is_copy = source.filename() == "scene.toml" && source.has_parent_path();
+    const fs::path name = is_copy ? source.parent_path().filename() : source.stem();
+    const fs::path folder = "inputs" / fs::path(marked(name.string(), other.hash));
+    for (InputFile input : other.inputs) {
+      input.copy = folder / input.copy;
+      add(input);
+    }
+    return add({source, folder / "scene.toml", other.text, other.hash});
+  }
+
+  fs::path add(const InputFile& input) {
+    if (std::ranges::find(inputs, input.copy, &InputFile::copy) == inputs.end())
+      inputs.push_back(input);
+    return input.copy;
+  }
+
+  const fs::path& folder_;
+  const OtherScenes& others_;
+  const schema::Language& language_;
+};
+
+}  // namespace
+
+std::vector<InputFile> keep_inputs(Table& root, const fs::path& folder, const OtherScenes& others,
+                                   const schema::Language& language) {
+  InputKeeper keeper(folder, others, language);
+  keeper.look_through(root, "");
+  return keeper.inputs;
+}
+
+std::uint64_t file_hash(const fs::path& file) {
+  Xxh3 hash;
+  if (!fs::is_regular_file(file)) return hash.value();
+  std::ifstream stream(file, std::ios::binary);
+  std::array<char, 1U << 16U> piece{};
+  while (stream) {
+    stream.read(piece.data(), piece.size());
+    const auto length = static_cast<std::size_t>(stream.gcount());
+    hash.add(std::as_bytes(std::span(piece).first(length)));
+  }
+  return hash.value();
+}
+
+std::uint64_t hash_with_inputs(const std::vector<InputFile>& inputs, std::uint64_t hash) {
+  for (const InputFile& input : inputs)
+    hash = xxh3(std::as_bytes(std::span(&input.hash, 1)), hash);
   return hash;
 }
 

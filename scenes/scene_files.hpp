@@ -1,18 +1,40 @@
-// The files that a scene reads beside its own: traced outlines, placed particles, sieve curves, target
-// profiles, height maps.
+// The files that a scene (or the settings of a reduction) names beside its own: outlines, packings, sieve
+// curves, profiles, height maps, meshes, records, other scenes. They are found by their keys' kind. A run's
+// folder keeps a copy of each, and the paths in its scene.toml lead to the copies: it can be checked and
+// resumed wherever it lies.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "scenes/scene.hpp"
+#include "scenes/schema.hpp"
 
 namespace pulvis {
 
-std::vector<std::filesystem::path> files_of(const Scene& scene);
+struct LoadedScene;
+using OtherScenes = std::map<std::filesystem::path, LoadedScene>;  // that a scene is compared with
 
-// Goes on from `hash` with the content of those files: a scene whose tables have changed is another one.
-std::uint64_t hash_with_files(const Scene& scene, std::uint64_t hash);
+struct InputFile {
+  std::filesystem::path source;
+  std::filesystem::path copy;       // from the run's folder
+  std::optional<std::string> text;  // of the copy, where it is not the source's own
+  std::uint64_t hash = 0;           // of what is in it
+};
+
+// Lets every path in `root`, so far from `folder`, lead to the file's copy. A copy's name ends in the hash
+// of what is in it, heights-5f0c2a91.csv: files of one name do not collide, and a copy keeps its name when it
+// is copied again.
+std::vector<InputFile> keep_inputs(document::Table& root, const std::filesystem::path& folder,
+                                   const OtherScenes& others = {},
+                                   const schema::Language& language = schema::all_tables());
+
+std::uint64_t file_hash(const std::filesystem::path& file);
+
+// Goes on from `hash`: a scene whose tables have changed is another one.
+std::uint64_t hash_with_inputs(const std::vector<InputFile>& inputs, std::uint64_t hash);
 
 }  // namespace pulvis

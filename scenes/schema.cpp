@@ -185,6 +185,9 @@ std::string allowed(const KeyInfo& key) {
       return "one or more strings [\"a\", \"b\", ...]";
     case Kind::integers:
       return "one or more whole numbers [1, 2, ...]" + range_text(key.range);
+    case Kind::file:
+    case Kind::scene:
+      return "a path of at most 1000 characters on one line";
   }
   return "";
 }

@@ -43,6 +43,8 @@ enum class Kind {
   bound,      // a bare number, or a quantity in a unit that another key decides
   texts,      // one or more strings
   integers,   // one or more bare whole numbers
+  file,       // the path of a table, mesh or record, from the folder of the file that names it
+  scene,      // likewise, of another scene
 };
 
 struct Range {

@@ -2,15 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <chrono>
 #include <csignal>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "engine/checkpoint.hpp"
 #include "engine/hdf5.hpp"
+#include "left.hpp"
 #include "program.hpp"
 
 namespace pulvis {
@@ -32,36 +30,7 @@ void PrintTo(const Course& course, std::ostream* out) { *out << course.name; }
 
 class ResumeTest : public ProgramTest {
  protected:
-  // All that a run leaves and a resumed one must leave, too.
-  struct Left {
-    std::string history, xdmf, state_hash;
-    std::map<std::string, std::vector<std::uint64_t>> numbers;  // as bits: 0 is not -0
-  };
-
-  Left left_in(const std::string& folder) const {
-    const auto summary = nlohmann::json::parse(text_of(place / folder / "summary.json"));
-    Left left{text_of(place / folder / "history.csv"),
-              text_of(place / folder / "run.xdmf"),
-              summary.at("state_hash"),
-              {}};
-    const auto file = hdf5::File::open(place / folder / "run.h5");
-    for (const std::string group : {"/history", "/frames"})
-      for (const std::string& name : file.datasets_below(group)) {
-        std::vector<std::uint64_t>& bits = left.numbers[group + "/" + name];
-        for (const double value : file.read_doubles(group + "/" + name))
-          bits.push_back(std::bit_cast<std::uint64_t>(value));
-      }
-    return left;
-  }
-
-  static void expect_same(const Left& a, const Left& b) {
-    EXPECT_EQ(a.state_hash, b.state_hash);
-    EXPECT_TRUE(a.history == b.history) << "history.csv differs";
-    EXPECT_TRUE(a.xdmf == b.xdmf) << "run.xdmf differs";
-    ASSERT_EQ(a.numbers.size(), b.numbers.size());
-    for (const auto& [name, bits] : a.numbers)
-      EXPECT_TRUE(bits == b.numbers.at(name)) << name << " differs";
-  }
+  Left left_in(const std::string& folder) const { return pulvis::left_in(place / folder); }
 
   Words run_words(const Course& course, const std::string& folder) const {
     Words words{"run", scene(course.scene), "-o", folder};

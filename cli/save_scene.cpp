@@ -1,0 +1,56 @@
+#include "cli/save_scene.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "cli/write_text.hpp"
+#include "engine/output_error.hpp"
+#include "engine/run_folder.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool holds(const fs::path& file, const InputFile& input) {
+  if (!input.text) return file_hash(file) == input.hash;
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.view() == *input.text;
+}
+
+// A broken copy never has the copy's name.
+void make_copy(const InputFile& input, const fs::path& target) {
+  fs::path draft = target;
+  draft += ".new";
+  std::error_code error;
+  fs::create_directories(target.parent_path(), error);
+  if (input.text)
+    write_text(draft, *input.text);
+  else if (!error)
+    fs::copy_file(input.source, draft, fs::copy_options::overwrite_existing, error);
+  if (!error && !holds(draft, input))
+    throw OutputError(input.source, "keep a copy of it", "it has changed since it was read");
+  if (!error) fs::rename(draft, target, error);
+  if (error) throw OutputError(target, "keep a copy of " + input.source.string(), error.message());
+}
+
+}  // namespace
+
+void save_inputs(const fs::path& folder, const std::vector<InputFile>& inputs) {
+  for (const InputFile& input : inputs) {
+    const fs::path target = folder / input.copy;
+    if (!fs::exists(target))
+      make_copy(input, target);
+    else if (!holds(target, input))
+      throw RunFolderTaken(target, "keep a copy of " + input.source.string() + " there",
+                           "it is another file, allowed: another folder");
+  }
+}
+
+void save_scene(const fs::path& folder, const LoadedScene& loaded) {
+  save_inputs(folder, loaded.inputs);
+  write_text(folder / "scene.toml", loaded.text);
+}
+
+}  // namespace pulvis

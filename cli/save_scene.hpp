@@ -1,0 +1,16 @@
+// scene.toml of a run's folder, and the copies of the files that it names.
+#pragma once
+
+#include <filesystem>
+
+#include "scenes/read.hpp"
+
+namespace pulvis {
+
+void save_scene(const std::filesystem::path& folder, const LoadedScene& loaded);
+
+// Into `folder`. A copy that is there already stays; another file of its name is never replaced:
+// RunFolderTaken.
+void save_inputs(const std::filesystem::path& folder, const std::vector<InputFile>& inputs);
+
+}  // namespace pulvis
