@@ -65,7 +65,10 @@ std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
   std::vector<Vec3> points;
   std::vector<fcl::Triangle> triangles;
   const bool lateral = t.direction == Direction::lateral;
-  const auto corners = profile(t, reach);
+  auto corners = profile(t, reach);
+  // A bump without a plateau has its top twice; a triangle without an area has no normal.
+  const auto same = [](const ProfilePoint& p, const ProfilePoint& q) { return p.along == q.along; };
+  corners.erase(std::unique(corners.begin(), corners.end(), same), corners.end());
   for (const ProfilePoint& p : corners)
     for (const double side : {-reach, reach})
       points.push_back(lateral ? Vec3(side, p.along, p.height) : Vec3(p.along, side, p.height));

@@ -64,6 +64,19 @@ TEST(TargetShape, TheNormalTurnsByItsDerivativeAroundAnEdge) {
   }
 }
 
+// What a bump is by default.
+TEST(TargetShape, ABumpWithoutAPlateauIsARidge) {
+  TargetSpec t = spec_of(TargetSpec::Shape::bump);
+  t.plateau = 0;
+  const auto bump = target_of(t);
+  expect_nearest(*bump, {0, -100e-9, 5e-9}, 5e-9, {0, 0, 1});
+  const double c = 1 / std::sqrt(5.0), s = 2 * c;
+  for (const double side : {-1.0, 1.0})
+    expect_nearest(*bump, {0, 10e-9 + side * (5e-9 + 3e-9 * s), 10e-9 + 3e-9 * c}, 3e-9,
+                   {0, side * s, c});
+  expect_nearest(*bump, {0, 10e-9, 28e-9}, 8e-9, {0, 0, 1});
+}
+
 // In a valley both sides push: the normal turns from one to the other within a thousandth of the height.
 TEST(TargetShape, AValleyIsRoundedByAThousandthOfItsHeight) {
   const auto step = target_of(spec_of(TargetSpec::Shape::step));
