@@ -1,0 +1,159 @@
+// Every key of the scene language goes through save, check, stop, resume, report and figure; the scenes are
+// generated from the declarations (key_plan.hpp).
+#include <algorithm>
+#include <set>
+
+#include "key_plan.hpp"
+#include "scenes/afm_build.hpp"
+#include "scenes/afm_scene.hpp"
+#include "scenes/build.hpp"
+#include "scenes/mesh.hpp"
+#include "scenes/place.hpp"
+#include "scenes/read.hpp"
+#include "tests/scenes/left.hpp"
+
+namespace pulvis::keys {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path bases = fs::path(PULVIS_SOURCE_DIR) / "tests" / "keys" / "scenes";
+
+// What `pulvis check` says of a scene of this text among the bases.
+std::string fault_of_scene(const std::string& text, const fs::path& folder) {
+  try {
+    const Scene scene = load_scene_text(text, folder / "case.toml").scene;
+    if (scene.afm)
+      build_afm(scene);
+    else
+      check_overlaps(scene, place_bodies(scene));
+    return "";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+// A fault of the plan's own is told by a test, too.
+const Plan& plan() {
+  static const Plan made = [] {
+    try {
+      return plan_for(schema::all_tables(), bases, fault_of_scene);
+    } catch (const std::exception& error) {
+      return Plan{{}, {}, {error.what()}};
+    }
+  }();
+  return made;
+}
+
+TEST(KeysOfScenes, AreAllUsed) {
+  for (const std::string& fault : plan().faults) ADD_FAILURE() << fault;
+  for (const Use& use : plan().missing)
+    ADD_FAILURE() << use.text()
+                  << " stands in no scene, and none of tests/keys/scenes takes a value "
+                  << "made from its declaration: give it one in a scene there in which it has a "
+                     "meaning, or add such a scene";
+}
+
+class SceneKeys : public ProgramTest, public ::testing::WithParamInterface<Case> {
+ protected:
+  const fs::path sources = "scènes of a user", whole = "whole", moved = "où ça – a folder, moved";
+
+  void SetUp() override {
+    ProgramTest::SetUp();
+    fs::copy(bases, place / sources, fs::copy_options::recursive);
+    std::ofstream(place / sources / "case.toml") << GetParam().text;
+  }
+
+  // Ends as it should and has nothing to say about it.
+  void expect_quiet(const Words& words) const {
+    const Outcome outcome = pulvis(words);
+    EXPECT_EQ(outcome.code, 0) << words.front() << ": " << outcome.err << outcome.out;
+    EXPECT_EQ(outcome.err, "") << words.front();
+  }
+
+  std::int64_t steps() const {
+    const auto summary = nlohmann::json::parse(text_of(place / whole / "summary.json"));
+    return summary.contains("steps") ? summary.at("steps") : summary.at("increments");
+  }
+
+  // The first step, the last but one, some in between, and where a stage, an action or a raster's line ends.
+  std::vector<std::int64_t> stops(const Scene& scene) const {
+    const std::int64_t all = steps();
+    std::set<std::int64_t> at{1, all / 3, all / 2, all - 1};
+    double time = 0, end = 0;
+    for (const StageSpec& stage : scene.stages) end += stage.duration;
+    for (const StageSpec& stage : scene.stages)
+      at.insert(
+          static_cast<std::int64_t>((time += stage.duration) / end * static_cast<double>(all)));
+    std::int64_t done = 0;
+    if (scene.afm)
+      for (const ActionSpec& action : scene.afm->actions) {
+        if (action.kind == ActionSpec::Kind::raster) at.insert(done + 2 * action.increments);
+        at.insert(done += static_cast<std::int64_t>(action.samples()));
+      }
+    std::erase_if(at, [&](std::int64_t step) { return step < 1 || step >= all; });
+    return {at.begin(), at.end()};
+  }
+
+  // Saved once, the scene stays what it is, also without the files it was read from.
+  void expect_saved(const LoadedScene& given) const {
+    const fs::path saved = place / whole / "scene.toml";
+    EXPECT_EQ(text_of(saved), given.text);
+    const LoadedScene again = load_scene(saved);
+    EXPECT_EQ(again.text, given.text);
+    EXPECT_EQ(again.hash, given.hash);
+    expect_quiet({"check", (whole / "scene.toml").string()});
+  }
+
+  void run_in_parts(const std::vector<std::int64_t>& stops) const {
+    Words words{"run", (sources / "case.toml").string(), "-o", "parts"};
+    for (const std::int64_t step : stops) {
+      Words part = words;
+      part.insert(part.end(), {"--threads", "1", "--stop-after", std::to_string(step)});
+      const Outcome stopped = pulvis(part);
+      ASSERT_EQ(stopped.code, 130) << "stop at step " << step << ": " << stopped.err;
+      if (words.front() == "run") {
+        fs::rename(place / "parts", place / moved);
+        fs::remove_all(place / sources);
+      }
+      words = {"resume", moved.string()};
+    }
+    expect_quiet({"resume", moved.string(), "--quiet", "--threads", "1"});
+  }
+
+  // Python takes its time: once for every kind of run.
+  static bool is_drawn(const Scene& scene) {
+    static std::set<std::string> drawn;
+    std::string kind = "powder";
+    if (scene.afm) kind = scene.afm->actions.empty() ? "lever" : "programme";
+    if (scene.afm)
+      for (const ActionSpec& action : scene.afm->actions)
+        if (action.kind == ActionSpec::Kind::raster) kind = "raster";
+    return drawn.insert(kind).second;
+  }
+};
+
+TEST_P(SceneKeys, GoThroughSaveCheckStopResumeReport) {
+  const LoadedScene given = load_scene(place / sources / "case.toml");
+  expect_quiet(
+      {"run", (sources / "case.toml").string(), "-o", whole.string(), "--quiet", "--threads", "1"});
+  if (HasFailure()) return;
+  const std::vector<std::int64_t> at = stops(given.scene);
+  fs::path result = whole;
+  if (!at.empty()) {
+    run_in_parts(at);
+    if (HasFailure()) return;
+    expect_same(left_in(place / whole), left_in(place / moved));
+    result = moved;
+  }
+  fs::remove_all(place / sources);
+  expect_saved(given);
+  expect_quiet({"report", result.string()});
+  if (is_drawn(given.scene)) expect_quiet({"figure", result.string(), "--format", "png"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SceneKeys, ::testing::ValuesIn(plan().cases),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace pulvis::keys

@@ -1,0 +1,76 @@
+// Every key of the settings of `reduce`: what it keeps of them does the same again.
+#include "cli/wedge_files.hpp"
+#include "key_plan.hpp"
+#include "scenes/lab_reduction.hpp"
+#include "scenes/lab_settings.hpp"
+#include "tests/scenes/program.hpp"
+
+namespace pulvis::keys {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path bases = fs::path(PULVIS_SOURCE_DIR) / "tests" / "keys" / "settings";
+const fs::path records = fs::path(PULVIS_SOURCE_DIR) / "scenes" / "lab";
+
+std::string fault_of_settings(const std::string& text, const fs::path&) {
+  try {
+    const auto loaded = lab::load_settings_text(text, records / "case.toml", {});
+    const lab::Settings& settings = loaded.settings;
+    if (!settings.wedge.loops.empty()) wedge_reduction(loaded);
+    for (const lab::RunSpec& run : settings.runs)
+      lab::reduce(lab::read_press(records / run.press, settings),
+                  lab::read_logger(records / run.logger, settings), settings,
+                  {run.name, run.press, run.logger, run.offset});
+    return "";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+const Plan& plan() {
+  static const Plan made = [] {
+    try {
+      return plan_for(lab::language(), bases, fault_of_settings);
+    } catch (const std::exception& error) {
+      return Plan{{}, {}, {error.what()}};
+    }
+  }();
+  return made;
+}
+
+TEST(KeysOfSettings, AreAllUsed) {
+  for (const std::string& fault : plan().faults) ADD_FAILURE() << fault;
+  for (const Use& use : plan().missing)
+    ADD_FAILURE() << use.text()
+                  << " stands in no settings, and none of tests/keys/settings takes a "
+                  << "value made from its declaration: give it one in settings there";
+}
+
+class SettingsKeys : public ProgramTest, public ::testing::WithParamInterface<Case> {
+ protected:
+  void reduce(const std::string& settings, const std::string& folder) const {
+    const Outcome outcome = pulvis({"reduce", settings, "-o", folder});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+  }
+};
+
+TEST_P(SettingsKeys, GoThroughSaveAndReduceAgain) {
+  for (const auto& entry : fs::directory_iterator(records))
+    if (entry.path().extension() == ".csv") fs::copy(entry.path(), place / entry.path().filename());
+  std::ofstream(place / "case.toml") << GetParam().text;
+  reduce("case.toml", "first");
+  for (const auto& entry : fs::directory_iterator(place))
+    if (entry.is_regular_file()) fs::remove(entry.path());
+  fs::rename(place / "first", place / "moved où ça");
+  reduce("moved où ça/reduce.toml", "again");
+  for (const char* file : {"reduce.toml", "curves.csv", "facets.csv"})
+    EXPECT_EQ(text_of(place / "moved où ça" / file), text_of(place / "again" / file)) << file;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SettingsKeys, ::testing::ValuesIn(plan().cases),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace pulvis::keys

@@ -1,0 +1,63 @@
+// Every key of the study language is read and checked as a study's.
+#include <unistd.h>
+
+#include "key_plan.hpp"
+#include "scenes/declare_study.hpp"
+#include "scenes/study_read.hpp"
+#include "tests/scenes/program.hpp"
+
+namespace pulvis::keys {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path all_bases = fs::path(PULVIS_SOURCE_DIR) / "tests" / "keys";
+
+// A study is read from a file: in a folder of this process, with the scenes beside it.
+std::string fault_of_study(const std::string& text, const fs::path&) {
+  const fs::path place = fs::temp_directory_path() / ("pulvis-study-" + std::to_string(getpid()));
+  std::string fault;
+  fs::copy(all_bases, place, fs::copy_options::recursive | fs::copy_options::update_existing);
+  std::ofstream(place / "studies" / "case.toml") << text;
+  try {
+    load_study(place / "studies" / "case.toml", {});
+  } catch (const std::exception& error) {
+    fault = error.what();
+  }
+  fs::remove_all(place);
+  return fault;
+}
+
+const Plan& plan() {
+  static const Plan made = [] {
+    try {
+      return plan_for(schema::study_language(), all_bases / "studies", fault_of_study);
+    } catch (const std::exception& error) {
+      return Plan{{}, {}, {error.what()}};
+    }
+  }();
+  return made;
+}
+
+TEST(KeysOfStudies, AreAllUsed) {
+  for (const std::string& fault : plan().faults) ADD_FAILURE() << fault;
+  for (const Use& use : plan().missing)
+    ADD_FAILURE() << use.text() << " stands in no study, and none of tests/keys/studies takes a "
+                  << "value made from its declaration: give it one in a study there";
+}
+
+class StudyKeys : public ProgramTest, public ::testing::WithParamInterface<Case> {};
+
+TEST_P(StudyKeys, AreChecked) {
+  fs::copy(all_bases, place, fs::copy_options::recursive);
+  std::ofstream(place / "studies" / "case.toml") << GetParam().text;
+  const Outcome outcome = pulvis({"study", "studies/case.toml", "--list"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, StudyKeys, ::testing::ValuesIn(plan().cases),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace pulvis::keys
