@@ -6,9 +6,11 @@
 #include <cstring>
 #include <fstream>
 
+#include "cli/tell.hpp"
 #include "engine/output_error.hpp"
 #include "scenes/packing_file.hpp"
 #include "scenes/place.hpp"
+#include "scenes/problem.hpp"
 
 namespace pulvis {
 
@@ -29,13 +31,16 @@ std::string packing_summary(const Scene& scene) {
 }
 
 ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file) {
+  if (scene.afm)
+    throw SceneError({{scene.file.string(), 1, 1, "", "family",
+                       "an AFM scene has no particles, allowed: a scene of particles to pack"}});
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   std::ofstream stream(file, std::ios::binary);
   stream << packing_text(scene, bodies);
   stream.close();
   if (!stream) throw OutputError(file, "write the packing", std::strerror(errno));
-  fmt::print("{}{}: {} particles\n", packing_summary(scene), file.string(), bodies.size());
+  tell("{}{}: {} particles\n", packing_summary(scene), file.string(), bodies.size());
   return ExitCode::done;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/reduction_files.hpp"
+#include "cli/tell.hpp"
 #include "cli/wedge_files.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/wedge_records.hpp"
@@ -133,20 +134,19 @@ std::string with_error(const char* name, const lab::Sample& sample, double confi
 }
 
 void print_run(const lab::ReducedRun& run) {
-  fmt::print("{}: static {:.4f} at {:.2f} mm{}, dynamic {:.4f}", run.name, run.peak.value,
-             run.peak.distance * 1e3, run.peak.is_distinct ? "" : " (not distinct)",
-             run.dynamic.mean);
+  tell("{}: static {:.4f} at {:.2f} mm{}, dynamic {:.4f}", run.name, run.peak.value,
+       run.peak.distance * 1e3, run.peak.is_distinct ? "" : " (not distinct)", run.dynamic.mean);
   if (run.stick_slip)
-    fmt::print(", stick-slip {:.4f} every {:.2f} mm", run.stick_slip->amplitude,
-               run.stick_slip->period * 1e3);
+    tell(", stick-slip {:.4f} every {:.2f} mm", run.stick_slip->amplitude,
+         run.stick_slip->period * 1e3);
   const lab::Clocks& clocks = run.clocks;
-  fmt::print("; clocks: {:.3f} s", clocks.offset);
-  if (clocks.is_given) fmt::print(" as given");
-  if (!clocks.is_given) fmt::print(" +- {:.3f} s", clocks.offset_uncertainty);
+  tell("; clocks: {:.3f} s", clocks.offset);
+  if (clocks.is_given) tell(" as given");
+  if (!clocks.is_given) tell(" +- {:.3f} s", clocks.offset_uncertainty);
   if (clocks.drift)
-    fmt::print(", drift {:.1e} +- {:.1e}{}", *clocks.drift, clocks.drift_uncertainty,
-               clocks.is_drift_applied ? "" : " (not applied)");
-  fmt::print("\n");
+    tell(", drift {:.1e} +- {:.1e}{}", *clocks.drift, clocks.drift_uncertainty,
+         clocks.is_drift_applied ? "" : " (not applied)");
+  tell("\n");
 }
 
 }  // namespace
@@ -159,7 +159,7 @@ ExitCode reduce_records(const ReduceOptions& options) {
     open_folder(options.folder, options.overwrite);
     write_wedge(options.folder, calibrated);
     write_wedge_report(options.folder, calibrated);
-    fmt::print("{}results in {}\n", wedge_text(calibrated.calibration), options.folder.string());
+    tell("{}results in {}\n", wedge_text(calibrated.calibration), options.folder.string());
     return ExitCode::done;
   }
   const Reduction all = reduced(options, inputs, loaded);
@@ -168,9 +168,9 @@ ExitCode reduce_records(const ReduceOptions& options) {
   write_reduction_report(options.folder, all);
   for (const lab::ReducedRun& run : all.runs) print_run(run);
   const double confidence = all.loaded.settings.analysis.confidence;
-  fmt::print("{}; {}\n", with_error("static", all.over_runs.peak, confidence),
-             with_error("dynamic", all.over_runs.dynamic, confidence));
-  fmt::print("results in {}\n", options.folder.string());
+  tell("{}; {}\n", with_error("static", all.over_runs.peak, confidence),
+       with_error("dynamic", all.over_runs.dynamic, confidence));
+  tell("results in {}\n", options.folder.string());
   return ExitCode::done;
 }
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <numeric>
 
+#include "engine/printable.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -36,8 +38,10 @@ std::size_t distance(const std::string& from, const std::string& to) {
 }  // namespace
 
 std::string SceneProblem::text() const {
-  if (!override_text.empty()) return fmt::format("--set {}: {}: {}", override_text, key, message);
-  return fmt::format("{}:{}:{}: {}: {}", file, line, column, key, message);
+  const std::string what = printable_lines(message);
+  if (!override_text.empty())
+    return fmt::format("--set {}: {}: {}", printable(override_text), printable(key), what);
+  return fmt::format("{}:{}:{}: {}: {}", printable(file), line, column, printable(key), what);
 }
 
 SceneError::SceneError(std::vector<SceneProblem> problems)
