@@ -1,14 +1,13 @@
 #include "cli/report_data.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "cli/report_encoding.hpp"
 #include "cli/report_frames.hpp"
 #include "cli/report_solid.hpp"
 #include "engine/hdf5.hpp"
+#include "engine/input_file.hpp"
 
 namespace pulvis {
 namespace {
@@ -38,12 +37,20 @@ class Reader {
     return file_.has_attribute("/", name) ? file_.text_attribute("/", name) : std::string();
   }
 
+  // A file beside run.h5 that is missing or broken costs no report.
+  std::string text_of(const char* name) const {
+    constexpr std::size_t most = 64U << 20U;  // bytes
+    try {
+      return text_of_input(folder_ / name, most);
+    } catch (const UnfitInput&) {
+      return {};
+    }
+  }
+
   void read_summary() {
     Json summary = Json::object();
-    if (std::ifstream stream(folder_ / "summary.json"); stream) {
-      const Json read = Json::parse(stream, nullptr, false);  // a broken summary costs no report
-      if (read.is_object()) summary = read;
-    }
+    const Json read = Json::parse(text_of("summary.json"), nullptr, false);
+    if (read.is_object()) summary = read;
     for (const char* name : {"title", "version", "commit", "scene_hash", "outcome"}) {
       if (!summary.contains(name) && !text(name).empty()) summary[name] = text(name);
     }
@@ -62,9 +69,8 @@ class Reader {
   }
 
   void read_scene() {
-    std::ostringstream scene;
-    if (std::ifstream stream(folder_ / "scene.toml"); stream) scene << stream.rdbuf();
-    if (!scene.str().empty()) head["scene"] = scene.str();
+    const std::string scene = text_of("scene.toml");
+    if (!scene.empty()) head["scene"] = scene;
   }
 
   void read_history() {

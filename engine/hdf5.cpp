@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "engine/hdf5_journal.hpp"
+#include "engine/input_file.hpp"
 #include "engine/output_error.hpp"
 
 namespace pulvis::hdf5 {
@@ -54,6 +55,15 @@ std::string reason() {
   std::string innermost;
   H5Ewalk2(error_stack, H5E_WALK_UPWARD, keep_innermost, &innermost);
   return innermost.empty() ? "HDF5 gave no reason" : system_words(innermost);
+}
+
+// A named pipe would keep HDF5 waiting for a writer.
+void refuse_what_is_no_file(const std::filesystem::path& path) {
+  try {
+    require_regular_file(path);
+  } catch (const UnfitInput& unfit) {
+    throw OutputError(path, "open the file", unfit.what());
+  }
 }
 
 Handle text_type() {
@@ -130,6 +140,7 @@ File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
 
 File File::open(const std::filesystem::path& path) {
   prepare_library();
+  refuse_what_is_no_file(path);
   const Id id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, defaults);
   if (id < 0) throw OutputError(path, "open the file", reason());
   return {path, Handle(id)};
@@ -137,6 +148,7 @@ File File::open(const std::filesystem::path& path) {
 
 File File::open_to_change(const std::filesystem::path& path) {
   prepare_library();
+  refuse_what_is_no_file(path);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_driver(access.get(), journal_driver(), nullptr);
   const Id id = H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get());

@@ -8,13 +8,14 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+
+#include "engine/input_file.hpp"
 
 namespace pulvis::csv {
 namespace {
 
-constexpr std::uintmax_t largest_file = 256U << 20U;  // bytes
-constexpr std::size_t longest_shown = 40;             // characters of a cell in a message
+constexpr std::size_t largest_file = 256U << 20U;  // bytes
+constexpr std::size_t longest_shown = 40;          // characters of a cell in a message
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -35,19 +36,12 @@ std::string lower(std::string text) {
 }
 
 std::string text_of(const std::filesystem::path& file) {
-  std::error_code failure;
-  const auto refused = [&](const std::string& what) {
-    refuse_at(file, 1, 1, "table", what + ", allowed: a table of numbers (CSV)");
-  };
-  if (!std::filesystem::is_regular_file(file, failure)) refused("there is no such file");
-  const std::uintmax_t size = std::filesystem::file_size(file, failure);
-  if (failure || size > largest_file)
-    refused(fmt::format("is larger than {} MiB", largest_file >> 20U));
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(size, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(size));
-  if (!stream) refused("cannot be read");
-  return text;
+  try {
+    return text_of_input(file, largest_file);
+  } catch (const UnfitInput& unfit) {
+    refuse_at(file, 1, 1, "table",
+              fmt::format("{}, allowed: a table of numbers (CSV)", unfit.what()));
+  }
 }
 
 struct Line {

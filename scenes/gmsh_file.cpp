@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
 
+#include "engine/input_file.hpp"
 #include "scenes/problem.hpp"
 
 namespace pulvis {
 namespace {
 
+constexpr std::size_t largest_file = 256U << 20U;  // bytes
 constexpr int line2 = 1, quad4 = 3, hexahedron8 = 5, line3 = 8, triangle6 = 9, tetrahedron10 = 11,
               point1 = 15;
 
@@ -41,8 +42,12 @@ const char* name_of(int type) {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file), stream_(file) {
-    if (!stream_) refuse("gmsh", "there is no such file, allowed: an MSH file of Gmsh (ASCII)");
+  explicit Reader(const std::filesystem::path& file) : file_(file) {
+    try {
+      stream_.str(text_of_input(file, largest_file));
+    } catch (const UnfitInput& unfit) {
+      refuse("gmsh", fmt::format("{}, allowed: an MSH file of Gmsh (ASCII)", unfit.what()));
+    }
   }
 
   GmshMesh read() {
@@ -265,7 +270,7 @@ class Reader {
   }
 
   std::filesystem::path file_;
-  std::ifstream stream_;
+  std::istringstream stream_;
   int line_ = 0, version_ = 0;
   std::map<std::pair<int, int>, std::string> names_;  // by dimension and tag
   std::map<std::pair<int, int>, int> physical_;       // of entities

@@ -1,5 +1,6 @@
 #include "scenes/lab_settings.hpp"
 
+#include "engine/input_file.hpp"
 #include "scenes/declare_lab.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/override.hpp"
@@ -10,12 +11,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 namespace pulvis::lab {
 namespace {
 
+constexpr std::size_t largest_file = 16U << 20U;  // bytes
 constexpr const char* introduction = R"(# The settings of `pulvis reduce`
 
 <!-- Generated from the declarations in scenes/declare_lab.cpp: change those, not this file. -->
@@ -158,14 +158,12 @@ void add_runs(LoadedSettings& loaded, const std::vector<RunSpec>& runs) {
 LoadedSettings load_settings(const std::filesystem::path& file,
                              const std::vector<std::string>& overrides) {
   if (file.empty()) return load_settings_text("", "reduce.toml (none given)", overrides);
-  std::error_code failure;
-  std::ifstream stream(file);
-  if (!std::filesystem::is_regular_file(file, failure) || !stream)
+  try {
+    return load_settings_text(text_of_input(file, largest_file), file, overrides);
+  } catch (const UnfitInput& unfit) {
     throw SceneError({{file.string(), 1, 1, "", "settings",
-                       "there is no such file, allowed: settings of a reduction (TOML)"}});
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return load_settings_text(text.str(), file, overrides);
+                       fmt::format("{}, allowed: settings of a reduction (TOML)", unfit.what())}});
+  }
 }
 
 }  // namespace pulvis::lab

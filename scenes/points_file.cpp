@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
+#include <sstream>
 
+#include "engine/input_file.hpp"
 #include "scenes/closed_spline.hpp"
 #include "scenes/csv_table.hpp"
 #include "scenes/outline_checks.hpp"
@@ -16,9 +17,9 @@ namespace pulvis {
 namespace {
 
 constexpr std::size_t fewest_points = 8, most_points = 20'000;
-constexpr std::uintmax_t largest_file = 4U << 20U;  // bytes
-constexpr double closest = 1e-9;                    // of the diagonal, from point to point
-constexpr double most_smoothing = 0.05;             // of the root of the area
+constexpr std::size_t largest_file = 4U << 20U;  // bytes
+constexpr double closest = 1e-9;                 // of the diagonal, from point to point
+constexpr double most_smoothing = 0.05;          // of the root of the area
 
 struct BadFile {
   int line;  // 0: all of it
@@ -144,13 +145,13 @@ class PointsReader {
 };
 
 std::vector<Vec2> points_in(const std::filesystem::path& path, const std::string& unit) {
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure))
-    throw BadFile{0, "there is no such file, allowed: a CSV file of points"};
-  if (std::filesystem::file_size(path, failure) > largest_file)
-    throw BadFile{0, fmt::format("is larger than {} MiB", largest_file >> 20U)};
-  std::ifstream stream(path);
-  if (!stream) throw BadFile{0, "cannot be read"};
+  std::string text;
+  try {
+    text = text_of_input(path, largest_file);
+  } catch (const UnfitInput& unfit) {
+    throw BadFile{0, fmt::format("{}, allowed: a CSV file of points", unfit.what())};
+  }
+  std::istringstream stream(std::move(text));
   return PointsReader(unit).read(stream);
 }
 

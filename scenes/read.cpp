@@ -1,6 +1,7 @@
 #include "scenes/read.hpp"
 #include "scenes/afm_scene.hpp"
 
+#include "engine/input_file.hpp"
 #include "engine/xxh3.hpp"
 #include "scenes/accuracy.hpp"
 #include "scenes/afm_checks.hpp"
@@ -16,8 +17,6 @@
 #include "scenes/table_reader.hpp"
 
 #include <fmt/format.h>
-
-#include <fstream>
 
 namespace pulvis {
 namespace {
@@ -230,19 +229,11 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
 }  // namespace
 
 std::string toml_file_text(const std::filesystem::path& file, const char* kind) {
-  std::error_code failure;
-  if (!std::filesystem::exists(file, failure))
-    refuse_file(file, fmt::format("there is no such file, allowed: {} (TOML)", kind));
-  if (std::filesystem::is_directory(file, failure))
-    refuse_file(file, fmt::format("is a folder, allowed: {} (TOML)", kind));
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(largest_file + 1, '\0');
-  if (stream) stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad() || !(stream.eof() || stream)) refuse_file(file, "cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > largest_file)
-    refuse_file(file, fmt::format("is larger than {} MiB", largest_file >> 20U));
-  return text;
+  try {
+    return text_of_input(file, largest_file);
+  } catch (const UnfitInput& unfit) {
+    refuse_file(file, fmt::format("{}, allowed: {} (TOML)", unfit.what(), kind));
+  }
 }
 
 LoadedScene load_scene_text(const std::string& text, const std::filesystem::path& file,

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "engine/hdf5.hpp"
+#include "engine/input_file.hpp"
 #include "engine/portable_math.hpp"
 #include "scenes/solid_draft.hpp"
 #include "scenes/triangle_target.hpp"
@@ -103,6 +104,12 @@ std::shared_ptr<const TargetShape> from_map(const TargetSpec& t, const Scene& sc
 }
 
 constexpr std::size_t most_heights = 4'000'000;  // 2000 x 2000, 200 MB of triangles
+constexpr std::size_t most_map_bytes = 256U << 20U;
+
+void refuse_too_many(std::size_t rows, std::size_t columns) {
+  if (columns > 0 && rows > most_heights / columns)
+    throw std::runtime_error(fmt::format("more than {} heights", most_heights));
+}
 
 std::vector<double> numbers_of(const std::string& line, std::size_t number) {
   std::vector<double> row;
@@ -123,15 +130,13 @@ std::vector<double> numbers_of(const std::string& line, std::size_t number) {
 }
 
 std::vector<std::vector<double>> map_from_text(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error("cannot be read");
+  std::istringstream stream(text_of_input(file, most_map_bytes));
   std::vector<std::vector<double>> rows;
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
     if (line.empty() || line.front() == '#' || line == "\r") continue;
     rows.push_back(numbers_of(line, number));
-    if (rows.size() * rows.front().size() > most_heights)
-      throw std::runtime_error(fmt::format("more than {} heights", most_heights));
+    refuse_too_many(rows.size(), rows.front().size());
     if (rows.back().size() != rows.front().size())
       throw std::runtime_error(fmt::format("line {}: {} numbers, the first line has {}", number,
                                            rows.back().size(), rows.front().size()));
@@ -145,6 +150,7 @@ std::vector<std::vector<double>> map_from_hdf5(const std::filesystem::path& path
   if (!file.contains("/" + dataset)) throw std::runtime_error("no dataset '" + dataset + "'");
   const hdf5::Shape shape = file.shape("/" + dataset);
   if (shape.size() != 2) throw std::runtime_error("dataset '" + dataset + "' is not [y, x]");
+  refuse_too_many(shape[0], shape[1]);
   const std::vector<double> values = file.read_doubles("/" + dataset);
   std::vector<std::vector<double>> rows;
   for (std::size_t j = 0; j < shape[0]; ++j)
