@@ -9,17 +9,51 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t most_cells = 10'000;  // of a frame's map
+
+std::size_t groups(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
+
+// Every so many lines of a grid, and the last.
+std::vector<double> every(const std::vector<double>& lines, std::size_t size) {
+  std::vector<double> kept;
+  for (std::size_t i = 0; i + 1 < lines.size(); i += size) kept.push_back(lines[i]);
+  kept.push_back(lines.back());
+  return kept;
+}
+
+// Over groups of wide x tall cells of a grid; cells without a number do not count.
+std::vector<double> means(const std::vector<double>& cells, std::size_t columns, std::size_t wide,
+                          std::size_t tall) {
+  const std::size_t rows = cells.size() / columns, across = groups(columns, wide);
+  std::vector<double> sum(across * groups(rows, tall)), count(sum.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (!std::isfinite(cells[c])) continue;
+    const std::size_t group = c / columns / tall * across + c % columns / wide;
+    sum[group] += cells[c];
+    count[group] += 1;
+  }
+  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= count[g];  // 0 / 0: none has one
+  return sum;
+}
+
 class Observed {
  public:
   Observed(const hdf5::File& file, std::string frame) : file_(file), frame_(std::move(frame)) {}
 
   bool has(const std::string& name) const { return file_.contains(frame_ + "/" + name); }
 
+  // A grid that is finer than any screen shows is drawn by the means of `merged` x `merged` cells.
   Json density() const {
-    return {{"cells", rounded("local_density")},
-            {"profile", rounded("density_profile")},
-            {"x", rounded("density_grid/x")},
-            {"y", rounded("density_grid/y")}};
+    const std::vector<double> x = numbers("density_grid/x"), y = numbers("density_grid/y");
+    const std::size_t columns = x.size() - 1, rows = y.size() - 1;
+    std::size_t merged = 1;
+    while (groups(columns, merged) * groups(rows, merged) > most_cells) ++merged;
+    const auto profile = numbers("density_profile");
+    return {{"cells", rounded(means(numbers("local_density"), columns, merged, merged))},
+            {"profile", rounded(means(profile, 1, 1, merged))},
+            {"x", rounded(every(x, merged))},
+            {"y", rounded(every(y, merged))},
+            {"merged", merged}};
   }
 
   Json network(std::size_t lines) const {
@@ -53,10 +87,12 @@ class Observed {
     return file_.read_doubles(frame_ + "/" + name);
   }
 
+  Json rounded(const std::string& name) const { return rounded(numbers(name)); }
+
   // Six figures, as many as anybody reads; what is no number becomes null.
-  Json rounded(const std::string& name) const {
+  static Json rounded(const std::vector<double>& values) {
     Json list = Json::array();
-    for (const double value : numbers(name)) {
+    for (const double value : values) {
       const double size = value == 0 || !std::isfinite(value)
                               ? 1.0
                               : std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));

@@ -11,6 +11,8 @@
 namespace pulvis {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t difference(std::uint64_t most, std::uint64_t used) {
@@ -27,16 +29,50 @@ std::uint64_t of_machine() {
   return unlimited;
 }
 
-std::uint64_t number_in(const char* path) {
+std::uint64_t number_in(const fs::path& path) {
   std::uint64_t number = unlimited;
   std::ifstream file(path);
   return file >> number ? number : unlimited;  // "max": no limit
 }
 
-std::uint64_t of_control_group() {
-  const std::uint64_t most = number_in("/sys/fs/cgroup/memory.max");
-  const std::uint64_t used = number_in("/sys/fs/cgroup/memory.current");
-  return most == unlimited || used == unlimited ? most : difference(most, used);
+// Bytes of the group that files could be dropped from: they count as used and are given back when needed.
+std::uint64_t reclaimable_in(const fs::path& folder, const std::string& key) {
+  std::ifstream file(folder / "memory.stat");
+  std::string name;
+  for (std::uint64_t bytes = 0; file >> name >> bytes;)
+    if (name == key) return bytes;
+  return 0;
+}
+
+struct Version {
+  const char *most, *used, *reclaimable;
+};
+constexpr Version version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
+                            "total_inactive_file"};
+constexpr Version version_2{"memory.max", "memory.current", "inactive_file"};
+
+std::uint64_t left_in(const fs::path& folder, const Version& version) {
+  const std::uint64_t most = number_in(folder / version.most);
+  const std::uint64_t used = number_in(folder / version.used);
+  if (most == unlimited || used == unlimited) return most;
+  return difference(most, difference(used, reclaimable_in(folder, version.reclaimable)));
+}
+
+// Of a group and of all that it is in. In a container its path may be that of the machine, and only the
+// mount's own folder be there.
+std::uint64_t left_in_all(const fs::path& mount, const fs::path& group, const Version& version) {
+  std::uint64_t least = left_in(mount, version);
+  fs::path folder = mount;
+  for (const fs::path& part : group.relative_path()) {
+    folder /= part;
+    least = std::min(least, left_in(folder, version));
+  }
+  return least;
+}
+
+bool has_memory(std::string controllers) {
+  controllers = "," + controllers + ",";
+  return controllers.find(",memory,") != std::string::npos;
 }
 
 std::uint64_t of_shell() {
@@ -49,8 +85,27 @@ std::uint64_t of_shell() {
 
 }  // namespace
 
+// A line is "4:memory:/group" in version 1, "0::/group" in version 2; both may be there.
+std::uint64_t left_by_control_groups(const fs::path& table, const fs::path& root) {
+  std::uint64_t least = unlimited;
+  std::ifstream file(table);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    const fs::path group = line.substr(second + 1);
+    if (has_memory(controllers))
+      least = std::min(least, left_in_all(root / "memory", group, version_1));
+    if (!controllers.empty()) continue;
+    least = std::min(least, left_in_all(root, group, version_2));
+    least = std::min(least, left_in_all(root / "unified", group, version_2));
+  }
+  return least;
+}
+
 std::uint64_t available_memory() {
-  return std::min({of_machine(), of_control_group(), of_shell()});
+  return std::min(
+      {of_machine(), left_by_control_groups("/proc/self/cgroup", "/sys/fs/cgroup"), of_shell()});
 }
 
 }  // namespace pulvis

@@ -1,11 +1,16 @@
-// How much memory this process could still take: the least of what the machine has available, what a control
-// group allows and what the shell's limit leaves.
+// How much memory this process could still take: the least of what the machine has available, what its control
+// groups (version 1 or 2, and all above them) allow and what the shell's limit leaves.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 namespace pulvis {
 
 std::uint64_t available_memory();  // bytes; the largest number where nothing says so
+
+// What control groups leave. `table` is /proc/self/cgroup, `root` where the groups are mounted.
+std::uint64_t left_by_control_groups(const std::filesystem::path& table,
+                                     const std::filesystem::path& root);
 
 }  // namespace pulvis

@@ -10,8 +10,10 @@
 #include <numbers>
 #include <tuple>
 
+#include "scenes/afm_size.hpp"
 #include "scenes/lever_mesh.hpp"
 #include "scenes/material_checks.hpp"
+#include "scenes/memory_need.hpp"
 #include "scenes/meshed_lever.hpp"
 #include "scenes/meshed_tip.hpp"
 #include "scenes/target_shape.hpp"
@@ -39,10 +41,9 @@ class AfmChecks {
       refuse(path, message);
     });
     coating();
-    if (!outline()) return;
+    if (!outline() || !mesh_size()) return;
     tip();
     laser();
-    mesh_size();
     tetrahedra();
     adhesion();
     actions();
@@ -205,15 +206,37 @@ class AfmChecks {
     if (tip_.solid) check(tip_.solid->solid, "tip.file");
   }
 
-  void mesh_size() {
-    constexpr std::size_t most = 200'000;  // hexahedra: 600 MB with the factors
-    const std::size_t count =
-        lever_.solid ? lever_.solid->solid.hexahedra.size() + lever_.solid->solid.tetrahedra.size()
-                     : lever_plan(lever_, lever_foot(lever_, tip_)).quads.size() *
-                           static_cast<std::size_t>(lever_.layers);
-    if (count > most)
-      refuse(lever_.solid ? "lever.file" : "lever.aspect",
-             fmt::format("{} elements, allowed: {} at most", count, most));
+  // Before anything is meshed: that alone may take minutes and gigabytes.
+  bool mesh_size() {
+    const AfmScene& afm = *scene_.afm;
+    const SolidSize size = afm_size(afm);
+    if (!is_too_large(size)) return true;
+    const std::string what = fmt::format("about {:.3g} elements and {}", size.elements,
+                                         bytes_text(static_cast<std::uint64_t>(size.bytes())));
+    const std::string limit =
+        fmt::format("{:g} elements and {:.3g} numbers in the factors of their stiffness",
+                    most_solid_elements, most_solid_factors);
+    if (tip_size(afm).factors >= lever_size(afm).factors && tip_.shape != Shape::mesh)
+      refuse("tip.elements", fmt::format("{}: {}, allowed: at most {}, which keeps within {}",
+                                         tip_.elements, what, most_tip_elements(), limit));
+    else
+      refuse(size_key(), fmt::format("{}, allowed: at most {}", what, limit));
+    return false;
+  }
+
+  int most_tip_elements() const {
+    AfmScene afm = *scene_.afm;
+    while (afm.tip.elements > 2 && is_too_large(afm_size(afm))) afm.tip.elements -= 2;
+    return afm.tip.elements;
+  }
+
+  // The key that made the lever's mesh what it is.
+  std::string size_key() const {
+    if (tip_size(*scene_.afm).factors >= lever_size(*scene_.afm).factors) return "tip.file";
+    if (lever_.solid) return "lever.file";
+    if (lever_.along > 0 || lever_.across > 0)
+      return lever_.along >= lever_.across ? "lever.elements_along" : "lever.elements_across";
+    return lever_.layers > 1 ? "lever.layers" : "lever.aspect";
   }
 
   // JKR is the law of a ball on a plane, its elasticity included.

@@ -18,16 +18,25 @@ std::vector<double> shares_of(std::vector<double> lines) {
   return lines;
 }
 
-PlanMesh beam_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
+// Shares of the length and of the width where its lines run.
+struct BeamLines {
+  std::vector<double> along, across;
+};
+BeamLines beam_lines(const LeverSpec& lever, double edge, const LeverFoot& foot) {
   const double l = lever.length, w = lever.width;
   const auto lines = [](int count, const std::vector<double>& graded) {
     return count > 0 ? even_shares(count) : shares_of(graded);
   };
+  return {lines(lever.along, graded_lines(l, edge, foot.size, foot.x, fewest_along)),
+          lines(lever.across, graded_lines(w, edge, foot.size, foot.y + 0.5 * w, fewest_across))};
+}
+
+PlanMesh beam_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
+  const double l = lever.length, w = lever.width;
+  const BeamLines lines = beam_lines(lever, edge, foot);
   PlanMesh mesh;
   add_patch(mesh, {Vec2(0, -0.5 * w), Vec2(l, -0.5 * w), Vec2(l, 0.5 * w), Vec2(0, 0.5 * w)},
-            lines(lever.along, graded_lines(l, edge, foot.size, foot.x, fewest_along)),
-            lines(lever.across, graded_lines(w, edge, foot.size, foot.y + 0.5 * w, fewest_across)),
-            1e-9 * l);
+            lines.along, lines.across, 1e-9 * l);
   return mesh;
 }
 
@@ -47,23 +56,43 @@ std::vector<double> apex_lines(const VOutline& v, double end, double edge, const
   return lines;
 }
 
+// A pointed lever is cut off where it is a fiftieth of an arm wide: nothing beyond carries load.
+double v_end(const LeverSpec& lever, const VOutline& v) {
+  return std::min(lever.length, v.apex - 0.01 * lever.arm_width / portable::tan(v.half_angle));
+}
+
+// Shares where the lines of its half run: along the arm, along the apex plate, and across both.
+struct VLines {
+  std::vector<double> arm, apex, across;
+};
+VLines v_lines(const LeverSpec& lever, double edge, const LeverFoot& foot) {
+  const VOutline v = v_outline(lever);
+  const double end = v_end(lever, v), arm = v.inner / portable::cos(v.half_angle);
+  const double width =
+      std::max((v.apex - std::min(foot.x, end)) * portable::tan(v.half_angle), foot.size);
+  return {shares_of(graded_lines(arm, edge, lever.arm_width / 8, arm, fewest_along)),
+          shares_of(apex_lines(v, end, edge, foot)),
+          shares_of(graded_lines(1, edge / lever.arm_width, foot.size / width, 0, fewest_across))};
+}
+
 PlanMesh v_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
   const VOutline v = v_outline(lever);
   const double slope = portable::tan(v.half_angle), tolerance = 1e-9 * lever.length;
-  // A pointed lever is cut off where it is a fiftieth of an arm wide: nothing beyond carries load.
-  const double end = std::min(lever.length, v.apex - 0.01 * lever.arm_width / slope);
+  const double end = v_end(lever, v);
   const Vec2 inner(v.inner, 0), outer(v.inner, (v.apex - v.inner) * slope);
-  const double width = std::max((v.apex - std::min(foot.x, end)) * slope, foot.size);
-  const auto across =
-      shares_of(graded_lines(1, edge / lever.arm_width, foot.size / width, 0, fewest_across));
-  const double arm = v.inner / portable::cos(v.half_angle);
+  const VLines lines = v_lines(lever, edge, foot);
   PlanMesh half;
-  add_patch(half, {Vec2(0, v.inner * slope), inner, outer, Vec2(0, v.apex * slope)},
-            shares_of(graded_lines(arm, edge, lever.arm_width / 8, arm, fewest_along)), across,
-            tolerance);
-  add_patch(half, {inner, Vec2(end, 0), Vec2(end, (v.apex - end) * slope), outer},
-            shares_of(apex_lines(v, end, edge, foot)), across, tolerance);
+  add_patch(half, {Vec2(0, v.inner * slope), inner, outer, Vec2(0, v.apex * slope)}, lines.arm,
+            lines.across, tolerance);
+  add_patch(half, {inner, Vec2(end, 0), Vec2(end, (v.apex - end) * slope), outer}, lines.apex,
+            lines.across, tolerance);
   return with_mirror_image(half, tolerance);
+}
+
+// More elements than that along a thin lever cost time and hardly add accuracy.
+constexpr double most_along = 150;
+double edge_of(const LeverSpec& lever) {
+  return std::max(lever.aspect * lever.thickness, lever.length / most_along);
 }
 
 }  // namespace
@@ -82,11 +111,21 @@ VOutline v_outline(const LeverSpec& lever) {
 
 PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot) {
   if (lever.shape == LeverSpec::Shape::mesh) return lever.solid->face.plan;
-  // More elements than that along a thin lever cost time and hardly add accuracy.
-  constexpr double most_along = 150;
-  const double edge = std::max(lever.aspect * lever.thickness, lever.length / most_along);
+  const double edge = edge_of(lever);
   return lever.shape == LeverSpec::Shape::beam ? beam_plan(lever, edge, foot)
                                                : v_plan(lever, edge, foot);
+}
+
+PlanCount plan_count(const LeverSpec& lever, const LeverFoot& foot) {
+  const auto between = [](const std::vector<double>& lines) {
+    return static_cast<std::int64_t>(lines.size()) - 1;
+  };
+  if (lever.shape == LeverSpec::Shape::beam) {
+    const BeamLines lines = beam_lines(lever, edge_of(lever), foot);
+    return {between(lines.along), between(lines.across)};
+  }
+  const VLines lines = v_lines(lever, edge_of(lever), foot);
+  return {between(lines.arm) + between(lines.apex), 2 * between(lines.across)};
 }
 
 std::optional<LeverMesh::Point> LeverMesh::on(std::size_t level, const Vec2& point) const {

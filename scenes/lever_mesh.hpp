@@ -22,6 +22,11 @@ struct LeverFoot {
   double x = 0, y = 0, size = 0;  // m
 };
 PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot);
+// How many quads the plan of a beam or a V will have along and across it.
+struct PlanCount {
+  std::int64_t along = 0, across = 0;
+};
+PlanCount plan_count(const LeverSpec& lever, const LeverFoot& foot);
 
 // A weighted mean of nodes: displacements are read there, forces put there.
 using Gauge = std::vector<SolidMesh::Support>;

@@ -79,9 +79,7 @@ TipMesh add_solid_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh
   const bool round = tip.shape == Shape::cone;
   const PlanMesh plan = round ? unit_disc(tip.elements) : unit_square(tip.elements);
   const double end = tip.shape == Shape::block ? tip.foot : tip.end;
-  const int layers = std::max(
-      2, static_cast<int>(std::lround(tip.height / (0.5 * (tip.foot + end)) * tip.elements)));
-  const int stacked = std::min(layers, 40);
+  const int stacked = tip_layers(tip);
   const Vec2 axis = tip_axis(lever, tip);
   const double top = on_lower_face(mesh, axis).z;
   const auto first = add_column(draft, plan, stacked, SolidPart::tip, [&](const Vec2& p, int l) {
@@ -168,6 +166,13 @@ double foot_reach(const TipSpec& tip) {
   if (tip.shape == Shape::none) return 0;
   if (tip.shape == Shape::sphere) return tip.neck_radius;
   return 0.5 * tip.foot;
+}
+
+int tip_layers(const TipSpec& tip) {
+  constexpr double most = 40;
+  const double end = tip.shape == Shape::block ? tip.foot : tip.end;
+  const double cubes = std::round(tip.height / (0.5 * (tip.foot + end)) * tip.elements);
+  return static_cast<int>(std::clamp(cubes, 2.0, most));
 }
 
 LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip) {

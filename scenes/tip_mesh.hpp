@@ -22,6 +22,9 @@ double foot_reach(const TipSpec& tip);
 // thickness that does. Without a tip: nothing in particular happens there.
 LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip);
 
+// Of elements that a block, pyramid or cone is stacked of.
+int tip_layers(const TipSpec& tip);
+
 // Without a tip: the point of the lever's lower face under its axis. A ball that touches by a law of its own
 // does so where the normal `out` of the sample, in the lever's frame, meets it: a point that moves with the
 // ball as a whole, since the law has the ball's own yielding in it.

@@ -24,6 +24,7 @@ function drawCells(ctx, width, height, {cells, x, y}, [low, high]) {
     ctx.fillText(value.toFixed(3), (left + right) / 2, (top + bottom) / 2);
   });
   drawScale(ctx, width - LEGEND_WIDTH + 14, 26, height - 40, {low, high, unit: "-"});
+  return `${low} ${high}`;
 }
 
 // Steps, one a row of cells; at least a hundredth wide, so that round-off does not look like a profile.
@@ -70,9 +71,8 @@ function drawProfile(ctx, width, height, {profile, y}, [least, most]) {
 }
 
 // Shares of sectors of half a turn, drawn on both sides.
-function drawRose(ctx, width, height, {number, force}) {
+function drawRose(ctx, width, height, {number, force}, most) {
   const sectors = number.length, step = Math.PI / sectors, radius = Math.min(width, height) / 2 - 22;
-  const most = Math.max(...number, ...force) || 1;
   ctx.translate(width / 2, height / 2);
   const petals = (shares, fill, stroke) => shares.forEach((share, k) => {
     for (const turn of [0, Math.PI]) {
@@ -101,19 +101,22 @@ function drawRose(ctx, width, height, {number, force}) {
 }
 
 const known = cells => cells.filter(value => value !== null);
-const rangeText = values => `from ${digits(Math.min(...values))} to ${digits(Math.max(...values))}`;
+const rangeText = values => "from " + bounds([values]).map(value => digits(value)).join(" to ");
+const rangeOf = (frames, name) => bounds(frames.filter(frame => frame.density).map(frame => known(frame.density[name])));
+const largestShare = frames => Math.max(...frames.filter(frame => frame.network)
+  .flatMap(({network: {number, force}}) => [...number, ...force])) || 1;
 const hasDensity = run => run.densities.length > 0;
 const atTime = frame => `at ${withUnit(frame.time, "s")}`;
 
 addPanel({
   title: "Local relative density", order: 10, when: hasDensity,
   draw(report, host) {
-    const {x, y} = report.run.frames.at(-1).density;
+    const {x, y, merged} = report.run.frames.at(-1).density;
     report.figure(host, {
       title: "Local relative density", shape: (y.at(-1) - y[0]) / (x.at(-1) - x[0]),
-      draw: (ctx, width, height, {density}) => drawCells(ctx, width, height, density, bounds([known(density.cells)])),
+      draw: (ctx, width, height, {density}, frames) => drawCells(ctx, width, height, density, rangeOf(frames, "cells")),
       note: frame => `${titled(rangeText(known(frame.density.cells)))} in ${x.length - 1} × ${y.length - 1} cells ` +
-        `between the tools, ${atTime(frame)}.`,
+        `between the tools${merged > 1 ? `, each the mean of ${merged} × ${merged}` : ""}, ${atTime(frame)}.`,
       columns: ({density: {cells, x: xs, y: ys}}) => {
         const wide = xs.length - 1, middle = (lines, i) => (lines[i] + lines[i + 1]) / 2;
         return [{label: "x", unit: "m", values: cells.map((_, c) => middle(xs, c % wide))},
@@ -128,7 +131,7 @@ addPanel({
   draw(report, host) {
     report.figure(host, {
       title: "Relative density along the height", shape: 0.75,
-      draw: (ctx, width, height, {density}) => drawProfile(ctx, width, height, density, bounds([known(density.profile)])),
+      draw: (ctx, width, height, {density}, frames) => drawProfile(ctx, width, height, density, rangeOf(frames, "profile")),
       note: frame => `Of every row of cells, ${atTime(frame)}.`,
       columns: ({density: {profile, y}}) => [
         {label: "y", unit: "m", values: profile.map((_, j) => (y[j] + y[j + 1]) / 2)},
@@ -142,7 +145,7 @@ addPanel({
   draw(report, host) {
     report.figure(host, {
       title: "Directions of the contact normals", shape: 0.8,
-      draw: (ctx, width, height, {network}) => drawRose(ctx, width, height, network),
+      draw: (ctx, width, height, {network}, frames) => drawRose(ctx, width, height, network, largestShare(frames)),
       note: frame => `Between particles, ${atTime(frame)}: filled, shares of the normal force; outlined, of the number.`,
       columns: ({network: {number, force}}) => [
         {label: "direction", unit: "degree", values: number.map((_, k) => 180 * k / number.length)},
