@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "cli/summary.hpp"
+#include "cli/tell.hpp"
 #include "engine/output_error.hpp"
 
 namespace pulvis {
@@ -29,7 +30,7 @@ std::unique_ptr<Checkpoint> newest_whole(const fs::path& folder) {
       throw CannotResume(
           fmt::format("{}: cannot resume: {}: {}", folder.string(), file.string(), other.what()));
     } catch (const DamagedCheckpoint& damage) {
-      fmt::print(stderr, "pulvis: {} is damaged: {}\n", file.string(), damage.what());
+      tell(stderr, "pulvis: {} is damaged: {}\n", file.string(), damage.what());
     }
   }
   throw OutputError(folder, "resume", "no checkpoint is whole");
@@ -72,7 +73,8 @@ bool Checkpoints::due(std::int64_t step, double time) const {
   return since >= std::chrono::duration<double>(options_.every) && since >= run_over_cost * cost_;
 }
 
-void Checkpoints::write(std::int64_t step, double time, const World& world, const StateParts& run) {
+template <class State>
+void Checkpoints::write(std::int64_t step, double time, const State& world, const StateParts& run) {
   const auto begin = Time::now();
   info_.step = step;
   info_.time = time;
@@ -81,6 +83,8 @@ void Checkpoints::write(std::int64_t step, double time, const World& world, cons
   last_ = Time::now();
   cost_ = last_ - begin;
 }
+template void Checkpoints::write(std::int64_t, double, const World&, const StateParts&);
+template void Checkpoints::write(std::int64_t, double, const StateParts&, const StateParts&);
 
 void require_stopped_run(const fs::path& folder) {
   if (!fs::exists(folder / "scene.toml") || !fs::exists(folder / "run.h5"))

@@ -33,7 +33,9 @@ class Checkpoints {
     last_step_ = step;
     info_.time = time;
   }
-  void write(std::int64_t step, double time, const World& world, const StateParts& run);
+  // `world` is a World or the parts that were kept of one.
+  template <class State>
+  void write(std::int64_t step, double time, const State& world, const StateParts& run);
   // Nothing is left to go on with.
   void remove() const { remove_checkpoints(folder_); }
 

@@ -1,22 +1,36 @@
 #include "cli/interrupt.hpp"
 
-#include <atomic>
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
+
+#include "cli/exit_code.hpp"
+#include "engine/interruption.hpp"
 
 namespace pulvis {
 namespace {
 
-std::atomic<bool> asked_to_stop{false};
-void ask_to_stop(int) { asked_to_stop = true; }
+void ask(int) { ask_to_stop(); }
 
-}  // namespace
+// Only what is safe in a signal handler.
+void leave(int) {
+  constexpr std::string_view told =
+      "pulvis: interrupted before the first step; nothing was written\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, told.data(), told.size());
+  _exit(static_cast<int>(ExitCode::interrupted));
+}
 
-void take_interrupts() {
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+void answer_interrupts(void (*handler)(int)) {
+  std::signal(SIGINT, handler);
+  std::signal(SIGTERM, handler);
   std::signal(SIGXFSZ, SIG_IGN);  // a full quota is an error, not a death
 }
 
-bool interrupted() { return asked_to_stop; }
+}  // namespace
+
+void leave_at_interrupts() { answer_interrupts(leave); }
+void take_interrupts() { answer_interrupts(ask); }
+bool interrupted() { return asked_to_stop(); }
 
 }  // namespace pulvis

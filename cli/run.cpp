@@ -10,6 +10,7 @@
 #include "cli/run_afm.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
+#include "cli/tell.hpp"
 #include "components/body.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
@@ -188,21 +189,20 @@ void print_end(const Run& run) {
   const Results& r = run.results;
   const double seconds = run.progress->seconds();
   const std::int64_t steps = run.simulation->clock().step;
-  fmt::print("{} steps in {:.2f} s, {:.1f} M element-updates/s; energy balance error {:.3g}\n",
-             steps, seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
-             r.energy_balance_error());
+  tell("{} steps in {:.2f} s, {:.1f} M element-updates/s; energy balance error {:.3g}\n", steps,
+       seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
+       r.energy_balance_error());
   if (r.has("stress_ratio/axial"))
-    fmt::print("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",
-               r.value("relative_density"), r.value("stress_ratio/axial"),
-               r.value("stress_ratio/lateral"));
+    tell("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",
+         r.value("relative_density"), r.value("stress_ratio/axial"),
+         r.value("stress_ratio/lateral"));
   if (const auto shear = r.shear().figures())
-    fmt::print(
-        "friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
-        shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,
-        shear->dilation * 1e3);
-  if (!run.verdicts.empty()) fmt::print("expectations\n");
-  for (const Verdict& verdict : run.verdicts) fmt::print("  {}\n", verdict.text());
-  fmt::print("results in {}\n", run.folder.string());
+    tell("friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
+         shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,
+         shear->dilation * 1e3);
+  if (!run.verdicts.empty()) tell("expectations\n");
+  for (const Verdict& verdict : run.verdicts) tell("  {}\n", verdict.text());
+  tell("results in {}\n", run.folder.string());
 }
 
 // A health check or a limit ended the run: that may be what the scene is about.
@@ -211,10 +211,25 @@ ExitCode stopped(Run& run, const std::string& message) {
   const bool expected = ended_as_expected(run.loaded.scene, message);
   run.finish((expected ? "stopped as expected: " : "failed: ") + message);
   if (!expected)
-    fmt::print(stderr, "pulvis: the run went bad: {}\nwhat was written before is in {}\n", message,
-               run.folder.string());
+    tell(stderr, "pulvis: the run went bad: {}\nwhat was written before is in {}\n", message,
+         run.folder.string());
   if (!run.verdicts.empty() || run.options.json) print_end(run);
   return expected && all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
+}
+
+// After the machine failed the run.
+void tell_what_is_left(const std::filesystem::path& folder) {
+  if (checkpoints_in(folder).empty())
+    tell(
+        stderr,
+        "pulvis: there is no checkpoint yet that could go on; once the cause is gone run it again, "
+        "with --overwrite where {} holds a run.h5\n",
+        folder.string());
+  else
+    tell(stderr,
+         "pulvis: what was written before is in {}; once the cause is gone it goes on with: "
+         "pulvis resume {}\n",
+         folder.string(), folder.string());
 }
 
 // From wherever the run stands to its end.
@@ -230,17 +245,14 @@ ExitCode complete(Run& run) {
       run.checkpoints.remove();
       return all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
     }
-    fmt::print(stderr, "pulvis: interrupted at step {}; it goes on with: pulvis resume {}\n",
-               run.clock().step, run.folder.string());
+    tell(stderr, "pulvis: interrupted at step {}; it goes on with: pulvis resume {}\n",
+         run.clock().step, run.folder.string());
     return ExitCode::interrupted;
   } catch (const RunFailure& failure) {
     return stopped(run, failure.what());
   } catch (const OutputError&) {
     run.progress->finish();
-    fmt::print(stderr,
-               "pulvis: what was written before is in {}; once the cause is gone it goes on with: "
-               "pulvis resume {}\n",
-               run.folder.string(), run.folder.string());
+    tell_what_is_left(run.folder);
     throw;
   }
 }
@@ -252,7 +264,7 @@ int threads_of(const RunOptions& options) {
 }  // namespace
 
 ExitCode run_scene(const RunOptions& options) {
-  take_interrupts();
+  leave_at_interrupts();
   const LoadedScene loaded = load_scene(options.scene, options.overrides);
   const std::filesystem::path folder = folder_of(options);
   const int threads = threads_of(options);
@@ -260,6 +272,7 @@ ExitCode run_scene(const RunOptions& options) {
   // Everything that can be refused is refused before the folder is made, and before memory is taken.
   require_memory(loaded.scene);
   auto simulation = std::make_unique<Simulation>(loaded.scene, threads);
+  take_interrupts();
   const FolderLock lock = open_run_folder(folder, options.overwrite);
   save_scene(folder, loaded);
   Run run(loaded, options, folder, threads, std::move(simulation));
@@ -268,18 +281,19 @@ ExitCode run_scene(const RunOptions& options) {
 }
 
 ExitCode resume_run(const RunOptions& options) {
-  take_interrupts();
+  leave_at_interrupts();
   require_stopped_run(options.folder);
   const FolderLock lock(options.folder);
   const StoppedRun stopped_run = find_stopped_run(options.folder);
   const LoadedScene& loaded = stopped_run.scene;
   const CheckpointInfo& at = stopped_run.checkpoint->info();
-  if (options.talks()) fmt::print("resumed at step {}, t = {:.6g} s\n", at.step, at.time);
+  if (options.talks()) tell("resumed at step {}, t = {:.6g} s\n", at.step, at.time);
   const int threads = threads_of(options);
   if (loaded.scene.afm) return resume_afm(loaded, options, *stopped_run.checkpoint, threads);
   require_memory(loaded.scene);
   Run run(loaded, options, options.folder, threads,
           std::make_unique<Simulation>(loaded.scene, threads));
+  take_interrupts();
   run.go_on_from(*stopped_run.checkpoint);
   return complete(run);
 }

@@ -12,8 +12,10 @@
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
+#include "cli/tell.hpp"
 #include "cli/write_text.hpp"
 #include "components/solid.hpp"
+#include "engine/interruption.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/afm_figures.hpp"
@@ -21,7 +23,9 @@
 #include "scenes/afm_loop.hpp"
 #include "scenes/afm_scene.hpp"
 #include "scenes/afm_simulation.hpp"
+#include "scenes/afm_size.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/memory_need.hpp"
 #include "scenes/state_hash.hpp"
 #include "systems/run_failure.hpp"
 
@@ -97,7 +101,8 @@ std::vector<double> plastic_strain(const AfmSimulation& simulation, const RunMes
 
 struct ProgrammeEnd {
   bool done = false;
-  std::string failure;
+  bool given_up = false;  // half way to an equilibrium: the world is of no use
+  std::string failure{};
 };
 
 // The actions being run, their history, and some twelve frames of the solid, the last one included.
@@ -110,6 +115,8 @@ struct ProgrammeRun {
   AfmPosition position;
   std::unique_ptr<Recorder> recorder;
   std::size_t every;
+  StateParts kept;  // of the world after the last increment
+  AfmPosition kept_position;
 
   ProgrammeRun(const LoadedScene& scene, const RunOptions& options,
                const std::filesystem::path& folder, AfmSimulation& afm, AfmHistory& rows)
@@ -139,12 +146,25 @@ struct ProgrammeRun {
   std::int64_t increment() const { return position.told - 1; }
   bool stops() const { return interrupted() || checkpoints.stops(increment()); }
 
-  void write_checkpoint() {
+  // An equilibrium of a large lever takes minutes. One that is given up half way leaves nothing to go on
+  // from but what was kept before it.
+  void keep() {
+    kept = state_of(simulation.world());
+    kept_position = position;
+  }
+
+  template <class State>
+  void write_checkpoint(const State& state) {
     RecorderPosition results = recorder->position();
     StateWriter writer;
     writer(results, position, history);
-    checkpoints.write(increment(), history.times.back(), simulation.world(),
-                      {{"afm", writer.bytes()}});
+    checkpoints.write(increment(), history.times.back(), state, {{"afm", writer.bytes()}});
+  }
+
+  void write_kept_checkpoint() {
+    if (kept.empty()) return;  // the checkpoint that it resumed from is still the newest
+    position = kept_position;
+    write_checkpoint(kept);
   }
 
   // False where the run is to stop here.
@@ -153,8 +173,10 @@ struct ProgrammeRun {
     history.rows.push_back(row);
     recorder->sample(time, row);
     if (history.rows.size() % every == 1 || every == 1) frame(time);
-    if (stops() || checkpoints.due(increment(), time)) write_checkpoint();
-    return !stops();
+    if (stops() || checkpoints.due(increment(), time)) write_checkpoint(simulation.world());
+    if (stops()) return false;
+    keep();
+    return true;
   }
 
   ProgrammeEnd go(const Checkpoint* from) {
@@ -167,8 +189,11 @@ struct ProgrammeRun {
           restore);
     } catch (const RunFailure& failure) {
       end.failure = failure.what();
+    } catch (const Interrupted&) {
+      write_kept_checkpoint();
+      end.given_up = true;
     }
-    if (!history.times.empty()) frame(history.times.back());
+    if (!history.times.empty() && !end.given_up) frame(history.times.back());
     for (const AfmImage& image : raster_images(loaded.scene, history))
       recorder->image(image.info, image.lines, image.pixels, image.values);
     recorder->finish(end.done ? "done" : end.failure.empty() ? "interrupted" : end.failure);
@@ -216,27 +241,40 @@ std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
 }
 
 void print_end(const AfmReport& report, const std::filesystem::path& folder) {
-  fmt::print("{}", calibration_text(report.calibration));
-  for (const FrictionLoop& loop : report.loops) fmt::print("{}", loop_text(loop));
-  if (report.wedge && report.loops.size() > 1) fmt::print("{}", wedge_summary(*report.wedge));
-  fmt::print("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
-             report.increments, report.wall_seconds);
-  if (!report.verdicts.empty()) fmt::print("expectations\n");
-  for (const Verdict& verdict : report.verdicts) fmt::print("  {}\n", verdict.text());
-  fmt::print("results in {}\n", folder.string());
+  tell("{}", calibration_text(report.calibration));
+  for (const FrictionLoop& loop : report.loops) tell("{}", loop_text(loop));
+  if (report.wedge && report.loops.size() > 1) tell("{}", wedge_summary(*report.wedge));
+  tell("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
+       report.increments, report.wall_seconds);
+  if (!report.verdicts.empty()) tell("expectations\n");
+  for (const Verdict& verdict : report.verdicts) tell("  {}\n", verdict.text());
+  tell("results in {}\n", folder.string());
 }
 
-ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
-                  const std::filesystem::path& folder, int threads, const Checkpoint* from,
-                  AfmSimulation& simulation) {
+void refuse_checkpoint_time(const LoadedScene& loaded, const RunOptions& options) {
   if (options.checkpoints.time > 0)
     throw SceneError({{loaded.scene.file, 1, 1, "", "--checkpoint-time",
                        "a lever's programme has no time, allowed: --checkpoint-steps"}});
-  const auto start = std::chrono::steady_clock::now();
+}
+
+// What comes before the folder is touched: the calibration's factorisation may take minutes.
+struct Calibrated {
+  AfmSimulation simulation;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  Calibration calibration;
+
+  Calibrated(const Scene& scene, int threads)
+      : simulation(scene, threads), calibration(simulation.calibrate()) {}
+};
+
+ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
+                  const std::filesystem::path& folder, int threads, const Checkpoint* from,
+                  Calibrated& calibrated) {
+  AfmSimulation& simulation = calibrated.simulation;
   AfmReport report;
   AfmHistory history;
-  ProgrammeEnd end{true, ""};
-  report.calibration = simulation.calibrate();
+  ProgrammeEnd end{.done = true};
+  report.calibration = calibrated.calibration;
   if (loaded.scene.afm->actions.empty())
     write_frames(folder, loaded, threads, simulation);
   else
@@ -249,7 +287,7 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
   report.state_hash = state_hash_text(simulation.world());
   report.threads = threads;
   report.wall_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - calibrated.start).count();
   report.outcome = end.done              ? "done"
                    : end.failure.empty() ? "interrupted"
                                          : "failed: " + end.failure;
@@ -261,10 +299,10 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
   if (options.json) print_summary(folder);
   if (options.talks()) print_end(report, folder);
   const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);
-  if (!expected) fmt::print(stderr, "pulvis: the run went bad: {}\n", end.failure);
+  if (!expected) tell(stderr, "pulvis: the run went bad: {}\n", end.failure);
   if (!end.done && end.failure.empty()) {
-    fmt::print(stderr, "pulvis: interrupted at increment {}; it goes on with: pulvis resume {}\n",
-               report.increments, folder.string());
+    tell(stderr, "pulvis: interrupted at increment {}; it goes on with: pulvis resume {}\n",
+         report.increments, folder.string());
     return ExitCode::interrupted;
   }
   return expected && all_met(report.verdicts) ? ExitCode::done : ExitCode::run_failed;
@@ -274,28 +312,37 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
 
 ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
                  const std::filesystem::path& folder, int threads) {
-  AfmSimulation simulation(loaded.scene, threads);
+  refuse_checkpoint_time(loaded, options);
+  require_afm_memory(loaded.scene);
+  Calibrated calibrated(loaded.scene, threads);
+  take_interrupts();
   const FolderLock lock = open_run_folder(folder, options.overwrite);
   save_scene(folder, loaded);
-  return complete(loaded, options, folder, threads, nullptr, simulation);
+  return complete(loaded, options, folder, threads, nullptr, calibrated);
 }
 
 ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
                     const Checkpoint& checkpoint, int threads) {
-  AfmSimulation simulation(loaded.scene, threads);
-  return complete(loaded, options, options.folder, threads, &checkpoint, simulation);
+  refuse_checkpoint_time(loaded, options);
+  require_afm_memory(loaded.scene);
+  Calibrated calibrated(loaded.scene, threads);
+  take_interrupts();
+  return complete(loaded, options, options.folder, threads, &checkpoint, calibrated);
 }
 
 ExitCode check_afm_scene(const Scene& scene) {
+  const auto need = static_cast<std::uint64_t>(afm_size(*scene.afm).bytes());
+  tell("memory: about {}\n", bytes_text(need));
+  std::fflush(stdout);
+  require_afm_memory(scene);
   const AfmModel model = build_afm(scene);
-  fmt::print("{}: good: {} elements, {} nodes\n", scene.file.string(), model.elements, model.nodes);
+  tell("{}: good: {} elements, {} nodes\n", scene.file.string(), model.elements, model.nodes);
   return ExitCode::done;
 }
 
 ExitCode plan_afm(const Scene& scene, bool dot) {
   AfmSimulation simulation(scene);
-  fmt::print("{}",
-             dot ? plan_dot(simulation.plan()) : plan_text(simulation.plan(), simulation.world()));
+  tell("{}", dot ? plan_dot(simulation.plan()) : plan_text(simulation.plan(), simulation.world()));
   return ExitCode::done;
 }
 

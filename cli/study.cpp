@@ -13,6 +13,7 @@
 #include "cli/study_jobs.hpp"
 #include "cli/study_report.hpp"
 #include "cli/study_results.hpp"
+#include "cli/tell.hpp"
 #include "engine/output_error.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/study_read.hpp"
@@ -79,11 +80,10 @@ class StudyRunner {
 
   void go() {
     const auto kept = results_.size() - waiting_.size();
-    fmt::print("{} runs: {} to do, {} finished before; {} at once, {} thread{} each\n",
-               results_.size(), waiting_.size(), kept, times_.jobs, times_.threads,
-               times_.threads == 1 ? "" : "s");
+    tell("{} runs: {} to do, {} finished before; {} at once, {} thread{} each\n", results_.size(),
+         waiting_.size(), kept, times_.jobs, times_.threads, times_.threads == 1 ? "" : "s");
     const auto resumed = std::ranges::count(results_, true, &StudyResult::resumed);
-    if (resumed > 0) fmt::print("broken off before, resumed at their checkpoints: {}\n", resumed);
+    if (resumed > 0) tell("broken off before, resumed at their checkpoints: {}\n", resumed);
     std::fflush(stdout);
     std::vector<Job> jobs;
     for (const std::size_t i : waiting_) jobs.push_back(job_of(results_[i]));
@@ -148,8 +148,8 @@ class StudyRunner {
     StudyResult told = result;
     read_result(told);
     clear_state();
-    fmt::print("[{}/{}] {}: {} in {:.1f} s\n", done_, waiting_.size(), result.run->name,
-               told.failure.empty() ? "done" : "BAD: " + told.failure, end.seconds);
+    tell("[{}/{}] {}: {} in {:.1f} s\n", done_, waiting_.size(), result.run->name,
+         told.failure.empty() ? "done" : "BAD: " + told.failure, end.seconds);
     std::fflush(stdout);
   }
 
@@ -165,7 +165,7 @@ class StudyRunner {
           fmt::format("; about {:.0f} s left", seconds() / static_cast<double>(done_) *
                                                    static_cast<double>(waiting_.size() - done_));
     constexpr std::size_t widest = 110;
-    fmt::print(stderr, "\r\033[K{}", line.substr(0, widest));
+    fmt::print(stderr, "\r\033[K{}", printable(line.substr(0, widest)));
     std::fflush(stderr);
     open_ = true;
   }
@@ -184,11 +184,11 @@ class StudyRunner {
         results_, [](const StudyResult& result) { return !result.failure.empty(); });
     for (const StudyResult& result : results_)
       if (!result.failure.empty())
-        fmt::print(stderr, "pulvis: {} went bad: {}\n", result.run->name, result.failure);
-    if (!verdicts.empty()) fmt::print("expectations\n");
-    for (const Verdict& verdict : verdicts) fmt::print("  {}\n", verdict.text());
-    fmt::print("{} of {} runs good; results in {}\n",
-               results_.size() - static_cast<std::size_t>(bad), results_.size(), folder_.string());
+        tell(stderr, "pulvis: {} went bad: {}\n", result.run->name, result.failure);
+    if (!verdicts.empty()) tell("expectations\n");
+    for (const Verdict& verdict : verdicts) tell("  {}\n", verdict.text());
+    tell("{} of {} runs good; results in {}\n", results_.size() - static_cast<std::size_t>(bad),
+         results_.size(), folder_.string());
   }
 
   const Study& study_;
@@ -204,16 +204,17 @@ class StudyRunner {
 
 void print_list(const Study& study) {
   for (const StudyRun& run : study.runs) {
-    fmt::print("{}\n  {}\n", run.name, run.file.string());
-    for (const std::string& change : run.overrides) fmt::print("  --set '{}'\n", change);
+    tell("{}\n  {}\n", run.name, run.file.string());
+    for (const std::string& change : run.overrides) tell("  --set '{}'\n", change);
   }
-  fmt::print("{}: good: {} runs of {} variations, {} expectations\n", study.file.string(),
-             study.runs.size(), study.variations.size(), study.spec.expects.size());
+  tell("{}: good: {} runs of {} variations, {} expectations\n", study.file.string(),
+       study.runs.size(), study.variations.size(), study.spec.expects.size());
 }
 
 }  // namespace
 
 ExitCode run_study(const StudyOptions& options) {
+  leave_at_interrupts();
   const Study study = load_study(options.study, options.overrides);
   if (options.list) {
     print_list(study);
@@ -229,9 +230,8 @@ ExitCode run_study(const StudyOptions& options) {
   StudyRunner runner(options, study, folder);
   runner.go();
   if (interrupted()) {
-    fmt::print(stderr,
-               "pulvis: interrupted; {} of {} runs were finished, the same command goes on\n",
-               runner.done(), runner.to_do());
+    tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command goes on\n",
+         runner.done(), runner.to_do());
     return ExitCode::interrupted;
   }
   return runner.finish();

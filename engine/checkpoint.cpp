@@ -72,7 +72,7 @@ void sign(const fs::path& path) {
 }
 
 hdf5::File verified(const fs::path& path) {
-  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file) throw DamagedCheckpoint(std::string("cannot be opened: ") + std::strerror(errno));
   Head head{};
   if (pread(file.get(), head.data(), head.size(), 0) != static_cast<ssize_t>(head.size()))
@@ -95,7 +95,23 @@ std::string column_name(const ColumnBase& column) {
   return "/columns/" + column.place + "/" + column.info.name;
 }
 
-void write_content(const fs::path& path, const CheckpointInfo& info, const World& world,
+// Calls take(name, bytes) for all that a world has to keep.
+template <class Take>
+void for_each_part(const World& world, const Take& take) {
+  for (const ColumnBase* column : world.columns())
+    if (!column->declared_transient)
+      take(column_name(*column), std::span<const std::byte>(column->data(), column->bytes()));
+  for (const World::SavedResource& resource : world.saved_resources())
+    take("/resources/" + resource.name, std::span<const std::byte>(resource.state()));
+}
+
+template <class Take>
+void for_each_part(const StateParts& parts, const Take& take) {
+  for (const auto& [name, bytes] : parts) take(name, std::span<const std::byte>(bytes));
+}
+
+template <class State>
+void write_content(const fs::path& path, const CheckpointInfo& info, const State& world,
                    const StateParts& run) {
   hdf5::File file = hdf5::File::create(path, head_bytes);
   file.set_attribute("/", "version", std::string_view(info.version));
@@ -103,19 +119,16 @@ void write_content(const fs::path& path, const CheckpointInfo& info, const World
   file.set_attribute("/", "scene_hash", std::string_view(info.scene_hash));
   file.set_attribute("/", "step", info.step);
   file.set_attribute("/", "time", info.time);
-  for (const ColumnBase* column : world.columns())
-    if (!column->declared_transient)
-      file.write(column_name(*column), std::span(column->data(), column->bytes()));
-  for (const World::SavedResource& resource : world.saved_resources())
-    file.write("/resources/" + resource.name, resource.state());
+  for_each_part(world, [&](const std::string& name, std::span<const std::byte> bytes) {
+    file.write(name, bytes);
+  });
   for (const auto& [name, bytes] : run) file.write("/run/" + name, bytes);
   file.close();
 }
 
-}  // namespace
-
-void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const World& world,
-                      const StateParts& run) {
+template <class State>
+void write_state(const fs::path& folder, const CheckpointInfo& info, const State& world,
+                 const StateParts& run) {
   const fs::path path = folder / fmt::format("checkpoint-{:012}.h5", info.step);
   const fs::path beside = path.string() + ".new";
   std::error_code ignored;
@@ -130,6 +143,26 @@ void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const 
   sync_folder(folder);
   const std::vector<fs::path> all = checkpoints_in(folder);
   for (std::size_t i = kept; i < all.size(); ++i) fs::remove(all[i], ignored);
+}
+
+}  // namespace
+
+StateParts state_of(const World& world) {
+  StateParts parts;
+  for_each_part(world, [&](const std::string& name, std::span<const std::byte> bytes) {
+    parts[name].assign(bytes.begin(), bytes.end());
+  });
+  return parts;
+}
+
+void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const World& world,
+                      const StateParts& run) {
+  write_state(folder, info, world, run);
+}
+
+void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const StateParts& world,
+                      const StateParts& run) {
+  write_state(folder, info, world, run);
 }
 
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {

@@ -31,9 +31,14 @@ struct CheckpointInfo {
 
 using StateParts = std::map<std::string, std::vector<std::byte>>;
 
+// What a checkpoint would hold of `world`, by its name there: kept in memory, to be written later.
+StateParts state_of(const World& world);
+
 // Afterwards the folder holds this checkpoint and the one before, no older ones.
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
                       const World& world, const StateParts& run);
+void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
+                      const StateParts& world, const StateParts& run);
 
 // The newest first.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);

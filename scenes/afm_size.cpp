@@ -9,6 +9,7 @@
 
 #include "engine/machine_memory.hpp"
 #include "engine/output_error.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/afm_scene.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/meshed_lever.hpp"
@@ -34,7 +35,7 @@ SolidSize grid_size(double a, double b, double c) {
   std::ranges::sort(n);
   const double nodes = n[0] * n[1] * n[2], section = n[0] * n[1];
   const double band = (n[2] > 1.5 * std::sqrt(section) ? 1.2 : 0.65) * section;
-  const double plate = 4 * n[0] * std::log2(n[1] * n[2]);
+  const double plate = 4 * n[0] * portable::log(n[1] * n[2]) / std::numbers::ln2;
   const double blocks = n[0] > 2 ? 14 : 9;  // of a node's 27 or 18, the lower half
   return {a * b * c, nodes, 9 * nodes * blocks, 9 * nodes * std::min(band, plate)};
 }
@@ -45,7 +46,7 @@ SolidSize sum(const SolidSize& a, const SolidSize& b) {
 
 // A mesh of any form: as a cube of so many cells.
 SolidSize as_cube(double elements) {
-  const double edge = std::cbrt(elements);
+  const double edge = portable::cbrt(elements);
   return grid_size(edge, edge, edge);
 }
 
@@ -60,7 +61,7 @@ double contact_edges(const TipSpec& tip) {
 SolidSize ball_size(const TipSpec& tip) {
   const double across = tip.elements, layers = std::max(1.0, across / 2);
   double elements = across * across * (across + 6 * layers);
-  if (tip.contact_edge) elements += 6 * std::pow(contact_edges(tip), 3);
+  if (tip.contact_edge) elements += 6 * portable::pow(contact_edges(tip), 3);
   return as_cube(elements);
 }
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/interruption.hpp"
 #include "systems/solid_contact_problem.hpp"
 #include "systems/solid_systems.hpp"
 
@@ -47,6 +48,7 @@ struct Contact {
     answers.resize(static_cast<std::size_t>(node.rows()));
     MatrixXd& mine = answers[static_cast<std::size_t>(p)];
     if (mine.size() > 0) return mine;
+    stop_if_asked();
     MatrixXd unit = MatrixXd::Zero(3 * mesh.unknowns, 3);
     for (const auto& s : supports(p))
       for (int k = 0; k < 3; ++k)

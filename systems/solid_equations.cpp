@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
+#include "engine/interruption.hpp"
 #include "engine/state_bytes.hpp"
 #include "systems/run_failure.hpp"
 #include "systems/solid_systems.hpp"
@@ -55,6 +58,17 @@ void fill_values(const SolidAssembly& assembly, const Read<BlockTangent>& block,
       }
 }
 
+// That of a large solid takes minutes. Interrupted, the equations are left empty.
+void factorise_stiffness(SolidEquations& equations, bool first) {
+  auto factors = first ? std::make_unique<SolidEquations::Factors>() : std::move(equations.factors);
+  std::tie(equations.stiffness, equations.factors) = interruptible(
+      [stiffness = std::move(equations.stiffness), factors = std::move(factors), first]() mutable {
+        if (first) factors->analyzePattern(stiffness);
+        factors->factorize(stiffness);
+        return std::pair(std::move(stiffness), std::move(factors));
+      });
+}
+
 }  // namespace
 
 std::vector<double> SolidEquations::factorised() const {
@@ -70,7 +84,7 @@ void SolidEquations::factorise_again(std::vector<double> values) {
   if (factors == nullptr || static_cast<std::ptrdiff_t>(values.size()) != stiffness.nonZeros())
     throw BadState("the stiffness of the solid does not fit its mesh");
   std::copy(values.begin(), values.end(), stiffness.valuePtr());
-  factors->factorize(stiffness);
+  factorise_stiffness(*this, false);
   answers.clear();
 }
 
@@ -122,11 +136,7 @@ void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
   const bool first = equations->factors == nullptr;
   if (first) make_pattern(*assembly, *equations);
   fill_values(*assembly, block, *equations);
-  if (first) {
-    equations->factors = std::make_unique<SolidEquations::Factors>();
-    equations->factors->analyzePattern(equations->stiffness);
-  }
-  equations->factors->factorize(equations->stiffness);
+  factorise_stiffness(*equations, first);
   equations->answers.clear();
   if (equations->factors->info() != Eigen::Success || !equations->factors->vectorD().allFinite())
     throw RunFailure(fmt::format(

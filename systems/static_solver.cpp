@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/interruption.hpp"
 #include "systems/solid_systems.hpp"
 
 namespace pulvis {
@@ -182,6 +183,7 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   bool may_reuse = settings.reuse_factors;
   bool reuse = may_reuse && equations.factors != nullptr;
   for (int i = 0; i <= settings.iterations; ++i) {
+    stop_if_asked();
     (reuse ? reuse_ : iterate_).run();
     report.residuals.push_back(error());
     // Factors that do not gain a digit an iteration are too old, until round-off is reached.
