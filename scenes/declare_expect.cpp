@@ -108,7 +108,9 @@ std::vector<Key<ExpectSpec>> outcome_keys() {
       {{.name = "message",
         .kind = Kind::text,
         .needs = "outcome",
-        .doc = "Regular expression that must be found in what the stopped run says.",
+        .doc = "Regular expression (RE2's syntax: no look-around, no back-references) that must be "
+               "found "
+               "in what the stopped run says.",
         .fallback_doc = "required with `outcome`"},
        to(&ExpectSpec::message)},
   };

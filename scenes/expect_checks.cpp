@@ -1,9 +1,9 @@
 #include "scenes/expect_checks.hpp"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "scenes/afm_figures.hpp"
 #include "scenes/results.hpp"
@@ -63,13 +63,10 @@ class ExpectChecks {
       refuse("message",
              "required key is missing, allowed: a regular expression that is found in "
              "what the stopped run says");
-    try {
-      std::regex(expect.message);
-    } catch (const std::regex_error& error) {
-      refuse("message", fmt::format("no regular expression ({}), allowed: ECMAScript, with \\ "
+    if (const re2::RE2 pattern(expect.message, re2::RE2::Quiet); !pattern.ok())
+      refuse("message", fmt::format("no regular expression ({}), allowed: RE2's syntax, with \\ "
                                     "before characters that mean themselves",
-                                    error.what()));
-    }
+                                    pattern.error()));
   }
 
   void series(ExpectSpec& expect) {

@@ -142,6 +142,8 @@ double parse_quantity(std::string_view text, const std::string& wanted) {
   std::string_view rest = whole;
   const double number = take_number(rest);
   const std::string_view name = trimmed(rest);
+  // The library's strings end there.
+  if (name.find('\0') != std::string_view::npos) throw UnitError("a quantity with a NUL character");
   if (name.empty())
     throw UnitError(fmt::format("missing unit: \"{}\" has none, {} is wanted", whole, wanted));
 
