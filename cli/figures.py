@@ -25,7 +25,7 @@ try:
 
     from figures_afm import AFM_FIGURES
     from figures_observed import contact_network, density_profile, local_density, rose
-    from figures_parts import (STYLE, Run, draw_lines, draw_tools, labelled, outlines, refuse, unit_for,
+    from figures_parts import (STYLE, Run, draw_lines, draw_tools, labelled, outlines, printable, refuse, unit_for,
                                write_csv)
 except ImportError as error:
     print(f"figures: {error}; needed: python3-h5py, python3-numpy, python3-matplotlib", file=sys.stderr)
@@ -150,7 +150,7 @@ def save(figure, path):
     else:
         figure.savefig(path)
     plt.close(figure)
-    print(path)
+    print(printable(path))
 
 
 def save_all(run, options):

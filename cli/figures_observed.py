@@ -2,6 +2,7 @@
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.ticker import MaxNLocator
 
 from figures_parts import draw_tools, labelled, outlines, unit_for
 
@@ -146,7 +147,8 @@ def rose(run, options):
     axes.bar(middle, 100 * np.tile(number, 2), width, fill=False, edgecolor="#d55e00", linewidth=1.4,
              label="of the number")
     axes.set_rlabel_position(25)
-    axes.yaxis.set_major_formatter("{x:.0f} %")
+    axes.yaxis.set_major_locator(MaxNLocator(4))  # labels of more would lie on each other
+    axes.yaxis.set_major_formatter("{x:g} %")
     axes.set_title(f"Directions of the contact normals at {when(frame)}\n{run.title}", loc="left")
     axes.legend(loc="lower right", bbox_to_anchor=(1.1, -0.08))
     figure.table = [("direction", "rad", middle[:len(number)]), ("share of the number", "-", number),

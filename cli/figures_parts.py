@@ -8,13 +8,14 @@ import h5py
 import numpy as np
 from matplotlib import pyplot as plt
 
-COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#8c6d1f"]
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#8c6d1f",
+           "#882255", "#117733"]
 PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")]
 SCALED = {"m", "N", "Pa", "J", "s", "m/s", "N/m"}
 STYLE = {"figure.dpi": 200, "font.size": 10, "axes.grid": True, "grid.color": "#e3e8ee",
          "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
          "svg.fonttype": "none", "pdf.fonttype": 42, "lines.linewidth": 1.6, "legend.frameon": False, "axes.titlesize": 11,
-         "axes.prop_cycle": plt.cycler(color=COLOURS)}
+         "axes.prop_cycle": plt.cycler(linestyle=["-", "--", ":"]) * plt.cycler(color=COLOURS)}
 
 
 def unit_for(unit, values):
@@ -35,8 +36,13 @@ def labelled(name, unit):
     return f"{name} [{unit}]" if unit else name
 
 
+def printable(text):
+    """A control character in a name would be an order to the terminal."""
+    return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in str(text))
+
+
 def refuse(why):
-    print(f"figures: {why}", file=sys.stderr)
+    print(f"figures: {printable(why)}", file=sys.stderr)
     sys.exit(2)
 
 
@@ -66,9 +72,11 @@ def draw_lines(run, x, lines, ylabel, title):
 
 class Run:
     def __init__(self, folder):
+        if (folder / "run.h5").exists() and not (folder / "run.h5").is_file():
+            raise OSError("run.h5 is no regular file")  # a named pipe would wait for a writer
         self.file = h5py.File(folder / "run.h5", "r")
         self.summary = {}
-        if (folder / "summary.json").exists():
+        if (folder / "summary.json").is_file():
             self.summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         self.is_solid = "mesh/hexahedra" in self.file
         self.title = self.summary.get("title") or self.file.attrs.get("title") or folder.name

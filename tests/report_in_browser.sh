@@ -56,6 +56,40 @@ body=$(body_of comparison "$work/comparison.html" 1200,2000 ready)
 [[ $body =~ data-lines=\"([0-9]+)\" && ${BASH_REMATCH[1]} -ge 4 ]] || fail "comparison: too few curves: $body"
 echo "ok: comparison"
 
+# Side by side with itself every curve is there twice, also where the other run shows its forces turned over; and
+# density maps of different runs have the same two ends.
+"$pulvis" run "$source_dir/scenes/compaction/regular-25.toml" --threads 1 --set output.frames=2 \
+  --set "stage.press.duration=20 us" --set 'stage.press.move[0].displacement=["0 mm", "-0.8 mm"]' \
+  --set "output.density_cells=[4, 4]" --overwrite -o "$work/dense" >"$work/run.txt" 2>&1 ||
+  fail "the denser compaction: $(tail -3 "$work/run.txt")"
+cp -r "$work/dense" "$work/turned"
+/usr/bin/python3 - "$work/turned/run.h5" <<'PYTHON'
+import sys
+
+import h5py
+
+with h5py.File(sys.argv[1], "r+") as file:
+    for tool in file["history/tool"].values():
+        for name in tool:
+            if name.startswith("force_"):
+                tool[name][...] = -tool[name][...]
+    for frame in file["frames"].values():
+        frame["local_density"][...] = 0.9 * frame["local_density"][...]
+PYTHON
+curves_of() {  # RUN...: how many curves their comparison has
+  "$pulvis" report "$@" -o "$work/pair.html" >/dev/null || fail "report $*"
+  body=$(body_of pair "$work/pair.html" 1200,2000 ready)
+  [[ $body == *'data-ready="1"'* && $body =~ data-lines=\"([0-9]+)\" ]] || fail "pair: $body"
+  curves=${BASH_REMATCH[1]}
+}
+curves_of "$work/dense" "$work/dense"
+same=$curves
+curves_of "$work/dense" "$work/turned"
+[[ $curves -eq $same ]] || fail "of $same curves $curves are left where signs differ"
+mapfile -t scales < <(grep -o 'data-scale="[0-9][^"]*"' "$work/page.html")
+[[ ${#scales[@]} -eq 2 && ${scales[0]} == "${scales[1]}" ]] || fail "density maps of different ranges: ${scales[*]}"
+echo "ok: comparison of runs of other signs and densities"
+
 "$pulvis" run "$source_dir/scenes/afm/calibration-beam.toml" --threads 1 --set "lever.thickness=3 um" --overwrite \
   -o "$reports/thick-lever" >"$work/run.txt" 2>&1 || fail "the thick lever: $(tail -3 "$work/run.txt")"
 "$pulvis" report "$reports/lever" "$reports/thick-lever" "$reports/compaction" -o "$reports/levers.html" >/dev/null ||
@@ -64,6 +98,8 @@ body=$(body_of levers "$reports/levers.html" 1200,2000 ready)
 [[ $body == *'data-ready="1"'* && $body == *'data-views="3"'* ]] || fail "levers: $body"
 [[ $(grep -o '<h2>Stiffness beside the closed forms: ' "$work/page.html" | wc -l) -eq 2 ]] || fail "levers: not both calibrations"
 [[ $(grep -o 'data-drawn="' "$work/page.html" | wc -l) -eq 3 ]] || fail "levers: a picture is missing"
+grep -q 'Lever, under a force along the lever' "$work/page.html" || fail "levers: not told what a calibration shows"
+grep -q 'Lever, [0-9.]* actions done' "$work/page.html" && fail "levers: a calibration has no actions"
 picture_of "$reports/levers.html" 1200,2000 "$reports/levers.png"
 echo "ok: comparison of levers"
 

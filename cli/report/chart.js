@@ -10,7 +10,7 @@ const LIGHT = {ink: "#1d2733", soft: "#56616f", grid: "#e8ecf1", edge: "#c4cdd8"
 const DARK = {ink: "#e6ebf1", soft: "#9aa6b4", grid: "#2a323c", edge: "#4a5563", paper: "#171d24",
               body: "#2b343f", surface: "#a9b4c0", none: "#4b5562",
               lines: ["#56b4e9", "#ff9a57", "#35c9a0", "#e59bc4",
-                      "#f2c14e", "#8fd0ff", "#b4bcc6", "#c9a86a", "#c77dff", "#b5d99c"]};
+                      "#f2c14e", "#8f8bff", "#b4bcc6", "#c9a86a", "#c77dff", "#b5d99c"]};
 
 const darkWished = matchMedia("(prefers-color-scheme: dark)");
 const isDark = () => (document.documentElement.dataset.theme || (darkWished.matches ? "dark" : "light")) === "dark";
@@ -143,10 +143,17 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
   return out.join("") + "</svg>";
 }
 
+// More lines than colours: from there on they are dashed, each time around otherwise.
+function distinct(spec) {
+  const around = i => Math.floor(i / LIGHT.lines.length);
+  return {...spec, lines: spec.lines.map((line, i) =>
+    line.dash || line.colour || !around(i) ? line : {...line, dash: [9 - 3 * Math.min(around(i), 2), 3]})};
+}
+
 class Chart {
   // onCursor(sample): the reader points at this sample of the lines.
   constructor(host, spec, {height = 300, onCursor = null} = {}) {
-    Object.assign(this, {host, spec, height, onCursor, hidden: new Set(), view: null, marked: null});
+    Object.assign(this, {host, spec: distinct(spec), height, onCursor, hidden: new Set(), view: null, marked: null});
     host.classList.add("chart");
     this.picture = element("div", {className: "plot", tabIndex: 0, role: "img", "aria-label": this.label()});
     this.over = element("canvas", {className: "over", "aria-hidden": "true"});
@@ -167,7 +174,7 @@ class Chart {
   }
 
   show(spec) {
-    Object.assign(this, {spec, view: null, hidden: new Set(), marked: null});
+    Object.assign(this, {spec: distinct(spec), view: null, hidden: new Set(), marked: null});
     this.picture.setAttribute("aria-label", this.label());
     this.draw();
   }

@@ -8,30 +8,56 @@ function namesOf(runs) {
   return runs.map((run, i) => same ? run.head.folder : titles[i]);
 }
 
-// A curve that all runs have, each with its own abscissa.
-function overlaid(runs, names, title, line, x) {
-  const parts = runs.map((run, i) => {
-    const group = curvesOf(run).find(one => one.title === title);
-    const found = group && group.lines.find(one => one.label === line), axis = group && group.xs.find(one => one.label === x);
-    return found && axis ? {...found, label: names[i], x: axis.values, axis, y: group.y, dash: undefined} : null;
-  }).filter(Boolean);
-  return parts.length < 2 ? null
-    : {title: `${title}: ${line}`, x: {...parts[0].axis, values: []}, y: `${line}, ${parts[0].y}`, lines: parts};
+const keyOf = line => line.name || line.label;
+const groupOf = (run, title) => curvesOf(run).find(one => one.title === title);
+
+// A run's part of a curve: under the sign that the first run shows it with, also where it is too small for its
+// own report.
+function partOf(run, title, model, x) {
+  const group = groupOf(run, title), axis = group && group.xs.find(one => one.label === x);
+  if (!axis) return null;
+  const key = keyOf(model), own = group.lines.find(one => keyOf(one) === key) || (run.has(key) ? run.series(key) : null);
+  if (!own) return null;
+  const other = Boolean(own.turned) !== Boolean(model.turned);
+  return {...own, values: other ? own.values.map(v => -v) : own.values, x: axis.values, axis, y: group.y, dash: undefined};
 }
 
-function placeCurves(runs, names, timeline) {
-  let count = 0;
-  for (const group of curvesOf(runs[0])) {
-    for (const {label} of group.lines) {
-      const first = group.xs.map(x => overlaid(runs, names, group.title, label, x.label)).find(Boolean);
-      if (!first) continue;
-      const select = element("select", {}), choices = group.xs.map(x => overlaid(runs, names, group.title, label, x.label));
-      group.xs.forEach((x, i) => { if (choices[i]) select.add(new Option(x.label, i)); });
-      const host = card(first.title, element("div", {className: "controls"}, element("label", {}, "against ", select)));
-      const chart = drawChart(host, first);
-      select.onchange = () => chart.show(choices[select.value]);
-      count += first.lines.length;
+// A curve that at least two runs have, each with its own abscissa.
+function overlaid(runs, names, title, model, x) {
+  const parts = runs.map((run, i) => {
+    const part = partOf(run, title, model, x);
+    return part && {...part, label: names[i]};
+  }).filter(Boolean);
+  return parts.length < 2 ? null
+    : {title: `${title}: ${model.label}`, x: {...parts[0].axis, values: []}, y: `${model.label}, ${parts[0].y}`, lines: parts};
+}
+
+// What any of the runs shows, each once: [title, the line as the first run has it, the labels of its abscissas].
+function curvesOfAll(runs) {
+  const found = new Map();
+  for (const run of runs) {
+    for (const {title, lines, xs} of curvesOf(run)) {
+      for (const line of lines) {
+        const key = JSON.stringify([title, keyOf(line)]), known = found.get(key) || [title, line, new Set()];
+        xs.forEach(x => known[2].add(x.label));
+        found.set(key, known);
+      }
     }
+  }
+  return [...found.values()];
+}
+
+function placeCurves(runs, names) {
+  let count = 0;
+  for (const [title, model, labels] of curvesOfAll(runs)) {
+    const choices = [...labels].map(x => [x, overlaid(runs, names, title, model, x)]).filter(choice => choice[1]);
+    if (!choices.length) continue;
+    const select = element("select", {}), first = choices[0][1];
+    choices.forEach(([label], i) => select.add(new Option(label, i)));
+    const host = card(first.title, element("div", {className: "controls"}, element("label", {}, "against ", select)));
+    const chart = drawChart(host, first);
+    select.onchange = () => chart.show(choices[select.value][1]);
+    count += first.lines.length;
   }
   document.body.dataset.lines = count;
 }
@@ -59,7 +85,7 @@ function fillRuns(runs, names) {
 
 // What each run's own report has in cards, run beside run, a row for each kind of card.
 function placePanels(runs, names, timeline) {
-  const reports = runs.map(run => new Report(run, timeline)), last = document.getElementById("runs-section");
+  const reports = runs.map(run => new Report(run, timeline, runs)), last = document.getElementById("runs-section");
   let count = 0;
   for (const panel of panelsInOrder()) {
     const row = element("div", {className: "cards"});
@@ -126,7 +152,7 @@ async function main() {
   const timeline = new Timeline(document.getElementById("timeline"), pace ? pace.frames.map(frame => frame.time / (pace.frames.at(-1).time || 1)) : [],
                                 {name: "share of the run", unit: "-"});
   document.getElementById("timeline").hidden = !pace || pace.frames.length < 2;
-  placeCurves(runs, names, timeline);
+  placeCurves(runs, names);
   placePanels(runs, names, timeline);
   fillRuns(runs, names);
   onUnits(() => fillRuns(runs, names));

@@ -18,7 +18,7 @@ function forceLines(run) {
   return forces.filter(s => most > 0 && largest(s.values) >= 0.01 * most).map(s => {
     const [, tool, along] = s.name.match(/^tool\/(.+)\/force_([xyz])$/), [low, high] = bounds([s.values]);
     const turned = -low > high;
-    return {...s, label: `${tool}, ${turned ? "−" : ""}F${along}`, values: turned ? s.values.map(v => -v) : s.values};
+    return {...s, turned, label: `${tool}, ${turned ? "−" : ""}F${along}`, values: turned ? s.values.map(v => -v) : s.values};
   });
 }
 

@@ -19,10 +19,10 @@ const curvesOf = run => CURVES.flatMap(make => make(run)).filter(group => group 
 
 const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times});
 
-// What a panel works with: the run, and links to the page's one time.
+// What a panel works with: the run, links to the page's one time, and the runs that stand beside it.
 class Report {
-  constructor(run, timeline) {
-    Object.assign(this, {run, timeline});
+  constructor(run, timeline, beside = [run]) {
+    Object.assign(this, {run, timeline, beside});
     this.endTime = run.frames.length ? run.frames.at(-1).time : run.times.at(-1) || 1;
   }
 
@@ -36,7 +36,9 @@ class Report {
     return chart;
   }
 
-  // A canvas that is drawn anew for every frame: draw(ctx, width, height, frame) where the frame has it.
+  // A canvas that is drawn anew for every frame: draw(ctx, width, height, frame, frames) where the frame has it.
+  // `frames` are those of all runs side by side: what they have in common is drawn to one scale, which draw may
+  // return, for tests.
   // `shape`: height over width; columns(frame): its numbers for a CSV.
   figure(host, {title, shape, draw, columns, note}) {
     const canvas = element("canvas", {className: "figure", role: "img"});
@@ -52,7 +54,8 @@ class Report {
       const ctx = canvas.getContext("2d");
       ctx.scale(ratio, ratio);
       ctx.font = "12px system-ui, sans-serif";
-      if (frame) draw(ctx, width, height, frame);
+      const ends = frame && draw(ctx, width, height, frame, this.framesBeside());
+      canvas.dataset.scale = ends || "";
       told.textContent = frame ? note(frame) : "";
       canvas.setAttribute("aria-label", `${title}. ${told.textContent}`);
     };
@@ -66,6 +69,7 @@ class Report {
   }
 
   frame() { return this.run.frames[this.run.frameAt(this.timeline.share * this.endTime)]; }
+  framesBeside() { return this.beside.map(run => new Report(run, this.timeline).frame()).filter(Boolean); }
 
   placePanels() {
     for (const panel of panelsInOrder()) {

@@ -23,8 +23,10 @@ class Run {
     if (this.summary.family) return this.summary.family;
     return this.history.has("shear/friction") ? "shear" : "compaction";
   }
-  // The programme of a lever is quasi-static: what goes on is the number of its actions that are done.
-  get timeName() { return this.family === "afm" ? "actions done" : "time"; }
+  // The programme of a lever is quasi-static: what goes on is the number of its actions that are done. A
+  // calibration has none: it pulls at the tip along one axis after the other.
+  get isCalibration() { return this.family === "afm" && !this.has("scanner/z"); }
+  get timeName() { return this.isCalibration ? "load case" : this.family === "afm" ? "actions done" : "time"; }
   get timeUnit() { return this.family === "afm" ? "-" : "s"; }
   has(name) { return this.history.has(name); }
   values(name) { return this.has(name) ? this.history.get(name).values : new Float32Array(); }

@@ -21,9 +21,12 @@ function saveAsPng(name, svg, width, height) {
   image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(svg);
 }
 
-// columns: [{label, unit, values}] in SI, of any lengths.
+// columns: [{label, unit, values}] in SI, of any lengths. A label that a spreadsheet would take for a formula
+// stands behind an apostrophe, as in study.csv.
 function csvOf(columns) {
-  const cell = text => /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const tame = text => /^[=+@\t\r-]/.test(text) ? "'" + text : text;
+  const quoted = text => /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const cell = text => quoted(tame(text));
   const rows = Math.max(0, ...columns.map(column => column.values.length));
   const lines = [columns.map(column => cell(`${column.label} [${column.unit || "-"}]`)).join(",")];
   for (let i = 0; i < rows; ++i) {

@@ -1,6 +1,9 @@
 // A lever in three dimensions: its surface, coloured by how far it moved, turned by dragging.
 "use strict";
 
+// The frames of a calibration, as run_afm.cpp writes them.
+const LOAD_CASES = ["at rest", "under a force normal to the sample", "under a lateral force", "under a force along the lever"];
+
 const FIRST_VIEW = {turn: -0.9, tilt: 0.42};
 
 class SolidView {
@@ -107,7 +110,7 @@ class SolidView {
     this.drawAxes(ctx);
     drawScale(ctx, room + 14, 26, height - 60, {low: range[0], high: range[1], unit: "m"});
     const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `drawn ${digits(this.larger)} times larger`;
-    this.note.textContent = `Lever, ${digits(time, 3)} actions done, ${drawn}; most displacement ${withUnit(this.most, "m")}. Drag to turn.`;
+    this.note.textContent = `Lever, ${this.run.isCalibration ? LOAD_CASES[Math.round(time)] : digits(time, 3) + " actions done"}, ${drawn}; most displacement ${withUnit(this.most, "m")}. Drag to turn.`;
     canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent}`);
     canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }

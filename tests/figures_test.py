@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+"""What the pictures say: curves that can be told apart, ticks that are true.
+
+usage: figures_test.py SOURCE_DIR
+"""
+import sys
+import types
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(sys.argv.pop(1)) / "cli"))
+import matplotlib
+
+matplotlib.use("Agg")
+import numpy as np
+from matplotlib import pyplot as plt
+
+import figures_observed
+import figures_parts
+
+plt.rcParams.update(figures_parts.STYLE)
+
+
+class Frame(dict):
+    attrs = {"time": 1e-3}
+
+
+class Shares(list):
+    """As a dataset of HDF5: read whole by [()]."""
+
+    def __getitem__(self, key):
+        return np.array(list(self)) if key == () else list.__getitem__(self, key)
+
+
+class FiguresTest(unittest.TestCase):
+    def test_curves_of_a_figure_differ_in_colour_or_dash(self):
+        x = "time", np.linspace(0, 1, 5), "s"
+        lines = [(f"energy {i}", i * x[1], "J") for i in range(12)]
+        axes = figures_parts.draw_lines(types.SimpleNamespace(title=""), x, lines, "energy", "Energies").axes[0]
+        looks = {(line.get_color(), line.get_linestyle()) for line in axes.lines if len(line.get_xdata()) == 5}
+        self.assertEqual(len(looks), 12)
+        self.assertEqual(len({line.get_color() for line in axes.lines[:9]}), 9)
+
+    def test_ticks_of_the_rose_stand_where_they_say(self):
+        for most in (0.2, 0.13, 0.07, 0.5):
+            number = Shares([most, most / 2, most / 3, most / 4])
+            frame = Frame({"rose/number": number, "rose/force": number, "rose": None})
+            run = types.SimpleNamespace(frames=[0], frame=lambda _, one=frame: one, title="")
+            figure = figures_observed.rose(run, types.SimpleNamespace(frame=None))
+            figure.canvas.draw()
+            axes = figure.axes[0]
+            for place, label in zip(axes.yaxis.get_ticklocs(), axes.yaxis.get_ticklabels()):
+                self.assertAlmostEqual(place, float(label.get_text().removesuffix(" %")), places=9)
+
+
+if __name__ == "__main__":
+    unittest.main()
