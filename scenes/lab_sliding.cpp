@@ -45,6 +45,17 @@ std::optional<Event> find_end(const LoggerRecord& logger, const Sliding& sliding
   return Event{-found->event.time, found->event.uncertainty};
 }
 
+// The last sample at which the plate is known to go on, since the next one is further: in the sample with which it
+// arrives at the end the load cell may have let go. `way` ends at `whole`, but for noise.
+std::size_t last_moving(const std::vector<double>& t, const std::vector<double>& way, double start,
+                        double whole) {
+  const double sample_way =
+      whole * (t.back() - t.front()) / (static_cast<double>(t.size() - 1) * (t.back() - start));
+  const auto arrived = std::find_if(
+      way.begin(), way.end(), [&](double w) { return w >= whole - standing_still * sample_way; });
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(arrived - way.begin() - 1, 0));
+}
+
 }  // namespace
 
 Sliding find_sliding(const LoggerRecord& logger, const Settings& settings) {
@@ -70,7 +81,9 @@ Sliding find_sliding(const LoggerRecord& logger, const Settings& settings) {
                        window));
   sliding.start = found->event;
   sliding.end = find_end(logger, sliding, whole, window);
-  sliding.last_time = sliding.end ? sliding.end->time : logger.time.back();
+  const std::size_t last = last_moving(logger.time, way, sliding.start.time, whole);
+  sliding.last_time =
+      std::min(sliding.end ? sliding.end->time : logger.time.back(), logger.time[last]);
   const double rest = found->bend.before.at(found->event.time);
   for (double& w : way) w -= rest;
   return sliding;

@@ -157,6 +157,28 @@ TEST(LabReduction, RunsAreAveragedOnACommonGrid) {
 
 // ---- what is refused
 
+// The plate stops and the load cell lets go: one sample after it or forty, none of them is of sliding.
+TEST(LabReduction, NoSampleOfAPlateAtRestCounts) {
+  for (const double start : {6.21, 6.2, 6.25, 6.299})
+    for (const int after : {0, 1, 2, 3, 4, 6, 12, 40}) {
+      SlidingTest truth;
+      truth.logger_start = start;
+      LoggerRecord logger = truth.logger();
+      const double end = start + truth.lasts();
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < logger.time.size(); ++i) {
+        if (logger.time[i] >= end) logger.strain[i] = -1.3795 / 0.7257e6;
+        if (logger.time[i] <= end + 1e-9 + 0.1 * after) kept = i + 1;
+      }
+      for (auto* column : {&logger.time, &logger.strain, &logger.lvdt}) column->resize(kept);
+      logger.lines.resize(kept);
+      const ReducedRun run = reduce(truth.press(), logger, settings_of(), {"run-1", "p", "l", {}});
+      EXPECT_NEAR(run.dynamic.mean, truth.level, 1e-6) << start << " " << after;
+      EXPECT_GT(run.curve.friction.back(), 0.9 * truth.level) << start << " " << after;
+      EXPECT_GT(run.curve.distance.back(), truth.distance - 3 * 0.1 * truth.speed);
+    }
+}
+
 TEST(LabReduction, RefusesATooShortDistance) {
   SlidingTest truth;
   truth.distance = 9e-3;
