@@ -43,13 +43,13 @@ class ScriptFolder {
 };
 
 std::vector<std::string> arguments(const fs::path& script, const FigureOptions& options) {
-  std::vector<std::string> all{"python3", "-B", script.string(), options.folder.string(),
-                               "--format=" + options.format};
+  std::vector<std::string> all{"python3", "-B", script.string(), "--format=" + options.format};
   if (!options.output.empty()) all.push_back("--output=" + options.output.string());
   if (!options.field.empty()) all.push_back("--field=" + options.field);
   if (options.frame) all.push_back(fmt::format("--frame={}", *options.frame));
   for (const auto& series : options.series) all.push_back("--series=" + series);
   if (!options.against.empty()) all.push_back("--against=" + options.against);
+  all.insert(all.end(), {"--", options.folder.string()});  // its name may begin with a '-'
   return all;
 }
 

@@ -4,8 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <new>
+#include <sstream>
+#include <system_error>
 
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
@@ -17,6 +23,7 @@
 #include "cli/run_afm.hpp"
 #include "cli/study.hpp"
 #include "cli/summary.hpp"
+#include "cli/tell.hpp"
 #include "engine/instruction_set.hpp"
 #include "engine/output_error.hpp"
 #include "engine/run_folder.hpp"
@@ -46,19 +53,30 @@ struct Options {
   std::filesystem::path packing = "packing.csv";
 };
 
+// "sub/../x" is x, whether there is a folder sub or not; links on the way are followed.
+const CLI::Validator without_detours(
+    [](std::string& text) {
+      std::error_code unknown;
+      const std::filesystem::path path(text);
+      if (std::ranges::find(path, "..") == path.end()) return std::string();
+      const auto straight = std::filesystem::weakly_canonical(path, unknown);
+      if (!unknown) text = straight.string();
+      return std::string();
+    },
+    "", "without_detours");
+
 void print_meshes(const Scene& scene) {
   for (const ParticleSpec& particle : scene.particles) {
     const Shape shape = make_shape(particle);
-    fmt::print(
-        "{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
-        particle.name, shape.elements(), shape.boundary_nodes, least_corner_sine(shape),
-        shortest_edge(shape));
+    tell("{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
+         particle.name, shape.elements(), shape.boundary_nodes, least_corner_sine(shape),
+         shortest_edge(shape));
   }
 }
 
 ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
-    fmt::print("{}", options.reference == "schema" ? scene_json_schema() : scene_reference());
+    tell("{}", options.reference == "schema" ? scene_json_schema() : scene_reference());
     return ExitCode::done;
   }
   const Scene scene = read_scene(options.run.scene, options.run.overrides);
@@ -66,14 +84,14 @@ ExitCode check(const Options& options) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
-  fmt::print("{}", packing_summary(scene));
+  tell("{}", packing_summary(scene));
   print_meshes(scene);
   const MemoryNeed need = memory_need(scene);
-  fmt::print("memory: about {}: {} of particles, {} of contacts, {} of results, {} of program\n",
-             bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
-             bytes_text(need.results), bytes_text(need.program));
-  fmt::print("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(),
-             bodies.size(), scene.tools.size(), scene.stages.size());
+  tell("memory: about {}: {} of particles, {} of contacts, {} of results, {} of program\n",
+       bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
+       bytes_text(need.results), bytes_text(need.program));
+  tell("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(), bodies.size(),
+       scene.tools.size(), scene.stages.size());
   return ExitCode::done;
 }
 
@@ -81,8 +99,8 @@ ExitCode plan(const Options& options) {
   const Scene scene = read_scene(options.run.scene, options.run.overrides);
   if (scene.afm) return plan_afm(scene, options.dot);
   Simulation simulation(scene);
-  fmt::print("{}", options.dot ? plan_dot(simulation.plan())
-                               : plan_text(simulation.plan(), simulation.world()));
+  tell("{}", options.dot ? plan_dot(simulation.plan())
+                         : plan_text(simulation.plan(), simulation.world()));
   return ExitCode::done;
 }
 
@@ -92,7 +110,7 @@ ExitCode report(const Options& options) {
                     : options.comparison.empty() ? "comparison.html"
                                                  : options.comparison;
   several ? write_comparison(options.folders, page) : write_report(options.folders.front());
-  fmt::print("{}\n", page.string());
+  tell("{}\n", page.string());
   return ExitCode::done;
 }
 
@@ -100,8 +118,10 @@ void add_report(CLI::App& app, Options& options, ExitCode& code) {
   auto* command = app.add_subcommand(
       "report", "write report.html anew for a finished run, or lay several runs side by side");
   command->add_option("folders", options.folders, "results folders of runs")->required();
-  command->add_option("-o,--output", options.comparison,
-                      "page that lays the runs side by side (default comparison.html)");
+  command
+      ->add_option("-o,--output", options.comparison,
+                   "page that lays the runs side by side (default comparison.html)")
+      ->transform(without_detours);
   command->callback([&] { code = report(options); });
 }
 
@@ -117,9 +137,11 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
       ->allow_extra_args(false)
       ->take_all();
   command->add_option("--against", options.against, "series of the other axis (default: time)");
-  command->add_option("-o,--output", options.output,
-                      "file, .png .svg .pdf or .csv; without --field and --series a folder for all "
-                      "figures (default: pictures/ in the run's folder)");
+  command
+      ->add_option("-o,--output", options.output,
+                   "file, .png .svg .pdf or .csv; without --field and --series a folder for all "
+                   "figures (default: pictures/ in the run's folder)")
+      ->transform(without_detours);
   command->add_option("--format", options.format, "of all figures: png, svg, pdf or csv")
       ->check(CLI::IsMember({"png", "svg", "pdf", "csv"}));
   command->callback([&] { code = draw_figures(options); });
@@ -127,7 +149,7 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
 
 ExitCode study(const Options& options) {
   if (options.reference.empty()) return run_study(options.study);
-  fmt::print("{}", study_reference());
+  tell("{}", study_reference());
   return ExitCode::done;
 }
 
@@ -149,8 +171,10 @@ void add_study(CLI::App& app, Options& options, ExitCode& code) {
   auto* command = app.add_subcommand(
       "study", "run a scene with a table of variations; table, curves and trends in one report");
   command->add_option("study", options.study.study, "study file (TOML), docs/study.md");
-  command->add_option("-o,--output", options.study.folder,
-                      "results folder (default runs/<study name>); what is finished in it is kept");
+  command
+      ->add_option("-o,--output", options.study.folder,
+                   "results folder (default runs/<study name>); what is finished in it is kept")
+      ->transform(without_detours);
   command
       ->add_option("--jobs", options.study.jobs,
                    "runs at once (default: what the processors allow)")
@@ -178,7 +202,7 @@ struct ReduceCommand {
 
 ExitCode reduce(const ReduceCommand& command) {
   if (command.reference.empty()) return reduce_records(command.options);
-  fmt::print("{}", command.reference == "schema" ? lab::json_schema() : lab::reference());
+  tell("{}", command.reference == "schema" ? lab::json_schema() : lab::reference());
   return ExitCode::done;
 }
 
@@ -202,7 +226,9 @@ void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
                    "run folder of a simulated test, drawn over the measured curves")
       ->allow_extra_args(false)
       ->take_all();
-  reduces->add_option("-o,--output", options.folder, "results folder")->capture_default_str();
+  reduces->add_option("-o,--output", options.folder, "results folder")
+      ->capture_default_str()
+      ->transform(without_detours);
   reduces->add_flag("--overwrite", options.overwrite, "replace results in the folder");
   reduces->add_option("--reference", command.reference, "print the settings' reference instead")
       ->check(CLI::IsMember({"text", "schema"}));
@@ -224,6 +250,17 @@ void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
   });
 }
 
+// CLI11's own checks let "nan" and "inf" pass.
+const CLI::Validator finite_number(
+    [](const std::string& text) {
+      double value = 0;
+      const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+      const bool good =
+          read.ec == std::errc() && read.ptr == text.data() + text.size() && std::isfinite(value);
+      return good ? std::string() : "'" + text + "' is no finite number";
+    },
+    "FINITE", "finite_number");
+
 void add_course(CLI::App& command, RunOptions& options) {
   command.add_flag("--quiet", options.quiet, "print nothing but what goes wrong");
   command.add_flag("--json", options.json, "the same, and the summary (summary.json) when it ends");
@@ -233,7 +270,8 @@ void add_course(CLI::App& command, RunOptions& options) {
       .add_option("--checkpoint-every", options.checkpoints.every,
                   "seconds between checkpoints, as the clock on the wall has them")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(finite_number);
   command
       .add_option_function<std::string>(
           "--checkpoint-time",
@@ -261,7 +299,8 @@ void add_course(CLI::App& command, RunOptions& options) {
 void add_run(CLI::App& app, Options& options, ExitCode& code) {
   auto* run = app.add_subcommand("run", "run a scene and write its results");
   add_scene(*run, options);
-  run->add_option("-o,--output", options.run.folder, "results folder (default runs/<scene name>)");
+  run->add_option("-o,--output", options.run.folder, "results folder (default runs/<scene name>)")
+      ->transform(without_detours);
   run->add_flag("--overwrite", options.run.overwrite,
                 "replace a run that is already in the folder");
   add_course(*run, options.run);
@@ -274,6 +313,15 @@ void add_resume(CLI::App& app, Options& options, ExitCode& code) {
   resume->add_option("folder", options.run.folder, "results folder of the run")->required();
   add_course(*resume, options.run);
   resume->callback([&options, &code] { code = resume_run(options.run); });
+}
+
+// Help, or what is wrong with the words on the command line.
+int tell_usage(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int code = app.exit(error, out, err);
+  tell("{}", out.str());
+  tell(stderr, "{}", err.str());
+  return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -312,7 +360,8 @@ int parse_and_run(int argc, char** argv) {
   auto* packs = app.add_subcommand(
       "pack", "make the packing of a scene and write it as a table, for kind = \"csv\"");
   add_scene(*packs, options);
-  packs->add_option("-o,--output", options.packing, "table (CSV), default packing.csv");
+  packs->add_option("-o,--output", options.packing, "table (CSV), default packing.csv")
+      ->transform(without_detours);
   packs->callback([&] {
     code = pack_scene(read_scene(options.run.scene, options.run.overrides), options.packing);
   });
@@ -326,13 +375,13 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    return tell_usage(app, error);
   }
   return static_cast<int>(code);
 }
 
 int fail(const char* what, ExitCode code) {
-  fmt::print(stderr, "{}\n", what);
+  tell(stderr, "{}\n", what);
   return static_cast<int>(code);
 }
 
@@ -344,7 +393,12 @@ int main(int argc, char** argv) {
   if (!__builtin_cpu_supports("avx2"))
     return fail("pulvis: this build needs a processor with AVX2", ExitCode::machine);
   try {
-    return parse_and_run(argc, argv);
+    const int code = parse_and_run(argc, argv);
+    // What was told may still be on its way: into a full disk, too.
+    errno = 0;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw OutputError("standard output", "write", std::strerror(errno));
+    return code;
   } catch (const SceneError& error) {
     return fail(error.what(), ExitCode::usage);
   } catch (const RunFolderTaken& error) {
@@ -353,6 +407,8 @@ int main(int argc, char** argv) {
     return fail(error.what(), ExitCode::usage);
   } catch (const OutputError& error) {
     return fail(error.what(), ExitCode::machine);
+  } catch (const std::system_error& error) {
+    return fail((std::string("pulvis: ") + error.what()).c_str(), ExitCode::machine);
   } catch (const std::bad_alloc&) {
     return fail("pulvis: out of memory", ExitCode::machine);
   } catch (const std::exception& error) {

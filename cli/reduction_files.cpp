@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "cli/csv_cell.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
 #include "cli/write_text.hpp"
@@ -26,7 +27,8 @@ std::string csv_of(const std::vector<Series>& columns) {
   std::string text;
   std::size_t rows = 0;
   for (const Series& column : columns) {
-    text += (text.empty() ? "" : ",") + column.heading;
+    if (!text.empty()) text += ',';
+    text += csv_word(column.heading);
     rows = std::max(rows, column.values->size());
   }
   for (std::size_t row = 0; row < rows; ++row) {

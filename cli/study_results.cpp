@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <limits>
 
+#include "cli/csv_cell.hpp"
 #include "engine/hdf5.hpp"
+#include "engine/input_file.hpp"
 #include "scenes/results.hpp"
 #include "scenes/study_series.hpp"
 
@@ -17,11 +18,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t largest_summary = 64U << 20U;  // bytes
+
 Json read_summary(const std::filesystem::path& folder) {
-  std::ifstream stream(folder / "summary.json");
-  if (!stream) return Json::object();
-  Json json = Json::parse(stream, nullptr, false);
-  return json.is_object() ? json : Json::object();
+  try {
+    Json json =
+        Json::parse(text_of_input(folder / "summary.json", largest_summary), nullptr, false);
+    return json.is_object() ? json : Json::object();
+  } catch (const UnfitInput&) {
+    return Json::object();
+  }
 }
 
 std::string text_in(const Json& json, const char* key) {
@@ -101,16 +107,9 @@ void add_transmission(std::vector<Figure>& figures, const StudyResult& result) {
     figures.push_back({std::string("transmission_") + name, "-", number_in(share, name)});
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string safe = "\"";
-  for (const char c : text) safe += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return safe + "\"";
-}
-
 std::string cell_text(const Json& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return quoted(value.get<std::string>());
+  if (value.is_string()) return csv_word(value.get<std::string>());
   return value.is_number_float() ? fmt::format("{:.9g}", value.get<double>()) : value.dump();
 }
 
@@ -218,14 +217,14 @@ std::string study_csv(const Study& study, const std::vector<StudyResult>& result
     }
   }
   std::string text = "run,variation,scene,seed";
-  for (const std::string& key : keys) text.append(",").append(quoted(key));
-  for (const std::string& column : columns) text.append(",").append(quoted(column));
+  for (const std::string& key : keys) text.append(",").append(csv_word(key));
+  for (const std::string& column : columns) text.append(",").append(csv_word(column));
   text += "\n";
   for (std::size_t i = 0; i < results.size(); ++i) {
     const StudyRun& run = *results[i].run;
-    text += fmt::format("{},{},{},{}", quoted(run.name), quoted(run.variation),
-                        quoted(run.file.filename().string()), run.scene.seed);
-    for (const std::string& key : keys) text.append(",").append(quoted(varied_value(run, key)));
+    text += fmt::format("{},{},{},{}", csv_word(run.name), csv_word(run.variation),
+                        csv_word(run.file.filename().string()), run.scene.seed);
+    for (const std::string& key : keys) text.append(",").append(csv_word(varied_value(run, key)));
     for (const std::string& column : columns) text.append(",").append(cell_text(rows[i][column]));
     text += "\n";
   }

@@ -1,12 +1,13 @@
 #include "cli/summary.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/summary_compaction.hpp"
 #include "components/contact.hpp"
@@ -113,7 +114,9 @@ std::string program_version() { return PULVIS_VERSION; }
 std::string program_commit() { return PULVIS_COMMIT; }
 
 void print_summary(const std::filesystem::path& folder) {
-  std::cout << std::ifstream(folder / "summary.json").rdbuf() << std::flush;
+  std::ostringstream text;
+  text << std::ifstream(folder / "summary.json").rdbuf();
+  fmt::print("{}", text.str());
 }
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,

@@ -1,6 +1,7 @@
 #include "engine/history_csv.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <cstring>
@@ -28,9 +29,22 @@ void HistoryCsv::add(double time, std::span<const double> values) {
 
 void HistoryCsv::flush() {
   if (std::fflush(file_.get()) != 0) fail("flush the file");
+  require_name();
+}
+
+// What was deleted or replaced meanwhile would go on taking lines that nobody will ever read.
+void HistoryCsv::require_name() const {
+  struct stat own {
+  }, named{};
+  if (fstat(fileno(file_.get()), &own) != 0) fail("look at the file");
+  const bool there = stat(path_.c_str(), &named) == 0;
+  if (there && own.st_dev == named.st_dev && own.st_ino == named.st_ino) return;
+  throw OutputError(path_, "go on with the file",
+                    there ? "another file took its place" : "it was deleted during the run");
 }
 
 void HistoryCsv::close() {
+  if (file_) flush();
   if (file_ && std::fclose(file_.release()) != 0) fail("close the file");
 }
 

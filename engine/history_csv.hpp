@@ -27,6 +27,7 @@ class HistoryCsv {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   void write(const std::string& line);
+  void require_name() const;
   [[noreturn]] void fail(const std::string& operation) const;
 
   std::filesystem::path path_;
