@@ -22,10 +22,12 @@ def recorded(run, options, name):
 
 
 def chosen_frames(run, options):
-    if options.frame is not None:
-        return [run.frame(options.frame)]
-    numbers = np.unique(np.linspace(0, len(run.frames) - 1, MAPS).round().astype(int))
-    return [run.frame(int(number)) for number in numbers]
+    """Of those with anything between the tools: a compact may have left its die."""
+    frames = [run.frame(number) for number in
+              ([options.frame] if options.frame is not None else range(len(run.frames)))]
+    frames = [frame for frame in frames if np.isfinite(frame["local_density"][()]).any()]
+    numbers = np.unique(np.linspace(0, len(frames) - 1, MAPS).round().astype(int))
+    return [frames[number] for number in numbers] if frames else []
 
 
 def draw_map(axes, frame, low, high):
@@ -56,6 +58,8 @@ def local_density(run, options):
     if recorded(run, options, "local_density") is None:
         return None
     frames = chosen_frames(run, options)
+    if not frames:
+        return None
     values = np.concatenate([frame["local_density"][()].ravel() for frame in frames])
     low, high = np.nanmin(values), np.nanmax(values)
     low, high = (low, high) if high - low > 1e-6 else (low - 0.01, high + 0.01)
@@ -73,10 +77,11 @@ def local_density(run, options):
 
 def density_profile(run, options):
     frame = recorded(run, options, "density_profile")
-    if frame is None or len(frame["density_profile"]) < 2:
+    frames = chosen_frames(run, options) if frame is not None else []
+    if not frames or len(frames[0]["density_profile"]) < 2:
         return None
     figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
-    for frame in chosen_frames(run, options):
+    for frame in frames:
         lines = 1e3 * frame["density_grid/y"][()]
         values = frame["density_profile"][()]
         axes.plot(np.repeat(values, 2), np.repeat(lines, 2)[1:-1], label=f"t = {when(frame)}")

@@ -166,13 +166,14 @@ struct GridView {
 void append_density(const World& world, std::vector<double>& row) {
   const auto& grid = world.resource<DensityGrid>();
   const std::vector<double> cells = GridView{grid}.cells();
-  double filled = 0, room = 0, least = std::numeric_limits<double>::max(), most = 0, squares = 0;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double filled = 0, room = 0, least = unknown, most = unknown, squares = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     filled += grid.filled[c];
     room += grid.room[c];
     if (std::isnan(cells[c])) continue;
-    least = std::min(least, cells[c]);
-    most = std::max(most, cells[c]);
+    least = std::fmin(least, cells[c]);  // the other one where one is no number
+    most = std::fmax(most, cells[c]);
   }
   const double mean = filled / room;
   for (std::size_t c = 0; c < cells.size(); ++c)

@@ -296,6 +296,7 @@ class FieldView {
     const {room, height} = this.place, density = this.shown === "density";
     if (!density && !this.codes) return;
     const [low, high] = this.range();
+    if (!(low <= high)) return;  // of no cell
     drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density ? "-" : this.field.unit});
   }
 

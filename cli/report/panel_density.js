@@ -8,7 +8,15 @@ function fitting([x0, x1], [y0, y1], width, height, margin) {
   return (x, y) => [left + scale * (x - x0), height - top - scale * (y - y0)];
 }
 
+// Between the punches of a die that a compact has left: no cell has any room.
+function sayEmpty(ctx, width, height) {
+  ctx.fillStyle = theme().soft;
+  ctx.textAlign = "center";
+  ctx.fillText("nothing between the tools", width / 2, height / 2);
+}
+
 function drawCells(ctx, width, height, {cells, x, y}, [low, high]) {
+  if (!(low <= high)) return sayEmpty(ctx, width, height);
   const at = fitting([x[0], x.at(-1)], [y[0], y.at(-1)], width - LEGEND_WIDTH, height, 2);
   const columns = x.length - 1, written = columns <= 8;
   ctx.textAlign = "center";
@@ -29,6 +37,7 @@ function drawCells(ctx, width, height, {cells, x, y}, [low, high]) {
 
 // Steps, one a row of cells; at least a hundredth wide, so that round-off does not look like a profile.
 function drawProfile(ctx, width, height, {profile, y}, [least, most]) {
+  if (!(least <= most)) return sayEmpty(ctx, width, height);
   const middle = (least + most) / 2, half = Math.max(0.005, 0.55 * (most - least));
   const low = middle - half, high = middle + half, unit = unitFor("m", y.at(-1) - y[0]);
   const left = 52, base = height - 40, top = 8, right = width - 14;
@@ -101,7 +110,7 @@ function drawRose(ctx, width, height, {number, force}, most) {
 }
 
 const known = cells => cells.filter(value => value !== null);
-const rangeText = values => "from " + bounds([values]).map(value => digits(value)).join(" to ");
+const rangeText = values => !values.length ? "nothing" : "from " + bounds([values]).map(value => digits(value)).join(" to ");
 const rangeOf = (frames, name) => bounds(frames.filter(frame => frame.density).map(frame => known(frame.density[name])));
 const largestShare = frames => Math.max(...frames.filter(frame => frame.network)
   .flatMap(({network: {number, force}}) => [...number, ...force])) || 1;
@@ -111,9 +120,10 @@ const atTime = frame => `at ${withUnit(frame.time, "s")}`;
 addPanel({
   title: "Local relative density", order: 10, when: hasDensity,
   draw(report, host) {
-    const {x, y, merged} = report.run.frames.at(-1).density;
+    const grids = report.run.frames.map(frame => frame.density), {x, y, merged} = grids[0];
+    const extent = axis => largest(grids.map(grid => grid[axis].at(-1) - grid[axis][0]));
     report.figure(host, {
-      title: "Local relative density", shape: (y.at(-1) - y[0]) / (x.at(-1) - x[0]),
+      title: "Local relative density", shape: Math.min(4, extent("y") / extent("x")),
       draw: (ctx, width, height, {density}, frames) => drawCells(ctx, width, height, density, rangeOf(frames, "cells")),
       note: frame => `${titled(rangeText(known(frame.density.cells)))} in ${x.length - 1} × ${y.length - 1} cells ` +
         `between the tools${merged > 1 ? `, each the mean of ${merged} × ${merged}` : ""}, ${atTime(frame)}.`,

@@ -1,5 +1,6 @@
 // Local densities: areas are those of the particles, whatever the grid; the room is that between the
 // tools' true surfaces.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -7,6 +8,7 @@
 
 #include "components/observed.hpp"
 #include "scenes/die_sides.hpp"
+#include "systems/systems.hpp"
 #include "tests/paths.hpp"
 #include "tests/scenes/experiment.hpp"
 
@@ -14,6 +16,9 @@ namespace pulvis {
 namespace {
 
 using std::numbers::pi;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::Pointwise;
 
 const std::string square = "compaction/regular-25.toml";
 
@@ -124,6 +129,80 @@ TEST(LocalDensity, HasTheTrueSurfaceOfAPolyline) {
   EXPECT_NEAR(grid.room[0] / (cell - spur), 1, 1e-12);
   EXPECT_NEAR(grid.room[2] / cell, 1, 1e-12);
   EXPECT_NEAR(sum(grid.filled) / (pi * 25e-6), 1, 1e-12);
+}
+
+// ---- a die that ends -----------------------------------------------------------------------------------
+// The grid with the punches of `e` at these heights.
+const DensityGrid& grid_between(Experiment& e, double bottom, double top) {
+  World& w = e.simulation.world();
+  double* at = w.column<ToolPosition>().values();
+  const auto& tool = w.resource<DensityGrid>().tool;
+  at[2 * tool[DensityGrid::bottom] + 1] = bottom;
+  at[2 * tool[DensityGrid::top] + 1] = top;
+  local_density(Read<Bodies>(w), Read<Position>(w), Read<ToolPosition>(w), Write<DensityGrid>(w));
+  return w.resource<DensityGrid>();
+}
+
+// 50 mm wide and 51 mm deep, its lip rounded by 1 mm. It ends where the lip looks up more than inwards.
+TEST(LocalDensity, StaysInADieWithAMouth) {
+  Experiment e("compaction/ejection-25.toml", {"output.density_cells=[5, 5]"});
+  const double mouth = 50e-3 + 1e-3 * std::sqrt(0.5), lip = 1e-3 * (1 - std::sqrt(0.5));
+  const DensityGrid& grid = grid_between(e, 0, 49e-3);
+  EXPECT_THAT(grid.side, ElementsAre(0, 50e-3, 0, 49e-3));
+  grid_between(e, 0, 195e-3);
+  EXPECT_THAT(grid.side, Pointwise(DoubleNear(1e-12), {-lip, 50e-3 + lip, 0.0, mouth}));
+  EXPECT_NEAR(sum(grid.filled) / (25 * pi / 4 * 1e-4), 1, 0.01);
+  // Beside the lips: under the mouth, over an eighth of a circle less its triangle.
+  const double lips = 2 * (std::sqrt(0.5) * lip * 1e-3 - (pi / 8 - 0.25) * 1e-6);
+  EXPECT_NEAR(sum(grid.room), mouth * 50e-3 + lips, 0.01e-6);
+  grid_between(e, 40e-3, 195e-3);
+  EXPECT_THAT(grid.side, Pointwise(DoubleNear(1e-12), {-lip, 50e-3 + lip, 40e-3, mouth}));
+  EXPECT_LT(sum(grid.filled) / sum(grid.room), 1);
+}
+
+TEST(LocalDensity, IsNoneWhereThePunchesStandBeyondTheDie) {
+  Experiment e("compaction/ejection-25.toml", {"output.density_cells=[5, 5]"});
+  e.simulation.observe();
+  const DensityGrid& grid = grid_between(e, 53e-3, 195e-3);
+  for (const double side : grid.side) {
+    EXPECT_GE(side, -1e-3);
+    EXPECT_LE(side, 51e-3);
+  }
+  EXPECT_EQ(sum(grid.room), 0);
+  e.results.sample();
+  for (const char* series : {"compact", "least", "greatest", "deviation"})
+    EXPECT_TRUE(std::isnan(e.value(std::string("density/") + series))) << series;
+  for (const double value : e.results.frame().at(e.results.frame().size() - 4))
+    EXPECT_TRUE(std::isnan(value));
+}
+
+TEST(LocalDensity, OfToolsThatMoveApartIsThatOfAllBetweenThem) {
+  Experiment e(square, {"output.density_cells=[5, 5]"});
+  const DensityGrid& grid = grid_between(e, -50e-3, 200e-3);
+  EXPECT_THAT(grid.side, ElementsAre(0, 50e-3, -50e-3, 200e-3));
+  EXPECT_NEAR(sum(grid.filled) / (25 * pi / 4 * 1e-4), 1, 0.02);
+  EXPECT_EQ(grid.filled.back(), 0);
+}
+
+// From the first sample to the last, in which the compact lies outside.
+TEST(LocalDensity, IsOneAtMostAllTheWayOutOfADie) {
+  Experiment e("compaction/ejection-25.toml",
+               {"output.density_cells=[5, 5]", "particle.disc.mesh.boundary_edges=12"});
+  int empty = 0;
+  e.run(60, [&] {
+    const auto& side = grid_of(e).side;
+    EXPECT_GE(side[0], -1e-3);
+    EXPECT_LE(side[1], 51e-3);
+    EXPECT_GE(side[2], 0);
+    EXPECT_LE(side[3], 51e-3);
+    const double greatest = e.value("density/greatest");
+    if (std::isnan(greatest))
+      ++empty;
+    else
+      EXPECT_LT(greatest, 1.01) << e.simulation.clock().time;
+  });
+  EXPECT_GT(empty, 2);
+  EXPECT_LT(empty, 40);
 }
 
 TEST(DieSides, NeedOneToolOnEachSide) {
