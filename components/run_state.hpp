@@ -82,6 +82,9 @@ struct ContactRules {
   double damping = 0;              // -, share of critical
   double penetration_limit = 0.5;  // -, of the edge length
   double shortest_edge = 0;        // m
+  // m: least width of an element and of a tool's ridge. What is thinner than a step's way can be passed unseen.
+  double thinnest = std::numeric_limits<double>::infinity();
+  std::vector<double> tool_thickness;  // m, [tools]: of thin ridges; infinite where there are none
   int materials = 0;
   struct Friction {
     double coefficient = 0;  // -, Coulomb's; where there is a static one, the dynamic
@@ -107,6 +110,7 @@ struct ContactIndex {
   double neighbourhood = 0;   // m, > skin: particles nearer than this to each other are neighbours
   double travel_at_bin = -1;  // m, Clock::travel when the rows were made; < 0: never yet
   double look_at = 0;         // m, Clock::travel at which the skin may be used up
+  double travel_seen = 0;     // m, Clock::travel of the step before
   bool due = false;           // the rows are made anew in this step
   std::int64_t bins = 0;      // how often so far
   std::vector<std::int32_t> neighbour_begin;  // [slots + 1] into neighbours
@@ -120,8 +124,8 @@ struct ContactIndex {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(skin, neighbourhood, travel_at_bin, look_at, due, bins, neighbour_begin, neighbours,
-          tools_before, sampled_begin, other_begin, other_rows, tool_begin);
+    bytes(skin, neighbourhood, travel_at_bin, look_at, travel_seen, due, bins, neighbour_begin,
+          neighbours, tools_before, sampled_begin, other_begin, other_rows, tool_begin);
   }
 };
 

@@ -21,6 +21,7 @@
 #include "scenes/observe.hpp"
 #include "scenes/place.hpp"
 #include "scenes/surface.hpp"
+#include "scenes/thinnest.hpp"
 
 namespace pulvis {
 
@@ -45,13 +46,11 @@ namespace {
 constexpr double skins_of_neighbourhood = 8;
 
 ContactRules contact_rules(const Scene& scene) {
-  ContactRules rules{scene.contact.stiffness,
-                     scene.contact.damping,
-                     scene.limits.penetration,
-                     0,
-                     static_cast<int>(scene.materials.size()),
-                     {},
-                     {}};
+  ContactRules rules;
+  rules.stiffness = scene.contact.stiffness;
+  rules.damping = scene.contact.damping;
+  rules.penetration_limit = scene.limits.penetration;
+  rules.materials = static_cast<int>(scene.materials.size());
   for (const MaterialSpec& a : scene.materials)
     for (const MaterialSpec& b : scene.materials)
       rules.friction.push_back(friction_of(scene, a.name, b.name));
@@ -334,6 +333,22 @@ double shortest_edge(const Bodies& bodies) {
   return least;
 }
 
+// What surfaces could pass through: elements, and ridges of tools that are thinner than those.
+void find_thinnest(const Scene& scene, const Bodies& bodies, ContactRules& rules) {
+  rules.shortest_edge = shortest_edge(bodies);
+  rules.thinnest = rules.shortest_edge;
+  for (const Shape& shape : bodies.shapes)
+    rules.thinnest = std::min(rules.thinnest, thinnest_part(shape));
+  const double most = rules.shortest_edge;
+  for (const ToolSpec& tool : scene.tools) {
+    rules.tool_thickness.push_back(
+        tool.shape == ToolSpec::Shape::polyline
+            ? thinnest_part(drawn_points(make_surface(tool.points, tool.rounding)), most, most)
+            : std::numeric_limits<double>::infinity());
+    rules.thinnest = std::min(rules.thinnest, rules.tool_thickness.back());
+  }
+}
+
 void add_clock(World& world, const Scene& scene) {
   Clock& clock = world.emplace<Clock>();
   clock.safety = scene.time.safety;
@@ -376,9 +391,10 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.tools || needs.grips) add_tools(*world, scene, bodies, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
-    world->emplace<ContactRules>(contact_rules(scene)).shortest_edge = shortest_edge(layout.bodies);
+    ContactRules& rules = world->emplace<ContactRules>(contact_rules(scene));
+    find_thinnest(scene, layout.bodies, rules);
     ContactIndex& index = world->emplace<ContactIndex>();
-    index.skin = scene.contact.skin * shortest_edge(layout.bodies);
+    index.skin = scene.contact.skin * rules.shortest_edge;
     index.neighbourhood = skins_of_neighbourhood * index.skin;
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)

@@ -25,6 +25,14 @@ namespace {
 
 constexpr double least_left = 0.2;  // of the skin: with less, looking costs more than new rows
 
+// What the next step may use up, where steps are long beside the skin: surfaces are to be found before they
+// meet. (A fold of an outline that is first seen when its sides are through each other looks like the far side
+// of a thin part.)
+double look_ahead(const ContactIndex& index, double travel) {
+  const double step = travel - index.travel_seen;
+  return step > least_left * index.skin ? step : 0;
+}
+
 struct Motion {  // of the outline in a slot since the rows were made
   Box before, displacement;
 };
@@ -121,8 +129,10 @@ void skin_check(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> cont
                 Optional<Read<ToolShapes>> shapes, Write<CurveBefore> before,
                 Write<ContactIndex> index) {
   index->due = false;
+  const double ahead = look_ahead(*index, clock->travel);
+  index->travel_seen = clock->travel;
   if (index->travel_at_bin >= 0) {
-    if (clock->travel < index->look_at) return;
+    if (clock->travel + ahead < index->look_at) return;
     std::vector<Motion> motion(bodies->slots.size());
     const auto& slots = bodies->slot_of_number;
     tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
@@ -142,7 +152,7 @@ void skin_check(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> cont
                       }));
     }
     index->look_at = clock->travel + left;
-    if (left > least_left * index->skin) return;
+    if (left > std::max(least_left * index->skin, ahead)) return;
   }
   index->due = true;
   index->travel_at_bin = clock->travel;

@@ -61,6 +61,7 @@ StepList step_list_of(World& w) {
   if (!one_pass) bodies();
   force(touching, "contact_totals",   contact_totals);
   force(touching, "contact_health",   contact_health);
+  force(w.has<SurfaceRange>(), "ridge_health", ridge_health);
   force(tools && !grips, "tool_reaction", tool_reaction);
   if (!grips) drives();
   // One pass over the chunks from here to the end of the step.
@@ -103,6 +104,7 @@ std::vector<System> start_list(World& w) {
   if (w.has<HighestMode>())
     start.push_back(w.has<DeviatoricStress<1>>() ? make_system(w, "highest_mode", highest_mode<1>)
                                                  : make_system(w, "highest_mode", highest_mode<4>));
+  start.push_back(make_system(w, "first_time_step", first_time_step));
   return start;
 }
 
@@ -134,10 +136,7 @@ Step::Step(World& world)
       observed_(joined(step_list(world).forces, step_list(world).observe), world.chunks()),
       motion_(step_list(world).motion, world.chunks()) {}
 
-void Step::start() {
-  TaskGraph(start_list(world_), world_.chunks()).run();
-  choose_time_step(Read<StableTimeStep>(world_).values(), world_.resource<Clock>());
-}
+void Step::start() { TaskGraph(start_list(world_), world_.chunks()).run(); }
 
 void Step::run() { whole_.run(); }
 void Step::observe() { observed_.run(); }

@@ -17,7 +17,7 @@ struct StepList {
 
 StepList step_list(World& world);
 
-// What has to be known before the first step: contact curves and the stable time step.
+// What has to be known before the first step: contact curves, the stable time step and the one that is taken.
 std::vector<System> start_list(World& world);
 
 // A step as the run loop uses it.

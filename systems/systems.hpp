@@ -2,8 +2,6 @@
 // here; systems/step.cpp puts them in order.
 #pragma once
 
-#include <span>
-
 #include "components/contact.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
@@ -65,6 +63,10 @@ void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
                     Optional<Read<ContactPair<ToolContact>>>,
                     Optional<Read<ContactSums<ToolContact>>>, Optional<Read<ToolProgram>>,
                     Write<Totals>);
+void ridge_health(Read<Bodies>, Read<Clock>, Read<ContactRules>, Read<ContactIndex>,
+                  Read<CurvePosition>, Read<ToolPosition>, Read<ToolShapes>, Read<ToolProgram>,
+                  Read<ContactPair<ToolContact>>, Read<ContactTouches<ToolContact>>,
+                  Read<SurfaceRange>);
 
 // ---- chunk by chunk: forces of the bodies -------------------------------------------------------
 void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<ContactPlace>>,
@@ -141,6 +143,9 @@ void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<She
                       Optional<Read<ContactRules>>, Write<StableTimeStep>);
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
                     Write<Totals>);
+void first_time_step(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>,
+                     Optional<Read<ToolProgram>>, Optional<Read<ServoVelocity>>,
+                     Optional<Read<ContactRules>>, Write<Clock>);  // once, at the start
 void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolProgram>>,
                    Optional<Read<ServoVelocity>>, Read<Totals>, Optional<Read<ContactRules>>,
                    Write<Clock>);
@@ -148,7 +153,4 @@ void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<
 // ---- used outside the step too --------------------------------------------------------------------
 // Where the programme puts a tool at `time`, m.
 Point tool_position_at(const ToolProgram& program, int tool, double time);
-// Sets clock.dt from the particles' stable steps.
-void choose_time_step(std::span<const double> stable, Clock& clock);
-
 }  // namespace pulvis

@@ -1,17 +1,24 @@
 // stable_time_step: the greatest time step that every element (and the contact springs on the outline)
-// of a particle can stand. advance_clock: chooses the next step and moves time on.
+// of a particle can stand. first_time_step, advance_clock: choose the next step; the latter moves time on.
 //
 // Source   The highest frequency of an assembly is at most that of its worst element, however the masses of
 //          the nodes are dealt out among the elements around (Irons; Flanagan & Belytschko 1984); the
 //          shape deals them out so that the worst is least (scenes/mass_shares). Elements:
 //          systems/time_step_kernel.hpp. One on the outline also bears contact springs of k K L/A (a
 //          tool's, or the half of it that two equal bodies share, moving against each other).
+//          Stability knows nothing of speeds: where surfaces would move by more than a share of the thinnest
+//          part of an outline or a tool (scenes/thinnest), the step is shorter, so that nothing is passed unseen
 // Runs     stable_time_step every few steps, while the stresses of a chunk are at hand; advance_clock last
+#include <fmt/format.h>
+
+#include <span>
+
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "engine/portable_math.hpp"
 #include "systems/contact_kernel.hpp"
 #include "systems/element_bound.hpp"
+#include "systems/run_failure.hpp"
 #include "systems/systems.hpp"
 #include "systems/time_step_kernel.hpp"
 
@@ -21,6 +28,9 @@ namespace {
 // Geometry changes little in a step; where it does, at impact, the stable step is looked at more often.
 constexpr std::int64_t most_steps_between_looks = 8;
 constexpr double most_strain_between_looks = 0.01;
+// Of the thinnest part, that surfaces may move against each other in a step: what they pass into is seen while
+// its near side is the nearer one by far, also where speeds grow within the step.
+constexpr double most_way = 0.25;
 
 }  // namespace
 
@@ -67,7 +77,7 @@ template void stable_time_step<4>(Chunk, Read<Bodies>, Read<Clock>, Read<Positio
 
 namespace {
 
-// Of all tools, from `time` on. Their velocities are those of the step before: too little while they speed up.
+// Of all tools, from `time` on.
 double farthest_way(const ToolProgram& program, const Optional<Read<ServoVelocity>>& servo,
                     double time, double dt) {
   double farthest = 0;
@@ -82,20 +92,83 @@ double farthest_way(const ToolProgram& program, const Optional<Read<ServoVelocit
   return farthest;
 }
 
+// How far any two surfaces move against each other in a step, at most.
+class Approach {
+ public:
+  Approach(const Optional<Read<MaximumSpeed>>& speed, const Optional<Read<ToolProgram>>& program,
+           const Optional<Read<ServoVelocity>>& servo)
+      : program_(program), servo_(servo), anything_(speed) {
+    if (!speed) return;
+    for (const double v : speed->values()) fastest_ = std::max(fastest_, v);
+  }
+  bool anything() const { return anything_; }  // that can touch
+  double way(double time, double dt) const {
+    const double fastest = fastest_ * dt;
+    return fastest + std::max(fastest, program_ ? farthest_way(**program_, servo_, time, dt) : 0.0);
+  }
+
+ private:
+  const Optional<Read<ToolProgram>>& program_;
+  const Optional<Read<ServoVelocity>>& servo_;
+  bool anything_;
+  double fastest_ = 0;  // m/s
+};
+
+// No surface may be on one side of a part before a step and on its other side after it, or nearer to that.
+double without_passing(const Approach& approach, const Clock& clock, double thinnest, double dt) {
+  const double most = most_way * thinnest;
+  for (double way = approach.way(clock.time, dt); way > most && std::isfinite(way);
+       way = approach.way(clock.time, dt))
+    dt *= 0.99 * most / way;
+  return dt;
+}
+
+void choose_time_step(std::span<const double> stable, const Approach& approach,
+                      const Optional<Read<ContactRules>>& rules, Clock& clock) {
+  double least_step = 1e300;
+  for (const double dt : stable) least_step = std::min(least_step, dt);
+  // Never grow fast: the accelerations that follow from a sudden change belong to the old step.
+  const double wanted = clock.safety * least_step;
+  clock.dt = clock.dt_before > 0 ? std::min(wanted, 1.02 * clock.dt_before) : wanted;
+  if (approach.anything())
+    clock.dt = without_passing(approach, clock, (*rules)->thinnest, clock.dt);
+  // Land on the end of the run exactly, without a sliver of a last step.
+  const double left = clock.end - clock.time;
+  if (left > 0 && left < 2 * clock.dt) clock.dt = left > clock.dt ? 0.5 * left : left;
+  if (left > 0 && clock.time + clock.dt == clock.time)
+    throw RunFailure(fmt::format(
+        "advance_clock: step {} at t = {:.6g} s would be {:.3g} s long, too short to be "
+        "added to the time (is a tool too fast?)",
+        clock.step, clock.time, clock.dt));
+}
+
+// Where speeds grow manifold within a step, the bound on the next one is no help.
+void require_in_sight(double way, const ContactRules& rules, const Clock& clock) {
+  if (way <= rules.thinnest || std::isnan(way)) return;
+  throw RunFailure(fmt::format(
+      "advance_clock: surfaces moved up to {:.6g} m against each other in step {}, t = {:.6g} s: "
+      "contacts may have been passed unseen; allowed {:.6g} m, the thinnest part of an outline or "
+      "a tool (is the load too sudden?)",
+      way, clock.step, clock.time, rules.thinnest));
+}
+
 }  // namespace
+
+void first_time_step(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
+                     Optional<Read<ToolProgram>> program, Optional<Read<ServoVelocity>> servo,
+                     Optional<Read<ContactRules>> rules, Write<Clock> clock) {
+  choose_time_step(stable.values(), {speed, program, servo}, rules, *clock);
+}
 
 void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
                    Optional<Read<ToolProgram>> program, Optional<Read<ServoVelocity>> servo,
                    Read<Totals> totals, Optional<Read<ContactRules>> rules, Write<Clock> clock) {
+  const Approach approach{speed, program, servo};
   const bool looked = clock->step >= clock->next_look;
   std::int64_t interval = most_steps_between_looks;
-  if (speed) {
-    double fastest = 0;
-    for (const double v : speed->values()) fastest = std::max(fastest, v);
-    fastest *= clock->dt;
-    const double way =
-        fastest +
-        std::max(fastest, program ? farthest_way(**program, servo, clock->time, clock->dt) : 0.0);
+  if (approach.anything()) {
+    const double way = approach.way(clock->time, clock->dt);
+    require_in_sight(way, **rules, *clock);
     clock->travel += way;
     const double strain = way / (*rules)->shortest_edge;  // of an edge in a step, at most
     if (looked) {
@@ -111,18 +184,7 @@ void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> spe
   clock->time += clock->dt;
   clock->dt_before = clock->dt;
   clock->step += 1;
-  choose_time_step(stable.values(), *clock);
-}
-
-void choose_time_step(std::span<const double> stable, Clock& clock) {
-  double least_step = 1e300;
-  for (const double dt : stable) least_step = std::min(least_step, dt);
-  // Never grow fast: the accelerations that follow from a sudden change belong to the old step.
-  const double wanted = clock.safety * least_step;
-  clock.dt = clock.dt_before > 0 ? std::min(wanted, 1.02 * clock.dt_before) : wanted;
-  // Land on the end of the run exactly, without a sliver of a last step.
-  const double left = clock.end - clock.time;
-  if (left > 0 && left < 2 * clock.dt) clock.dt = left > clock.dt ? 0.5 * left : left;
+  choose_time_step(stable.values(), approach, rules, *clock);
 }
 
 }  // namespace pulvis
