@@ -133,8 +133,10 @@ struct ContactIndex {
 struct Totals {
   static constexpr const char* resource_name = "totals";
   double external_work = 0;      // J, of the tools on the particles
+  double largest_work = 0;       // J, of the tools in one step, either way
   double friction_work = 0;      // J, dissipated
   double damping_work = 0;       // J, dissipated by contact damping
+  double damping_power = 0;      // W, of this step
   double contact_energy = 0;     // J, stored in contact springs now
   double penetration = 0;        // -, penetration / edge length, largest of this step
   double worst_penetration = 0;  // -, the same, of the run
@@ -143,8 +145,8 @@ struct Totals {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(external_work, friction_work, damping_work, contact_energy, penetration,
-          worst_penetration, least_jacobian, touching);
+    bytes(external_work, largest_work, friction_work, damping_work, damping_power, contact_energy,
+          penetration, worst_penetration, least_jacobian, touching);
   }
 };
 

@@ -263,18 +263,22 @@ const TableDeclaration<LimitSpec>& limits() {
          .kind = Kind::number,
          .range = above(0, 1e6),
          .fallback = value_of(0.05),
-         .doc = "Error of the energy balance over the largest energy of the run."},
+         .doc =
+             "`energy_balance_error`: error of the energy balance over the largest energy so far."},
         to(&LimitSpec::energy_balance)},
        {{.name = "penetration",
          .kind = Kind::number,
          .range = above(0, 1e6),
          .fallback = value_of(0.5),
-         .doc = "Penetration over the length of a boundary edge."},
+         .doc = "Penetration over the length of a boundary edge, of a tool's corner in an outline "
+                "too."},
         to(&LimitSpec::penetration)},
        {{.name = "kinetic_energy",
          .kind = Kind::number,
          .range = above(0, 1e6),
-         .doc = "Kinetic over internal energy, for runs meant to be quasi-static.",
+         .doc =
+             "`kinetic_ratio`: kinetic over internal energy from a tenth of the run on, for runs "
+             "meant to be quasi-static.",
          .fallback_doc = "no limit"},
         to(&LimitSpec::kinetic_energy)}}};
   return declaration;

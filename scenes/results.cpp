@@ -119,14 +119,6 @@ bool has_servo(const Scene& scene, const ToolSpec& tool) {
   });
 }
 
-double fastest_tool(const Scene& scene) {
-  double fastest = 0;
-  for (const StageSpec& stage : scene.stages)
-    for (const MoveSpec& move : stage.moves)
-      fastest = std::max(fastest, move.displacement.norm() / stage.duration / (1 - move.ramp));
-  return fastest;
-}
-
 }  // namespace
 
 std::vector<SeriesInfo> history_series(const Scene& scene) {
@@ -206,12 +198,6 @@ Results::Results(const Scene& scene, const World& world)
       world.column<BulkModulus>().values(),
       world.column<BulkModulus>().values() + world.resource<Bodies>().slots.size());
   stiffness_energy_ = modulus * particle_area_ * scene.thickness;
-  double mass_per_thickness = 0;
-  for (const int slot : world.resource<Bodies>().slot_of_number)
-    mass_per_thickness += world.column<Density>().values()[static_cast<std::size_t>(slot)] *
-                          world.resource<Bodies>().shape_of_slot(slot).area;
-  const double fastest = fastest_tool(scene);
-  tool_energy_ = 0.5 * mass_per_thickness * scene.thickness * fastest * fastest;
   for (std::size_t i = 0; i < series_.size(); ++i) position_[series_[i].name] = i;
 
   fields_ = {{"position", "m", "of the node", FieldPlace::node, 2},
@@ -261,7 +247,16 @@ void Results::take_energies() {
   // "Not smaller" instead of "larger": a NaN must come through to the limits.
   if (!(std::abs(e.balance) <= worst_balance_)) worst_balance_ = std::abs(e.balance);
   largest_energy_ = std::max({largest_energy_, std::abs(e.external), std::abs(initial_energy_)});
-  kinetic_internal_.emplace_back(e.kinetic, e.internal());
+  take_kinetic_ratio();
+}
+
+void Results::take_kinetic_ratio() {
+  const Clock& clock = world_.resource<Clock>();
+  const double internal = energies_.internal();
+  largest_internal_ = std::max(largest_internal_, internal);
+  if (!(clock.time > 0.1 * clock.end) || internal <= 0.01 * largest_internal_) return;
+  const double ratio = energies_.kinetic / internal;
+  if (!(ratio <= worst_kinetic_ratio_)) worst_kinetic_ratio_ = ratio;
 }
 
 namespace {
@@ -394,21 +389,12 @@ double Results::least_jacobian() const {
   return least;
 }
 
-double Results::energy_balance_error(double negligible) const {
-  return worst_balance_ / std::max(largest_energy_, negligible * stiffness_energy_);
-}
-
-double Results::energy_balance_error_so_far() const {
-  const double floor = std::max(1e-6 * stiffness_energy_, 0.01 * tool_energy_);
-  return worst_balance_ / std::max(largest_energy_, floor);
-}
-
-double Results::kinetic_ratio() const {
-  double largest = 0, worst = 0;
-  for (const auto& [kinetic, internal] : kinetic_internal_) largest = std::max(largest, internal);
-  for (const auto& [kinetic, internal] : kinetic_internal_)
-    if (internal > 0.01 * largest) worst = std::max(worst, kinetic / internal);
-  return worst;
+// The forces of a step are those at its ends: where surfaces meet within it, the balance is known to no more than
+// its work. Twenty of them bring in enough to judge by.
+double Results::energy_balance_error() const {
+  constexpr double round_off = 1e-12, steps_of_a_touch = 20;
+  const double unresolved = steps_of_a_touch * world_.resource<Totals>().largest_work;
+  return worst_balance_ / std::max({largest_energy_, unresolved, round_off * stiffness_energy_});
 }
 
 }  // namespace pulvis

@@ -120,27 +120,32 @@ void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<S
 
 namespace {
 
-void add_blocks(const std::vector<BlockSums>& blocks, Totals& totals) {
+BlockSums sum_of(const std::vector<BlockSums>& blocks) {
   BlockSums sum;
   for (const BlockSums& block : blocks) {
-    totals.touching += block.touching;
+    sum.touching += block.touching;
     sum.energy += block.energy;
     sum.friction_work += block.friction_work;
     sum.damping_work += block.damping_work;
   }
-  totals.contact_energy += sum.energy;
-  totals.friction_work += sum.friction_work;
-  totals.damping_work += sum.damping_work;
+  return sum;
 }
 
 }  // namespace
 
-void contact_totals(Optional<Read<ContactSums<Contact>>> sums,
+// Damping by the trapezoidal rule, like the work of the tools: its force is there from the first touch on, and
+// not before.
+void contact_totals(Read<Clock> clock, Optional<Read<ContactSums<Contact>>> sums,
                     Optional<Read<ContactSums<ToolContact>>> tool_sums, Write<Totals> totals) {
-  totals->touching = 0;
-  totals->contact_energy = 0;
-  if (sums) add_blocks((*sums)->blocks, *totals);
-  if (tool_sums) add_blocks((*tool_sums)->blocks, *totals);
+  const BlockSums pairs = sums ? sum_of((*sums)->blocks) : BlockSums{};
+  const BlockSums tools = tool_sums ? sum_of((*tool_sums)->blocks) : BlockSums{};
+  totals->touching = pairs.touching + tools.touching;
+  totals->contact_energy = pairs.energy + tools.energy;
+  totals->friction_work += pairs.friction_work;
+  totals->friction_work += tools.friction_work;
+  const double dt = clock->dt_before, damped = pairs.damping_work + tools.damping_work;
+  totals->damping_work += 0.5 * (totals->damping_power * dt + damped);
+  totals->damping_power = dt > 0 ? damped / dt : 0;
 }
 
 }  // namespace pulvis

@@ -51,8 +51,8 @@ void tool_contact(SmallTasks, Read<Bodies>, Read<Clock>, Read<CurvePosition>,
                   Optional<Read<FrictionMore<ToolContact>>>,
                   Optional<Write<StaticLost<ToolContact>>>, Optional<Read<ToolShapes>>,
                   Optional<Read<SurfaceRange>>, Write<ContactSums<ToolContact>>);
-void contact_totals(Optional<Read<ContactSums<Contact>>>, Optional<Read<ContactSums<ToolContact>>>,
-                    Write<Totals>);
+void contact_totals(Read<Clock>, Optional<Read<ContactSums<Contact>>>,
+                    Optional<Read<ContactSums<ToolContact>>>, Write<Totals>);
 void tool_reaction(Read<Clock>, Optional<Read<ContactPair<ToolContact>>>,
                    Optional<Read<ContactTouches<ToolContact>>>,
                    Optional<Read<PointForce<ToolContact>>>, Optional<Read<GripTarget>>,

@@ -1,5 +1,8 @@
 // tool_motion: where the tools' programmes put them at t_n, and their mean velocity over the last step.
 // tool_reaction: what the particles do to each tool, and the work that the tools have done.
+#include <algorithm>
+#include <cmath>
+
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
@@ -86,7 +89,9 @@ void tool_reaction(Read<Clock> clock, Optional<Read<ContactPair<ToolContact>>> p
     tool_force(Row<Tool>(t), 0) = tool_force(Row<Tool>(t), 1) = 0;
   if (pair) add_contacts(*pair, *touches, *force, tool_force);
   if (grip) add_grips(*grip, *grip_travel, *grip_reaction, tool_force);
-  totals->external_work += 0.5 * (power_before + power()) * clock->dt_before;
+  const double work = 0.5 * (power_before + power()) * clock->dt_before;
+  totals->external_work += work;
+  totals->largest_work = std::max(totals->largest_work, std::abs(work));
 }
 
 }  // namespace pulvis

@@ -200,21 +200,41 @@ TEST(Health, LimitsThatAreKeptDoNotStopARun) {
 }
 
 // Energies are looked at when they are sampled: the program does it, with the recorder.
-nlohmann::json summary_of_a_bad_run(const std::string& limit) {
+struct Ended {
+  int status;
+  nlohmann::json summary;
+};
+Ended run_of_program(const std::vector<std::string>& overrides) {
   namespace fs = std::filesystem;
-  const fs::path folder =
-      fs::temp_directory_path() / ("pulvis-health-" + std::to_string(getpid()) + limit);
-  const std::string command =
-      std::string("'") + paths::program() + "' run '" + paths::source_dir() +
-      "/scenes/compaction/regular-25.toml' -o '" + folder.string() +
-      "' --set 'stage.press.duration=50 us' --set output.frames=10 --set output.samples=50 --set "
-      "'stage.press.move[0].displacement=[\"0 mm\", \"-1.25 mm\"]' --set limits." +
-      limit;
+  const fs::path folder = fs::temp_directory_path() / ("pulvis-health-" + std::to_string(getpid()));
+  std::string command = std::string("'") + paths::program() + "' run '" + paths::source_dir() +
+                        "/scenes/compaction/regular-25.toml' -o '" + folder.string() +
+                        "' --set output.frames=10 --set output.samples=50";
+  for (const std::string& one : overrides) command += " --set '" + one + "'";
   const int status = std::system((command + " >/dev/null 2>&1").c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 3) << command;
-  auto summary = nlohmann::json::parse(std::ifstream(folder / "summary.json"));
+  Ended ended{WEXITSTATUS(status), nlohmann::json::parse(std::ifstream(folder / "summary.json"))};
   fs::remove_all(folder);
-  return summary;
+  return ended;
+}
+std::vector<std::string> pressed(const char* duration, const char* by) {
+  return {std::string("stage.press.duration=") + duration,
+          std::string("stage.press.move[0].displacement=[\"0 mm\", \"-") + by + " mm\"]"};
+}
+
+nlohmann::json summary_of_a_bad_run(const std::string& limit) {
+  std::vector<std::string> overrides = pressed("50 us", "1.25");
+  overrides.push_back("limits." + limit);
+  const Ended ended = run_of_program(overrides);
+  EXPECT_EQ(ended.status, 3) << limit;
+  return ended.summary;
+}
+
+// The figure that the message names.
+double judged(const nlohmann::json& summary) {
+  std::smatch match;
+  const auto outcome = summary["outcome"].get<std::string>();
+  if (!std::regex_search(outcome, match, std::regex(" is ([0-9.e+-]+) at step"))) return -1;
+  return std::stod(match[1]);
 }
 
 TEST(Health, EnergyBalanceLimitStopsTheRun) {
@@ -224,6 +244,8 @@ TEST(Health, EnergyBalanceLimitStopsTheRun) {
                             "[0-9.e-]+ s; allowed 1e-07 \\(limits.energy_balance\\); most "
                             "distorted: particle [0-9]+, element [0-9]+, det F = .*$"));
   EXPECT_LT(summary["time"], 50e-6);
+  const double reported = summary["energy_balance_error"];
+  EXPECT_NEAR(judged(summary) / reported, 1, 1e-3);
 }
 
 TEST(Health, KineticEnergyLimitStopsTheRun) {
@@ -231,6 +253,46 @@ TEST(Health, KineticEnergyLimitStopsTheRun) {
   EXPECT_THAT(summary["outcome"].get<std::string>(),
               ContainsRegex("^failed: energies: kinetic_energy is .* \\(limits.kinetic_energy\\); "
                             "most distorted: particle [0-9]+, element .*$"));
+  const double reported = summary["kinetic_ratio"];
+  EXPECT_NEAR(judged(summary) / reported, 1, 1e-3);
+}
+
+// Meshes and times that resolve next to nothing: a run that is done keeps its limits by its own report, also
+// where the punch gets to its particles in the last step.
+TEST(Health, WhatIsDoneKeepsTheLimitsItReports) {
+  for (const auto& [duration, by] :
+       {std::pair("30 us", "5"), std::pair("30 us", "0.3"), std::pair("30 us", "0.31"),
+        std::pair("1e-15 s", "1e-3"), std::pair("1e-15 s", "5"), std::pair("1e-9 s", "0.01")})
+    for (const char* edges : {"4", "40"}) {
+      std::vector<std::string> overrides = pressed(duration, by);
+      overrides.push_back(std::string("particle.disc.mesh.boundary_edges=") + edges);
+      const auto [status, summary] = run_of_program(overrides);
+      const double error = summary["energy_balance_error"];
+      EXPECT_EQ(status == 0, summary["outcome"] == "done");
+      if (status == 0)
+        EXPECT_LE(error, 0.05) << duration << ", " << by << " mm, " << edges;
+      else
+        EXPECT_EQ(status, 3);
+    }
+}
+
+// What contact damping takes is its force times its way: of second order in the time step, as all the rest.
+TEST(Health, DampingIsBookedToSecondOrder) {
+  const auto error = [](double safety) {
+    Scene scene = read_scene(
+        paths::source_dir() "/scenes/extreme/impact-100-m-s.toml",
+        {"contact.damping=1", "contact.friction=0", "time.safety=" + std::to_string(safety)});
+    scene.materials[0].yield_stress.reset();
+    scene.bodies[0].velocity /= 10;
+    scene.stages[0].duration = 60e-6;
+    Experiment e(std::move(scene));
+    e.run(20);
+    EXPECT_GT(e.value("energy/damping"), 0.05 * e.value("energy/kinetic"));
+    return e.results.energy_balance_error();
+  };
+  const double coarse = error(0.8), fine = error(0.2);
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_LT(fine, coarse / 8);  // a sixteenth, but for the step in which the disc meets the wall
 }
 
 }  // namespace
