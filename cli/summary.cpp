@@ -52,6 +52,9 @@ Json materials_json(const Scene& scene) {
       entry["yield_stress"] = *m.yield_stress;
       entry["hardening_modulus"] = m.hardening_modulus;
     }
+    if (m.damped())
+      entry["damping"] = {{"mass_proportional", m.mass_damping},
+                          {"stiffness_proportional", m.stiffness_damping}};
     materials.push_back(entry);
   }
   return materials;

@@ -64,6 +64,22 @@ struct PlasticHourglass : Component<Element, double, 2> {
                                       "plastic bending strain of the fibres along xi, along eta"};
 };
 
+// ---- only where a material has bulk damping ------------------------------------------------------
+struct DampingForce : Component<Node, double, 2> {
+  static constexpr ComponentInfo info{"damping_force", "N",
+                                      "of bulk damping, on the node; part of the internal force"};
+};
+struct MassDamping : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"mass_damping", "1/s", "alpha: force over momentum"};
+};
+struct StiffnessDamping : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"stiffness_damping", "s",
+                                      "beta: viscous stress over the rate of the elastic one"};
+};
+struct DampingWork : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"damping_work", "J", "spent by bulk damping so far"};
+};
+
 // ---- particles (lane constants of a chunk, and per-particle results) --------------------------
 struct ShearModulus : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"shear_modulus", "Pa", "mu"};

@@ -204,6 +204,12 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add<StableTimeStep>();
   world.add<KineticEnergy>();
   world.add<ElasticEnergy>();
+  if (needs.bulk_damping) {
+    world.add<DampingForce>();
+    world.add<MassDamping>();
+    world.add<StiffnessDamping>();
+    world.add<DampingWork>();
+  }
   if (!needs.plastic) return;
   world.add<YieldStress>();
   world.add<HardeningModulus>();
@@ -282,6 +288,10 @@ void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
     world.column<BulkModulus>().values()[slot] =
         m.youngs_modulus / (3 * (1 - 2 * m.poissons_ratio));
     world.column<Density>().values()[slot] = m.density;
+    if (world.has<MassDamping>()) {
+      world.column<MassDamping>().values()[slot] = m.mass_damping;
+      world.column<StiffnessDamping>().values()[slot] = m.stiffness_damping;
+    }
     if (!world.has<YieldStress>()) continue;
     world.column<YieldStress>().values()[slot] =
         m.yield_stress.value_or(std::numeric_limits<double>::infinity());
@@ -376,6 +386,7 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
                     any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
   needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;
+  needs.bulk_damping = std::ranges::any_of(scene.materials, &MaterialSpec::damped);
   return needs;
 }
 

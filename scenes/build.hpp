@@ -16,9 +16,10 @@ struct Needs {
   bool tools = false;    // something that particles touch
   bool polylines = false;
   bool grips = false;
-  bool friction = false;   // a coefficient above zero can act
-  bool weakening = false;  // and a law beyond Coulomb's
-  bool damping = false;
+  bool friction = false;      // a coefficient above zero can act
+  bool weakening = false;     // and a law beyond Coulomb's
+  bool damping = false;       // of contacts
+  bool bulk_damping = false;  // of a material
   ElementSpec::Formulation formulation = ElementSpec::Formulation::one_point;
   bool contact() const { return pairs || tools; }
 };

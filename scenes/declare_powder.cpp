@@ -144,6 +144,36 @@ const TableDeclaration<MaterialSpec>& material() {
   return declaration;
 }
 
+const TableDeclaration<MaterialSpec>& material_damping() {
+  static const TableDeclaration<MaterialSpec> declaration{
+      {"material.damping", false, "family",
+       "Bulk damping (Rayleigh): an oscillation of angular frequency w decays with the damping "
+       "ratio "
+       "mass_proportional/(2 w) + stiffness_proportional w/2.",
+       compaction_only, true},
+      {{{.name = "mass_proportional",
+         .kind = Kind::quantity,
+         .unit = "1/s",
+         .range = within(0, 1e15),
+         .fallback = value_of("0 1/s"),
+         .only_for = compaction_only,
+         .doc =
+             "alpha: force against the velocity, per mass. Damps slow oscillations most, and the "
+             "motion of a body as a whole with them."},
+        to(&MaterialSpec::mass_damping)},
+       {{.name = "stiffness_proportional",
+         .kind = Kind::quantity,
+         .unit = "s",
+         .range = within(0, 1e6),
+         .fallback = value_of("0 s"),
+         .only_for = compaction_only,
+         .doc = "beta: viscous stress over the rate of the elastic stress. Damps fast oscillations "
+                "most, no motion of a body as a whole; makes the time step shorter where it is not "
+                "well below it, and adds to the flow stress of what flows."},
+        to(&MaterialSpec::stiffness_damping)}}};
+  return declaration;
+}
+
 const TableDeclaration<ParticleSpec>& particle() {
   static const TableDeclaration<ParticleSpec> declaration{
       {"particle", true, "outline", "A class of equal particles; bodies and packings place them."},

@@ -84,6 +84,7 @@ MemoryNeed memory_need(const Scene& scene) {
   const bool mode = scene.time.estimate == TimeSpec::Estimate::highest_mode;
   std::uint64_t node = bytes_of<Position, Velocity, InternalForce>();
   if (mode) node += bytes_of<HighestMode>();
+  if (needs.bulk_damping) node += bytes_of<DampingForce>();
   const std::uint64_t control = bytes_of<CurvePosition, CurveBefore, CurveForce>() +
                                 (needs.friction || needs.damping ? bytes_of<CurveVelocity>() : 0);
   const std::uint64_t outline = bytes_of<ContactForce>() + (mode ? bytes_of<ContactSupport>() : 0);

@@ -36,7 +36,7 @@ class SceneReader {
     scene.file = file;
     tables_.read(schema::top_level(), Value{root_, {{1, 1}, -1}}, "", "", scene);
     if (const std::string* family = document::find_text(root_, "family")) family_ = *family;
-    scene.materials = read_all(schema::material());
+    scene.materials = read_materials();
     if (scene.afm) {
       read_afm(*scene.afm);
       scene.expects = read_all(schema::expect());
@@ -98,6 +98,16 @@ class SceneReader {
     if (document::find(root_, "surface") != nullptr)
       read_one(schema::surface(), afm.target.emplace());
     afm.actions = read_all(schema::action());
+  }
+
+  std::vector<MaterialSpec> read_materials() {
+    std::vector<MaterialSpec> materials = read_all(schema::material());
+    const Array& elements = array_at("material");
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      if (const document::Entry* entry = document::find(elements[i].get<Table>(), "damping"))
+        tables_.read(schema::material_damping(), entry->value, numbered("material", i) + ".damping",
+                     family_, materials[i]);
+    return materials;
   }
 
   std::vector<ParticleSpec> read_particles() {

@@ -165,6 +165,8 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   add_series("energy/contact", "J", "stored in the contact springs");
   add_series("energy/friction", "J", "dissipated by friction");
   add_series("energy/damping", "J", "dissipated by contact damping");
+  if (std::ranges::any_of(scene.materials, &MaterialSpec::damped))
+    add_series("energy/bulk_damping", "J", "dissipated by the materials' damping");
   add_series("energy/external", "J", "work of the tools");
   add_series("energy/balance", "J",
              "all energies less the work of the tools and the energy at the start");
@@ -238,9 +240,10 @@ void Results::take_energies() {
   e.contact = totals.contact_energy;
   e.friction = totals.friction_work;
   e.damping = totals.damping_work;
+  e.bulk_damping = world_.has<DampingWork>() ? total<DampingWork>(world_) : 0;
   e.external = totals.external_work;
-  const double all =
-      e.kinetic + e.elastic + e.plastic + e.hourglass + e.contact + e.friction + e.damping;
+  const double all = e.kinetic + e.elastic + e.plastic + e.hourglass + e.contact + e.friction +
+                     e.damping + e.bulk_damping;
   if (first_) initial_energy_ = all;
   first_ = false;
   e.balance = all - e.external - initial_energy_;
@@ -316,7 +319,9 @@ void Results::append_energies(std::vector<double>& row) const {
   const Energies& e = energies_;
   row.insert(row.end(), {e.kinetic, e.elastic, e.plastic});
   row.push_back(e.hourglass);
-  row.insert(row.end(), {e.contact, e.friction, e.damping, e.external, e.balance});
+  row.insert(row.end(), {e.contact, e.friction, e.damping});
+  if (world_.has<DampingWork>()) row.push_back(e.bulk_damping);
+  row.insert(row.end(), {e.external, e.balance});
 }
 
 std::vector<double> Results::sample() {

@@ -27,6 +27,9 @@ struct MaterialSpec {
   std::optional<double> yield_stress;  // Pa, > 0; absent: elastic
   double hardening_modulus = 0;        // Pa, >= 0; dsigma_y/deps_p; 0: perfectly plastic
   SourceMark mark;
+  double mass_damping = 0;       // 1/s, alpha of Rayleigh damping
+  double stiffness_damping = 0;  // s, beta
+  bool damped() const { return mass_damping > 0 || stiffness_damping > 0; }
 };
 
 // Meshes and outlines. An outline names the mesh that goes with it; scenes/outline.cpp knows its geometry,

@@ -139,6 +139,7 @@ struct TableView {
 
 const TableDeclaration<Scene>& top_level();
 const TableDeclaration<MaterialSpec>& material();
+const TableDeclaration<MaterialSpec>& material_damping();
 const TableDeclaration<ParticleSpec>& particle();
 const TableDeclaration<ParticleSpec>& mesh();
 const TableDeclaration<BodySpec>& body();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "systems/element_access.hpp"
+#include "systems/time_step_kernel.hpp"
 
 namespace pulvis {
 
@@ -25,6 +26,16 @@ inline Lane corner_factor(const kernels::QuadMap<Lane>& map) {
   for (int g = 1; g < 4; ++g) least = min(least, determinant(map_gradient<4>(map, g)));
   const Lane ratio = determinant(map_gradient<1>(map, 0)) / max(least, 1e-300);
   return min(max(1.0, 0.5 * ratio * ratio), 9.0);
+}
+
+// What particles with that highest rho omega^2 can stand, bulk damping included.
+inline Lane stable_step(Chunk chunk, Lane density, Lane highest,
+                        const Optional<Read<MassDamping>>& alpha,
+                        const Optional<Read<StiffnessDamping>>& beta) {
+  if (!alpha) return 2.0 * sqrt(density / highest);
+  const Row<Particle> particle;
+  return kernels::damped_step<Lane>(highest / density, alpha->chunk(chunk)(particle),
+                                    beta->chunk(chunk)(particle));
 }
 
 }  // namespace pulvis

@@ -93,7 +93,9 @@ template <int Points>
                                    Read<Position> x, Read<ShearModulus> mu, Read<BulkModulus> bulk,
                                    Read<Density> density, Read<DeviatoricStress<Points>> s,
                                    Optional<Read<ContactRules>> rules,
-                                   Optional<Read<ContactSupport>> support, Write<HighestMode> mode,
+                                   Optional<Read<ContactSupport>> support,
+                                   Optional<Read<MassDamping>> alpha,
+                                   Optional<Read<StiffnessDamping>> beta, Write<HighestMode> mode,
                                    Write<ModeGain> gain, Write<StableTimeStep> stable) {
   if (clock->step < clock->next_look) return;
   const auto known = gain.chunk(chunk);
@@ -116,7 +118,8 @@ template <int Points>
   Lane highest{};
   for (int i = 0; i < (clock->step == 0 ? first_iterations : 1); ++i)
     highest = iterate(body, mode.chunk(chunk));
-  const Lane estimate = (2 * margin) * sqrt(density.chunk(chunk)(particle) / highest);
+  const Lane estimate =
+      margin * stable_step(chunk, density.chunk(chunk)(particle), highest, alpha, beta);
   known(particle, 0) = max(1.0, min(estimate / step, longest_gain));
   known(particle, 1) = 1.0;
   step *= known(particle, 0);

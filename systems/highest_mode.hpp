@@ -11,7 +11,8 @@ namespace pulvis {
 template <int Points>
 void highest_mode(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
                   Read<BulkModulus>, Read<Density>, Read<DeviatoricStress<Points>>,
-                  Optional<Read<ContactRules>>, Optional<Read<ContactSupport>>, Write<HighestMode>,
+                  Optional<Read<ContactRules>>, Optional<Read<ContactSupport>>,
+                  Optional<Read<MassDamping>>, Optional<Read<StiffnessDamping>>, Write<HighestMode>,
                   Write<ModeGain>, Write<StableTimeStep>);
 
 }  // namespace pulvis

@@ -43,6 +43,7 @@ StepList step_list_of(World& w) {
     force(plastic,  "trial_stress",     trial_stress<F>);
     force(plastic,  "j2_return_map",    j2_return_map<F>);
     force(true,     "internal_force",   internal_force<F>);
+    force(w.has<DampingForce>(), "damping_force", damping_force<F>);
     force(true,     "stable_time_step", stable_time_step<F::points>);
     force(w.has<HighestMode>(), "highest_mode", highest_mode<F::points>);
   };

@@ -98,6 +98,10 @@ void internal_force(BusyChunk, Read<Bodies>, Read<Position>, Read<DeviatoricStre
                     Read<MeanStress<F::volumes>>, Read<ShearModulus>,
                     Optional<Read<HourglassStress>>, Optional<Read<LeastCorner>>,
                     Write<InternalForce>);
+template <class F>
+void damping_force(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<Velocity>, Read<Density>,
+                   Read<ShearModulus>, Read<BulkModulus>, Read<MassDamping>, Read<StiffnessDamping>,
+                   Write<DampingForce>, Write<DampingWork>, Write<InternalForce>);
 void hold_grips(Chunk, Read<Bodies>, Read<Clock>, Read<ToolProgram>, Read<GripIndex>,
                 Read<GripTarget>, Read<GripDirection>, Read<GripTravel>, Read<GripOrigin>,
                 Read<Density>, Read<Position>, Read<Velocity>, Optional<Read<ContactForce>>,
@@ -140,7 +144,8 @@ void contact_curve(Chunk, Read<Bodies>, Read<Position>, Read<Velocity>, Write<Cu
 template <int Points>
 void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
                       Read<BulkModulus>, Read<Density>, Read<DeviatoricStress<Points>>,
-                      Optional<Read<ContactRules>>, Write<StableTimeStep>);
+                      Optional<Read<ContactRules>>, Optional<Read<MassDamping>>,
+                      Optional<Read<StiffnessDamping>>, Write<StableTimeStep>);
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
                     Write<Totals>);
 void first_time_step(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>,

@@ -35,12 +35,11 @@ constexpr double most_way = 0.25;
 }  // namespace
 
 template <int Points>
-[[gnu::flatten]] void stable_time_step(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
-                                       Read<Position> x, Read<ShearModulus> mu,
-                                       Read<BulkModulus> bulk, Read<Density> density,
-                                       Read<DeviatoricStress<Points>> s,
-                                       Optional<Read<ContactRules>> rules,
-                                       Write<StableTimeStep> stable) {
+[[gnu::flatten]] void stable_time_step(
+    Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Position> x, Read<ShearModulus> mu,
+    Read<BulkModulus> bulk, Read<Density> density, Read<DeviatoricStress<Points>> s,
+    Optional<Read<ContactRules>> rules, Optional<Read<MassDamping>> alpha,
+    Optional<Read<StiffnessDamping>> beta, Write<StableTimeStep> stable) {
   if (clock->step < clock->next_look) return;
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
@@ -63,17 +62,11 @@ template <int Points>
     highest =
         max(highest, element * corner_factor(map) + contact * shape.contact_frequency[at] * k);
   }
-  stable.chunk(chunk)(particle) = 2.0 * sqrt(rho / highest);
+  stable.chunk(chunk)(particle) = stable_step(chunk, rho, highest, alpha, beta);
 }
 
-template void stable_time_step<1>(Chunk, Read<Bodies>, Read<Clock>, Read<Position>,
-                                  Read<ShearModulus>, Read<BulkModulus>, Read<Density>,
-                                  Read<DeviatoricStress<1>>, Optional<Read<ContactRules>>,
-                                  Write<StableTimeStep>);
-template void stable_time_step<4>(Chunk, Read<Bodies>, Read<Clock>, Read<Position>,
-                                  Read<ShearModulus>, Read<BulkModulus>, Read<Density>,
-                                  Read<DeviatoricStress<4>>, Optional<Read<ContactRules>>,
-                                  Write<StableTimeStep>);
+template decltype(stable_time_step<1>) stable_time_step<1>;
+template decltype(stable_time_step<4>) stable_time_step<4>;
 
 namespace {
 

@@ -57,6 +57,14 @@ T frequency_bound(const ModeSpread<T>& n, T bulk, T mu, T theta, T distortion) {
   return max(stretch, shear);
 }
 
+// What the leapfrog can stand of a mode whose damping -alpha v - beta omega^2 v is that of the velocity half a
+// step back: 2/omega (sqrt(1 + xi^2) - xi), xi = alpha/(2 omega) + beta omega/2. Falls with omega.
+template <class T>
+T damped_step(T omega2, T alpha, T beta) {
+  const T decay = 0.5 * (alpha + beta * omega2);  // xi omega
+  return 2.0 / (decay + sqrt(omega2 + decay * decay));
+}
+
 // Largest eigenvalue of the spring matrix L/6 [[2,1],[1,2]] of an edge over its nodes' areas a and b: m^-1.
 inline double edge_spring_frequency(double length, double a, double b) {
   const double p = 1 / a, q = 1 / b;

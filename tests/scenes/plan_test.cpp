@@ -239,12 +239,16 @@ TEST(Plan, BodiesAreComputedInTwoPassesOverTheChunks) {
 
 // ---- no idle column -----------------------------------------------------------------------------
 // Read by the results: history, frames.
-const Names shown{"tool/force", "particle/kinetic_energy", "particle/elastic_energy",
-                  "particle/plastic_work", "particle/hourglass_energy"};
+const Names shown{"tool/force",
+                  "particle/kinetic_energy",
+                  "particle/elastic_energy",
+                  "particle/plastic_work",
+                  "particle/hourglass_energy",
+                  "particle/damping_work"};
 // Read and written by one and the same system through Write: history of a contact row, sums.
-const Names kept_by_their_writer{"contact/reach",        "tool_contact/reach",
-                                 "contact/elastic_slip", "tool_contact/elastic_slip",
-                                 "curve/force",          "curve/before"};
+const Names kept_by_their_writer{
+    "contact/reach", "tool_contact/reach", "contact/elastic_slip", "tool_contact/elastic_slip",
+    "curve/force",   "curve/before",       "node/damping_force"};
 
 class NoIdleColumn : public ::testing::TestWithParam<const char*> {};
 
@@ -262,9 +266,14 @@ TEST_P(NoIdleColumn, EveryColumnIsReadBySomebody) {
 
 // And none is only read: what nobody writes was set once by the scene.
 TEST_P(NoIdleColumn, EveryColumnIsWrittenBySomebodyOrByTheScene) {
-  const Names of_the_scene{
-      "particle/shear_modulus", "particle/bulk_modulus", "particle/density",
-      "particle/yield_stress",  "tool/normal",           "particle/hardening_modulus"};
+  const Names of_the_scene{"particle/shear_modulus",
+                           "particle/bulk_modulus",
+                           "particle/density",
+                           "particle/yield_stress",
+                           "tool/normal",
+                           "particle/hardening_modulus",
+                           "particle/mass_damping",
+                           "particle/stiffness_damping"};
   const Asked asked(GetParam());
   Names written;
   for (const System* system : asked.systems)
@@ -277,7 +286,7 @@ TEST_P(NoIdleColumn, EveryColumnIsWrittenBySomebodyOrByTheScene) {
 INSTANTIATE_TEST_SUITE_P(ShippedScenes, NoIdleColumn,
                          ::testing::Values("basic/spinning-disc.toml", "basic/oblique-impact.toml",
                                            "basic/patch-test.toml", "basic/sliding-block.toml",
-                                           "compaction/unit-cell.toml",
+                                           "basic/damped-strut.toml", "compaction/unit-cell.toml",
                                            "compaction/regular-25.toml"));
 
 }  // namespace
