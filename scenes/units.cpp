@@ -114,11 +114,12 @@ double decimal(double factor) {
 // Dividing by a whole number rounds once where multiplying by 0.001 rounds twice: "15 mm" becomes
 // the double nearest to 0.015, and lengths that touch on paper touch here.
 double scaled(double value, double factor) {
-  constexpr double equal = 1e-12;  // relative to the factor
+  constexpr double equal = 1e-12;         // relative to the factor
+  constexpr double largest_exact = 1e22;  // of the powers of ten
   const double whole = std::round(factor);
   if (whole >= 1 && std::abs(factor - whole) <= equal * factor) return value * decimal(whole);
   const double inverse = std::round(1 / factor);
-  if (inverse >= 1 && std::abs(1 / factor - inverse) <= equal * inverse)
+  if (inverse >= 1 && inverse <= largest_exact && std::abs(1 / factor - inverse) <= equal * inverse)
     return value / decimal(inverse);
   return value * decimal(factor);
 }

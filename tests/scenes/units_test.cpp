@@ -31,6 +31,20 @@ TEST(Units, ValuesInSi) {
   EXPECT_DOUBLE_EQ(parse_quantity("1 inch", "m"), 0.0254);
 }
 
+// udunits raises the prefix to the power by the library's pow, some last bits beside.
+TEST(Units, PowersOfPrefixes) {
+  EXPECT_EQ(parse_quantity("1 nm^-3", "m-3"), 1e27);
+  EXPECT_EQ(parse_quantity("1 um^-3", "m-3"), 1e18);
+  EXPECT_EQ(parse_quantity("3 nm^3", "m3"), 3e-27);
+  EXPECT_EQ(parse_quantity("7 um^3", "m3"), 7e-18);
+  EXPECT_EQ(parse_quantity("1 um^4", "m4"), 1e-24);
+  EXPECT_EQ(parse_quantity("1 pm^2", "m2"), 1e-24);
+  EXPECT_EQ(parse_quantity("1 N/nm^2", "Pa"), 1e18);
+  EXPECT_EQ(parse_quantity("1 kN/nm^2", "Pa"), 1e21);
+  EXPECT_EQ(parse_quantity("1 inch^2", "m2"), 0.00064516);
+  EXPECT_EQ(parse_quantity("1 inch^3", "m3"), 1.6387064e-05);
+}
+
 TEST(Units, SpellingsOfTheMicrometre) {
   for (const char* text : {"3 um", "3 \u00B5m", "3 \u03BCm", "3 micron", "3 micrometer"})
     EXPECT_EQ(parse_quantity(text, "m"), 3e-6) << text;
