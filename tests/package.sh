@@ -9,7 +9,7 @@ trap 'rm -rf -- "$place"' EXIT
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$place" >"$place/log" || { cat "$place/log"; exit 1; }
 dpkg-deb -x "$place"/*.deb "$place/root"
 depends=$(dpkg-deb -f "$place"/*.deb Depends)
-for library in libtbb12 libhdf5 libfcl; do
+for library in libtbb12 libhdf5 libfcl libxxhash; do
   [[ $depends == *$library* ]] || { echo "does not depend on $library"; exit 1; }
 done
 
