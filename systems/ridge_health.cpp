@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/portable_math.hpp"
 #include "systems/broad_phase.hpp"
 #include "systems/contact_kernel.hpp"
 #include "systems/run_failure.hpp"
@@ -57,7 +58,7 @@ double deepest_in(const ToolSurface& surface, const Point& at, const double* con
 // ---- corners ----------------------------------------------------------------------------------------
 // Where a corner stands out farthest, in the tool's frame.
 Point tip_of(const ToolSurface::Piece& p) {
-  const double nx = -p.ty - p.next_ty, ny = p.tx + p.next_tx, length = std::hypot(nx, ny);
+  const double nx = -p.ty - p.next_ty, ny = p.tx + p.next_tx, length = portable::hypot(nx, ny);
   return {p.corner_x + p.radius * nx / length, p.corner_y + p.radius * ny / length};
 }
 
@@ -77,7 +78,7 @@ Depth depth_in(const Shape& shape, const double* control, const Point& p) {
       inside = !inside;
     const double cx = b[0] - a[0], cy = b[1] - a[1], rx = p[0] - a[0], ry = p[1] - a[1];
     const double share = std::clamp((rx * cx + ry * cy) / (cx * cx + cy * cy), 0.0, 1.0);
-    const double distance = std::hypot(rx - share * cx, ry - share * cy);
+    const double distance = portable::hypot(rx - share * cx, ry - share * cy);
     if (distance >= least) continue;
     least = distance;
     length = edge.length;
