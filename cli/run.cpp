@@ -273,7 +273,8 @@ ExitCode run_scene(const RunOptions& options) {
   take_interrupts();
   const FolderLock lock = open_run_folder(folder, options.overwrite);
   save_scene(folder, loaded);
-  Run run(loaded, options, folder, threads, std::move(simulation));
+  const LoadedScene saved = as_saved(folder, loaded);
+  Run run(saved, options, folder, threads, std::move(simulation));
   run.begin();
   return complete(run);
 }

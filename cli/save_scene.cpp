@@ -53,4 +53,16 @@ void save_scene(const fs::path& folder, const LoadedScene& loaded) {
   write_text(folder / "scene.toml", loaded.text);
 }
 
+LoadedScene as_saved(const fs::path& folder, LoadedScene loaded) {
+  const document::Table root = document::parse(loaded.text);
+  const document::Entry* expects = document::find(root, "expect");
+  for (std::size_t i = 0; i < loaded.scene.expects.size(); ++i) {
+    const auto& table = expects->value.get<document::Array>().at(i).get<document::Table>();
+    if (const std::string* like = document::find_text(table, "like"))
+      loaded.scene.expects[i].like = *like;
+  }
+  loaded.scene.file = folder / "scene.toml";
+  return loaded;
+}
+
 }  // namespace pulvis

@@ -65,24 +65,28 @@ class Making {
         replaces_(round > 0),
         fault_(fault),
         missing_(missing) {
-    one_.name = fmt::format("{}_{}", base.stem().string(), round);
-    std::ranges::replace_if(
-        one_.name, [](char c) { return std::isalnum(c) == 0; }, '_');
+    one_ = {base.stem().string(), base, {}, toml_of(root_)};
+    std::ranges::replace(one_.name, '-', '_');
   }
 
   // Whether the case uses what no other one did.
   bool make() {
     const std::size_t before = missing_.size();
-    take_off();
-    const Uses wanted = missing_;
-    for (const Use& use : wanted)
-      if (missing_.contains(use)) put_in(use);
-    one_.base = base_;
+    for (std::size_t left = before + 1; missing_.size() < left;) {
+      left = missing_.size();
+      const Uses wanted = missing_;
+      for (const Use& use : wanted)
+        if (missing_.contains(use)) put_in(use);
+    }
     one_.text = toml_of(root_);
     return missing_.size() < before;
   }
 
-  const Case& made() const { return one_; }
+  Case made(const std::string& suffix) const {
+    Case one = one_;
+    one.name += suffix;
+    return one;
+  }
 
  private:
   void take_off() {
@@ -188,8 +192,9 @@ Plan plan_for(const schema::Language& language, const fs::path& folder, const Fa
   for (const auto& [base, root] : bases)
     for (int round = 0; round < most_rounds; ++round) {
       Making making(language, base, root, round, fault, plan.missing);
+      if (round == 0) plan.cases.push_back(making.made(""));  // with all its defaults
       const bool is_new = making.make();
-      if (is_new || round == 0) plan.cases.push_back(making.made());
+      if (is_new) plan.cases.push_back(making.made(fmt::format("_{}", round + 1)));
       if (!is_new && round > 0) break;
     }
   return plan;

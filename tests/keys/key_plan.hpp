@@ -13,7 +13,7 @@
 namespace pulvis::keys {
 
 struct Case {
-  std::string name;  // discs_0
+  std::string name;  // die_1; the base as it is: die
   std::filesystem::path base;
   std::vector<std::string> settings;  // what was put in, as for --set
   std::string text;                   // the whole, as TOML
