@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <numbers>
 
+#include "cli/save_scene.hpp"
 #include "shipped_scenes.hpp"
 #include "tests/paths.hpp"
 
@@ -183,17 +185,22 @@ TEST(Read, TitlesKeepTheirCharacters) {
   EXPECT_EQ(load_scene_text(loaded.text, "again.toml").scene.title, loaded.scene.title);
 }
 
-TEST(SceneText, EveryShippedSceneReadsAndItsTextSaysTheSame) {
+TEST(SceneText, EveryShippedSceneReadsAndItsSavedOneSaysTheSame) {
   EXPECT_GE(shipped_scenes().size(), 13U);
+  const std::filesystem::path saved =
+      std::filesystem::temp_directory_path() / ("pulvis-saved-" + std::to_string(getpid()));
+  std::filesystem::create_directory(saved);
   for (const auto& file : shipped_scenes()) {
     SCOPED_TRACE(file);
     const LoadedScene first = load_scene(file);
-    const LoadedScene again = load_scene_text(first.text, file);
+    save_scene(saved, first);
+    const LoadedScene again = load_scene(saved / "scene.toml");
     EXPECT_EQ(again.text, first.text);
     EXPECT_EQ(again.hash, first.hash);
     EXPECT_EQ(again.scene.stages.size(), first.scene.stages.size());
     EXPECT_FALSE(first.scene.title.empty());
   }
+  std::filesystem::remove_all(saved);
 }
 
 TEST(SceneText, HoldsOverridesAndDefaults) {
