@@ -6,8 +6,9 @@
   /usr/bin/python3 bench/fronts.py --list             what there is
 
 Writes <problem>.csv (every run), <problem>.png (error against CPU time, with the Pareto front) and
-summary.md into bench/results/fronts. A run that is in the csv already, of the same program, scene and
-overrides, is not run again. Problems are declared in bench/problems/; this file knows none of them.
+summary.md into build/fronts, with --record into bench/results/fronts, which belongs to the source. A run that is in
+the csv already, of the same program, scene and overrides, is not run again. Problems are declared in
+bench/problems/; this file knows none of them.
 """
 import argparse
 import concurrent.futures
@@ -19,6 +20,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -30,6 +32,7 @@ import numpy as np
 import fronts_report
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+RECORDED = ROOT / "bench/results/fronts"
 PROBLEM_FILES = ("unit_cell", "crushed_disc", "taylor_bar", "hertz", "matrix", "limit_load",
                  "shear_contact", "bar_wave", "thick_cylinder")
 COLUMNS = ("family", "setting", "overrides", "cpu_s", "wall_s", "steps", "elements", "dt_s",
@@ -253,11 +256,16 @@ def main():
     parser.add_argument("--cached", action="store_true", help="run nothing, show what is there")
     parser.add_argument("--list", action="store_true", help="name the problems and stop")
     parser.add_argument("--program", default=ROOT / "build/release/cli/pulvis")
+    parser.add_argument("--record", action="store_true", help="into bench/results/fronts")
     parser.add_argument("--output", type=pathlib.Path,
-                        help="default: bench/results/fronts, of --quick build/fronts-quick")
+                        help="default: build/fronts, which begins as a copy of bench/results/fronts; of "
+                             "--quick build/fronts-quick")
     options = parser.parse_args()
-    options.output = options.output or ROOT / ("build/fronts-quick" if options.quick
-                                               else "bench/results/fronts")
+    if not options.output:
+        options.output = RECORDED if options.record else ROOT / (
+            "build/fronts-quick" if options.quick else "build/fronts")
+        if not options.quick and not options.output.exists():
+            shutil.copytree(RECORDED, options.output)
     problems = {p.name: p for p in all_problems(options.quick)}
     if options.list:
         for p in problems.values():

@@ -5,9 +5,10 @@
   /usr/bin/python3 bench/throughput.py --quick              does it work? seconds; times mean nothing
   /usr/bin/python3 bench/throughput.py --cases= --runs run-1683,run-10000 --rounds 1    half an hour: the long runs
 
-Adds rows to bench/results/throughput/<machine>.csv. A case whose final state is not, bit by bit, the one in
-hashes.csv beside it was not the same computation: its times are refused and the exit code is 1, unless
---accept-hash says that the physics has changed on purpose. docs/performance.md says what the lines mean.
+Adds rows to build/throughput/<machine>.csv, with --record to bench/results/throughput/<machine>.csv, which belongs to the
+source. A case whose final state is not, bit by bit, the one in bench/results/throughput/hashes.csv was not the same
+computation: its times are refused and the exit code is 1, unless --accept-hash says that the physics has changed on
+purpose. docs/performance.md says what the lines mean.
 """
 import argparse
 import csv
@@ -26,6 +27,7 @@ import counts
 import throughput_report
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+RECORDED = ROOT / "bench/results/throughput"
 CASES = ("100", "1683", "10000", "100-dense", "100-four-point")
 COLUMNS = ("case", "threads", "line", "unit", "best", "median", "rounds", "updates_per_s", "share",
            "steps", "hash", "version", "commit", "compiler", "instruction_set", "date")
@@ -195,14 +197,15 @@ def write_rows(file, columns, rows):
     new.replace(file)
 
 
-def keep(measured, folder, accept):
-    """Checks before it writes anything."""
+def keep(measured, folder, hashes, accept):
+    """Checks before it writes anything. Hashes of another folder are only read."""
     stamp = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%MZ")
-    states = checked_states(measured, folder / "hashes.csv", accept, stamp)
+    states = checked_states(measured, hashes, accept, stamp)
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{machine()}.csv"
     write_rows(file, COLUMNS, read_rows(file) + list(rows_of(measured, stamp)))
-    write_rows(folder / "hashes.csv", HASH_COLUMNS, states)
+    if hashes.parent == folder:
+        write_rows(hashes, HASH_COLUMNS, states)
     return file
 
 
@@ -216,8 +219,12 @@ def parsed(arguments):
     parser.add_argument("--no-counts", action="store_true", help="leave callgrind out")
     parser.add_argument("--accept-hash", action="store_true", help="record other final states")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
-    parser.add_argument("--output", type=pathlib.Path, default=ROOT / "bench/results/throughput")
+    parser.add_argument("--record", action="store_true", help="keep rows and states in bench/results/throughput")
+    parser.add_argument("--output", type=pathlib.Path,
+                        help="a folder with rows and states of its own; default: build/throughput")
     options = parser.parse_args(arguments)
+    options.hashes = (options.output or RECORDED) / "hashes.csv"
+    options.output = options.output or (RECORDED if options.record else ROOT / "build/throughput")
     if options.quick:
         options.cases, options.rounds, options.no_counts = "100", 1, True
     return options
@@ -244,7 +251,7 @@ def main(arguments):
     try:
         measured = measure(options)
         throughput_report.derive(measured)
-        file = keep(measured, options.output, options.accept_hash)
+        file = keep(measured, options.output, options.hashes, options.accept_hash)
     except (Refused, Failed, counts.CannotCount) as error:
         print(f"throughput.py: {error}", file=sys.stderr)
         return 1

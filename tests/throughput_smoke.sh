@@ -11,6 +11,15 @@ throughput() {
 }
 rows() { cat -- "$output"/*cores.csv | wc -l; }
 
+# Unless it is asked to record, it leaves the source as it is.
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/bench /usr/bin/python3 - <<'PYTHON'
+import throughput
+of = throughput.parsed
+assert of([]).output == throughput.ROOT / "build/throughput", of([]).output
+assert of([]).hashes == throughput.RECORDED / "hashes.csv"
+assert of(["--record"]).output == throughput.RECORDED
+PYTHON
+
 rm -rf -- "$output"
 throughput | tee "$output.log"
 grep -q '^element-updates, 100 particles, 2 threads  *[0-9.]* M/s' "$output.log"
