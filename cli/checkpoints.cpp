@@ -7,7 +7,7 @@
 
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
-#include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
@@ -18,22 +18,31 @@ constexpr int run_over_cost = 100;  // a checkpoint costs at most a hundredth of
 
 std::string hash_text(const LoadedScene& scene) { return fmt::format("{:016x}", scene.hash); }
 
+std::string run_of(const fs::path& folder) {
+  const auto file = hdf5::File::open(folder / "run.h5");
+  return file.has_attribute("/", "run") ? file.text_attribute("/", "run") : "";
+}
+
 std::unique_ptr<Checkpoint> newest_whole(const fs::path& folder) {
   const std::vector<fs::path> files = checkpoints_in(folder);
-  if (files.empty())
-    throw CannotResume(fmt::format("{}: cannot resume: there is no checkpoint (checkpoint-*.h5)",
-                                   folder.string()));
+  const std::string run = run_of(folder);
+  bool is_any_damaged = false;
   for (const fs::path& file : files) {
     try {
-      return std::make_unique<Checkpoint>(file);
+      auto found = std::make_unique<Checkpoint>(file);
+      if (found->info().run == run) return found;
     } catch (const OtherFormat& other) {
       throw CannotResume(
           fmt::format("{}: cannot resume: {}: {}", folder.string(), file.string(), other.what()));
     } catch (const DamagedCheckpoint& damage) {
       tell(stderr, "pulvis: {} is damaged: {}\n", file.string(), damage.what());
+      is_any_damaged = true;
     }
   }
-  throw OutputError(folder, "resume", "no checkpoint is whole");
+  if (is_any_damaged) throw OutputError(folder, "resume", "no checkpoint is whole");
+  throw CannotResume(
+      fmt::format("{}: cannot resume: there is no checkpoint{} (checkpoint-*.h5)", folder.string(),
+                  files.empty() ? "" : " of the run that wrote this run.h5, only of others"));
 }
 
 void check_version(const fs::path& folder, const CheckpointInfo& info) {
@@ -98,6 +107,16 @@ StoppedRun find_stopped_run(const fs::path& folder) {
   check_version(folder, run.checkpoint->info());
   run.scene = scene_of(folder, *run.checkpoint);
   return run;
+}
+
+void clear_other_checkpoints(const fs::path& folder, const std::string& run) {
+  remove_unfinished_checkpoints(folder);
+  for (const fs::path& file : checkpoints_in(folder)) {
+    try {
+      if (Checkpoint(file).info().run != run) remove_own(file, role::run);
+    } catch (const DamagedCheckpoint&) {  // was told already
+    }
+  }
 }
 
 bool can_go_on(const fs::path& folder, std::uint64_t scene_hash) {

@@ -33,6 +33,7 @@ class Checkpoints {
     last_step_ = step;
     info_.time = time;
   }
+  void of_run(const std::string& id) { info_.run = id; }
   // `world` is a World or the parts that were kept of one.
   template <class State>
   void write(std::int64_t step, double time, const State& world, const StateParts& run);
@@ -63,6 +64,8 @@ struct StoppedRun {
 void require_stopped_run(
     const std::filesystem::path& folder);  // one that could be: throws CannotResume
 StoppedRun find_stopped_run(const std::filesystem::path& folder);
+// Takes away what nobody can go on from here: checkpoints of other runs than `run`, and halves of some.
+void clear_other_checkpoints(const std::filesystem::path& folder, const std::string& run);
 // Whether `resume` would take up what stopped there, and that is a run of the scene of this hash.
 bool can_go_on(const std::filesystem::path& folder, std::uint64_t scene_hash);
 

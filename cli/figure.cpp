@@ -9,14 +9,19 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 #include "cli/report_assets.hpp"
-#include "engine/output_error.hpp"
+#include "cli/tell.hpp"
+#include "engine/own_files.hpp"
+#include "engine/run_folder.hpp"
 
 namespace pulvis {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* drawn = "drawn";  // folder of the figures, until they are put in their places
 
 // A folder for the scripts, gone when the figures are drawn.
 class ScriptFolder {
@@ -26,6 +31,7 @@ class ScriptFolder {
     if (mkdtemp(name.data()) == nullptr)
       throw OutputError(name, "make the folder", std::strerror(errno));
     path = name;
+    fs::create_directory(path / drawn);
     for (const auto& script : report_assets_named("figure")) {
       std::ofstream file(path / script);
       file << report_asset(script);
@@ -42,8 +48,10 @@ class ScriptFolder {
   fs::path path;
 };
 
-std::vector<std::string> arguments(const fs::path& script, const FigureOptions& options) {
-  std::vector<std::string> all{"python3", "-B", script.string(), "--format=" + options.format};
+std::vector<std::string> arguments(const fs::path& scripts, const FigureOptions& options) {
+  std::vector<std::string> all{"python3", "-B", (scripts / "figures.py").string(),
+                               "--format=" + options.format,
+                               "--draw-into=" + (scripts / drawn).string()};
   if (!options.output.empty()) all.push_back("--output=" + options.output.string());
   if (!options.field.empty()) all.push_back("--field=" + options.field);
   if (options.frame) all.push_back(fmt::format("--frame={}", *options.frame));
@@ -67,11 +75,35 @@ int run_python(const std::vector<std::string>& words) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+std::string bytes_of(const fs::path& file) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+// Each line of the list: a file's name there, and where it belongs. No other than an own file is replaced.
+void put_in_place(const fs::path& folder) {
+  std::ifstream list(folder / "list");
+  std::vector<std::pair<fs::path, fs::path>> figures;
+  for (std::string line; std::getline(list, line);) {
+    const auto space = line.find(' ');
+    figures.emplace_back(folder / line.substr(0, space), line.substr(space + 1));
+    require_own_or_none(figures.back().second, role::figure);
+  }
+  for (const auto& [figure, place] : figures) {
+    if (place.has_parent_path()) make_results_folder(place.parent_path());
+    write_own(place, role::figure, bytes_of(figure));
+    tell("{}\n", place.string());
+  }
+}
+
 }  // namespace
 
 ExitCode draw_figures(const FigureOptions& options) {
   const ScriptFolder scripts;
-  switch (run_python(arguments(scripts.path / "figures.py", options))) {
+  const int code = run_python(arguments(scripts.path, options));
+  put_in_place(scripts.path / drawn);
+  switch (code) {
     case 0:
       return ExitCode::done;
     case 2:

@@ -143,13 +143,26 @@ PLANE_FIGURES = {"force": force, "stress_ratio": stress_ratio, "energies": energ
                  "contact_network": contact_network, "contact_rose": rose}
 
 
-def save(figure, path):
+def drawn(figure, path):
     path.parent.mkdir(parents=True, exist_ok=True)
     if path.suffix == ".csv":
         write_csv(path, figure.table)
     else:
         figure.savefig(path)
     plt.close(figure)
+
+
+def save(figure, path, options):
+    """`pulvis figure` puts what is in its folder into place: it knows which old files it may replace."""
+    if options.draw_into:
+        number = len(list(options.draw_into.iterdir()))
+        drawn(figure, options.draw_into / f"{number:06}{path.suffix}")
+        with open(options.draw_into / "list", "a", encoding="utf-8", errors="surrogateescape") as file:
+            file.write(f"{number:06}{path.suffix} {path}\n")
+        return
+    if path.exists() or path.is_symlink():
+        refuse(f"{printable(path)} is there already; pulvis figure replaces what it drew itself")
+    drawn(figure, path)
     print(printable(path))
 
 
@@ -163,7 +176,7 @@ def save_all(run, options):
         if figure is None or path.suffix == ".csv" and not hasattr(figure, "table"):
             print(f"figures: nothing recorded for {path.name}")
         else:
-            save(figure, path)
+            save(figure, path, options)
 
 
 def arguments():
@@ -176,6 +189,7 @@ def arguments():
     parser.add_argument("--against", help="series of the other axis, time if not said")
     parser.add_argument("--format", choices=["png", "svg", "pdf", "csv"], default="png")
     parser.add_argument("-o", "--output", type=Path, help="a file, or a folder for all figures")
+    parser.add_argument("--draw-into", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.against and not options.series:
         parser.error("--against says over what --series is drawn")
@@ -198,7 +212,7 @@ def main():
     figure = chosen_series(run, options) if options.series else field_picture(run, options)
     if figure is None:
         refuse(f"no frame with {options.field or DEFAULT_FIELD}")
-    save(figure, file or Path(f"{'-'.join(options.series).replace('/', '_')}.{options.format}"))
+    save(figure, file or Path(f"{'-'.join(options.series).replace('/', '_')}.{options.format}"), options)
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@
 #include "cli/tell.hpp"
 #include "engine/instruction_set.hpp"
 #include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/build.hpp"
 #include "scenes/describe.hpp"
@@ -402,6 +403,8 @@ int main(int argc, char** argv) {
   } catch (const SceneError& error) {
     return fail(error.what(), ExitCode::usage);
   } catch (const RunFolderTaken& error) {
+    return fail(error.what(), ExitCode::usage);
+  } catch (const ForeignFile& error) {
     return fail(error.what(), ExitCode::usage);
   } catch (const CannotResume& error) {
     return fail(error.what(), ExitCode::usage);

@@ -2,12 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
 #include "cli/tell.hpp"
-#include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 #include "scenes/packing_file.hpp"
 #include "scenes/place.hpp"
 #include "scenes/problem.hpp"
@@ -34,12 +30,11 @@ ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file) {
   if (scene.afm)
     throw SceneError({{scene.file.string(), 1, 1, "", "family",
                        "an AFM scene has no particles, allowed: a scene of particles to pack"}});
+  require_another(scene.file, file);
+  require_own_or_none(file, role::packing);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
-  std::ofstream stream(file, std::ios::binary);
-  stream << packing_text(scene, bodies);
-  stream.close();
-  if (!stream) throw OutputError(file, "write the packing", std::strerror(errno));
+  write_own(file, role::packing, packing_text(scene, bodies));
   tell("{}{}: {} particles\n", packing_summary(scene), file.string(), bodies.size());
   return ExitCode::done;
 }

@@ -8,6 +8,7 @@
 #include "cli/reduction_files.hpp"
 #include "cli/tell.hpp"
 #include "cli/wedge_files.hpp"
+#include "engine/own_files.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/wedge_records.hpp"
 
@@ -117,13 +118,25 @@ Reduction reduced(const ReduceOptions& options, const Inputs& inputs,
   return all;
 }
 
-void open_folder(const std::filesystem::path& folder, bool overwrite) {
-  if (std::filesystem::exists(folder / "summary.json") && !overwrite)
-    throw RunFolderTaken(folder, "write",
-                         "it holds results already; allowed: another folder, or --overwrite");
+std::vector<std::string> files_of(const Reduction& all) {
+  std::vector<std::string> files{"reduce.toml", "summary.json", "report.html", "curves.csv"};
+  for (const lab::ReducedRun& run : all.runs) files.push_back("reduced-" + run.name + ".csv");
+  return files;
+}
+
+// `files` are what will be written. None of them may be somebody else's, or one that is being read.
+void open_folder(const ReduceOptions& options, const std::vector<std::string>& files) {
+  const std::filesystem::path& folder = options.folder;
+  for (const std::string& file : files) {
+    for (const std::filesystem::path& read : options.files) require_another(read, folder / file);
+    require_own_or_none(folder / file, role::reduction);
+  }
   if (std::filesystem::exists(folder / "run.h5"))
     throw RunFolderTaken(folder, "write", "it holds a run; allowed: a folder of its own");
-  open_run_folder(folder);
+  if (std::filesystem::exists(folder / "summary.json") && !options.overwrite)
+    throw RunFolderTaken(folder, "write",
+                         "it holds results already; allowed: another folder, or --overwrite");
+  make_results_folder(folder);
 }
 
 std::string with_error(const char* name, const lab::Sample& sample, double confidence) {
@@ -156,14 +169,14 @@ ExitCode reduce_records(const ReduceOptions& options) {
   const lab::LoadedSettings loaded = settings_of(inputs, options.overrides);
   if (!loaded.settings.wedge.loops.empty()) {
     const WedgeReduction calibrated = wedge_reduction(loaded);
-    open_folder(options.folder, options.overwrite);
+    open_folder(options, {"reduce.toml", "summary.json", "report.html", "facets.csv"});
     write_wedge(options.folder, calibrated);
     write_wedge_report(options.folder, calibrated);
     tell("{}results in {}\n", wedge_text(calibrated.calibration), options.folder.string());
     return ExitCode::done;
   }
   const Reduction all = reduced(options, inputs, loaded);
-  open_folder(options.folder, options.overwrite);
+  open_folder(options, files_of(all));
   write_reduction(options.folder, all);
   write_reduction_report(options.folder, all);
   for (const lab::ReducedRun& run : all.runs) print_run(run);

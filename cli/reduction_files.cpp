@@ -10,7 +10,7 @@
 #include "cli/csv_cell.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
-#include "cli/write_text.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
@@ -161,13 +161,13 @@ nlohmann::ordered_json reduction_json(const Reduction& reduction) {
 
 void write_reduction(const std::filesystem::path& folder, const Reduction& reduction) {
   for (const lab::ReducedRun& run : reduction.runs)
-    write_text(folder / ("reduced-" + run.name + ".csv"), run_csv(run.curve));
-  write_text(folder / "curves.csv", curves_csv(reduction));
+    write_own(folder / ("reduced-" + run.name + ".csv"), role::reduction, run_csv(run.curve));
+  write_own(folder / "curves.csv", role::reduction, curves_csv(reduction));
   save_inputs(folder, reduction.loaded.inputs);
-  write_text(folder / "reduce.toml", reduction.loaded.text);
+  write_own(folder / "reduce.toml", role::reduction, reduction.loaded.text);
   const Json json = reduction_json(reduction);
-  write_text(folder / "summary.json",
-             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_own(folder / "summary.json", role::reduction,
+            json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace pulvis

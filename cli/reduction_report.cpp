@@ -7,6 +7,7 @@
 #include "cli/reduction_files.hpp"
 #include "cli/report_encoding.hpp"
 #include "cli/report_page.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
@@ -133,7 +134,7 @@ class ReportMaker {
 void write_reduction_report(const std::filesystem::path& folder, const Reduction& reduction) {
   write_page(folder / "report.html", "reduction.html",
              {"units.js", "payload.js", "save.js", "chart.js", "tables.js", "reduction.js"},
-             ReportMaker(reduction).made());
+             ReportMaker(reduction).made(), role::reduction);
 }
 
 }  // namespace pulvis

@@ -3,6 +3,7 @@
 #include "cli/report_assets.hpp"
 #include "cli/report_data.hpp"
 #include "cli/report_page.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
@@ -20,13 +21,16 @@ std::vector<std::string> scripts(const char* page) {
 }  // namespace
 
 void write_report(const std::filesystem::path& run_folder) {
+  require_own_or_none(run_folder / "report.html", role::run);
   write_page(run_folder / "report.html", "page.html", scripts("report.js"),
-             read_report_data(run_folder));
+             read_report_data(run_folder), role::run);
 }
 
 void write_comparison(const std::vector<std::filesystem::path>& run_folders,
                       const std::filesystem::path& page) {
-  write_page(page, "compare.html", scripts("compare.js"), read_comparison(run_folders));
+  require_own_or_none(page, role::comparison);
+  write_page(page, "compare.html", scripts("compare.js"), read_comparison(run_folders),
+             role::comparison);
 }
 
 }  // namespace pulvis

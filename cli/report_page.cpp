@@ -1,15 +1,11 @@
 #include "cli/report_page.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "cli/report_assets.hpp"
-#include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
@@ -72,19 +68,11 @@ std::string filled(std::string_view page, const std::vector<std::string>& script
 }  // namespace
 
 void write_page(const std::filesystem::path& path, const char* page,
-                const std::vector<std::string>& scripts, const ReportData& data) {
+                const std::vector<std::string>& scripts, const ReportData& data, const char* of) {
   std::string text;
   for (const char* asset : {"head.html", page, "tail.html"})
     text += filled(report_asset(asset), scripts, data);
-  auto beside = path;
-  beside += ".new";
-  std::ofstream file(beside, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw OutputError(path, "write the report", std::strerror(errno));
-  std::error_code error;
-  std::filesystem::rename(beside, path, error);
-  if (error) throw OutputError(path, "replace the report", error.message());
+  write_own(path, of, text);
 }
 
 }  // namespace pulvis

@@ -10,8 +10,8 @@
 namespace pulvis {
 
 // `page`, which stands between head.html and tail.html, and `scripts` are names of assets; the data go into
-// elements that payload.js reads.
+// elements that payload.js reads. `of`: what the page belongs to (engine/own_files.hpp).
 void write_page(const std::filesystem::path& path, const char* page,
-                const std::vector<std::string>& scripts, const ReportData& data);
+                const std::vector<std::string>& scripts, const ReportData& data, const char* of);
 
 }  // namespace pulvis

@@ -12,6 +12,8 @@
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
 #include "components/body.hpp"
+#include "engine/hdf5.hpp"
+#include "engine/own_files.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/compaction_curve.hpp"
@@ -97,6 +99,7 @@ struct Run {
         RunAttributes{program_version(), program_commit(), loaded.scene.title,
                       fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
         results.mesh(), results.series(), results.fields());
+    checkpoints.of_run(recorder->run_id());
     progress = std::make_unique<Progress>(clock().end, results.elements(), options.talks());
   }
 
@@ -117,6 +120,7 @@ struct Run {
     checkpoints.resumed(clock().step, clock().time);
     recorder =
         std::make_unique<Recorder>(folder, mesh, results.series(), results.fields(), position);
+    checkpoints.of_run(recorder->run_id());
     progress = std::make_unique<Progress>(clock().end, results.elements(), options.talks(),
                                           Progress::Before{seconds, clock().step});
   }
@@ -173,6 +177,7 @@ struct Run {
   void finish(const std::string& outcome) {
     progress->finish();
     recorder->finish(outcome);
+    remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
     write_summary(folder, loaded.scene, simulation->world(), results, compaction,
                   {progress->seconds(), clock().step, threads, fmt::format("{:016x}", loaded.hash),
                    outcome, simulation->costs()},
@@ -266,6 +271,9 @@ ExitCode run_scene(const RunOptions& options) {
   const LoadedScene loaded = load_scene(options.scene, options.overrides);
   const std::filesystem::path folder = folder_of(options);
   const int threads = threads_of(options);
+  require_not_read(folder, options.scene);
+  for (const InputFile& input : loaded.inputs) require_not_read(folder, input.source);
+  require_own_files(folder);
   if (loaded.scene.afm) return run_afm(loaded, options, folder, threads);
   // Everything that can be refused is refused before the folder is made, and before memory is taken.
   require_memory(loaded.scene);
@@ -283,9 +291,13 @@ ExitCode resume_run(const RunOptions& options) {
   leave_at_interrupts();
   require_stopped_run(options.folder);
   const FolderLock lock(options.folder);
+  require_own_files(options.folder);
+  hdf5::File::open_to_change(options.folder / "run.h5")
+      .close();  // repairs it after a loss of power
   const StoppedRun stopped_run = find_stopped_run(options.folder);
   const LoadedScene& loaded = stopped_run.scene;
   const CheckpointInfo& at = stopped_run.checkpoint->info();
+  clear_other_checkpoints(options.folder, at.run);
   if (options.talks()) tell("resumed at step {}, t = {:.6g} s\n", at.step, at.time);
   const int threads = threads_of(options);
   if (loaded.scene.afm) return resume_afm(loaded, options, *stopped_run.checkpoint, threads);

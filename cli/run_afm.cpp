@@ -13,9 +13,9 @@
 #include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
 #include "cli/tell.hpp"
-#include "cli/write_text.hpp"
 #include "components/solid.hpp"
 #include "engine/interruption.hpp"
+#include "engine/own_files.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/afm_figures.hpp"
@@ -221,6 +221,7 @@ ProgrammeEnd run_programme(const std::filesystem::path& folder, const LoadedScen
     run.recorder = std::make_unique<Recorder>(folder, run.mesh, afm_series(), run.fields(), results,
                                               actions_done);
   }
+  run.checkpoints.of_run(run.recorder->run_id());
   return run.go(from);
 }
 
@@ -294,7 +295,8 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
   if (end.done || !end.failure.empty())
     report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
                             end.failure, threads);
-  write_text(folder / "summary.json", afm_summary(loaded, report));
+  remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
+  write_own(folder / "summary.json", role::run, afm_summary(loaded, report));
   write_report(folder);
   if (options.json) print_summary(folder);
   if (options.talks()) print_end(report, folder);

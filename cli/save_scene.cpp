@@ -3,8 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/write_text.hpp"
-#include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 #include "engine/run_folder.hpp"
 
 namespace pulvis {
@@ -21,12 +20,11 @@ bool holds(const fs::path& file, const InputFile& input) {
 
 // A broken copy never has the copy's name.
 void make_copy(const InputFile& input, const fs::path& target) {
-  fs::path draft = target;
-  draft += ".new";
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
+  const fs::path draft = fresh_beside(target);
   if (input.text)
-    write_text(draft, *input.text);
+    std::ofstream(draft, std::ios::binary) << *input.text;  // what came of it is looked at below
   else if (!error)
     fs::copy_file(input.source, draft, fs::copy_options::overwrite_existing, error);
   if (!error && !holds(draft, input))
@@ -50,7 +48,7 @@ void save_inputs(const fs::path& folder, const std::vector<InputFile>& inputs) {
 
 void save_scene(const fs::path& folder, const LoadedScene& loaded) {
   save_inputs(folder, loaded.inputs);
-  write_text(folder / "scene.toml", loaded.text);
+  write_own(folder / "scene.toml", role::run, loaded.text);
 }
 
 LoadedScene as_saved(const fs::path& folder, LoadedScene loaded) {

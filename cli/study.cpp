@@ -10,11 +10,13 @@
 
 #include "cli/checkpoints.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/report.hpp"
 #include "cli/study_jobs.hpp"
 #include "cli/study_report.hpp"
 #include "cli/study_results.hpp"
 #include "cli/tell.hpp"
 #include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 #include "engine/run_folder.hpp"
 #include "scenes/study_read.hpp"
 #include "scenes/study_trends.hpp"
@@ -61,8 +63,38 @@ std::string failure_of(const JobEnd& end, const fs::path& log) {
   return fmt::format("exit code {}: {}", end.code, last_line(log));
 }
 
+void require_own_run(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::file_status status = fs::symlink_status(folder, ignored);
+  if (fs::exists(status) && !fs::is_directory(folder, ignored))
+    throw ForeignFile(folder, "make the run's folder", "there is a file of that name");
+  require_own_files(folder);
+  require_own_or_none(folder / "log.txt", role::study);
+}
+
+// Its first line says what is run; what the run prints follows.
+void begin_log(const fs::path& log, const Job& job) {
+  std::string line = "pulvis";
+  for (const std::string& word : job.arguments) line += " " + word;
+  write_own(log, role::study, line + "\n", Extent::start);
+}
+
+// Of the study itself.
+void require_own_study(const fs::path& folder, const fs::path& study) {
+  for (const char* const name :
+       {"study.toml", "study.csv", "summary.json", "curves.json", "report.html"}) {
+    require_another(study, folder / name);
+    require_own_or_none(folder / name, role::study);
+  }
+  std::error_code ignored;
+  if (fs::exists(folder / "run.h5", ignored))
+    throw RunFolderTaken(folder, "run a study here",
+                         "it holds a run; allowed: a folder of its own");
+}
+
 class StudyRunner {
  public:
+  // Everything that can be refused is refused here, before the first run.
   StudyRunner(const StudyOptions& options, const Study& study, fs::path folder)
       : study_(study), folder_(std::move(folder)), terminal_(isatty(STDERR_FILENO) != 0) {
     for (const StudyRun& run : study_.runs) {
@@ -71,6 +103,8 @@ class StudyRunner {
       result.folder = folder_ / run.name;
       result.kept = !options.fresh && state_of(result.folder, run.hash) == RunState::finished;
       result.resumed = !options.fresh && !result.kept && can_go_on(result.folder, run.hash);
+      if (!result.kept) require_own_run(result.folder);
+      if (result.kept) require_own_or_none(result.folder / "report.html", role::run);
       results_.push_back(std::move(result));
     }
     for (std::size_t i = 0; i < results_.size(); ++i)
@@ -96,7 +130,13 @@ class StudyRunner {
   }
 
   ExitCode finish() {
-    for (StudyResult& result : results_) read_result(result);
+    for (StudyResult& result : results_) {
+      read_result(result);
+      // A run that was killed between its summary and its report.
+      if (result.kept && !fs::exists(result.folder / "report.html") &&
+          fs::exists(result.folder / "run.h5"))
+        write_report(result.folder);
+    }
     const auto series = [&](const StudyRun& run, const std::string& name) {
       return of(run).series(name);
     };
@@ -132,9 +172,8 @@ class StudyRunner {
   void begin(std::size_t job) {
     const fs::path& folder = results_[waiting_[job]].folder;
     make_folder(folder);
-    std::error_code error;
-    fs::remove(folder / "summary.json", error);
-    if (error) throw OutputError(folder / "summary.json", "remove", error.message());
+    remove_own(folder / "summary.json", role::run);
+    begin_log(folder / "log.txt", job_of(results_[waiting_[job]]));
     running_.push_back(job);
   }
 
@@ -223,11 +262,12 @@ ExitCode run_study(const StudyOptions& options) {
   take_interrupts();
   const fs::path folder =
       options.folder.empty() ? fs::path("runs") / options.study.stem() : options.folder;
+  require_own_study(folder, options.study);
   make_folder(folder);
   // Two studies in one folder would take each other's runs away.
   const FolderLock lock(folder, "another study is running in it");
-  std::ofstream(folder / "study.toml") << study.text;
   StudyRunner runner(options, study, folder);
+  write_own(folder / "study.toml", role::study, study.text);
   runner.go();
   if (interrupted()) {
     tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command goes on\n",

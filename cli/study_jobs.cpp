@@ -41,7 +41,7 @@ pid_t start(const Job& job) {
   for (const std::string& word : job.arguments)
     arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  const int log = open(job.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int log = open(job.log.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (log < 0) throw OutputError(job.log, "write the log", std::strerror(errno));
   const pid_t parent = getpid(), child = fork();
   if (child == 0) become(arguments.data(), log, parent);

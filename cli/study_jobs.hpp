@@ -15,7 +15,7 @@ namespace pulvis {
 
 struct Job {
   std::vector<std::string> arguments;  // of this program, without its name
-  std::filesystem::path log;           // what it prints goes here
+  std::filesystem::path log;           // is there; what it prints is added
 };
 
 struct JobEnd {

@@ -8,7 +8,7 @@
 #include "cli/report_page.hpp"
 #include "cli/study_curves.hpp"
 #include "cli/summary.hpp"
-#include "cli/write_text.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
@@ -120,13 +120,12 @@ void write_study(const std::filesystem::path& folder, const Study& study,
                  const StudyTimes& times) {
   const Json summary = study_json(study, results, verdicts, times);
   const std::vector<DrawnCurve> curves = study_curves(study, results);
-  write_text(folder / "study.csv", study_csv(study, results));
-  write_text(folder / "summary.json", summary.dump(2) + "\n");
-  write_text(folder / "curves.json", curves_json(curves).dump() + "\n");
-  write_page(
-      folder / "report.html", "study.html",
-      {"units.js", "payload.js", "save.js", "chart.js", "fits.js", "study.js"},
-      page_data(study, summary, curves));
+  write_own(folder / "study.csv", role::study, study_csv(study, results));
+  write_own(folder / "summary.json", role::study, summary.dump(2) + "\n");
+  write_own(folder / "curves.json", role::study, curves_json(curves).dump() + "\n");
+  write_page(folder / "report.html", "study.html",
+             {"units.js", "payload.js", "save.js", "chart.js", "fits.js", "study.js"},
+             page_data(study, summary, curves), role::study);
 }
 
 }  // namespace pulvis

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,7 +10,7 @@
 #include "cli/summary_compaction.hpp"
 #include "components/contact.hpp"
 #include "engine/instruction_set.hpp"
-#include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 #include "scenes/state_hash.hpp"
 #include "scenes/surface.hpp"
 
@@ -113,9 +111,6 @@ void add_shear(Json& json, const Results& results) {
 
 }  // namespace
 
-std::string program_version() { return PULVIS_VERSION; }
-std::string program_commit() { return PULVIS_COMMIT; }
-
 void print_summary(const std::filesystem::path& folder) {
   std::ostringstream text;
   text << std::ifstream(folder / "summary.json").rdbuf();
@@ -153,10 +148,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
   for (const SystemCost& system : cost.systems)
     json["cost"].push_back({{"system", system.system}, {"seconds", system.seconds}});
   if (!verdicts.empty()) json["expectations"] = expectations_json(verdicts);
-  const std::filesystem::path path = folder / "summary.json";
-  std::ofstream file(path);
-  file << json.dump(2) << '\n';
-  if (!file.flush()) throw OutputError(path, "write", std::strerror(errno));
+  write_own(folder / "summary.json", role::run, json.dump(2) + "\n");
 }
 
 }  // namespace pulvis

@@ -9,7 +9,7 @@
 
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
-#include "cli/write_text.hpp"
+#include "engine/own_files.hpp"
 #include "scenes/wedge_records.hpp"
 
 namespace pulvis {
@@ -88,11 +88,11 @@ nlohmann::ordered_json wedge_json(const WedgeReduction& reduction) {
 }
 
 void write_wedge(const std::filesystem::path& folder, const WedgeReduction& reduction) {
-  write_text(folder / "facets.csv", facets_csv(reduction.calibration));
+  write_own(folder / "facets.csv", role::reduction, facets_csv(reduction.calibration));
   save_inputs(folder, reduction.loaded.inputs);
-  write_text(folder / "reduce.toml", reduction.loaded.text);
-  write_text(folder / "summary.json",
-             wedge_json(reduction).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_own(folder / "reduce.toml", role::reduction, reduction.loaded.text);
+  write_own(folder / "summary.json", role::reduction,
+            wedge_json(reduction).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::string wedge_text(const wedge::Calibration& calibration) {

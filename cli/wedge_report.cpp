@@ -3,6 +3,7 @@
 
 #include "cli/report_page.hpp"
 #include "cli/wedge_files.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
@@ -31,7 +32,8 @@ void write_wedge_report(const std::filesystem::path& folder, const WedgeReductio
   for (const wedge::Loop& loop : reduction.loops) head["loops"].push_back(loop_json(loop));
   write_page(folder / "report.html", "wedge.html",
              {"units.js", "payload.js", "save.js", "chart.js", "tables.js", "wedge.js"},
-             {title, head.dump(-1, ' ', false, Json::error_handler_t::replace), {}});
+             {title, head.dump(-1, ' ', false, Json::error_handler_t::replace), {}},
+             role::reduction);
 }
 
 }  // namespace pulvis

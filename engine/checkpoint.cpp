@@ -12,7 +12,7 @@
 #include <set>
 
 #include "engine/file_descriptor.hpp"
-#include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 #include "engine/xxh3.hpp"
 
 namespace pulvis {
@@ -114,9 +114,11 @@ template <class State>
 void write_content(const fs::path& path, const CheckpointInfo& info, const State& world,
                    const StateParts& run) {
   hdf5::File file = hdf5::File::create(path, head_bytes);
+  write_head(path, "pulvis checkpoint, not finished\n");
   file.set_attribute("/", "version", std::string_view(info.version));
   file.set_attribute("/", "commit", std::string_view(info.commit));
   file.set_attribute("/", "scene_hash", std::string_view(info.scene_hash));
+  file.set_attribute("/", "run", std::string_view(info.run));
   file.set_attribute("/", "step", info.step);
   file.set_attribute("/", "time", info.time);
   for_each_part(world, [&](const std::string& name, std::span<const std::byte> bytes) {
@@ -132,6 +134,8 @@ void write_state(const fs::path& folder, const CheckpointInfo& info, const State
   const fs::path path = folder / fmt::format("checkpoint-{:012}.h5", info.step);
   const fs::path beside = path.string() + ".new";
   std::error_code ignored;
+  require_own_or_none(path, role::run);
+  require_own_or_none(beside, role::run);
   try {
     write_content(beside, info, world, run);
     sign(beside);
@@ -142,7 +146,7 @@ void write_state(const fs::path& folder, const CheckpointInfo& info, const State
   }
   sync_folder(folder);
   const std::vector<fs::path> all = checkpoints_in(folder);
-  for (std::size_t i = kept; i < all.size(); ++i) fs::remove(all[i], ignored);
+  for (std::size_t i = kept; i < all.size(); ++i) remove_own(all[i], role::run);
 }
 
 }  // namespace
@@ -165,20 +169,24 @@ void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const 
   write_state(folder, info, world, run);
 }
 
-std::vector<fs::path> checkpoints_in(const fs::path& folder) {
+std::vector<fs::path> checkpoints_in(const fs::path& folder, const char* ending) {
   std::vector<fs::path> found;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("checkpoint-") && name.ends_with(".h5")) found.push_back(entry.path());
+    if (name.starts_with("checkpoint-") && name.ends_with(ending)) found.push_back(entry.path());
   }
   std::ranges::sort(found, std::greater());  // as many digits in every name
   return found;
 }
 
 void remove_checkpoints(const fs::path& folder) {
-  std::error_code ignored;
-  for (const fs::path& file : checkpoints_in(folder)) fs::remove(file, ignored);
+  for (const fs::path& file : checkpoints_in(folder)) remove_own(file, role::run);
+  remove_unfinished_checkpoints(folder);
+}
+
+void remove_unfinished_checkpoints(const fs::path& folder) {
+  for (const fs::path& file : checkpoints_in(folder, ".h5.new")) remove_own(file, role::run);
 }
 
 Checkpoint::Checkpoint(const fs::path& file) : file_(verified(file)) {
@@ -186,6 +194,7 @@ Checkpoint::Checkpoint(const fs::path& file) : file_(verified(file)) {
     info_.version = file_.text_attribute("/", "version");
     info_.commit = file_.text_attribute("/", "commit");
     info_.scene_hash = file_.text_attribute("/", "scene_hash");
+    info_.run = file_.text_attribute("/", "run");
     info_.step = static_cast<std::int64_t>(file_.unsigned_attribute("/", "step"));
     info_.time = file_.number_attribute("/", "time");
   } catch (const OutputError& error) {

@@ -2,7 +2,7 @@
 //
 // <folder>/checkpoint-000000001234.h5, the number is the step:
 //   512 bytes of text       "pulvis checkpoint", size and XXH3 of all that follows (HDF5's user block)
-//   /                       version, commit, scene_hash, step, time
+//   /                       version, commit, scene_hash, run, step, time
 //   /columns/<place>/<name> bytes of every column that is not transient
 //   /resources/<name>       bytes of every resource that is not fixed
 //   /run/<name>             bytes of what else the run carries on
@@ -27,6 +27,7 @@ struct CheckpointInfo {
   std::string version, commit, scene_hash;
   std::int64_t step = 0;
   double time = 0;
+  std::string run = {};  // the attribute of its run.h5
 };
 
 using StateParts = std::map<std::string, std::vector<std::byte>>;
@@ -34,15 +35,18 @@ using StateParts = std::map<std::string, std::vector<std::byte>>;
 // What a checkpoint would hold of `world`, by its name there: kept in memory, to be written later.
 StateParts state_of(const World& world);
 
-// Afterwards the folder holds this checkpoint and the one before, no older ones.
+// Afterwards the folder holds this checkpoint and the one before, no older ones of this run.
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
                       const World& world, const StateParts& run);
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
                       const StateParts& world, const StateParts& run);
 
 // The newest first.
-std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
+std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder,
+                                                  const char* ending = ".h5");
+// Those of Pulvis's own, whatever run they are of; halves that a killed program left, too.
 void remove_checkpoints(const std::filesystem::path& folder);
+void remove_unfinished_checkpoints(const std::filesystem::path& folder);
 
 // It is not what was written: cut short, changed, or no checkpoint at all.
 class DamagedCheckpoint : public std::runtime_error {

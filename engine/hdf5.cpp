@@ -29,6 +29,15 @@ constexpr hsize_t unlimited = H5S_UNLIMITED;
 #pragma GCC diagnostic pop
 
 constexpr std::uint64_t most_chunk_rows = 65536;
+constexpr std::uint64_t page_bytes = 4096;
+constexpr std::size_t least_cache_bytes = 1024;
+constexpr std::uint64_t superblock_bytes = 96;   // of the default file version
+constexpr std::uint64_t root_names_bytes = 512;  // never outgrown by the names of a dozen groups
+
+// A collection of texts is one page then, which changes with one write.
+void align_to_pages(const Handle& access) {
+  H5Pset_alignment(access.get(), page_bytes, page_bytes);
+}
 
 // HDF5 prints nothing, and closes nothing at the program's exit: after a full disk its own clean-up
 // would run into the half-written file again and crash. Every File closes itself.
@@ -94,6 +103,12 @@ Handle space_of(const Shape& shape) {
   return Handle(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr));
 }
 
+Handle rows_of(hid_t dataset, hsize_t first, hsize_t count) {
+  Handle space(H5Dget_space(dataset));
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &first, nullptr, &count, nullptr);
+  return space;
+}
+
 std::uint64_t product(const Shape& shape) {
   std::uint64_t count = 1;
   for (const auto extent : shape) count *= extent;
@@ -130,10 +145,23 @@ File::File(std::filesystem::path path, Handle handle)
     : path_(std::move(path)), handle_(std::move(handle)) {}
 
 File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
+  return create(path, user_block, Layout::plain);
+}
+
+File File::create_to_change(const std::filesystem::path& path, std::uint64_t user_block) {
+  return create(path, user_block, Layout::to_change);
+}
+
+File File::create(const std::filesystem::path& path, std::uint64_t user_block, Layout layout) {
   prepare_library();
-  const Handle properties(H5Pcreate(H5P_FILE_CREATE));
+  const Handle properties(H5Pcreate(H5P_FILE_CREATE)), access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_userblock(properties.get(), user_block);
-  const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.get(), defaults);
+  if (layout == Layout::to_change) {
+    H5Pset_local_heap_size_hint(properties.get(), root_names_bytes);
+    H5Pset_meta_block_size(access.get(), page_bytes - superblock_bytes);
+    align_to_pages(access);
+  }
+  const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.get(), access.get());
   if (id < 0) throw OutputError(path, "create the file", reason());
   return {path, Handle(id)};
 }
@@ -151,6 +179,7 @@ File File::open_to_change(const std::filesystem::path& path) {
   refuse_what_is_no_file(path);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_driver(access.get(), journal_driver(), nullptr);
+  align_to_pages(access);
   const Id id = H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get());
   if (id < 0) throw OutputError(path, "open the file", reason());
   return {path, Handle(id)};
@@ -168,6 +197,23 @@ void File::flush() {
   if (fsync(*static_cast<int*>(descriptor)) != 0) {
     throw OutputError(path_, "flush the file", std::strerror(errno));
   }
+}
+
+// HDF5 knows of a heap as long as it is in its cache of metadata: that is emptied by making it small for a moment.
+void File::begin_change() {
+  H5AC_cache_config_t usual{};
+  usual.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  checked(H5Fget_mdc_config(handle_.get(), &usual), "prepare", "the file");
+  H5AC_cache_config_t small = usual;
+  small.set_initial_size = true;
+  small.initial_size = small.min_size = small.max_size = least_cache_bytes;
+  small.incr_mode = H5C_incr__off;
+  small.flash_incr_mode = H5C_flash_incr__off;
+  small.decr_mode = H5C_decr__off;
+  checked(H5Fset_mdc_config(handle_.get(), &small), "prepare", "the file");
+  contains("/mesh");  // the next look at anything drops what is too much
+  usual.set_initial_size = true;
+  checked(H5Fset_mdc_config(handle_.get(), &usual), "prepare", "the file");
 }
 
 void File::close() {
@@ -210,36 +256,53 @@ void File::write_any(const std::string& dataset, Id type, const void* values, st
   checked(H5Dwrite(made.get(), type, whole, whole, defaults, values), "write", dataset);
 }
 
-void File::make_series(const std::string& dataset, std::uint64_t chunk) {
-  const hsize_t none = 0, most = unlimited, rows = chunk;
+void File::write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
+                        std::span<const double> values) {
+  const hsize_t rows = kept + values.size();
   const Handle links = with_groups_on_the_way();
-  const Handle space(H5Screate_simple(1, &none, &most));
-  const Handle layout(H5Pcreate(H5P_DATASET_CREATE));
-  checked(H5Pset_chunk(layout.get(), 1, &rows), "chunk", dataset);
+  const Handle space(H5Screate_simple(1, &rows, nullptr));
   const Handle made(checked(H5Dcreate2(handle_.get(), dataset.c_str(), H5T_NATIVE_DOUBLE,
-                                       space.get(), links.get(), layout.get(), defaults),
+                                       space.get(), links.get(), defaults, defaults),
                             "make", dataset));
+  for (std::uint64_t at = 0; at < kept; at += most_chunk_rows) {
+    const std::uint64_t count = std::min(most_chunk_rows, kept - at);
+    write_rows(made.get(), dataset, at, read_rows(old, at, count));
+  }
+  write_rows(made.get(), dataset, kept, values);
 }
 
-void File::append(const std::string& dataset, std::span<const double> values) {
-  const hsize_t before = size_of(dataset), added = values.size(), after = before + added;
-  if (added == 0) return;
-  const Handle series(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
-  checked(H5Dset_extent(series.get(), &after), "extend", dataset);
-  const Handle target(H5Dget_space(series.get()));
-  const Handle source(H5Screate_simple(1, &added, nullptr));
-  checked(H5Sselect_hyperslab(target.get(), H5S_SELECT_SET, &before, nullptr, &added, nullptr),
-          "extend", dataset);
-  checked(H5Dwrite(series.get(), H5T_NATIVE_DOUBLE, source.get(), target.get(), defaults,
-                   values.data()),
-          "write", dataset);
+void File::write_rows(Id dataset, const std::string& name, std::uint64_t first,
+                      std::span<const double> values) {
+  const hsize_t count = values.size();
+  if (count == 0) return;
+  const Handle target = rows_of(dataset, first, count),
+               source(H5Screate_simple(1, &count, nullptr));
+  checked(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, source.get(), target.get(), defaults, values.data()),
+          "write", name);
 }
 
-void File::shorten(const std::string& series, std::uint64_t rows) {
-  if (size_of(series) <= rows) return;
-  const hsize_t after = rows;
-  const Handle found(checked(H5Dopen2(handle_.get(), series.c_str(), defaults), "open", series));
-  checked(H5Dset_extent(found.get(), &after), "shorten", series);
+std::vector<double> File::read_rows(const std::string& dataset, std::uint64_t first,
+                                    std::uint64_t rows) const {
+  const hsize_t count = rows;
+  std::vector<double> values(rows);
+  const Handle found(checked(H5Dopen2(handle_.get(), dataset.c_str(), defaults), "open", dataset));
+  const Handle source = rows_of(found.get(), first, count),
+               target(H5Screate_simple(1, &count, nullptr));
+  checked(
+      H5Dread(found.get(), H5T_NATIVE_DOUBLE, target.get(), source.get(), defaults, values.data()),
+      "read", dataset);
+  return values;
+}
+
+void File::link(const std::string& object, const std::string& name) {
+  checked(H5Lcreate_hard(handle_.get(), object.c_str(), handle_.get(), name.c_str(), defaults,
+                         defaults),
+          "link", name);
+}
+
+void File::rename(const std::string& object, const std::string& name) {
+  checked(H5Lmove(handle_.get(), object.c_str(), handle_.get(), name.c_str(), defaults, defaults),
+          "rename", object);
 }
 
 void File::remove(const std::string& object) {

@@ -45,6 +45,9 @@ class File {
   // An existing file is replaced. The first `user_block` bytes (0, or a power of two from 512) are left
   // to the caller.
   static File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
+  // The same, laid out so that links and attributes of "/" lie in the 4096 bytes behind the user block (as
+  // many, too): with open_to_change() they change at one blow (engine/journaled_file.hpp).
+  static File create_to_change(const std::filesystem::path& path, std::uint64_t user_block);
   static File open(const std::filesystem::path& path);  // read only
   // Changes come with a flush as a whole, or not at all, and others may read meanwhile; see
   // engine/journaled_file.hpp. Opening repairs what a killed program has left.
@@ -54,6 +57,10 @@ class File {
   void flush();  // to the disk: H5Fflush and fsync
   void close();  // throws where the last bytes cannot be written; the destructor does not
 
+  // What comes next is written to new places, texts too: HDF5 would put them into heaps that it still has in
+  // mind, and enlarge those, though what counts refers to them.
+  void begin_change();
+
   // Writing. `object` is the path of a group or dataset.
   void make_group(const std::string& object);
   void write(const std::string& dataset, std::span<const double> values, const Shape& shape,
@@ -61,14 +68,17 @@ class File {
   void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
              Packing packing = Packing::none);
   void write(const std::string& dataset, std::span<const std::byte> bytes);
-  void make_series(const std::string& dataset, std::uint64_t chunk);  // empty, 1-D, extendable
-  void append(const std::string& dataset, std::span<const double> values);
+  // A series of 1-D: those first `kept` rows of another one (none: 0 rows), then `values`.
+  void write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
+                    std::span<const double> values);
   void set_attribute(const std::string& object, const std::string& name, double value);
   void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::uint64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::string_view value);
 
-  void shorten(const std::string& series, std::uint64_t rows);  // no longer than so many
+  void link(const std::string& object,
+            const std::string& name);  // a second name of the same object
+  void rename(const std::string& object, const std::string& name);
   void remove(const std::string& object);
   void remove_attribute(const std::string& object, const std::string& name);
 
@@ -87,7 +97,13 @@ class File {
   std::string text_attribute(const std::string& object, const std::string& name) const;
 
  private:
+  enum class Layout { plain, to_change };
   File(std::filesystem::path path, Handle handle);
+  static File create(const std::filesystem::path& path, std::uint64_t user_block, Layout layout);
+  void write_rows(Id dataset, const std::string& name, std::uint64_t first,
+                  std::span<const double> values);
+  std::vector<double> read_rows(const std::string& dataset, std::uint64_t first,
+                                std::uint64_t rows) const;
   void write_any(const std::string& dataset, Id type, const void* values, std::size_t count,
                  const Shape& shape, Packing packing);
   void set_any(const std::string& object, const std::string& name, Id type, const void* value);

@@ -6,19 +6,24 @@
 #include <cerrno>
 #include <cstring>
 #include <iterator>
+#include <span>
 #include <utility>
 
-#include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 
 HistoryCsv::HistoryCsv(std::filesystem::path path, const SeriesInfo& abscissa,
                        const std::vector<SeriesInfo>& series)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
-  if (!file_) fail("create the file");
+    : path_(std::move(path)) {
   std::string header = abscissa.name + " [" + abscissa.unit + "]";
   for (const auto& one : series) header += "," + one.name + " [" + one.unit + "]";
-  write(header + "\n");
+  header += "\n";
+  file_.reset(std::fopen(begin_own(path_, role::run, header).c_str(), "wb"));
+  if (!file_) fail("create the file");
+  write(header);
+  if (std::fflush(file_.get()) != 0) fail("flush the file");
+  end_own(path_, role::run, header, Extent::start);
 }
 
 void HistoryCsv::add(double time, std::span<const double> values) {
@@ -44,12 +49,16 @@ void HistoryCsv::require_name() const {
 }
 
 void HistoryCsv::close() {
-  if (file_) flush();
-  if (file_ && std::fclose(file_.release()) != 0) fail("close the file");
+  if (!file_) return;
+  flush();
+  if (std::fclose(file_.release()) != 0) fail("close the file");
+  note_own(path_, role::run, checksum_.value(), bytes_);
 }
 
 void HistoryCsv::write(const std::string& line) {
   if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size()) fail("write a line");
+  checksum_.add(std::as_bytes(std::span(line)));
+  bytes_ += line.size();
 }
 
 void HistoryCsv::fail(const std::string& operation) const {

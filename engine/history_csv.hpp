@@ -3,6 +3,7 @@
 // "name [unit]".
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "engine/record.hpp"
+#include "engine/xxh3.hpp"
 
 namespace pulvis {
 
@@ -32,6 +34,8 @@ class HistoryCsv {
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Closer> file_;
+  Xxh3 checksum_;  // of what was written
+  std::uint64_t bytes_ = 0;
 };
 
 }  // namespace pulvis

@@ -135,13 +135,28 @@ void JournaledFile::write_journal() const {
   require(fsync(journal.get()) == 0, "flush the journal");
 }
 
+bool JournaledFile::is_on_disk(std::uint64_t index, const Page& page) const {
+  Page there{};
+  read_some(file_.get(), index * page_bytes, there);
+  return there == page;
+}
+
+// The lowest one, which says what counts, last.
+void JournaledFile::put_pages_in_place() const {
+  for (auto page = changed_.rbegin(); page != changed_.rend(); ++page) {
+    if (page->first == changed_.begin()->first) require(fsync(file_.get()) == 0, "flush");
+    put_in_place(page->first, page->second, committed_);
+  }
+}
+
 void JournaledFile::commit() {
   if (size_on_disk(file_.get()) < size_)
     require(ftruncate(file_.get(), static_cast<off_t>(size_)) == 0, "extend");
   require(fsync(file_.get()) == 0, "flush");
+  std::erase_if(changed_, [&](const auto& one) { return is_on_disk(one.first, one.second); });
   if (!changed_.empty()) {
     write_journal();
-    for (const auto& [index, page] : changed_) put_in_place(index, page, committed_);
+    put_pages_in_place();
     changed_.clear();
   }
   if (size_on_disk(file_.get()) > size_)

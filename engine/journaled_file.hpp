@@ -4,6 +4,11 @@
 // yet. What would change bytes before that end is kept in memory, and reads see it. commit() brings it
 // to the disk as <file>.journal first and puts it into its places then. A journal that is found whole is
 // put into its places again when the file is opened; one that is not belongs to a commit that never was.
+//
+// Somebody who reads the file without its journal finds a whole state at any moment, too, if its writer keeps to
+// a rule: of the bytes that count since the last commit only those of one page change, the lowest that does,
+// which is put into its place last (one write, which no kill can cut); or bytes within another page that mean
+// the same before and after.
 #pragma once
 
 #include <array>
@@ -45,6 +50,8 @@ class JournaledFile {
   Page& page(std::uint64_t index);
   void write_journal() const;
   void recover();
+  bool is_on_disk(std::uint64_t index, const Page& page) const;
+  void put_pages_in_place() const;
   void put_in_place(std::uint64_t index, const Page& page, std::uint64_t end) const;
 
   std::filesystem::path path_;

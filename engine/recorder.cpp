@@ -3,16 +3,39 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <random>
 #include <stdexcept>
 #include <utility>
 
 #include "engine/file_descriptor.hpp"
 #include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
 
-constexpr std::uint64_t history_chunk = 1024;  // 8 kB a series: a thousand samples in one piece
+// run.h5 starts with this much text, before what is HDF5: by it Pulvis knows its file.
+constexpr std::uint64_t head_bytes = 4096;
+
+// With a frame the history is written anew, unless it is larger than this and has grown by less than an eighth.
+constexpr std::uint64_t small_history_bytes = std::uint64_t{1} << 20;
+
+// Which run it is: no two are the same.
+std::string new_run_id() {
+  std::random_device chance;
+  std::string id;
+  for (int i = 0; i < 4; ++i) id += fmt::format("{:08x}", chance());
+  return id;
+}
+
+// Marks the file as Pulvis's before anything else is in it.
+hdf5::File marked_file(const std::filesystem::path& path) {
+  hdf5::File file = hdf5::File::create_to_change(path, head_bytes);
+  write_head(path, "pulvis run 1\n");
+  return file;
+}
+
+std::string frame_name(std::int64_t number) { return fmt::format("/{:06}", number); }
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("recorder: " + what);
@@ -63,16 +86,19 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
     : series_(std::move(series)),
       fields_(
           (check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
-      file_(hdf5::File::create(folder / "run.h5.new")),
+      file_(marked_file(folder / "run.h5.new")),
       csv_(folder / "history.csv", abscissa, series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
+      abscissa_(abscissa),
+      run_id_(new_run_id()),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
       pending_(series_.size()) {
   survive_a_full_quota();
   write_attributes(attributes);
+  file_.make_group(
+      "/frames");  // what "/" refers to it by lies in the first page with the attributes
   write_mesh(mesh);
-  file_.make_group("/frames");
-  make_history(abscissa);
+  write_history("/history", 0);
   file_.flush();
   file_.close();
   put_in_place(folder);
@@ -96,6 +122,8 @@ Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
       file_(hdf5::File::open_to_change(folder / "run.h5")),
       csv_(folder / "history.csv", abscissa, series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
+      abscissa_(abscissa),
+      run_id_(file_.text_attribute("/", "run")),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
       pending_(series_.size()) {
   survive_a_full_quota();
@@ -103,27 +131,44 @@ Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
   write_csv_again();
 }
 
+// What is younger than `position` is not taken along into what replaces it.
 void Recorder::cut(const RecorderPosition& position) {
   const auto rows = static_cast<std::uint64_t>(position.samples);
-  for (const SeriesInfo& series : series_) file_.shorten("/history/" + series.name, rows);
-  file_.shorten("/history/time", rows);
-  for (const std::string& frame : file_.children("/frames"))
-    if (std::stoll(frame) >= position.frames) file_.remove("/frames/" + frame);
-  if (file_.has_attribute("/", "outcome")) file_.remove_attribute("/", "outcome");
-  if (file_.contains("/images")) file_.remove("/images");  // made anew when the run ends
+  const std::uint64_t rows_there = file_.shape("/history/time").front();
   const auto there = static_cast<std::int64_t>(file_.children("/frames").size());
-  if (there != position.frames || file_.shape("/history/time").front() != rows)
-    throw OutputError(
-        file_.path(), "go on",
-        fmt::format("frames or samples are missing: {} and {} are there, {} and {} "
-                    "had been written",
-                    there, file_.shape("/history/time").front(), position.frames, rows));
-  for (; frames_ < there; ++frames_) {
-    const std::string group = fmt::format("/frames/{:06}", frames_);
+  if (there < position.frames || rows_there < rows)
+    throw OutputError(file_.path(), "go on",
+                      fmt::format("frames or samples are missing: {} and {} are there, {} and {} "
+                                  "had been written",
+                                  there, rows_there, position.frames, rows));
+  for (; frames_ < position.frames; ++frames_) {
+    const std::string group = "/frames" + frame_name(frames_);
     xdmf_.keep(file_.number_attribute(group, "time"), group);
   }
   samples_ = position.samples;
+  file_.begin_change();
+  link_frames();
+  write_history("/history.next", rows);
+  if (file_.has_attribute("/", "outcome")) file_.remove_attribute("/", "outcome");
+  if (file_.contains("/images")) file_.remove("/images");  // made anew when the run ends
+  replace({"/frames", "/history"});
+}
+
+// Nothing that run.h5 refers to changes before this, nor anything but its first page with it.
+void Recorder::replace(const std::vector<std::string>& groups) {
+  for (const std::string& group : groups) {
+    file_.rename(group, group + ".old");
+    file_.rename(group + ".next", group);
+  }
+  for (const std::string& group : groups)
+    file_.remove(group + ".old");  // last: its place is free now
   file_.flush();
+}
+
+void Recorder::link_frames() {
+  file_.make_group("/frames.next");
+  for (std::int64_t i = 0; i < frames_; ++i)
+    file_.link("/frames" + frame_name(i), "/frames.next" + frame_name(i));
 }
 
 void Recorder::write_csv_again() {
@@ -140,8 +185,11 @@ void Recorder::write_csv_again() {
 }
 
 RecorderPosition Recorder::position() {
-  append_history();
-  file_.flush();
+  if (!pending_time_.empty()) {
+    file_.begin_change();
+    renew_history();
+    replace({"/history"});
+  }
   csv_.flush();
   return {frames_, samples_};
 }
@@ -149,7 +197,7 @@ RecorderPosition Recorder::position() {
 Recorder::~Recorder() {
   if (!open_) return;
   try {
-    append_history();
+    position();
     csv_.close();
     file_.close();
   } catch (const std::exception&) {  // the first failure was already thrown from sample or frame
@@ -164,12 +212,15 @@ void Recorder::describe(const std::string& object, const std::string& unit,
 
 void Recorder::write_attributes(const RunAttributes& attributes) {
   file_.set_attribute("/", "format", std::int64_t{1});
+  file_.set_attribute("/", "run", std::string_view(run_id_));
   file_.set_attribute("/", "version", std::string_view(attributes.version));
   file_.set_attribute("/", "commit", std::string_view(attributes.commit));
   file_.set_attribute("/", "title", std::string_view(attributes.title));
   file_.set_attribute("/", "scene_hash", std::string_view(attributes.scene_hash));
   file_.set_attribute("/", "seed", attributes.seed);
   file_.set_attribute("/", "threads", std::int64_t{attributes.threads});
+  file_.set_attribute("/", "outcome", std::string_view());  // keeps its place free
+  file_.remove_attribute("/", "outcome");
 }
 
 void Recorder::write_mesh(const RunMesh& mesh) {
@@ -189,13 +240,28 @@ void Recorder::write_mesh(const RunMesh& mesh) {
   describe("/mesh/reference", "m", "positions of the nodes before the first step");
 }
 
-void Recorder::make_history(const SeriesInfo& abscissa) {
-  file_.make_series("/history/time", history_chunk);
-  describe("/history/time", abscissa.unit, abscissa.meaning);
-  for (const auto& series : series_) {
-    file_.make_series("/history/" + series.name, history_chunk);
-    describe("/history/" + series.name, series.unit, series.meaning);
-  }
+// The first `kept` rows of /history, and the samples since.
+void Recorder::write_history(const std::string& group, std::uint64_t kept) {
+  const auto write = [&](const SeriesInfo& series, const std::string& name,
+                         const std::vector<double>& values) {
+    file_.write_series(group + "/" + name, "/history/" + name, kept, values);
+    describe(group + "/" + name, series.unit, series.meaning);
+  };
+  for (std::size_t i = 0; i < series_.size(); ++i) write(series_[i], series_[i].name, pending_[i]);
+  write(abscissa_, "time", pending_time_);
+}
+
+void Recorder::renew_history() {
+  write_history("/history.next", static_cast<std::uint64_t>(samples_));
+  samples_ += static_cast<std::int64_t>(pending_time_.size());
+  for (std::vector<double>& values : pending_) values.clear();
+  pending_time_.clear();
+}
+
+bool Recorder::is_history_due() const {
+  const std::uint64_t rows = static_cast<std::uint64_t>(samples_), more = pending_time_.size();
+  return (rows + more) * (series_.size() + 1) * sizeof(double) <= small_history_bytes ||
+         8 * more >= rows;
 }
 
 void Recorder::sample(double time, std::span<const double> values) {
@@ -205,29 +271,25 @@ void Recorder::sample(double time, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) pending_[i].push_back(values[i]);
 }
 
-void Recorder::append_history() {
-  for (std::size_t i = 0; i < series_.size(); ++i) {
-    file_.append("/history/" + series_[i].name, pending_[i]);
-    pending_[i].clear();
-  }
-  file_.append("/history/time", pending_time_);  // last: every series is at least as long
-  samples_ += static_cast<std::int64_t>(pending_time_.size());
-  pending_time_.clear();
-}
-
 void Recorder::frame(double time, std::int64_t step,
                      const std::vector<std::vector<double>>& fields) {
   require(fields.size() == fields_.size(), "a frame holds every field");
-  const std::string group = fmt::format("/frames/{:06}", frames_);
+  file_.begin_change();
+  link_frames();
+  const std::string group = "/frames.next" + frame_name(frames_);
   file_.make_group(group);
   file_.set_attribute(group, "time", time);
   file_.set_attribute(group, "step", step);
   for (std::size_t i = 0; i < fields.size(); ++i) write_field(group, fields_[i], fields[i]);
-  append_history();
   file_.set_attribute(group, "complete", std::int64_t{1});
-  file_.flush();
+  std::vector<std::string> renewed{"/frames"};
+  if (is_history_due()) {
+    renew_history();
+    renewed.emplace_back("/history");
+  }
+  replace(renewed);
   csv_.flush();
-  xdmf_.add(time, group);
+  xdmf_.add(time, "/frames" + frame_name(frames_));
   ++frames_;
 }
 
@@ -263,9 +325,11 @@ void Recorder::image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t 
 
 void Recorder::finish(std::string_view outcome) {
   if (!std::exchange(open_, false)) return;
-  append_history();
+  position();
+  file_.begin_change();
   file_.set_attribute("/", "outcome", outcome);
   file_.flush();
+  xdmf_.finish();
   csv_.close();
   file_.close();
 }

@@ -2,7 +2,8 @@
 // frames, for ParaView and meshio) and history.csv (the history, for a spreadsheet). It knows
 // names, units and numbers, and no physics.
 //
-// run.h5 /                      version, commit, title, scene_hash, seed, threads, then outcome
+// run.h5 4096 bytes of text     "pulvis run 1": Pulvis's own file
+//        /                      run (another one of every run), version, commit, title, scene_hash, seed, threads, then outcome
 //        /mesh/<name>           quads [cells,4] (hexahedra [cells,8] in space), cell_particle, node_particle, reference [nodes,2 or 3]
 //        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
 //                               complete = 1, written last: a frame without it is not to be read
@@ -13,7 +14,9 @@
 // XDMF has no plane vectors (components = 2 tells); `position` is not. XDMF shows these fields only.
 //
 // After frame() returns, the frame and every sample before it are on the disk: a killed run loses
-// only what came later, and run.h5 can be read at any time, while the run writes, too. All failures of the machine are OutputError.
+// only what came later. run.h5 can be read at any time, while the run writes, too, and wherever it is killed:
+// a frame comes with new groups /frames and /history, which replace the old ones at one blow. (Of a history
+// beyond a megabyte the newest samples may be in history.csv alone.) All failures of the machine are OutputError.
 #pragma once
 
 #include <cstdint>
@@ -73,14 +76,19 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   std::int64_t frames() const { return frames_; }
+  // In run.h5 as the attribute `run` and in the checkpoints: they belong together.
+  const std::string& run_id() const { return run_id_; }
 
  private:
   void write_attributes(const RunAttributes& attributes);
   void write_mesh(const RunMesh& mesh);
   void put_in_place(const std::filesystem::path& folder);
-  void make_history(const SeriesInfo& abscissa);
-  void append_history();
+  void write_history(const std::string& group, std::uint64_t kept);
+  void renew_history();
+  bool is_history_due() const;
+  void link_frames();
   void cut(const RecorderPosition& position);
+  void replace(const std::vector<std::string>& groups);
   void write_csv_again();
   void write_field(const std::string& group, const FieldInfo& field,
                    const std::vector<double>& values);
@@ -91,6 +99,8 @@ class Recorder {
   hdf5::File file_;
   HistoryCsv csv_;
   Xdmf xdmf_;
+  SeriesInfo abscissa_;
+  std::string run_id_;
   std::vector<std::uint64_t> places_;         // how many of each FieldPlace there are
   std::vector<double> pending_time_;          // samples not yet in run.h5
   std::vector<std::vector<double>> pending_;  // [series][sample]

@@ -2,12 +2,15 @@
 
 #include <sys/file.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
@@ -29,32 +32,50 @@ void take_away(const std::vector<fs::path>& folders) {
   for (const auto& folder : folders) fs::remove(folder, ignored);  // only an empty one goes
 }
 
-// Permissions, read-only mounts and quotas differ: only writing a file tells.
+// Permissions, read-only mounts and quotas differ: only writing a file tells. Nobody has one of this name.
 std::error_code try_to_write(const fs::path& folder) {
-  const fs::path probe = folder / ".pulvis-probe";
-  std::FILE* const file = std::fopen(probe.c_str(), "wb");
-  if (file == nullptr) return {errno, std::generic_category()};
-  std::fclose(file);
+  std::string probe = (folder / ".pulvis-probe-XXXXXX").string();
+  const FileDescriptor file(mkstemp(probe.data()));
+  if (!file) return {errno, std::generic_category()};
   std::error_code ignored;
   fs::remove(probe, ignored);
   return {};
 }
 
-bool belongs_to_a_run(const std::string& name) {
-  for (const char* const own : {"run.h5", "run.h5.new", "run.h5.journal", "run.xdmf", "history.csv",
-                                "summary.json", "report.html", "pictures"}) {
+// What somebody may want of a run, and wants to be asked for.
+bool is_result(const std::string& name) {
+  for (const char* const own :
+       {"run.h5", "run.xdmf", "history.csv", "summary.json", "report.html", "scene.toml"})
     if (name == own) return true;
-  }
+  return false;
+}
+
+bool belongs_to_a_run(const std::string& name) {
+  if (is_result(name) || name == "run.h5.new" || name == "run.h5.journal") return true;
   return name.starts_with("checkpoint-") && (name.ends_with(".h5") || name.ends_with(".h5.new"));
 }
 
-void remove_old_run(const fs::path& folder) {
+std::vector<fs::path> files_of_a_run(const fs::path& folder) {
+  std::vector<fs::path> found;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (!belongs_to_a_run(entry.path().filename().string())) continue;
-    fs::remove_all(entry.path(), error);
-    if (error) throw OutputError(entry.path(), "remove the old run's file", error.message());
-  }
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (belongs_to_a_run(entry.path().filename().string())) found.push_back(entry.path());
+  std::ranges::sort(found);
+  return found;
+}
+
+// Checkpoints and halves of files alone are no run that anybody could miss.
+std::string result_in(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "run.h5", ignored)) return "run.h5";
+  for (const fs::path& file : files_of_a_run(folder))
+    if (is_result(file.filename().string())) return file.filename().string();
+  return "";
+}
+
+void remove_old_run(const fs::path& folder) {
+  for (const fs::path& file : files_of_a_run(folder)) remove_own(file, role::run);
+  remove_own_below(folder / "pictures", role::figure);
 }
 
 }  // namespace
@@ -66,22 +87,36 @@ FolderLock::FolderLock(const fs::path& folder, const char* taken)
     throw RunFolderTaken(folder, "use the folder", taken);
 }
 
-FolderLock open_run_folder(const fs::path& given, bool overwrite) {
+void require_own_files(const fs::path& folder) {
+  for (const fs::path& file : files_of_a_run(folder)) require_own_or_none(file, role::run);
+}
+
+void require_not_read(const fs::path& folder, const fs::path& read) {
+  for (const fs::path& file : files_of_a_run(folder)) require_another(read, file);
+}
+
+void make_results_folder(const fs::path& given) {
   const fs::path folder = fs::absolute(given / "").parent_path().lexically_normal();
   std::error_code error;
-  if (fs::exists(folder / "run.h5", error) && !overwrite) {
-    throw RunFolderTaken(given, "start a run here", "the folder already holds one (run.h5)");
-  }
   const auto missing = missing_folders(folder);
   fs::create_directories(folder, error);
   if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
   if (!error) error = try_to_write(folder);
-  if (error) {
-    take_away(missing);
-    throw OutputError(given, "make the run's folder", error.message());
-  }
+  if (!error) return;
+  take_away(missing);
+  throw OutputError(given, "make the run's folder", error.message());
+}
+
+FolderLock open_run_folder(const fs::path& given, bool overwrite) {
+  const fs::path folder = fs::absolute(given / "").parent_path().lexically_normal();
+  require_own_files(folder);
+  const std::string result = result_in(folder);
+  if (!result.empty() && !overwrite)
+    throw RunFolderTaken(given, "start a run here",
+                         "the folder already holds one (" + result + ")");
+  make_results_folder(given);
   FolderLock lock(folder);
-  if (overwrite) remove_old_run(folder);
+  remove_old_run(folder);
   return lock;
 }
 

@@ -26,10 +26,17 @@ class FolderLock {
   FileDescriptor folder_;
 };
 
-// Makes the folder, parents included, and checks that files can be written into it. A folder that
-// holds a run.h5 is refused unless `overwrite`; then the old run's own files (run.h5, run.xdmf,
-// history.csv, summary.json, report.html, checkpoint-*.h5, pictures/) go and others stay. A refusal
+// Makes the folder, parents included, and checks that files can be written into it. One that holds a file where
+// the run will write its own, and that no run wrote, is refused (ForeignFile: engine/own_files.hpp), and one with
+// results of a run unless `overwrite`. Then the old run's own files (run.h5, run.xdmf, history.csv, summary.json,
+// report.html, scene.toml, checkpoint-*.h5, what `figure` drew in pictures/) go and others stay. A refusal
 // leaves everything as it was: what this call made is taken away again.
 FolderLock open_run_folder(const std::filesystem::path& folder, bool overwrite = false);
+// Only that: made, parents included, and files can be written into it.
+void make_results_folder(const std::filesystem::path& folder);
+// The first half of that refusal.
+void require_own_files(const std::filesystem::path& folder);
+// None of a run's files there is `read`, by whatever path it is reached.
+void require_not_read(const std::filesystem::path& folder, const std::filesystem::path& read);
 
 }  // namespace pulvis

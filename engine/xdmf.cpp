@@ -2,18 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <map>
-#include <system_error>
 #include <utility>
 
-#include "engine/output_error.hpp"
+#include "engine/own_files.hpp"
 
 namespace pulvis {
 namespace {
 
+const std::string beginning =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+    "<Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
 constexpr const char* integers = R"(NumberType="Int" Precision="4")";
 constexpr const char* doubles = R"(NumberType="Float" Precision="8")";
 
@@ -58,13 +57,19 @@ Xdmf::Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
   }
 }
 
+std::string Xdmf::text() const { return beginning + grids_ + "</Grid>\n</Domain>\n</Xdmf>\n"; }
+
 void Xdmf::add(double time, const std::string& group) {
   keep(time, group);
-  replace_file(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<Xdmf Version=\"3.0\">\n<Domain>\n"
-      "<Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" +
-      grids_ + "</Grid>\n</Domain>\n</Xdmf>\n");
+  if (!std::exchange(is_noted_, true)) {
+    require_own_or_none(path_, role::run);
+    note_own(path_, role::run, beginning, Extent::start);
+  }
+  replace_own(path_, role::run, text());
+}
+
+void Xdmf::finish() const {
+  if (is_noted_) note_own(path_, role::run, text(), Extent::whole);
 }
 
 std::string Xdmf::grid(double time, const std::string& group) const {
@@ -96,19 +101,6 @@ std::string Xdmf::attribute(const FieldInfo& field, const std::string& group) co
   return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
                      escaped(field.name), attribute_type(columns), on_nodes ? "Node" : "Cell",
                      item(group + "/" + field.name, doubles, on_nodes ? nodes_ : cells_, columns));
-}
-
-void Xdmf::replace_file(const std::string& text) const {
-  const std::filesystem::path beside = path_.string() + ".new";
-  std::FILE* const file = std::fopen(beside.c_str(), "wb");
-  if (file == nullptr) throw OutputError(beside, "create the file", std::strerror(errno));
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (std::fclose(file) != 0 || !written) {
-    throw OutputError(beside, "write the file", std::strerror(errno));
-  }
-  std::error_code error;
-  std::filesystem::rename(beside, path_, error);
-  if (error) throw OutputError(path_, "replace the file", error.message());
 }
 
 }  // namespace pulvis

@@ -23,13 +23,14 @@ class Xdmf {
   void add(double time, const std::string& group);  // group: "/frames/000000"
   // A frame that run.h5 has already; the file is written with the next one that is added.
   void keep(double time, const std::string& group) { grids_ += grid(time, group); }
+  void finish() const;  // no more frames
 
  private:
+  std::string text() const;
   std::string grid(double time, const std::string& group) const;
   std::string item(const std::string& dataset, const std::string& number, std::uint64_t rows,
                    int columns) const;
   std::string attribute(const FieldInfo& field, const std::string& group) const;
-  void replace_file(const std::string& text) const;
 
   std::filesystem::path path_;
   std::string heavy_;
@@ -37,6 +38,7 @@ class Xdmf {
   bool in_space_;
   std::vector<FieldInfo> fields_;
   std::string grids_;  // the text of the frames so far
+  bool is_noted_ = false;
 };
 
 bool is_of_mesh(const FieldInfo& field);  // a number of rows that stays, and a place in the picture

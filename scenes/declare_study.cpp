@@ -177,7 +177,9 @@ const TableDeclaration<VariationSpec>& study_variation() {
       {{{.name = "name",
          .kind = Kind::name,
          .required = true,
-         .doc = "What it is called in the report, in expectations and as a folder."},
+         .doc =
+             "What it is called in the report, in expectations and as a folder: no name of a file "
+             "of the study, and without '.' at the beginning."},
         to(&VariationSpec::name)},
        {{.name = "scene",
          .kind = Kind::scene,

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <set>
 
 #include "scenes/declare_study.hpp"
@@ -93,6 +95,17 @@ std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) 
   };
   return std::ranges::count_if(all, same) == 1 ? last_word(axis.path)
                                                : name_text(Value{axis.path, {}});
+}
+
+// What lies beside the folders of the runs.
+constexpr std::array files_of_a_study{"study.toml",  "study.csv",   "summary.json",
+                                      "curves.json", "report.html", "pictures"};
+
+// File systems that know no capital letters take two such names for one.
+bool can_be_folder(std::string name) {
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return !name.starts_with('.') &&
+         std::ranges::find(files_of_a_study, name) == files_of_a_study.end();
 }
 
 class StudyReader {
@@ -227,6 +240,12 @@ class StudyReader {
     if (std::ranges::find(study_.variations, run.variation) != study_.variations.end())
       problems_.add(origin, "variation",
                     fmt::format("two are called '{}', allowed: each name once", run.variation));
+    if (!can_be_folder(run.variation))
+      problems_.add(
+          origin, "variation.name",
+          fmt::format("'{}' is no name for the folder of a run, allowed: one that does not "
+                      "begin with '.' and that the study has no file of ({})",
+                      run.variation, fmt::join(files_of_a_study, ", ")));
     study_.variations.push_back(run.variation);
     const std::string& scene = one.scene.empty() ? study_.spec.scene : one.scene;
     if (scene.empty()) {

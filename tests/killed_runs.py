@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
-"""Kills runs with SIGKILL at random moments and holds them to what they promise.
+"""Kills runs with SIGKILL, at random moments or at writes into run.h5, and holds them to what they promise.
 
-    killed_runs.py PROGRAM SOURCE_DIR [--kills N] [--seed S]
+    killed_runs.py PROGRAM SOURCE_DIR [--kills N] [--seed S] [--aim libdie_at_write.so]
 
 After every kill run.h5 opens, has no half-written frame and none less than somebody saw before the kill. The
 run is resumed, and killed again, until it ends; then its history, frames and final state have the same bits as
 those of a run that nobody touched. A run that was killed before it had a checkpoint is started anew.
+
+With --aim every kill falls just before a write into run.h5 or its journal (tests/die_at_write.cpp), all but those
+of the commits' new data into the commits themselves; `report` has to read what is left, too.
 """
 import argparse
 import json
+import os
 import pathlib
 import random
 import subprocess
@@ -36,6 +40,7 @@ def arguments():
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("--kills", type=int, default=10)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--aim", type=pathlib.Path, help="library that ends a run at a write")
     return parser.parse_args()
 
 
@@ -79,9 +84,10 @@ class Killer:
         self.options = options
         self.chance = random.Random(options.seed)
         self.kills = self.anew = 0
+        self.writes, self.references = {}, {}  # of the scenes: writes into run.h5, what is right and how long it takes
         self.stages = {"before a checkpoint": 0, "after one": 0}
 
-    def start(self, scene, folder, resume):
+    def start(self, scene, folder, resume, environment=None):
         words = [str(self.options.program.resolve())]
         name, *changes = SCENES[scene]
         if resume:
@@ -91,13 +97,40 @@ class Killer:
                       "--overwrite", *changes]
         words += ["--threads", str(self.chance.choice([1, 2])), "--checkpoint-steps",
                   str(self.chance.choice([7, 50, 200]) if scene != "loop" else 2)]
-        return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                env={**os.environ, **(environment or {})})
+
+    def aimed(self, more):
+        return {"LD_PRELOAD": str(self.options.aim.resolve()), **more} if self.options.aim else {}
 
     def reference(self, scene, folder):
         begin = time.monotonic()
-        run = self.start(scene, folder, False)
+        count = folder.with_suffix(".count")
+        run = self.start(scene, folder, False, self.aimed({"DIE_AT_WRITE_COUNT": str(count)}))
         assert run.wait() == 0, run.stderr.read()
+        if self.options.aim:
+            self.writes[scene] = int(count.read_text())
         return everything_in(folder), time.monotonic() - begin
+
+    def run_aimed(self, scene, folder, resume):
+        """Killed just before one of the writes into run.h5, wherever that falls."""
+        at = self.chance.randint(1, self.writes[scene] // (4 if resume else 1))
+        run = self.start(scene, folder, resume, self.aimed({"DIE_AT_WRITE": str(at)}))
+        run.wait()
+        run.stderr_text = run.stderr.read()
+        if run.returncode != -9:
+            return run
+        self.kills += 1
+        if frames_in(folder):
+            report = subprocess.run([self.options.program.resolve(), "report", folder], check=False,
+                                    capture_output=True, text=True)
+            assert report.returncode == 0, f"write {at}: {report.stderr}"
+        self.count_stage(folder)
+        return run
+
+    def count_stage(self, folder):
+        self.stages["after one" if list(folder.glob("checkpoint-*.h5")) else
+                    "before a checkpoint"] += 1
 
     def run_once(self, scene, folder, duration, resume):
         """Exit code of a run that may be killed at any moment."""
@@ -112,13 +145,14 @@ class Killer:
             there = frames_in(folder)
             # (A resumed run takes away what is younger than its checkpoint.)
             assert resume or seen is None or there >= seen, f"{seen} frames were there, {there} are left"
-            self.stages["after one" if list(folder.glob("checkpoint-*.h5")) else
-                        "before a checkpoint"] += 1
+            self.count_stage(folder)
         run.stderr_text = run.stderr.read()
         return run
 
     def round(self, scene, place):
-        expected, duration = self.reference(scene, place / f"{scene}-whole")
+        if scene not in self.references:
+            self.references[scene] = self.reference(scene, place / f"{scene}-whole")
+        expected, duration = self.references[scene]
         folder = place / scene
         resume = False
         while True:
@@ -126,6 +160,8 @@ class Killer:
                 run = self.start(scene, folder, resume)
                 run.wait()
                 run.stderr_text = run.stderr.read()
+            elif self.options.aim:
+                run = self.run_aimed(scene, folder, resume)
             else:
                 run = self.run_once(scene, folder, duration, resume)
             assert run.returncode in (0, -9), run.stderr_text

@@ -80,15 +80,6 @@ TEST_F(Faults, AFileSizeLimitStopsTheRunAndItGoesOnWithoutIt) {
   EXPECT_EQ(whole_frames(), 101U);
 }
 
-TEST_F(Faults, AFullDiskIsNamed) {
-  fs::create_directory(place / "run");
-  fs::create_symlink("/dev/full", place / "run" / "history.csv");
-  const Outcome end = pulvis(long_run());
-  EXPECT_EQ(end.code, 4) << end.err;
-  EXPECT_THAT(end.err, HasSubstr("history.csv: cannot "));
-  EXPECT_THAT(end.err, HasSubstr("No space left on device"));
-}
-
 // A file system of 5 MB of the run's own; needs the right to mount one.
 TEST_F(Faults, AFullFileSystemKeepsTheFramesBefore) {
   if (!may_mount()) GTEST_SKIP() << "may not mount";
