@@ -5,6 +5,7 @@
 #include "scenes/afm_simulation.hpp"
 #include "scenes/afm_size.hpp"
 #include "systems/solid_equations.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -35,7 +36,7 @@ void expect_near(const Scene& scene) {
 }
 
 Scene shipped(const std::string& name, const std::vector<std::string>& changes = {}) {
-  return read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/afm/" + name, changes);
+  return read_scene(paths::source_dir() + "/scenes/afm/" + name, changes);
 }
 
 TEST(AfmMemory, OfLeversIsToldFromTheirKeys) {
