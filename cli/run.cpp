@@ -291,7 +291,7 @@ ExitCode resume_run(const RunOptions& options) {
   leave_at_interrupts();
   require_stopped_run(options.folder);
   const FolderLock lock(options.folder);
-  require_own_files(options.folder);
+  require_own_results(options.folder);
   hdf5::File::open_to_change(options.folder / "run.h5")
       .close();  // repairs it after a loss of power
   const StoppedRun stopped_run = find_stopped_run(options.folder);

@@ -91,6 +91,11 @@ void require_own_files(const fs::path& folder) {
   for (const fs::path& file : files_of_a_run(folder)) require_own_or_none(file, role::run);
 }
 
+void require_own_results(const fs::path& folder) {
+  for (const char* const name : {"run.xdmf", "history.csv", "summary.json", "report.html"})
+    require_own_or_none(folder / name, role::run);
+}
+
 void require_not_read(const fs::path& folder, const fs::path& read) {
   for (const fs::path& file : files_of_a_run(folder)) require_another(read, file);
 }

@@ -36,6 +36,8 @@ FolderLock open_run_folder(const std::filesystem::path& folder, bool overwrite =
 void make_results_folder(const std::filesystem::path& folder);
 // The first half of that refusal.
 void require_own_files(const std::filesystem::path& folder);
+// Only what a run that goes on writes anew.
+void require_own_results(const std::filesystem::path& folder);
 // None of a run's files there is `read`, by whatever path it is reached.
 void require_not_read(const std::filesystem::path& folder, const std::filesystem::path& read);
 
