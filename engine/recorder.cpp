@@ -1,9 +1,12 @@
 #include "engine/recorder.hpp"
 
 #include <fmt/format.h>
+#include <sys/random.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
-#include <random>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -20,12 +23,12 @@ constexpr std::uint64_t head_bytes = 4096;
 // With a frame the history is written anew, unless it is larger than this and has grown by less than an eighth.
 constexpr std::uint64_t small_history_bytes = std::uint64_t{1} << 20;
 
-// Which run it is: no two are the same.
-std::string new_run_id() {
-  std::random_device chance;
-  std::string id;
-  for (int i = 0; i < 4; ++i) id += fmt::format("{:08x}", chance());
-  return id;
+// Which run it is: no two are the same. No part of the state.
+std::string new_run_id(const std::filesystem::path& folder) {
+  std::array<std::uint64_t, 2> bits{};
+  if (getrandom(bits.data(), sizeof bits, 0) != static_cast<ssize_t>(sizeof bits))
+    throw OutputError(folder, "name the run", std::strerror(errno));
+  return fmt::format("{:016x}{:016x}", bits[0], bits[1]);
 }
 
 // Marks the file as Pulvis's before anything else is in it.
@@ -90,7 +93,7 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
       csv_(folder / "history.csv", abscissa, series_),
       xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
       abscissa_(abscissa),
-      run_id_(new_run_id()),
+      run_id_(new_run_id(file_.path())),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
       pending_(series_.size()) {
   survive_a_full_quota();
