@@ -11,6 +11,7 @@
 #include "scenes/mesh.hpp"
 #include "scenes/place.hpp"
 #include "scenes/read.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/left.hpp"
 
 namespace pulvis::keys {
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path bases = fs::path(PULVIS_SOURCE_DIR) / "tests" / "keys" / "scenes";
+const fs::path bases = fs::path(paths::source_dir()) / "tests" / "keys" / "scenes";
 
 // What `pulvis check` says of a scene of this text among the bases.
 std::string fault_of_scene(const std::string& text, const fs::path& folder) {

@@ -3,6 +3,7 @@
 #include "key_plan.hpp"
 #include "scenes/lab_reduction.hpp"
 #include "scenes/lab_settings.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/program.hpp"
 
 namespace pulvis::keys {
@@ -10,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path bases = fs::path(PULVIS_SOURCE_DIR) / "tests" / "keys" / "settings";
-const fs::path records = fs::path(PULVIS_SOURCE_DIR) / "scenes" / "lab";
+const fs::path bases = fs::path(paths::source_dir()) / "tests" / "keys" / "settings";
+const fs::path records = fs::path(paths::source_dir()) / "scenes" / "lab";
 
 std::string fault_of_settings(const std::string& text, const fs::path&) {
   try {

@@ -4,6 +4,7 @@
 #include "key_plan.hpp"
 #include "scenes/declare_study.hpp"
 #include "scenes/study_read.hpp"
+#include "tests/paths.hpp"
 #include "tests/scenes/program.hpp"
 
 namespace pulvis::keys {
@@ -11,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path all_bases = fs::path(PULVIS_SOURCE_DIR) / "tests" / "keys";
+const fs::path all_bases = fs::path(paths::source_dir()) / "tests" / "keys";
 
 // A study is read from a file: in a folder of this process, with the scenes beside it.
 std::string fault_of_study(const std::string& text, const fs::path&) {

@@ -7,6 +7,7 @@
 
 #include "components/body.hpp"
 #include "experiment.hpp"
+#include "tests/paths.hpp"
 #include "wrong.hpp"
 
 namespace pulvis {
@@ -272,7 +273,7 @@ TEST(BulkDamping, IsRefusedWhereItIsWrong) {
   EXPECT_THAT(refusal_of("mass_proportional", "mass_proportionel = \"1 1/s\""),
               HasSubstr("did you mean 'mass_proportional'?"));
   EXPECT_THAT(message_of([] {
-                read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/afm/calibration-beam.toml",
+                read_scene(paths::source_dir() + "/scenes/afm/calibration-beam.toml",
                            {"material[0].damping.mass_proportional=1 1/s"});
               }),
               HasSubstr("only with \"compaction\""));
