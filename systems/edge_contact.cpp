@@ -157,11 +157,9 @@ struct Closest {
 }
 
 // An outline against itself: two parts of it that meet from outside, where it folds. From inside each point
-// is at some depth below the far side of its own body: a row that begins like that, or is deeper at once than a
-// step goes, is none. (One that touched stays a contact, however deep: that is limits.penetration's to judge.)
-// Points whose closest point is their own neighbourhood do not touch.
-bool is_far_side(const Closest& c, int half, int edge, const Shape& shape, bool unseen,
-                 bool touched, Lane& gap) {
+// is at some depth below the far side of its own body: a row that begins like that, or deeper than contacts
+// get, is none. Points whose closest point is their own neighbourhood do not touch.
+bool is_far_side(const Closest& c, int half, int edge, const Shape& shape, bool unseen, Lane& gap) {
   double deepest = -1;
   for (int l = half * edge_points; l < (half + 1) * edge_points; ++l) {
     const int there = edge_number(shape, c.at.edge[static_cast<std::size_t>(l)]);
@@ -169,8 +167,7 @@ bool is_far_side(const Closest& c, int half, int edge, const Shape& shape, bool 
     deepest = std::max(deepest, gap[l]);
   }
   if (!(deepest > 0)) return unseen && half_of(c.beyond, half) != 0;
-  return unseen ||
-         (!touched && deepest > 0.25 * shape.edges[static_cast<std::size_t>(edge)].length);
+  return unseen || deepest > 0.25 * shape.edges[static_cast<std::size_t>(edge)].length;
 }
 
 // The force on the other bodies' slope that makes friction free of torque: -T g/|x'| n.
@@ -233,7 +230,7 @@ void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
       const Row<Contact> row = rows[static_cast<std::size_t>(i)];
       if (pair(row, 2) == pair(row, 0) &&
           is_far_side(c, i, pair(row, 1), bodies->shape_of_slot(pair(row, 2)), reach(row) == unseen,
-                      touches(row) != 0, motion.gap)) {
+                      motion.gap)) {
         set_apart(columns, row, far_side);
       } else if (half_of((motion.gap > 0.0).bits(), i) != 0) {
         touching |= 1U << i;

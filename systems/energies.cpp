@@ -3,6 +3,8 @@
 //
 // Kinetic energy is 1/2 m v_(n-1/2) . v_(n+1/2): together with the stored energy at t_n it is what the
 // leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors and not phase.
+#include <cmath>
+
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
 #include "systems/element_access.hpp"
@@ -133,8 +135,9 @@ BlockSums sum_of(const std::vector<BlockSums>& blocks) {
 
 }  // namespace
 
-// Damping by the trapezoidal rule, like the work of the tools: its force is there from the first touch on, and
-// not before.
+// Damping by the trapezoidal rule, like the work of the tools: the forces at both ends of the step times its way, so
+// that none is booked before the first touch. The force before times the rate now is, of a linear damper, the
+// geometric mean of both powers.
 void contact_totals(Read<Clock> clock, Optional<Read<ContactSums<Contact>>> sums,
                     Optional<Read<ContactSums<ToolContact>>> tool_sums, Write<Totals> totals) {
   const BlockSums pairs = sums ? sum_of((*sums)->blocks) : BlockSums{};
@@ -143,9 +146,10 @@ void contact_totals(Read<Clock> clock, Optional<Read<ContactSums<Contact>>> sums
   totals->contact_energy = pairs.energy + tools.energy;
   totals->friction_work += pairs.friction_work;
   totals->friction_work += tools.friction_work;
-  const double dt = clock->dt_before, damped = pairs.damping_work + tools.damping_work;
-  totals->damping_work += 0.5 * (totals->damping_power * dt + damped);
-  totals->damping_power = dt > 0 ? damped / dt : 0;
+  const double dt = clock->dt_before;
+  const double power = dt > 0 ? (pairs.damping_work + tools.damping_work) / dt : 0;
+  totals->damping_work += 0.5 * (std::sqrt(totals->damping_power * power) + power) * dt;
+  totals->damping_power = power;
 }
 
 }  // namespace pulvis

@@ -172,8 +172,8 @@ TEST(LocalDensity, IsNoneWhereThePunchesStandBeyondTheDie) {
   e.results.sample();
   for (const char* series : {"compact", "least", "greatest", "deviation"})
     EXPECT_TRUE(std::isnan(e.value(std::string("density/") + series))) << series;
-  for (const double value : e.results.frame().at(e.results.frame().size() - 4))
-    EXPECT_TRUE(std::isnan(value));
+  const auto frame = e.results.frame();
+  for (const double value : frame.at(frame.size() - 4)) EXPECT_TRUE(std::isnan(value));
 }
 
 TEST(LocalDensity, OfToolsThatMoveApartIsThatOfAllBetweenThem) {
