@@ -16,16 +16,20 @@ struct ServoTravel : Component<Tool, double, 2> {
 struct ServoVelocity : Component<Tool, double, 2> {
   static constexpr ComponentInfo info{"servo_velocity", "m/s", "of its servo, over the next step"};
 };
-struct ServoMomentum : Component<Tool, double, 1> {
-  static constexpr ComponentInfo info{"servo_momentum", "N s", "of the mass that its servo moves"};
+struct ServoMass : Component<Tool, double, 1> {
+  static constexpr ComponentInfo info{"servo_mass", "kg", "with which its servo lets it move"};
+};
+struct ServoDragged : Component<Tool, double, 2> {
+  static constexpr ComponentInfo info{"servo_dragged", "m/s",
+                                      "velocity of the mass that it drags along through a dashpot"};
 };
 struct ServoForce : Component<Tool, double, 2> {
   static constexpr ComponentInfo info{"servo_force", "N",
                                       "asked for now, and what the tool bore when its stage began"};
 };
 
-// What drives a tool while a stage lasts: a mass between the tool and the set force, and a dashpot in
-// series with it (systems/servo_kernel.hpp).
+// What drives a tool while a stage lasts: the set force, a mass of its own, and a second one dragged along
+// through a dashpot (systems/servo_kernel.hpp).
 struct ToolServos {
   static constexpr const char* resource_name = "tool_servos";
   struct Servo {
@@ -35,8 +39,8 @@ struct ToolServos {
     double force = 0;         // N, to be held
     double rise = 0;          // s, until it is asked for in full
     double rate = 0;          // N/s, instead of it; 0: none
-    double mass = 0;          // kg
-    double damping = 0;       // N s/m
+    double mass = 0;          // kg, of the tool at least
+    double damping = 0;       // N s/m, of its dashpot with that mass; grows with the mass's root
     double fastest = 0;       // m/s
     double tolerance = 0.05;  // -, of the force, at the end of the stage
   };

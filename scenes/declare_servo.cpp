@@ -26,42 +26,44 @@ std::vector<Key<ServoSpec>> aims() {
 }
 
 std::vector<Key<ServoSpec>> manners() {
-  return {{{.name = "rise",
-            .kind = Kind::number,
-            .range = above(0, 1),
-            .doc = "Share of the stage in which the force asked for goes smoothly from what the "
-                   "tool bears at its beginning to `force`.",
-            .fallback_doc = "0.2, or by `rate`"},
-           to(&ServoSpec::rise)},
-          {{.name = "rate",
-            .kind = Kind::quantity,
-            .unit = "N/s",
-            .range = above(0, 1e18),
-            .doc = "Instead of `rise`: how fast the force asked for changes, in the mean of its "
-                   "smooth ramp.",
-            .fallback_doc = "by `rise`"},
-           to(&ServoSpec::rate)},
-          {{.name = "response",
-            .kind = Kind::number,
-            .range = within(1e-3, 100),
-            .fallback = value_of(0.1),
-            .doc = "Mass through which the force acts on the tool, over that of the whole powder: "
-                   "less holds the force more tightly, more is calmer."},
-           to(&ServoSpec::response)},
-          {{.name = "fastest",
-            .kind = Kind::quantity,
-            .unit = "m/s",
-            .range = within(1e-9, 1e4),
-            .fallback = value_of("10 m/s"),
-            .doc = "Speed that the servo does not pass, whatever force is missing."},
-           to(&ServoSpec::fastest)},
-          {{.name = "tolerance",
-            .kind = Kind::number,
-            .range = above(0, 1e9),
-            .fallback = value_of(0.05),
-            .doc = "Share of the force by which it may be off at the end of the stage; otherwise "
-                   "the run stops and says what was reached."},
-           to(&ServoSpec::tolerance)}};
+  return {
+      {{.name = "rise",
+        .kind = Kind::number,
+        .range = above(0, 1),
+        .doc = "Share of the stage in which the force asked for goes smoothly from what the "
+               "tool bears at its beginning to `force`.",
+        .fallback_doc = "0.2, or by `rate`"},
+       to(&ServoSpec::rise)},
+      {{.name = "rate",
+        .kind = Kind::quantity,
+        .unit = "N/s",
+        .range = above(0, 1e18),
+        .doc = "Instead of `rise`: how fast the force asked for changes, in the mean of its "
+               "smooth ramp.",
+        .fallback_doc = "by `rise`"},
+       to(&ServoSpec::rate)},
+      {{.name = "response",
+        .kind = Kind::number,
+        .range = within(1e-3, 100),
+        .fallback = value_of(0.1),
+        .doc = "Mass that the set force has to move besides the powder, over that of the whole "
+               "powder: less holds the force more tightly, more is calmer. What touches the tool "
+               "may ask for more."},
+       to(&ServoSpec::response)},
+      {{.name = "fastest",
+        .kind = Kind::quantity,
+        .unit = "m/s",
+        .range = within(1e-9, 1e4),
+        .fallback = value_of("10 m/s"),
+        .doc = "Speed that the servo does not pass, whatever force is missing."},
+       to(&ServoSpec::fastest)},
+      {{.name = "tolerance",
+        .kind = Kind::number,
+        .range = above(0, 1e9),
+        .fallback = value_of(0.05),
+        .doc = "Share of the force by which it may be off at the end of the stage; otherwise "
+               "the run stops and says what was reached."},
+       to(&ServoSpec::tolerance)}};
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "scenes/outline.hpp"
 #include "scenes/results.hpp"
 #include "scenes/servo_checks.hpp"
+#include "systems/servo_kernel.hpp"
 
 namespace pulvis {
 namespace {
@@ -80,16 +81,18 @@ ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) 
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (const ServoSpec& spec : scene.stages[s].servos) {
       const Vec2 direction = direction_of(spec, scene);
-      // A solid block of the powder's mass, stiffness and width would be damped critically.
+      // `response`: the tool's mass and the one it drags, over the powder's. A solid block of the powder's
+      // mass, stiffness and width would be damped critically by the latter and the dashpot in series.
       const double wave = powder.impedance * width_of(scene, bodies, direction) * scene.thickness;
+      const double tool = spec.response / (1 + kernels::dragged_mass);
       servos.servos.push_back({.tool = spec.tool,
                                .stage = static_cast<int>(s),
                                .direction = {direction.x(), direction.y()},
                                .force = spec.force,
                                .rise = spec.rise * scene.stages[s].duration,
                                .rate = spec.rate.value_or(0),
-                               .mass = spec.response * powder.mass,
-                               .damping = 0.5 * std::sqrt(spec.response) * wave,
+                               .mass = tool * powder.mass,
+                               .damping = 0.5 * std::sqrt(kernels::dragged_mass * tool) * wave,
                                .fastest = spec.fastest,
                                .tolerance = spec.tolerance});
     }
@@ -141,7 +144,8 @@ void add_drives(World& world, const Scene& scene, const std::vector<BodySpec>& b
   if (has_servos(scene)) {
     world.add<ServoTravel>();
     world.add<ServoVelocity>();
-    world.add<ServoMomentum>();
+    world.add<ServoMass>();
+    world.add<ServoDragged>();
     world.add<ServoForce>();
     world.emplace<ToolServos>(tool_servos(scene, bodies));
   }

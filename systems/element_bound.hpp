@@ -1,6 +1,9 @@
 // What both estimates of the stable time step take into account of an element besides its moduli.
 #pragma once
 
+#include <limits>
+
+#include "components/run_state.hpp"
 #include "systems/element_access.hpp"
 #include "systems/time_step_kernel.hpp"
 
@@ -36,6 +39,24 @@ inline Lane stable_step(Chunk chunk, Lane density, Lane highest,
   const Row<Particle> particle;
   return kernels::damped_step<Lane>(highest / density, alpha->chunk(chunk)(particle),
                                     beta->chunk(chunk)(particle));
+}
+
+// Least L/A of an element's edges on the outline; infinite where it has none.
+inline double softest_edge(const Shape& shape, const Quad& quad) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < 4; ++c) {
+    const int from = quad[c].value, to = quad[(c + 1) % 4].value;
+    if (from < shape.boundary_nodes && to == (from + 1) % shape.boundary_nodes)
+      least = std::min(least, shape.edges[static_cast<std::size_t>(from)].stiffness);
+  }
+  return least;
+}
+
+// Contact dashpots over contact springs of k K L/A, times sqrt(kK/rho) L/A: 2 xi with a tool. Two equal bodies
+// that move against each other feel twice a dashpot of half the spring: sqrt(2) of that.
+inline double dashpot_ratio(const ContactRules& rules) {
+  constexpr double of_pairs = 1.4142135623730951;
+  return of_pairs * 2 * rules.damping;
 }
 
 }  // namespace pulvis

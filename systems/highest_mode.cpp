@@ -10,6 +10,7 @@
 // Active   where the scene says time.estimate = "highest-mode"
 #include "systems/highest_mode.hpp"
 
+#include "components/servo.hpp"
 #include "systems/element_bound.hpp"
 #include "systems/highest_mode_kernel.hpp"
 
@@ -86,6 +87,21 @@ Lane iterate(const Body<Points>& body, const ChunkView<HighestMode, Lane*>& mode
   return quotient;
 }
 
+// Blocks with less damping than that are stable with stiffness 0.35 to 100 in what the springs' own bound leaves.
+constexpr double little_damping = 0.3;
+
+// k K of the springs on the outline. A dashpot c that answers half a step late costs what a spring of 2 c/dt
+// does; no step is shorter than the elements' bound, which stands for dt.
+Lane contact_modulus(const ContactRules& rules, double stiffening, const Shape& shape, bool servos,
+                     const Lane& bulk, const Lane& rho, const Lane& step) {
+  if (rules.damping == 0 || (!servos && rules.damping <= little_damping))
+    return rules.stiffness * (stiffening + 2 * rules.damping) * bulk;
+  double softest = std::numeric_limits<double>::infinity();
+  for (const Shape::Edge& edge : shape.edges) softest = std::min(softest, edge.stiffness);
+  return rules.stiffness * stiffening * bulk +
+         (2 * dashpot_ratio(rules) / softest) * sqrt(rules.stiffness * bulk * rho) / step;
+}
+
 }  // namespace
 
 template <int Points>
@@ -95,7 +111,8 @@ template <int Points>
                                    Optional<Read<ContactRules>> rules,
                                    Optional<Read<ContactSupport>> support,
                                    Optional<Read<MassDamping>> alpha,
-                                   Optional<Read<StiffnessDamping>> beta, Write<HighestMode> mode,
+                                   Optional<Read<StiffnessDamping>> beta,
+                                   Optional<Read<ToolServos>> servos, Write<HighestMode> mode,
                                    Write<ModeGain> gain, Write<StableTimeStep> stable) {
   if (clock->step < clock->next_look) return;
   const auto known = gain.chunk(chunk);
@@ -106,11 +123,13 @@ template <int Points>
     step *= known(particle, 0);
     return;
   }
-  const Lane k = bulk.chunk(chunk)(particle);
-  const double contact =
-      rules ? (*rules)->stiffness * (clock->stiffening + 2 * (*rules)->damping) : 0;
-  Body<Points> body{bodies->shape_of_chunk(chunk), x.chunk(chunk), s.chunk(chunk), nullptr, k,
-                    mu.chunk(chunk)(particle),     contact * k};
+  const Lane k = bulk.chunk(chunk)(particle), rho = density.chunk(chunk)(particle);
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const Lane contact = rules ? contact_modulus(**rules, clock->stiffening, shape,
+                                               static_cast<bool>(servos), k, rho, step)
+                             : Lane{};
+  Body<Points> body{shape,  x.chunk(chunk), s.chunk(chunk), nullptr, k, mu.chunk(chunk)(particle),
+                    contact};
   using Support = ChunkView<ContactSupport, const Lane*>;
   const Support springs = support ? support->chunk(chunk) : Support(nullptr);
   if (support) body.support = &springs;
@@ -118,8 +137,7 @@ template <int Points>
   Lane highest{};
   for (int i = 0; i < (clock->step == 0 ? first_iterations : 1); ++i)
     highest = iterate(body, mode.chunk(chunk));
-  const Lane estimate =
-      margin * stable_step(chunk, density.chunk(chunk)(particle), highest, alpha, beta);
+  const Lane estimate = margin * stable_step(chunk, rho, highest, alpha, beta);
   known(particle, 0) = max(1.0, min(estimate / step, longest_gain));
   known(particle, 1) = 1.0;
   step *= known(particle, 0);

@@ -4,6 +4,7 @@
 #include "components/body.hpp"
 #include "components/highest_mode.hpp"
 #include "components/run_state.hpp"
+#include "components/servo.hpp"
 #include "engine/access.hpp"
 
 namespace pulvis {
@@ -12,7 +13,8 @@ template <int Points>
 void highest_mode(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
                   Read<BulkModulus>, Read<Density>, Read<DeviatoricStress<Points>>,
                   Optional<Read<ContactRules>>, Optional<Read<ContactSupport>>,
-                  Optional<Read<MassDamping>>, Optional<Read<StiffnessDamping>>, Write<HighestMode>,
-                  Write<ModeGain>, Write<StableTimeStep>);
+                  Optional<Read<MassDamping>>, Optional<Read<StiffnessDamping>>,
+                  Optional<Read<ToolServos>>, Write<HighestMode>, Write<ModeGain>,
+                  Write<StableTimeStep>);
 
 }  // namespace pulvis

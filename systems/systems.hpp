@@ -17,8 +17,10 @@ void tool_motion(Read<Clock>, Read<ToolProgram>, Optional<Read<ServoVelocity>>,
                  Optional<Write<ServoTravel>>, Write<ToolPosition>, Write<ToolVelocity>);
 void stage_control(Read<ToolPosition>, Read<ToolForce>, Write<StageEnds>, Write<ToolProgram>,
                    Write<Clock>);
-void tool_servo(Read<Clock>, Read<ToolProgram>, Read<ToolForce>, Write<ToolServos>,
-                Write<ServoMomentum>, Write<ServoVelocity>, Write<ServoForce>);
+void tool_servo(Read<Clock>, Read<ToolProgram>, Read<ToolForce>, Read<ContactPair<ToolContact>>,
+                Read<ContactTouches<ToolContact>>, Read<ContactLaw<ToolContact>>,
+                Read<PointForce<ToolContact>>, Write<ToolServos>, Write<ServoMass>,
+                Write<ServoVelocity>, Write<ServoDragged>, Write<ServoForce>);
 void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<ToolPosition>>,
                 Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>, Write<CurveBefore>,
                 Write<ContactIndex>);
@@ -145,7 +147,8 @@ template <int Points>
 void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
                       Read<BulkModulus>, Read<Density>, Read<DeviatoricStress<Points>>,
                       Optional<Read<ContactRules>>, Optional<Read<MassDamping>>,
-                      Optional<Read<StiffnessDamping>>, Write<StableTimeStep>);
+                      Optional<Read<StiffnessDamping>>, Optional<Read<ToolServos>>,
+                      Write<StableTimeStep>);
 void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
                     Write<Totals>);
 void first_time_step(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>,
