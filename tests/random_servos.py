@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""Random scenes with a force servo: each must end with its force held, its energy in balance and no swing.
+
+    random_servos.py PROGRAM [--scenes N] [--seed S] [--first I] [--keep DIR] [--set KEY=VALUE ...]
+
+Contact stiffness and damping are drawn from all that a scene may say, compacts from one particle to many (discs,
+rounded squares, blocks; metals, hard and soft elastic ones), forces from gentle to far beyond first yield. The
+punch settles, loads, holds and, in some scenes, holds on while the plane below is drawn along or a wall is
+held at a force of its own. Nothing of the servo is tuned. All that is asked of a scene is in `faults`.
+"""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+# density kg/m^3, Young's modulus Pa, Poisson's ratio, yield stress Pa or none, hardening Pa
+MATERIALS = {"316L": (7990, 200e9, 0.30, 240e6, 440e6), "Cu": (8940, 115e9, 0.35, 50e6, 440e6),
+             "glass": (2500, 70e9, 0.22, None, 0), "polymer": (1100, 2e9, 0.40, None, 0)}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("--scenes", type=int, default=50)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--first", type=int, default=0, help="number of the first scene")
+    parser.add_argument("--keep", type=pathlib.Path, help="folder for scenes and runs")
+    parser.add_argument("--set", action="append", default=[], help="handed on to the program")
+    return parser.parse_args()
+
+
+def log_uniform(draw, low, high):
+    return low * (high / low) ** draw.random()
+
+
+class Scene:
+    """Everything that was drawn, and the text that says it."""
+
+    def __init__(self, seed, number):
+        draw = random.Random(f"{seed}/{number}")
+        self.name = f"servo-{seed}-{number}"
+        self.material = draw.choice(list(MATERIALS))
+        self.outline = draw.choice(["disc", "disc", "rounded", "block", "flat block"])
+        side = log_uniform(draw, 1e-5, 1e-1)
+        self.size = {"disc": (side, side), "rounded": (side, side), "block": (side, side),
+                     "flat block": (4 * side, side)}[self.outline]
+        most = 3 if self.outline == "disc" else 2
+        self.columns, self.rows = draw.choice([(1, 1), (draw.randint(1, most), draw.randint(1, most))])
+        self.edges = draw.choice([16, 24, 40])  # around a particle
+        self.stiffness = draw.choice([0.5, log_uniform(draw, 0.35, 100)])
+        self.damping = draw.choice([0, 1, draw.random(), draw.random()])
+        self.friction = draw.choice([0, draw.uniform(0, 0.5)])
+        self.pressure = log_uniform(draw, *self.pressures())
+        self.after = draw.choice(["hold", "hold", "shear", "wall"])
+        if self.outline == "flat block" and self.columns > 1:
+            self.after = "hold"
+        if self.outline == "rounded":  # they fall through a gap, and undamped elastic ones ring for long
+            self.damping = max(self.damping, 0.2)
+        if self.after == "shear":
+            self.friction = min(self.friction, 0.2)  # elastic blocks that are dragged along squeal with more
+        self.settles = draw.random() < 0.3
+        if self.after == "wall" and self.outline == "disc":
+            self.friction = max(self.friction, 0.05)  # or they roll from one point of their mesh to the next
+        # The contact curve of a coarse rounded corner stands out a little.
+        self.apart = 1.005 if self.outline == "rounded" else 1
+        self.width = self.columns * self.apart * self.size[0]
+        self.height = self.rows * self.apart * self.size[1]
+
+    def pressures(self):
+        _, youngs, _, strength, _ = MATERIALS[self.material]
+        if self.outline in ("disc", "rounded"):  # which have a way to go until they bear something
+            least = 0.1 if self.outline == "disc" else 0.3
+            return (least * strength, 1.5 * strength) if strength else (1e-3 * youngs, 1e-2 * youngs)
+        return (0.01 * strength, 1.5 * strength) if strength else (1e-5 * youngs, 5e-3 * youngs)
+
+    def wave_time(self):
+        density, youngs, nu = MATERIALS[self.material][:3]
+        speed = math.sqrt(youngs * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) / density)
+        return max(self.width, self.height) / speed
+
+    def force(self, share=1.0, across=None):
+        return share * self.pressure * (across or self.width) * self.size[0]  # as thick as wide
+
+    def describe(self):
+        return (f"{self.columns} x {self.rows} {self.outline} of {self.size[0]:.3g} m {self.material}, "
+                f"{self.edges} edges, stiffness {self.stiffness:.3g}, damping {self.damping:.3g}, friction "
+                f"{self.friction:.2g}, {self.pressure / 1e6:.3g} MPa, {self.after}")
+
+    # ---- its text -------------------------------------------------------------------------------------
+    def particle(self):
+        wide, high = self.size
+        across = max(1, self.edges // 4)
+        if self.outline == "disc":
+            return f'outline = "disc"\ndiameter = "{wide:.17g} m"\n[particle.mesh]\n' \
+                   f'boundary_edges = {self.edges}\nrings = 1\n'
+        if self.outline == "rounded":
+            return f'outline = "rounded_rectangle"\nwidth = "{wide:.17g} m"\nheight = "{high:.17g} m"\n' \
+                   f'radius = "{0.25 * wide:.17g} m"\n[particle.mesh]\nboundary_edges = {max(40, self.edges)}\n'
+        columns = across * (4 if self.outline == "flat block" else 1)
+        return f'outline = "rectangle"\nwidth = "{wide:.17g} m"\nheight = "{high:.17g} m"\n' \
+               f'[particle.mesh]\ncolumns = {columns}\nrows = {across}\n'
+
+    def tool(self, name, x, y, nx, ny):
+        return f'[[tool]]\nname = "{name}"\nshape = "plane"\npoint = ["{x:.17g} m", "{y:.17g} m"]\n' \
+               f'normal = [{nx}, {ny}]\n'
+
+    def servo(self, tool, force, more=""):
+        return f'[[stage.servo]]\ntool = "{tool}"\nforce = "{force:.17g} N"\n{more}'
+
+    def stage(self, name, kind, duration):
+        return f'[[stage]]\nname = "{name}"\nkind = "{kind}"\nduration = "{duration:.17g} s"\n'
+
+    def stages(self):
+        wave, rise = self.wave_time(), "rise = 0.8\n"
+        self.load, self.hold = (600 if self.outline == "rounded" else 300) * wave, 100 * wave
+        text = self.stage("settle", "settle", 5 * wave) if self.settles else ""
+        wall = self.after == "wall"
+        side = 0.4 * self.pressure * self.height * self.size[0]
+        text += self.stage("load", "compact", self.load) + self.servo("top", self.force(), rise)
+        text += self.servo("right", side, rise) if wall else ""
+        text += self.stage("hold", "hold", self.hold) + self.servo("top", self.force())
+        text += self.servo("right", side) if wall else ""
+        if self.after == "shear":
+            text += self.stage("shear", "shear", self.load) + self.servo("top", self.force())
+            text += f'[[stage.move]]\ntool = "bottom"\ndisplacement = ["{0.02 * self.size[0]:.17g} m", "0 m"]\n'
+        return text
+
+    def text(self):
+        density, youngs, nu, strength, hardening = MATERIALS[self.material]
+        flow = f'yield_stress = "{strength} Pa"\nhardening_modulus = "{hardening} Pa"\n' if strength else ""
+        bodies = "".join(
+            f'[[body]]\nparticle = "p"\nposition = ["{(i + 0.5) * self.apart * self.size[0]:.17g} m", '
+            f'"{(k + 0.5) * self.apart * self.size[1]:.17g} m"]\n'
+            for k in range(self.rows) for i in range(self.columns))
+        return "".join([
+            f'family = "compaction"\ntitle = "{self.name}"\nthickness = "{self.size[0]:.17g} m"\n'
+            f'[[material]]\nname = "m"\ndensity = "{density} kg/m^3"\nyoungs_modulus = "{youngs} Pa"\n'
+            f'poissons_ratio = {nu}\n{flow}[[particle]]\nname = "p"\nmaterial = "m"\n', self.particle(),
+            bodies, self.tool("left", 0, 0, 1, 0), self.tool("right", self.width, 0, -1, 0),
+            self.tool("bottom", 0, 0, 0, 1), self.tool("top", 0, self.height, 0, -1), self.stages(),
+            f"[contact]\nfriction = {self.friction}\nstiffness = {self.stiffness}\n"
+            f"damping = {self.damping}\n[output]\nsamples = 1200\nframes = 2\n"])
+
+
+# ---- what is asked of a run ---------------------------------------------------------------------------
+def series(folder):
+    with open(folder / "history.csv", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    names = [cell.split(" [")[0] for cell in rows[0]]
+    return dict(zip(names, np.array(rows[1:], dtype=float).T))
+
+
+def force_errors(history, tool, axis):
+    return np.abs(history[f"tool/{tool}/force_{axis}"]) - history[f"tool/{tool}/force_asked"]
+
+
+def faults(scene, code, message, folder):
+    if code != 0:
+        return [f"exit code {code}: {message.strip()}"], {}
+    summary, history = json.loads((folder / "summary.json").read_text()), series(folder)
+    begin = history["time"][-1] - scene.hold if scene.after != "shear" else \
+        history["time"][-1] - scene.hold - scene.load
+    held = (history["time"] > begin + 0.25 * scene.hold) & (history["time"] <= begin + scene.hold)
+    figures = {"balance": summary["energy_balance_error"], "steps": summary["steps"]}
+    found = []
+    if figures["balance"] > 0.02:
+        found.append(f"energy balance {figures['balance']:.3g}")
+    tools = [("top", "y", scene.force())]
+    if scene.after == "wall":
+        tools.append(("right", "x", 0.4 * scene.pressure * scene.height * scene.size[0]))
+    for tool, axis, force in tools:
+        error = force_errors(history, tool, axis) / force
+        rising = history[f"tool/{tool}/force_asked"] > 0.5 * force
+        figures[f"{tool} most"] = np.max(error[rising])
+        figures[f"{tool} held"] = np.max(np.abs(error[held]))
+        early, late = np.array_split(error[held], 2)
+        figures[f"{tool} swing"] = (np.std(early), np.std(late))
+        if figures[f"{tool} most"] > 0.1:
+            found.append(f"{tool} passes its force by {figures[f'{tool} most']:.3g}")
+        if figures[f"{tool} held"] > 0.02:
+            found.append(f"{tool} is off by {figures[f'{tool} held']:.3g} while it holds")
+        if np.std(late) > 1.2 * np.std(early) + 1e-3:
+            found.append(f"{tool} swings up: {np.std(early):.3g}, then {np.std(late):.3g}")
+    return found, figures
+
+
+def run(options, scene, place):
+    file, folder = place / f"{scene.name}.toml", place / scene.name
+    file.write_text(scene.text())
+    words = [options.program, "run", file, "-o", folder, "--overwrite", "--threads", "1"]
+    for change in options.set:
+        words += ["--set", change]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    return faults(scene, done.returncode, done.stderr, folder)
+
+
+def told(figures):
+    return ", ".join(f"{name} " + ("/".join(f"{v:.2g}" for v in value) if isinstance(value, tuple) else
+                                    f"{value:.3g}") for name, value in figures.items())
+
+
+def main():
+    options = arguments()
+    options.program = options.program.resolve()
+    bad = 0
+    with tempfile.TemporaryDirectory() as scratch:
+        place = options.keep or pathlib.Path(scratch)
+        place.mkdir(parents=True, exist_ok=True)
+        for number in range(options.first, options.first + options.scenes):
+            scene = Scene(options.seed, number)
+            found, figures = run(options, scene, place)
+            bad += bool(found)
+            print(f"{'NOT' if found else 'ok '} {number}: {scene.describe()}\n      {told(figures)}"
+                  + "".join(f"\n      {fault}" for fault in found), flush=True)
+    print(f"{options.scenes - bad} of {options.scenes} scenes held their force")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
