@@ -156,7 +156,9 @@ const TableDeclaration<ContactSpec>& contact() {
          .kind = Kind::number,
          .range = within(0.35, 100),
          .fallback = value_of(0.5),
-         .doc = "Contact stiffness over bulk modulus times edge length over element area."},
+         .doc = "Contact stiffness over bulk modulus times edge length over element area. Elastic "
+                "contacts and relative densities above 0.97 want 10: a run tells what force it "
+                "misses."},
         to(&ContactSpec::stiffness)},
        {{.name = "damping",
          .kind = Kind::number,
@@ -180,7 +182,9 @@ const TableDeclaration<ElementSpec>& element() {
       {"element", false, "", "The finite elements of all particles: quads."},
       {{{.name = "formulation",
          .kind = Kind::choice,
-         .choices = {{"four-point", "2x2 Gauss points, one dilatation (mean dilatation)"},
+         .choices = {{"four-point",
+                      "2x2 Gauss points, one dilatation (mean dilatation): few rows of them bend "
+                      "wrongly, one by -60% to several times (docs/accuracy.md)"},
                      {"one-point",
                       "one point, hourglass modes held by elastic-plastic bending: faster"},
                      {"standard",

@@ -132,7 +132,9 @@ template <class F>
   const auto x = position.chunk(chunk);
   const auto v = velocity.chunk(chunk);
   const auto force = damping.chunk(chunk);
-  const Lane before = power(shape, force, v);
+  // The first force acts for half a step (systems/integrate.cpp).
+  const double start = clock->step == 1 ? 0.5 : 1.0;
+  const Lane before = start * power(shape, force, v);
 
   const Lane drag =
       alpha.chunk(chunk)(particle) * density.chunk(chunk)(particle) * bodies->thickness;
