@@ -28,6 +28,7 @@
 #include "engine/output_error.hpp"
 #include "engine/own_files.hpp"
 #include "engine/run_folder.hpp"
+#include "scenes/bending_error.hpp"
 #include "scenes/build.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/grips.hpp"
@@ -87,6 +88,7 @@ ExitCode check(const Options& options) {
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
   tell("{}", packing_summary(scene));
   print_meshes(scene);
+  for (const std::string& line : bending_warnings(scene)) fmt::print("warning: {}\n", line);
   const MemoryNeed need = memory_need(scene);
   tell("memory: about {}: {} of particles, {} of contacts, {} of results, {} of program\n",
        bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
