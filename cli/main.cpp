@@ -88,7 +88,7 @@ ExitCode check(const Options& options) {
   if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
   tell("{}", packing_summary(scene));
   print_meshes(scene);
-  for (const std::string& line : bending_warnings(scene)) fmt::print("warning: {}\n", line);
+  for (const std::string& line : bending_warnings(scene)) tell("warning: {}\n", line);
   const MemoryNeed need = memory_need(scene);
   tell("memory: about {}: {} of particles, {} of contacts, {} of results, {} of program\n",
        bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),

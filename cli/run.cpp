@@ -16,7 +16,9 @@
 #include "engine/own_files.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
+#include "scenes/bending_error.hpp"
 #include "scenes/compaction_curve.hpp"
+#include "scenes/contact_findings.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/read.hpp"
@@ -70,6 +72,7 @@ struct Run {
   Results results;
   Expectations expectations;
   CompactionCurve compaction;
+  ContactLoading contacts;
   std::vector<Verdict> verdicts;
   Timetable samples, frames;
   bool ended = false;  // and its last sample is taken
@@ -87,6 +90,7 @@ struct Run {
         results(scene.scene, simulation->world()),
         expectations(scene.scene),
         compaction(scene.scene),
+        contacts(scene.scene),
         samples(clock().end, std::max(scene.scene.output.samples, scene.scene.output.frames)),
         frames(clock().end, scene.scene.output.frames),
         checkpoints(scene, where, given.checkpoints) {}
@@ -106,7 +110,7 @@ struct Run {
   // What the world does not hold of the run's state.
   template <class Bytes>
   void state(Bytes& bytes, RecorderPosition& position, double& seconds) {
-    bytes(position, seconds, results, expectations, compaction, samples, frames, ended);
+    bytes(position, seconds, results, expectations, compaction, contacts, samples, frames, ended);
   }
 
   void go_on_from(const Checkpoint& checkpoint) {
@@ -138,6 +142,7 @@ struct Run {
     recorder->sample(clock().time, results.sample());
     expectations.sample(clock().time, results);
     compaction.sample(results);
+    contacts.sample(results, simulation->world());
     samples.pass(clock().time);
     check_limits(loaded.scene, results, simulation->world());
     if (!frames.due(clock().time) && !simulation->finished()) return;
@@ -174,11 +179,18 @@ struct Run {
     verdicts = expectations.judge(results, failure, threads, [] { return interrupted(); });
   }
 
+  // What its user should know of its figures.
+  RunQuality quality() const {
+    RunQuality found{contacts.findings(), bending_warnings(loaded.scene)};
+    for (std::string& line : found.contacts.warnings()) found.warnings.push_back(std::move(line));
+    return found;
+  }
+
   void finish(const std::string& outcome) {
     progress->finish();
     recorder->finish(outcome);
     remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
-    write_summary(folder, loaded.scene, simulation->world(), results, compaction,
+    write_summary(folder, loaded.scene, simulation->world(), results, compaction, quality(),
                   {progress->seconds(), clock().step, threads, fmt::format("{:016x}", loaded.hash),
                    outcome, simulation->costs()},
                   verdicts);
@@ -203,6 +215,7 @@ void print_end(const Run& run) {
     tell("friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
          shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,
          shear->dilation * 1e3);
+  for (const std::string& line : run.quality().warnings) tell("warning: {}\n", line);
   if (!run.verdicts.empty()) tell("expectations\n");
   for (const Verdict& verdict : run.verdicts) tell("  {}\n", verdict.text());
   tell("results in {}\n", run.folder.string());

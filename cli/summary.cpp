@@ -79,6 +79,18 @@ void add_figures(Json& json, const Results& results) {
     if (results.has(name)) json[name] = results.value(name);
 }
 
+void add_quality(Json& json, const RunQuality& quality) {
+  const ContactFindings& found = quality.contacts;
+  Json contacts{{"narrow_share", found.narrow_share}};
+  if (found.narrow_share > 0) {
+    contacts["narrow_edges"] = found.narrow_edges;
+    contacts["edge_to_do"] = found.edge_to_do;
+  }
+  if (found.force_error) contacts["force_error"] = *found.force_error;
+  json["contact_quality"] = contacts;
+  for (const std::string& line : quality.warnings) json["warnings"].push_back(line);
+}
+
 Json expectations_json(const std::vector<Verdict>& verdicts) {
   Json list = Json::array();
   for (const Verdict& verdict : verdicts) {
@@ -118,8 +130,8 @@ void print_summary(const std::filesystem::path& folder) {
 }
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
-                   const Results& results, const CompactionCurve& curve, const RunCost& cost,
-                   const std::vector<Verdict>& verdicts) {
+                   const Results& results, const CompactionCurve& curve, const RunQuality& quality,
+                   const RunCost& cost, const std::vector<Verdict>& verdicts) {
   const double updates = static_cast<double>(cost.steps) * static_cast<double>(results.elements());
   Json json{{"title", scene.title},
             {"outcome", cost.outcome},
@@ -139,6 +151,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"peak_memory_bytes", peak_memory()},
             {"thickness", scene.thickness}};
   add_figures(json, results);
+  add_quality(json, quality);
   json["limits"] = limits_json(scene.limits);
   json["tools"] = tools_json(scene, world);
   json["materials"] = materials_json(scene);

@@ -7,6 +7,7 @@
 
 #include "engine/task_graph.hpp"
 #include "scenes/compaction_curve.hpp"
+#include "scenes/contact_findings.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/results.hpp"
 #include "scenes/scene.hpp"
@@ -21,9 +22,15 @@ struct RunCost {
   std::vector<SystemCost> systems;
 };
 
+// What its user should know of a run's figures.
+struct RunQuality {
+  ContactFindings contacts;
+  std::vector<std::string> warnings;  // one line each
+};
+
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
-                   const Results& results, const CompactionCurve& curve, const RunCost& cost,
-                   const std::vector<Verdict>& verdicts);
+                   const Results& results, const CompactionCurve& curve, const RunQuality& quality,
+                   const RunCost& cost, const std::vector<Verdict>& verdicts);
 
 // The file as it was written, on the standard output.
 void print_summary(const std::filesystem::path& folder);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "components/contact.hpp"
+#include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
@@ -402,6 +403,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.tools || needs.grips) add_tools(*world, scene, bodies, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
+    world->emplace<ContactQuality>();
     ContactRules& rules = world->emplace<ContactRules>(contact_rules(scene));
     find_thinnest(scene, layout.bodies, rules);
     ContactIndex& index = world->emplace<ContactIndex>();

@@ -6,6 +6,7 @@
 
 #include "components/body.hpp"
 #include "components/contact.hpp"
+#include "components/observed.hpp"
 #include "components/servo.hpp"
 #include "engine/access.hpp"
 #include "scenes/die_relief.hpp"
@@ -172,6 +173,9 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
              "all energies less the work of the tools and the energy at the start");
   add_series("contacts", "-", "boundary edges that touch another particle or a tool");
   add_series("penetration", "-", "deepest so far, of the boundary edge length");
+  add_series("contact_overlap", "-", "area in which outlines overlap / area of the particles");
+  add_series("narrow_contacts", "-",
+             "share of the contact force on contacts narrower than two boundary edges");
   add_series("least_jacobian", "-", "smallest det F so far");
   add_series("dt", "s", "time step");
   for (const SeriesInfo& observed : observed_series(scene)) series.push_back(observed);
@@ -324,6 +328,13 @@ void Results::append_energies(std::vector<double>& row) const {
   row.insert(row.end(), {e.external, e.balance});
 }
 
+void Results::append_contacts(std::vector<double>& row) const {
+  ContactQuality now;
+  if (world_.has<ContactQuality>()) now = world_.resource<ContactQuality>();
+  row.push_back(now.overlap / particle_area_);
+  row.push_back(now.force > 0 ? now.narrow_force / now.force : 0);
+}
+
 std::vector<double> Results::sample() {
   take_energies();
   std::vector<double> row;
@@ -333,6 +344,7 @@ std::vector<double> Results::sample() {
   const Totals& totals = world_.resource<Totals>();
   row.push_back(static_cast<double>(totals.touching));
   row.push_back(totals.worst_penetration);
+  append_contacts(row);
   row.push_back(least_jacobian());
   row.push_back(world_.resource<Clock>().dt);
   append_observed_sample(world_, cell_ ? die_area(world_, *cell_) : 0, row);

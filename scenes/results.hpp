@@ -85,6 +85,7 @@ class Results {
   void append_tools(std::vector<double>& row) const;
   void append_density(std::vector<double>& row) const;
   void append_energies(std::vector<double>& row) const;
+  void append_contacts(std::vector<double>& row) const;
 
   const World& world_;
   std::optional<DieCell> cell_;

@@ -79,6 +79,7 @@ StepList step_list_of(World& w) {
   observe(F::stabilised, "hourglass_energy", hourglass_energy);
   observe(w.has<ParticleStress>(), "particle_stress", particle_stress<F>);
   observe(w.has<ContactNetwork>(), "contact_network", contact_network);
+  observe(w.has<ContactQuality>(), "contact_quality", contact_quality);
   observe(w.has<ForceChains>(), "force_chains", force_chains);
   observe(w.has<DensityGrid>(), "local_density", local_density);
 

@@ -115,7 +115,7 @@ function fillSummary(run) {
   const known = knownRows(run);
   const told = new Set(["title", "tools", "limits", "quality", "energy_balance_error", "family", "shear",
                         "kinetic_ratio", "penetration", "fits", "transmission", "expectations", "calibration",
-                        "loops", "cost", ...known.flatMap(row => row[2])]);
+                        "loops", "cost", "contact_quality", "warnings", ...known.flatMap(row => row[2])]);
   const rows = known.filter(row => row[1]);
   for (const [key, value] of Object.entries(run.summary)) {
     if (!told.has(key)) otherRows(value, key, rows);
@@ -137,7 +137,7 @@ function fillFigures(run) {
 
 // Figures made from the history, where the program gave none of its own.
 function qualityFigures(run) {
-  const {summary: s, history} = run, limits = s.limits || {};
+  const {summary: s, history} = run, limits = s.limits || {}, contacts = s.contact_quality || {};
   if (Array.isArray(s.quality)) return s.quality;
   const most = name => history.has(name) ? largest(history.get(name).values) : NaN;
   const given = (key, other) => typeof s[key] === "number" ? s[key] : other;
@@ -154,12 +154,17 @@ function qualityFigures(run) {
      meaning: "largest energy of bending inside the elements, plastic work included, of the largest internal energy"},
     {name: "Penetration", value: most("penetration"), limit: limits.penetration,
      meaning: "deepest overlap of two surfaces, of the length of a boundary edge"},
+    {name: "Force lost to penetration", value: -contacts.force_error, limit: 0.02,
+     meaning: "by how much the largest force is too low because surfaces sink into each other"},
+    {name: "Narrow contacts", value: contacts.narrow_share, limit: 0.1,
+     meaning: "share of the largest contact force on contacts narrower than two boundary edges"},
   ].filter(figure => Number.isFinite(figure.value));
 }
 
 function fillQuality(run) {
   const figures = qualityFigures(run), expected = run.summary.expectations || [];
-  document.getElementById("quality-section").hidden = !figures.length && !expected.length;
+  document.getElementById("quality-section").hidden =
+    !figures.length && !expected.length && !run.summary.warnings;
   const body = document.querySelector("#quality tbody");
   body.replaceChildren();
   const add = (name, note, cells, verdict, good) => {
@@ -174,6 +179,7 @@ function fillQuality(run) {
     add(name, meaning, [percent(value), limited ? percent(limit) : "none set"],
         limited ? within ? "within" : "beyond" : "", within);
   }
+  for (const text of run.summary.warnings || []) add("Warning", text, ["", ""], "", false);
   for (const one of expected) {
     add(one.what, "expected by the scene", [one.measured, one.expected], one.met ? "met" : "NOT met", one.met);
   }
