@@ -61,7 +61,8 @@ double contact_edges(const TipSpec& tip) {
 SolidSize ball_size(const TipSpec& tip) {
   const double across = tip.elements, layers = std::max(1.0, across / 2);
   double elements = across * across * (across + 6 * layers);
-  if (tip.contact_edge) elements += 6 * portable::pow(contact_edges(tip), 3);
+  constexpr double grading = 1000;  // about, from there out to the others
+  if (tip.contact_edge) elements += 6 * portable::pow(contact_edges(tip), 3) + grading;
   return as_cube(elements);
 }
 
