@@ -284,6 +284,7 @@ class AfmChecks {
       pressed = pressed || press;
     }
     map();
+    wave();
   }
 
   void map() {
@@ -291,6 +292,7 @@ class AfmChecks {
     if (target.shape != TargetSpec::Shape::map) return;
     try {
       const auto heights = read_height_map(scene_.file.parent_path() / target.file, target.dataset);
+      steepness(heights);
       inside_map(TargetSpec::Direction::lateral, heights.size());
       inside_map(TargetSpec::Direction::along, heights.front().size());
     } catch (const std::runtime_error& error) {
@@ -298,6 +300,27 @@ class AfmChecks {
                                          "commas, all as long, or an HDF5 file with the dataset",
                                          target.file, error.what()));
     }
+  }
+
+  void steepness(const std::vector<std::vector<double>>& heights) {
+    constexpr double steepest = 100;  // as of a bump's flanks
+    const TargetSpec& target = *scene_.afm->target;
+    const double step = steepest_step(heights);
+    if (!(step <= steepest * target.spacing))
+      refuse("surface.file",
+             fmt::format("'{}': two neighbouring heights differ by {:g} m, allowed: up to {:g} "
+                         "times the spacing, {:g} m",
+                         target.file, step, steepest, steepest * target.spacing));
+  }
+
+  // A wave is drawn as far as the probe may come.
+  void wave() {
+    constexpr std::size_t most = 1'000'000;
+    const TargetSpec& target = *scene_.afm->target;
+    const std::size_t corners = profile_corners(target, reach_of(*scene_.afm));
+    if (corners > most)
+      refuse("surface.wavelength", fmt::format("{:g} m: {} facets on the way, allowed: {} at most",
+                                               target.wavelength, corners, most));
   }
 
   // Where the probe's end comes to on the map, its own deflection left aside.

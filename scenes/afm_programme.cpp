@@ -20,27 +20,27 @@ namespace {
 constexpr int most_halvings = 8;
 constexpr int most_iterations = 400;  // of an increment with its halves
 
-double reach_of(const AfmScene& afm) {
-  double way = 0;
-  for (const ActionSpec& action : afm.actions) way += std::abs(action.distance);
-  return 2 * way + 0.1 * afm.lever.length;  // and what the lever may bend
-}
-
 Vec3 on_target(const AfmModel& model, int node) {
   const double* x = model.world->column<ReferencePosition>().values() + 3 * node;
   const double* u = model.world->column<Displacement>().values() + 3 * node;
   return place_from(model.world->resource<Target>(), Vec3(x), Vec3(u));
 }
 
-// Smallest gap over all points of the probe.
-double smallest_gap(const AfmModel& model) {
+struct Gap {
+  double gap = std::numeric_limits<double>::infinity();  // m
+  double rise = 1;                                       // -, of the normal there along z
+};
+
+// Smallest one over all points of the probe.
+Gap smallest_gap(const AfmModel& model) {
   const Target& target = model.world->resource<Target>();
   const auto& nodes = model.world->column<ProbeNode>();
-  double smallest = std::numeric_limits<double>::infinity();
+  Gap smallest;
   for (std::size_t i = 0; i < nodes.table.rows; ++i) {
     const Vec3 x = on_target(model, nodes.values()[i]);
     const auto near = target.shape->nearest({x.x(), x.y(), x.z() + target.end_radius});
-    smallest = std::min(smallest, near.distance - target.end_radius);
+    const double gap = near.distance - target.end_radius;
+    if (gap < smallest.gap) smallest = {gap, near.normal[2]};
   }
   return smallest;
 }
@@ -150,7 +150,13 @@ void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   const Vec3 end = read(model.end, world.column<ReferencePosition>().values());
   target.origin = {end.x(), end.y(), end.z()};
   target.travel = {};
-  for (int i = 0; i < 100; ++i) target.origin[2] += smallest_gap(model);
+  for (int i = 0; i < 100; ++i) target.origin[2] += smallest_gap(model).gap;
+  // Over a steep flank that is a small share of the height that is missing.
+  for (int i = 0; i < 100; ++i) {
+    const auto [gap, rise] = smallest_gap(model);
+    if (std::abs(gap) < 1e-15 || !(rise > 0)) break;
+    target.origin[2] += gap / rise;
+  }
   double* memory = world.column<ProbeMemory>().values();
   for (int i = 0; i < points; ++i) {
     const Vec3 x = on_target(model, node[i]);

@@ -84,8 +84,18 @@ std::shared_ptr<const TargetShape> extruded(const TargetSpec& t, double reach) {
   return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), unit);
 }
 
+// Heights may count from wherever they like, but lengths here are those of a lever: what lies between zero and all of
+// them is taken off.
+void take_offset_off(std::vector<std::vector<double>>& heights) {
+  const auto [low, high] = height_range(heights);
+  const double offset = std::clamp(0.0, low, high);
+  for (auto& row : heights)
+    for (double& height : row) height -= offset;
+}
+
 std::shared_ptr<const TargetShape> from_map(const TargetSpec& t, const Scene& scene) {
-  const auto heights = read_height_map(scene.file.parent_path() / t.file, t.dataset);
+  auto heights = read_height_map(scene.file.parent_path() / t.file, t.dataset);
+  take_offset_off(heights);
   const std::size_t rows = heights.size(), columns = heights.front().size();
   const double x0 = 0.5 * t.spacing * static_cast<double>(columns - 1);
   const double y0 = 0.5 * t.spacing * static_cast<double>(rows - 1);
@@ -162,6 +172,37 @@ std::vector<std::vector<double>> map_from_hdf5(const std::filesystem::path& path
 }
 
 }  // namespace
+
+std::pair<double, double> height_range(const std::vector<std::vector<double>>& heights) {
+  double low = heights.front().front(), high = low;
+  for (const auto& row : heights) {
+    const auto [least, most] = std::ranges::minmax(row);
+    low = std::min(low, least), high = std::max(high, most);
+  }
+  return {low, high};
+}
+
+double steepest_step(const std::vector<std::vector<double>>& heights) {
+  double step = 0;
+  for (std::size_t j = 0; j < heights.size(); ++j)
+    for (std::size_t i = 0; i < heights[j].size(); ++i) {
+      if (i > 0) step = std::max(step, std::abs(heights[j][i] - heights[j][i - 1]));
+      if (j > 0) step = std::max(step, std::abs(heights[j][i] - heights[j - 1][i]));
+    }
+  return step;
+}
+
+double reach_of(const AfmScene& afm) {
+  double way = 0;
+  for (const ActionSpec& action : afm.actions) way += std::abs(action.distance);
+  return 2 * way + 0.1 * afm.lever.length;  // and what the lever may bend
+}
+
+std::size_t profile_corners(const TargetSpec& t, double reach) {
+  if (t.shape != TargetSpec::Shape::sinusoid) return 6;
+  const double length = 2 * (reach + std::abs(t.position)) / t.wavelength + 2;
+  return static_cast<std::size_t>(std::min(1e18, length * facets));
+}
 
 std::vector<std::vector<double>> read_height_map(const std::filesystem::path& file,
                                                  const std::string& dataset) {

@@ -155,5 +155,38 @@ TEST_F(HeightMap, AnInclinedMapIsAPlane) {
   }
 }
 
+// A microscope counts heights from anywhere: what all of them have in common does not move the surface away.
+TEST_F(HeightMap, WhatAllHeightsHaveInCommonIsTakenOff) {
+  std::ofstream text(folder / "far.csv");
+  text << std::setprecision(17);
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 7; ++i)
+      text << 0.1 + heights[static_cast<std::size_t>(7 * j + i)] << (i < 6 ? "," : "\n");
+  text.close();
+  const auto map_of = [&](const char* file) {
+    TargetSpec t = spec_of(TargetSpec::Shape::map);
+    t.file = file;
+    t.spacing = 10e-9;
+    Scene scene;
+    scene.file = folder / "scene.toml";
+    return make_target(t, scene, 1e-6);
+  };
+  // The lowest of the heights, -8 nm, is zero now.
+  const auto near = map_of("map.csv"), far = map_of("far.csv");
+  for (const double x : {-12e-9, 0.0, 7e-9}) {
+    const auto here = near->nearest({x, 3e-9, 20e-9}), there = far->nearest({x, 3e-9, 28e-9});
+    EXPECT_NEAR(here.distance, there.distance, 1e-16);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(here.normal[k], there.normal[k], 1e-7);
+  }
+}
+
+TEST_F(HeightMap, TheLargestStepIsThatOfAllNeighbours) {
+  const auto map = read_height_map(folder / "map.csv", "");
+  EXPECT_NEAR(steepest_step(map), 3e-9, 1e-17);
+  EXPECT_EQ(steepest_step({{1, 1}, {-1e308, 1}}), 1e308);
+  EXPECT_TRUE(std::isinf(steepest_step({{1e308, -1e308}})));
+  EXPECT_EQ(height_range(map), std::pair(-8e-9, 18e-9));
+}
+
 }  // namespace
 }  // namespace pulvis

@@ -1,4 +1,7 @@
 // AFM scenes that are wrong are refused, with the place and with what is allowed.
+#include <filesystem>
+#include <fstream>
+
 #include "tests/afm/lever.hpp"
 
 namespace pulvis {
@@ -105,6 +108,47 @@ TEST(WrongAfm, AScanThatLeavesTheHeightMapIsRefusedWithTheBound) {
         << refused({key});
   }
   EXPECT_NE(refused({"surface.file=nothing.csv"}).find("cannot be read"), std::string::npos);
+}
+
+std::string refused_heights(const std::string& heights) {
+  const auto file = std::filesystem::temp_directory_path() / "pulvis_wrong_heights.csv";
+  std::ofstream(file) << heights;
+  try {
+    shipped_afm("raster.toml",
+                {"surface.file=" + file.string(), "action[3].distance=10 nm",
+                 "action[3].width=10 nm", "action[1].distance=-5 nm", "action[2].distance=-5 nm"});
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// Heights of any offset, but no cliffs: 100 times the spacing of 20 nm, as a bump's flanks.
+TEST(WrongAfm, HeightsThatAreNoSurfaceAreRefusedWithTheBound) {
+  EXPECT_EQ(refused_heights("0,1e-6,0\n0,0,0\n0,0,0\n"), "accepted");
+  EXPECT_EQ(refused_heights("0.1,0.1,0.1\n0.1,0.1,0.1\n0.1,0.1,0.1\n"), "accepted");
+  EXPECT_EQ(refused_heights("1e300,1e300,1e300\n1e300,1e300,1e300\n1e300,1e300,1e300\n"),
+            "accepted");
+  for (const char* height : {"1e300", "-1e308", "1", "2.1e-6"}) {
+    const std::string what = refused_heights(std::string("0,0,0\n0,") + height + ",0\n0,0,0\n");
+    EXPECT_NE(what.find("two neighbouring heights differ by"), std::string::npos) << what;
+    EXPECT_NE(what.find("allowed: up to 100 times the spacing, 2e-06 m"), std::string::npos)
+        << what;
+  }
+  EXPECT_NE(refused_heights("1e308,-1e308\n0,0\n").find("differ by inf m"), std::string::npos);
+  for (const char* height : {"nan", "inf", "1e999"}) {
+    const std::string what = refused_heights(std::string("0,0,0\n0,") + height + ",0\n0,0,0\n");
+    EXPECT_NE(what.find("line 2: no number"), std::string::npos) << what;
+  }
+}
+
+TEST(WrongAfm, AWaveOfMoreFacetsThanMemoryHoldsIsRefused) {
+  const std::string what =
+      refusal(std::string(beam_with_tip) +
+              "[surface]\nshape = \"sinusoid\"\nheight = \"1 pm\"\nwavelength = \"1 pm\"\n"
+              "[[action]]\nkind = \"press\"\ndistance = \"10 nm\"\n");
+  EXPECT_NE(what.find("surface.wavelength: 1e-12 m"), std::string::npos) << what;
+  EXPECT_NE(what.find("allowed: 1000000 at most"), std::string::npos) << what;
 }
 
 TEST(WrongAfm, AVWhoseArmsDoNotMeetIsRefused) {
