@@ -8,6 +8,7 @@
 
 #include "scenes/afm_programme.hpp"
 #include "scenes/afm_scene.hpp"
+#include "scenes/loop_plateau.hpp"
 
 namespace pulvis {
 
@@ -33,7 +34,7 @@ std::optional<double> friction(double half_width, double offset, double slope) {
 namespace {
 
 struct Means {
-  double force = 0, load = 0, volts = 0, slides = 0;
+  double force = 0, load = 0, volts = 0;
 };
 
 Means means(const AfmHistory& history, const std::string& force, const std::string& volts,
@@ -45,11 +46,20 @@ Means means(const AfmHistory& history, const std::string& force, const std::stri
     sum.force -= history.value(i, force);  // what draws the probe is the opposite of what holds it
     sum.load += history.value(i, "probe/force_z");
     sum.volts -= history.value(i, volts);
-    sum.slides += history.value(i, "contact/slides");
     ++samples;
   }
   const double n = std::max(samples, 1);
-  return {sum.force / n, sum.load / n, sum.volts / n, sum.slides / n};
+  return {sum.force / n, sum.load / n, sum.volts / n};
+}
+
+// Whether the means are those of a plateau.
+void judge(FrictionLoop& loop, const Plateau& forth, const Plateau& back) {
+  loop.slides = std::min(forth.slides, back.slides);
+  loop.turned = std::min(forth.turned, back.turned);
+  const double most = std::max(std::abs(forth.drift), std::abs(back.drift));
+  loop.drift = most == 0 ? 0 : most / std::max(most, std::abs(loop.half_width));
+  if (loop.slides <= 1 - 1e-3 || loop.turned <= 1 - 1e-3)
+    loop.needed = std::max(forth.needed, back.needed);
 }
 
 bool on_incline(const TargetSpec& target, const ActionSpec& scan) {
@@ -103,13 +113,13 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     FrictionLoop loop;
     loop.action = static_cast<int>(a);
     loop.load = 0.5 * (forth.load + back.load);
-    loop.slides = std::min(forth.slides, back.slides);
     loop.forth = forth.force;
     loop.back = back.force;
     loop.half_width = 0.5 * sign * (forth.force - back.force);
     loop.offset = 0.5 * (forth.force + back.force);
     loop.volts_half_width = 0.5 * sign * (forth.volts - back.volts);
     loop.volts_offset = 0.5 * (forth.volts + back.volts);
+    judge(loop, plateau_of(scene, history, a, false), plateau_of(scene, history, a, true));
     const TargetSpec& target = *scene.afm->target;
     if (loop.full() && on_incline(target, action)) {
       loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline);

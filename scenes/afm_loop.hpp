@@ -32,12 +32,17 @@ struct FrictionLoop {
   // -, of the touching points, how many slide where the means are taken. Below 1 the scan was too short for the
   // probe to let go: W is not that of friction, and nothing is recovered from it.
   double slides = 0;
+  // What else W rests on, in the same half of each way: friction has turned from along the lever to along the scan
+  // (least of both ways), and the force stands still.
+  double turned = 1;  // -, share of friction along the scan; 1 where the surface does not tell it
+  double drift = 0;   // -, of the force on a plane, over W
+  double needed = 0;  // m, scan that would do, by how the force has gone so far; 0: it does
   double forth = 0, back = 0;         // N, mean force along the scan that draws the probe
   double half_width = 0, offset = 0;  // N, W and Delta
   double volts_half_width = 0, volts_offset = 0;  // V, of the lateral detector
   std::optional<double> friction;     // recovered from the volts, on an incline along the scan
   std::optional<double> sensitivity;  // N/V, recovered with it
-  bool full() const { return slides > 1 - 1e-3; }
+  bool full() const { return slides > 1 - 1e-3 && turned > 1 - 1e-3 && drift < 0.01; }
 };
 
 struct AfmHistory {

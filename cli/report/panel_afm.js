@@ -52,8 +52,12 @@ addPanel({
            loop.friction ? digits(loop.friction) : "–", loop.sensitivity ? digits(loop.sensitivity) : "–"]);
     }
     host.append(element("div", {className: "scroll"}, table));
-    const sticks = run.summary.loops.filter(loop => loop.slides < 1 - 1e-3).map(loop => loop.action);
-    if (sticks.length) host.append(element("p", {className: "note", textContent:
-      `In action ${sticks.join(", ")} the probe still sticks where W is taken from: a longer scan is needed.`}));
+    for (const loop of run.summary.loops.filter(loop => loop.settled === false)) {
+      const why = loop.slides < 1 - 1e-3 ? "the probe still sticks" :
+        loop.turned < 1 - 1e-3 ? "friction has not turned along the scan" : "the force still drifts";
+      const scan = loop.needed_distance ? `a scan of ${withUnit(loop.needed_distance, "m")}` : "a longer scan, or one at a kept force,";
+      host.append(element("p", {className: "note", textContent:
+        `In action ${loop.action} ${why} where W is taken from: ${scan} is needed.`}));
+    }
   },
 });
