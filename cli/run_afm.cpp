@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "cli/interrupt.hpp"
 #include "cli/plan.hpp"
@@ -242,7 +243,7 @@ std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
 }
 
 void print_end(const AfmReport& report, const std::filesystem::path& folder) {
-  tell("{}", calibration_text(report.calibration));
+  tell("{}", calibration_text(*report.calibration));
   for (const FrictionLoop& loop : report.loops) tell("{}", loop_text(loop));
   if (report.wedge && report.loops.size() > 1) tell("{}", wedge_summary(*report.wedge));
   tell("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
@@ -250,6 +251,20 @@ void print_end(const AfmReport& report, const std::filesystem::path& folder) {
   if (!report.verdicts.empty()) tell("expectations\n");
   for (const Verdict& verdict : report.verdicts) tell("  {}\n", verdict.text());
   tell("results in {}\n", folder.string());
+}
+
+// A lever that has no answer: there is nothing to draw or to go on from.
+ExitCode not_calibrated(const LoadedScene& loaded, const RunOptions& options,
+                        const std::filesystem::path& folder, const std::string& failure,
+                        AfmReport& report) {
+  report.outcome = "failed: " + failure;
+  report.verdicts = judge(loaded, {}, {}, failure, report.threads);
+  remove_own(folder / "report.html", role::run);  // there is none of this
+  write_own(folder / "summary.json", role::run, afm_summary(loaded, report));
+  if (options.json) print_summary(folder);
+  const bool expected = ended_as_expected(loaded.scene, failure);
+  if (!expected) tell(stderr, "pulvis: the run went bad: {}\n", failure);
+  return expected && all_met(report.verdicts) ? ExitCode::done : ExitCode::run_failed;
 }
 
 void refuse_checkpoint_time(const LoadedScene& loaded, const RunOptions& options) {
@@ -262,10 +277,16 @@ void refuse_checkpoint_time(const LoadedScene& loaded, const RunOptions& options
 struct Calibrated {
   AfmSimulation simulation;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  Calibration calibration;
+  std::optional<Calibration> calibration;
+  std::string failure;  // why there is none
 
-  Calibrated(const Scene& scene, int threads)
-      : simulation(scene, threads), calibration(simulation.calibrate()) {}
+  Calibrated(const Scene& scene, int threads) : simulation(scene, threads) {
+    try {
+      calibration = simulation.calibrate();
+    } catch (const RunFailure& bad) {
+      failure = bad.what();
+    }
+  }
 };
 
 ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
@@ -275,25 +296,29 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
   AfmReport report;
   AfmHistory history;
   ProgrammeEnd end{.done = true};
+  report.threads = threads;
+  report.elements = simulation.model().elements;
+  report.nodes = simulation.model().nodes;
   report.calibration = calibrated.calibration;
+  if (!report.calibration) {
+    report.state_hash = state_hash_text(simulation.world());
+    return not_calibrated(loaded, options, folder, calibrated.failure, report);
+  }
   if (loaded.scene.afm->actions.empty())
     write_frames(folder, loaded, threads, simulation);
   else
     end = run_programme(folder, loaded, options, threads, from, simulation, history);
   if (end.done) report.loops = friction_loops(loaded.scene, history);
   report.wedge = calibrate_wedge(loaded.scene, report.loops);
-  report.elements = simulation.model().elements;
-  report.nodes = simulation.model().nodes;
   report.increments = history.rows.empty() ? 0 : history.rows.size() - 1;
   report.state_hash = state_hash_text(simulation.world());
-  report.threads = threads;
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - calibrated.start).count();
   report.outcome = end.done              ? "done"
                    : end.failure.empty() ? "interrupted"
                                          : "failed: " + end.failure;
   if (end.done || !end.failure.empty())
-    report.verdicts = judge(loaded, history, afm_figure_values(report.calibration, report.loops),
+    report.verdicts = judge(loaded, history, afm_figure_values(*report.calibration, report.loops),
                             end.failure, threads);
   remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
   write_own(folder / "summary.json", role::run, afm_summary(loaded, report));

@@ -39,7 +39,9 @@ Json calibration_json(const Calibration& c) {
             {"share_twist", c.twist_share},
             {"share_tip", c.tip_share},
             {"invols_normal", c.normal_invols},
-            {"imbalance", c.imbalance}};
+            {"imbalance", c.imbalance},
+            {"error", c.error},
+            {"precision", c.extended ? "long double" : "double"}};
   if (std::isfinite(c.lateral_invols)) json["invols_lateral"] = c.lateral_invols;
   json["per_newton"] = {{"normal", response_json(c.normal)},
                         {"lateral", response_json(c.lateral)},
@@ -57,15 +59,34 @@ Json loop_json(const FrictionLoop& loop) {
   Json json{{"action", loop.action},
             {"load", loop.load},
             {"slides", loop.slides},
+            {"turned", loop.turned},
+            {"drift", loop.drift},
+            {"settled", loop.full()},
             {"forth", loop.forth},
             {"back", loop.back},
             {"half_width", loop.half_width},
             {"offset", loop.offset},
             {"volts_half_width", loop.volts_half_width},
             {"volts_offset", loop.volts_offset}};
+  if (loop.needed > 0) json["needed_distance"] = loop.needed;
   if (loop.friction) json["friction"] = *loop.friction;
   if (loop.sensitivity) json["sensitivity"] = *loop.sensitivity;
   return json;
+}
+
+std::string unsettled_text(const FrictionLoop& loop) {
+  std::string text = "  W is not that of friction: in the half of a way that it is taken from ";
+  if (loop.slides <= 1 - 1e-3)
+    text += fmt::format("the probe sticks for {:.0f}%", 100 * (1 - loop.slides));
+  else if (loop.turned <= 1 - 1e-3)
+    text += fmt::format(
+        "{:.1f}% of friction point along the scan, the rest still where the press "
+        "left it",
+        100 * loop.turned);
+  else
+    text += fmt::format("the force drifts by {:.1f}% of W", 100 * loop.drift);
+  return text + (loop.needed > 0 ? fmt::format(": a scan of {:.2g} m is needed\n", loop.needed)
+                                 : ": a longer scan, or one at a kept force, is needed\n");
 }
 
 }  // namespace
@@ -83,8 +104,8 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
             {"elements", report.elements},
             {"nodes", report.nodes},
             {"increments", report.increments},
-            {"state_hash", report.state_hash},
-            {"calibration", calibration_json(report.calibration)}};
+            {"state_hash", report.state_hash}};
+  if (report.calibration) json["calibration"] = calibration_json(*report.calibration);
   for (const FrictionLoop& loop : report.loops) json["loops"].push_back(loop_json(loop));
   if (report.wedge)
     json["wedge"] = {{"loops", report.loops.size()},
@@ -107,11 +128,7 @@ std::string loop_text(const FrictionLoop& loop) {
       "Delta/L {:.5f}\n",
       loop.action, loop.load, loop.half_width, loop.offset, loop.half_width / loop.load,
       loop.offset / loop.load);
-  if (!loop.full())
-    text += fmt::format(
-        "  the probe sticks in {:.0f}% of the half of a way that W is taken from: a longer scan "
-        "is needed\n",
-        100 * (1 - loop.slides));
+  if (!loop.full()) text += unsettled_text(loop);
   if (loop.friction)
     text += fmt::format("  wedge calibration of the detector: friction {:.5f}, {:.5g} N/V\n",
                         *loop.friction, *loop.sensitivity);

@@ -1,6 +1,7 @@
 // summary.json of an AFM run, and the same figures for the terminal.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@
 namespace pulvis {
 
 struct AfmReport {
-  Calibration calibration;
+  std::optional<Calibration> calibration;  // none where it found no answer
   std::vector<FrictionLoop> loops;
   std::optional<wedge::Calibration> wedge;
   std::vector<Verdict> verdicts;

@@ -33,8 +33,10 @@ LinearResponse unit_response(AfmModel& model, StaticSolver& solver, const Vec3& 
 }
 
 UnitResponse respond(AfmModel& model, StaticSolver& solver, const Vec3& direction) {
-  const auto [u, held] = unit_response(model, solver, direction);
+  const LinearResponse answer = unit_response(model, solver, direction);
+  const auto& [u, held] = std::tie(answer.displacements, answer.forces);
   UnitResponse r;
+  r.error = answer.correction + answer.energy_error;
   r.end = read(model.end, u.data());
   r.foot = read(model.foot, u.data());
   r.spot = linear_slopes(model, model.spot, u);
@@ -81,6 +83,10 @@ Calibration calibrate(const Scene& scene, AfmModel& model, StaticSolver& solver)
                              {&c.lateral, Vec3(Vec3::UnitY())},
                              {&c.longitudinal, Vec3(Vec3::UnitX())}})
     c.imbalance = std::max(c.imbalance, (r->clamp_force + f).norm());
+  for (const UnitResponse* r : {&c.normal, &c.lateral, &c.longitudinal})
+    c.error = std::isnan(r->error) ? r->error : std::max(c.error, r->error);
+  c.extended = solver.in_extended_precision();
+  c.stable = solver.stable();
   c.closed_forms = closed_forms(scene);
   return c;
 }

@@ -17,6 +17,7 @@ struct UnitResponse {
   Slopes at_foot;  // rad/N
   Vec3 clamp_force,
       clamp_moment;  // N, N m (about the clamp's middle) by N: of the clamp on the lever
+  double error = 0;  // -, of the solution: last correction and error of energy
 };
 
 struct Calibration {
@@ -28,7 +29,12 @@ struct Calibration {
   double bending_share = 0, twist_share = 0, tip_share = 0;
   double normal_invols = 0, lateral_invols = 0;  // m/V, tip displacement by detector signal
   double imbalance = 0;                          // -, |clamp force + applied| over the applied
+  double error = 0;                              // -, the largest of the three
+  bool extended = false;                         // of the stiffness, in long double
+  bool stable = true;                            // all pivots of the stiffness are positive
   std::vector<ClosedForm> closed_forms;
+
+  bool good(double tolerance) const { return stable && error <= tolerance; }
 };
 
 // The world's solver must have been linearised at rest.

@@ -1,9 +1,12 @@
 #include "scenes/afm_simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "components/solid.hpp"
 #include "scenes/afm_scene.hpp"
+#include "systems/run_failure.hpp"
 
 namespace pulvis {
 
@@ -23,12 +26,34 @@ Calibration AfmSimulation::calibrate() {
   return result;
 }
 
+// What double cannot resolve is tried in long double; what that cannot either has no answer.
 Calibration AfmSimulation::calibrate_here() {
-  solver_->linearise();
-  const Calibration c = pulvis::calibrate(scene_, model_, *solver_);
+  constexpr double in_double = 1e-9, in_long_double = 1e-6;  // -, of the answers
+  const auto answer = [&] {
+    solver_->linearise();
+    return pulvis::calibrate(scene_, model_, *solver_);
+  };
+  Calibration c = answer();
+  if (!solver_->in_extended_precision() && !c.good(in_double)) {
+    solver_->extend_precision();
+    c = answer();
+  }
+  if (c.extended && !c.good(in_long_double))
+    throw RunFailure(fmt::format(
+        "calibration: the lever's stiffness is beyond the digits of long double: its answer to a "
+        "force is uncertain by {:.2g} of it{}, allowed: {:g}; the lever is {:.3g} times longer "
+        "than thick, and the stiffest material {:.3g} times stiffer than its own",
+        c.error, c.stable ? "" : ", its stiffness not even positive", in_long_double,
+        scene_.afm->lever.length / scene_.afm->lever.thickness, stiffest_material()));
   model_.normal_stiffness = c.normal_stiffness;
   stiffest_ = std::max({c.normal_stiffness, c.lateral_stiffness, c.longitudinal_stiffness});
   return c;
+}
+
+double AfmSimulation::stiffest_material() const {
+  const auto& lever = scene_.materials[static_cast<std::size_t>(scene_.afm->lever.material)];
+  return std::ranges::max(scene_.materials, {}, &MaterialSpec::youngs_modulus).youngs_modulus /
+         lever.youngs_modulus;
 }
 
 bool AfmSimulation::run(const AfmProgramme::Record& record, AfmPosition& position,

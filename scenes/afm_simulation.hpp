@@ -17,6 +17,7 @@ class AfmSimulation {
   AfmModel& model() { return model_; }
   const GraphPlan& plan() const { return solver_->plan(); }
 
+  // Throws RunFailure where the lever's answers do not converge.
   Calibration calibrate();
   // Displacements [3 nodes] by 1 N at the tip's end; after calibrate().
   std::vector<double> unit_displacements(const Vec3& direction);
@@ -32,7 +33,8 @@ class AfmSimulation {
   NewtonReport load_tip(const Vec3& force, const NewtonSettings& settings = {});
 
  private:
-  Calibration calibrate_here();  // inside the workers
+  Calibration calibrate_here();      // inside the workers
+  double stiffest_material() const;  // -, Young's modulus over the lever's
 
   const Scene& scene_;
   AfmModel model_;

@@ -17,6 +17,10 @@ struct LinearResponse {
   std::vector<double> displacements;  // [3 nodes] m
   std::vector<double>
       forces;  // [3 nodes] N, what holds the elements: of held nodes, their holder's
+  // What is known of its error: the last correction over the displacements, and by how much the work of the
+  // forces is not twice the elements' energy.
+  double correction = 0, energy_error = 0;  // -
+  int corrections = 0;
 };
 
 // To forces [3 nodes]. The solver must have been linearised at rest; the world's displacements are used and

@@ -53,7 +53,7 @@ struct Contact {
     for (const auto& s : supports(p))
       for (int k = 0; k < 3; ++k)
         unit(3 * mesh.unknown[static_cast<std::size_t>(s.node)] + k, k) += s.weight;
-    mine = equations.factors->solve(unit);
+    mine = equations.solve(unit);
     return mine;
   }
 

@@ -22,9 +22,9 @@ namespace pulvis {
 namespace {
 
 // The pattern of the scalar matrix from that of its blocks.
-void make_pattern(const SolidAssembly& assembly, SolidEquations& equations) {
+template <class Matrix>
+void make_pattern(const SolidAssembly& assembly, Matrix& k) {
   const auto blocks = static_cast<int>(assembly.column_begin.size()) - 1;
-  auto& k = equations.stiffness;
   k.resize(3 * blocks, 3 * blocks);
   std::vector<int> sizes(static_cast<std::size_t>(3 * blocks));
   for (int c = 0; c < blocks; ++c) {
@@ -44,9 +44,9 @@ void make_pattern(const SolidAssembly& assembly, SolidEquations& equations) {
 }
 
 // Blocks of a column lie in rising order of rows, the diagonal one first: so do its numbers.
-void fill_values(const SolidAssembly& assembly, const Read<BlockTangent>& block,
-                 SolidEquations& equations) {
-  double* value = equations.stiffness.valuePtr();
+template <class Matrix, class Real>
+void fill_values(const SolidAssembly& assembly, std::span<const Real> block, Matrix& k) {
+  auto* value = k.valuePtr();
   const auto blocks = static_cast<int>(assembly.column_begin.size()) - 1;
   for (int c = 0; c < blocks; ++c)
     for (int j = 0; j < 3; ++j)
@@ -54,37 +54,73 @@ void fill_values(const SolidAssembly& assembly, const Read<BlockTangent>& block,
            b < assembly.column_begin[static_cast<std::size_t>(c) + 1]; ++b) {
         const bool diagonal = assembly.block_row[static_cast<std::size_t>(b)] == c;
         for (int i = diagonal ? j : 0; i < 3; ++i)
-          *value++ = block(Row<StiffnessBlock>(b), 3 * i + j);
+          *value++ = block[static_cast<std::size_t>(9 * b + 3 * i + j)];
       }
 }
 
-// That of a large solid takes minutes. Interrupted, the equations are left empty.
-void factorise_stiffness(SolidEquations& equations, bool first) {
-  auto factors = first ? std::make_unique<SolidEquations::Factors>() : std::move(equations.factors);
-  std::tie(equations.stiffness, equations.factors) = interruptible(
-      [stiffness = std::move(equations.stiffness), factors = std::move(factors), first]() mutable {
+// That of a large solid takes minutes. Interrupted, the solid is left without factors.
+template <class Real>
+void factorise_stiffness(SolidFactors<Real>& solid, bool first) {
+  using Factors = typename SolidFactors<Real>::Factors;
+  auto factors = first ? std::make_unique<Factors>() : std::move(solid.factors);
+  std::tie(solid.stiffness, solid.factors) = interruptible(
+      [stiffness = std::move(solid.stiffness), factors = std::move(factors), first]() mutable {
         if (first) factors->analyzePattern(stiffness);
         factors->factorize(stiffness);
         return std::pair(std::move(stiffness), std::move(factors));
       });
 }
 
+template <class Real>
+void refactorise(SolidFactors<Real>& solid, const std::vector<double>& values) {
+  constexpr std::size_t parts = std::is_same_v<Real, double> ? 1 : 2;
+  const auto size = static_cast<std::size_t>(solid.stiffness.nonZeros());
+  if (solid.factors == nullptr || values.size() != parts * size)
+    throw BadState("the stiffness of the solid does not fit its mesh");
+  for (std::size_t i = 0; i < size; ++i) {
+    Real& k = solid.stiffness.valuePtr()[i];
+    k = values[i];
+    if (parts == 2) k += values[size + i];
+  }
+  factorise_stiffness(solid, false);
+}
+
 }  // namespace
 
+template <class Real>
+void SolidFactors<Real>::factorise(const SolidAssembly& assembly, std::span<const Real> blocks) {
+  const bool first = factors == nullptr;
+  if (first) make_pattern(assembly, stiffness);
+  fill_values(assembly, blocks, stiffness);
+  factorise_stiffness(*this, first);
+  if (factors->info() != Eigen::Success || !factors->vectorD().allFinite())
+    throw RunFailure(fmt::format(
+        "factorise: the stiffness of the solid is singular ({} equations): a part hangs loose or "
+        "has collapsed",
+        stiffness.rows()));
+}
+
+template struct SolidFactors<double>;
+template struct SolidFactors<long double>;
+
 std::vector<double> SolidEquations::factorised() const {
-  if (factors == nullptr) return {};
-  return {stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros()};
+  if (!has_factors()) return {};
+  if (!in_extended)
+    return {plain.stiffness.valuePtr(), plain.stiffness.valuePtr() + plain.stiffness.nonZeros()};
+  const std::span<const long double> k(extended.stiffness.valuePtr(),
+                                       static_cast<std::size_t>(extended.stiffness.nonZeros()));
+  std::vector<double> values(k.begin(), k.end());
+  for (const long double v : k) values.push_back(static_cast<double>(v - static_cast<double>(v)));
+  return values;
 }
 
 void SolidEquations::factorise_again(std::vector<double> values) {
   if (values.empty()) {
-    factors.reset();
+    plain.factors.reset();
+    extended.factors.reset();
     return;
   }
-  if (factors == nullptr || static_cast<std::ptrdiff_t>(values.size()) != stiffness.nonZeros())
-    throw BadState("the stiffness of the solid does not fit its mesh");
-  std::copy(values.begin(), values.end(), stiffness.valuePtr());
-  factorise_stiffness(*this, false);
+  in_extended ? refactorise(extended, values) : refactorise(plain, values);
   answers.clear();
 }
 
@@ -133,20 +169,12 @@ void residual(Read<SolidMesh> mesh, Read<ElementForce> element,
 
 void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
                Write<SolidEquations> equations) {
-  const bool first = equations->factors == nullptr;
-  if (first) make_pattern(*assembly, *equations);
-  fill_values(*assembly, block, *equations);
-  factorise_stiffness(*equations, first);
   equations->answers.clear();
-  if (equations->factors->info() != Eigen::Success || !equations->factors->vectorD().allFinite())
-    throw RunFailure(fmt::format(
-        "factorise: the stiffness of the solid is singular ({} equations): a part hangs loose or "
-        "has collapsed",
-        equations->stiffness.rows()));
+  equations->plain.factorise(*assembly, block.values());
 }
 
 void newton_direction(Write<SolidEquations> equations) {
-  equations->direction = equations->factors->solve(equations->residual);
+  equations->direction = equations->solve(equations->residual);
 }
 
 }  // namespace pulvis

@@ -5,17 +5,35 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <span>
 #include <vector>
+
+#include "components/solid.hpp"
 
 namespace pulvis {
 
-struct SolidEquations {
-  static constexpr const char* resource_name = "solid_equations";
-  using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+// In one precision. Bending of a lever is what is left of its stiffness in thickness: 1e-16 (L/t)^4 of it is
+// lost in double, and 1e-19 (L/t)^4 in long double.
+template <class Real>
+struct SolidFactors {
+  using Matrix = Eigen::SparseMatrix<Real, Eigen::ColMajor, int>;
   using Factors = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
 
   Matrix stiffness;  // lower triangle, [3 unknowns]^2, N/m
   std::unique_ptr<Factors> factors;
+
+  // Makes the factors, and the pattern at first; throws RunFailure where there are none.
+  void factorise(const SolidAssembly& assembly, std::span<const Real> blocks);  // [blocks, 3, 3]
+  // Of a stable solid; round-off can lose it.
+  bool positive() const { return factors != nullptr && (factors->vectorD().array() > 0).all(); }
+};
+
+struct SolidEquations {
+  static constexpr const char* resource_name = "solid_equations";
+
+  SolidFactors<double> plain;  // one of the two
+  SolidFactors<long double> extended;
+  bool in_extended = false;
   Eigen::VectorXd residual;    // [3 unknowns] N: applied - of the stresses
   Eigen::VectorXd direction;   // [3 unknowns] m
   double scale = 0;            // N, the forces that must balance: root of the sum of squares
@@ -33,9 +51,20 @@ struct SolidEquations {
   // [points] K^-1 to unit forces on the point, [3 unknowns, 3]; empty until it was asked for
   std::vector<Eigen::MatrixXd> answers;
 
+  bool has_factors() const { return plain.factors != nullptr || extended.factors != nullptr; }
+  bool positive() const { return in_extended ? extended.positive() : plain.positive(); }
+  template <class Forces>  // [3 unknowns] or several columns of them; N
+  typename Forces::PlainObject solve(const Forces& forces) const {
+    if (!in_extended) return plain.factors->solve(forces);
+    using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Forces::ColsAtCompileTime>;
+    const Wide wide = forces.template cast<long double>();
+    return Wide(extended.factors->solve(wide)).template cast<double>();
+  }
+
   // Factors may be older than the present stiffness of the solid; what they were made from makes them again,
   // and the answers.
-  std::vector<double> factorised() const;            // empty before the first factorisation
+  // Empty before the first factorisation; in long double the digits beyond a double follow.
+  std::vector<double> factorised() const;
   void factorise_again(std::vector<double> values);  // throws BadState where the pattern is another
   template <class Bytes>
   void state(Bytes& bytes) {

@@ -19,271 +19,298 @@
 
 namespace pulvis::kernels {
 
-using Corners = Eigen::Matrix<double, 3, 8>;
-using Voigt = Eigen::Matrix<double, 6, 1>;
-using Voigt6 = Eigen::Matrix<double, 6, 6>;
-using StrainRows = Eigen::Matrix<double, 6, 24>;
-using NodalVector = Eigen::Matrix<double, 24, 1>;
-using NodalMatrix = Eigen::Matrix<double, 24, 24>;
-using ShapeGradient = Eigen::Matrix<double, 8, 3>;  // dN_a / dxi_i
-using Modes = Eigen::Matrix<double, 6, 9>;
-using ModeVector = Eigen::Matrix<double, 9, 1>;
-using ModeMatrix = Eigen::Matrix<double, 9, 9>;
-using ModeCoupling = Eigen::Matrix<double, 9, 24>;
-using GeometricMatrix = Eigen::Matrix<double, 8, 8>;
-
 inline constexpr std::array<std::array<int, 2>, 6> voigt_pair{
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 inline constexpr double corner_sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
-inline Eigen::Matrix<double, 8, 1> shape_functions(const Eigen::Vector3d& xi) {
-  Eigen::Matrix<double, 8, 1> n;
-  for (int a = 0; a < 8; ++a) {
-    const auto& s = corner_sign[a];
-    n[a] = 0.125 * (1 + s[0] * xi[0]) * (1 + s[1] * xi[1]) * (1 + s[2] * xi[2]);
-  }
-  return n;
-}
-
-inline ShapeGradient shape_gradient(const Eigen::Vector3d& xi) {
-  ShapeGradient d;
-  for (int a = 0; a < 8; ++a) {
-    const auto& s = corner_sign[a];
-    const double x = 1 + s[0] * xi[0], y = 1 + s[1] * xi[1], z = 1 + s[2] * xi[2];
-    d.row(a) << 0.125 * s[0] * y * z, 0.125 * x * s[1] * z, 0.125 * x * y * s[2];
-  }
-  return d;
-}
-
-// Derivative of a nodal field by xi_i: a sum of differences along the four edges that run that way. So what
-// both ends share, as top and bottom of a thin lever far from its clamp do, drops out before it is rounded:
-// a strain has the digits of the displacements' differences, not of the displacements.
-inline Eigen::Vector3d gradient_of(const Corners& values, const ShapeGradient& d, int i) {
-  static constexpr int edges[3][4][2] = {{{0, 1}, {3, 2}, {4, 5}, {7, 6}},
-                                         {{0, 3}, {1, 2}, {4, 7}, {5, 6}},
-                                         {{0, 4}, {1, 5}, {2, 6}, {3, 7}}};
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& [from, to] : edges[i]) sum += d(to, i) * (values.col(to) - values.col(from));
-  return sum;
-}
-
-inline Eigen::Matrix3d jacobian_of(const Corners& X, const ShapeGradient& d) {
-  Eigen::Matrix3d j;
-  for (int i = 0; i < 3; ++i) j.col(i) = gradient_of(X, d, i);
-  return j;
-}
-
-// Covariant strains e and their derivative b by the corners' displacements, at one point. Written in
-// u, not in the deformed places, so that tiny displacements keep all their digits.
-inline void covariant_strain(const Corners& X, const Corners& u, const ShapeGradient& d, int row,
-                             Voigt& e, StrainRows& b) {
-  const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
-  const Eigen::Vector3d Gi = gradient_of(X, d, i), Gj = gradient_of(X, d, j);
-  const Eigen::Vector3d Ui = gradient_of(u, d, i), Uj = gradient_of(u, d, j);
-  const double twice = Gi.dot(Uj) + Gj.dot(Ui) + Ui.dot(Uj);
-  const double share = i == j ? 0.5 : 1.0;
-  e[row] = share * twice;
-  for (int a = 0; a < 8; ++a)
-    b.block<1, 3>(row, 3 * a) = share * (d(a, i) * (Gj + Uj) + d(a, j) * (Gi + Ui)).transpose();
-}
-
-// Cartesian from covariant strains, with J^-1, whose rows are the contravariant base vectors.
-inline Voigt6 strain_transformation(const Eigen::Matrix3d& inverse) {
-  Voigt6 t;
-  for (int r = 0; r < 6; ++r) {
-    const auto [a, b] = voigt_pair[static_cast<std::size_t>(r)];
-    const double twice = a == b ? 1 : 2;
-    for (int c = 0; c < 6; ++c) {
-      const auto [i, j] = voigt_pair[static_cast<std::size_t>(c)];
-      t(r, c) = i == j
-                    ? twice * inverse(i, a) * inverse(i, b)
-                    : 0.5 * twice * (inverse(i, a) * inverse(j, b) + inverse(j, a) * inverse(i, b));
-    }
-  }
-  return t;
-}
-
-inline Modes natural_modes(const Eigen::Vector3d& xi, HexFormulation formulation) {
-  Modes m = Modes::Zero();
-  if (formulation == HexFormulation::standard) return m;
-  m(0, 0) = xi[0];
-  m(1, 1) = xi[1];
-  m(2, 2) = xi[2];
-  m(3, 3) = xi[0];
-  m(3, 4) = xi[1];
-  if (formulation == HexFormulation::plate) {
-    m(2, 5) = xi[0] * xi[2];
-    m(2, 6) = xi[1] * xi[2];
-    m(2, 7) = xi[0] * xi[1] * xi[2];
-    m(3, 8) = xi[0] * xi[1];
-  } else {
-    m(4, 5) = xi[1];
-    m(4, 6) = xi[2];
-    m(5, 7) = xi[0];
-    m(5, 8) = xi[2];
-  }
-  return m;
-}
-
-inline Voigt6 elasticity(double lambda, double mu) {
-  Voigt6 c = Voigt6::Zero();
-  c.topLeftCorner<3, 3>().setConstant(lambda);
-  c.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
-  return c;
-}
-
 // Where a thin layer takes its transverse shear from: 0, 1 for row 13; 2, 3 for row 23.
 inline constexpr double shear_points[4][3] = {{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
 
-struct ThinShear {
-  Voigt e[4];
-  StrainRows b[4];
-  ShapeGradient gradient[4];
+// In double; in long double where the stiffness of a lever needs more digits (solid_extended.cpp).
+template <class Real>
+struct HexKernel {
+  using Corners = Eigen::Matrix<Real, 3, 8>;
+  using Voigt = Eigen::Matrix<Real, 6, 1>;
+  using Voigt6 = Eigen::Matrix<Real, 6, 6>;
+  using StrainRows = Eigen::Matrix<Real, 6, 24>;
+  using NodalVector = Eigen::Matrix<Real, 24, 1>;
+  using NodalMatrix = Eigen::Matrix<Real, 24, 24>;
+  using ShapeGradient = Eigen::Matrix<Real, 8, 3>;  // dN_a / dxi_i
+  using Modes = Eigen::Matrix<Real, 6, 9>;
+  using ModeVector = Eigen::Matrix<Real, 9, 1>;
+  using ModeMatrix = Eigen::Matrix<Real, 9, 9>;
+  using ModeCoupling = Eigen::Matrix<Real, 9, 24>;
+  using GeometricMatrix = Eigen::Matrix<Real, 8, 8>;
+  using Vector3 = Eigen::Matrix<Real, 3, 1>;
+  using Matrix3 = Eigen::Matrix<Real, 3, 3>;
 
-  ThinShear(const Corners& X, const Corners& u) {
-    for (int k = 0; k < 4; ++k) {
-      gradient[k] = shape_gradient(Eigen::Vector3d(shear_points[k]));
-      covariant_strain(X, u, gradient[k], row(k), e[k], b[k]);
+  static Eigen::Matrix<Real, 8, 1> shape_functions(const Vector3& xi) {
+    Eigen::Matrix<Real, 8, 1> n;
+    for (int a = 0; a < 8; ++a) {
+      const auto& s = corner_sign[a];
+      n[a] = 0.125 * (1 + s[0] * xi[0]) * (1 + s[1] * xi[1]) * (1 + s[2] * xi[2]);
     }
+    return n;
   }
-  static constexpr int row(int k) { return k < 2 ? 5 : 4; }
-  static double weight(int k, const Eigen::Vector3d& xi) {
-    const double s = k < 2 ? xi[1] : xi[0];
-    return 0.5 * (1 + (k % 2 == 0 ? -s : s));
+
+  static ShapeGradient shape_gradient(const Vector3& xi) {
+    ShapeGradient d;
+    for (int a = 0; a < 8; ++a) {
+      const auto& s = corner_sign[a];
+      const Real x = 1 + s[0] * xi[0], y = 1 + s[1] * xi[1], z = 1 + s[2] * xi[2];
+      d.row(a) << 0.125 * s[0] * y * z, 0.125 * x * s[1] * z, 0.125 * x * y * s[2];
+    }
+    return d;
   }
-};
 
-// What one Gauss point needs in both passes.
-struct HexPoint {
-  double volume = 0;  // m^3, det J times the Gauss weight
-  Voigt strain;       // of the displacements alone
-  StrainRows b;       // its derivative
-  Modes modes;
-  Voigt6 transformation;
-  ShapeGradient gradient;
-  Eigen::Vector3d xi;
-};
+  static Vector3 vector_of(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-inline HexPoint hex_point(const Corners& X, const Corners& u, const Eigen::Vector3d& xi,
-                          const Voigt6& central, double central_determinant,
-                          HexFormulation formulation, const ThinShear* shear) {
-  HexPoint p;
-  p.xi = xi;
-  p.gradient = shape_gradient(xi);
-  const Eigen::Matrix3d jacobian = jacobian_of(X, p.gradient);
-  p.volume = jacobian.determinant();
-  p.transformation = strain_transformation(jacobian.inverse());
-  Voigt e = Voigt::Zero();
-  StrainRows b = StrainRows::Zero();
-  for (int row = 0; row < (shear != nullptr ? 4 : 6); ++row)
-    covariant_strain(X, u, p.gradient, row, e, b);
-  for (int k = 0; shear != nullptr && k < 4; ++k) {
-    const int row = ThinShear::row(k);
-    const double w = ThinShear::weight(k, xi);
-    e[row] += w * shear->e[k][row];
-    b.row(row) += w * shear->b[k].row(row);
+  // Derivative of a nodal field by xi_i: a sum of differences along the four edges that run that way. So what
+  // both ends share, as top and bottom of a thin lever far from its clamp do, drops out before it is rounded:
+  // a strain has the digits of the displacements' differences, not of the displacements.
+  static Vector3 gradient_of(const Corners& values, const ShapeGradient& d, int i) {
+    static constexpr int edges[3][4][2] = {{{0, 1}, {3, 2}, {4, 5}, {7, 6}},
+                                           {{0, 3}, {1, 2}, {4, 7}, {5, 6}},
+                                           {{0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+    Vector3 sum = Vector3::Zero();
+    for (const auto& [from, to] : edges[i]) sum += d(to, i) * (values.col(to) - values.col(from));
+    return sum;
   }
-  p.strain = p.transformation * e;
-  p.b.noalias() = p.transformation.lazyProduct(b);
-  p.modes.noalias() =
-      (central_determinant / p.volume) * central.lazyProduct(natural_modes(xi, formulation));
-  return p;
-}
 
-// Adds volume * s^ij dN_a/dxi_i dN_b/dxi_j, what the stress does to a rotating element.
-inline void add_geometric(const HexPoint& p, const Voigt& s, const ThinShear* shear,
-                          GeometricMatrix& g) {
-  const auto add = [&](const ShapeGradient& d, int row, double stress) {
+  static Matrix3 jacobian_of(const Corners& X, const ShapeGradient& d) {
+    Matrix3 j;
+    for (int i = 0; i < 3; ++i) j.col(i) = gradient_of(X, d, i);
+    return j;
+  }
+
+  // Covariant strains e and their derivative b by the corners' displacements, at one point. Written in
+  // u, not in the deformed places, so that tiny displacements keep all their digits.
+  static void covariant_strain(const Corners& X, const Corners& u, const ShapeGradient& d, int row,
+                               Voigt& e, StrainRows& b) {
     const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
-    const double share = i == j ? 0.5 : 1.0;
-    g += (share * stress) * (d.col(i) * d.col(j).transpose() + d.col(j) * d.col(i).transpose());
+    const Vector3 Gi = gradient_of(X, d, i), Gj = gradient_of(X, d, j);
+    const Vector3 Ui = gradient_of(u, d, i), Uj = gradient_of(u, d, j);
+    const Real twice = Gi.dot(Uj) + Gj.dot(Ui) + Ui.dot(Uj);
+    const Real share = i == j ? 0.5 : 1.0;
+    e[row] = share * twice;
+    for (int a = 0; a < 8; ++a)
+      b.template block<1, 3>(row, 3 * a) =
+          share * (d(a, i) * (Gj + Uj) + d(a, j) * (Gi + Ui)).transpose();
+  }
+
+  // Cartesian from covariant strains, with J^-1, whose rows are the contravariant base vectors.
+  static Voigt6 strain_transformation(const Matrix3& inverse) {
+    Voigt6 t;
+    for (int r = 0; r < 6; ++r) {
+      const auto [a, b] = voigt_pair[static_cast<std::size_t>(r)];
+      const Real twice = a == b ? 1 : 2;
+      for (int c = 0; c < 6; ++c) {
+        const auto [i, j] = voigt_pair[static_cast<std::size_t>(c)];
+        t(r, c) =
+            i == j ? twice * inverse(i, a) * inverse(i, b)
+                   : 0.5 * twice * (inverse(i, a) * inverse(j, b) + inverse(j, a) * inverse(i, b));
+      }
+    }
+    return t;
+  }
+
+  static Modes natural_modes(const Vector3& xi, HexFormulation formulation) {
+    Modes m = Modes::Zero();
+    if (formulation == HexFormulation::standard) return m;
+    m(0, 0) = xi[0];
+    m(1, 1) = xi[1];
+    m(2, 2) = xi[2];
+    m(3, 3) = xi[0];
+    m(3, 4) = xi[1];
+    if (formulation == HexFormulation::plate) {
+      m(2, 5) = xi[0] * xi[2];
+      m(2, 6) = xi[1] * xi[2];
+      m(2, 7) = xi[0] * xi[1] * xi[2];
+      m(3, 8) = xi[0] * xi[1];
+    } else {
+      m(4, 5) = xi[1];
+      m(4, 6) = xi[2];
+      m(5, 7) = xi[0];
+      m(5, 8) = xi[2];
+    }
+    return m;
+  }
+
+  static Voigt6 elasticity(Real lambda, Real mu) {
+    Voigt6 c = Voigt6::Zero();
+    c.template topLeftCorner<3, 3>().setConstant(lambda);
+    c.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
+    return c;
+  }
+
+  struct ThinShear {
+    Voigt e[4];
+    StrainRows b[4];
+    ShapeGradient gradient[4];
+
+    ThinShear(const Corners& X, const Corners& u) {
+      for (int k = 0; k < 4; ++k) {
+        gradient[k] = shape_gradient(vector_of(shear_points[k]));
+        covariant_strain(X, u, gradient[k], row(k), e[k], b[k]);
+      }
+    }
+    static constexpr int row(int k) { return k < 2 ? 5 : 4; }
+    static Real weight(int k, const Vector3& xi) {
+      const Real s = k < 2 ? xi[1] : xi[0];
+      return 0.5 * (1 + (k % 2 == 0 ? -s : s));
+    }
   };
-  for (int row = 0; row < (shear != nullptr ? 4 : 6); ++row)
-    add(p.gradient, row, p.volume * s[row]);
-  for (int k = 0; shear != nullptr && k < 4; ++k)
-    add(shear->gradient[k], ThinShear::row(k),
-        p.volume * ThinShear::weight(k, p.xi) * s[ThinShear::row(k)]);
-}
 
-inline std::array<HexPoint, 8> hex_points(const Corners& X, const Corners& u,
-                                          HexFormulation formulation, const ThinShear* shear) {
-  const Eigen::Matrix3d middle = jacobian_of(X, shape_gradient(Eigen::Vector3d::Zero()));
-  const Voigt6 central = strain_transformation(middle.inverse());
-  std::array<HexPoint, 8> points;
-  for (std::size_t g = 0; g < 8; ++g)
-    points[g] = hex_point(X, u, Eigen::Vector3d(corner_sign[g]) / std::sqrt(3.0), central,
-                          middle.determinant(), formulation, shear);
-  return points;
-}
+  // What one Gauss point needs in both passes.
+  struct Point {
+    Real volume = 0;  // m^3, det J times the Gauss weight
+    Voigt strain;     // of the displacements alone
+    StrainRows b;     // its derivative
+    Modes modes;
+    Voigt6 transformation;
+    ShapeGradient gradient;
+    Vector3 xi;
+  };
 
-// The modes' equations before anything is added; where there are no modes they stay solvable.
-inline ModeMatrix no_modes_yet(HexFormulation formulation) {
-  return formulation == HexFormulation::standard ? ModeMatrix(ModeMatrix::Identity())
-                                                 : ModeMatrix(ModeMatrix::Zero());
-}
+  static Point hex_point(const Corners& X, const Corners& u, const Vector3& xi,
+                         const Voigt6& central, Real central_determinant,
+                         HexFormulation formulation, const ThinShear* shear) {
+    Point p;
+    p.xi = xi;
+    p.gradient = shape_gradient(xi);
+    const Matrix3 jacobian = jacobian_of(X, p.gradient);
+    p.volume = jacobian.determinant();
+    p.transformation = strain_transformation(jacobian.inverse());
+    Voigt e = Voigt::Zero();
+    StrainRows b = StrainRows::Zero();
+    for (int row = 0; row < (shear != nullptr ? 4 : 6); ++row)
+      covariant_strain(X, u, p.gradient, row, e, b);
+    for (int k = 0; shear != nullptr && k < 4; ++k) {
+      const int row = ThinShear::row(k);
+      const Real w = ThinShear::weight(k, xi);
+      e[row] += w * shear->e[k][row];
+      b.row(row) += w * shear->b[k].row(row);
+    }
+    p.strain = p.transformation * e;
+    p.b.noalias() = p.transformation.lazyProduct(b);
+    p.modes.noalias() =
+        (central_determinant / p.volume) * central.lazyProduct(natural_modes(xi, formulation));
+    return p;
+  }
 
-inline double least_volume(const std::array<HexPoint, 8>& points) {
-  double least = points[0].volume;
-  for (const HexPoint& p : points) least = std::min(least, p.volume);
-  return least;
-}
+  // Adds volume * s^ij dN_a/dxi_i dN_b/dxi_j, what the stress does to a rotating element.
+  static void add_geometric(const Point& p, const Voigt& s, const ThinShear* shear,
+                            GeometricMatrix& g) {
+    const auto add = [&](const ShapeGradient& d, int row, Real stress) {
+      const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
+      const Real share = i == j ? 0.5 : 1.0;
+      g += (share * stress) * (d.col(i) * d.col(j).transpose() + d.col(j) * d.col(i).transpose());
+    };
+    for (int row = 0; row < (shear != nullptr ? 4 : 6); ++row)
+      add(p.gradient, row, p.volume * s[row]);
+    for (int k = 0; shear != nullptr && k < 4; ++k)
+      add(shear->gradient[k], ThinShear::row(k),
+          p.volume * ThinShear::weight(k, p.xi) * s[ThinShear::row(k)]);
+  }
 
-// Adds a point's stress and its derivative c to the tangent, the modes left aside.
-inline void add_tangent(const HexPoint& p, const Voigt& stress, const Voigt6& c,
-                        const ThinShear* shear, NodalMatrix& tangent, GeometricMatrix& geometric) {
-  const StrainRows cb = p.volume * c.lazyProduct(p.b);
-  tangent.noalias() += p.b.transpose().lazyProduct(cb);
-  add_geometric(p, p.transformation.transpose() * stress, shear, geometric);
-}
+  static std::array<Point, 8> points_of(const Corners& X, const Corners& u,
+                                        HexFormulation formulation, const ThinShear* shear) {
+    const Matrix3 middle = jacobian_of(X, shape_gradient(Vector3::Zero()));
+    const Voigt6 central = strain_transformation(middle.inverse());
+    std::array<Point, 8> points;
+    for (std::size_t g = 0; g < 8; ++g)
+      points[g] = hex_point(X, u, vector_of(corner_sign[g]) / std::sqrt(Real(3)), central,
+                            middle.determinant(), formulation, shear);
+    return points;
+  }
 
-// Condenses the modes, whose equations' tangent is h, and puts the geometric part on the diagonals.
-inline void finish_tangent(const ModeCoupling& l, const Eigen::LLT<ModeMatrix>& h,
-                           const GeometricMatrix& geometric, NodalMatrix& tangent) {
-  tangent.noalias() -= l.transpose().lazyProduct(h.solve(l).eval());
-  for (int a = 0; a < 8; ++a)
-    for (int b = 0; b < 8; ++b)
-      tangent.block<3, 3>(3 * a, 3 * b).diagonal().array() += geometric(a, b);
-}
+  // The modes' equations before anything is added; where there are no modes they stay solvable.
+  static ModeMatrix no_modes_yet(HexFormulation formulation) {
+    return formulation == HexFormulation::standard ? ModeMatrix(ModeMatrix::Identity())
+                                                   : ModeMatrix(ModeMatrix::Zero());
+  }
 
-struct HexResponse {
-  NodalVector force = NodalVector::Zero();    // N, what holds the element in place
-  NodalMatrix tangent = NodalMatrix::Zero();  // N/m
-  double energy = 0;                          // J
-  double least_determinant = 0;               // of J, m^3; <= 0: the element is inside out
+  static Real least_volume(const std::array<Point, 8>& points) {
+    Real least = points[0].volume;
+    for (const Point& p : points) least = std::min(least, p.volume);
+    return least;
+  }
+
+  // Adds a point's stress and its derivative c to the tangent, the modes left aside.
+  static void add_tangent(const Point& p, const Voigt& stress, const Voigt6& c,
+                          const ThinShear* shear, NodalMatrix& tangent,
+                          GeometricMatrix& geometric) {
+    const StrainRows cb = p.volume * c.lazyProduct(p.b);
+    tangent.noalias() += p.b.transpose().lazyProduct(cb);
+    add_geometric(p, p.transformation.transpose() * stress, shear, geometric);
+  }
+
+  // Condenses the modes, whose equations' tangent is h, and puts the geometric part on the diagonals.
+  static void finish_tangent(const ModeCoupling& l, const Eigen::LLT<ModeMatrix>& h,
+                             const GeometricMatrix& geometric, NodalMatrix& tangent) {
+    tangent.noalias() -= l.transpose().lazyProduct(h.solve(l).eval());
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b < 8; ++b)
+        tangent.template block<3, 3>(3 * a, 3 * b).diagonal().array() += geometric(a, b);
+  }
+
+  struct Response {
+    NodalVector force = NodalVector::Zero();    // N, what holds the element in place
+    NodalMatrix tangent = NodalMatrix::Zero();  // N/m
+    Real energy = 0;                            // J
+    Real least_determinant = 0;                 // of J, m^3; <= 0: the element is inside out
+  };
+
+  static Response response(const Corners& X, const Corners& u, Real lambda, Real mu,
+                           HexFormulation formulation, bool with_tangent = true) {
+    const ThinShear sampled(X, u);
+    const ThinShear* shear = formulation == HexFormulation::plate ? &sampled : nullptr;
+    const Voigt6 c = elasticity(lambda, mu);
+    Response r;
+    const std::array<Point, 8> points = points_of(X, u, formulation, shear);
+    r.least_determinant = least_volume(points);
+
+    ModeMatrix h = no_modes_yet(formulation);
+    ModeCoupling l = ModeCoupling::Zero();
+    ModeVector q = ModeVector::Zero();
+    for (const Point& p : points) {
+      const Eigen::Matrix<Real, 9, 6> mc = p.volume * p.modes.transpose().lazyProduct(c);
+      h.noalias() += mc.lazyProduct(p.modes);
+      if (with_tangent) l.noalias() += mc.lazyProduct(p.b);
+      q.noalias() += mc.lazyProduct(p.strain);
+    }
+    const Eigen::LLT<ModeMatrix> h_factor(h);
+    const ModeVector alpha = -h_factor.solve(q);
+
+    GeometricMatrix geometric = GeometricMatrix::Zero();
+    for (const Point& p : points) {
+      const Voigt strain = p.strain + p.modes * alpha;
+      const Voigt stress = c * strain;
+      r.energy += 0.5 * p.volume * strain.dot(stress);
+      r.force.noalias() += p.volume * p.b.transpose().lazyProduct(stress);
+      if (with_tangent) add_tangent(p, stress, c, shear, r.tangent, geometric);
+    }
+    if (with_tangent) finish_tangent(l, h_factor, geometric, r.tangent);
+    return r;
+  }
 };
+
+using Hex = HexKernel<double>;
+using Corners = Hex::Corners;
+using Voigt = Hex::Voigt;
+using Voigt6 = Hex::Voigt6;
+using ModeVector = Hex::ModeVector;
+using ModeMatrix = Hex::ModeMatrix;
+using ModeCoupling = Hex::ModeCoupling;
+using GeometricMatrix = Hex::GeometricMatrix;
+using ThinShear = Hex::ThinShear;
+using HexPoint = Hex::Point;
+using HexResponse = Hex::Response;
 
 inline HexResponse hex_response(const Corners& X, const Corners& u, double lambda, double mu,
                                 HexFormulation formulation, bool with_tangent = true) {
-  const ThinShear sampled(X, u);
-  const ThinShear* shear = formulation == HexFormulation::plate ? &sampled : nullptr;
-  const Voigt6 c = elasticity(lambda, mu);
-  HexResponse r;
-  const std::array<HexPoint, 8> points = hex_points(X, u, formulation, shear);
-  r.least_determinant = least_volume(points);
-
-  ModeMatrix h = no_modes_yet(formulation);
-  ModeCoupling l = ModeCoupling::Zero();
-  ModeVector q = ModeVector::Zero();
-  for (const HexPoint& p : points) {
-    const Eigen::Matrix<double, 9, 6> mc = p.volume * p.modes.transpose().lazyProduct(c);
-    h.noalias() += mc.lazyProduct(p.modes);
-    if (with_tangent) l.noalias() += mc.lazyProduct(p.b);
-    q.noalias() += mc.lazyProduct(p.strain);
-  }
-  const Eigen::LLT<ModeMatrix> h_factor(h);
-  const ModeVector alpha = -h_factor.solve(q);
-
-  GeometricMatrix geometric = GeometricMatrix::Zero();
-  for (const HexPoint& p : points) {
-    const Voigt strain = p.strain + p.modes * alpha;
-    const Voigt stress = c * strain;
-    r.energy += 0.5 * p.volume * strain.dot(stress);
-    r.force.noalias() += p.volume * p.b.transpose().lazyProduct(stress);
-    if (with_tangent) add_tangent(p, stress, c, shear, r.tangent, geometric);
-  }
-  if (with_tangent) finish_tangent(l, h_factor, geometric, r.tangent);
-  return r;
+  return Hex::response(X, u, lambda, mu, formulation, with_tangent);
 }
 
 }  // namespace pulvis::kernels

@@ -84,7 +84,7 @@ inline void evaluate_modes(const std::array<HexPoint, 8>& points, const PlasticM
                            const Voigt6& elastic, HexFormulation formulation,
                            const HexMemory& before, ModeBalance& b) {
   b.work.setZero();
-  b.h = no_modes_yet(formulation);
+  b.h = Hex::no_modes_yet(formulation);
   for (std::size_t g = 0; g < 8; ++g) {
     const HexPoint& p = points[g];
     b.points[g] = return_map(p.strain + p.modes * b.alpha, m, elastic, before[g]);
@@ -98,7 +98,7 @@ inline void evaluate_modes(const std::array<HexPoint, 8>& points, const PlasticM
 // of the terms of the work, which sets its round-off.
 inline double elastic_modes(const std::array<HexPoint, 8>& points, const Voigt6& elastic,
                             HexFormulation formulation, const HexMemory& before, ModeBalance& b) {
-  ModeMatrix h = no_modes_yet(formulation);
+  ModeMatrix h = Hex::no_modes_yet(formulation);
   ModeVector work = ModeVector::Zero();
   double size = 0;
   for (std::size_t g = 0; g < 8; ++g) {
@@ -145,11 +145,11 @@ inline HexResponse plastic_response(const Corners& X, const Corners& u, const Pl
                                     bool with_tangent, HexMemory* after = nullptr) {
   const ThinShear sampled(X, u);
   const ThinShear* shear = formulation == HexFormulation::plate ? &sampled : nullptr;
-  const Voigt6 elastic = elasticity(m.lambda, m.mu);
-  const std::array<HexPoint, 8> points = hex_points(X, u, formulation, shear);
+  const Voigt6 elastic = Hex::elasticity(m.lambda, m.mu);
+  const std::array<HexPoint, 8> points = Hex::points_of(X, u, formulation, shear);
   const ModeBalance b = balance_modes(points, m, elastic, formulation, before);
   HexResponse r;
-  r.least_determinant = least_volume(points);
+  r.least_determinant = Hex::least_volume(points);
   if (!b.found) r.force.setConstant(std::nan(""));
   ModeCoupling coupling = ModeCoupling::Zero();
   GeometricMatrix geometric = GeometricMatrix::Zero();
@@ -160,12 +160,12 @@ inline HexResponse plastic_response(const Corners& X, const Corners& u, const Pl
     r.energy += 0.5 * p.volume * elastic_strain.dot(s.stress);
     r.force.noalias() += p.volume * p.b.transpose().lazyProduct(s.stress);
     if (with_tangent) {
-      add_tangent(p, s.stress, s.tangent, shear, r.tangent, geometric);
+      Hex::add_tangent(p, s.stress, s.tangent, shear, r.tangent, geometric);
       coupling.noalias() += p.volume * p.modes.transpose().lazyProduct(s.tangent).lazyProduct(p.b);
     }
     if (after != nullptr) (*after)[g] = s.memory;
   }
-  if (with_tangent) finish_tangent(coupling, b.h.llt(), geometric, r.tangent);
+  if (with_tangent) Hex::finish_tangent(coupling, b.h.llt(), geometric, r.tangent);
   return r;
 }
 

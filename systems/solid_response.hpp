@@ -1,10 +1,11 @@
-// One hexahedron's response from the columns of the solid: what solid_element, element_force and
-// remember_plasticity share.
+// One element's response from the columns of the solid: what solid_element, element_force,
+// remember_plasticity, the tetrahedra's systems and factorise_extended share.
 #pragma once
 
 #include "components/solid.hpp"
 #include "engine/access.hpp"
 #include "systems/solid_plastic_kernel.hpp"
+#include "systems/solid_tetrahedron_kernel.hpp"
 
 namespace pulvis {
 
@@ -24,6 +25,14 @@ struct SolidReader {
   kernels::HexResponse elastic(Row<SolidElement> row, bool with_tangent) const {
     return kernels::hex_response(corners(row, reference), corners(row, displacement), lame(row, 0),
                                  lame(row, 1), formulation(row), with_tangent);
+  }
+
+  template <class Real>
+  typename kernels::HexKernel<Real>::NodalMatrix elastic_tangent(Row<SolidElement> row) const {
+    return kernels::HexKernel<Real>::response(corners(row, reference).template cast<Real>(),
+                                              corners(row, displacement).template cast<Real>(),
+                                              lame(row, 0), lame(row, 1), formulation(row))
+        .tangent;
   }
 
   template <class Memory>
@@ -63,5 +72,16 @@ struct SolidReader {
     return m;
   }
 };
+
+template <class Access>
+kernels::TetrahedronNodes nodes_of(const SolidMesh& mesh, Row<SolidTetrahedron> row,
+                                   const Access& values) {
+  const auto& tetrahedron = mesh.tetrahedra[static_cast<std::size_t>(row.value)];
+  kernels::TetrahedronNodes x;
+  for (int a = 0; a < 10; ++a)
+    for (int k = 0; k < 3; ++k)
+      x(k, a) = values(Row<SolidNode>(tetrahedron[static_cast<std::size_t>(a)]), k);
+  return x;
+}
 
 }  // namespace pulvis

@@ -45,6 +45,11 @@ void residual(Read<SolidMesh> mesh, Read<ElementForce> element,
               Optional<Read<ProbeState>> state, Write<SolidEquations> equations);
 void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
                Write<SolidEquations> equations);
+void factorise_extended(Read<SolidAssembly> assembly, Read<SolidMesh> mesh,
+                        Read<ReferencePosition> reference, Read<Displacement> displacement,
+                        Read<LameConstants> elastic, Optional<Read<TetrahedronLame>> tetrahedron,
+                        Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
+                        Write<SolidEquations> equations);
 void newton_direction(Write<SolidEquations> equations);
 void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<ReferencePosition> reference,
                        Read<Displacement> displacement, Read<ProbeNode> node,

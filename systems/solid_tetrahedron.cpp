@@ -4,8 +4,8 @@
 // Source   systems/solid_tetrahedron_kernel.hpp
 // Runs     beside solid_element, first in every evaluation of an equilibrium iteration
 // Active   when a mesh from a file has tetrahedra
+#include "systems/solid_response.hpp"
 #include "systems/solid_systems.hpp"
-#include "systems/solid_tetrahedron_kernel.hpp"
 
 namespace pulvis {
 namespace {
@@ -15,17 +15,6 @@ void for_tetrahedra(Chunk chunk, const SolidMesh& mesh, const Each& each) {
   const auto at = static_cast<std::size_t>(chunk.index);
   for (int e = mesh.tetrahedron_begin[at]; e < mesh.tetrahedron_begin[at + 1]; ++e)
     each(Row<SolidTetrahedron>(e));
-}
-
-template <class Access>
-kernels::TetrahedronNodes nodes_of(const SolidMesh& mesh, Row<SolidTetrahedron> row,
-                                   const Access& values) {
-  const auto& tetrahedron = mesh.tetrahedra[static_cast<std::size_t>(row.value)];
-  kernels::TetrahedronNodes x;
-  for (int a = 0; a < 10; ++a)
-    for (int k = 0; k < 3; ++k)
-      x(k, a) = values(Row<SolidNode>(tetrahedron[static_cast<std::size_t>(a)]), k);
-  return x;
 }
 
 kernels::TetrahedronResponse answer(const SolidMesh& mesh, Row<SolidTetrahedron> row,

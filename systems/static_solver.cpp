@@ -23,6 +23,11 @@ std::vector<System> evaluation(World& w, bool with_tangent) {
 }
 
 std::vector<System> linearisation(World& w) {
+  if (w.resource<SolidEquations>().in_extended) {
+    std::vector<System> list = evaluation(w, false);
+    list.push_back(make_system(w, "factorise_extended", factorise_extended));
+    return list;
+  }
   std::vector<System> list = evaluation(w, true);
   list.push_back(make_system(w, "block_tangent", block_tangent));
   list.push_back(make_system(w, "factorise", factorise));
@@ -95,21 +100,38 @@ void add_probe_columns(World& world, std::size_t points) {
 
 StaticSolver::StaticSolver(World& world)
     : world_(world),
-      linearise_(linearisation(world), world.chunks()),
-      iterate_(iteration(world, true), world.chunks()),
       reuse_(iteration(world, false), world.chunks()),
       look_(evaluation(world, false), world.chunks()) {
+  make_graphs();
   if (auto list = memory(world); !list.empty())
     remember_ = std::make_unique<TaskGraph>(std::move(list), world.chunks());
 }
 
 StaticSolver::~StaticSolver() = default;
 
+void StaticSolver::make_graphs() {
+  linearise_ = std::make_unique<TaskGraph>(linearisation(world_), world_.chunks());
+  iterate_ = std::make_unique<TaskGraph>(iteration(world_, true), world_.chunks());
+}
+
 void StaticSolver::remember() {
   if (remember_) remember_->run();
 }
 
-void StaticSolver::linearise() { linearise_.run(); }
+void StaticSolver::linearise() { linearise_->run(); }
+
+void StaticSolver::extend_precision() {
+  auto& equations = world_.resource<SolidEquations>();
+  equations.in_extended = true;
+  equations.plain = {};
+  make_graphs();
+}
+
+bool StaticSolver::in_extended_precision() const {
+  return world_.resource<SolidEquations>().in_extended;
+}
+
+bool StaticSolver::stable() const { return world_.resource<SolidEquations>().positive(); }
 
 std::vector<double> StaticSolver::respond(std::span<const double> forces) const {
   const auto& mesh = world_.resource<SolidMesh>();
@@ -120,7 +142,7 @@ std::vector<double> StaticSolver::respond(std::span<const double> forces) const 
       for (std::size_t k = 0; k < 3; ++k)
         f[3 * mesh.unknown[static_cast<std::size_t>(support.node)] + static_cast<int>(k)] +=
             support.weight * forces[3 * n + k];
-  const Eigen::VectorXd u = equations.factors->solve(f);
+  const Eigen::VectorXd u = equations.solve(f);
   std::vector<double> all(forces.size());
   expand(mesh, u.data(), all.data());
   return all;
@@ -156,19 +178,35 @@ double StaticSolver::error() const {
   return size == 0 ? 0 : size / equations.scale;
 }
 
-// Where a stiff tip hangs on a soft lever, round-off in its displacements leaves more than the tolerance:
-// a small residual that no longer falls is as good as it gets. Then the law of contact holds where its forces
-// fit the places, or where both have stopped changing: the places of a ball a
+// Where a stiff tip hangs on a soft lever, round-off in its displacements leaves more than the tolerance: a residual
+// that no longer falls is as good as it gets, where Newton's method itself would hardly move on. (A lever 10,000 times
+// longer than thick answers the last digit of its displacements with more than its load.) Then the law of contact
+// holds where its forces fit the places, or where both have stopped changing: the places of a ball a
 // thousand times stiffer than its lever are good to 1e-13 of its way, which is 1e-5 of its forces.
 bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& settings) const {
   const auto& equations = world_.resource<SolidEquations>();
+  const bool stays = r.size() > 1 && r.back() > 0.1 * r[r.size() - 2];
+  const bool small = r.back() <= settings.round_off && step_size() <= settings.step;
   const bool floor =
-      r.size() > 1 && r.back() <= settings.round_off && r.back() > 0.1 * r[r.size() - 2];
+      stays && (small || (equations.in_extended && step_size() <= settings.last_digits));
   const double contact =
       floor ? std::min(equations.contact_error, equations.contact_change) : equations.contact_error;
   if (std::max(std::abs(equations.set_point_error), contact) > settings.contact_tolerance)
     return false;
   return r.back() <= settings.tolerance || floor;
+}
+
+// Of Newton's direction, over the displacements or the scanner's way.
+double StaticSolver::step_size() const {
+  const auto& u = world_.column<Displacement>();
+  double largest = 0;
+  for (std::size_t i = 0; i < u.bytes() / sizeof(double); ++i)
+    largest = std::max(largest, std::abs(u.values()[i]));
+  if (world_.has<Target>())
+    for (const double way : world_.resource<Target>().travel)
+      largest = std::max(largest, std::abs(way));
+  const double step = world_.resource<SolidEquations>().direction.lpNorm<Eigen::Infinity>();
+  return step == 0 ? 0 : step / std::max(step, largest);
 }
 
 // The full step is taken at first: the residual of a thin lever, whose membrane is a million times stiffer
@@ -181,10 +219,10 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   if (world_.has<Target>()) world_.resource<Target>().may_jump = settings.may_jump;
   world_.resource<SolidEquations>().jumped = false;
   bool may_reuse = settings.reuse_factors;
-  bool reuse = may_reuse && equations.factors != nullptr;
+  bool reuse = may_reuse && equations.has_factors();
   for (int i = 0; i <= settings.iterations; ++i) {
     stop_if_asked();
-    (reuse ? reuse_ : iterate_).run();
+    (reuse ? reuse_ : *iterate_).run();
     report.residuals.push_back(error());
     // Factors that do not gain a digit an iteration are too old, until round-off is reached.
     // (The first one started from balance: what the contact's new forces left is no measure.)

@@ -14,8 +14,10 @@
 namespace pulvis {
 
 struct NewtonSettings {
-  double tolerance = 1e-10;  // -, residual over the forces that must balance
-  double round_off = 1e-7;   // -, the same, below which a residual that stays is round-off
+  double tolerance = 1e-10;   // -, residual over the forces that must balance
+  double round_off = 1e-7;    // -, the same, below which a residual that stays is round-off
+  double step = 1e-6;         // -, Newton's step over the displacements, that round-off may leave
+  double last_digits = 1e-9;  // -, the same, where it is all that counts: in extended precision
   double contact_tolerance =
       1e-7;             // -, force that breaks the law of contact, or that the servo misses
   int iterations = 25;  // after which the increment counts as failed
@@ -60,11 +62,19 @@ class StaticSolver {
   // What contact and plasticity carry on to the next increment, from the present equilibrium.
   void remember();
 
-  const GraphPlan& plan() const { return iterate_.plan(); }
+  // From now on with factors in long double: for a lever so thin or soft that those in double do not answer.
+  void extend_precision();
+  bool in_extended_precision() const;
+  // All pivots of the last factorisation are positive, as a solid's at rest must be.
+  bool stable() const;
+
+  const GraphPlan& plan() const { return iterate_->plan(); }
 
  private:
+  void make_graphs();
   void move(double share);
   double error() const;
+  double step_size() const;
   struct State {
     std::vector<double> displacement, force;
     double height = 0;
@@ -75,8 +85,8 @@ class StaticSolver {
   void search(double allowed, int cuts);
 
   World& world_;
-  TaskGraph linearise_, iterate_, reuse_, look_;
-  std::unique_ptr<TaskGraph> remember_;
+  TaskGraph reuse_, look_;
+  std::unique_ptr<TaskGraph> linearise_, iterate_, remember_;
 };
 
 }  // namespace pulvis
