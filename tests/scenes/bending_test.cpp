@@ -4,6 +4,7 @@
 
 #include "experiment.hpp"
 #include "scenes/bending_error.hpp"
+#include "tests/paths.hpp"
 
 namespace pulvis {
 namespace {
@@ -76,9 +77,8 @@ TEST(BendingError, IsToldWhereItIsLarge) {
 }
 
 TEST(BendingError, IsNoMatterOfSquatParticles) {
-  const Scene scene =
-      read_scene(std::string(PULVIS_SOURCE_DIR) + "/scenes/compaction/unit-cell.toml",
-                 {"element.formulation=four-point"});
+  const Scene scene = read_scene(paths::source_dir() + "/scenes/compaction/unit-cell.toml",
+                                 {"element.formulation=four-point"});
   EXPECT_FALSE(bending_error(scene, scene.particles[0]));
 }
 
