@@ -57,14 +57,20 @@ double contact_edges(const TipSpec& tip) {
                     24.0);
 }
 
-// Cells of the core and of its six shells, and those that are divided in eight at the pole.
-SolidSize ball_size(const TipSpec& tip) {
+// Cells of the core and of its six shells, and those that are divided in eight around the pole: as small as the
+// contact's edge h to n h from it, and outside by half the distance larger (scenes/ball_mesh.cpp), which is
+// the integral of 2 pi r^2/size^3. Since halves are taken until they are small enough, most are smaller than asked.
+double ball_cells(const TipSpec& tip) {
+  constexpr double smaller = 2.9;  // times as many, for it
   const double across = tip.elements, layers = std::max(1.0, across / 2);
-  double elements = across * across * (across + 6 * layers);
-  constexpr double grading = 1000;  // about, from there out to the others
-  if (tip.contact_edge) elements += 6 * portable::pow(contact_edges(tip), 3) + grading;
-  return as_cube(elements);
+  const double all = across * across * (across + 6 * layers);
+  if (!tip.contact_edge) return all;
+  const double n = contact_edges(tip);
+  const double out = portable::log(std::max(1.0, tip.radius / (n * *tip.contact_edge)));
+  return all + smaller * 2 * std::numbers::pi * (n * n * n / 3 + n * n + 4 * n + 8 * out);
 }
+
+SolidSize ball_size(const TipSpec& tip) { return as_cube(ball_cells(tip)); }
 
 // Numbers of how the solid answers to forces on every point that touches: three fields each.
 double answers_of(const AfmScene& afm, const SolidSize& solid) {

@@ -182,7 +182,7 @@ TEST(SolidKernel, ARotationOfAnySizeStrainsNothingAndTurnsTheForces) {
 TEST(SolidKernel, AnElementAtRestHasSixFreeMotionsAndNoMore) {
   for (const HexFormulation formulation : {HexFormulation::solid, HexFormulation::plate}) {
     const HexResponse r = hex_response(distorted_corners(), Corners::Zero(), 1.2, 0.8, formulation);
-    const Eigen::SelfAdjointEigenSolver<NodalMatrix> eigen(r.tangent);
+    const Eigen::SelfAdjointEigenSolver<HexKernel<double>::NodalMatrix> eigen(r.tangent);
     EXPECT_LT(std::abs(eigen.eigenvalues()[5]), 1e-12);
     EXPECT_GT(eigen.eigenvalues()[6], 1e-3);
   }

@@ -34,10 +34,10 @@ void run_scene(const std::string& scene, const std::string& options) {
   const fs::path place = fs::temp_directory_path() / ("pulvis-expect-" + std::to_string(getpid()));
   fs::create_directories(place);
   const std::string at = place.string();
-  const int status =
-      std::system(("'" + paths::program() + "' run '" + paths::source_dir() + "/scenes/" + scene +
-                   ".toml' --threads 1 " + options + " -o '" + at + "/run' > '" + at + "/out' 2>&1")
-                      .c_str());
+  const int status = std::system((std::string("'") + paths::program() + "' run '" +
+                                  paths::source_dir() + "/scenes/" + scene + ".toml' --threads 1 " +
+                                  options + " -o '" + at + "/run' > '" + at + "/out' 2>&1")
+                                     .c_str());
   std::ostringstream printed;
   printed << std::ifstream(place / "out").rdbuf();
   EXPECT_EQ(WEXITSTATUS(status), 0) << printed.str();

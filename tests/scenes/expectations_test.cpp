@@ -133,9 +133,9 @@ class Program : public testing::Test {
   int run(const std::string& text, const std::string& more = "") {
     std::ofstream(place / "scene.toml") << text;
     const std::string at = place.string();
-    const int status = std::system(("'" + paths::program() + "' run '" + at + "/scene.toml' -o '" +
-                                    at + "/run' --overwrite --threads 1 " + more + " > '" + at +
-                                    "/out' 2> '" + at + "/err'")
+    const int status = std::system((std::string("'") + paths::program() + "' run '" + at +
+                                    "/scene.toml' -o '" + at + "/run' --overwrite --threads 1 " +
+                                    more + " > '" + at + "/out' 2> '" + at + "/err'")
                                        .c_str());
     std::ostringstream printed;
     printed << std::ifstream(place / "out").rdbuf();

@@ -280,7 +280,7 @@ TEST(Health, WhatIsDoneKeepsTheLimitsItReports) {
 TEST(Health, DampingIsBookedFromTheFirstTouchOn) {
   const auto error = [](double safety) {
     Scene scene = read_scene(
-        paths::source_dir() "/scenes/extreme/impact-100-m-s.toml",
+        paths::source_dir() + "/scenes/extreme/impact-100-m-s.toml",
         {"contact.damping=1", "contact.friction=0", "time.safety=" + std::to_string(safety)});
     scene.materials[0].yield_stress.reset();
     scene.bodies[0].velocity /= 10;
