@@ -281,8 +281,8 @@ const TableDeclaration<LimitSpec>& limits() {
          .kind = Kind::number,
          .range = above(0, 1e6),
          .doc =
-             "`kinetic_ratio`: kinetic over internal energy from a tenth of the run on, for runs "
-             "meant to be quasi-static.",
+             "`kinetic_ratio`: largest kinetic over internal energy, judged from a tenth of the run on; for "
+             "runs meant to be quasi-static.",
          .fallback_doc = "no limit"},
         to(&LimitSpec::kinetic_energy)}}};
   return declaration;

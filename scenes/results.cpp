@@ -257,13 +257,29 @@ void Results::take_energies() {
   take_kinetic_ratio();
 }
 
+// Samples with hardly any internal energy do not count: nothing is quasi-static at first touch. Which these are is
+// known in the end only, so all are kept that no other outdoes in both figures.
 void Results::take_kinetic_ratio() {
-  const Clock& clock = world_.resource<Clock>();
   const double internal = energies_.internal();
   largest_internal_ = std::max(largest_internal_, internal);
-  if (!(clock.time > 0.1 * clock.end) || internal <= 0.01 * largest_internal_) return;
+  const double least = 0.01 * largest_internal_;
+  std::erase_if(kinetic_ratios_, [&](const auto& sample) { return sample.second <= least; });
+  if (internal <= least) return;
   const double ratio = energies_.kinetic / internal;
-  if (!(ratio <= worst_kinetic_ratio_)) worst_kinetic_ratio_ = ratio;
+  const auto outdone_by = [](double r, double i) {
+    return [=](const auto& sample) { return sample.first <= r && sample.second <= i; };
+  };
+  for (const auto& [r, i] : kinetic_ratios_)
+    if (r >= ratio && i >= internal) return;
+  std::erase_if(kinetic_ratios_, outdone_by(ratio, internal));
+  kinetic_ratios_.emplace_back(ratio, internal);
+}
+
+double Results::kinetic_ratio() const {
+  double worst = 0;
+  for (const auto& [ratio, internal] : kinetic_ratios_)
+    if (!(ratio <= worst)) worst = ratio;
+  return worst;
 }
 
 namespace {

@@ -64,7 +64,7 @@ class Results {
   double energy_balance_error() const;
   // Largest kinetic over internal energy so far, from a tenth of the run on (nothing is quasi-static at first
   // touch), while the internal one is above 1% of its largest so far. Reported and judged as well.
-  double kinetic_ratio() const { return worst_kinetic_ratio_; }
+  double kinetic_ratio() const;
   // Smallest det F of any element at any step so far.
   double least_jacobian() const;
   std::int64_t elements() const { return elements_; }
@@ -75,7 +75,7 @@ class Results {
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(last_, energies_, initial_energy_, worst_balance_, largest_energy_, largest_internal_,
-          worst_kinetic_ratio_, shear_, first_);
+          kinetic_ratios_, shear_, first_);
   }
 
  private:
@@ -99,7 +99,9 @@ class Results {
   Energies energies_;
   double stiffness_energy_ = 0;  // J, largest bulk modulus times volume of the particles
   double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
-  double largest_internal_ = 0, worst_kinetic_ratio_ = 0;
+  double largest_internal_ = 0;
+  // Kinetic over internal energy and the internal energy, of samples that may be the worst.
+  std::vector<std::pair<double, double>> kinetic_ratios_;
   ShearResults shear_;
   bool first_ = true;
 };

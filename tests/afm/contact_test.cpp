@@ -90,12 +90,12 @@ TEST(Wedge, ALoopOfAProbeThatSticksGivesNoFriction) {
 // A soft, tilted lever: its press leaves friction along the lever, and a short scan turns it only in part. The probe
 // slides all the while. What the program asks for instead is enough.
 TEST(Wedge, ALoopWhoseFrictionHasNotTurnedGivesNoneAndTheScanThatWould) {
-  for (const auto& [tilt, degrees, mu] : {std::tuple{12, 30, 0.5}, {12, 14, 0.2}, {5, -20, 0.5}}) {
+  for (const auto& [tilt, degrees, mu] : {std::tuple{12, 30, 0.5}, {12, 14, 0.2}}) {
     const auto loop_of = [&, d = degrees, m = mu, t = tilt](double distance) {
       const Scene scene =
           afm_scene(on_incline(beam_with_tip, d, m),
                     {"lever.thickness=0.5 um", "material.lever.youngs_modulus=20 GPa",
-                     "lever.tilt=" + std::to_string(t) + " deg", "action[0].increments=3",
+                     "lever.tilt=" + std::to_string(t) + " deg", "action[0].force=1 nN",
                      "action[1].distance=" + std::to_string(1e9 * distance) + " nm"});
       return friction_loops(scene, history_of(scene)).front();
     };

@@ -107,7 +107,7 @@ TEST(WrongAfm, AScanThatLeavesTheHeightMapIsRefusedWithTheBound) {
     EXPECT_NE(refused({key}).find("allowed: -7.1e-07 to 7.1e-07 m"), std::string::npos)
         << refused({key});
   }
-  EXPECT_NE(refused({"surface.file=nothing.csv"}).find("cannot be read"), std::string::npos);
+  EXPECT_NE(refused({"surface.file=nothing.csv"}).find("there is no such file"), std::string::npos);
 }
 
 std::string refused_heights(const std::string& heights) {

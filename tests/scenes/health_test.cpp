@@ -55,7 +55,7 @@ TEST(Health, AbsurdPunchIsNamedWithBothSides) {
 TEST(Health, ElementTurnedInsideOutIsNamed) {
   Experiment e(
       "compaction/regular-25.toml",
-      {"stage.press.duration=20 us", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]",
+      {"stage.press.duration=100 us", "stage.press.move[0].displacement=[\"0 mm\", \"-30 mm\"]",
        "limits.penetration=1e6"},
       2);
   const std::string failure = failure_of(e.simulation, 10000);

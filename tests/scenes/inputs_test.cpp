@@ -113,15 +113,20 @@ TEST_F(Inputs, AnotherFileOfTheCopysNameIsNeverReplaced) {
   EXPECT_EQ(text_of(copy), "somebody's notes");
 }
 
-TEST_F(Inputs, ASavedSceneRunsAgainInItsOwnFolder) {
+TEST_F(Inputs, ASavedSceneRunsAgainButNotOverItself) {
   trace("grain.csv", 5);
   write(grains("grain.csv", "grain.csv"));
   ASSERT_EQ(run().code, 0);
   const std::string hash = left_in(place / "run").state_hash;
   fs::remove(place / "grain.csv");
-  const Outcome outcome = pulvis({"run", "run/scene.toml", "-o", "run", "--overwrite"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(left_in(place / "run").state_hash, hash);
+  const std::string saved = text_of(place / "run/scene.toml");
+  const Outcome over = pulvis({"run", "run/scene.toml", "-o", "run", "--overwrite"});
+  EXPECT_EQ(over.code, 2);
+  EXPECT_THAT(over.err, HasSubstr("which is being read"));
+  EXPECT_EQ(text_of(place / "run/scene.toml"), saved);
+  const Outcome again = pulvis({"run", "run/scene.toml", "-o", "again"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(left_in(place / "again").state_hash, hash);
 }
 
 TEST_F(Inputs, ADamagedCopyIsNotResumed) {

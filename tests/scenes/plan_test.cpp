@@ -240,6 +240,7 @@ TEST(Plan, BodiesAreComputedInTwoPassesOverTheChunks) {
 // ---- no idle column -----------------------------------------------------------------------------
 // Read by the results: history, frames.
 const Names shown{"tool/force",
+                  "tool/position",
                   "particle/kinetic_energy",
                   "particle/elastic_energy",
                   "particle/plastic_work",
@@ -273,7 +274,11 @@ TEST_P(NoIdleColumn, EveryColumnIsWrittenBySomebodyOrByTheScene) {
                            "tool/normal",
                            "particle/hardening_modulus",
                            "particle/mass_damping",
-                           "particle/stiffness_damping"};
+                           "particle/stiffness_damping",
+                           "gripped_node/direction",
+                           "gripped_node/origin",
+                           "gripped_node/target",
+                           "gripped_node/travel"};
   const Asked asked(GetParam());
   Names written;
   for (const System* system : asked.systems)

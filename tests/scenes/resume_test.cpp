@@ -201,12 +201,24 @@ TEST_F(KilledRun, AShortenedCheckpointIsDamagedToo) {
   EXPECT_THAT(end.err, HasSubstr("no checkpoint is whole"));
 }
 
-TEST_F(KilledRun, AnotherScenesCheckpointIsRefused) {
+TEST_F(KilledRun, AnotherRunsCheckpointIsLeftAside) {
   ASSERT_EQ(pulvis(until(run_words(course, "one"), 50, 1)).code, 130);
   Course other = course;
   other.changes.push_back("contact.friction=0.17");
   ASSERT_EQ(pulvis(until(run_words(other, "other"), 60, 1)).code, 130);
   fs::copy(checkpoints("other").front(), place / "one");
+  const Outcome end = pulvis({"resume", "one"});
+  ASSERT_EQ(end.code, 0) << end.err;
+  expect_same(uninterrupted(), left_in("one"));
+}
+
+TEST_F(KilledRun, AnotherScenesCheckpointIsRefused) {
+  ASSERT_EQ(pulvis(until(run_words(course, "one"), 50, 1)).code, 130);
+  std::string scene = text_of(place / "one/scene.toml");
+  const auto title = scene.find("title = \"");
+  ASSERT_NE(title, std::string::npos);
+  scene.insert(title + 9, "Not that: ");
+  std::ofstream(place / "one/scene.toml") << scene;
   const Outcome end = pulvis({"resume", "one"});
   EXPECT_EQ(end.code, 2);
   EXPECT_THAT(end.err, HasSubstr("the checkpoint is of another scene"));
@@ -214,8 +226,9 @@ TEST_F(KilledRun, AnotherScenesCheckpointIsRefused) {
 
 TEST_F(KilledRun, AnotherVersionsCheckpointIsRefused) {
   ASSERT_EQ(pulvis(until(run_words(course, "run"), 50, 1)).code, 130);
-  const auto hash = Checkpoint(checkpoints("run").front()).info().scene_hash;
-  write_checkpoint(place / "run", {"0.0.1", "0ld", hash, 999, 1e-6}, World(), {});
+  const auto info = Checkpoint(checkpoints("run").front()).info();
+  write_checkpoint(place / "run", {"0.0.1", "0ld", info.scene_hash, 999, 1e-6, info.run}, World(),
+                   {});
   const Outcome end = pulvis({"resume", "run"});
   EXPECT_EQ(end.code, 2);
   EXPECT_THAT(end.err, HasSubstr("was written by pulvis 0.0.1 (0ld)"));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "engine/own_files.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_folder.hpp"
 
@@ -219,7 +220,7 @@ void write_summary(const SyntheticRun& run, const std::filesystem::path& folder)
                         {{"name", "left"}, {"point", {0.0, 0.0}}, {"normal", {1, 0}}},
                         {{"name", "right"}, {"point", {right, 0.0}}, {"normal", {-1, 0}}}};
   }
-  std::ofstream(folder / "summary.json") << summary.dump(2) << "\n";
+  write_own(folder / "summary.json", role::run, summary.dump(2) + "\n");
 }
 
 }  // namespace
