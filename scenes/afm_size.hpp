@@ -19,7 +19,7 @@ SolidSize tip_size(const AfmScene& afm);
 SolidSize afm_size(const AfmScene& afm);
 
 // What is meshed at most. The factors' numbers are counted by 32 bits.
-inline constexpr double most_solid_elements = 200'000;
+inline constexpr double most_solid_elements = 250'000;
 inline constexpr double most_solid_factors = 1.8e9;  // 22 GB
 inline bool is_too_large(const SolidSize& size) {
   return size.elements > most_solid_elements || size.factors > most_solid_factors;
