@@ -25,18 +25,25 @@ constexpr hid_t defaults = H5P_DEFAULT;
 constexpr hid_t whole = H5S_ALL;
 constexpr hid_t error_stack = H5E_DEFAULT;
 constexpr std::size_t variable_length = H5T_VARIABLE;
-constexpr hsize_t unlimited = H5S_UNLIMITED;
 #pragma GCC diagnostic pop
 
 constexpr std::uint64_t most_chunk_rows = 65536;
-constexpr std::uint64_t page_bytes = 4096;
-constexpr std::size_t least_cache_bytes = 1024;
-constexpr std::uint64_t superblock_bytes = 96;   // of the default file version
-constexpr std::uint64_t root_names_bytes = 512;  // never outgrown by the names of a dozen groups
+constexpr std::uint64_t superblock_bytes = 96;  // of the default file version
+// Room for the links and attributes of "/" in its first page (2.5 kB; a run needs 0.9).
+constexpr unsigned root_links = 60;
+constexpr unsigned root_name_bytes = 12;
 
 // A collection of texts is one page then, which changes with one write.
 void align_to_pages(const Handle& access) {
   H5Pset_alignment(access.get(), page_bytes, page_bytes);
+}
+
+// A group has its names in a heap, unless it counts its links: that heap loses room with each name that is
+// removed, and grows into other pages. Links of a group that counts them lie beside its attributes.
+void keep_links_with_attributes(const Handle& creation) {
+  H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED);
+  H5Pset_link_phase_change(creation.get(), root_links, 0);
+  H5Pset_est_link_info(creation.get(), root_links, root_name_bytes);
 }
 
 // HDF5 prints nothing, and closes nothing at the program's exit: after a full disk its own clean-up
@@ -157,7 +164,7 @@ File File::create(const std::filesystem::path& path, std::uint64_t user_block, L
   const Handle properties(H5Pcreate(H5P_FILE_CREATE)), access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_userblock(properties.get(), user_block);
   if (layout == Layout::to_change) {
-    H5Pset_local_heap_size_hint(properties.get(), root_names_bytes);
+    keep_links_with_attributes(properties);
     H5Pset_meta_block_size(access.get(), page_bytes - superblock_bytes);
     align_to_pages(access);
   }
@@ -197,23 +204,6 @@ void File::flush() {
   if (fsync(*static_cast<int*>(descriptor)) != 0) {
     throw OutputError(path_, "flush the file", std::strerror(errno));
   }
-}
-
-// HDF5 knows of a heap as long as it is in its cache of metadata: that is emptied by making it small for a moment.
-void File::begin_change() {
-  H5AC_cache_config_t usual{};
-  usual.version = H5AC__CURR_CACHE_CONFIG_VERSION;
-  checked(H5Fget_mdc_config(handle_.get(), &usual), "prepare", "the file");
-  H5AC_cache_config_t small = usual;
-  small.set_initial_size = true;
-  small.initial_size = small.min_size = small.max_size = least_cache_bytes;
-  small.incr_mode = H5C_incr__off;
-  small.flash_incr_mode = H5C_flash_incr__off;
-  small.decr_mode = H5C_decr__off;
-  checked(H5Fset_mdc_config(handle_.get(), &small), "prepare", "the file");
-  contains("/mesh");  // the next look at anything drops what is too much
-  usual.set_initial_size = true;
-  checked(H5Fset_mdc_config(handle_.get(), &usual), "prepare", "the file");
 }
 
 void File::close() {

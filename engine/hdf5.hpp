@@ -60,6 +60,8 @@ class File {
   // What comes next is written to new places, texts too: HDF5 would put them into heaps that it still has in
   // mind, and enlarge those, though what counts refers to them.
   void begin_change();
+  // Flushes it. std::logic_error where "/" does not lie in one page, so that the change might be seen half done.
+  void commit_change();
 
   // Writing. `object` is the path of a group or dataset.
   void make_group(const std::string& object);

@@ -142,11 +142,12 @@ bool JournaledFile::is_on_disk(std::uint64_t index, const Page& page) const {
 }
 
 // The lowest one, which says what counts, last.
-void JournaledFile::put_pages_in_place() const {
+void JournaledFile::put_pages_in_place(std::uint64_t end) {
   for (auto page = changed_.rbegin(); page != changed_.rend(); ++page) {
     if (page->first == changed_.begin()->first) require(fsync(file_.get()) == 0, "flush");
-    put_in_place(page->first, page->second, committed_);
+    put_in_place(page->first, page->second, end);
   }
+  changed_.clear();
 }
 
 void JournaledFile::commit() {
@@ -156,8 +157,7 @@ void JournaledFile::commit() {
   std::erase_if(changed_, [&](const auto& one) { return is_on_disk(one.first, one.second); });
   if (!changed_.empty()) {
     write_journal();
-    put_pages_in_place();
-    changed_.clear();
+    put_pages_in_place(committed_);
   }
   if (size_on_disk(file_.get()) > size_)
     require(ftruncate(file_.get(), static_cast<off_t>(size_)) == 0, "shorten");
@@ -181,14 +181,13 @@ void JournaledFile::recover() {
       head.pages != (content - sizeof head) / entry ||
       checksum != xxh3(std::span(bytes).first(content)))
     return;
+  if (size_on_disk(file_.get()) < head.size) return;  // not the file that it belongs to
   for (std::size_t at = sizeof head; at < content; at += entry) {
     std::uint64_t index = 0;
-    Page page;
     std::memcpy(&index, bytes.data() + at, sizeof index);
-    std::memcpy(page.data(), bytes.data() + at + sizeof index, page_bytes);
-    put_in_place(index, page, head.end);
+    std::memcpy(changed_[index].data(), bytes.data() + at + sizeof index, page_bytes);
   }
-  if (size_on_disk(file_.get()) < head.size) return;  // not the file that it belongs to
+  put_pages_in_place(head.end);
   require(ftruncate(file_.get(), static_cast<off_t>(head.size)) == 0, "shorten");
   require(fsync(file_.get()) == 0, "flush");
 }

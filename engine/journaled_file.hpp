@@ -51,7 +51,7 @@ class JournaledFile {
   void write_journal() const;
   void recover();
   bool is_on_disk(std::uint64_t index, const Page& page) const;
-  void put_pages_in_place() const;
+  void put_pages_in_place(std::uint64_t end);
   void put_in_place(std::uint64_t index, const Page& page, std::uint64_t end) const;
 
   std::filesystem::path path_;

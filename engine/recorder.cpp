@@ -23,6 +23,11 @@ constexpr std::uint64_t head_bytes = 4096;
 // With a frame the history is written anew, unless it is larger than this and has grown by less than an eighth.
 constexpr std::uint64_t small_history_bytes = std::uint64_t{1} << 20;
 
+// A commit lists every frame anew. The first frames get one each; later ones share it while commits would take
+// more than this part of the run.
+constexpr std::int64_t frames_with_a_commit_each = 100;
+constexpr double share_of_commits = 1.0 / 32;
+
 // Which run it is: no two are the same. No part of the state.
 std::string new_run_id(const std::filesystem::path& folder) {
   std::array<std::uint64_t, 2> bits{};
@@ -98,8 +103,7 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
       pending_(series_.size()) {
   survive_a_full_quota();
   write_attributes(attributes);
-  file_.make_group(
-      "/frames");  // what "/" refers to it by lies in the first page with the attributes
+  file_.make_group("/frames");
   write_mesh(mesh);
   write_history("/history", 0);
   file_.flush();
@@ -146,15 +150,29 @@ void Recorder::cut(const RecorderPosition& position) {
                                   there, rows_there, position.frames, rows));
   for (; frames_ < position.frames; ++frames_) {
     const std::string group = "/frames" + frame_name(frames_);
-    xdmf_.keep(file_.number_attribute(group, "time"), group);
+    xdmf_.add(file_.number_attribute(group, "time"), group);
   }
+  if (there > 0) xdmf_.write();  // first: it names no frame that is cut off
   samples_ = position.samples;
-  file_.begin_change();
+  begin_change();
   link_frames();
   write_history("/history.next", rows);
   if (file_.has_attribute("/", "outcome")) file_.remove_attribute("/", "outcome");
   if (file_.contains("/images")) file_.remove("/images");  // made anew when the run ends
   replace({"/frames", "/history"});
+  committed_ = Clock::now();
+}
+
+void Recorder::begin_change() {
+  if (std::exchange(is_changing_, true)) return;
+  file_.begin_change();
+}
+
+void Recorder::link_frames() {
+  file_.make_group("/frames.next");
+  for (std::int64_t i = 0; i < frames_; ++i)
+    file_.link("/frames" + frame_name(i), "/frames.next" + frame_name(i));
+  has_new_frames_ = true;
 }
 
 // Nothing that run.h5 refers to changes before this, nor anything but its first page with it.
@@ -165,13 +183,8 @@ void Recorder::replace(const std::vector<std::string>& groups) {
   }
   for (const std::string& group : groups)
     file_.remove(group + ".old");  // last: its place is free now
-  file_.flush();
-}
-
-void Recorder::link_frames() {
-  file_.make_group("/frames.next");
-  for (std::int64_t i = 0; i < frames_; ++i)
-    file_.link("/frames" + frame_name(i), "/frames.next" + frame_name(i));
+  file_.commit_change();
+  has_new_frames_ = is_changing_ = false;
 }
 
 void Recorder::write_csv_again() {
@@ -187,20 +200,39 @@ void Recorder::write_csv_again() {
   csv_.flush();
 }
 
-RecorderPosition Recorder::position() {
-  if (!pending_time_.empty()) {
-    file_.begin_change();
+// With the frames of the change that is under way, if there are any, and the history, if that is wanted.
+void Recorder::commit(bool with_history) {
+  const Clock::time_point begin = Clock::now();
+  begin_change();
+  std::vector<std::string> renewed;
+  if (has_new_frames_) renewed.emplace_back("/frames");
+  if (with_history) {
     renew_history();
-    replace({"/history"});
+    renewed.emplace_back("/history");
   }
+  const bool has_new_frames = has_new_frames_;
+  replace(renewed);
   csv_.flush();
+  if (has_new_frames) xdmf_.write();
+  committed_ = Clock::now();
+  cost_ = linking_ + (committed_ - begin);
+}
+
+RecorderPosition Recorder::position() {
+  if (is_changing_ || !pending_time_.empty())
+    commit(!pending_time_.empty());
+  else
+    csv_.flush();
   return {frames_, samples_};
 }
 
 Recorder::~Recorder() {
   if (!open_) return;
   try {
-    position();
+    if (is_half_)
+      file_.remove("/frames.next");  // with all that came since the last commit
+    else
+      position();
     csv_.close();
     file_.close();
   } catch (const std::exception&) {  // the first failure was already thrown from sample or frame
@@ -222,8 +254,6 @@ void Recorder::write_attributes(const RunAttributes& attributes) {
   file_.set_attribute("/", "scene_hash", std::string_view(attributes.scene_hash));
   file_.set_attribute("/", "seed", attributes.seed);
   file_.set_attribute("/", "threads", std::int64_t{attributes.threads});
-  file_.set_attribute("/", "outcome", std::string_view());  // keeps its place free
-  file_.remove_attribute("/", "outcome");
 }
 
 void Recorder::write_mesh(const RunMesh& mesh) {
@@ -276,33 +306,56 @@ void Recorder::sample(double time, std::span<const double> values) {
 
 void Recorder::frame(double time, std::int64_t step,
                      const std::vector<std::vector<double>>& fields) {
-  require(fields.size() == fields_.size(), "a frame holds every field");
-  file_.begin_change();
+  check_lengths(fields);
+  is_half_ = true;
+  begin_frames();
+  write_frame(time, step, fields);
+  is_half_ = false;
+  xdmf_.add(time, "/frames" + frame_name(frames_));
+  ++frames_;
+  if (is_commit_due()) commit(is_history_due());
+}
+
+// The new group of frames, to begin with those that there are.
+void Recorder::begin_frames() {
+  if (has_new_frames_) return;
+  const Clock::time_point begin = Clock::now();
+  begin_change();
   link_frames();
+  linking_ = Clock::now() - begin;
+}
+
+bool Recorder::is_commit_due() const {
+  return frames_ <= frames_with_a_commit_each ||
+         share_of_commits * (Clock::now() - committed_) >= cost_;
+}
+
+void Recorder::check_lengths(const std::vector<std::vector<double>>& fields) const {
+  require(fields.size() == fields_.size(), "a frame holds every field");
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto columns = static_cast<std::size_t>(fields_[i].components);
+    const bool fits =
+        is_of_mesh(fields_[i])
+            ? fields[i].size() == columns * places_[static_cast<std::size_t>(fields_[i].place)]
+            : fields[i].size() % columns == 0;
+    require(fits, "field " + fields_[i].name + " has a wrong length");
+  }
+}
+
+void Recorder::write_frame(double time, std::int64_t step,
+                           const std::vector<std::vector<double>>& fields) {
   const std::string group = "/frames.next" + frame_name(frames_);
   file_.make_group(group);
   file_.set_attribute(group, "time", time);
   file_.set_attribute(group, "step", step);
   for (std::size_t i = 0; i < fields.size(); ++i) write_field(group, fields_[i], fields[i]);
   file_.set_attribute(group, "complete", std::int64_t{1});
-  std::vector<std::string> renewed{"/frames"};
-  if (is_history_due()) {
-    renew_history();
-    renewed.emplace_back("/history");
-  }
-  replace(renewed);
-  csv_.flush();
-  xdmf_.add(time, "/frames" + frame_name(frames_));
-  ++frames_;
 }
 
 void Recorder::write_field(const std::string& group, const FieldInfo& field,
                            const std::vector<double>& values) {
   const auto columns = static_cast<std::uint64_t>(field.components);
   const std::uint64_t rows = values.size() / columns;
-  const bool fixed = is_of_mesh(field);
-  const bool fits = !fixed || rows == places_[static_cast<std::size_t>(field.place)];
-  require(fits && rows * columns == values.size(), "field " + field.name + " has a wrong length");
   const auto stored = static_cast<std::uint64_t>(stored_components(field));
   const std::string dataset = group + "/" + field.name;
   const hdf5::Shape shape = stored == 1 ? hdf5::Shape{rows} : hdf5::Shape{rows, stored};
@@ -321,6 +374,7 @@ void Recorder::write_field(const std::string& group, const FieldInfo& field,
 void Recorder::image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
                      std::span<const double> values) {
   require(lines * pixels == values.size(), "image " + info.name + " has a wrong length");
+  begin_change();
   const std::string dataset = "/images/" + info.name;
   file_.write(dataset, values, {lines, pixels});
   describe(dataset, info.unit, info.meaning);
@@ -328,10 +382,9 @@ void Recorder::image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t 
 
 void Recorder::finish(std::string_view outcome) {
   if (!std::exchange(open_, false)) return;
-  position();
-  file_.begin_change();
+  begin_change();
   file_.set_attribute("/", "outcome", outcome);
-  file_.flush();
+  commit(!pending_time_.empty());
   xdmf_.finish();
   csv_.close();
   file_.close();

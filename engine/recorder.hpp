@@ -13,12 +13,15 @@
 // components. A field of nodes or cells with two components is stored with a third one of zeros, because
 // XDMF has no plane vectors (components = 2 tells); `position` is not. XDMF shows these fields only.
 //
-// After frame() returns, the frame and every sample before it are on the disk: a killed run loses
-// only what came later. run.h5 can be read at any time, while the run writes, too, and wherever it is killed:
-// a frame comes with new groups /frames and /history, which replace the old ones at one blow. (Of a history
-// beyond a megabyte the newest samples may be in history.csv alone.) All failures of the machine are OutputError.
+// After frame() returns, the frame and every sample before it are on the disk: a killed run loses only what came
+// later. From the hundredth frame on that holds for frames that take their time; those that come so fast that
+// commits would take more than a thirtieth of the run share one, position() and finish() at the latest. run.h5 can
+// be read at any time, while the run writes, too, and wherever it is killed: frames come with new groups /frames
+// and /history, which replace the old ones at one blow. (Of a history beyond a megabyte the newest samples may be
+// in history.csv alone.) All failures of the machine are OutputError.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -80,9 +83,17 @@ class Recorder {
   const std::string& run_id() const { return run_id_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void write_attributes(const RunAttributes& attributes);
   void write_mesh(const RunMesh& mesh);
   void put_in_place(const std::filesystem::path& folder);
+  void begin_change();
+  void begin_frames();
+  void commit(bool with_history);
+  bool is_commit_due() const;
+  void check_lengths(const std::vector<std::vector<double>>& fields) const;
+  void write_frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
   void write_history(const std::string& group, std::uint64_t kept);
   void renew_history();
   bool is_history_due() const;
@@ -101,10 +112,14 @@ class Recorder {
   Xdmf xdmf_;
   SeriesInfo abscissa_;
   std::string run_id_;
-  std::vector<std::uint64_t> places_;         // how many of each FieldPlace there are
-  std::vector<double> pending_time_;          // samples not yet in run.h5
-  std::vector<std::vector<double>> pending_;  // [series][sample]
-  std::int64_t frames_ = 0, samples_ = 0;     // samples: in run.h5
+  std::vector<std::uint64_t> places_;                  // how many of each FieldPlace there are
+  std::vector<double> pending_time_;                   // samples not yet in run.h5
+  std::vector<std::vector<double>> pending_;           // [series][sample]
+  std::int64_t frames_ = 0, samples_ = 0;              // samples: in run.h5
+  bool is_changing_ = false, has_new_frames_ = false;  // since the last commit
+  bool is_half_ = false;                               // the frame that is being written
+  Clock::time_point committed_ = Clock::now();
+  Clock::duration linking_{}, cost_{};  // of the last commit: the frames it lists, and all of it
   bool open_ = true;
 };
 

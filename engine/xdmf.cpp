@@ -59,8 +59,9 @@ Xdmf::Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
 
 std::string Xdmf::text() const { return beginning + grids_ + "</Grid>\n</Domain>\n</Xdmf>\n"; }
 
-void Xdmf::add(double time, const std::string& group) {
-  keep(time, group);
+void Xdmf::add(double time, const std::string& group) { grids_ += grid(time, group); }
+
+void Xdmf::write() {
   if (!std::exchange(is_noted_, true)) {
     require_own_or_none(path_, role::run);
     note_own(path_, role::run, beginning, Extent::start);

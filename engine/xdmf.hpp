@@ -1,7 +1,7 @@
 // run.xdmf: tells ParaView and meshio how to read the frames of run.h5 as one moving mesh.
 //
 // One Uniform grid a frame, each with its own geometry, and every item a whole dataset: readers do
-// not agree on hyperslabs. The file is replaced as a whole at each frame (written beside and
+// not agree on hyperslabs. The file is replaced as a whole with new frames (written beside and
 // renamed), so that somebody looking on never meets half of it. Fields of particles are left out:
 // the format has places for nodes and cells only.
 #pragma once
@@ -21,9 +21,8 @@ class Xdmf {
   Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
        const std::vector<FieldInfo>& fields);
   void add(double time, const std::string& group);  // group: "/frames/000000"
-  // A frame that run.h5 has already; the file is written with the next one that is added.
-  void keep(double time, const std::string& group) { grids_ += grid(time, group); }
-  void finish() const;  // no more frames
+  void write();                                     // the frames so far
+  void finish() const;                              // no more frames
 
  private:
   std::string text() const;

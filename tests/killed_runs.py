@@ -8,13 +8,14 @@ run is resumed, and killed again, until it ends; then its history, frames and fi
 those of a run that nobody touched. A run that was killed before it had a checkpoint is started anew.
 
 With --aim every kill falls just before a write into run.h5 or its journal (tests/die_at_write.cpp), all but those
-of the commits' new data into the commits themselves; `report` has to read what is left, too.
+of the commits' new data into the commits themselves; `report` and `figure` have to read what is left, too.
 """
 import argparse
 import json
 import os
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -32,6 +33,7 @@ SCENES = {
                  "--set", "element.formulation=four-point"],
     "loop": ["afm/loop-beam-0.toml"],
 }
+SERIES = {"compaction": "tool/top/force_y", "observed": "tool/top/force_y", "loop": "clamp/force_y"}
 
 
 def arguments():
@@ -52,6 +54,9 @@ def frames_in(folder):
         for name, frame in file["frames"].items():
             assert frame.attrs["complete"] == 1, f"{folder}: frame {name} is not whole"
             assert np.isfinite(frame["position"][...]).all(), name
+        listed = folder / "run.xdmf"
+        named = set(re.findall(r"run\.h5:/frames/(\d+)/", listed.read_text())) if listed.exists() else set()
+        assert named <= set(file["frames"]), f"{folder}: run.xdmf names frames {named - set(file['frames'])}"
         lengths = {len(file["history/time"])}
         file["history"].visititems(
             lambda _, o: lengths.add(len(o)) if isinstance(o, h5py.Dataset) else None)
@@ -121,12 +126,21 @@ class Killer:
         if run.returncode != -9:
             return run
         self.kills += 1
-        if frames_in(folder):
-            report = subprocess.run([self.options.program.resolve(), "report", folder], check=False,
-                                    capture_output=True, text=True)
-            assert report.returncode == 0, f"write {at}: {report.stderr}"
+        try:
+            frames = frames_in(folder)
+        except (OSError, RuntimeError, KeyError) as error:
+            raise AssertionError(f"{scene}: {'resume' if resume else 'run'} ended at write {at} "
+                                 "into run.h5 leaves it unreadable") from error
+        if frames:
+            self.read_by("report", folder)
+            self.read_by("figure", folder, "--series", SERIES[scene], "-o", folder.with_suffix(".csv"))
         self.count_stage(folder)
         return run
+
+    def read_by(self, *words):
+        reader = subprocess.run([self.options.program.resolve(), *words], check=False,
+                                capture_output=True, text=True)
+        assert reader.returncode == 0, f"{words[0]} after {self.kills} kills: {reader.stderr}"
 
     def count_stage(self, folder):
         self.stages["after one" if list(folder.glob("checkpoint-*.h5")) else

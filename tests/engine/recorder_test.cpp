@@ -187,6 +187,33 @@ TEST_F(RecorderTest, LeavesAFrameReadableWhileTheRunGoesOn) {
   EXPECT_THAT(text_of("history.csv"), HasSubstr("\n0,1,2\n"));
 }
 
+// Beyond the first hundred, frames that come fast share a commit. Whoever looks on sees whole ones.
+TEST_F(RecorderTest, ManyFastFramesAreAllThereWhenTheRunIsSavedOrEnds) {
+  constexpr int most = 600;
+  open_run_folder(folder);
+  Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
+  for (int k = 0; k < most; ++k) {
+    recorder.sample(k, std::vector{1.0, 2.0});
+    recorder.frame(k, k, fields_of(k));
+    if (k % 97 != 0) continue;
+    const auto file = hdf5::File::open(folder / "run.h5");
+    const auto frames = file.children("/frames");
+    EXPECT_LE(frames.size(), static_cast<std::size_t>(k) + 1);
+    EXPECT_GE(frames.size(), std::min(static_cast<std::size_t>(k) + 1, std::size_t{100}));
+    for (const std::string& frame : frames)
+      EXPECT_EQ(file.number_attribute("/frames/" + frame, "complete"), 1);
+    EXPECT_EQ(file.shape("/history/time").front(), frames.size());
+  }
+  EXPECT_EQ(recorder.position().frames, most);
+  EXPECT_EQ(hdf5::File::open(folder / "run.h5").children("/frames").size(), std::size_t{most});
+  EXPECT_THAT(text_of("run.xdmf"), HasSubstr("/frames/000599/position"));
+  recorder.finish();
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_EQ(file.children("/frames").size(), std::size_t{most});
+  EXPECT_EQ(file.read_doubles("/frames/000599/effective_stress"), fields_of(most - 1)[2]);
+  EXPECT_EQ(file.number_attribute("/frames/000400", "time"), 400);
+}
+
 TEST_F(RecorderTest, RefusesWrongLengthsAndAFirstFieldThatIsNoPosition) {
   open_run_folder(folder);
   Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
@@ -194,6 +221,9 @@ TEST_F(RecorderTest, RefusesWrongLengthsAndAFirstFieldThatIsNoPosition) {
   auto fields = fields_of(0);
   fields[2].push_back(0);
   EXPECT_THROW(recorder.frame(0, 0, fields), std::invalid_argument);
+  recorder.finish();
+  EXPECT_THAT(hdf5::File::open(folder / "run.h5").children("/"),
+              ElementsAre("frames", "history", "mesh"));  // nothing of it is left
   EXPECT_THROW(Recorder(folder / "b", {}, two_squares(), {}, {four_fields()[2]}),
                std::invalid_argument);
 }
@@ -281,6 +311,25 @@ TEST_F(RecorderTest, WritesAnXdmfThatIsWellFormedAfterEveryFrame) {
       "/usr/bin/python3 -c \"" + check + "\" '" + (folder / "run.xdmf").string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_FALSE(fs::exists(folder / "run.xdmf.new"));
+}
+
+// A reader of run.xdmf is not sent to frames that are gone.
+TEST_F(RecorderTest, AResumedRunTakesFramesThatItCutsOutOfTheXdmf) {
+  RecorderPosition position;
+  open_run_folder(folder);
+  {
+    Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
+    for (int k = 0; k < 5; ++k) {
+      recorder.frame(k, k, fields_of(k));
+      if (k == 2) position = recorder.position();
+    }
+  }
+  EXPECT_THAT(text_of("run.xdmf"), HasSubstr("/frames/000004/"));
+  const Recorder resumed(folder, two_squares(), two_series(), four_fields(), position);
+  EXPECT_THAT(hdf5::File::open(folder / "run.h5").children("/frames"),
+              ElementsAre("000000", "000001", "000002"));
+  EXPECT_THAT(text_of("run.xdmf"), HasSubstr("/frames/000002/"));
+  EXPECT_EQ(text_of("run.xdmf").find("/frames/000003/"), std::string::npos);
 }
 
 // Lists of their own length: none in the first frame, then two rows; no part of the XDMF picture.
