@@ -7,7 +7,7 @@
 
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
-#include "engine/own_files.hpp"
+#include "engine/files/own_files.hpp"
 
 namespace pulvis {
 namespace {

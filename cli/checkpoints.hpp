@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "engine/checkpoint.hpp"
+#include "engine/files/checkpoint.hpp"
 #include "scenes/read.hpp"
 
 namespace pulvis {

@@ -11,10 +11,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/report_assets.hpp"
+#include "cli/report/report_assets.hpp"
 #include "cli/tell.hpp"
-#include "engine/own_files.hpp"
-#include "engine/run_folder.hpp"
+#include "engine/files/own_files.hpp"
+#include "engine/files/run_folder.hpp"
 
 namespace pulvis {
 namespace {

@@ -1,12 +1,13 @@
 #include "cli/pack.hpp"
+#include "scenes/checks/overlaps.hpp"
 
 #include <fmt/format.h>
 
 #include "cli/tell.hpp"
-#include "engine/own_files.hpp"
-#include "scenes/packing_file.hpp"
-#include "scenes/place.hpp"
-#include "scenes/problem.hpp"
+#include "engine/files/own_files.hpp"
+#include "scenes/language/problem.hpp"
+#include "scenes/packing/packing_file.hpp"
+#include "scenes/packing/place.hpp"
 
 namespace pulvis {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "cli/exit_code.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 

@@ -1,4 +1,6 @@
 #include "cli/reduce.hpp"
+#include "cli/reduction_report.hpp"
+#include "cli/wedge_report.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +10,9 @@
 #include "cli/reduction_files.hpp"
 #include "cli/tell.hpp"
 #include "cli/wedge_files.hpp"
-#include "engine/own_files.hpp"
-#include "engine/run_folder.hpp"
-#include "scenes/wedge_records.hpp"
+#include "engine/files/own_files.hpp"
+#include "engine/files/run_folder.hpp"
+#include "scenes/records/wedge_records.hpp"
 
 namespace pulvis {
 namespace {

@@ -10,7 +10,7 @@
 #include "cli/csv_cell.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
-#include "engine/own_files.hpp"
+#include "engine/files/own_files.hpp"
 
 namespace pulvis {
 namespace {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "scenes/lab_reduction.hpp"
-#include "scenes/lab_simulation.hpp"
+#include "scenes/records/lab_reduction.hpp"
+#include "scenes/records/lab_simulation.hpp"
 
 namespace pulvis {
 
@@ -24,7 +24,5 @@ void write_reduction(const std::filesystem::path& folder, const Reduction& reduc
 
 // What summary.json holds, all in SI units.
 nlohmann::ordered_json reduction_json(const Reduction& reduction);
-
-void write_reduction_report(const std::filesystem::path& folder, const Reduction& reduction);
 
 }  // namespace pulvis

@@ -1,13 +1,14 @@
 // report.html of a reduction: the curves on one grid of distances, and every run's records on one
 // clock. cli/report/reduction.js draws them.
+#include "cli/reduction_report.hpp"
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cli/reduction_files.hpp"
-#include "cli/report_encoding.hpp"
-#include "cli/report_page.hpp"
-#include "engine/own_files.hpp"
+#include "cli/report/report_encoding.hpp"
+#include "cli/report/report_page.hpp"
+#include "engine/files/own_files.hpp"
 
 namespace pulvis {
 namespace {

@@ -1,4 +1,5 @@
 #include "cli/run_afm.hpp"
+#include "engine/machine_memory.hpp"
 
 #include <fmt/format.h>
 
@@ -9,26 +10,26 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/plan.hpp"
-#include "cli/report.hpp"
+#include "cli/report/report.hpp"
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
 #include "cli/tell.hpp"
 #include "components/solid.hpp"
+#include "engine/files/own_files.hpp"
+#include "engine/files/recorder.hpp"
+#include "engine/files/run_folder.hpp"
 #include "engine/interruption.hpp"
-#include "engine/own_files.hpp"
-#include "engine/recorder.hpp"
-#include "engine/run_folder.hpp"
-#include "scenes/afm_figures.hpp"
-#include "scenes/afm_image.hpp"
-#include "scenes/afm_loop.hpp"
-#include "scenes/afm_scene.hpp"
-#include "scenes/afm_simulation.hpp"
-#include "scenes/afm_size.hpp"
+#include "engine/run_failure.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/lever/afm_figures.hpp"
+#include "scenes/lever/afm_image.hpp"
+#include "scenes/lever/afm_loop.hpp"
+#include "scenes/lever/afm_simulation.hpp"
+#include "scenes/lever/afm_size.hpp"
 #include "scenes/memory_need.hpp"
-#include "scenes/state_hash.hpp"
-#include "systems/run_failure.hpp"
+#include "scenes/results/state_hash.hpp"
+#include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis {
 namespace {

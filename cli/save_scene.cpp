@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/own_files.hpp"
-#include "engine/run_folder.hpp"
+#include "engine/files/own_files.hpp"
+#include "engine/files/run_folder.hpp"
 
 namespace pulvis {
 namespace {

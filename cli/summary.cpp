@@ -9,10 +9,10 @@
 
 #include "cli/summary_compaction.hpp"
 #include "components/contact.hpp"
+#include "engine/files/own_files.hpp"
 #include "engine/instruction_set.hpp"
-#include "engine/own_files.hpp"
-#include "scenes/state_hash.hpp"
-#include "scenes/surface.hpp"
+#include "scenes/results/state_hash.hpp"
+#include "scenes/tools/surface.hpp"
 
 namespace pulvis {
 namespace {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "engine/task_graph.hpp"
-#include "scenes/compaction_curve.hpp"
-#include "scenes/contact_findings.hpp"
 #include "scenes/expectations.hpp"
-#include "scenes/results.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/results/compaction_curve.hpp"
+#include "scenes/results/contact_findings.hpp"
+#include "scenes/results/results.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 

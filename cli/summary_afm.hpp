@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cli/summary.hpp"
-#include "scenes/afm_calibration.hpp"
-#include "scenes/afm_loop.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/lever/afm_calibration.hpp"
+#include "scenes/lever/afm_loop.hpp"
 #include "scenes/read.hpp"
 
 namespace pulvis {

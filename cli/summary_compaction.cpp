@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenes/density_fits.hpp"
+#include "scenes/results/density_fits.hpp"
 
 namespace pulvis {
 namespace {

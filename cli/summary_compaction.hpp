@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scenes/compaction_curve.hpp"
+#include "scenes/results/compaction_curve.hpp"
 
 namespace pulvis {
 

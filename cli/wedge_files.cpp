@@ -9,8 +9,8 @@
 
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
-#include "engine/own_files.hpp"
-#include "scenes/wedge_records.hpp"
+#include "engine/files/own_files.hpp"
+#include "scenes/records/wedge_records.hpp"
 
 namespace pulvis {
 namespace {

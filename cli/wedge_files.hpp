@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/lab_settings.hpp"
-#include "scenes/wedge_calibration.hpp"
+#include "scenes/lever/wedge_calibration.hpp"
+#include "scenes/records/lab_settings.hpp"
 
 namespace pulvis {
 
@@ -26,8 +26,6 @@ nlohmann::ordered_json wedge_json(const WedgeReduction& reduction);
 
 // summary.json, facets.csv and the settings.
 void write_wedge(const std::filesystem::path& folder, const WedgeReduction& reduction);
-
-void write_wedge_report(const std::filesystem::path& folder, const WedgeReduction& reduction);
 
 std::string wedge_text(const wedge::Calibration& calibration);
 

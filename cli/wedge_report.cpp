@@ -1,9 +1,10 @@
 // report.html of a wedge calibration: its loops, and what they gave. cli/report/wedge.js draws them.
+#include "cli/wedge_report.hpp"
+
 #include <nlohmann/json.hpp>
 
-#include "cli/report_page.hpp"
-#include "cli/wedge_files.hpp"
-#include "engine/own_files.hpp"
+#include "cli/report/report_page.hpp"
+#include "engine/files/own_files.hpp"
 
 namespace pulvis {
 namespace {

@@ -18,7 +18,7 @@ struct Standard {
   static constexpr bool stabilised = false;
 };
 
-// One point at the centre, and the two bending modes that it cannot see (systems/hourglass_kernel.hpp).
+// One point at the centre, and the two bending modes that it cannot see (systems/body/hourglass_kernel.hpp).
 struct OnePoint {
   static constexpr int points = 1;
   static constexpr int volumes = 1;

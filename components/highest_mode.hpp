@@ -1,4 +1,4 @@
-// Columns of the estimate of each particle's highest frequency (systems/highest_mode): there are none unless
+// Columns of the estimate of each particle's highest frequency (systems/body/highest_mode): there are none unless
 // the scene takes its time step from it.
 #pragma once
 

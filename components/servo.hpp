@@ -29,7 +29,7 @@ struct ServoForce : Component<Tool, double, 2> {
 };
 
 // What drives a tool while a stage lasts: the set force, a mass of its own, and a second one dragged along
-// through a dashpot (systems/servo_kernel.hpp).
+// through a dashpot (systems/tools/servo_kernel.hpp).
 struct ToolServos {
   static constexpr const char* resource_name = "tool_servos";
   struct Servo {

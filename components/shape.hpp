@@ -43,7 +43,7 @@ struct Shape {
   };
 
   // D = V sum_I dN_I/dxi dN_I/dxi^T / a_I at the middle of an element of area V, a_I the part of node I's
-  // area that counts as the element's own: bounds its frequencies (systems/time_step_kernel).
+  // area that counts as the element's own: bounds its frequencies (systems/body/time_step_kernel).
   struct CornerMoment {
     double xixi, xieta, etaeta;
   };

@@ -88,7 +88,7 @@ struct BlockTangent : Component<StiffnessBlock, double, 9> {
   static constexpr ComponentInfo info{"block_tangent", "N/m", "3 x 3, row by row"};
 };
 
-// How a hexahedron takes its strains from its corners' displacements; systems/solid_kernel.hpp.
+// How a hexahedron takes its strains from its corners' displacements; systems/lever/solid_kernel.hpp.
 enum class HexFormulation : std::uint8_t {
   solid,     // nine incompatible modes
   plate,     // one layer of a plate, thin along zeta: modes, and transverse shear from its edges

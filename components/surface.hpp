@@ -23,7 +23,8 @@ struct ToolSurface {
   using Box = std::array<double, 4>;  // m: x low, y low, x high, y high
 
   std::vector<Piece> pieces;
-  std::vector<Box> tree;  // boxes of halves of halves of the chain; see systems/surface_search
+  std::vector<Box>
+      tree;  // boxes of halves of halves of the chain; see systems/contact/surface_search
 };
 
 struct ToolShapes {  // only where a tool is no plane

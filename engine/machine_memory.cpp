@@ -1,5 +1,7 @@
 #include "engine/machine_memory.hpp"
 
+#include <fmt/format.h>
+
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -106,6 +108,12 @@ std::uint64_t left_by_control_groups(const fs::path& table, const fs::path& root
 std::uint64_t available_memory() {
   return std::min(
       {of_machine(), left_by_control_groups("/proc/self/cgroup", "/sys/fs/cgroup"), of_shell()});
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (value >= 1e9) return fmt::format("{:.3g} GB", value * 1e-9);
+  return fmt::format("{:.3g} MB", value * 1e-6);
 }
 
 }  // namespace pulvis

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace pulvis {
 
@@ -12,5 +13,7 @@ std::uint64_t available_memory();  // bytes; the largest number where nothing sa
 // What control groups leave. `table` is /proc/self/cgroup, `root` where the groups are mounted.
 std::uint64_t left_by_control_groups(const std::filesystem::path& table,
                                      const std::filesystem::path& root);
+
+std::string bytes_text(std::uint64_t bytes);  // "12.3 MB"
 
 }  // namespace pulvis

@@ -1,4 +1,5 @@
 #include "scenes/build.hpp"
+#include "scenes/checks/overlaps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,60 +15,25 @@
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 #include "engine/portable_math.hpp"
-#include "scenes/drives.hpp"
-#include "scenes/grips.hpp"
 #include "scenes/highest_mode.hpp"
 #include "scenes/hilbert.hpp"
-#include "scenes/mesh.hpp"
-#include "scenes/observe.hpp"
-#include "scenes/place.hpp"
-#include "scenes/surface.hpp"
-#include "scenes/thinnest.hpp"
+#include "scenes/meshes/mesh.hpp"
+#include "scenes/meshes/thinnest.hpp"
+#include "scenes/needs.hpp"
+#include "scenes/packing/place.hpp"
+#include "scenes/results/observe.hpp"
+#include "scenes/tools/contact_rules.hpp"
+#include "scenes/tools/drives.hpp"
+#include "scenes/tools/grips.hpp"
+#include "scenes/tools/surface.hpp"
 
 namespace pulvis {
-
-ContactRules::Friction friction_of(const Scene& scene, const std::string& a, const std::string& b) {
-  for (const FrictionSpec& f : scene.frictions) {
-    if (!((f.first == a && f.second == b) || (f.first == b && f.second == a))) continue;
-    ContactRules::Friction friction{.coefficient = f.coefficient};
-    if (f.static_coefficient) {
-      friction.drop = *f.static_coefficient - f.coefficient;
-      friction.over_decay = 1 / *f.decay_length;
-    }
-    if (f.shear_strength) friction.strength = *f.shear_strength;
-    return friction;
-  }
-  return {.coefficient = scene.contact.friction};
-}
 
 namespace {
 
 // Surfaces move by this many skins against each other before they can have come near who were no
 // neighbours: more than neighbours do, and few enough to keep lists short.
 constexpr double skins_of_neighbourhood = 8;
-
-ContactRules contact_rules(const Scene& scene) {
-  ContactRules rules;
-  rules.stiffness = scene.contact.stiffness;
-  rules.damping = scene.contact.damping;
-  rules.penetration_limit = scene.limits.penetration;
-  rules.materials = static_cast<int>(scene.materials.size());
-  for (const MaterialSpec& a : scene.materials)
-    for (const MaterialSpec& b : scene.materials)
-      rules.friction.push_back(friction_of(scene, a.name, b.name));
-  for (const ToolSpec& tool : scene.tools)
-    for (const MaterialSpec& m : scene.materials)
-      rules.tool_friction.push_back(is_grip(tool) ? ContactRules::Friction{}
-                                                  : friction_of(scene, tool.name, m.name));
-  return rules;
-}
-
-// Whether any pair that can touch has friction that `acts` on.
-template <class Acts>
-bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& acts) {
-  return (needs.pairs && std::ranges::any_of(rules.friction, acts)) ||
-         (needs.tools && std::ranges::any_of(rules.tool_friction, acts));
-}
 
 // Uniform in [0, 1) from the top 53 bits: the same on every machine and standard library.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
@@ -367,29 +333,6 @@ void add_clock(World& world, const Scene& scene) {
 }
 
 }  // namespace
-
-Needs needs_of(const Scene& scene, std::size_t particles) {
-  Needs needs;
-  needs.plastic = std::ranges::any_of(
-      scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
-  needs.pairs = particles > 1;
-  const auto any = [&](ToolSpec::Shape shape) {
-    return std::ranges::any_of(scene.tools, [&](const ToolSpec& t) { return t.shape == shape; });
-  };
-  needs.polylines = any(ToolSpec::Shape::polyline);
-  needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
-  needs.grips = any(ToolSpec::Shape::grip);
-  using Friction = ContactRules::Friction;
-  const ContactRules rules = contact_rules(scene);
-  needs.friction =
-      any_friction(rules, needs, [](const Friction& f) { return f.coefficient > 0 || f.drop > 0; });
-  needs.weakening = needs.friction &&
-                    any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
-  needs.formulation = scene.element.formulation;
-  needs.damping = needs.contact() && scene.contact.damping > 0;
-  needs.bulk_damping = std::ranges::any_of(scene.materials, &MaterialSpec::damped);
-  return needs;
-}
 
 std::unique_ptr<World> build_world(const Scene& scene) {
   const std::vector<BodySpec> bodies = place_bodies(scene);

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <map>
 
-#include "scenes/expect_checks.hpp"
+#include "engine/run_failure.hpp"
+#include "scenes/checks/expect_checks.hpp"
 #include "scenes/read.hpp"
+#include "scenes/results/timetable.hpp"
 #include "scenes/simulation.hpp"
-#include "scenes/timetable.hpp"
-#include "systems/run_failure.hpp"
 
 namespace pulvis {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/results.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/results/results.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "components/highest_mode.hpp"
-#include "scenes/contact_curve.hpp"
+#include "scenes/meshes/contact_curve.hpp"
 
 namespace pulvis {
 namespace {

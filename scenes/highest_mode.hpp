@@ -1,9 +1,9 @@
-// What the estimate of the highest frequency starts from (systems/highest_mode).
+// What the estimate of the highest frequency starts from (systems/body/highest_mode).
 #pragma once
 
 #include "components/shape.hpp"
 #include "engine/world.hpp"
-#include "scenes/build.hpp"
+#include "scenes/needs.hpp"
 
 namespace pulvis {
 

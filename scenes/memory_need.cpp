@@ -7,11 +7,11 @@
 #include "components/body.hpp"
 #include "components/contact.hpp"
 #include "components/highest_mode.hpp"
+#include "engine/files/output_error.hpp"
 #include "engine/machine_memory.hpp"
-#include "engine/output_error.hpp"
-#include "scenes/build.hpp"
-#include "scenes/mesh.hpp"
-#include "scenes/place.hpp"
+#include "scenes/meshes/mesh.hpp"
+#include "scenes/needs.hpp"
+#include "scenes/packing/place.hpp"
 
 namespace pulvis {
 namespace {
@@ -110,12 +110,6 @@ MemoryNeed memory_need(const Scene& scene) {
           rows_of_an_edge * static_cast<double>(particles[c] * edges * row_bytes(needs)));
   }
   return need;
-}
-
-std::string bytes_text(std::uint64_t bytes) {
-  const auto value = static_cast<double>(bytes);
-  if (value >= 1e9) return fmt::format("{:.3g} GB", value * 1e-9);
-  return fmt::format("{:.3g} MB", value * 1e-6);
 }
 
 void require_memory(const Scene& scene) {

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
-#include "scenes/scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 
@@ -18,8 +17,6 @@ struct MemoryNeed {
 
 // Of the scenes of particles; their packings are filled.
 MemoryNeed memory_need(const Scene& scene);
-
-std::string bytes_text(std::uint64_t bytes);  // "12.3 MB"
 
 // Throws OutputError where this machine has not got it now.
 void require_memory(const Scene& scene);

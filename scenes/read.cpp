@@ -1,20 +1,21 @@
 #include "scenes/read.hpp"
-#include "scenes/afm_scene.hpp"
+#include "scenes/spec/afm_scene.hpp"
 
-#include "engine/input_file.hpp"
-#include "engine/xxh3.hpp"
-#include "scenes/accuracy.hpp"
-#include "scenes/afm_checks.hpp"
-#include "scenes/checks.hpp"
-#include "scenes/expect_checks.hpp"
-#include "scenes/fill_packings.hpp"
-#include "scenes/meshed_lever.hpp"
-#include "scenes/meshed_tip.hpp"
-#include "scenes/override.hpp"
-#include "scenes/profile.hpp"
+#include "engine/files/input_file.hpp"
+#include "engine/files/xxh3.hpp"
+#include "scenes/checks/accuracy.hpp"
+#include "scenes/checks/checks.hpp"
+#include "scenes/checks/expect_checks.hpp"
+#include "scenes/keys/tables.hpp"
+#include "scenes/language/override.hpp"
+#include "scenes/language/scene_text.hpp"
+#include "scenes/language/table_reader.hpp"
+#include "scenes/lever/afm_checks.hpp"
+#include "scenes/lever/mesh/meshed_lever.hpp"
+#include "scenes/lever/mesh/meshed_tip.hpp"
+#include "scenes/packing/fill_packings.hpp"
 #include "scenes/scene_files.hpp"
-#include "scenes/scene_text.hpp"
-#include "scenes/table_reader.hpp"
+#include "scenes/tools/profile.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +30,8 @@ constexpr std::size_t largest_file = 16U << 20U;  // bytes; scenes are written b
 
 class SceneReader {
  public:
-  SceneReader(const Table& root, Problems& problems) : root_(root), tables_(root, problems) {}
+  SceneReader(const Table& root, Problems& problems)
+      : root_(root), tables_(root, problems, schema::scene_language()) {}
 
   Scene read(const std::filesystem::path& file) {
     Scene scene;
@@ -126,7 +128,8 @@ class SceneReader {
 
   // A misspelt outline is reported once; the keys of its mesh cannot be judged then.
   static bool holds_outline(const std::string& outline) {
-    const schema::KeyInfo& key = *schema::find_key(*schema::find_table("particle"), "outline");
+    const schema::KeyInfo& key =
+        *schema::find_key(*schema::find_table("particle", schema::scene_language()), "outline");
     for (const schema::Choice& choice : key.choices)
       if (choice.word == outline) return true;
     return false;
@@ -193,8 +196,9 @@ void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, 
   std::erase_if(root, [&](const document::Entry& entry) {
     return entry.key == "accuracy" || (alone && entry.key == "expect");
   });
-  loaded.inputs = keep_inputs(root, loaded.scene.file.parent_path(), others);
-  loaded.text = scene_text(root);
+  loaded.inputs =
+      keep_inputs(root, loaded.scene.file.parent_path(), others, schema::scene_language());
+  loaded.text = scene_text(root, schema::scene_language());
   loaded.hash = hash_with_inputs(loaded.inputs, scene_hash(loaded.text));
 }
 
@@ -206,7 +210,7 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   apply_overrides(root, overrides, problems);
   problems.throw_if_any();
   fill_meshes(root, problems);
-  schema::fill_defaults(root);
+  schema::fill_defaults(root, schema::scene_language());
 
   LoadedScene loaded;
   SceneReader reader(root, problems);

@@ -2,9 +2,9 @@
 // is built or run.
 #pragma once
 
-#include "scenes/problem.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/language/problem.hpp"
 #include "scenes/scene_files.hpp"
+#include "scenes/spec/scene.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <span>
 
-#include "engine/xxh3.hpp"
+#include "engine/files/xxh3.hpp"
 #include "scenes/read.hpp"
 
 namespace pulvis {
@@ -117,8 +117,7 @@ std::uint64_t file_hash(const fs::path& file) {
 }
 
 std::uint64_t hash_with_inputs(const std::vector<InputFile>& inputs, std::uint64_t hash) {
-  for (const InputFile& input : inputs)
-    hash = xxh3(std::as_bytes(std::span(&input.hash, 1)), hash);
+  for (const InputFile& input : inputs) hash = xxh3(std::as_bytes(std::span(&input.hash, 1)), hash);
   return hash;
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/schema.hpp"
+#include "scenes/language/schema.hpp"
 
 namespace pulvis {
 
@@ -29,8 +29,7 @@ struct InputFile {
 // of what is in it, heights-5f0c2a91.csv: files of one name do not collide, and a copy keeps its name when it
 // is copied again.
 std::vector<InputFile> keep_inputs(document::Table& root, const std::filesystem::path& folder,
-                                   const OtherScenes& others = {},
-                                   const schema::Language& language = schema::all_tables());
+                                   const OtherScenes& others, const schema::Language& language);
 
 std::uint64_t file_hash(const std::filesystem::path& file);
 

@@ -8,7 +8,7 @@
 #include "components/run_state.hpp"
 #include "engine/workers.hpp"
 #include "engine/world.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/spec/scene.hpp"
 #include "systems/step.hpp"
 
 namespace pulvis {

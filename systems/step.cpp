@@ -4,9 +4,12 @@
 
 #include <algorithm>
 
-#include "systems/highest_mode.hpp"
-#include "systems/lost_bodies.hpp"
-#include "systems/systems.hpp"
+#include "systems/body/highest_mode.hpp"
+#include "systems/body/systems.hpp"
+#include "systems/contact/lost_bodies.hpp"
+#include "systems/contact/systems.hpp"
+#include "systems/observe/systems.hpp"
+#include "systems/tools/systems.hpp"
 
 namespace pulvis {
 

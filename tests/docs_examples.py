@@ -14,7 +14,7 @@ EXPECTED = {"h5py": r"largest force on the punch: \S+ N\nmean effective stress: 
             "meshio": r"^0 s: largest effective stress \S+ Pa\n(.+ s: largest effective stress \S+ Pa\n)+$"}
 
 
-# `systems/j2_kernel.hpp`, `scenes/afm`; not patterns (`mesh_<outline>.cpp`), nor what a build or a run makes.
+# `systems/body/j2_kernel.hpp`, `scenes/afm`; not patterns (`mesh_<outline>.cpp`), nor what a build or a run makes.
 NAMED = re.compile(r"`(?:\./)?((?:cli|scenes|systems|components|engine|tests|bench|docs)/[\w./+-]+)`")
 LINKED = re.compile(r"\]\(([\w./-]+\.(?:md|png|json))[#)]")
 

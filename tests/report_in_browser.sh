@@ -2,14 +2,14 @@
 # Opens reports in headless Chromium and does with them what a reader would do: no message on the console, nothing
 # loaded, curves and picture there, and the picture follows frame, field, keys and curve.
 #
-# usage: report_in_browser.sh TEST_SCENES PULVIS SOURCE_DIR [FOLDER]
-#   TEST_SCENES  the program test_scenes, whose report tests write the reports
+# usage: report_in_browser.sh TEST_CLI PULVIS SOURCE_DIR [FOLDER]
+#   TEST_CLI  the program test_cli, whose report tests write the reports
 #   PULVIS       the program, which writes those of a real compaction and of a lever
 #   SOURCE_DIR   where scenes/ and tests/report_driver.js lie
 #   FOLDER       where to leave the reports and screenshots; without it they are removed
 set -euo pipefail
 
-test_scenes=$1 pulvis=$2 source_dir=$3
+test_cli=$1 pulvis=$2 source_dir=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 reports=${4:-$work/reports}
@@ -32,7 +32,7 @@ check() {
 
 everything=(has-curves scrubbed back stepped playing linked curve-zoomed zoomed other-field dark)
 
-PULVIS_KEEP_REPORTS=$reports "$test_scenes" --gtest_filter='ReportTest.*' >"$work/tests.txt" ||
+PULVIS_KEEP_REPORTS=$reports "$test_cli" --gtest_filter='ReportTest.*' >"$work/tests.txt" ||
   fail "the report tests: $(tail -5 "$work/tests.txt")"
 "$pulvis" run "$source_dir/scenes/compaction/regular-25.toml" --threads 1 --set output.frames=8 \
   --set "stage.press.duration=20 us" --set 'stage.press.move[0].displacement=["0 mm", "-0.4 mm"]' \

@@ -9,7 +9,7 @@
 #include "components/run_state.hpp"
 #include "engine/workers.hpp"
 #include "engine/world.hpp"
-#include "scenes/scene.hpp"
+#include "scenes/spec/scene.hpp"
 
 namespace pulvis::bench {
 

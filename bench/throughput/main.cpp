@@ -20,7 +20,7 @@
 #include "cli/summary.hpp"
 #include "engine/instruction_set.hpp"
 #include "scenes/build.hpp"
-#include "scenes/state_hash.hpp"
+#include "scenes/results/state_hash.hpp"
 #include "systems/step.hpp"
 
 namespace pulvis::bench {

@@ -18,7 +18,7 @@ foreach(asset ${ASSETS})
 endforeach()
 
 file(WRITE ${OUTPUT} "// Generated from cli/report/ by cli/report/write_assets.cmake.
-#include \"cli/report_assets.hpp\"
+#include \"cli/report/report_assets.hpp\"
 
 #include <cstddef>
 #include <stdexcept>

@@ -1,56 +1,163 @@
 #!/usr/bin/python3
-"""The arrows between the folders point one way: cli -> scenes -> systems -> components -> engine.
+"""The house: which folder, and which room in it, may look at which; how full a room may be.
 
 usage: layers.py [ROOT]
 
-Reads every #include of the product folders, resolves it as the compiler does (beside the including
-file, then from the root) and refuses each one that points against an arrow. Exit code 1 then.
+Reads every #include of the product folders, resolves it as the compiler does (beside the including file, then from the
+root), and refuses each one that points against an arrow: from a floor to one above it, or from a room to one that ROOMS
+does not list for it. Refuses headers that include each other in a circle, a folder of more than 40 files of code, and a
+source file of a room that is neither declared in a header of its own name nor a system, nor a part of another (PARTS).
+Exit code 1 then.
 """
 import os
 import re
 import sys
 from pathlib import Path
 
-MAY_INCLUDE = {
-    "engine": set(),
-    "components": {"engine"},
-    "systems": {"engine", "components"},
-    "scenes": {"engine", "components", "systems"},
-    "cli": {"engine", "components", "systems", "scenes"},
+FLOORS = ("engine", "components", "systems", "scenes", "cli")  # each looks at those before it
+# The rooms of a floor and the rooms of it that they look at. "": the floor's own files.
+ROOMS = {
+    "engine": {
+        "files": "/",
+        "": "",
+    },
+    "systems": {
+        "laws": "",
+        "body": "laws",
+        "contact": "laws",
+        "tools": "contact laws",
+        "observe": "contact tools",
+        "lever": "body laws",
+        "": "body contact tools observe",
+    },
+    "scenes": {
+        "language": "",
+        "spec": "language",
+        "keys": "spec language",
+        "outlines": "spec language",
+        "meshes": "outlines spec",
+        "packing": "outlines spec language",
+        "tools": "packing outlines spec language",
+        "results": "tools spec language",
+        "lever/mesh": "spec language",
+        "lever": "lever/mesh spec language",
+        "checks": "lever meshes packing tools results outlines spec language",
+        "": "checks keys lever lever/mesh meshes packing tools results outlines spec language",
+        "records": "lever keys spec language /",
+        "study": "checks results keys spec language /",
+    },
+    "cli": {
+        "report": "",
+        "study": "report /",
+        "": "report",
+    },
 }
-# No product folder includes these two, which stand on top of all of them.
-FOLDERS = set(MAY_INCLUDE) | {"tests", "bench"}
+ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
+# Sources of one kind that a header of another name declares.
+PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_")
+MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')
 
 
-def target_folder(root, source, target):
-    """The product folder an include leads into, or None: a library's header, or one not found."""
+def includes(file):
+    for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match[1]
+
+
+def target_of(root, source, target):
+    """The product file that an include leads to, or None: a library's header, or one not found."""
     for place in (source.parent / target, root / target):
-        inside = Path(os.path.relpath(os.path.normpath(place), root)).parts
+        inside = Path(os.path.relpath(os.path.normpath(place), root))
         # A folder's name alone decides when the file is missing: the arrow would be wrong anyway.
-        if inside[0] in FOLDERS and (place.exists() or place == root / target):
-            return inside[0]
+        if inside.parts[0] in (*FLOORS, "tests", "bench") and (place.exists() or place == root / target):
+            return inside
     return None
+
+
+def room_of(inside):
+    """Floor and room of a product file."""
+    floor, room = inside.parts[0], "/".join(inside.parts[1:-1])
+    return floor, room
+
+
+def may_look(source, target):
+    floor, room = room_of(source)
+    other, there = room_of(target)
+    if other not in FLOORS:
+        return False
+    if floor != other:
+        return FLOORS.index(other) < FLOORS.index(floor)
+    if room == there or source.name in ABOVE.get(floor, ()) and not room:
+        return True
+    allowed = ROOMS.get(floor, {}).get(room)
+    return allowed is not None and (there or "/") in allowed.split()
+
+
+def circles(arrows):
+    """Headers that include themselves by way of others."""
+    state, found = {}, []
+
+    def visit(header, way):
+        state[header] = "open"
+        for following in arrows.get(header, ()):
+            if state.get(following) == "open":
+                found.append(" -> ".join(map(str, [*way[way.index(following):], following])))
+            elif following not in state:
+                visit(following, [*way, following])
+        state[header] = "done"
+
+    for header in sorted(arrows):
+        if header not in state:
+            visit(header, [header])
+    return found
+
+
+def is_declared(root, source, systems):
+    inside = source.relative_to(root)
+    if source.with_suffix(".hpp").exists() or inside.name == "main.cpp" or str(inside).startswith(PARTS):
+        return True
+    if inside.parts[0] == "systems":  # a system, or several of one kind
+        text = source.read_text(encoding="utf-8")
+        return any(re.search(rf"\bvoid {name}\(", text) for name in systems)
+    return False
+
+
+def names_of_systems(root):
+    text = "".join(f.read_text(encoding="utf-8") for f in sorted((root / "systems").rglob("*systems.hpp")))
+    return set(re.findall(r"^(?:\s*)void (\w+)\(", text, re.M))
 
 
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parents[2]).resolve()
-    files, wrong = 0, []
-    for folder, allowed in MAY_INCLUDE.items():
-        sources = [f for f in sorted((root / folder).rglob("*")) if f.suffix in SUFFIXES]
-        files += len(sources)
-        for source in sources:
-            for number, line in enumerate(source.read_text(encoding="utf-8").splitlines(), 1):
-                match = INCLUDE.match(line)
-                target = match and target_folder(root, source, match[1])
-                if target and target != folder and target not in allowed:
-                    wrong.append(f"{source.relative_to(root)}:{number}: {folder}/ must not include "
-                                 f"{match[1]}: allowed are {', '.join(sorted(allowed)) or 'none'}")
-    print(*wrong, sep="\n", end="\n" if wrong else "")
-    if files == 0:
+    files = [f for floor in FLOORS for f in sorted((root / floor).rglob("*")) if f.suffix in SUFFIXES]
+    if not files:
         sys.exit(f"layers: no source under {root}: is this the root?")
-    print(f"layers: {files} files, {len(wrong)} includes against the arrows")
+    wrong, arrows, folders = [], {}, {}
+    systems = names_of_systems(root)
+    for source in files:
+        inside = source.relative_to(root)
+        folders.setdefault(inside.parent, []).append(inside)
+        floor, room = room_of(inside)
+        if floor in ROOMS and room not in ROOMS[floor]:
+            wrong.append(f"{inside}: {floor}/{room} is no room of the house: {__file__} lists them")
+        if inside.suffix == ".cpp" and not is_declared(root, source, systems):
+            wrong.append(f"{inside}: neither has a header of its own nor is a system")
+        for number, name in includes(source):
+            target = target_of(root, source, name)
+            if target is None:
+                continue
+            if inside.suffix == ".hpp":
+                arrows.setdefault(inside, set()).add(target)
+            if not may_look(inside, target):
+                wrong.append(f"{inside}:{number}: must not include {name}")
+    wrong += [f"headers include each other: {circle}" for circle in circles(arrows)]
+    wrong += [f"{folder}: {len(inside)} files of code, at most {MOST_FILES}" for folder, inside in
+              sorted(folders.items()) if len(inside) > MOST_FILES]
+    print(*wrong, sep="\n", end="\n" if wrong else "")
+    print(f"layers: {len(files)} files in {len(folders)} folders, {len(wrong)} against the plan")
     return 1 if wrong else 0
 
 

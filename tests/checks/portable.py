@@ -28,9 +28,9 @@ RULES = [
     (re.compile(r"using\s+std::(" + NAMES + r")\b"), None),
     (re.compile(rf"(?:\.|->)({NAMES}|stableNorm|blueNorm|hypotNorm)\s*\(\s*\)"), None),
     (re.compile(r"\b(Rotation2D[df]?|AngleAxis[df]?|Quaternion[df]?|EulerAngles\w*)\b"),
-     "rotation() of scenes/rotation.hpp"),
+     "rotation() of scenes/spec/rotation.hpp"),
     (re.compile(r"\b(\w+_distribution|uniform_real\w*|generate_canonical|default_random_engine|random_device"
-                r"|random_shuffle|shuffle)\b"), "Random of scenes/portable.hpp"),
+                r"|random_shuffle|shuffle)\b"), "Random of scenes/outlines/portable.hpp"),
 ]
 COMMENT = re.compile(r"//.*")
 TEXT = re.compile(r'"(\\.|[^"\\])*"')

@@ -1,5 +1,5 @@
 // A checkpoint gives a world back bit by bit, whoever added its columns; one that was changed is recognised.
-#include "engine/checkpoint.hpp"
+#include "engine/files/checkpoint.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/output_error.hpp"
+#include "engine/files/output_error.hpp"
 #include "tests/engine/test_places.hpp"
 
 namespace pulvis {

@@ -1,5 +1,5 @@
 // Files that a user names: what is no regular file of bounded size is refused, and nothing waits for it.
-#include "engine/input_file.hpp"
+#include "engine/files/input_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

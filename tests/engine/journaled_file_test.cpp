@@ -1,5 +1,5 @@
 // A journaled file is as it was after its last commit, wherever the program died since.
-#include "engine/journaled_file.hpp"
+#include "engine/files/journaled_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

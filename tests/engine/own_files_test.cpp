@@ -1,6 +1,6 @@
 // Pulvis's own files are those that hold what it wrote, in the role that it wrote them in: nothing else is ever
 // replaced or removed.
-#include "engine/own_files.hpp"
+#include "engine/files/own_files.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-#include "engine/xxh3.hpp"
+#include "engine/files/xxh3.hpp"
 
 namespace pulvis {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/recorder.hpp"
-#include "engine/run_folder.hpp"
+#include "engine/files/recorder.hpp"
+#include "engine/files/run_folder.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The recorder: what it writes can be read back, in the places and with the units the users'
 // scripts rely on; what the machine refuses becomes an OutputError that tells file and reason.
-#include "engine/recorder.hpp"
+#include "engine/files/recorder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/output_error.hpp"
-#include "engine/run_folder.hpp"
+#include "engine/files/output_error.hpp"
+#include "engine/files/run_folder.hpp"
 
 namespace pulvis {
 namespace {

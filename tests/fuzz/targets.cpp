@@ -1,4 +1,5 @@
 #include "targets.hpp"
+#include "scenes/outlines/points_file.hpp"
 
 #include <unistd.h>
 
@@ -12,22 +13,22 @@
 
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
-#include "engine/checkpoint.hpp"
-#include "engine/journaled_file.hpp"
-#include "engine/output_error.hpp"
-#include "scenes/csv_table.hpp"
-#include "scenes/lab_record.hpp"
-#include "scenes/lab_settings.hpp"
-#include "scenes/meshed_lever.hpp"
-#include "scenes/meshed_tip.hpp"
-#include "scenes/outline_checks.hpp"
-#include "scenes/packing_file.hpp"
-#include "scenes/profile_file.hpp"
+#include "engine/files/checkpoint.hpp"
+#include "engine/files/journaled_file.hpp"
+#include "engine/files/output_error.hpp"
+#include "scenes/language/csv_table.hpp"
+#include "scenes/lever/mesh/meshed_lever.hpp"
+#include "scenes/lever/mesh/meshed_tip.hpp"
+#include "scenes/lever/target_shape.hpp"
+#include "scenes/outlines/outline_checks.hpp"
+#include "scenes/packing/packing_file.hpp"
+#include "scenes/packing/size_law.hpp"
 #include "scenes/read.hpp"
-#include "scenes/size_law.hpp"
-#include "scenes/study_read.hpp"
-#include "scenes/target_shape.hpp"
-#include "scenes/wedge_records.hpp"
+#include "scenes/records/lab_record.hpp"
+#include "scenes/records/lab_settings.hpp"
+#include "scenes/records/wedge_records.hpp"
+#include "scenes/study/study_read.hpp"
+#include "scenes/tools/profile_file.hpp"
 
 namespace pulvis::fuzz {
 namespace {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "key_values.hpp"
-#include "scenes/override.hpp"
+#include "scenes/language/override.hpp"
 
 namespace pulvis::keys {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "key_plan.hpp"
-#include "scenes/declare.hpp"
+#include "scenes/keys/declare.hpp"
 
 namespace pulvis::keys {
 namespace {

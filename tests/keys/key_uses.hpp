@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/schema.hpp"
+#include "scenes/language/schema.hpp"
 
 namespace pulvis::keys {
 

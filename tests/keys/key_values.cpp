@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scenes/units.hpp"
+#include "scenes/language/units.hpp"
 
 namespace pulvis::keys {
 namespace {

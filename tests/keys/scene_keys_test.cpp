@@ -5,14 +5,15 @@
 #include <set>
 
 #include "key_plan.hpp"
-#include "scenes/afm_build.hpp"
-#include "scenes/afm_scene.hpp"
 #include "scenes/build.hpp"
-#include "scenes/mesh.hpp"
-#include "scenes/place.hpp"
+#include "scenes/checks/overlaps.hpp"
+#include "scenes/lever/afm_build.hpp"
+#include "scenes/meshes/mesh.hpp"
+#include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
-#include "tests/paths.hpp"
-#include "tests/scenes/left.hpp"
+#include "scenes/spec/afm_scene.hpp"
+#include "tests/helpers/left.hpp"
+#include "tests/helpers/paths.hpp"
 
 namespace pulvis::keys {
 namespace {
@@ -39,7 +40,7 @@ std::string fault_of_scene(const std::string& text, const fs::path& folder) {
 const Plan& plan() {
   static const Plan made = [] {
     try {
-      return plan_for(schema::all_tables(), bases, fault_of_scene);
+      return plan_for(schema::scene_language(), bases, fault_of_scene);
     } catch (const std::exception& error) {
       return Plan{{}, {}, {error.what()}};
     }

@@ -1,10 +1,10 @@
 // Every key of the settings of `reduce`: what it keeps of them does the same again.
 #include "cli/wedge_files.hpp"
 #include "key_plan.hpp"
-#include "scenes/lab_reduction.hpp"
-#include "scenes/lab_settings.hpp"
-#include "tests/paths.hpp"
-#include "tests/scenes/program.hpp"
+#include "scenes/records/lab_reduction.hpp"
+#include "scenes/records/lab_settings.hpp"
+#include "tests/helpers/paths.hpp"
+#include "tests/helpers/program.hpp"
 
 namespace pulvis::keys {
 namespace {

@@ -2,10 +2,10 @@
 #include <unistd.h>
 
 #include "key_plan.hpp"
-#include "scenes/declare_study.hpp"
-#include "scenes/study_read.hpp"
-#include "tests/paths.hpp"
-#include "tests/scenes/program.hpp"
+#include "scenes/study/declare_study.hpp"
+#include "scenes/study/study_read.hpp"
+#include "tests/helpers/paths.hpp"
+#include "tests/helpers/program.hpp"
 
 namespace pulvis::keys {
 namespace {

@@ -1,7 +1,7 @@
 # What threads share: the library is built with the thread sanitizer, the programs are not.
 add_borrowed_tests(threads tsan systems ${PULVIS_PROGRAMS_OF}/tests/test_systems --gtest_filter=BroadPhase.*:Contact.*)
 foreach(test TwoRunsAgreeInEveryBit ThreadsDoNotChangeABit ObservingDoesNotChangeTheRun)
-  add_borrowed_tests(threads tsan ${test} ${PULVIS_PROGRAMS_OF}/tests/test_scenes --gtest_filter=Determinism.${test})
+  add_borrowed_tests(threads tsan ${test} ${PULVIS_PROGRAMS_OF}/tests/test_cli --gtest_filter=Determinism.${test})
 endforeach()
 add_executable(test_told tsan/told_test.cpp)
 target_link_libraries(test_told PRIVATE pulvis_rules TBB::tbb)

@@ -1,0 +1,16 @@
+// The parts of the report's page (cli/report/report/), put into the program when it is built: the program
+// finds them wherever it is installed.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pulvis {
+
+std::string_view report_asset(std::string_view name);  // "page.html"; an unknown name throws
+
+// Names of the parts that begin like this, in their order.
+std::vector<std::string> report_assets_named(std::string_view beginning);
+
+}  // namespace pulvis

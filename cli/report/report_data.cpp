@@ -1,0 +1,126 @@
+#include "cli/report/report_data.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/report/report_encoding.hpp"
+#include "cli/report/report_frames.hpp"
+#include "cli/report/report_solid.hpp"
+#include "engine/files/hdf5.hpp"
+#include "engine/files/input_file.hpp"
+
+namespace pulvis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t frame_budget = 20'000'000;  // bytes; packed and spelt in base64 about 15 MB
+constexpr std::size_t most_samples = 5000;
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& folder, std::size_t budget)
+      : folder_(folder), file_(hdf5::File::open(folder / "run.h5")) {
+    read_summary();
+    read_scene();
+    read_history();
+    file_.contains("/mesh/hexahedra") ? add_solid(file_, head, sections)
+                                      : add_frames(file_, budget, head, sections);
+  }
+
+  Json head = Json::object();
+  std::vector<ReportSection> sections;
+  std::string title;
+
+ private:
+  std::string text(const char* name) const {
+    return file_.has_attribute("/", name) ? file_.text_attribute("/", name) : std::string();
+  }
+
+  // A file beside run.h5 that is missing or broken costs no report.
+  std::string text_of(const char* name) const {
+    constexpr std::size_t most = 64U << 20U;  // bytes
+    try {
+      return text_of_input(folder_ / name, most);
+    } catch (const UnfitInput&) {
+      return {};
+    }
+  }
+
+  void read_summary() {
+    Json summary = Json::object();
+    const Json read = Json::parse(text_of("summary.json"), nullptr, false);
+    if (read.is_object()) summary = read;
+    for (const char* name : {"title", "version", "commit", "scene_hash", "outcome"}) {
+      if (!summary.contains(name) && !text(name).empty()) summary[name] = text(name);
+    }
+    for (const char* name : {"seed", "threads"}) {
+      if (!summary.contains(name) && file_.has_attribute("/", name)) {
+        summary[name] = file_.unsigned_attribute("/", name);
+      }
+    }
+    const bool named = summary.contains("title") && summary["title"].is_string();
+    const auto folder = std::filesystem::weakly_canonical(folder_).filename().string();
+    title = named ? summary["title"].get<std::string>() : std::string();
+    if (title.empty()) title = folder;
+    head["title"] = title;
+    head["folder"] = folder;
+    head["summary"] = summary;
+  }
+
+  void read_scene() {
+    const std::string scene = text_of("scene.toml");
+    if (!scene.empty()) head["scene"] = scene;
+  }
+
+  void read_history() {
+    auto names = file_.datasets_below("/history");
+    std::erase(names, "time");
+    names.insert(names.begin(), "time");
+    const std::size_t samples = file_.shape("/history/time").at(0);
+    const auto kept = thinned(samples, most_samples);
+    std::vector<float> values;
+    head["samples"] = kept.size();
+    head["all_samples"] = samples;
+    head["series"] = Json::array();
+    for (const auto& name : names) {
+      auto series = file_.read_doubles("/history/" + name);
+      series.resize(samples, std::nan(""));
+      for (const auto sample : kept) values.push_back(static_cast<float>(series[sample]));
+      head["series"].push_back({{"name", name},
+                                {"unit", file_.text_attribute("/history/" + name, "unit")},
+                                {"meaning", file_.text_attribute("/history/" + name, "meaning")}});
+    }
+    sections.push_back({"history", encoded(values)});
+  }
+
+  std::filesystem::path folder_;
+  hdf5::File file_;
+};
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+ReportData read_report_data(const std::filesystem::path& run_folder) {
+  Reader run(run_folder, frame_budget);
+  return {run.title, text_of(run.head), std::move(run.sections)};
+}
+
+ReportData read_comparison(const std::vector<std::filesystem::path>& run_folders) {
+  Json head{{"runs", Json::array()}};
+  ReportData data{"Comparison: ", "", {}};
+  for (std::size_t i = 0; i < run_folders.size(); ++i) {
+    Reader run(run_folders[i], frame_budget / run_folders.size());
+    for (auto& section : run.sections)
+      data.sections.push_back({"run-" + std::to_string(i) + "-" + section.name, section.text});
+    data.title += (i == 0 ? "" : " · ") + run.title;
+    head["runs"].push_back(std::move(run.head));
+  }
+  data.head = text_of(head);
+  return data;
+}
+
+}  // namespace pulvis

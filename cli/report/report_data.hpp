@@ -1,0 +1,28 @@
+// What report.html carries of a run: a head (JSON: names, units, ranges) and packed numbers, small enough
+// together to be mailed (about 15 MB at most).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pulvis {
+
+struct ReportSection {
+  std::string name;  // "cells", "history", "frame-3-position", "frame-3-0" (field 0 of frame 3)
+  std::string text;  // as cli/report/report_encoding writes it
+};
+
+struct ReportData {
+  std::string title;
+  std::string head;  // JSON
+  std::vector<ReportSection> sections;
+};
+
+ReportData read_report_data(const std::filesystem::path& run_folder);
+
+// Several runs for one page: the head has them as "runs", the names of their sections begin with "run-0-",
+// "run-1-" and so on.
+ReportData read_comparison(const std::vector<std::filesystem::path>& run_folders);
+
+}  // namespace pulvis

@@ -1,0 +1,225 @@
+#include "cli/report/report_frames.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "cli/report/report_encoding.hpp"
+#include "cli/report/report_mesh.hpp"
+#include "cli/report/report_observed.hpp"
+
+namespace pulvis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_frames = 60, least_frames = 12;
+constexpr std::size_t sectors = 12;  // of a particle drawn as a fan
+constexpr std::size_t fine_levels = 4094,
+                      coarse_levels = 254;  // of a value between least and greatest
+
+constexpr Range nothing_yet{std::numeric_limits<double>::infinity(),
+                            -std::numeric_limits<double>::infinity()};
+
+void widen(Range& range, double value) {
+  if (!std::isfinite(value)) return;
+  range.low = std::min(range.low, value);
+  range.high = std::max(range.high, value);
+}
+
+struct CellField {  // one number a cell
+  std::string dataset, label, unit, meaning;
+  std::size_t component = 0, stored = 1;
+  bool speed = false;  // made from the velocities of the nodes
+  Range range = nothing_yet;
+};
+
+std::string frame_path(const std::string& frame) { return "/frames/" + frame; }
+
+class Frames {
+ public:
+  Frames(const hdf5::File& file, std::size_t budget, Json& head,
+         std::vector<ReportSection>& sections)
+      : file_(file), budget_(budget), head_(head), sections_(sections) {}
+
+  void add() {
+    read_mesh();
+    choose_frames();
+    find_ranges();
+    sections_.push_back({"cells", encoded(std::span<const std::int32_t>(drawn_.cells()), 4)});
+    for (std::size_t i = 0; i < frames_.size(); ++i) add_frame(i);
+    describe();
+  }
+
+ private:
+  void read_mesh() {
+    mesh_.quads = file_.read_integers("/mesh/quads");
+    mesh_.cell_particle = file_.read_integers("/mesh/cell_particle");
+    mesh_.node_particle = file_.read_integers("/mesh/node_particle");
+    mesh_.reference = file_.read_doubles("/mesh/reference");
+  }
+
+  // What is drawn of how many frames, so that it fits.
+  void choose_frames() {
+    const auto names = complete_frames(file_);
+    all_ = names.size();
+    drawn_ = DrawnMesh::whole(mesh_);
+    if (names.empty()) return;
+    last_ = frame_path(names.back());
+    choose_fields(true);
+    fans_ = affordable() < std::min(least_frames, all_) && mesh_.cells() > 0;
+    if (fans_) {
+      drawn_ = DrawnMesh::fans(mesh_, sectors);
+      choose_fields(false);
+    }
+    const auto most = std::clamp<std::size_t>(affordable(), 1, most_frames);
+    for (const auto i : thinned(all_, most)) frames_.push_back(names[i]);
+  }
+
+  std::size_t affordable() const {
+    std::size_t bytes = 4 * drawn_.node_count();
+    bytes += (fans_ ? 1 : 2) * drawn_.cell_count() * fields_.size();
+    if (file_.contains(last_ + "/contacts"))
+      bytes += 10 * file_.shape(last_ + "/contacts/normal_force").at(0);
+    return budget_ / std::max<std::size_t>(1, bytes);
+  }
+
+  void choose_fields(bool tensors) {
+    fields_.clear();
+    for (const auto& name : file_.children(last_)) {
+      const std::string dataset = last_ + "/" + name;
+      if (!file_.has_attribute(dataset, "place")) continue;
+      const bool speed = name == "velocity" && file_.text_attribute(dataset, "place") == "node";
+      if (!speed && file_.text_attribute(dataset, "place") != "cell") continue;
+      const auto shape = file_.shape(dataset);
+      const std::size_t stored = shape.size() > 1 ? shape[1] : 1;
+      const auto used = static_cast<std::size_t>(file_.number_attribute(dataset, "components"));
+      const std::string unit = file_.text_attribute(dataset, "unit");
+      const std::string meaning = file_.text_attribute(dataset, "meaning");
+      if (speed) fields_.push_back({name, "speed", unit, "mean over the corners", 0, stored, true});
+      if (speed || (used > 1 && !tensors)) continue;
+      for (std::size_t k = 0; k < used; ++k)
+        fields_.push_back({name, label(name, k, used), unit, meaning, k, stored});
+    }
+  }
+
+  static std::string label(const std::string& name, std::size_t component, std::size_t count) {
+    static constexpr std::array tensor{"xx", "yy", "zz", "xy"};
+    if (count == 1) return name;
+    if (count == tensor.size()) return name + " " + tensor[component];
+    return name + " " +
+           (count <= 3 ? std::string(1, "xyz"[component]) : std::to_string(component + 1));
+  }
+
+  std::vector<double> positions(const std::string& frame) const {
+    return drawn_.positions(file_.read_doubles(frame_path(frame) + "/position"));
+  }
+
+  std::vector<double> values(const std::string& frame, const CellField& field) const {
+    const auto all = file_.read_doubles(frame_path(frame) + "/" + field.dataset);
+    std::vector<double> one(mesh_.cells());
+    for (std::size_t c = 0; c < one.size(); ++c)
+      one[c] = field.speed ? speed(all, field.stored, c) : all[c * field.stored + field.component];
+    return drawn_.values(one);
+  }
+
+  double speed(const std::vector<double>& velocity, std::size_t stored, std::size_t cell) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto node = static_cast<std::size_t>(mesh_.quads[4 * cell + k]);
+      sum += std::hypot(velocity[node * stored], velocity[node * stored + 1]);
+    }
+    return sum / 4;
+  }
+
+  void find_ranges() {
+    for (const auto& frame : frames_) {
+      const auto xy = positions(frame);
+      for (std::size_t i = 0; i < xy.size(); ++i) widen(i % 2 == 0 ? x_ : y_, xy[i]);
+      for (auto& field : fields_)
+        for (const double value : values(frame, field)) widen(field.range, value);
+    }
+    if (!(x_.low <= x_.high && y_.low <= y_.high)) x_ = y_ = {0, 0};
+  }
+
+  void add_frame(std::size_t number) {
+    const std::string& frame = frames_[number];
+    const std::string prefix = "frame-" + std::to_string(number) + "-";
+    const double width = std::max(x_.high - x_.low, y_.high - y_.low);
+    const std::size_t levels = fans_ ? coarse_levels : fine_levels;
+    auto xy = positions(frame);  // both axes in steps of one length: from 0 to `width`
+    for (std::size_t i = 0; i < xy.size(); ++i) xy[i] -= i % 2 == 0 ? x_.low : y_.low;
+    sections_.push_back({prefix + "position", encoded(quantised(xy, {0, width}), 2)});
+    for (std::size_t k = 0; k < fields_.size(); ++k) {
+      const auto codes = quantised(values(frame, fields_[k]), fields_[k].range, levels);
+      sections_.push_back({prefix + std::to_string(k), encoded(codes, 1)});
+    }
+    Json entry{{"time", file_.number_attribute(frame_path(frame), "time")},
+               {"step", file_.number_attribute(frame_path(frame), "step")}};
+    add_observed(file_, frame_path(frame), prefix, entry, sections_);
+    head_["frames"].push_back(entry);
+  }
+
+  void describe() {
+    const std::set particles(mesh_.node_particle.begin(), mesh_.node_particle.end());
+    head_["mesh"] = {{"nodes", mesh_.nodes()},
+                     {"cells", mesh_.cells()},
+                     {"particles", particles.size()},
+                     {"drawn_nodes", drawn_.node_count()},
+                     {"drawn_cells", drawn_.cell_count()},
+                     {"fans", fans_ ? sectors : 0}};
+    head_["all_frames"] = all_;
+    if (frames_.empty()) head_["frames"] = Json::array();
+    head_["fields"] = Json::array();
+    for (const CellField& field : fields_) {
+      const bool any = field.range.low <= field.range.high;
+      head_["fields"].push_back({{"name", field.label},
+                                 {"unit", field.unit},
+                                 {"meaning", field.meaning},
+                                 {"levels", fans_ ? coarse_levels : fine_levels},
+                                 {"low", any ? field.range.low : 0.0},
+                                 {"high", any ? field.range.high : 0.0}});
+    }
+    head_["low"] = {x_.low, y_.low};
+    head_["high"] = {x_.high, y_.high};
+  }
+
+  const hdf5::File& file_;
+  std::size_t budget_, all_ = 0;
+  Json& head_;
+  std::vector<ReportSection>& sections_;
+  PlaneMesh mesh_;
+  DrawnMesh drawn_;
+  bool fans_ = false;
+  std::string last_;  // path of the last frame
+  std::vector<std::string> frames_;
+  std::vector<CellField> fields_;
+  Range x_ = nothing_yet, y_ = nothing_yet;
+};
+
+}  // namespace
+
+std::vector<std::string> complete_frames(const hdf5::File& file) {
+  if (!file.contains("/frames")) return {};
+  auto names = file.children("/frames");
+  std::erase_if(
+      names, [&](const auto& frame) { return !file.has_attribute(frame_path(frame), "complete"); });
+  return names;
+}
+
+std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> kept;
+  const std::size_t keep = std::min(count, most);
+  for (std::size_t i = 0; i < keep; ++i)
+    kept.push_back(keep == 1 ? count - 1 : i * (count - 1) / (keep - 1));
+  return kept;
+}
+
+void add_frames(const hdf5::File& file, std::size_t budget, Json& head,
+                std::vector<ReportSection>& sections) {
+  Frames(file, budget, head, sections).add();
+}
+
+}  // namespace pulvis

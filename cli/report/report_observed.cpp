@@ -1,0 +1,120 @@
+#include "cli/report/report_observed.hpp"
+
+#include <cmath>
+
+#include "cli/report/report_encoding.hpp"
+
+namespace pulvis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_cells = 10'000;  // of a frame's map
+
+std::size_t groups(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
+
+// Every so many lines of a grid, and the last.
+std::vector<double> every(const std::vector<double>& lines, std::size_t size) {
+  std::vector<double> kept;
+  for (std::size_t i = 0; i + 1 < lines.size(); i += size) kept.push_back(lines[i]);
+  kept.push_back(lines.back());
+  return kept;
+}
+
+// Over groups of wide x tall cells of a grid; cells without a number do not count.
+std::vector<double> means(const std::vector<double>& cells, std::size_t columns, std::size_t wide,
+                          std::size_t tall) {
+  const std::size_t rows = cells.size() / columns, across = groups(columns, wide);
+  std::vector<double> sum(across * groups(rows, tall)), count(sum.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (!std::isfinite(cells[c])) continue;
+    const std::size_t group = c / columns / tall * across + c % columns / wide;
+    sum[group] += cells[c];
+    count[group] += 1;
+  }
+  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= count[g];  // 0 / 0: none has one
+  return sum;
+}
+
+class Observed {
+ public:
+  Observed(const hdf5::File& file, std::string frame) : file_(file), frame_(std::move(frame)) {}
+
+  bool has(const std::string& name) const { return file_.contains(frame_ + "/" + name); }
+
+  // A grid that is finer than any screen shows is drawn by the means of `merged` x `merged` cells.
+  Json density() const {
+    const std::vector<double> x = numbers("density_grid/x"), y = numbers("density_grid/y");
+    const std::size_t columns = x.size() - 1, rows = y.size() - 1;
+    std::size_t merged = 1;
+    while (groups(columns, merged) * groups(rows, merged) > most_cells) ++merged;
+    const auto profile = numbers("density_profile");
+    return {{"cells", rounded(means(numbers("local_density"), columns, merged, merged))},
+            {"profile", rounded(means(profile, 1, 1, merged))},
+            {"x", rounded(every(x, merged))},
+            {"y", rounded(every(y, merged))},
+            {"merged", merged}};
+  }
+
+  Json network(std::size_t lines) const {
+    return {{"number", rounded("rose/number")},
+            {"force", rounded("rose/force")},
+            {"lines", lines},
+            {"unit", file_.text_attribute(frame_ + "/contacts/normal_force", "unit")}};
+  }
+
+  // Lines to draw, five numbers each: from centre to centre, or from a centre to where a tool acts; force.
+  std::vector<float> lines() const {
+    std::vector<float> all;
+    const std::vector<double> centre = numbers("particle_centre");
+    for (const char* group : {"contacts", "tool_contacts"}) {
+      const bool pairs = std::string(group) == "contacts";
+      const auto ids = file_.read_integers(frame_ + "/" + group + "/ids");
+      const auto point = numbers(std::string(group) + "/point");
+      const auto force = numbers(std::string(group) + "/normal_force");
+      for (std::size_t i = 0; i < force.size(); ++i) {
+        const double* from = centre.data() + 2 * ids[2 * i];
+        const double* to = pairs ? centre.data() + 2 * ids[2 * i + 1] : point.data() + 2 * i;
+        for (const double value : {from[0], from[1], to[0], to[1], force[i]})
+          all.push_back(static_cast<float>(value));
+      }
+    }
+    return all;
+  }
+
+ private:
+  std::vector<double> numbers(const std::string& name) const {
+    return file_.read_doubles(frame_ + "/" + name);
+  }
+
+  Json rounded(const std::string& name) const { return rounded(numbers(name)); }
+
+  // Six figures, as many as anybody reads; what is no number becomes null.
+  static Json rounded(const std::vector<double>& values) {
+    Json list = Json::array();
+    for (const double value : values) {
+      const double size = value == 0 || !std::isfinite(value)
+                              ? 1.0
+                              : std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+      list.push_back(std::round(value * size) / size);
+    }
+    return list;
+  }
+
+  const hdf5::File& file_;
+  std::string frame_;
+};
+
+}  // namespace
+
+void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
+                  Json& entry, std::vector<ReportSection>& sections) {
+  const Observed observed(file, frame);
+  if (observed.has("local_density")) entry["density"] = observed.density();
+  if (!observed.has("contacts")) return;
+  const std::vector<float> lines = observed.lines();
+  entry["network"] = observed.network(lines.size() / 5);
+  if (!lines.empty()) sections.push_back({prefix + "network", encoded(lines)});
+}
+
+}  // namespace pulvis

@@ -1,0 +1,17 @@
+// What the report shows of local densities and contacts, where a frame has them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/report/report_data.hpp"
+#include "engine/files/hdf5.hpp"
+
+namespace pulvis {
+
+// Adds "density" and "network" to the frame's entry of the report's head, and the lines of the contacts.
+void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
+                  nlohmann::ordered_json& entry, std::vector<ReportSection>& sections);
+
+}  // namespace pulvis

@@ -1,0 +1,131 @@
+#include "cli/study/study_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "cli/report/report_encoding.hpp"
+#include "cli/report/report_page.hpp"
+#include "cli/study/study_curves.hpp"
+#include "cli/summary.hpp"
+#include "engine/files/own_files.hpp"
+
+namespace pulvis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json run_json(const Study& study, const StudyResult& result) {
+  Json varied = Json::object();
+  for (const std::string& key : varied_keys(study)) varied[key] = varied_value(*result.run, key);
+  Json json{{"name", result.run->name},
+            {"variation", result.run->variation},
+            {"scene", result.run->file.filename().string()},
+            {"seed", result.run->scene.seed},
+            {"varied", varied},
+            {"code", result.code}};
+  if (!result.failure.empty()) json["failure"] = result.failure;
+  json["figures"] = Json::array();
+  for (const Figure& figure : figures_of(result))
+    json["figures"].push_back(
+        {{"name", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
+  for (const char* part : {"fits", "transmission"})
+    if (result.summary.contains(part)) json[part] = result.summary[part];
+  return json;
+}
+
+Json verdicts_json(const std::vector<Verdict>& verdicts) {
+  Json list = Json::array();
+  for (const Verdict& verdict : verdicts) {
+    list.push_back({{"what", verdict.what},
+                    {"measured", verdict.measured},
+                    {"expected", verdict.allowed},
+                    {"met", verdict.met}});
+    if (verdict.value) list.back()["value"] = *verdict.value;
+  }
+  return list;
+}
+
+std::string title_of(const Study& study) {
+  return study.spec.title.empty() ? study.file.stem().string() : study.spec.title;
+}
+
+Json study_json(const Study& study, const std::vector<StudyResult>& results,
+                const std::vector<Verdict>& verdicts, const StudyTimes& times) {
+  Json json{{"title", title_of(study)},   {"version", program_version()},
+            {"commit", program_commit()}, {"wall_seconds", times.wall_seconds},
+            {"jobs", times.jobs},         {"threads_per_run", times.threads}};
+  json["runs"] = Json::array();
+  for (const StudyResult& result : results) json["runs"].push_back(run_json(study, result));
+  json["expectations"] = verdicts_json(verdicts);
+  return json;
+}
+
+Json curves_json(const std::vector<DrawnCurve>& curves) {
+  Json list = Json::array();
+  for (const DrawnCurve& curve : curves) {
+    Json lines = Json::array();
+    for (const StudyLine& line : curve.lines) {
+      Json one{{"variation", line.variation}, {"runs", line.runs}, {"x", line.x}, {"y", line.y}};
+      if (!line.low.empty()) {
+        one["low"] = line.low;
+        one["high"] = line.high;
+      }
+      lines.push_back(one);
+    }
+    list.push_back({{"title", curve.title},
+                    {"x", curve.x},
+                    {"y", curve.y},
+                    {"x_unit", curve.x_unit},
+                    {"y_unit", curve.y_unit},
+                    {"lines", lines}});
+  }
+  return list;
+}
+
+// In the page the numbers of all lines are one packed list; each line says how many it has.
+ReportData page_data(const Study& study, Json head, const std::vector<DrawnCurve>& curves) {
+  std::vector<float> numbers;
+  const auto put = [&](const std::vector<double>& values) {
+    for (const double value : values) numbers.push_back(static_cast<float>(value));
+  };
+  head["curves"] = Json::array();
+  for (const DrawnCurve& curve : curves) {
+    Json lines = Json::array();
+    for (const StudyLine& line : curve.lines) {
+      const bool band = !line.low.empty();
+      lines.push_back({{"variation", line.variation},
+                       {"runs", line.runs},
+                       {"first", numbers.size()},
+                       {"count", line.x.size()},
+                       {"band", band}});
+      for (const auto* values : {&line.x, &line.y, &line.low, &line.high}) put(*values);
+    }
+    head["curves"].push_back({{"title", curve.title},
+                              {"x", curve.x},
+                              {"y", curve.y},
+                              {"x_unit", curve.x_unit},
+                              {"y_unit", curve.y_unit},
+                              {"lines", lines}});
+  }
+  return {title_of(study),
+          head.dump(-1, ' ', false, Json::error_handler_t::replace),
+          {{"numbers", encoded(numbers)}}};
+}
+
+}  // namespace
+
+void write_study(const std::filesystem::path& folder, const Study& study,
+                 const std::vector<StudyResult>& results, const std::vector<Verdict>& verdicts,
+                 const StudyTimes& times) {
+  const Json summary = study_json(study, results, verdicts, times);
+  const std::vector<DrawnCurve> curves = study_curves(study, results);
+  write_own(folder / "study.csv", role::study, study_csv(study, results));
+  write_own(folder / "summary.json", role::study, summary.dump(2) + "\n");
+  write_own(folder / "curves.json", role::study, curves_json(curves).dump() + "\n");
+  write_page(folder / "report.html", "study.html",
+             {"units.js", "payload.js", "save.js", "chart.js", "fits.js", "study.js"},
+             page_data(study, summary, curves), role::study);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,25 @@
+// What a study leaves beside its runs:
+//   study.csv     one row a run: what is varied, and its figures
+//   summary.json  the same with everything of each run's summary that was looked up, and the verdicts
+//   curves.json   the curves as drawn: [{title, x, y, x_unit, y_unit, lines: [{variation, runs, x, y,
+//                 low, high}]}], SI; low and high where there are several seeds
+//   report.html   table, curves, spread and verdicts in one page, with links to the runs' own reports
+#pragma once
+
+#include <vector>
+
+#include "cli/study/study_results.hpp"
+#include "scenes/expectations.hpp"
+
+namespace pulvis {
+
+struct StudyTimes {
+  double wall_seconds = 0;
+  int jobs = 1, threads = 1;
+};
+
+void write_study(const std::filesystem::path& folder, const Study& study,
+                 const std::vector<StudyResult>& results, const std::vector<Verdict>& verdicts,
+                 const StudyTimes& times);
+
+}  // namespace pulvis

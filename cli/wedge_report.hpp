@@ -1,0 +1,11 @@
+// The page of a calibration on a wedge.
+#pragma once
+
+#include <filesystem>
+#include "cli/wedge_files.hpp"
+
+namespace pulvis {
+
+void write_wedge_report(const std::filesystem::path& folder, const WedgeReduction& reduction);
+
+}  // namespace pulvis

@@ -1,0 +1,122 @@
+// A thin RAII wrapper of the HDF5 C library: what the recorder, the checkpoint and the report need
+// of it, and no more. The C header stays inside hdf5.cpp, so that nobody else sees its macros.
+//
+// Every call that fails throws OutputError with the file, the operation and HDF5's innermost
+// reason; HDF5's own printing to stderr is off. Paths inside a file are absolute
+// ("/frames/000000/position"); missing groups on the way are made. The default file version is
+// kept: newer ones are refused by plain readers after a crash.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pulvis::hdf5 {
+
+using Id = std::int64_t;  // hid_t
+using Shape = std::vector<std::uint64_t>;
+
+// Owns one HDF5 identifier of any kind. Closing one cannot fail in a way anybody could act upon,
+// but for a file, which File::close() handles.
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(Id id) : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle() { close(); }
+
+  Id get() const { return id_; }
+  Id release() { return std::exchange(id_, -1); }
+  void close() noexcept;
+
+ private:
+  Id id_ = -1;
+};
+
+enum class Packing { none, shuffle_gzip };  // the latter for meshes: it gains a hundredfold
+
+class File {
+ public:
+  // An existing file is replaced. The first `user_block` bytes (0, or a power of two from 512) are left
+  // to the caller.
+  static File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
+  // The same, laid out so that links and attributes of "/" lie in the 4096 bytes behind the user block (as
+  // many, too): with open_to_change() they change at one blow (engine/files/journaled_file.hpp).
+  static File create_to_change(const std::filesystem::path& path, std::uint64_t user_block);
+  static File open(const std::filesystem::path& path);  // read only
+  // Changes come with a flush as a whole, or not at all, and others may read meanwhile; see
+  // engine/files/journaled_file.hpp. Opening repairs what a killed program has left.
+  static File open_to_change(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  void flush();  // to the disk: H5Fflush and fsync
+  void close();  // throws where the last bytes cannot be written; the destructor does not
+
+  // What comes next is written to new places, texts too: HDF5 would put them into heaps that it still has in
+  // mind, and enlarge those, though what counts refers to them.
+  void begin_change();
+  // Flushes it. std::logic_error where "/" does not lie in one page, so that the change might be seen half done.
+  void commit_change();
+
+  // Writing. `object` is the path of a group or dataset.
+  void make_group(const std::string& object);
+  void write(const std::string& dataset, std::span<const double> values, const Shape& shape,
+             Packing packing = Packing::none);
+  void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
+             Packing packing = Packing::none);
+  void write(const std::string& dataset, std::span<const std::byte> bytes);
+  // A series of 1-D: those first `kept` rows of another one (none: 0 rows), then `values`.
+  void write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
+                    std::span<const double> values);
+  void set_attribute(const std::string& object, const std::string& name, double value);
+  void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
+  void set_attribute(const std::string& object, const std::string& name, std::uint64_t value);
+  void set_attribute(const std::string& object, const std::string& name, std::string_view value);
+
+  void link(const std::string& object,
+            const std::string& name);  // a second name of the same object
+  void rename(const std::string& object, const std::string& name);
+  void remove(const std::string& object);
+  void remove_attribute(const std::string& object, const std::string& name);
+
+  // Reading.
+  bool contains(const std::string& object) const;
+  bool is_group(const std::string& object) const;
+  std::vector<std::string> children(const std::string& group) const;  // in the order of their names
+  std::vector<std::string> datasets_below(const std::string& group) const;  // "tool/top/force_y"
+  Shape shape(const std::string& dataset) const;
+  std::vector<double> read_doubles(const std::string& dataset) const;
+  std::vector<std::int32_t> read_integers(const std::string& dataset) const;
+  std::vector<std::byte> read_bytes(const std::string& dataset) const;
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  double number_attribute(const std::string& object, const std::string& name) const;
+  std::uint64_t unsigned_attribute(const std::string& object, const std::string& name) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+
+ private:
+  enum class Layout { plain, to_change };
+  File(std::filesystem::path path, Handle handle);
+  static File create(const std::filesystem::path& path, std::uint64_t user_block, Layout layout);
+  void write_rows(Id dataset, const std::string& name, std::uint64_t first,
+                  std::span<const double> values);
+  std::vector<double> read_rows(const std::string& dataset, std::uint64_t first,
+                                std::uint64_t rows) const;
+  void write_any(const std::string& dataset, Id type, const void* values, std::size_t count,
+                 const Shape& shape, Packing packing);
+  void set_any(const std::string& object, const std::string& name, Id type, const void* value);
+  void read_any(const std::string& dataset, Id type, void* values) const;
+  void read_attribute(const std::string& object, const std::string& name, Id type,
+                      void* value) const;
+  std::uint64_t size_of(const std::string& dataset) const;
+  Id checked(Id result, std::string_view verb, const std::string& object) const;
+
+  std::filesystem::path path_;
+  Handle handle_;
+};
+
+}  // namespace pulvis::hdf5

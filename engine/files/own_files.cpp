@@ -1,0 +1,233 @@
+#include "engine/files/own_files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include "engine/files/file_descriptor.hpp"
+#include "engine/files/xxh3.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* list_name = ".pulvis-files";
+constexpr std::size_t head_bytes = 32;
+
+struct Line {
+  std::string state, role, name;
+  std::uint64_t checksum = 0, bytes = 0;
+};
+
+[[noreturn]] void fail(const fs::path& file, const char* operation) {
+  throw OutputError(file, operation, std::strerror(errno));
+}
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+std::uint64_t checksum_of(std::string_view bytes) { return xxh3(std::as_bytes(std::span(bytes))); }
+
+std::string text_of(const Line& line) {
+  return fmt::format("{} {:016x} {} {} {}\n", line.state, line.checksum, line.bytes, line.role,
+                     line.name);
+}
+
+// What may be in the file: the last line that holds, and what was about to be written since.
+std::vector<Line> lines_of(const fs::path& file, std::string_view of) {
+  std::ifstream list(folder_of(file) / list_name);
+  std::vector<Line> lines;
+  for (std::string text; std::getline(list, text);) {
+    std::istringstream words(text);
+    Line line;
+    words >> line.state >> std::hex >> line.checksum >> std::dec >> line.bytes >> line.role;
+    std::getline(words >> std::ws, line.name);
+    if (!words || line.role != of || line.name != file.filename().string()) continue;
+    if (line.state != "next") lines.clear();
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+void add_line(const fs::path& file, const Line& line) {
+  const fs::path list = folder_of(file) / list_name;
+  const FileDescriptor opened(
+      open(list.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666));
+  const std::string text = text_of(line);
+  if (!opened || write(opened.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+    fail(list, "write");
+}
+
+// A regular file, not what a link leads to.
+FileDescriptor open_regular(const fs::path& file, std::uint64_t& bytes) {
+  FileDescriptor opened(open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (!opened || fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  bytes = static_cast<std::uint64_t>(status.st_size);
+  return opened;
+}
+
+bool begins_with(const FileDescriptor& file, const Line& line) {
+  std::vector<std::byte> piece(std::size_t{1} << 16);
+  Xxh3 checksum;
+  for (std::uint64_t at = 0; at < line.bytes;) {
+    const std::size_t wanted = std::min<std::uint64_t>(piece.size(), line.bytes - at);
+    const ssize_t got = pread(file.get(), piece.data(), wanted, static_cast<off_t>(at));
+    if (got <= 0) return false;
+    checksum.add(std::span(piece).first(static_cast<std::size_t>(got)));
+    at += static_cast<std::uint64_t>(got);
+  }
+  return checksum.value() == line.checksum;
+}
+
+bool fits(const FileDescriptor& file, std::uint64_t bytes, const Line& line) {
+  const bool long_enough = line.state == "start" ? bytes >= line.bytes : bytes == line.bytes;
+  return long_enough && begins_with(file, line);
+}
+
+// How files begin that say themselves what they are; empty: the list tells.
+std::string_view own_beginning(const std::string& name) {
+  if (name == "run.h5" || name == "run.h5.new") return "pulvis run";
+  if (name == "run.h5.journal") return "PLVJNL";
+  const bool numbered = name.starts_with("checkpoint-");
+  if (numbered && (name.ends_with(".h5") || name.ends_with(".h5.new"))) return "pulvis checkpoint";
+  return {};
+}
+
+// What a program that was killed at once leaves: nothing yet.
+bool may_be_empty(const std::string& name) {
+  return name.ends_with(".new") || name.ends_with(".journal");
+}
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(file, ignored));
+}
+
+fs::path beside(const fs::path& file) {
+  return folder_of(file) / fmt::format(".{}.pulvis-new", file.filename().string());
+}
+
+void write_beside(const fs::path& new_file, const fs::path& file, std::string_view text) {
+  errno = 0;
+  std::ofstream stream(new_file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) fail(file, "write");
+}
+
+void put_in_place(const fs::path& file) {
+  if (::rename(beside(file).c_str(), file.c_str()) != 0) fail(file, "put it in its place");
+}
+
+Line line_of(const fs::path& file, std::string_view of, std::string_view bytes, const char* state) {
+  return {state, std::string(of), file.filename().string(), checksum_of(bytes), bytes.size()};
+}
+
+}  // namespace
+
+bool is_own(const fs::path& file, std::string_view of) {
+  std::uint64_t bytes = 0;
+  const FileDescriptor opened = open_regular(file, bytes);
+  if (!opened) return false;
+  const std::string name = file.filename().string();
+  const std::string_view beginning = own_beginning(name);
+  if (beginning.empty())
+    return std::ranges::any_of(lines_of(file, of),
+                               [&](const Line& line) { return fits(opened, bytes, line); });
+  if (bytes == 0) return may_be_empty(name);
+  std::array<char, head_bytes> head{};
+  return pread(opened.get(), head.data(), head.size(), 0) > 0 &&
+         std::string_view(head.data(), head.size()).starts_with(beginning);
+}
+
+void require_own_or_none(const fs::path& file, std::string_view of) {
+  if (!is_there(file) || is_own(file, of)) return;
+  throw ForeignFile(file, "write it",
+                    fmt::format("there is one that Pulvis did not write as a file of a {}, or that "
+                                "was changed since; allowed: another folder or name, or moving it "
+                                "away",
+                                of));
+}
+
+void require_another(const fs::path& read, const fs::path& file) {
+  std::error_code ignored;
+  if (fs::equivalent(read, file, ignored))
+    throw ForeignFile(file, "write it",
+                      fmt::format("it is {}, which is being read; allowed: another folder or name",
+                                  read.string()));
+}
+
+void note_own(const fs::path& file, std::string_view of, std::string_view bytes, Extent extent) {
+  add_line(file, line_of(file, of, bytes, extent == Extent::whole ? "whole" : "start"));
+}
+
+void note_own(const fs::path& file, std::string_view of, std::uint64_t checksum,
+              std::uint64_t bytes) {
+  add_line(file, {"whole", std::string(of), file.filename().string(), checksum, bytes});
+}
+
+fs::path begin_own(const fs::path& file, std::string_view of, std::string_view start) {
+  require_own_or_none(file, of);
+  add_line(file, line_of(file, of, start, "next"));
+  return fresh_beside(file);
+}
+
+fs::path fresh_beside(const fs::path& file) {
+  std::error_code ignored;
+  fs::remove(beside(file), ignored);
+  return beside(file);
+}
+
+void end_own(const fs::path& file, std::string_view of, std::string_view start, Extent extent) {
+  put_in_place(file);
+  note_own(file, of, start, extent);
+}
+
+void write_own(const fs::path& file, std::string_view of, std::string_view text, Extent extent) {
+  write_beside(begin_own(file, of, text), file, text);
+  end_own(file, of, text, extent);
+}
+
+void replace_own(const fs::path& file, std::string_view of, std::string_view text) {
+  require_own_or_none(file, of);
+  write_beside(fresh_beside(file), file, text);
+  put_in_place(file);
+}
+
+void write_head(const fs::path& file, std::string_view text) {
+  const FileDescriptor opened(open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  if (!opened ||
+      pwrite(opened.get(), text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
+    fail(file, "write");
+}
+
+void remove_own(const fs::path& file, std::string_view of) {
+  std::error_code error;
+  if (is_own(file, of)) fs::remove(file, error);
+  if (error) throw OutputError(file, "remove the old file", error.message());
+}
+
+void remove_own_below(const fs::path& folder, std::string_view of) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;
+  for (const auto& entry : fs::directory_iterator(folder, error)) remove_own(entry.path(), of);
+  const auto left = std::distance(fs::directory_iterator(folder, error), fs::directory_iterator());
+  if (left == 1) fs::remove(folder / list_name, error);
+  fs::remove(folder, error);  // only an empty one goes
+}
+
+}  // namespace pulvis

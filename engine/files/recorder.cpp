@@ -1,0 +1,393 @@
+#include "engine/files/recorder.hpp"
+
+#include <fmt/format.h>
+#include <sys/random.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/files/file_descriptor.hpp"
+#include "engine/files/output_error.hpp"
+#include "engine/files/own_files.hpp"
+
+namespace pulvis {
+namespace {
+
+// run.h5 starts with this much text, before what is HDF5: by it Pulvis knows its file.
+constexpr std::uint64_t head_bytes = 4096;
+
+// With a frame the history is written anew, unless it is larger than this and has grown by less than an eighth.
+constexpr std::uint64_t small_history_bytes = std::uint64_t{1} << 20;
+
+// A commit lists every frame anew. The first frames get one each; later ones share it while commits would take
+// more than this part of the run.
+constexpr std::int64_t frames_with_a_commit_each = 100;
+constexpr double share_of_commits = 1.0 / 32;
+
+// Which run it is: no two are the same. No part of the state.
+std::string new_run_id(const std::filesystem::path& folder) {
+  std::array<std::uint64_t, 2> bits{};
+  if (getrandom(bits.data(), sizeof bits, 0) != static_cast<ssize_t>(sizeof bits))
+    throw OutputError(folder, "name the run", std::strerror(errno));
+  return fmt::format("{:016x}{:016x}", bits[0], bits[1]);
+}
+
+// Marks the file as Pulvis's before anything else is in it.
+hdf5::File marked_file(const std::filesystem::path& path) {
+  hdf5::File file = hdf5::File::create_to_change(path, head_bytes);
+  write_head(path, "pulvis run 1\n");
+  return file;
+}
+
+std::string frame_name(std::int64_t number) { return fmt::format("/{:06}", number); }
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument("recorder: " + what);
+}
+
+void check_mesh(const RunMesh& mesh) {
+  const auto dimension = static_cast<std::size_t>(mesh.dimension());
+  require(mesh.quads.size() / 4 + mesh.hexahedra.size() / 8 == mesh.cell_particle.size(),
+          "four node numbers a cell, eight in space");
+  require(mesh.reference.size() == dimension * mesh.node_particle.size(),
+          "two coordinates a node, three in space");
+}
+
+void check_fields(const RunMesh& mesh, const std::vector<FieldInfo>& fields) {
+  require(!fields.empty() && fields.front().name == "position" &&
+              fields.front().place == FieldPlace::node &&
+              fields.front().components == mesh.dimension(),
+          "the first field is position (node, 2 components, 3 in space)");
+}
+
+const char* name_of(FieldPlace place) {
+  if (place == FieldPlace::node) return "node";
+  if (place == FieldPlace::list) return "list";
+  return place == FieldPlace::cell ? "cell" : "particle";
+}
+
+std::vector<double> with_zero_third(const std::vector<double>& plane) {
+  std::vector<double> space(plane.size() / 2 * 3, 0.0);
+  for (std::size_t i = 0; i < plane.size() / 2; ++i) {
+    space[3 * i] = plane[2 * i];
+    space[3 * i + 1] = plane[2 * i + 1];
+  }
+  return space;
+}
+
+// A file beyond the allowed size would end the program: it shall be an error like any other.
+void survive_a_full_quota() {
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);
+#endif
+}
+
+}  // namespace
+
+Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes,
+                   const RunMesh& mesh, std::vector<SeriesInfo> series,
+                   std::vector<FieldInfo> fields, const SeriesInfo& abscissa)
+    : series_(std::move(series)),
+      fields_(
+          (check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
+      file_(marked_file(folder / "run.h5.new")),
+      csv_(folder / "history.csv", abscissa, series_),
+      xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
+      abscissa_(abscissa),
+      run_id_(new_run_id(file_.path())),
+      places_{mesh.node_particle.size(), mesh.cell_particle.size()},
+      pending_(series_.size()) {
+  survive_a_full_quota();
+  write_attributes(attributes);
+  file_.make_group("/frames");
+  write_mesh(mesh);
+  write_history("/history", 0);
+  file_.flush();
+  file_.close();
+  put_in_place(folder);
+}
+
+// From its first moment on run.h5 can be read, whatever happens.
+void Recorder::put_in_place(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "run.h5";
+  std::error_code error;
+  std::filesystem::rename(file_.path(), path, error);
+  if (error) throw OutputError(path, "put the file in its place", error.message());
+  sync_folder(folder);
+  file_ = hdf5::File::open_to_change(path);
+}
+
+Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
+                   std::vector<SeriesInfo> series, std::vector<FieldInfo> fields,
+                   const RecorderPosition& position, const SeriesInfo& abscissa)
+    : series_(std::move(series)),
+      fields_((check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),
+      file_(hdf5::File::open_to_change(folder / "run.h5")),
+      csv_(folder / "history.csv", abscissa, series_),
+      xdmf_(folder / "run.xdmf", "run.h5", mesh, fields_),
+      abscissa_(abscissa),
+      run_id_(file_.text_attribute("/", "run")),
+      places_{mesh.node_particle.size(), mesh.cell_particle.size()},
+      pending_(series_.size()) {
+  survive_a_full_quota();
+  cut(position);
+  write_csv_again();
+}
+
+// What is younger than `position` is not taken along into what replaces it.
+void Recorder::cut(const RecorderPosition& position) {
+  const auto rows = static_cast<std::uint64_t>(position.samples);
+  const std::uint64_t rows_there = file_.shape("/history/time").front();
+  const auto there = static_cast<std::int64_t>(file_.children("/frames").size());
+  if (there < position.frames || rows_there < rows)
+    throw OutputError(file_.path(), "go on",
+                      fmt::format("frames or samples are missing: {} and {} are there, {} and {} "
+                                  "had been written",
+                                  there, rows_there, position.frames, rows));
+  for (; frames_ < position.frames; ++frames_) {
+    const std::string group = "/frames" + frame_name(frames_);
+    xdmf_.add(file_.number_attribute(group, "time"), group);
+  }
+  if (there > 0) xdmf_.write();  // first: it names no frame that is cut off
+  samples_ = position.samples;
+  begin_change();
+  link_frames();
+  write_history("/history.next", rows);
+  if (file_.has_attribute("/", "outcome")) file_.remove_attribute("/", "outcome");
+  if (file_.contains("/images")) file_.remove("/images");  // made anew when the run ends
+  replace({"/frames", "/history"});
+  committed_ = Clock::now();
+}
+
+void Recorder::begin_change() {
+  if (std::exchange(is_changing_, true)) return;
+  file_.begin_change();
+}
+
+void Recorder::link_frames() {
+  file_.make_group("/frames.next");
+  for (std::int64_t i = 0; i < frames_; ++i)
+    file_.link("/frames" + frame_name(i), "/frames.next" + frame_name(i));
+  has_new_frames_ = true;
+}
+
+// Nothing that run.h5 refers to changes before this, nor anything but its first page with it.
+void Recorder::replace(const std::vector<std::string>& groups) {
+  for (const std::string& group : groups) {
+    file_.rename(group, group + ".old");
+    file_.rename(group + ".next", group);
+  }
+  for (const std::string& group : groups)
+    file_.remove(group + ".old");  // last: its place is free now
+  file_.commit_change();
+  has_new_frames_ = is_changing_ = false;
+}
+
+void Recorder::write_csv_again() {
+  std::vector<std::vector<double>> columns;
+  for (const SeriesInfo& series : series_)
+    columns.push_back(file_.read_doubles("/history/" + series.name));
+  const std::vector<double> times = file_.read_doubles("/history/time");
+  std::vector<double> row(columns.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    for (std::size_t k = 0; k < columns.size(); ++k) row[k] = columns[k][i];
+    csv_.add(times[i], row);
+  }
+  csv_.flush();
+}
+
+// With the frames of the change that is under way, if there are any, and the history, if that is wanted.
+void Recorder::commit(bool with_history) {
+  const Clock::time_point begin = Clock::now();
+  begin_change();
+  std::vector<std::string> renewed;
+  if (has_new_frames_) renewed.emplace_back("/frames");
+  if (with_history) {
+    renew_history();
+    renewed.emplace_back("/history");
+  }
+  const bool has_new_frames = has_new_frames_;
+  replace(renewed);
+  csv_.flush();
+  if (has_new_frames) xdmf_.write();
+  committed_ = Clock::now();
+  cost_ = linking_ + (committed_ - begin);
+}
+
+RecorderPosition Recorder::position() {
+  if (is_changing_ || !pending_time_.empty())
+    commit(!pending_time_.empty());
+  else
+    csv_.flush();
+  return {frames_, samples_};
+}
+
+Recorder::~Recorder() {
+  if (!open_) return;
+  try {
+    if (is_half_)
+      file_.remove("/frames.next");  // with all that came since the last commit
+    else
+      position();
+    csv_.close();
+    file_.close();
+  } catch (const std::exception&) {  // the first failure was already thrown from sample or frame
+  }
+}
+
+void Recorder::describe(const std::string& object, const std::string& unit,
+                        const std::string& meaning) {
+  file_.set_attribute(object, "unit", std::string_view(unit));
+  file_.set_attribute(object, "meaning", std::string_view(meaning));
+}
+
+void Recorder::write_attributes(const RunAttributes& attributes) {
+  file_.set_attribute("/", "format", std::int64_t{1});
+  file_.set_attribute("/", "run", std::string_view(run_id_));
+  file_.set_attribute("/", "version", std::string_view(attributes.version));
+  file_.set_attribute("/", "commit", std::string_view(attributes.commit));
+  file_.set_attribute("/", "title", std::string_view(attributes.title));
+  file_.set_attribute("/", "scene_hash", std::string_view(attributes.scene_hash));
+  file_.set_attribute("/", "seed", attributes.seed);
+  file_.set_attribute("/", "threads", std::int64_t{attributes.threads});
+}
+
+void Recorder::write_mesh(const RunMesh& mesh) {
+  constexpr auto packed = hdf5::Packing::shuffle_gzip;
+  const std::uint64_t nodes = mesh.node_particle.size(), cells = mesh.cell_particle.size();
+  const auto dimension = static_cast<std::uint64_t>(mesh.dimension());
+  const bool in_space = dimension == 3;
+  const std::string connectivity = in_space ? "/mesh/hexahedra" : "/mesh/quads";
+  file_.write(connectivity, in_space ? mesh.hexahedra : mesh.quads, {cells, in_space ? 8U : 4U},
+              packed);
+  describe(connectivity, "-", "node numbers of each cell, counter-clockwise");
+  file_.write("/mesh/cell_particle", mesh.cell_particle, {cells}, packed);
+  describe("/mesh/cell_particle", "-", "particle each cell belongs to");
+  file_.write("/mesh/node_particle", mesh.node_particle, {nodes}, packed);
+  describe("/mesh/node_particle", "-", "particle each node belongs to");
+  file_.write("/mesh/reference", mesh.reference, {nodes, dimension}, packed);
+  describe("/mesh/reference", "m", "positions of the nodes before the first step");
+}
+
+// The first `kept` rows of /history, and the samples since.
+void Recorder::write_history(const std::string& group, std::uint64_t kept) {
+  const auto write = [&](const SeriesInfo& series, const std::string& name,
+                         const std::vector<double>& values) {
+    file_.write_series(group + "/" + name, "/history/" + name, kept, values);
+    describe(group + "/" + name, series.unit, series.meaning);
+  };
+  for (std::size_t i = 0; i < series_.size(); ++i) write(series_[i], series_[i].name, pending_[i]);
+  write(abscissa_, "time", pending_time_);
+}
+
+void Recorder::renew_history() {
+  write_history("/history.next", static_cast<std::uint64_t>(samples_));
+  samples_ += static_cast<std::int64_t>(pending_time_.size());
+  for (std::vector<double>& values : pending_) values.clear();
+  pending_time_.clear();
+}
+
+bool Recorder::is_history_due() const {
+  const std::uint64_t rows = static_cast<std::uint64_t>(samples_), more = pending_time_.size();
+  return (rows + more) * (series_.size() + 1) * sizeof(double) <= small_history_bytes ||
+         8 * more >= rows;
+}
+
+void Recorder::sample(double time, std::span<const double> values) {
+  require(values.size() == series_.size(), "a sample holds one value a series");
+  csv_.add(time, values);
+  pending_time_.push_back(time);
+  for (std::size_t i = 0; i < values.size(); ++i) pending_[i].push_back(values[i]);
+}
+
+void Recorder::frame(double time, std::int64_t step,
+                     const std::vector<std::vector<double>>& fields) {
+  check_lengths(fields);
+  is_half_ = true;
+  begin_frames();
+  write_frame(time, step, fields);
+  is_half_ = false;
+  xdmf_.add(time, "/frames" + frame_name(frames_));
+  ++frames_;
+  if (is_commit_due()) commit(is_history_due());
+}
+
+// The new group of frames, to begin with those that there are.
+void Recorder::begin_frames() {
+  if (has_new_frames_) return;
+  const Clock::time_point begin = Clock::now();
+  begin_change();
+  link_frames();
+  linking_ = Clock::now() - begin;
+}
+
+bool Recorder::is_commit_due() const {
+  return frames_ <= frames_with_a_commit_each ||
+         share_of_commits * (Clock::now() - committed_) >= cost_;
+}
+
+void Recorder::check_lengths(const std::vector<std::vector<double>>& fields) const {
+  require(fields.size() == fields_.size(), "a frame holds every field");
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto columns = static_cast<std::size_t>(fields_[i].components);
+    const bool fits =
+        is_of_mesh(fields_[i])
+            ? fields[i].size() == columns * places_[static_cast<std::size_t>(fields_[i].place)]
+            : fields[i].size() % columns == 0;
+    require(fits, "field " + fields_[i].name + " has a wrong length");
+  }
+}
+
+void Recorder::write_frame(double time, std::int64_t step,
+                           const std::vector<std::vector<double>>& fields) {
+  const std::string group = "/frames.next" + frame_name(frames_);
+  file_.make_group(group);
+  file_.set_attribute(group, "time", time);
+  file_.set_attribute(group, "step", step);
+  for (std::size_t i = 0; i < fields.size(); ++i) write_field(group, fields_[i], fields[i]);
+  file_.set_attribute(group, "complete", std::int64_t{1});
+}
+
+void Recorder::write_field(const std::string& group, const FieldInfo& field,
+                           const std::vector<double>& values) {
+  const auto columns = static_cast<std::uint64_t>(field.components);
+  const std::uint64_t rows = values.size() / columns;
+  const auto stored = static_cast<std::uint64_t>(stored_components(field));
+  const std::string dataset = group + "/" + field.name;
+  const hdf5::Shape shape = stored == 1 ? hdf5::Shape{rows} : hdf5::Shape{rows, stored};
+  if (field.whole) {
+    file_.write(dataset, std::vector<std::int32_t>(values.begin(), values.end()), shape);
+  } else if (stored == columns) {
+    file_.write(dataset, values, shape);
+  } else {
+    file_.write(dataset, with_zero_third(values), shape);
+  }
+  describe(dataset, field.unit, field.meaning);
+  file_.set_attribute(dataset, "place", std::string_view(name_of(field.place)));
+  file_.set_attribute(dataset, "components", std::int64_t{field.components});
+}
+
+void Recorder::image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
+                     std::span<const double> values) {
+  require(lines * pixels == values.size(), "image " + info.name + " has a wrong length");
+  begin_change();
+  const std::string dataset = "/images/" + info.name;
+  file_.write(dataset, values, {lines, pixels});
+  describe(dataset, info.unit, info.meaning);
+}
+
+void Recorder::finish(std::string_view outcome) {
+  if (!std::exchange(open_, false)) return;
+  begin_change();
+  file_.set_attribute("/", "outcome", outcome);
+  commit(!pending_time_.empty());
+  xdmf_.finish();
+  csv_.close();
+  file_.close();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,126 @@
+// Recorder: writes what a run hands it into the run's folder: run.h5 (all of it), run.xdmf (the
+// frames, for ParaView and meshio) and history.csv (the history, for a spreadsheet). It knows
+// names, units and numbers, and no physics.
+//
+// run.h5 4096 bytes of text     "pulvis run 1": Pulvis's own file
+//        /                      run (another one of every run), version, commit, title, scene_hash, seed, threads, then outcome
+//        /mesh/<name>           quads [cells,4] (hexahedra [cells,8] in space), cell_particle, node_particle, reference [nodes,2 or 3]
+//        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
+//                               complete = 1, written last: a frame without it is not to be read
+//        /history/<name>        one 1-D dataset a series; /history/time
+//        /images/<name>         [lines, pixels], of a raster
+// Every dataset has the attributes unit and meaning, a field also place (node, cell, particle, list) and
+// components. A field of nodes or cells with two components is stored with a third one of zeros, because
+// XDMF has no plane vectors (components = 2 tells); `position` is not. XDMF shows these fields only.
+//
+// After frame() returns, the frame and every sample before it are on the disk: a killed run loses only what came
+// later. From the hundredth frame on that holds for frames that take their time; those that come so fast that
+// commits would take more than a thirtieth of the run share one, position() and finish() at the latest. run.h5 can
+// be read at any time, while the run writes, too, and wherever it is killed: frames come with new groups /frames
+// and /history, which replace the old ones at one blow. (Of a history beyond a megabyte the newest samples may be
+// in history.csv alone.) All failures of the machine are OutputError.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/files/hdf5.hpp"
+#include "engine/files/history_csv.hpp"
+#include "engine/files/record.hpp"
+#include "engine/files/xdmf.hpp"
+
+namespace pulvis {
+
+// How far a run had written its results.
+struct RecorderPosition {
+  std::int64_t frames = 0, samples = 0;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(frames, samples);
+  }
+};
+
+class Recorder {
+ public:
+  // `folder` exists (open_run_folder made it). `position` (node, as many components as the mesh has
+  // dimensions) is the first field.
+  Recorder(std::filesystem::path folder, const RunAttributes& attributes, const RunMesh& mesh,
+           std::vector<SeriesInfo> series, std::vector<FieldInfo> fields,
+           const SeriesInfo& abscissa = simulated_time);
+  // Goes on with the files of a run that stopped: what was written after `position` is cut off.
+  Recorder(std::filesystem::path folder, const RunMesh& mesh, std::vector<SeriesInfo> series,
+           std::vector<FieldInfo> fields, const RecorderPosition& position,
+           const SeriesInfo& abscissa = simulated_time);
+
+  // Everything so far is on the disk then.
+  RecorderPosition position();
+
+  // One history row: a value a series, in their order. Kept in memory until the next frame.
+  void sample(double time, std::span<const double> values);
+
+  // One frame: the values of each field, in their order, the components of a place together.
+  void frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
+
+  // A picture, row by row: [lines, pixels].
+  void image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
+             std::span<const double> values);
+
+  // Writes what is left and closes the files; `outcome` says in words how the run ended. Without it
+  // the destructor does the same as well as it can, and run.h5 has no outcome.
+  void finish(std::string_view outcome = "done");
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  std::int64_t frames() const { return frames_; }
+  // In run.h5 as the attribute `run` and in the checkpoints: they belong together.
+  const std::string& run_id() const { return run_id_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void write_attributes(const RunAttributes& attributes);
+  void write_mesh(const RunMesh& mesh);
+  void put_in_place(const std::filesystem::path& folder);
+  void begin_change();
+  void begin_frames();
+  void commit(bool with_history);
+  bool is_commit_due() const;
+  void check_lengths(const std::vector<std::vector<double>>& fields) const;
+  void write_frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
+  void write_history(const std::string& group, std::uint64_t kept);
+  void renew_history();
+  bool is_history_due() const;
+  void link_frames();
+  void cut(const RecorderPosition& position);
+  void replace(const std::vector<std::string>& groups);
+  void write_csv_again();
+  void write_field(const std::string& group, const FieldInfo& field,
+                   const std::vector<double>& values);
+  void describe(const std::string& object, const std::string& unit, const std::string& meaning);
+
+  std::vector<SeriesInfo> series_;
+  std::vector<FieldInfo> fields_;
+  hdf5::File file_;
+  HistoryCsv csv_;
+  Xdmf xdmf_;
+  SeriesInfo abscissa_;
+  std::string run_id_;
+  std::vector<std::uint64_t> places_;                  // how many of each FieldPlace there are
+  std::vector<double> pending_time_;                   // samples not yet in run.h5
+  std::vector<std::vector<double>> pending_;           // [series][sample]
+  std::int64_t frames_ = 0, samples_ = 0;              // samples: in run.h5
+  bool is_changing_ = false, has_new_frames_ = false;  // since the last commit
+  bool is_half_ = false;                               // the frame that is being written
+  Clock::time_point committed_ = Clock::now();
+  Clock::duration linking_{}, cost_{};  // of the last commit: the frames it lists, and all of it
+  bool open_ = true;
+};
+
+}  // namespace pulvis

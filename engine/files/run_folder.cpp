@@ -1,0 +1,128 @@
+#include "engine/files/run_folder.hpp"
+
+#include <sys/file.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "engine/files/own_files.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folders that create_directories would have to make, the innermost first.
+std::vector<fs::path> missing_folders(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code ignored;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, ignored); at = at.parent_path()) {
+    missing.push_back(at);
+  }
+  return missing;
+}
+
+void take_away(const std::vector<fs::path>& folders) {
+  std::error_code ignored;
+  for (const auto& folder : folders) fs::remove(folder, ignored);  // only an empty one goes
+}
+
+// Permissions, read-only mounts and quotas differ: only writing a file tells. Nobody has one of this name.
+std::error_code try_to_write(const fs::path& folder) {
+  std::string probe = (folder / ".pulvis-probe-XXXXXX").string();
+  const FileDescriptor file(mkstemp(probe.data()));
+  if (!file) return {errno, std::generic_category()};
+  std::error_code ignored;
+  fs::remove(probe, ignored);
+  return {};
+}
+
+// What somebody may want of a run, and wants to be asked for.
+bool is_result(const std::string& name) {
+  for (const char* const own :
+       {"run.h5", "run.xdmf", "history.csv", "summary.json", "report.html", "scene.toml"})
+    if (name == own) return true;
+  return false;
+}
+
+bool belongs_to_a_run(const std::string& name) {
+  if (is_result(name) || name == "run.h5.new" || name == "run.h5.journal") return true;
+  return name.starts_with("checkpoint-") && (name.ends_with(".h5") || name.ends_with(".h5.new"));
+}
+
+std::vector<fs::path> files_of_a_run(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (belongs_to_a_run(entry.path().filename().string())) found.push_back(entry.path());
+  std::ranges::sort(found);
+  return found;
+}
+
+// Checkpoints and halves of files alone are no run that anybody could miss.
+std::string result_in(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "run.h5", ignored)) return "run.h5";
+  for (const fs::path& file : files_of_a_run(folder))
+    if (is_result(file.filename().string())) return file.filename().string();
+  return "";
+}
+
+void remove_old_run(const fs::path& folder) {
+  for (const fs::path& file : files_of_a_run(folder)) remove_own(file, role::run);
+  remove_own_below(folder / "pictures", role::figure);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder, const char* taken)
+    : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (!folder_) throw OutputError(folder, "open the run's folder", std::strerror(errno));
+  if (flock(folder_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw RunFolderTaken(folder, "use the folder", taken);
+}
+
+void require_own_files(const fs::path& folder) {
+  for (const fs::path& file : files_of_a_run(folder)) require_own_or_none(file, role::run);
+}
+
+void require_own_results(const fs::path& folder) {
+  for (const char* const name : {"run.xdmf", "history.csv", "summary.json", "report.html"})
+    require_own_or_none(folder / name, role::run);
+}
+
+void require_not_read(const fs::path& folder, const fs::path& read) {
+  for (const fs::path& file : files_of_a_run(folder)) require_another(read, file);
+}
+
+void make_results_folder(const fs::path& given) {
+  const fs::path folder = fs::absolute(given / "").parent_path().lexically_normal();
+  std::error_code error;
+  const auto missing = missing_folders(folder);
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error) error = try_to_write(folder);
+  if (!error) return;
+  take_away(missing);
+  throw OutputError(given, "make the run's folder", error.message());
+}
+
+FolderLock open_run_folder(const fs::path& given, bool overwrite) {
+  const fs::path folder = fs::absolute(given / "").parent_path().lexically_normal();
+  require_own_files(folder);
+  const std::string result = result_in(folder);
+  if (!result.empty() && !overwrite)
+    throw RunFolderTaken(given, "start a run here",
+                         "the folder already holds one (" + result + ")");
+  make_results_folder(given);
+  FolderLock lock(folder);
+  remove_old_run(folder);
+  return lock;
+}
+
+}  // namespace pulvis

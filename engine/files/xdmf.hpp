@@ -1,0 +1,48 @@
+// run.xdmf: tells ParaView and meshio how to read the frames of run.h5 as one moving mesh.
+//
+// One Uniform grid a frame, each with its own geometry, and every item a whole dataset: readers do
+// not agree on hyperslabs. The file is replaced as a whole with new frames (written beside and
+// renamed), so that somebody looking on never meets half of it. Fields of particles are left out:
+// the format has places for nodes and cells only.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/files/record.hpp"
+
+namespace pulvis {
+
+class Xdmf {
+ public:
+  // `heavy` is the HDF5 file's name as seen from the folder of `path`.
+  Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
+       const std::vector<FieldInfo>& fields);
+  void add(double time, const std::string& group);  // group: "/frames/000000"
+  void write();                                     // the frames so far
+  void finish() const;                              // no more frames
+
+ private:
+  std::string text() const;
+  std::string grid(double time, const std::string& group) const;
+  std::string item(const std::string& dataset, const std::string& number, std::uint64_t rows,
+                   int columns) const;
+  std::string attribute(const FieldInfo& field, const std::string& group) const;
+
+  std::filesystem::path path_;
+  std::string heavy_;
+  std::uint64_t nodes_, cells_;
+  bool in_space_;
+  std::vector<FieldInfo> fields_;
+  std::string grids_;  // the text of the frames so far
+  bool is_noted_ = false;
+};
+
+bool is_of_mesh(const FieldInfo& field);  // a number of rows that stays, and a place in the picture
+
+// The components a field is stored with: plane vectors get a third one, as XDMF knows no others.
+int stored_components(const FieldInfo& field);
+
+}  // namespace pulvis

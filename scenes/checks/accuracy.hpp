@@ -1,0 +1,14 @@
+// How fine a mesh is that a scene does not describe: the scene's `accuracy`, justified by the measured error
+// against run time in docs/accuracy.md.
+#pragma once
+
+#include "scenes/language/document.hpp"
+#include "scenes/language/problem.hpp"
+
+namespace pulvis {
+
+// Writes the mesh of every particle that gives no size of it into the tree. An `accuracy` that no particle
+// makes use of is a problem.
+void fill_meshes(document::Table& root, Problems& problems);
+
+}  // namespace pulvis

@@ -1,0 +1,70 @@
+#include "scenes/checks/bending_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pulvis {
+namespace {
+
+constexpr double least_slenderness = 3;  // squat bodies hardly bend
+constexpr double most_error = 0.1;       // more is told
+constexpr double good_error = 0.02;
+
+using Formulation = ElementSpec::Formulation;
+
+struct Rows {
+  int across = 0;
+  double aspect = 0;  // -, length along the body over height of an element
+};
+
+std::optional<Rows> rows_of(const ParticleSpec& particle) {
+  if (const auto* bar = std::get_if<RectangleOutline>(&particle.outline)) {
+    const auto& mesh = std::get<RectangleMesh>(particle.mesh);
+    const double length = std::max(bar->width, bar->height);
+    const double height = std::min(bar->width, bar->height);
+    if (length < least_slenderness * height) return std::nullopt;
+    const bool upright = bar->height > bar->width;
+    const int along = upright ? mesh.rows : mesh.columns;
+    const int across = upright ? mesh.columns : mesh.rows;
+    return Rows{across, length / along / (height / across)};
+  }
+  if (const auto* ring = std::get_if<RingOutline>(&particle.outline)) {
+    const auto& mesh = std::get<RingMesh>(particle.mesh);
+    const double along = std::numbers::pi * (ring->diameter + ring->hole) / 2 / mesh.boundary_edges;
+    return Rows{mesh.rings, along / ((ring->diameter - ring->hole) / 2 / mesh.rings)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> bending_error(const Scene& scene, const ParticleSpec& particle) {
+  const auto rows = rows_of(particle);
+  if (!rows) return std::nullopt;
+  if (scene.element.formulation == Formulation::one_point) return 0.0;
+  const double nu = scene.materials[static_cast<std::size_t>(particle.material)].poissons_ratio;
+  const double shear = rows->aspect * rows->aspect * (1 - nu) / 2;
+  const double stretch = scene.element.formulation == Formulation::four_point
+                             ? 2.0 / 3 * (1 - nu)
+                             : (1 - nu) * (1 - nu) / (1 - 2 * nu);
+  return (stretch - 1 + shear) / (rows->across * rows->across);
+}
+
+std::vector<std::string> bending_warnings(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const ParticleSpec& particle : scene.particles) {
+    const double error = bending_error(scene, particle).value_or(0);
+    if (std::abs(error) <= most_error) continue;
+    lines.push_back(fmt::format(
+        "the elements of particle '{}' bend with a stiffness that is off by {:+.0f}%: "
+        "element.formulation = \"one-point\" is right with any number of rows, here {:.0f} times "
+        "as many in both directions would do",
+        particle.name, 100 * error, std::ceil(std::sqrt(std::abs(error) / good_error))));
+  }
+  return lines;
+}
+
+}  // namespace pulvis

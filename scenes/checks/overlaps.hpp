@@ -1,0 +1,13 @@
+// Whether the particles have room where they are.
+#pragma once
+
+#include <vector>
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// Throws SceneError when particles overlap each other or a tool, naming both, the depth, and the
+// place of the scene that put the particle there.
+void check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies);
+
+}  // namespace pulvis

@@ -1,0 +1,65 @@
+// Short forms for the declarations in declare_*.cpp.
+#pragma once
+
+#include "scenes/keys/tables.hpp"
+
+namespace pulvis::schema {
+
+inline constexpr double smallest_size =
+    1e-12;                                   // m; below an atom continuum mechanics has no meaning
+inline constexpr double largest_size = 1e3;  // m
+
+inline document::Value value_of(const char* text) { return {std::string(text), {}}; }
+inline document::Value value_of(double number) { return {number, {}}; }
+inline document::Value value_of(int integer) { return {std::int64_t{integer}, {}}; }
+inline document::Value value_of(bool flag) { return {flag, {}}; }
+inline document::Value pair_of(const char* x, const char* y) {
+  return {document::Array{value_of(x), value_of(y)}, {}};
+}
+
+// Ranges [low, high], (low, high], (low, high).
+inline Range within(double low, double high) { return {low, high, false, false}; }
+inline Range above(double low, double high) { return {low, high, true, false}; }
+inline Range between(double low, double high) { return {low, high, true, true}; }
+
+// Setters for the usual case of one member.
+template <class Spec>
+auto to(double Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.number; };
+}
+template <class Spec>
+auto to(std::optional<double> Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.number; };
+}
+template <class Spec>
+auto to(std::string Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.text; };
+}
+template <class Spec>
+auto to(Vec2 Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.vector; };
+}
+template <class Spec>
+auto to(std::vector<Vec2> Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.points; };
+}
+template <class Spec>
+auto integer_to(int Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) {
+    spec.*member = static_cast<int>(value.integer);
+  };
+}
+template <class Spec>
+auto flag_to(bool Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.flag; };
+}
+template <class Spec>
+auto index_to(int Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.index; };
+}
+
+// For a key with one allowed value: it says what the scene means and leaves nothing to store.
+template <class Spec>
+void nothing(Spec&, const Decoded&) {}
+
+}  // namespace pulvis::schema

@@ -1,0 +1,430 @@
+// Declarations of what a powder is made of: the top level, materials, particle classes.
+#include <concepts>
+
+#include "scenes/keys/declare.hpp"
+#include "scenes/spec/afm_scene.hpp"
+
+namespace pulvis::schema {
+namespace {
+
+template <class O>
+void choose(ParticleSpec& particle) {
+  particle.outline = O{};
+  particle.mesh = typename O::Mesh{};
+}
+
+// The first key of a particle, its words in this order: the keys after it find the outline and mesh they
+// belong to.
+void choose_outline(ParticleSpec& particle, const Decoded& value) {
+  constexpr void (*choices[])(ParticleSpec&) = {
+      choose<DiscOutline>,    choose<RectangleOutline>, choose<RoundedRectangleOutline>,
+      choose<RingOutline>,    choose<EllipseOutline>,   choose<SuperellipseOutline>,
+      choose<PolygonOutline>, choose<PointsOutline>};
+  choices[value.index](particle);
+}
+
+// A key of every outline (or mesh) that has the member: the one chosen does, only_for sees to that.
+template <class Value = double, class Set>
+auto outline_to(Set set, Value Decoded::*member = &Decoded::number) {
+  return [set, member](ParticleSpec& particle, const Decoded& value) {
+    std::visit(
+        [&](auto& outline) {
+          if constexpr (std::invocable<Set, decltype(outline), const Value&>)
+            set(outline, value.*member);
+        },
+        particle.outline);
+  };
+}
+template <class Set>
+auto mesh_to(Set set) {
+  return [set](ParticleSpec& particle, const Decoded& value) {
+    std::visit(
+        [&](auto& mesh) {
+          if constexpr (std::invocable<Set, decltype(mesh), int>)
+            set(mesh, static_cast<int>(value.integer));
+        },
+        particle.mesh);
+  };
+}
+
+}  // namespace
+
+const TableDeclaration<Scene>& top_level() {
+  static const TableDeclaration<Scene> declaration{
+      {"", false, "family", "Keys before the first table.", every_family},
+      {{{.name = "family",
+         .kind = Kind::choice,
+         .choices = {{"compaction", "deformable particles in a rigid die, 2D plane strain"},
+                     {"afm", "a cantilever with a tip or a colloid probe, 3D, quasi-static"}},
+         .required = true,
+         .doc = "What kind of experiment this is."},
+        [](Scene& scene, const Decoded& value) {
+          if (value.index == 1) scene.afm = std::make_shared<AfmScene>();
+        }},
+       {{.name = "title",
+         .kind = Kind::text,
+         .fallback = value_of(""),
+         .doc = "Heading of the report."},
+        to(&Scene::title)},
+       {{.name = "accuracy",
+         .kind = Kind::choice,
+         .choices = {{"draft", "a quick look"},
+                     {"standard", "where more costs much and brings little"},
+                     {"fine", "for figures to rely on"}},
+         .only_for = compaction_only,
+         .doc = "How fine the meshes are that do not say it themselves; the error to expect: "
+                "docs/accuracy.md.",
+         .fallback_doc = "`\"standard\"`"},
+        nothing<Scene>},
+       {{.name = "thickness",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .fallback = value_of("1 mm"),
+         .only_for = compaction_only,
+         .doc = "Thickness of the plane-strain slice: forces are those on this slice."},
+        to(&Scene::thickness)},
+       {{.name = "seed",
+         .kind = Kind::integer,
+         .range = within(0, 1e15),
+         .fallback = value_of(1),
+         .only_for = compaction_only,
+         .doc = "Seed of everything random; the same seed gives the same run."},
+        [](Scene& scene, const Decoded& value) {
+          scene.seed = static_cast<std::uint64_t>(value.integer);
+        }}}};
+  return declaration;
+}
+
+const TableDeclaration<MaterialSpec>& material() {
+  static const TableDeclaration<MaterialSpec> declaration{
+      {"material", true, "family",
+       "A material: elastic, or elastic-plastic (J2) with a yield stress.", every_family},
+      {{{.name = "name",
+         .kind = Kind::name,
+         .required = true,
+         .doc = "What is made of it refers to it: particles, friction pairs, levers, tips."},
+        to(&MaterialSpec::name)},
+       {{.name = "density",
+         .kind = Kind::quantity,
+         .unit = "kg/m^3",
+         .range = within(1e-3, 1e9),
+         .required = true,
+         .only_for = compaction_only,
+         .doc = "Mass per volume."},
+        to(&MaterialSpec::density)},
+       {{.name = "youngs_modulus",
+         .kind = Kind::quantity,
+         .unit = "Pa",
+         .range = within(1, 1e13),
+         .required = true,
+         .doc = "Stiffness in simple tension."},
+        to(&MaterialSpec::youngs_modulus)},
+       {{.name = "poissons_ratio",
+         .kind = Kind::number,
+         .range = between(-1, 0.5),
+         .required = true,
+         .doc = "Sideways contraction over extension."},
+        to(&MaterialSpec::poissons_ratio)},
+       {{.name = "yield_stress",
+         .kind = Kind::quantity,
+         .unit = "Pa",
+         .range = within(1e-3, 1e13),
+         .doc = "Where plastic flow begins; below Young's modulus.",
+         .fallback_doc = "the material stays elastic"},
+        to(&MaterialSpec::yield_stress)},
+       {{.name = "hardening_modulus",
+         .kind = Kind::quantity,
+         .unit = "Pa",
+         .range = within(0, 1e13),
+         .fallback = value_of("0 Pa"),
+         .needs = "yield_stress",
+         .doc = "Growth of the yield stress with plastic strain; 0 is perfectly plastic."},
+        to(&MaterialSpec::hardening_modulus)}}};
+  return declaration;
+}
+
+const TableDeclaration<MaterialSpec>& material_damping() {
+  static const TableDeclaration<MaterialSpec> declaration{
+      {"material.damping", false, "family",
+       "Bulk damping (Rayleigh): an oscillation of angular frequency w decays with the damping "
+       "ratio "
+       "mass_proportional/(2 w) + stiffness_proportional w/2.",
+       compaction_only, true},
+      {{{.name = "mass_proportional",
+         .kind = Kind::quantity,
+         .unit = "1/s",
+         .range = within(0, 1e15),
+         .fallback = value_of("0 1/s"),
+         .only_for = compaction_only,
+         .doc =
+             "alpha: force against the velocity, per mass. Damps slow oscillations most, and the "
+             "motion of a body as a whole with them."},
+        to(&MaterialSpec::mass_damping)},
+       {{.name = "stiffness_proportional",
+         .kind = Kind::quantity,
+         .unit = "s",
+         .range = within(0, 1e6),
+         .fallback = value_of("0 s"),
+         .only_for = compaction_only,
+         .doc = "beta: viscous stress over the rate of the elastic stress. Damps fast oscillations "
+                "most, no motion of a body as a whole; makes the time step shorter where it is not "
+                "well below it, and adds to the flow stress of what flows."},
+        to(&MaterialSpec::stiffness_damping)}}};
+  return declaration;
+}
+
+const TableDeclaration<ParticleSpec>& particle() {
+  static const TableDeclaration<ParticleSpec> declaration{
+      {"particle", true, "outline", "A class of equal particles; bodies and packings place them."},
+      {{{.name = "outline",
+         .kind = Kind::choice,
+         .choices = {{"disc", "a circle"},
+                     {"rectangle", "sharp corners"},
+                     {"rounded_rectangle", "corners are arcs"},
+                     {"ring", "a tube; its hole is empty, and nothing touches its inner surface"},
+                     {"ellipse", "of two axes"},
+                     {"superellipse", "between a rhombus and a rectangle, by its exponent"},
+                     {"polygon", "regular, or by its corners; sharp or rounded"},
+                     {"points", "a smooth curve through points of a file, a traced grain"}},
+         .required = true,
+         .doc = "Shape of the particle."},
+        choose_outline},
+       {{.name = "name",
+         .kind = Kind::name,
+         .required = true,
+         .doc = "Bodies and packings refer to it."},
+        to(&ParticleSpec::name)},
+       {{.name = "material",
+         .kind = Kind::reference,
+         .refers_to = "material",
+         .required = true,
+         .doc = "What it is made of."},
+        index_to(&ParticleSpec::material)},
+       {{.name = "diameter",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .required = true,
+         .only_for = {"disc", "ring", "polygon", "points"},
+         .optional_for = {"polygon", "points"},
+         .doc = "Outer diameter; of a regular polygon that of the circle through its corners; with "
+                "points that of the circle of the same area, to which the outline is scaled."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.diameter; } { o.diameter = value; })},
+       {{.name = "width",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .required = true,
+         .only_for = {"rectangle", "rounded_rectangle", "ellipse", "superellipse", "points"},
+         .optional_for = "points",
+         .doc = "Size along the particle's own x axis; points are scaled to it."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.width; } { o.width = value; })},
+       {{.name = "height",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .required = true,
+         .only_for = {"rectangle", "rounded_rectangle", "ellipse", "superellipse"},
+         .doc = "Size along the particle's own y axis."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.height; } { o.height = value; })},
+       {{.name = "radius",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .required = true,
+         .only_for = {"rounded_rectangle"},
+         .doc = "Radius of the four corners, at most half of the shorter side."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.radius; } { o.radius = value; })},
+       {{.name = "hole",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .required = true,
+         .only_for = {"ring"},
+         .doc = "Diameter of the hole, below that of the ring."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.hole; } { o.hole = value; })},
+       {{.name = "exponent",
+         .kind = Kind::number,
+         .range = within(1.5, 20),
+         .required = true,
+         .only_for = "superellipse",
+         .doc = "Of abs(2x/width)^exponent + abs(2y/height)^exponent = 1: 2 is an ellipse, more "
+                "goes towards a rectangle, less towards a rhombus."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.exponent; } { o.exponent = value; })},
+       {{.name = "sides",
+         .kind = Kind::integer,
+         .range = within(3, 64),
+         .only_for = "polygon",
+         .needs = "diameter",
+         .doc = "Of a regular polygon, one of them below."},
+        outline_to<std::int64_t>(
+            [](auto& o, std::int64_t value) requires requires { o.sides; } {
+              o.sides = static_cast<int>(value);
+            },
+            &Decoded::integer)},
+       {{.name = "corners",
+         .kind = Kind::points,
+         .unit = "m",
+         .range = within(-largest_size, largest_size),
+         .only_for = "polygon",
+         .doc = "Of a polygon that is not regular, in order; the centre of its area becomes the "
+                "particle's. Some point inside must see all of it."},
+        outline_to<std::vector<Vec2>>(
+            [](auto& o, const std::vector<Vec2>& value) requires requires { o.corners; } {
+              o.corners = value;
+            },
+            &Decoded::points)},
+       {{.name = "rounding",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(0, largest_size),
+         .fallback = value_of("0 m"),
+         .only_for = "polygon",
+         .doc = "Radius of all corners; 0: sharp, allowed where no corner points inwards."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.rounding; } { o.rounding = value; })},
+       {{.name = "file",
+         .kind = Kind::file,
+         .required = true,
+         .only_for = "points",
+         .doc = "CSV, one point x, y a line in order, relative to the scene's folder; its first "
+                "line may name the columns with their unit: x (um), y (um)."},
+        outline_to<std::string>(
+            [](auto& o, const std::string& value) requires requires { o.file; } { o.file = value; },
+            &Decoded::text)},
+       {{.name = "unit",
+         .kind = Kind::text,
+         .only_for = "points",
+         .doc = "Unit of a file whose first line names none: \"um\".",
+         .fallback_doc = "the file's first line names it"},
+        outline_to<std::string>(
+            [](auto& o, const std::string& value) requires requires { o.unit; } { o.unit = value; },
+            &Decoded::text)},
+       {{.name = "smoothing",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(0, largest_size),
+         .fallback = value_of("0 m"),
+         .only_for = "points",
+         .doc = "Root mean square distance at which the curve may pass the file's points, before "
+                "scaling: the noise of the tracing; 0: through them."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.smoothing; } { o.smoothing = value; })},
+       {{.name = "area",
+         .kind = Kind::quantity,
+         .unit = "m^2",
+         .range = within(smallest_size * smallest_size, largest_size * largest_size),
+         .only_for = "points",
+         .doc = "To which the outline is scaled.",
+         .fallback_doc = "the file's own size, without `width` and `diameter`"},
+        outline_to(
+            [](auto& o, double value) requires requires { o.area; } { o.area = value; })},
+       {{.name = "mirrored",
+         .kind = Kind::flag,
+         .fallback = value_of(false),
+         .only_for = {"polygon", "points"},
+         .doc = "x to -x, before any turn."},
+        outline_to<bool>(
+            [](auto& o, bool value) requires requires { o.mirrored; } { o.mirrored = value; },
+            &Decoded::flag)}}};
+  return declaration;
+}
+
+const TableDeclaration<ParticleSpec>& mesh() {
+  static const TableDeclaration<ParticleSpec> declaration{
+      {"particle.mesh", false, "outline", "Finite elements of one particle."},
+      {{{.name = "size",
+         .kind = Kind::quantity,
+         .unit = "m",
+         .range = within(smallest_size, largest_size),
+         .doc = "Wanted length of the edges along the outline, instead of their number and that of "
+                "the rings; finer where the outline turns sharply.",
+         .fallback_doc = "by `accuracy`"},
+        [](ParticleSpec& spec, const Decoded& value) { spec.mesh_size = value.number; }},
+       {{.name = "boundary_edges",
+         .kind = Kind::integer,
+         .range = within(4, 4096),
+         .multiple_of = 4,
+         .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
+                      "points"},
+         .doc = "Edges along the outline; an even core has (boundary_edges/4)^2 quads. Corners of "
+                "a small radius get four edges each, which grow towards the middle of the flats.",
+         .fallback_doc = "by `accuracy`; beside other sizes 40, of what is no disc or ring 48"},
+        mesh_to(
+            [](auto& mesh, int value) requires requires { mesh.boundary_edges; } {
+              mesh.boundary_edges = value;
+            })},
+       {{.name = "rings",
+         .kind = Kind::integer,
+         .range = within(0, 1024),
+         .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
+                      "points"},
+         .doc =
+             "Rings of quads between the core and the outline, of a ring through its wall; 0: only "
+             "the core, for discs of at most 20 boundary edges or with a coarse core.",
+         .fallback_doc = "by `accuracy`; beside other sizes 1, of a ring 4"},
+        mesh_to(
+            [](auto& mesh, int value) requires requires { mesh.rings; } { mesh.rings = value; })},
+       {{.name = "core",
+         .kind = Kind::choice,
+         .choices = {{"even", "as fine as the outline"},
+                     {"coarse",
+                      "one edge for three of the outline, joined by a ring of transition quads; "
+                      "boundary_edges is a multiple of 12"}},
+         .only_for = "disc",
+         .doc = "The inside of the rings.",
+         .fallback_doc = "by `accuracy`; beside other sizes `\"even\"`"},
+        [](ParticleSpec& spec, const Decoded& value) {
+          std::get<DiscMesh>(spec.mesh).core = static_cast<DiscMesh::Core>(value.index);
+        }},
+       {{.name = "refinement",
+         .kind = Kind::number,
+         .range = within(1, 100),
+         .fallback = value_of(1.0),
+         .only_for = "disc",
+         .doc = "How much finer the edges at top and bottom are than those at the sides."},
+        [](ParticleSpec& spec, const Decoded& value) {
+          std::get<DiscMesh>(spec.mesh).refinement = value.number;
+        }},
+       {{.name = "phase",
+         .kind = Kind::phase,
+         .unit = "rad",
+         .range = within(-1000, 1000),
+         .word = "random",
+         .fallback = value_of("0 deg"),
+         .only_for = {"disc", "ring"},
+         .doc =
+             "Turn of the mesh inside the outline; \"random\" turns each particle's by its own."},
+        [](ParticleSpec& spec, const Decoded& value) {
+          spec.random_mesh_phase = value.is_word;
+          spec.mesh_phase = value.number;
+        }},
+       {{.name = "columns",
+         .kind = Kind::integer,
+         .range = within(1, 4096),
+         .only_for = "rectangle",
+         .doc = "Quads along the width.",
+         .fallback_doc = "by `accuracy`; beside `rows` 8"},
+        [](ParticleSpec& spec, const Decoded& value) {
+          std::get<RectangleMesh>(spec.mesh).columns = static_cast<int>(value.integer);
+        }},
+       {{.name = "rows",
+         .kind = Kind::integer,
+         .range = within(1, 4096),
+         .only_for = "rectangle",
+         .doc = "Quads along the height.",
+         .fallback_doc = "by `accuracy`; beside `columns` 8"},
+        [](ParticleSpec& spec, const Decoded& value) {
+          std::get<RectangleMesh>(spec.mesh).rows = static_cast<int>(value.integer);
+        }}}};
+  return declaration;
+}
+
+}  // namespace pulvis::schema

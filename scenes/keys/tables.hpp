@@ -1,0 +1,39 @@
+// The tables of a scene, and the language that they make.
+#pragma once
+
+#include "scenes/language/schema.hpp"
+#include "scenes/spec/afm_scene.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis::schema {
+
+const TableDeclaration<Scene>& top_level();
+const TableDeclaration<MaterialSpec>& material();
+const TableDeclaration<MaterialSpec>& material_damping();
+const TableDeclaration<ParticleSpec>& particle();
+const TableDeclaration<ParticleSpec>& mesh();
+const TableDeclaration<BodySpec>& body();
+const TableDeclaration<PackingSpec>& packing();
+const TableDeclaration<MixtureClass>& mixture_class();
+const TableDeclaration<ToolSpec>& tool();
+const TableDeclaration<StageSpec>& stage();
+const TableDeclaration<MoveSpec>& move();
+const TableDeclaration<ServoSpec>& servo();
+const TableDeclaration<UntilSpec>& until();
+const TableDeclaration<FrictionSpec>& friction();
+const TableDeclaration<ContactSpec>& contact();
+const TableDeclaration<ElementSpec>& element();
+const TableDeclaration<TimeSpec>& time();
+const TableDeclaration<OutputSpec>& output();
+const TableDeclaration<LimitSpec>& limits();
+const TableDeclaration<ExpectSpec>& expect();
+const TableDeclaration<LeverSpec>& lever();
+const TableDeclaration<TipSpec>& tip();
+const TableDeclaration<LaserSpec>& laser();
+const TableDeclaration<DetectorSpec>& detector();
+const TableDeclaration<TargetSpec>& surface();
+const TableDeclaration<ActionSpec>& action();
+
+const Language& scene_language();
+
+}  // namespace pulvis::schema

@@ -1,0 +1,288 @@
+#include "scenes/language/decode.hpp"
+
+#include "scenes/language/problem.hpp"
+#include "scenes/language/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pulvis::schema {
+namespace {
+
+using document::Value;
+
+[[noreturn]] void refuse(const KeyInfo& key, const Value& value, const std::string& what) {
+  throw Refusal(value.origin, fmt::format("{}, allowed: {}", what, allowed(key)));
+}
+
+[[noreturn]] void refuse_type(const KeyInfo& key, const Value& value) {
+  refuse(key, value, fmt::format("wrong type, {} is given", document::type_name(value)));
+}
+
+bool is_number(const Value& value) {
+  return value.as<double>() != nullptr || value.as<std::int64_t>() != nullptr;
+}
+
+double bare_number(const KeyInfo& key, const Value& value) {
+  if (!is_number(value)) refuse_type(key, value);
+  const auto* integer = value.as<std::int64_t>();
+  const double number = integer != nullptr ? static_cast<double>(*integer) : value.get<double>();
+  if (!std::isfinite(number)) refuse(key, value, document::value_text(value) + " is not finite");
+  return number;
+}
+
+void check_range(const KeyInfo& key, const Value& value, double number) {
+  if (key.range.holds(number)) return;
+  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  const bool same = is_number(value);
+  const std::string in_si = same ? "" : fmt::format(" = {}{}", number, unit);
+  refuse(key, value, fmt::format("{}{} is out of range", document::value_text(value), in_si));
+}
+
+double quantity(const KeyInfo& key, const Value& value) {
+  if (is_number(value))
+    refuse(key, value,
+           fmt::format("missing unit: write \"{} {}\"", document::value_text(value), key.unit));
+  const auto* text = value.as<std::string>();
+  if (text == nullptr) refuse_type(key, value);
+  try {
+    const double number = parse_quantity(*text, key.unit);
+    check_range(key, value, number);
+    return number;
+  } catch (const UnitError& error) {
+    refuse(key, value, error.what());
+  }
+}
+
+const document::Array& pair(const KeyInfo& key, const Value& value) {
+  const auto* array = value.as<document::Array>();
+  if (array == nullptr) refuse_type(key, value);
+  if (array->size() != 2)
+    refuse(key, value, fmt::format("an array of length {} is given", array->size()));
+  return *array;
+}
+
+const std::string& word(const KeyInfo& key, const Value& value) {
+  const auto* text = value.as<std::string>();
+  if (text == nullptr) refuse_type(key, value);
+  return *text;
+}
+
+bool is_name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-' || c == '+' || c == '.';
+}
+
+// Names become groups of the results file and keys of overrides.
+std::string name(const KeyInfo& key, const Value& value) {
+  const std::string& text = word(key, value);
+  const bool only_dots = text.find_first_not_of('.') == std::string::npos;
+  if (text.size() > 64 || only_dots || !std::all_of(text.begin(), text.end(), is_name_character))
+    refuse(key, value, fmt::format("{} is no name", document::value_text(value)));
+  return text;
+}
+
+std::string line_of_text(const KeyInfo& key, const Value& value, std::size_t longest = 200) {
+  const std::string& text = word(key, value);
+  const bool control = std::any_of(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  });
+  if (control || text.size() > longest)
+    refuse(key, value, "the text is too long or not on one line");
+  return text;
+}
+
+std::int64_t integer(const KeyInfo& key, const Value& value) {
+  const auto* given = value.as<std::int64_t>();
+  if (given == nullptr) refuse_type(key, value);
+  check_range(key, value, static_cast<double>(*given));
+  if (*given % key.multiple_of != 0)
+    refuse(key, value, fmt::format("{} is no multiple of {}", *given, key.multiple_of));
+  return *given;
+}
+
+std::array<int, 2> counts(const KeyInfo& key, const Value& value) {
+  const document::Array& parts = pair(key, value);
+  return {static_cast<int>(integer(key, parts[0])), static_cast<int>(integer(key, parts[1]))};
+}
+
+bool flag(const KeyInfo& key, const Value& value) {
+  const auto* given = value.as<bool>();
+  if (given == nullptr) refuse_type(key, value);
+  return *given;
+}
+
+int choice(const KeyInfo& key, const Value& value) {
+  const std::string& given = word(key, value);
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < key.choices.size(); ++i) {
+    if (key.choices[i].word == given) return static_cast<int>(i);
+    words.push_back(key.choices[i].word);
+  }
+  refuse(key, value,
+         fmt::format("{} is unknown{}", document::value_text(value), suggestion(given, words)));
+}
+
+const std::vector<std::string>& names_of(const Names& names, const std::string& table) {
+  static const std::vector<std::string> no_names;
+  const auto found = names.find(table);
+  return found == names.end() ? no_names : found->second;
+}
+
+int reference(const KeyInfo& key, const Value& value, const Names& names) {
+  const std::string& given = word(key, value);
+  const std::vector<std::string>& known = names_of(names, key.refers_to);
+  const auto found = std::find(known.begin(), known.end(), given);
+  if (found != known.end() && !given.empty()) return static_cast<int>(found - known.begin());
+  throw Refusal(value.origin,
+                fmt::format("no {} is called {}{}, allowed: {}", key.refers_to,
+                            document::value_text(value), suggestion(given, known), listed(known)));
+}
+
+Vec2 vector(const KeyInfo& key, const Value& value) {
+  const document::Array& parts = pair(key, value);
+  return {quantity(key, parts[0]), quantity(key, parts[1])};
+}
+
+// The position of a word that may stand instead of a number; empty: it is none.
+std::optional<int> word_instead(const KeyInfo& key, const Value& value) {
+  const auto* text = value.as<std::string>();
+  for (std::size_t i = 0; text != nullptr && i < key.choices.size(); ++i)
+    if (key.choices[i].word == *text) return static_cast<int>(i);
+  return std::nullopt;
+}
+
+void vector_or_word(const KeyInfo& key, const Value& value, Decoded& result) {
+  const document::Array& parts = pair(key, value);
+  const std::optional<int> word = word_instead(key, parts[1]);
+  if (!word) {
+    result.vector = vector(key, value);
+    return;
+  }
+  result.is_word = true;
+  result.index = *word;
+  result.vector = {quantity(key, parts[0]), 0};
+}
+
+void number_or_word(const KeyInfo& key, const Value& value, Decoded& result) {
+  if (const std::optional<int> word = word_instead(key, value)) {
+    result.is_word = true;
+    result.index = *word;
+    return;
+  }
+  result.number = bare_number(key, value);
+  check_range(key, value, result.number);
+}
+
+std::vector<Vec2> points(const KeyInfo& key, const Value& value) {
+  const auto* array = value.as<document::Array>();
+  if (array == nullptr) refuse_type(key, value);
+  if (array->size() < 2)
+    refuse(key, value, fmt::format("an array of length {} is given", array->size()));
+  std::vector<Vec2> result;
+  for (const Value& point : *array) result.push_back(vector(key, point));
+  return result;
+}
+
+Vec2 direction(const KeyInfo& key, const Value& value) {
+  const document::Array& parts = pair(key, value);
+  const Vec2 given{bare_number(key, parts[0]), bare_number(key, parts[1])};
+  const double largest = given.cwiseAbs().maxCoeff();
+  if (largest == 0) refuse(key, value, "a direction of length 0");
+  return (given / largest).normalized();  // scaled first: the square of 1e200 is infinite
+}
+
+std::array<std::string, 2> name_pair(const KeyInfo& key, const Value& value, const Names& names) {
+  std::vector<std::string> known = names_of(names, "material");
+  const std::vector<std::string>& tools = names_of(names, "tool");
+  known.insert(known.end(), tools.begin(), tools.end());
+  const document::Array& parts = pair(key, value);
+  for (const Value& part : parts) {
+    const std::string& given = word(key, part);
+    if (given.empty() || std::find(known.begin(), known.end(), given) == known.end())
+      throw Refusal(part.origin, fmt::format("no material or tool is called {}{}, allowed: {}",
+                                             document::value_text(part), suggestion(given, known),
+                                             listed(known)));
+  }
+  return {word(key, parts[0]), word(key, parts[1])};
+}
+
+// The elements of a list; a list of nothing is refused.
+const document::Array& list(const KeyInfo& key, const Value& value) {
+  const auto* array = value.as<document::Array>();
+  if (array == nullptr) refuse_type(key, value);
+  if (array->empty()) refuse(key, value, "an empty array is given");
+  return *array;
+}
+
+}  // namespace
+
+Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
+  Decoded result;
+  switch (key.kind) {
+    case Kind::quantity:
+      result.number = quantity(key, value);
+      break;
+    case Kind::vector:
+      vector_or_word(key, value, result);
+      break;
+    case Kind::points:
+      result.points = points(key, value);
+      break;
+    case Kind::phase:
+      result.is_word = value.as<std::string>() != nullptr && *value.as<std::string>() == key.word;
+      if (!result.is_word) result.number = quantity(key, value);
+      break;
+    case Kind::number:
+      number_or_word(key, value, result);
+      break;
+    case Kind::integer:
+      result.integer = integer(key, value);
+      break;
+    case Kind::counts:
+      result.counts = counts(key, value);
+      break;
+    case Kind::flag:
+      result.flag = flag(key, value);
+      break;
+    case Kind::direction:
+      result.vector = direction(key, value);
+      break;
+    case Kind::text:
+      result.text = line_of_text(key, value);
+      break;
+    case Kind::file:
+    case Kind::scene:
+      result.text = line_of_text(key, value, 1000);
+      break;
+    case Kind::name:
+      result.text = name(key, value);
+      break;
+    case Kind::choice:
+      result.index = choice(key, value);
+      break;
+    case Kind::reference:
+      result.index = reference(key, value, names);
+      break;
+    case Kind::name_pair:
+      result.names = name_pair(key, value, names);
+      break;
+    case Kind::bound:  // a quantity is converted where its unit is known
+      if (value.as<std::string>() != nullptr)
+        result.text = line_of_text(key, value);
+      else
+        result.number = bare_number(key, value);
+      break;
+    case Kind::texts:
+      for (const Value& one : list(key, value)) result.texts.push_back(line_of_text(key, one));
+      break;
+    case Kind::integers:
+      for (const Value& one : list(key, value)) result.integers.push_back(integer(key, one));
+      break;
+  }
+  return result;
+}
+
+}  // namespace pulvis::schema

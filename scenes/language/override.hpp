@@ -1,0 +1,19 @@
+// Overrides of a scene's keys from the command line: `--set key.path=value`.
+//
+// The path names tables and keys with dots. An element of a repeated table is chosen by its
+// position or by its name (a move: by its tool); a name with a dot is quoted:
+//   time.safety=0.5          material[0].yield_stress=100 MPa      stage.press.duration=2 ms
+//   title=softer             material.316L.yield_stress=100 MPa    stage.press.move.top.ramp=0.2
+//   tool.top.point=["0 m", "101 mm"]                               material."a.b".density=1 g/cm^3
+// A value that is not TOML is taken as a string, so quotes are rarely needed.
+#pragma once
+
+#include "scenes/language/problem.hpp"
+
+namespace pulvis {
+
+// Later overrides win. What is wrong with an override is added to `problems`.
+void apply_overrides(document::Table& root, const std::vector<std::string>& overrides,
+                     Problems& problems);
+
+}  // namespace pulvis

@@ -1,0 +1,92 @@
+#include "scenes/language/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "engine/printable.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr std::size_t longest_word = 64;  // nothing longer can be declared or named
+
+std::string all_lines(const std::vector<SceneProblem>& problems) {
+  std::vector<std::string> lines;
+  for (const SceneProblem& problem : problems) lines.push_back(problem.text());
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+// Levenshtein's distance: insertions, deletions and replacements that turn one word into the other.
+std::size_t distance(const std::string& from, const std::string& to) {
+  std::array<std::size_t, longest_word + 1> row{};
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i - 1] == to[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[to.size()];
+}
+
+}  // namespace
+
+std::string SceneProblem::text() const {
+  const std::string what = printable_lines(message);
+  if (!override_text.empty())
+    return fmt::format("--set {}: {}: {}", printable(override_text), printable(key), what);
+  return fmt::format("{}:{}:{}: {}: {}", printable(file), line, column, printable(key), what);
+}
+
+SceneError::SceneError(std::vector<SceneProblem> problems)
+    : std::runtime_error(all_lines(problems)), problems_(std::move(problems)) {}
+
+void Problems::add(const document::Origin& origin, const std::string& key,
+                   const std::string& message) {
+  SceneProblem problem{file_.string(), origin.mark.line, origin.mark.column, "", key, message};
+  if (origin.override_index >= 0) {
+    problem.line = problem.column = 0;
+    problem.override_text = overrides_.at(static_cast<std::size_t>(origin.override_index));
+  }
+  problems_.push_back(std::move(problem));
+}
+
+void Problems::throw_if_any() const {
+  if (problems_.empty()) return;
+  std::vector<SceneProblem> sorted = problems_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const SceneProblem& a, const SceneProblem& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+  throw SceneError(std::move(sorted));
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
+  if (word.size() > longest_word) return "";
+  const std::string* best = nullptr;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > longest_word) continue;
+    const std::size_t d = distance(word, candidate);
+    if (d < best_distance && d < candidate.size()) {
+      best = &candidate;
+      best_distance = d;
+    }
+  }
+  return best == nullptr ? "" : fmt::format(", did you mean '{}'?", *best);
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 20;  // a message is no catalogue
+  const auto end = words.begin() + static_cast<std::ptrdiff_t>(std::min(words.size(), most));
+  if (words.empty()) return "none";
+  return fmt::format("{}{}", fmt::join(words.begin(), end, ", "),
+                     words.size() > most ? ", ..." : "");
+}
+
+}  // namespace pulvis

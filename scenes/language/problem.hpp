@@ -1,0 +1,53 @@
+// What is wrong with a scene: collected while it is read, thrown together as one SceneError.
+#pragma once
+
+#include "scenes/language/document.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pulvis {
+
+struct SceneProblem {
+  std::string file;
+  int line = 0;  // 0 when an override is to blame
+  int column = 0;
+  std::string override_text;  // "contact.friction=-1"; empty when the file is to blame
+  std::string key;            // "material[0].yield_stress"
+  std::string message;        // what is wrong, what is allowed
+
+  std::string text() const;  // file:line:col: key: message
+};
+
+class SceneError : public std::runtime_error {
+ public:
+  explicit SceneError(std::vector<SceneProblem> problems);
+  const std::vector<SceneProblem>& errors() const { return problems_; }
+
+ private:
+  std::vector<SceneProblem> problems_;
+};
+
+class Problems {
+ public:
+  Problems(std::filesystem::path file, std::vector<std::string> overrides)
+      : file_(std::move(file)), overrides_(std::move(overrides)) {}
+
+  void add(const document::Origin& origin, const std::string& key, const std::string& message);
+  void throw_if_any() const;  // SceneError, in the order of the file
+
+ private:
+  std::filesystem::path file_;
+  std::vector<std::string> overrides_;
+  std::vector<SceneProblem> problems_;
+};
+
+// ", did you mean 'yield_stress'?" when a candidate is close to `word`, otherwise nothing.
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
+
+// "a, b, c": what a message lists as allowed; "none" when there is nothing.
+std::string listed(const std::vector<std::string>& words);
+
+}  // namespace pulvis

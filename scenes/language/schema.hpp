@@ -1,0 +1,167 @@
+// A language as data: every key is declared once, with its kind, unit, default, allowed range and one
+// line of documentation. The reader, the reference, the JSON Schema and the default values all come from
+// these declarations: those of scenes are in scenes/keys.
+#pragma once
+
+#include "scenes/language/document.hpp"
+#include "scenes/language/vec2.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pulvis::schema {
+
+enum class Kind {
+  quantity,   // a string: number and unit
+  vector,     // two quantities: x and y
+  points,     // two or more vectors
+  phase,      // a quantity, or the key's one word
+  number,     // a bare number
+  integer,    // a bare whole number
+  counts,     // two bare whole numbers
+  flag,       // true or false
+  direction,  // two bare numbers, not both zero
+  text,       // a string
+  name,       // a string others refer to; part of paths in the results
+  choice,     // one of a few words
+  reference,  // the name of another table's element
+  name_pair,  // two names of materials or tools
+  bound,      // a bare number, or a quantity in a unit that another key decides
+  texts,      // one or more strings
+  integers,   // one or more bare whole numbers
+  file,       // the path of a table, mesh or record, from the folder of the file that names it
+  scene,      // likewise, of another scene
+};
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool without_low = false;  // the bound itself is refused
+  bool without_high = false;
+
+  bool holds(double value) const;  // false for NaN
+};
+
+struct Choice {
+  std::string word;
+  std::string doc;
+};
+
+// Values of a selector: one word, or several in braces.
+struct Words {
+  std::vector<std::string> list;
+  Words() = default;
+  Words(const char* word) : list{word} {}
+  Words(std::initializer_list<std::string> words) : list(words) {}
+  bool empty() const { return list.empty(); }
+  bool has(const std::string& word) const {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  }
+};
+
+// Families of experiments, for tables and keys that belong to some of them.
+inline const Words compaction_only{"compaction"}, afm_only{"afm"},
+    every_family{"compaction", "afm"};
+
+struct KeyInfo {
+  std::string name = {};
+  Kind kind = Kind::text;
+  std::string unit = {};             // SI, of quantities
+  Range range = {};                  // of quantities in the SI unit, of vectors for each component
+  int multiple_of = 1;               // of integers
+  std::vector<Choice> choices = {};  // of a number, or a vector's y: words instead of it
+  std::string word = {};             // Kind::phase: the word that stands instead of a quantity
+  std::string refers_to = {};        // Kind::reference: the table whose names are allowed
+  std::optional<document::Value> fallback = {};  // the default
+  bool required = false;
+  Words only_for = {};      // the table's selector must have one of these values
+  Words optional_for = {};  // not required with these
+  std::string needs = {};   // another key without which this one has no effect
+  std::string doc = {};
+  std::string fallback_doc = {};  // what happens without the key, where that is no value
+};
+
+// A value as its setter gets it; which members hold something follows from the kind.
+struct Decoded {
+  double number = 0;  // quantity in SI, number
+  std::int64_t integer = 0;
+  int index = 0;         // choice, reference: position in the list
+  bool is_word = false;  // phase; number or vector (its y) with words: `index` says which
+  bool flag = false;
+  std::array<int, 2> counts = {};
+  Vec2 vector = Vec2::Zero();
+  std::vector<Vec2> points = {};
+  std::string text = {};
+  std::vector<std::string> texts = {};
+  std::vector<std::int64_t> integers = {};
+  std::array<std::string, 2> names = {};
+};
+
+struct TableInfo {
+  std::string path;      // "material", "particle.mesh"; empty: the top level
+  bool repeated;         // [[material]], any number of times; otherwise [contact], at most once
+  std::string selector;  // the key that only_for compares, here or in the parent table
+  std::string doc;
+  Words families = {"compaction"};  // of experiments that have this table
+  bool optional = false;  // without it there is no such thing, not one with default values
+};
+
+template <class Spec>
+struct Key {
+  KeyInfo info;
+  std::function<void(Spec&, const Decoded&)> set;
+};
+
+template <class Spec>
+struct TableDeclaration {
+  TableInfo info;
+  std::vector<Key<Spec>> keys;
+};
+
+// A declaration without its setters: all that documents, default values and checks need.
+struct TableView {
+  TableInfo info;
+  std::vector<KeyInfo> keys;
+};
+
+// The tables of one kind of file: top level first, a parent before its children.
+using Language = std::vector<TableView>;
+
+template <class Spec>
+TableView view_of(const TableDeclaration<Spec>& declaration) {
+  TableView result{declaration.info, {}};
+  for (const Key<Spec>& key : declaration.keys) result.keys.push_back(key.info);
+  return result;
+}
+
+const TableView* find_table(const std::string& path, const Language& language);
+// Whether a table below the top level belongs to the family; of an unknown family all do.
+bool belongs(const TableInfo& info, const std::string& family);
+const KeyInfo* find_key(const TableView& table, const std::string& name);
+std::string joined_path(const std::string& path, const std::string& key);
+// Its keys and child tables.
+std::vector<std::string> known_words(const TableView& table, const Language& language);
+
+std::string quoted(const Words& words);   // '"disc" or "ring"'
+std::string allowed(const KeyInfo& key);  // "a quantity in Pa, >= 1 and <= 1e+13"
+
+// Whether `key` has a meaning in `table`, whose selector has the value `selected`.
+bool applies(const KeyInfo& key, const document::Table& table, const std::string& selected);
+
+// Whether a table must have the key, as far as its selector decides.
+bool is_required(const KeyInfo& key, const std::string& selected);
+
+// The value of a table's selector; `parent` is asked where the table has no such key itself.
+std::string selected_by(const TableInfo& info, const document::Table& table,
+                        const std::string& parent);
+
+// Writes every default that is not given into the tree, so that it is read like a given value.
+void fill_defaults(document::Table& root, const Language& language);
+
+}  // namespace pulvis::schema

@@ -1,0 +1,139 @@
+#include "scenes/language/table_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pulvis::schema {
+
+TableReader::TableReader(const document::Table& root, Problems& problems, const Language& language)
+    : problems_(problems), language_(language) {
+  collect_names(root);
+}
+
+// Names are collected before anything is read, so that one bad table does not make every reference
+// to it look wrong.
+void TableReader::collect_names(const document::Table& root) {
+  for (const TableView& view : language_) {
+    if (!view.info.repeated || find_key(view, "name") == nullptr) continue;
+    const document::Entry* entry = document::find(root, view.info.path);
+    if (entry == nullptr || !document::is_array_of_tables(entry->value)) continue;
+    const auto& array = entry->value.get<document::Array>();
+    for (std::size_t i = 0; i < array.size(); ++i)
+      collect_name(view.info.path, array[i], fmt::format("{}[{}].name", view.info.path, i));
+  }
+}
+
+// Friction pairs name materials and tools alike, so those two share one list.
+void TableReader::collect_name(const std::string& table, const document::Value& element,
+                               const std::string& path) {
+  const auto& keys = element.get<document::Table>();
+  const std::string* name = document::find_text(keys, "name");
+  std::vector<std::string>& own = names_[table];
+  if (name == nullptr || name->empty()) {
+    own.emplace_back();
+    return;
+  }
+  const auto taken = [&](const std::string& other) {
+    const auto& names = names_[other];
+    return std::find(names.begin(), names.end(), *name) != names.end();
+  };
+  const document::Origin origin = document::find(keys, "name")->value.origin;
+  if (taken(table))
+    problems_.add(
+        origin, path,
+        fmt::format("'{}' is the name of another {}, allowed: each name once", *name, table));
+  else if (table == "tool" && taken("material"))
+    problems_.add(origin, path,
+                  fmt::format("'{}' is the name of a material, allowed: a name that friction pairs "
+                              "can tell from materials",
+                              *name));
+  own.push_back(*name);
+}
+
+const document::Array& TableReader::elements(const document::Table& parent,
+                                             const std::string& parent_path,
+                                             const TableInfo& info) {
+  static const document::Array none;
+  const std::string key = info.path.substr(info.path.rfind('.') + 1);
+  const document::Entry* entry = document::find(parent, key);
+  if (entry == nullptr) return none;
+  if (document::is_array_of_tables(entry->value)) return entry->value.get<document::Array>();
+  problems_.add(entry->origin, joined_path(parent_path, key),
+                fmt::format("wrong type, {} is given, allowed: [[{}]], once for each",
+                            document::type_name(entry->value), info.path));
+  return none;
+}
+
+bool TableReader::begin(const TableInfo& info, const document::Value& value,
+                        const std::string& path, const std::string& parent_selected) {
+  const auto* keys = value.as<document::Table>();
+  if (keys == nullptr) {
+    problems_.add(value.origin, path,
+                  fmt::format("wrong type, {} is given, allowed: one table, [{}]",
+                              document::type_name(value), info.path));
+    return false;
+  }
+  table_ = &value;
+  view_ = find_table(info.path, language_);
+  path_ = path;
+  selected_ = selected_by(info, *keys, parent_selected);
+  origins_[path_] = value.origin;
+  for (const document::Entry& entry : *keys) refuse_unknown(entry, *view_);
+  return true;
+}
+
+void TableReader::refuse_unknown(const document::Entry& entry, const TableView& view) {
+  const std::vector<std::string> words = known_words(view, language_);
+  const TableView* table = view.info.path.empty() ? find_table(entry.key, language_) : nullptr;
+  if (table != nullptr && !belongs(table->info, selected_)) {
+    problems_.add(entry.origin, entry.key,
+                  fmt::format("has no meaning with family = \"{}\", allowed: only with {}",
+                              selected_, quoted(table->info.families)));
+    return;
+  }
+  if (std::find(words.begin(), words.end(), entry.key) != words.end()) return;
+  const bool is_table =
+      entry.value.as<document::Table>() != nullptr || document::is_array_of_tables(entry.value);
+  problems_.add(entry.origin, joined_path(path_, entry.key),
+                fmt::format("unknown {}{}, allowed: {}", is_table ? "table" : "key",
+                            suggestion(entry.key, words), listed(words)));
+}
+
+std::optional<Decoded> TableReader::value_of(const KeyInfo& key) {
+  const auto& keys = table_->get<document::Table>();
+  const document::Entry* entry = document::find(keys, key.name);
+  const bool meant = applies(key, keys, selected_);
+  if (entry == nullptr && meant && is_required(key, selected_)) missing(key);
+  if (entry != nullptr && !meant) without_effect(key, *entry);
+  if (entry == nullptr || !meant) return std::nullopt;
+  const std::string path = joined_path(path_, key.name);
+  origins_[path] = entry->value.origin;
+  try {
+    return decode(key, entry->value, names_);
+  } catch (const Refusal& refusal) {
+    problems_.add(refusal.origin, path, refusal.what());
+    return std::nullopt;
+  }
+}
+
+void TableReader::missing(const KeyInfo& key) {
+  problems_.add(table_->origin, joined_path(path_, key.name),
+                fmt::format("required key is missing, allowed: {}", allowed(key)));
+}
+
+void TableReader::without_effect(const KeyInfo& key, const document::Entry& entry) {
+  const std::string path = joined_path(path_, key.name);
+  if (!key.only_for.empty() && !key.only_for.has(selected_)) {
+    if (selected_.empty()) return;  // the missing selector is reported already
+    problems_.add(entry.origin, path,
+                  fmt::format("has no effect with {} = \"{}\", allowed: only with {}",
+                              view_->info.selector, selected_, quoted(key.only_for)));
+    return;
+  }
+  problems_.add(
+      entry.origin, path,
+      fmt::format("has no effect without {0}, allowed: only together with {0}", key.needs));
+}
+
+}  // namespace pulvis::schema

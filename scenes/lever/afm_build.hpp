@@ -1,0 +1,48 @@
+// The solid of an AFM scene, and where to read it: tip, foot, laser spot, clamp.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "engine/world.hpp"
+#include "scenes/lever/mesh/tip_mesh.hpp"
+#include "scenes/spec/afm_scene.hpp"
+
+namespace pulvis {
+
+// A place on the lever's back and how its surface leans: differences of displacements along the lever
+// and across it.
+struct SlopeGauge {
+  Gauge along, across;  // 1/m
+};
+
+struct AfmModel {
+  std::unique_ptr<World> world;
+  Vec3 axis, side, up;           // of the lever at rest, in the frame of the sample; side = y
+  Gauge end;                     // tip's end
+  Gauge foot;                    // lever's middle plane above the tip
+  SlopeGauge foot_slope;         // there
+  std::vector<SlopeGauge> spot;  // points of the laser spot, on the lever's back
+  TipMesh tip;
+  int contact_node = 0;         // of a sharp tip's end: the one in its middle
+  double normal_stiffness = 0;  // N/m, at rest; 0 until it was calibrated
+  std::size_t nodes = 0, elements = 0;
+};
+
+AfmModel build_afm(const Scene& scene);
+
+Vec3 clamp_force(const AfmModel& model);       // N, of the clamp on the lever
+double elastic_energy(const AfmModel& model);  // J
+
+// Mean of a nodal field [3 nodes].
+Vec3 read(const Gauge& gauge, const double* field);
+
+// Angles in rad by which the lever's back leans: normal > 0 where its end has gone up (+z), lateral > 0
+// where it has turned about +x (its +y side gone up).
+struct Slopes {
+  double normal = 0, lateral = 0;
+};
+Slopes slopes(const AfmModel& model, const std::vector<SlopeGauge>& gauges,
+              const double* displacement);
+
+}  // namespace pulvis

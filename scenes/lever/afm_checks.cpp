@@ -1,0 +1,359 @@
+#include "scenes/lever/afm_checks.hpp"
+#include "engine/machine_memory.hpp"
+#include "engine/portable_math.hpp"
+#include "scenes/spec/afm_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+#include "scenes/lever/afm_size.hpp"
+#include "scenes/lever/mesh/lever_mesh.hpp"
+#include "scenes/lever/mesh/meshed_lever.hpp"
+#include "scenes/lever/mesh/meshed_tip.hpp"
+#include "scenes/lever/mesh/tip_mesh.hpp"
+#include "scenes/lever/target_shape.hpp"
+#include "scenes/spec/material_checks.hpp"
+
+namespace pulvis {
+namespace {
+
+using Shape = TipSpec::Shape;
+
+class AfmChecks {
+ public:
+  AfmChecks(const Scene& scene, const schema::Origins& origins, Problems& problems)
+      : scene_(scene),
+        lever_(scene.afm->lever),
+        tip_(scene.afm->tip),
+        origins_(origins),
+        problems_(problems) {}
+
+  void run() {
+    if (scene_.materials.empty())
+      problems_.add({{1, 1}, -1}, "material",
+                    "none is declared, allowed: at least one [[material]]");
+    check_materials(scene_, [&](const std::string& path, const std::string& message) {
+      refuse(path, message);
+    });
+    coating();
+    if (!outline() || !mesh_size()) return;
+    tip();
+    laser();
+    tetrahedra();
+    adhesion();
+    actions();
+  }
+
+ private:
+  void refuse(const std::string& path, const std::string& message) {
+    auto found = origins_.find(path);
+    if (found == origins_.end()) found = origins_.find(path.substr(0, path.find('.')));
+    problems_.add(found == origins_.end() ? document::Origin{{1, 1}, -1} : found->second, path,
+                  message);
+    good_ = false;
+  }
+
+  void coating() {
+    if (lever_.coating && lever_.coating_thickness == 0 && !lever_.solid)
+      refuse("lever.coating_thickness", "required key is missing, allowed: a quantity in m");
+  }
+
+  // False where no plan can be drawn.
+  bool outline() {
+    if (lever_.shape != LeverSpec::Shape::v) return good_;
+    if (lever_.half_angle.has_value() == lever_.base_width.has_value()) {
+      refuse("lever.half_angle",
+             "neither or both of half_angle and base_width are given, allowed: "
+             "one of them");
+      return false;
+    }
+    if (lever_.base_width && *lever_.base_width <= lever_.apex_width) {
+      refuse("lever.base_width", fmt::format("{:g} m is not wider than the apex, allowed: > {:g} m",
+                                             *lever_.base_width, lever_.apex_width));
+      return false;
+    }
+    const VOutline v = v_outline(lever_);
+    const double widest = v.apex * portable::sin(v.half_angle);
+    if (v.inner <= 0)
+      refuse("lever.arm_width",
+             fmt::format("{:g} m: the arms of this V grow together at the clamp, "
+                         "allowed: < {:g} m",
+                         lever_.arm_width, widest));
+    const double least = (v.apex - lever_.length) * portable::sin(v.half_angle);
+    if (v.inner >= lever_.length)
+      refuse("lever.arm_width", fmt::format("{:g} m: the arms of this V do not meet before its "
+                                            "end, allowed: > {:g} m",
+                                            lever_.arm_width, least));
+    return good_;
+  }
+
+  double half_width_at(double x) const {
+    if (lever_.solid) return std::numeric_limits<double>::infinity();  // the mesh has the say
+    if (lever_.shape == LeverSpec::Shape::beam) return 0.5 * lever_.width;
+    const VOutline v = v_outline(lever_);
+    return (v.apex - x) * portable::tan(v.half_angle);
+  }
+
+  void tip() {
+    if (tip_.shape == Shape::sphere && tip_.neck_radius >= tip_.radius) {
+      refuse("tip.neck_radius", fmt::format("{:g} m: the neck is not thinner than the ball, "
+                                            "allowed: < {:g} m",
+                                            tip_.neck_radius, tip_.radius));
+      return;
+    }
+    if (tip_.shape == Shape::mesh && tip_.file.empty() &&
+        !(lever_.solid && !lever_.solid->end.empty())) {
+      refuse("tip.file",
+             "required key is missing, allowed: a file, or a lever of shape mesh whose file has "
+             "the volume tip");
+      return;
+    }
+    if (!contact_mesh()) return;
+    const double reach = foot_reach(tip_);
+    const std::string size = tip_.shape == Shape::sphere ? "tip.neck_radius" : "tip.foot";
+    if (reach >= half_width_at(lever_.length - tip_.set_back) && reach > 0)
+      refuse(size, fmt::format("{:g} m: its foot is wider than the lever there, allowed: < {:g} m",
+                               tip_.shape == Shape::sphere ? reach : 2 * reach,
+                               (tip_.shape == Shape::sphere ? 1 : 2) *
+                                   half_width_at(lever_.length - tip_.set_back)));
+    else if (!foot_on_lever(reach))
+      refuse(std::abs(tip_.offset) > 0 ? "tip.offset" : "tip.set_back",
+             fmt::format("the tip's foot (x = {:g} m, y = {:g} m, reaching {:g} m) is not on the "
+                         "lever, allowed: {:g} m <= set_back < {:g} m and a foot on the lever",
+                         lever_.length - tip_.set_back, tip_.offset, reach, reach, lever_.length));
+  }
+
+  // What a mesh that is drawn together at the pole comes to: some 3 (reach/edge)^3 elements.
+  bool contact_mesh() {
+    if (!tip_.contact_edge) return true;
+    const double edge = *tip_.contact_edge;
+    const double least = tip_.radius / 1000, coarse = tip_.radius / 4;
+    if (edge < least || edge > coarse)
+      refuse("tip.contact_edge",
+             fmt::format("{:g} m is too {} for this ball, allowed: {:g} to {:g} m", edge,
+                         edge < least ? "small" : "large", least, coarse));
+    const double most = std::min(24 * edge, 0.5 * tip_.radius);
+    if (tip_.contact_reach && *tip_.contact_reach > most)
+      refuse("tip.contact_reach",
+             fmt::format("{:g} m: the fine mesh is too large, allowed: <= {:g} m (24 times "
+                         "contact_edge, half the radius)",
+                         *tip_.contact_reach, most));
+    return good_;
+  }
+
+  bool foot_on_lever(double reach) const {
+    const PlanMesh plan = lever_plan(lever_, lever_foot(lever_, tip_));
+    const Vec2 axis = tip_axis(lever_, tip_);
+    if (tip_.solid)
+      return std::ranges::all_of(tip_.solid->foot, [&](int n) {
+        const Vec2 off = tip_.solid->solid.nodes[static_cast<std::size_t>(n)].head<2>();
+        return locate(plan, axis + off).has_value();
+      });
+    const bool square = tip_.shape == Shape::block || tip_.shape == Shape::pyramid;
+    for (int i = 0; i < 32; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + 0.5) / 32;
+      Vec2 off(portable::cos(angle), portable::sin(angle));
+      if (square) off /= off.cwiseAbs().maxCoeff();
+      if (!locate(plan, axis + reach * off)) return false;
+    }
+    return axis.x() > 0 && locate(plan, axis);
+  }
+
+  void laser() {
+    const LaserSpec& laser = scene_.afm->laser;
+    const PlanMesh plan =
+        lever_.solid ? lever_.solid->back.plan : lever_plan(lever_, lever_foot(lever_, tip_));
+    const Vec2 middle(laser.position.value_or(lever_.length - tip_.set_back), laser.offset);
+    for (int i = 0; i < 8; ++i) {
+      const double angle = 0.25 * std::numbers::pi * i;
+      if (locate(plan, middle + laser.radius * Vec2(portable::cos(angle), portable::sin(angle))))
+        continue;
+      refuse("laser.position",
+             fmt::format("the spot (x = {:g} m, y = {:g} m, radius {:g} m) is not on the lever, "
+                         "allowed: {}",
+                         middle.x(), middle.y(), laser.radius,
+                         lever_.solid
+                             ? "on the elements of the file's surface 'back'"
+                             : fmt::format("0 to {:g} m along it, within {:g} m of its axis there",
+                                           lever_.length, half_width_at(middle.x()))));
+      return;
+    }
+  }
+
+  // Tetrahedra have no plastic memory.
+  void tetrahedra() {
+    const auto yields = [&](int material) {
+      return scene_.materials[static_cast<std::size_t>(material)].yield_stress.has_value();
+    };
+    const auto check = [&](const GmshSolid& solid, const std::string& path) {
+      if (solid.tetrahedra.empty()) return;
+      for (const auto& [part, material, key] :
+           {std::tuple{SolidPart::lever, lever_.material, "lever.material"},
+            {SolidPart::coating, lever_.coating.value_or(lever_.material), "lever.coating"},
+            {SolidPart::tip, tip_.material, "tip.material"},
+            {SolidPart::glue, tip_.glue.value_or(tip_.material), "tip.glue"}})
+        if (solid.has(part) && yields(material))
+          refuse(key, fmt::format("it yields, but {} has tetrahedra, which are elastic, allowed: "
+                                  "hexahedra, or a material without a yield_stress",
+                                  path));
+    };
+    if (lever_.solid) check(lever_.solid->solid, "lever.file");
+    if (tip_.solid) check(tip_.solid->solid, "tip.file");
+  }
+
+  // Before anything is meshed: that alone may take minutes and gigabytes.
+  bool mesh_size() {
+    const AfmScene& afm = *scene_.afm;
+    const SolidSize size = afm_size(afm);
+    if (!is_too_large(size)) return true;
+    const std::string what = fmt::format("about {:.3g} elements and {}", size.elements,
+                                         bytes_text(static_cast<std::uint64_t>(size.bytes())));
+    const std::string limit =
+        fmt::format("{:g} elements and {:.3g} numbers in the factors of their stiffness",
+                    most_solid_elements, most_solid_factors);
+    if (tip_size(afm).factors >= lever_size(afm).factors && tip_.shape != Shape::mesh)
+      refuse("tip.elements", fmt::format("{}: {}, allowed: at most {}, which keeps within {}",
+                                         tip_.elements, what, most_tip_elements(), limit));
+    else
+      refuse(size_key(), fmt::format("{}, allowed: at most {}", what, limit));
+    return false;
+  }
+
+  int most_tip_elements() const {
+    AfmScene afm = *scene_.afm;
+    while (afm.tip.elements > 2 && is_too_large(afm_size(afm))) afm.tip.elements -= 2;
+    return afm.tip.elements;
+  }
+
+  // The key that made the lever's mesh what it is.
+  std::string size_key() const {
+    if (tip_size(*scene_.afm).factors >= lever_size(*scene_.afm).factors) return "tip.file";
+    if (lever_.solid) return "lever.file";
+    if (lever_.along > 0 || lever_.across > 0)
+      return lever_.along >= lever_.across ? "lever.elements_along" : "lever.elements_across";
+    return lever_.layers > 1 ? "lever.layers" : "lever.aspect";
+  }
+
+  // JKR is the law of a ball on a plane, its elasticity included.
+  void adhesion() {
+    if (!scene_.afm->target) return;
+    const TargetSpec& target = *scene_.afm->target;
+    const auto only_with = [&](const char* key, const char* law, bool given) {
+      if (given)
+        refuse(key, fmt::format("is of another law, allowed: with adhesion = \"{}\"", law));
+    };
+    if (target.adhesion == TargetSpec::Adhesion::dmt)
+      return only_with("surface.work_of_adhesion", "jkr", target.work != 0);
+    only_with("surface.pull_off", "dmt", target.pull_off != 0);
+    if (target.work == 0)
+      refuse("surface.work_of_adhesion", "required key is missing, allowed: a quantity in J/m^2");
+    if (tip_.shape != Shape::sphere)
+      refuse("surface.adhesion",
+             "jkr is the law of an elastic ball, allowed: a tip of shape sphere");
+    if (target.shape != TargetSpec::Shape::plane)
+      refuse("surface.adhesion",
+             "jkr is the law of a ball on a plane, allowed: a surface of shape "
+             "plane");
+    if (tip_.contact_edge)
+      refuse("tip.contact_edge",
+             "with jkr the ball touches by its law, not by its mesh, allowed: "
+             "not given");
+  }
+
+  void actions() {
+    const AfmScene& afm = *scene_.afm;
+    if (afm.actions.empty()) return;
+    if (!afm.target)
+      return refuse("action[0]", "there is no surface, allowed: [[action]] with a [surface]");
+    bool pressed = false;
+    for (std::size_t i = 0; i < afm.actions.size(); ++i) {
+      const ActionSpec& action = afm.actions[i];
+      const std::string path = fmt::format("action[{}]", i);
+      const bool press = action.kind == ActionSpec::Kind::press;
+      if (press && (action.distance != 0) == action.force.has_value())
+        refuse(path + ".distance", "neither or both of distance and force are given, allowed: one");
+      if (action.force && *action.force <= 0)
+        refuse(path + ".force", fmt::format("{:g} N, allowed: > 0 N", *action.force));
+      if (action.servo && !pressed)
+        refuse(path + ".set_point", "there is no force to keep yet, allowed: after a press");
+      pressed = pressed || press;
+    }
+    map();
+    wave();
+  }
+
+  void map() {
+    const TargetSpec& target = *scene_.afm->target;
+    if (target.shape != TargetSpec::Shape::map) return;
+    try {
+      const auto heights = read_height_map(scene_.file.parent_path() / target.file, target.dataset);
+      steepness(heights);
+      inside_map(TargetSpec::Direction::lateral, heights.size());
+      inside_map(TargetSpec::Direction::along, heights.front().size());
+    } catch (const std::runtime_error& error) {
+      refuse("surface.file", fmt::format("'{}': {}, allowed: lines of numbers in m, separated by "
+                                         "commas, all as long, or an HDF5 file with the dataset",
+                                         target.file, error.what()));
+    }
+  }
+
+  void steepness(const std::vector<std::vector<double>>& heights) {
+    constexpr double steepest = 100;  // as of a bump's flanks
+    const TargetSpec& target = *scene_.afm->target;
+    const double step = steepest_step(heights);
+    if (!(step <= steepest * target.spacing))
+      refuse("surface.file",
+             fmt::format("'{}': two neighbouring heights differ by {:g} m, allowed: up to {:g} "
+                         "times the spacing, {:g} m",
+                         target.file, step, steepest, steepest * target.spacing));
+  }
+
+  // A wave is drawn as far as the probe may come.
+  void wave() {
+    constexpr std::size_t most = 1'000'000;
+    const TargetSpec& target = *scene_.afm->target;
+    const std::size_t corners = profile_corners(target, reach_of(*scene_.afm));
+    if (corners > most)
+      refuse("surface.wavelength", fmt::format("{:g} m: {} facets on the way, allowed: {} at most",
+                                               target.wavelength, corners, most));
+  }
+
+  // Where the probe's end comes to on the map, its own deflection left aside.
+  void inside_map(TargetSpec::Direction direction, std::size_t points) {
+    const double bound = 0.5 * scene_.afm->target->spacing * static_cast<double>(points - 1);
+    double at = 0;
+    for (std::size_t i = 0; i < scene_.afm->actions.size(); ++i) {
+      const ActionSpec& action = scene_.afm->actions[i];
+      const bool raster = action.kind == ActionSpec::Kind::raster;
+      if (!raster && action.kind != ActionSpec::Kind::scan) continue;
+      const bool fast = action.direction == direction;
+      if (!fast && !raster) continue;
+      const double way = fast ? action.distance : action.width;
+      if (std::abs(at + way) > bound)
+        refuse(fmt::format("action[{}].{}", i, fast ? "distance" : "width"),
+               fmt::format("the scan leaves the map: it comes to {:g} m, allowed: {:g} to {:g} m",
+                           at + way, -bound, bound));
+      if (raster ? !fast : !action.back) at += way;
+    }
+  }
+
+  const Scene& scene_;
+  const LeverSpec& lever_;
+  const TipSpec& tip_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+void check_afm(const Scene& scene, const schema::Origins& origins, Problems& problems) {
+  AfmChecks(scene, origins, problems).run();
+}
+
+}  // namespace pulvis

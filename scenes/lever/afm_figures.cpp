@@ -1,0 +1,105 @@
+#include "scenes/lever/afm_figures.hpp"
+
+#include <cmath>
+
+#include "scenes/lever/afm_calibration.hpp"
+#include "scenes/lever/afm_loop.hpp"
+#include "scenes/lever/afm_programme.hpp"
+#include "scenes/spec/afm_scene.hpp"
+
+namespace pulvis {
+namespace {
+
+struct Figure {
+  SeriesInfo info;
+  double (*of)(const Calibration&);
+};
+struct LoopFigure {
+  SeriesInfo info;
+  double (*of)(const FrictionLoop&);
+};
+
+const std::vector<Figure>& calibration_figures() {
+  using C = const Calibration&;
+  static const std::vector<Figure> all{
+      {{"k_n", "N/m", "vertical force on the tip's end over its displacement"},
+       [](C c) { return c.normal_stiffness; }},
+      {{"k_l", "N/m", "the same, lateral"}, [](C c) { return c.lateral_stiffness; }},
+      {{"k_x", "N/m", "the same, along the lever"}, [](C c) { return c.longitudinal_stiffness; }},
+      {{"torsional_stiffness", "N m/rad", "moment of a lateral force over the twist of the foot"},
+       [](C c) { return c.torsional_stiffness; }},
+      {{"share_bending", "-", "of lateral bending in the tip's lateral displacement"},
+       [](C c) { return c.bending_share; }},
+      {{"share_twist", "-", "of the foot's twist"}, [](C c) { return c.twist_share; }},
+      {{"share_tip", "-", "of the tip's own deformation"}, [](C c) { return c.tip_share; }},
+      {{"slope_normal", "rad/m", "at the laser spot, by vertical displacement of the tip"},
+       [](C c) { return c.normal.spot.normal / c.normal.end.z(); }},
+      {{"slope_lateral", "rad/m", "at the laser spot, by lateral displacement of the tip"},
+       [](C c) { return c.lateral.spot.lateral / c.lateral.end.y(); }},
+      {{"invols_normal", "m/V", "vertical displacement of the tip by detector signal"},
+       [](C c) { return c.normal_invols; }},
+      {{"invols_lateral", "m/V", "lateral displacement of the tip by detector signal"},
+       [](C c) { return c.lateral_invols; }},
+      {{"imbalance", "-", "clamp reaction and load, over the load"},
+       [](C c) { return c.imbalance; }}};
+  return all;
+}
+
+const std::vector<LoopFigure>& loop_figures() {
+  using L = const FrictionLoop&;
+  static const std::vector<LoopFigure> all{
+      {{"loop/load", "N", "mean vertical force"}, [](L l) { return l.load; }},
+      {{"loop/slides", "-", "of the touching points, how many slide where W is taken"},
+       [](L l) { return l.slides; }},
+      {{"loop/turned", "-", "share of friction there that points along the scan"},
+       [](L l) { return l.turned; }},
+      {{"loop/drift", "-", "of the force there, over W"}, [](L l) { return l.drift; }},
+      {{"loop/forth", "N", "mean lateral force that draws the probe forth"},
+       [](L l) { return l.forth; }},
+      {{"loop/back", "N", "the same on the way back"}, [](L l) { return l.back; }},
+      {{"loop/half_width", "N", "W"}, [](L l) { return l.half_width; }},
+      {{"loop/offset", "N", "Delta"}, [](L l) { return l.offset; }},
+      {{"loop/volts_half_width", "V", "W of the lateral detector"},
+       [](L l) { return l.volts_half_width; }},
+      {{"loop/volts_offset", "V", "Delta of the lateral detector"},
+       [](L l) { return l.volts_offset; }},
+      {{"loop/friction", "-", "recovered from the detector's W and Delta on an incline"},
+       [](L l) { return l.friction.value_or(std::nan("")); }},
+      {{"loop/sensitivity", "N/V", "recovered with it"},
+       [](L l) { return l.sensitivity.value_or(std::nan("")); }}};
+  return all;
+}
+
+}  // namespace
+
+std::vector<SeriesInfo> afm_figures() {
+  std::vector<SeriesInfo> all;
+  for (const Figure& figure : calibration_figures()) all.push_back(figure.info);
+  for (const LoopFigure& figure : loop_figures()) all.push_back(figure.info);
+  return all;
+}
+
+std::vector<SeriesInfo> afm_expectable_series(const Scene& scene) {
+  std::vector<SeriesInfo> all =
+      scene.afm->actions.empty() ? std::vector<SeriesInfo>{} : afm_series();
+  for (const Figure& figure : calibration_figures()) all.push_back(figure.info);
+  bool loops = false;
+  for (const ActionSpec& action : scene.afm->actions)
+    loops = loops || (action.kind == ActionSpec::Kind::scan && action.back);
+  if (loops)
+    for (const LoopFigure& figure : loop_figures()) all.push_back(figure.info);
+  return all;
+}
+
+std::map<std::string, double> afm_figure_values(const Calibration& calibration,
+                                                const std::vector<FrictionLoop>& loops) {
+  std::map<std::string, double> values;
+  for (const Figure& figure : calibration_figures())
+    values[figure.info.name] = figure.of(calibration);
+  if (!loops.empty())
+    for (const LoopFigure& figure : loop_figures())
+      values[figure.info.name] = figure.of(loops.back());
+  return values;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,24 @@
+// Figures of an AFM run that summary.json tells and an [[expect]] may name: stiffnesses, shares, loops.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/files/record.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+struct Calibration;
+struct FrictionLoop;
+
+// Of every AFM run, and of its last friction loop where it has one.
+std::vector<SeriesInfo> afm_figures();
+// Those the scene's run has, and its history where it has a programme.
+std::vector<SeriesInfo> afm_expectable_series(const Scene& scene);
+
+std::map<std::string, double> afm_figure_values(const Calibration& calibration,
+                                                const std::vector<FrictionLoop>& loops);
+
+}  // namespace pulvis

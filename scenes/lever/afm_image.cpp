@@ -1,0 +1,62 @@
+#include "scenes/lever/afm_image.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "scenes/spec/afm_scene.hpp"
+
+namespace pulvis {
+namespace {
+
+struct Channel {
+  const char *name, *series, *unit, *meaning;
+  double sign;
+};
+constexpr Channel channels[] = {
+    {"topography", "scanner/z", "m", "how far the scanner was lowered to follow the surface", -1},
+    {"deflection", "detector/normal", "V", "normal signal of the detector", 1},
+    {"friction", "detector/lateral", "V", "lateral signal of the detector", 1}};
+
+// The rows of an action's history; the first one of all is the state before the programme.
+std::size_t first_row(const Scene& scene, std::size_t action) {
+  std::size_t row = 1;
+  for (std::size_t a = 0; a < action; ++a) row += scene.afm->actions[a].samples();
+  return row;
+}
+
+AfmImage image_of(const AfmHistory& history, const Channel& channel, std::size_t action, bool back,
+                  std::size_t first, std::size_t lines, std::size_t pixels) {
+  AfmImage image{{fmt::format("action_{}/{}_{}", action, channel.name, back ? "back" : "forth"),
+                  channel.unit, channel.meaning},
+                 lines,
+                 pixels,
+                 {}};
+  for (std::size_t line = 0; line < lines; ++line)
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+      const std::size_t on_line = back ? 2 * pixels - 1 - pixel : pixel;
+      image.values.push_back(channel.sign *
+                             history.value(first + 2 * pixels * line + on_line, channel.series));
+    }
+  return image;
+}
+
+}  // namespace
+
+std::vector<AfmImage> raster_images(const Scene& scene, const AfmHistory& history) {
+  std::vector<AfmImage> images;
+  for (std::size_t a = 0; a < scene.afm->actions.size(); ++a) {
+    const ActionSpec& action = scene.afm->actions[a];
+    const std::size_t first = first_row(scene, a);
+    if (action.kind != ActionSpec::Kind::raster || history.rows.size() <= first) continue;
+    const auto pixels = static_cast<std::size_t>(action.increments);
+    const std::size_t told = (history.rows.size() - first) / (2 * pixels);
+    const std::size_t lines = std::min(told, static_cast<std::size_t>(action.lines));
+    if (lines == 0) continue;
+    for (const Channel& channel : channels)
+      for (const bool back : {false, true})
+        images.push_back(image_of(history, channel, a, back, first, lines, pixels));
+  }
+  return images;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,137 @@
+#include "scenes/lever/afm_loop.hpp"
+#include "engine/portable_math.hpp"
+#include "scenes/lever/adhesion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "scenes/lever/afm_programme.hpp"
+#include "scenes/lever/loop_plateau.hpp"
+#include "scenes/spec/afm_scene.hpp"
+
+namespace pulvis {
+
+namespace wedge {
+
+double uphill(double load, double adhesion, double mu, double slope) {
+  const double s = portable::sin(slope), c = portable::cos(slope);
+  return (load * (s + mu * c) + mu * adhesion) / (c - mu * s);
+}
+
+double downhill(double load, double adhesion, double mu, double slope) {
+  const double s = portable::sin(slope), c = portable::cos(slope);
+  return (load * (s - mu * c) - mu * adhesion) / (c + mu * s);
+}
+
+std::optional<double> friction(double half_width, double offset, double slope) {
+  if (half_width == 0 || slope == 0) return {};
+  return friction_of_ratio(offset / half_width, 1, 0, slope);
+}
+
+}  // namespace wedge
+
+namespace {
+
+struct Means {
+  double force = 0, load = 0, volts = 0;
+};
+
+Means means(const AfmHistory& history, const std::string& force, const std::string& volts,
+            double from, double until) {
+  Means sum;
+  int samples = 0;
+  for (std::size_t i = 0; i < history.rows.size(); ++i) {
+    if (history.times[i] < from || history.times[i] > until) continue;
+    sum.force -= history.value(i, force);  // what draws the probe is the opposite of what holds it
+    sum.load += history.value(i, "probe/force_z");
+    sum.volts -= history.value(i, volts);
+    ++samples;
+  }
+  const double n = std::max(samples, 1);
+  return {sum.force / n, sum.load / n, sum.volts / n};
+}
+
+// Whether the means are those of a plateau.
+void judge(FrictionLoop& loop, const Plateau& forth, const Plateau& back) {
+  loop.slides = std::min(forth.slides, back.slides);
+  loop.turned = std::min(forth.turned, back.turned);
+  const double most = std::max(std::abs(forth.drift), std::abs(back.drift));
+  loop.drift = most == 0 ? 0 : most / std::max(most, std::abs(loop.half_width));
+  if (loop.slides <= 1 - 1e-3 || loop.turned <= 1 - 1e-3)
+    loop.needed = std::max(forth.needed, back.needed);
+}
+
+bool on_incline(const TargetSpec& target, const ActionSpec& scan) {
+  return target.shape == TargetSpec::Shape::plane && target.incline != 0 &&
+         target.direction == scan.direction;
+}
+
+}  // namespace
+
+std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
+                                                  const std::vector<FrictionLoop>& loops) {
+  std::vector<wedge::Loop> seen;
+  for (const FrictionLoop& loop : loops)
+    if (loop.full() &&
+        on_incline(*scene.afm->target, scene.afm->actions[static_cast<std::size_t>(loop.action)]))
+      seen.push_back({scene.afm->target->incline,
+                      loop.load,
+                      loop.volts_half_width,
+                      loop.volts_offset,
+                      {},
+                      {}});
+  if (seen.empty()) return std::nullopt;
+  try {
+    return wedge::calibrate(seen, {pull_off_force(scene), 0, 0});
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+double AfmHistory::value(std::size_t sample, const std::string& series) const {
+  static const std::vector<SeriesInfo> all = afm_series();
+  const auto found = std::ranges::find(all, series, &SeriesInfo::name);
+  if (found == all.end()) throw std::logic_error("no series " + series);
+  return rows[sample][static_cast<std::size_t>(found - all.begin())];
+}
+
+std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& history) {
+  constexpr double tolerance = 1e-9;
+  std::vector<FrictionLoop> loops;
+  for (std::size_t a = 0; a < scene.afm->actions.size(); ++a) {
+    const ActionSpec& action = scene.afm->actions[a];
+    if (action.kind != ActionSpec::Kind::scan || !action.back) continue;
+    const bool lateral = action.direction == TargetSpec::Direction::lateral;
+    const std::string force = lateral ? "probe/force_y" : "probe/force_x";
+    const std::string volts = lateral ? "detector/lateral" : "detector/normal";
+    const auto start = static_cast<double>(a);
+    const Means forth = means(history, force, volts, start + 0.25, start + 0.5 + tolerance);
+    const Means back = means(history, force, volts, start + 0.75, start + 1 + tolerance);
+    // A scan along - runs the loop the other way round.
+    const double sign = action.distance < 0 ? -1 : 1;
+    FrictionLoop loop;
+    loop.action = static_cast<int>(a);
+    loop.load = 0.5 * (forth.load + back.load);
+    loop.forth = forth.force;
+    loop.back = back.force;
+    loop.half_width = 0.5 * sign * (forth.force - back.force);
+    loop.offset = 0.5 * (forth.force + back.force);
+    loop.volts_half_width = 0.5 * sign * (forth.volts - back.volts);
+    loop.volts_offset = 0.5 * (forth.volts + back.volts);
+    judge(loop, plateau_of(scene, history, a, false), plateau_of(scene, history, a, true));
+    const TargetSpec& target = *scene.afm->target;
+    if (loop.full() && on_incline(target, action)) {
+      loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline);
+      if (loop.friction) {
+        const double s = portable::sin(target.incline), c = portable::cos(target.incline);
+        const double mu = *loop.friction;
+        loop.sensitivity = mu * loop.load / (c * c - mu * mu * s * s) / loop.volts_half_width;
+      }
+    }
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,66 @@
+// Friction loops: what a scan forth and back over the sample says about friction and slope.
+//
+// Source   wedge calibration, one load: Varenberg et al. (2003); Ogletree et al. (1996) in this form, with
+//          the load L vertical, adhesion A along the normal, slope theta uphill on the way forth:
+//            T_u = [L (sin + mu cos) + mu A]/(cos - mu sin),  T_d = [L (sin - mu cos) - mu A]/(cos + mu sin)
+//            W = (T_u - T_d)/2 = mu (L + A cos)/(cos^2 - mu^2 sin^2),  Delta = (T_u + T_d)/2
+//          Without adhesion mu + 1/mu = 2 (Delta/W)/sin 2 theta, whatever the unit of W and Delta: friction
+//          follows from volts, and the lateral sensitivity from mu.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/lever/wedge_calibration.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+namespace wedge {
+
+double uphill(double load, double adhesion, double mu, double slope);
+double downhill(double load, double adhesion, double mu, double slope);
+// mu <= 1 from a loop's offset and half-width, without adhesion; nothing where no mu fits, or slope = 0.
+std::optional<double> friction(double half_width, double offset, double slope);
+
+}  // namespace wedge
+
+struct FrictionLoop {
+  int action = 0;   // the scan's position in the programme
+  double load = 0;  // N, mean vertical force
+  // -, of the touching points, how many slide where the means are taken. Below 1 the scan was too short for the
+  // probe to let go: W is not that of friction, and nothing is recovered from it.
+  double slides = 0;
+  // What else W rests on, in the same half of each way: friction has turned from along the lever to along the scan
+  // (least of both ways), and the force stands still.
+  double turned = 1;  // -, share of friction along the scan; 1 where the surface does not tell it
+  double drift = 0;   // -, of the force on a plane, over W
+  double needed = 0;  // m, scan that would do, by how the force has gone so far; 0: it does
+  double forth = 0, back = 0;         // N, mean force along the scan that draws the probe
+  double half_width = 0, offset = 0;  // N, W and Delta
+  double volts_half_width = 0, volts_offset = 0;  // V, of the lateral detector
+  std::optional<double> friction;     // recovered from the volts, on an incline along the scan
+  std::optional<double> sensitivity;  // N/V, recovered with it
+  bool full() const { return slides > 1 - 1e-3 && turned > 1 - 1e-3 && drift < 0.01; }
+};
+
+struct AfmHistory {
+  std::vector<double> times;
+  std::vector<std::vector<double>> rows;
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(times, rows);
+  }
+  double value(std::size_t sample, const std::string& series) const;
+};
+
+// Of all loops together, from the detector's volts: several loads where the programme has them (Ogletree).
+// Nothing without an incline along the scans, or where no friction fits.
+std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
+                                                  const std::vector<FrictionLoop>& loops);
+
+// Of every scan that goes forth and back; means over the last half of each way.
+std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& history);
+
+}  // namespace pulvis

@@ -1,0 +1,382 @@
+#include "scenes/lever/afm_programme.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/probe.hpp"
+#include "engine/portable_math.hpp"
+#include "engine/run_failure.hpp"
+#include "scenes/lever/adhesion.hpp"
+#include "scenes/lever/target_shape.hpp"
+#include "scenes/spec/afm_scene.hpp"
+#include "systems/lever/jkr_kernel.hpp"
+#include "systems/lever/solid_contact_problem.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr int most_halvings = 8;
+constexpr int most_iterations = 400;  // of an increment with its halves
+
+Vec3 on_target(const AfmModel& model, int node) {
+  const double* x = model.world->column<ReferencePosition>().values() + 3 * node;
+  const double* u = model.world->column<Displacement>().values() + 3 * node;
+  return place_from(model.world->resource<Target>(), Vec3(x), Vec3(u));
+}
+
+struct Gap {
+  double gap = std::numeric_limits<double>::infinity();  // m
+  double rise = 1;                                       // -, of the normal there along z
+};
+
+// Smallest one over all points of the probe.
+Gap smallest_gap(const AfmModel& model) {
+  const Target& target = model.world->resource<Target>();
+  const auto& nodes = model.world->column<ProbeNode>();
+  Gap smallest;
+  for (std::size_t i = 0; i < nodes.table.rows; ++i) {
+    const Vec3 x = on_target(model, nodes.values()[i]);
+    const auto near = target.shape->nearest({x.x(), x.y(), x.z() + target.end_radius});
+    const double gap = near.distance - target.end_radius;
+    if (gap < smallest.gap) smallest = {gap, near.normal[2]};
+  }
+  return smallest;
+}
+
+struct ContactPatch {
+  double radius = 0, pressure = 0;  // m, Pa
+};
+
+ContactPatch adhesive_patch(const AfmModel& model, const AdhesiveBall& ball) {
+  const double* state = model.world->column<ProbeState>().values();
+  if (state[3] == 0) return {};
+  const double radius = kernels::jkr_radius(ball, -state[0]);
+  return {radius, kernels::jkr_pressure(ball, radius)};
+}
+
+ContactPatch contact_patch(const AfmModel& model) {
+  ContactPatch patch;
+  if (const auto& ball = model.world->resource<Target>().ball; ball.work > 0)
+    return adhesive_patch(model, ball);
+  if (model.tip.area.empty()) return patch;
+  const auto& nodes = model.world->column<ProbeNode>();
+  const double* state = model.world->column<ProbeState>().values();
+  double sum = 0, square = 0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < nodes.table.rows; ++i) {
+    const double pressing = state[ProbeState::count * i + 1];
+    if (state[ProbeState::count * i + 3] == 0 || pressing <= 0) continue;
+    const auto at = on_target(model, nodes.values()[i]).head<2>().eval();
+    sum += pressing;
+    first += pressing * at;
+    square += pressing * at.squaredNorm();
+    patch.pressure = std::max(patch.pressure, pressing / model.tip.area[i]);
+  }
+  if (sum > 0)
+    patch.radius = std::sqrt(2.5 * std::max(0.0, square / sum - (first / sum).squaredNorm()));
+  return patch;
+}
+
+}  // namespace
+
+std::vector<SeriesInfo> afm_series() {
+  return {
+      {"scanner/x", "m", "how far the sample was moved along x"},
+      {"scanner/y", "m", "how far the sample was moved along y"},
+      {"scanner/z", "m", "how far the sample was raised from first touch"},
+      {"probe/force_x", "N", "of the sample on the probe"},
+      {"probe/force_y", "N", "of the sample on the probe: lateral"},
+      {"probe/force_z", "N", "of the sample on the probe: vertical"},
+      {"probe/displacement_x", "m", "of the tip's end"},
+      {"probe/displacement_y", "m", "of the tip's end"},
+      {"probe/displacement_z", "m", "of the tip's end"},
+      {"foot/displacement_y", "m", "of the lever's middle plane above the tip: lateral bending"},
+      {"foot/twist", "rad", "of the lever above the tip"},
+      {"clamp/force_x", "N", "of the clamp on the lever"},
+      {"clamp/force_y", "N", "of the clamp on the lever"},
+      {"clamp/force_z", "N", "of the clamp on the lever"},
+      {"slope/normal", "rad", "of the lever's back at the laser spot, > 0: its end is up"},
+      {"slope/lateral", "rad", "of the lever's back at the laser spot, > 0: its +y side is up"},
+      {"detector/normal", "V", "normal gain times slope"},
+      {"detector/lateral", "V", "lateral gain times slope"},
+      {"contact/points", "-", "points of the probe that touch"},
+      {"contact/radius", "m",
+       "of a ball: root of 5/2 of the mean square distance of the pressing forces from their "
+       "middle, which is Hertz's radius of contact; of an adhesive one that of its law"},
+      {"contact/pressure", "Pa",
+       "of a ball: the largest on its nodes; of an adhesive one that in the middle"},
+      {"contact/slides", "-", "share of the points that touch which slide"},
+      {"energy/elastic", "J", "stored in lever and probe"},
+      {"energy/released", "J", "by the probe's jumps on and off the surface, until now"},
+      {"newton/iterations", "-", "of the increment, with those of its cuts"}};
+}
+
+void add_probe(const Scene& scene, AfmModel& model) {
+  const AfmScene& afm = *scene.afm;
+  World& world = *model.world;
+  const bool ball = !model.tip.surface.empty();
+  auto& target = world.emplace<Target>();
+  target.shape = make_target(*afm.target, scene, reach_of(afm));
+  target.friction = afm.target->friction;
+  target.pull_off = pull_off_force(scene);
+  target.ball = adhesive_ball(scene);
+  target.range = afm.target->range;
+  target.end_radius = afm.tip.end_radius;  // a ball has none
+  add_probe_columns(world, ball ? model.tip.surface.size() : 1);
+}
+
+// The penalties are so stiff against what they press on that they give way by a thousandth of it.
+void place_target(const Scene& scene, AfmModel& model, double stiffness) {
+  constexpr double stiffer = 1e3;
+  World& world = *model.world;
+  const bool ball = !model.tip.surface.empty();
+  auto* node = world.column<ProbeNode>().values();
+  double* penalty = world.column<ProbeStiffness>().values();
+  double* share = world.column<ProbeShare>().values();
+  const auto points = static_cast<int>(world.column<ProbeNode>().table.rows);
+  const MaterialSpec& m = scene.materials[static_cast<std::size_t>(scene.afm->tip.material)];
+  for (int i = 0; i < points; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    node[i] = ball ? model.tip.surface[at] : model.contact_node;
+    // Of a meshed surface: a layer as thick as a hundredth of its elements, of the probe's own material.
+    const double area = ball ? model.tip.area[at] : 0;
+    penalty[2 * i] = penalty[2 * i + 1] =
+        ball ? 100 * m.youngs_modulus * std::sqrt(area) : stiffer * stiffness;
+    share[i] = ball && node[i] != model.end.front().node ? 0.0 : 1.0;
+  }
+  Target& target = world.resource<Target>();
+  const Vec3 end = read(model.end, world.column<ReferencePosition>().values());
+  target.origin = {end.x(), end.y(), end.z()};
+  target.travel = {};
+  for (int i = 0; i < 100; ++i) target.origin[2] += smallest_gap(model).gap;
+  // Over a steep flank that is a small share of the height that is missing.
+  for (int i = 0; i < 100; ++i) {
+    const auto [gap, rise] = smallest_gap(model);
+    if (std::abs(gap) < 1e-15 || !(rise > 0)) break;
+    target.origin[2] += gap / rise;
+  }
+  double* memory = world.column<ProbeMemory>().values();
+  for (int i = 0; i < points; ++i) {
+    const Vec3 x = on_target(model, node[i]);
+    for (int k = 0; k < 3; ++k) memory[ProbeMemory::count * i + 3 + k] = x[k];
+  }
+}
+
+double AfmProgramme::vertical_force() const {
+  const auto& force = model_.world->column<ProbeForce>();
+  double sum = 0;
+  for (std::size_t i = 0; i < force.table.rows; ++i) sum += force.values()[3 * i + 2];
+  return sum;
+}
+
+bool AfmProgramme::tell() {
+  const World& world = *model_.world;
+  const Target& target = world.resource<Target>();
+  const double* u = world.column<Displacement>().values();
+  std::vector<double> row;
+  const auto add = [&](const Vec3& v) {
+    for (int k = 0; k < 3; ++k) row.push_back(v[k]);
+  };
+  add(Vec3(target.travel.data()));
+  Vec3 force = Vec3::Zero();
+  const auto& points = world.column<ProbeForce>();
+  const double* state = world.column<ProbeState>().values();
+  double touching = 0, sliding = 0;
+  for (std::size_t i = 0; i < points.table.rows; ++i) {
+    force += Vec3(points.values() + 3 * i);
+    const double kind = state[ProbeState::count * i + 3];
+    touching += kind > 0 ? 1 : 0;
+    sliding += kind > 1 ? 1 : 0;
+  }
+  add(force);
+  add(read(model_.end, u));
+  row.push_back(read(model_.foot, u).y());
+  row.push_back(slopes(model_, {model_.foot_slope}, u).lateral);
+  add(clamp_force(model_));
+  const ContactPatch patch = contact_patch(model_);
+  const Slopes spot = slopes(model_, model_.spot, u);
+  const DetectorSpec& detector = scene_.afm->detector;
+  for (const double value :
+       {spot.normal, spot.lateral, detector.normal_gain * spot.normal,
+        detector.lateral_gain * spot.lateral, touching, patch.radius, patch.pressure,
+        touching > 0 ? sliding / touching : 0, elastic_energy(model_), position_.released,
+        static_cast<double>(iterations_)})
+    row.push_back(value);
+  position_.told += 1;
+  return record_(time_, row);
+}
+
+bool AfmProgramme::skip() {
+  if (to_skip_ == 0) return false;
+  to_skip_ -= 1;
+  return true;
+}
+
+void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int depth) {
+  Target& target = model_.world->resource<Target>();
+  const auto before = target.travel;
+  for (std::size_t k = 0; k < 3; ++k) target.travel[k] += travel[k];
+  target.servo = servo;
+  NewtonSettings settings;
+  // Factors of a solid that flowed are far too soft for one that unloads.
+  settings.reuse_factors = !model_.world->has<SolidYield>();
+  settings.may_jump = depth == most_halvings;
+  const NewtonReport report = solver_.equilibrate(settings);
+  iterations_ += static_cast<int>(report.residuals.size());
+  if (report.converged) {
+    position_.released += report.released;
+    return solver_.remember();
+  }
+  target.travel = before;
+  if (depth == most_halvings || iterations_ > most_iterations)
+    throw RunFailure(fmt::format(
+        "{}: no equilibrium at {:.4f} of the programme, with the sample at x {:.4g}, y {:.4g}, "
+        "z {:.4g} m, after {} halvings of the increment; residual {:.2g} of the forces that must "
+        "balance: the probe has locked, jumped or left the surface",
+        doing_, time_, before[0], before[1], before[2], depth, report.residuals.back()));
+  const std::array<double, 3> half{travel[0] / 2, travel[1] / 2, travel[2] / 2};
+  advance(half, servo, depth + 1);
+  advance(half, servo, depth + 1);
+}
+
+void AfmProgramme::refuse_lock(const std::array<double, 3>& travel) const {
+  const World& world = *model_.world;
+  const Target& target = world.resource<Target>();
+  const double length = portable::hypot(travel[0], travel[1]);
+  if (length == 0 || target.friction == 0) return;
+  const Vec3 forward(-travel[0] / length, -travel[1] / length, 0);
+  const auto& nodes = world.column<ProbeNode>();
+  const double* state = world.column<ProbeState>().values();
+  for (std::size_t i = 0; i < nodes.table.rows; ++i) {
+    constexpr double sticks = 1, equal = 1e-9;
+    if (state[ProbeState::count * i + 3] != sticks) continue;
+    const Vec3 x = on_target(model_, nodes.values()[i]);
+    const auto near = target.shape->nearest({x.x(), x.y(), x.z() + target.end_radius});
+    const Vec3 n(near.normal.data());
+    if (-n.dot(forward) * target.friction < n.z() * (1 - equal)) continue;
+    throw RunFailure(fmt::format(
+        "{}: the probe has locked at {:.4f} of the programme, with the sample at x {:.4g}, y "
+        "{:.4g} "
+        "m: uphill on a slope of {:.4g} a friction of {:.4g} holds against any force, allowed: "
+        "< {:.4g}",
+        doing_, time_, target.travel[0], target.travel[1], -n.dot(forward) / n.z(), target.friction,
+        -n.z() / n.dot(forward)));
+  }
+}
+
+bool AfmProgramme::way(const std::array<double, 3>& travel, int increments, bool servo) {
+  const std::array<double, 3> step{travel[0] / increments, travel[1] / increments,
+                                   travel[2] / increments};
+  for (int i = 0; i < increments; ++i) {
+    const bool made = skip();
+    iterations_ = 0;
+    if (!made) {
+      advance(step, servo, 0);
+      refuse_lock(step);
+    }
+    time_ += share_ / increments;
+    if (!made && !tell()) return false;
+  }
+  return true;
+}
+
+bool AfmProgramme::press(const ActionSpec& action, double sign) {
+  if (action.force) return press_to_force(action);
+  return way({0, 0, sign * action.distance}, action.increments, false);
+}
+
+// The set point rises in even steps.
+bool AfmProgramme::press_to_force(const ActionSpec& action) {
+  Target& target = model_.world->resource<Target>();
+  if (to_skip_ == 0) position_.from = std::max(0.0, vertical_force());
+  const double from = position_.from;
+  for (int i = 1; i <= action.increments; ++i) {
+    const bool made = skip();
+    iterations_ = 0;
+    if (!made) {
+      target.set_point = from + (*action.force - from) * i / action.increments;
+      advance({0, 0, 0}, true, 0);
+    }
+    time_ += 1.0 / action.increments;
+    if (!made && !tell()) return false;
+  }
+  return true;
+}
+
+// The probe's way over the sample is the sample's way under it, backwards.
+bool AfmProgramme::scan(const ActionSpec& action) {
+  const bool lateral = action.direction == TargetSpec::Direction::lateral;
+  const double d = action.distance;
+  const std::array<double, 3> forth{lateral ? 0 : -d, lateral ? -d : 0, 0};
+  const std::array<double, 3> back{-forth[0], -forth[1], 0};
+  share_ = action.back ? 0.5 : 1;
+  const bool done = way(forth, action.increments, action.servo) &&
+                    (!action.back || way(back, action.increments, action.servo));
+  share_ = 1;
+  return done;
+}
+
+// A pixel is told when the probe leaves it, at its far end on the way forth, at its near end on the way
+// back. Between the lines the probe is drawn along the slow axis.
+bool AfmProgramme::raster(const ActionSpec& action) {
+  const bool lateral = action.direction == TargetSpec::Direction::lateral;
+  const double d = action.distance;
+  const std::array<double, 3> forth{lateral ? 0 : -d, lateral ? -d : 0, 0};
+  const std::array<double, 3> back{-forth[0], -forth[1], 0};
+  const double apart = action.lines > 1 ? action.width / (action.lines - 1) : 0;
+  const std::array<double, 3> aside{lateral ? -apart : 0, lateral ? 0 : -apart, 0};
+  share_ = 0.5 / action.lines;
+  for (int line = 0; line < action.lines; ++line) {
+    if (line > 0 && to_skip_ == 0) advance(aside, action.servo, 0);
+    if (!way(forth, action.increments, action.servo)) return false;
+    if (!way(back, action.increments, action.servo)) return false;
+  }
+  share_ = 1;
+  return true;
+}
+
+bool AfmProgramme::run() {
+  if (position_.told == 0) {
+    solver_.look();
+    if (!tell()) return false;
+  } else {
+    to_skip_ = position_.told - 1;
+  }
+  for (std::size_t i = 0; i < scene_.afm->actions.size(); ++i) {
+    const ActionSpec& action = scene_.afm->actions[i];
+    using Kind = ActionSpec::Kind;
+    bool on = true;
+    const double end = static_cast<double>(i + 1);
+    if (action.servo && to_skip_ == 0)
+      model_.world->resource<Target>().set_point = vertical_force();
+    switch (action.kind) {
+      case Kind::press:
+        doing_ = "press";
+        on = press(action, 1);
+        break;
+      case Kind::retract:
+        doing_ = "retract";
+        on = press(action, -1);
+        break;
+      case Kind::scan:
+        doing_ = "scan";
+        on = scan(action);
+        break;
+      case Kind::raster:
+        doing_ = "raster";
+        on = raster(action);
+        break;
+      case Kind::hold:
+        doing_ = "hold";
+        on = way({0, 0, 0}, action.increments, action.servo);
+        break;
+    }
+    if (!on) return false;
+    time_ = end;
+  }
+  return true;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,46 @@
+// An AFM scene being run: its solid, its threads, its solver.
+#pragma once
+
+#include "engine/workers.hpp"
+#include "scenes/lever/afm_calibration.hpp"
+#include "scenes/lever/afm_programme.hpp"
+#include "systems/lever/static_solver.hpp"
+
+namespace pulvis {
+
+class AfmSimulation {
+ public:
+  explicit AfmSimulation(const Scene& scene, int threads = 1);
+  ~AfmSimulation();
+
+  World& world() { return *model_.world; }
+  AfmModel& model() { return model_; }
+  const GraphPlan& plan() const { return solver_->plan(); }
+
+  // Throws RunFailure where the lever's answers do not converge.
+  Calibration calibrate();
+  // Displacements [3 nodes] by 1 N at the tip's end; after calibrate().
+  std::vector<double> unit_displacements(const Vec3& direction);
+  // Calibrates, puts the target under the tip and runs the scene's actions from `position` on; see
+  // AfmProgramme. `restore` puts a checkpoint's state into the world before.
+  bool run(const AfmProgramme::Record& record, AfmPosition& position,
+           const std::function<void(World&)>& restore = {});
+  bool run(const AfmProgramme::Record& record) {
+    AfmPosition beginning;
+    return run(record, beginning);
+  }
+  // Equilibrium under a dead load at the tip's end, from the present state.
+  NewtonReport load_tip(const Vec3& force, const NewtonSettings& settings = {});
+
+ private:
+  Calibration calibrate_here();      // inside the workers
+  double stiffest_material() const;  // -, Young's modulus over the lever's
+
+  const Scene& scene_;
+  AfmModel model_;
+  Workers workers_;
+  std::unique_ptr<StaticSolver> solver_;
+  double stiffest_ = 0;  // N/m, of the tip's end
+};
+
+}  // namespace pulvis

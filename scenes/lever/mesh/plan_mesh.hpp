@@ -1,0 +1,50 @@
+// Quads in the plane: what levers and tips are extruded from.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+struct PlanMesh {
+  std::vector<Vec2> points;               // m
+  std::vector<std::array<int, 4>> quads;  // counter-clockwise
+  // Of six nodes: corners counter-clockwise, then the middles of the edges 01, 12, 20. None in what Pulvis
+  // meshes itself.
+  std::vector<std::array<int, 6>> triangles;
+};
+
+// A grid of points, `along` by `across` quads, that runs counter-clockwise from i to j.
+void add_grid(PlanMesh& mesh, int along, int across, double tolerance,
+              const std::function<Vec2(int i, int j)>& point);
+// A four-sided patch: corners counter-clockwise, lines at the shares `along` from the first to the second
+// corner and `across` from the second to the third. Points within `tolerance` of one that is there
+// are shared.
+void add_patch(PlanMesh& mesh, const std::array<Vec2, 4>& corners, const std::vector<double>& along,
+               const std::vector<double>& across, double tolerance);
+std::vector<double> even_shares(int count);  // 0, 1/count, ..., 1
+// The disc of radius 1: a square core of `across` by `across` quads in a ring of half as many layers.
+PlanMesh unit_disc(int across);
+PlanMesh unit_square(int across);  // half-width 1
+// The same mesh and its image in the line y = 0.
+PlanMesh with_mirror_image(const PlanMesh& half, double tolerance);
+
+// Places from 0 to `length`, apart by `fine` near `at` and by 0.4 of the way from there further off, by
+// `edge` at most; at least `fewest` intervals.
+std::vector<double> graded_lines(double length, double edge, double fine, double at, int fewest);
+struct PlaceInQuad {
+  double xi = 0, eta = 0;  // in [-1, 1]
+  std::array<double, 4> weights() const;
+};
+struct PlanShare {
+  int point = 0;
+  double weight = 0;
+};
+// What a field at a place takes from the mesh's points; nothing outside of the mesh.
+std::optional<std::vector<PlanShare>> locate(const PlanMesh& mesh, const Vec2& point);
+
+}  // namespace pulvis

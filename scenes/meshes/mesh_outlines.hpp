@@ -1,0 +1,26 @@
+// One mesher an outline (scenes/mesh_<outline>.cpp): each fills the nodes, the quads, the number of boundary
+// nodes and the contact curve of a shape. `phase` turns the mesh inside the outline (rad), where it can.
+#pragma once
+
+#include "components/shape.hpp"
+#include "scenes/outlines/curve_of.hpp"
+#include "scenes/outlines/outline_curve.hpp"
+
+namespace pulvis {
+
+void mesh_outline(const DiscOutline& disc, const DiscMesh& mesh, double phase, Shape& shape);
+void mesh_outline(const RectangleOutline& rectangle, const RectangleMesh& mesh, double phase,
+                  Shape& shape);
+void mesh_outline(const RoundedRectangleOutline& rectangle, const RoundedRectangleMesh& mesh,
+                  double phase, Shape& shape);
+void mesh_outline(const RingOutline& ring, const RingMesh& mesh, double phase, Shape& shape);
+
+// Of every outline that is a curve; its mesh does not turn.
+void mesh_star(const OutlineCurve& curve, const StarMesh& mesh, Shape& shape);
+template <class Curved>
+requires requires(const Curved& outline) { curve_of(outline); }
+void mesh_outline(const Curved& outline, const StarMesh& mesh, double /*phase*/, Shape& shape) {
+  mesh_star(curve_of(outline), mesh, shape);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,184 @@
+#include "scenes/meshes/star_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/portable_math.hpp"
+#include "scenes/meshes/smooth_mesh.hpp"
+
+namespace pulvis {
+namespace {
+
+// The core's corners are the boundary nodes start, start + columns, start + n/2, start + n/2 + columns.
+struct Split {
+  int start, columns;
+};
+
+std::size_t wrapped(int i, std::size_t n) {
+  const int size = static_cast<int>(n);
+  return static_cast<std::size_t>((i % size + size) % size);
+}
+
+StarGrid grid_of(const std::vector<Point>& boundary, const Point& centre, int rings,
+                 const Split& split) {
+  constexpr double core = 0.6;  // of the way outwards, before smoothing
+  const int n = static_cast<int>(boundary.size());
+  const OGrid grid{split.columns, n / 2 - split.columns, rings};
+  std::vector<Point> outline, rim;
+  for (int i = 0; i < n; ++i) {
+    outline.push_back(boundary[wrapped(split.start + i, boundary.size())]);
+    rim.push_back(between(centre, outline.back(), core));
+  }
+  const auto even = [](int edges) {
+    return stations_of(std::vector<double>(static_cast<std::size_t>(edges), 1.0));
+  };
+  StarGrid result{
+      nodes_of(grid, outline, rim, ring_shares(rings, 1), even(grid.columns), even(grid.rows)),
+      quads_of(grid)};
+  std::copy(boundary.begin(), boundary.end(), result.nodes.begin());
+  for (Quad& quad : result.quads)
+    for (Row<Node>& node : quad)
+      if (node.value < n) node = Row<Node>((node.value + split.start) % n);
+  return result;
+}
+
+struct MirrorLine {
+  int sum;          // i -> sum - i maps the boundary nodes onto their mirror images
+  bool along_axis;  // the line is the outline's x or y axis
+};
+
+std::vector<MirrorLine> mirror_lines(const std::vector<Point>& boundary, const Point& centre) {
+  const int n = static_cast<int>(boundary.size());
+  const auto at = [&](int i) { return boundary[wrapped(i, boundary.size())]; };
+  const auto distance = [](const Point& a, const Point& b) {
+    return portable::hypot(a[0] - b[0], a[1] - b[1]);
+  };
+  const double tolerance = 1e-6 * distance(at(0), centre);
+  const auto mirrors = [&](int m) {
+    for (int i = 0; i < n; ++i)
+      if (std::abs(distance(at(i), centre) - distance(at(m - i), centre)) > tolerance ||
+          std::abs(distance(at(i), at(i + 1)) - distance(at(m - i), at(m - i - 1))) > tolerance)
+        return false;
+    return true;
+  };
+  const auto along_axis = [&](int m) {
+    const Point on_line = between(at(m / 2), at((m + 1) / 2), 0.5);
+    return std::min(std::abs(on_line[0] - centre[0]), std::abs(on_line[1] - centre[1])) < tolerance;
+  };
+  std::vector<MirrorLine> lines;
+  for (int m = 0; m < n; ++m)
+    if (mirrors(m)) lines.push_back({m, along_axis(m)});
+  return lines;
+}
+
+bool keeps(const Split& split, int line, int n) {
+  const int corners[4] = {split.start, split.start + split.columns, split.start + n / 2,
+                          split.start + n / 2 + split.columns};
+  return std::ranges::all_of(corners, [&](int corner) {
+    return std::ranges::any_of(corners,
+                               [&](int other) { return (line - corner - other) % n == 0; });
+  });
+}
+
+// Equal sizes are wanted as far as the boundary edges are equal: the least time step of a round outline is then
+// that of the disc's own mesh, and slender ends keep well-shaped elements.
+double size_share(const std::vector<Point>& boundary) {
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const Point &a = boundary[i], &b = boundary[(i + 1) % boundary.size()];
+    const double length = portable::hypot(b[0] - a[0], b[1] - a[1]);
+    least = std::min(least, length);
+    most = std::max(most, length);
+  }
+  return 0.6 * least / most;
+}
+
+class Search {
+ public:
+  Search(const std::vector<Point>& boundary, const Point& centre, int rings, int iterations)
+      : boundary_(boundary),
+        centre_(centre),
+        rings_(rings),
+        iterations_(iterations),
+        share_(size_share(boundary)),
+        lines_(mirror_lines(boundary, centre)) {}
+
+  void look_at(const Split& split) {
+    // By how many mirror lines are kept (a rectangular core has two, a square one four): what the measure may
+    // be above that of equal squares, over what it may be without one.
+    constexpr std::array<double, 5> worth{1, 0.75, 0.65, 0.65, 0.6};
+    constexpr double worth_of_an_axis = 0.95, worth_of_a_change = 1e-3;
+    const int n = static_cast<int>(boundary_.size());
+    if (split.columns < 1 || split.columns >= n / 2) return;
+    StarGrid grid = grid_of(boundary_, centre_, rings_, split);
+    const double measure =
+        smooth_mesh(grid.nodes, grid.quads, boundary_.size(), share_, iterations_);
+    std::size_t kept = 0;
+    double score = measure - 2;
+    for (const MirrorLine& line : lines_) {
+      if (!keeps(split, line.sum, n)) continue;
+      ++kept;
+      if (line.along_axis) score *= worth_of_an_axis;
+    }
+    score *= worth[std::min<std::size_t>(kept, 4)];
+    if (score >= least_ * (1 - worth_of_a_change)) return;
+    least_ = score;
+    best_ = split;
+  }
+  Split best() const { return best_; }
+
+ private:
+  const std::vector<Point>& boundary_;
+  Point centre_;
+  int rings_, iterations_;
+  double share_;
+  std::vector<MirrorLine> lines_;
+  double least_ = std::numeric_limits<double>::max();
+  Split best_{0, 1};
+};
+
+// On so few boundary nodes that all splits can be tried.
+Split coarse_split(const std::vector<Point>& boundary, const Point& centre, int coarse) {
+  std::vector<Point> nodes;
+  for (int i = 0; i < coarse; ++i) {
+    const double place = static_cast<double>(i) * static_cast<double>(boundary.size()) / coarse;
+    const auto before = static_cast<std::size_t>(place);
+    nodes.push_back(between(boundary[before], boundary[(before + 1) % boundary.size()],
+                            place - static_cast<double>(before)));
+  }
+  Search search(nodes, centre, 1, 25);
+  for (int columns = 1; columns < coarse / 2; ++columns)
+    for (int start = 0; start < coarse / 2; ++start) search.look_at({start, columns});
+  return search.best();
+}
+
+Split best_split(const std::vector<Point>& boundary, const Point& centre, int rings) {
+  constexpr int most_for_all = 24, most_for_many = 256;
+  const int n = static_cast<int>(boundary.size());
+  const int coarse = std::min(n, most_for_all);
+  const Split rough = coarse_split(boundary, centre, coarse);
+  if (n == coarse && rings == 1) return rough;
+  const double more = static_cast<double>(n) / coarse;
+  // The rough split is known to half a coarse edge.
+  const int around = n <= most_for_many ? std::min(2, static_cast<int>(std::ceil(more / 2))) : 1;
+  const int start = static_cast<int>(std::lround(more * rough.start));
+  const int columns = static_cast<int>(std::lround(more * rough.columns));
+  Search search(boundary, centre, rings, 40);
+  for (int c = columns - around; c <= columns + around; ++c)
+    for (int s = start - around; s <= start + around; ++s)
+      search.look_at({static_cast<int>(wrapped(s, boundary.size())), c});
+  return search.best();
+}
+
+}  // namespace
+
+StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings) {
+  constexpr int most_iterations = 2000;
+  StarGrid grid = grid_of(boundary, centre, rings, best_split(boundary, centre, rings));
+  smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary), most_iterations);
+  return grid;
+}
+
+}  // namespace pulvis

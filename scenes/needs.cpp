@@ -1,0 +1,42 @@
+#include "scenes/needs.hpp"
+
+#include <algorithm>
+
+#include "scenes/tools/contact_rules.hpp"
+
+namespace pulvis {
+namespace {
+
+// Whether any pair that can touch has friction that `acts` on.
+template <class Acts>
+bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& acts) {
+  return (needs.pairs && std::ranges::any_of(rules.friction, acts)) ||
+         (needs.tools && std::ranges::any_of(rules.tool_friction, acts));
+}
+
+}  // namespace
+
+Needs needs_of(const Scene& scene, std::size_t particles) {
+  Needs needs;
+  needs.plastic = std::ranges::any_of(
+      scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
+  needs.pairs = particles > 1;
+  const auto any = [&](ToolSpec::Shape shape) {
+    return std::ranges::any_of(scene.tools, [&](const ToolSpec& t) { return t.shape == shape; });
+  };
+  needs.polylines = any(ToolSpec::Shape::polyline);
+  needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
+  needs.grips = any(ToolSpec::Shape::grip);
+  using Friction = ContactRules::Friction;
+  const ContactRules rules = contact_rules(scene);
+  needs.friction =
+      any_friction(rules, needs, [](const Friction& f) { return f.coefficient > 0 || f.drop > 0; });
+  needs.weakening = needs.friction &&
+                    any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
+  needs.formulation = scene.element.formulation;
+  needs.damping = needs.contact() && scene.contact.damping > 0;
+  needs.bulk_damping = std::ranges::any_of(scene.materials, &MaterialSpec::damped);
+  return needs;
+}
+
+}  // namespace pulvis

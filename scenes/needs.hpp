@@ -1,0 +1,25 @@
+// What a scene asks for.
+#pragma once
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// What a scene needs: decides which columns (and with them which systems) exist.
+struct Needs {
+  bool plastic = false;  // a material yields
+  bool pairs = false;    // more than one particle
+  bool tools = false;    // something that particles touch
+  bool polylines = false;
+  bool grips = false;
+  bool friction = false;      // a coefficient above zero can act
+  bool weakening = false;     // and a law beyond Coulomb's
+  bool damping = false;       // of contacts
+  bool bulk_damping = false;  // of a material
+  ElementSpec::Formulation formulation = ElementSpec::Formulation::one_point;
+  bool contact() const { return pairs || tools; }
+};
+
+Needs needs_of(const Scene& scene, std::size_t particles);
+
+}  // namespace pulvis

@@ -1,0 +1,140 @@
+#include "scenes/outlines/outline_checks.hpp"
+#include "scenes/outlines/curve_of.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/portable_math.hpp"
+#include "scenes/outlines/outline_curve.hpp"
+#include "scenes/outlines/star.hpp"
+
+namespace pulvis {
+namespace {
+
+using Faults = std::vector<OutlineFault>;
+
+// An O-grid in what is much longer than wide has elements as flat; 8 is already beyond any powder.
+constexpr double longest_over_shortest = 8;
+// Beyond this the two sides of a corner are nearly one.
+constexpr double most_turn = 170.0 / 180 * std::numbers::pi;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+std::string text_of(const Vec2& p) { return fmt::format("({:g}, {:g}) m", p.x(), p.y()); }
+
+Faults slender(double width, double height) {
+  const double ratio = std::max(width, height) / std::min(width, height);
+  if (ratio <= longest_over_shortest) return {};
+  return {{"height", fmt::format("one side is {:g} times the other, allowed: at most {:g} times",
+                                 ratio, longest_over_shortest)}};
+}
+
+Faults unseen(const OutlineCurve& curve, const std::string& key, const std::string& help) {
+  if (star_centre(curve.polygon(1e-3 * std::sqrt(std::abs(curve.area()))))) return {};
+  return {{key,
+           "there is no point inside from which all of the outline is seen, so that it cannot "
+           "be meshed, allowed: outlines with such a point" +
+               help}};
+}
+
+Faults crossing(const std::vector<Vec2>& points, const std::string& key, const std::string& what) {
+  const auto sides = crossing_sides(points);
+  if (!sides) return {};
+  const auto side = [&](std::size_t i) {
+    return fmt::format("{} {} and {}", what, i + 1, (i + 1) % points.size() + 1);
+  };
+  return {{key, fmt::format("the outline crosses itself: the side between {} meets that between "
+                            "{}, allowed: sides that meet only at their ends",
+                            side(sides->first), side(sides->second))}};
+}
+
+double turn_at(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return portable::atan2(cross(b - a, c - b), (b - a).dot(c - b));
+}
+
+// Of the corners as given: their numbers are the user's.
+Faults bad_corners(const PolygonOutline& polygon) {
+  const std::vector<Vec2>& given = polygon.corners;
+  const std::size_t n = given.size();
+  if (n < 3)
+    return {{"corners", fmt::format("{} corners enclose nothing, allowed: at least 3", n)}};
+  for (std::size_t i = 0; i < n; ++i)
+    if (given[i] == given[(i + 1) % n])
+      return {{"corners", fmt::format("corners {} and {} are one point, {}, allowed: each once",
+                                      i + 1, (i + 1) % n + 1, text_of(given[i]))}};
+  for (std::size_t i = 0; i < n; ++i)
+    if (std::abs(turn_at(given[(i + n - 1) % n], given[i], given[(i + 1) % n])) > most_turn)
+      return {{"corners", fmt::format("at corner {} the outline turns back on itself, allowed: "
+                                      "corners of at least 10 degrees",
+                                      i + 1)}};
+  return crossing(given, "corners", "corners");
+}
+
+// The largest rounding whose arcs leave room for each other on every side.
+double most_rounding(const std::vector<Vec2>& corners) {
+  const std::size_t n = corners.size();
+  double most = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 &a = corners[(i + n - 1) % n], &b = corners[i], &c = corners[(i + 1) % n],
+               &d = corners[(i + 2) % n];
+    const double cut = cut_by_rounding(a, b, c, 1) + cut_by_rounding(b, c, d, 1);
+    if (cut > 0) most = std::min(most, (c - b).norm() / cut);
+  }
+  return most;
+}
+
+Faults bad_rounding(const PolygonOutline& polygon) {
+  const std::vector<Vec2> corners = corners_of(polygon);
+  const std::size_t n = corners.size();
+  const double most = most_rounding(corners);
+  if (polygon.rounding > most * (1 + 1e-12))
+    return {
+        {"rounding", fmt::format("{:g} m is more than the sides have room for, allowed: <= {:g} m",
+                                 polygon.rounding, most)}};
+  for (std::size_t i = 0; polygon.rounding == 0 && i < n; ++i)
+    if (turn_at(corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n]) < 0)
+      return {{"rounding", fmt::format("the corner at {} points inwards and is sharp, allowed: > 0 "
+                                       "and <= {:g} m where a corner points inwards",
+                                       text_of(corners[i]), most)}};
+  return {};
+}
+
+}  // namespace
+
+Faults faults_of(const EllipseOutline& outline) { return slender(outline.width, outline.height); }
+
+Faults faults_of(const SuperellipseOutline& outline) {
+  return slender(outline.width, outline.height);
+}
+
+Faults faults_of(const PolygonOutline& outline) {
+  const bool regular = outline.sides > 0;
+  if (regular == !outline.corners.empty())
+    return {{"corners", regular ? "a regular polygon has corners already, allowed: either sides "
+                                  "and diameter, or corners"
+                                : "required key is missing, allowed: either sides and diameter, or "
+                                  "corners"}};
+  if (!regular && outline.diameter > 0)
+    return {{"diameter", "has no effect beside corners, allowed: only together with sides"}};
+  Faults faults = regular ? Faults{} : bad_corners(outline);
+  if (faults.empty()) faults = bad_rounding(outline);
+  if (faults.empty()) faults = unseen(curve_of(outline), "corners", "");
+  return faults;
+}
+
+Faults faults_of(const PointsOutline& outline) {
+  const int scales =
+      outline.width.has_value() + outline.diameter.has_value() + outline.area.has_value();
+  if (scales > 1)
+    return {{outline.width ? "width" : "diameter",
+             "the outline can be scaled once, allowed: one of width, diameter and area"}};
+  Faults faults = crossing(outline.points, "file", "points");
+  if (faults.empty())
+    faults = unseen(curve_of(outline), "file", ", more smoothing where the points are noisy");
+  return faults;
+}
+
+}  // namespace pulvis

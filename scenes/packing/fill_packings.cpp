@@ -1,0 +1,193 @@
+#include "scenes/packing/fill_packings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "scenes/outlines/outline.hpp"
+#include "scenes/outlines/outline_reach.hpp"
+#include "scenes/outlines/scaled_outline.hpp"
+#include "scenes/packing/die_filling.hpp"
+#include "scenes/packing/mixture.hpp"
+#include "scenes/packing/packing_file.hpp"
+#include "scenes/packing/place.hpp"
+
+namespace pulvis {
+namespace {
+
+using portable::V2;
+
+constexpr double outline_deviation = 1e-3;  // of a particle's size, where it is no rounded polygon
+
+// The class of particles of another size than their own class has; the same for the same size.
+int class_of_size(Scene& scene, int particle, double scale) {
+  if (scale == 1) return particle;
+  int number = 1;
+  for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+    if (scene.particles[p].class_of != particle) continue;
+    if (scene.particles[p].scale == scale) return static_cast<int>(p);
+    ++number;
+  }
+  ParticleSpec spec = scene.particles[static_cast<std::size_t>(particle)];
+  spec.class_of = particle;
+  spec.scale = scale;
+  spec.outline = scaled(spec.outline, scale);
+  spec.name += fmt::format("#{}", number);  // a sign that names in scenes do not have
+  scene.particles.push_back(spec);
+  return static_cast<int>(scene.particles.size()) - 1;
+}
+
+class RandomPacking {
+ public:
+  RandomPacking(Scene& scene, std::size_t number, const schema::Origins& origins,
+                Problems& problems)
+      : scene_(scene),
+        packing_(scene.packings[number]),
+        path_(fmt::format("packing[{}]", number)),
+        origins_(origins),
+        problems_(problems) {
+    order_.seed = scene.seed + 0x9e3779b97f4a7c15U * number;
+  }
+
+  void run() {
+    const Mixture mixture = mixture_of(scene_, packing_, path_, origins_, problems_);
+    if (mixture.count == 0) return;
+    unit_ = 2 * std::sqrt(mixture.area / mixture.count / std::numbers::pi);
+    for (const MixtureSize& size : mixture.sizes) add(size);
+    order_.width = packing_.width / unit_;
+    if (!everything_fits()) return;
+    const double full = mixture.area / packing_.width;  // height at a density of 1
+    if (packing_.density) order_.least_height = full / *packing_.density / unit_;
+    if (packing_.height) order_.least_height = *packing_.height / unit_;
+    order_.time_to_shake = packing_.dense == PackingSpec::Dense::touching ? 0 : 1;
+    const FilledDie die = fill_die(order_);
+    if (order_.least_height > 0 && die.height > order_.least_height)
+      return refuse_density(full / (order_.least_height * unit_), full / (die.height * unit_));
+    place(die);
+    packing_.reached = {full / (die.height * unit_), die.mean_gap, die.least_gap * unit_,
+                        die.touches};
+    packing_.top = packing_.corner.y() + die.height * unit_;
+  }
+
+ private:
+  void add(const MixtureSize& size) {
+    const int particle = class_of_size(scene_, size.particle, size.scale);
+    const ParticleSpec& spec = scene_.particles[static_cast<std::size_t>(particle)];
+    const double deviation = outline_deviation * std::sqrt(outline_area(spec.outline));
+    order_.shapes.push_back(rigid_shape(spec.outline, unit_, deviation));
+    classes_.push_back(particle);
+    order_.shape_of.insert(order_.shape_of.end(), static_cast<std::size_t>(size.count),
+                           static_cast<int>(order_.shapes.size()) - 1);
+  }
+
+  document::Origin origin(const std::string& key) const {
+    const auto found = origins_.find(origins_.contains(path_ + key) ? path_ + key : path_);
+    return found->second;
+  }
+
+  bool everything_fits() {
+    for (std::size_t s = 0; s < order_.shapes.size(); ++s) {
+      const double width = order_.shapes[s].least_width;
+      const bool wide = width >= order_.width;
+      if (!wide && (!packing_.height || width * unit_ < *packing_.height)) continue;
+      const std::string key = wide ? ".width" : ".height";
+      problems_.add(
+          origin(key), path_ + key,
+          fmt::format("'{}' is {:g} m wide and does not fit into the die, allowed: > {:g} m",
+                      scene_.particles[static_cast<std::size_t>(classes_[s])].name, width * unit_,
+                      width * unit_));
+      return false;
+    }
+    return true;
+  }
+
+  void refuse_density(double wanted, double reached) {
+    const std::string key = packing_.density ? ".density" : ".height";
+    const double rounded = std::floor(reached * 1e4) / 1e4;
+    problems_.add(
+        origin(key), path_ + key,
+        fmt::format("a relative density of {:.4f} is not reached: pressing and shaking "
+                    "these particles in this die ended at {:.4f}, allowed: at most {:.4f} "
+                    "with this seed",
+                    wanted, rounded, rounded));
+  }
+
+  void place(const FilledDie& die) {
+    for (std::size_t i = 0; i < die.poses.size(); ++i) {
+      const auto shape = static_cast<std::size_t>(order_.shape_of[i]);
+      const RigidPose& pose = die.poses[i];
+      const V2 at = pose.at - pose.turn * order_.shapes[shape].centroid;
+      BodySpec body;
+      body.particle = classes_[shape];
+      body.position = packing_.corner + unit_ * Vec2(at.x, at.y);
+      body.angle = portable::atan2(pose.turn.s, pose.turn.c);
+      body.mark = packing_.mark;
+      packing_.placed.push_back(body);
+    }
+  }
+
+  Scene& scene_;
+  PackingSpec& packing_;
+  std::string path_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+  DieFilling order_;
+  std::vector<int> classes_;  // of the shapes
+  double unit_ = 1;           // m, the mean diameter
+};
+
+double highest_point(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  double highest = std::numeric_limits<double>::lowest();
+  for (const BodySpec& body : bodies) {
+    const Outline& outline = scene.particles[static_cast<std::size_t>(body.particle)].outline;
+    highest =
+        std::max(highest, body.position.y() + reach_along(outline, body.angle, Vec2::UnitY()));
+  }
+  return highest;
+}
+
+void read_file(Scene& scene, PackingSpec& packing) {
+  const FiledPacking filed = read_packing(scene.file.parent_path() / packing.file, scene);
+  for (const FiledParticle& particle : filed.particles) {
+    BodySpec body;
+    body.particle = class_of_size(scene, particle.particle, particle.scale);
+    body.position = particle.position;
+    body.angle = particle.angle;
+    body.mark = packing.mark;
+    packing.placed.push_back(body);
+  }
+  packing.top = filed.top ? *filed.top : highest_point(scene, packing.placed);
+}
+
+void put_tools_on(Scene& scene, const schema::Origins& origins, Problems& problems) {
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (!scene.tools[t].on_packing) continue;
+    if (scene.packings.empty()) {
+      const std::string key = fmt::format("tool[{}].point", t);
+      problems.add(origins.at(key), key,
+                   "there is no packing to rest on, allowed: a [[packing]], "
+                   "or a quantity in m");
+      continue;
+    }
+    scene.tools[t].point.y() = top_of_packings(scene);
+  }
+}
+
+}  // namespace
+
+void fill_packings(Scene& scene, const schema::Origins& origins, Problems& problems) {
+  for (std::size_t i = 0; i < scene.packings.size(); ++i) {
+    PackingSpec& packing = scene.packings[i];
+    if (packing.kind == PackingSpec::Kind::random)
+      RandomPacking(scene, i, origins, problems).run();
+    else if (packing.kind == PackingSpec::Kind::csv)
+      read_file(scene, packing);
+    else
+      packing.top = top_of_lattice(packing);
+  }
+  put_tools_on(scene, origins, problems);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,217 @@
+#include "scenes/packing/mixture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scenes/outlines/outline.hpp"
+#include "scenes/packing/rigid_shape.hpp"
+#include "scenes/packing/size_law.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double rounding_of_sums = 1e-6;  // three times 0.333333 is 1
+
+class Mixer {
+ public:
+  Mixer(const Scene& scene, const PackingSpec& packing, const std::string& path,
+        const schema::Origins& origins, Problems& problems)
+      : scene_(scene), packing_(packing), path_(path), origins_(origins), problems_(problems) {}
+
+  Mixture run() {
+    if (!shares_are_told() || !two_are_given()) return {};
+    for (std::size_t c = 0; c < packing_.classes.size(); ++c) laws_are_right(c);
+    if (wrong_) return {};
+    for (const MixtureClass& mixed : packing_.classes) laws_.push_back(law_of(mixed));
+    const std::vector<int> numbers = numbers_of_classes();
+    Mixture mixture;
+    for (std::size_t c = 0; c < laws_.size(); ++c) add(c, numbers[c], mixture);
+    return wrong_ ? Mixture{} : mixture;
+  }
+
+ private:
+  struct Law {
+    std::vector<SizeShare> sizes;
+    double own_size = 1;   // m, of the class's outline
+    double own_area = 0;   // m^2
+    double mean_area = 0;  // m^2, of a particle
+  };
+
+  void refuse(const std::string& key, const std::string& message) {
+    std::string at = path_ + key;
+    while (!origins_.contains(at) && at.find('.') != std::string::npos) at.erase(at.rfind('.'));
+    const auto found = origins_.find(at);
+    problems_.add(found == origins_.end() ? document::Origin{{1, 1}, -1} : found->second,
+                  path_ + key, message);
+    wrong_ = true;
+  }
+  static std::string class_key(std::size_t c, const char* key) {
+    return fmt::format(".class[{}].{}", c, key);
+  }
+
+  template <class Member>
+  std::size_t classes_with(Member member) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        packing_.classes, [&](const MixtureClass& mixed) { return (mixed.*member).has_value(); }));
+  }
+
+  bool shares_are_told() {
+    const std::size_t all = packing_.classes.size();
+    if (all == 0)
+      refuse("", "a random packing of nothing, allowed: at least one [[packing.class]]");
+    const std::size_t numbers = classes_with(&MixtureClass::number);
+    const std::size_t by_number = classes_with(&MixtureClass::number_fraction);
+    const std::size_t by_area = classes_with(&MixtureClass::area_fraction);
+    const bool alone = all == 1 && numbers + by_number + by_area == 0;
+    const bool alike = (numbers == all) + (by_number == all) + (by_area == all) == 1 &&
+                       numbers + by_number + by_area == all;
+    if (all > 0 && !alone && !alike)
+      refuse("",
+             "its classes do not say alike how much they are, allowed: every class with a "
+             "number, or every class with a number_fraction, or with an area_fraction");
+    if (by_number == all) add_up(&MixtureClass::number_fraction, "number_fraction");
+    if (by_area == all) add_up(&MixtureClass::area_fraction, "area_fraction");
+    if (numbers > 0 && packing_.count)
+      refuse(".count", "has no effect beside the numbers of the classes, allowed: one of the two");
+    return !wrong_;
+  }
+
+  void add_up(std::optional<double> MixtureClass::*fraction, const char* key) {
+    double sum = 0;
+    for (const MixtureClass& mixed : packing_.classes) sum += (mixed.*fraction).value_or(0);
+    if (std::abs(sum - 1) > rounding_of_sums && !packing_.classes.empty())
+      refuse(class_key(packing_.classes.size() - 1, key),
+             fmt::format("the fractions of the classes add up to {:g}, allowed: 1", sum));
+  }
+
+  bool two_are_given() {
+    const bool counted = packing_.count || classes_with(&MixtureClass::number) > 0;
+    const bool dense = packing_.density || packing_.dense != PackingSpec::Dense::given;
+    const int given = (counted ? 1 : 0) + (dense ? 1 : 0) + (packing_.height ? 1 : 0);
+    const char* rule = "allowed: two of count (or the classes' numbers), density and height";
+    if (given < 2) refuse("", fmt::format("the size of the packing is left open, {}", rule));
+    if (given > 2) refuse(".height", fmt::format("follows from count and density, {}", rule));
+    if (given == 2 && !counted && !packing_.density)
+      refuse(".density",
+             "a word leaves the count open, allowed: a number, or a count instead of "
+             "the height");
+    return !wrong_;
+  }
+
+  void laws_are_right(std::size_t c) {
+    const SizeLaw& law = packing_.classes[c].size;
+    if (law.kind == SizeLaw::Kind::uniform)
+      for (const auto& [key, there] : {std::pair("least", law.least.has_value()),
+                                       std::pair("largest", law.largest.has_value())})
+        if (!there) refuse(class_key(c, key), "required key is missing, allowed: a quantity in m");
+    if (law.least && law.largest && *law.least >= *law.largest)
+      refuse(class_key(c, "largest"),
+             fmt::format("{:g} m leaves no sizes, allowed: > {:g} m", *law.largest, *law.least));
+    const bool normal = law.kind == SizeLaw::Kind::normal;
+    if (normal && !law.least && 3 * law.deviation >= law.mean)
+      refuse(class_key(c, "deviation"),
+             fmt::format("{:g} m makes sizes of nothing, allowed: < {:g} m, a third of the mean, "
+                         "or a least size",
+                         law.deviation, law.mean / 3));
+    if (!normal && law.kind != SizeLaw::Kind::lognormal) return;
+    const double far = 6 * law.deviation;
+    if ((law.least && *law.least > law.mean + far) ||
+        (law.largest && *law.largest < law.mean - far))
+      refuse(class_key(c, law.least && *law.least > law.mean ? "least" : "largest"),
+             "leaves nothing of the law, allowed: within six deviations of the mean");
+  }
+
+  Law law_of(const MixtureClass& mixed) const {
+    const Outline& outline = scene_.particles[static_cast<std::size_t>(mixed.particle)].outline;
+    Law law;
+    law.own_area = outline_area(outline);
+    if (mixed.size.kind == SizeLaw::Kind::mono) {
+      law.sizes = {{1, 1}};
+    } else {
+      const double length = std::sqrt(law.own_area);
+      law.own_size = length * rigid_shape(outline, length, length / 1000).least_width;
+      SieveCurve curve;
+      if (mixed.size.kind == SizeLaw::Kind::sieve)
+        curve = read_sieve_curve(scene_.file.parent_path() / mixed.size.file);
+      law.sizes = sizes_of(mixed.size, curve, mixed.size.sizes);
+    }
+    for (const SizeShare& size : law.sizes) law.mean_area += size.share * area(law, size);
+    return law;
+  }
+
+  static double scale(const Law& law, const SizeShare& size) { return size.size / law.own_size; }
+  static double area(const Law& law, const SizeShare& size) {
+    return scale(law, size) * scale(law, size) * law.own_area;
+  }
+
+  // Share of each class in the number of particles.
+  std::vector<double> number_shares() const {
+    std::vector<double> shares;
+    for (std::size_t c = 0; c < laws_.size(); ++c) {
+      const MixtureClass& mixed = packing_.classes[c];
+      shares.push_back(mixed.area_fraction ? *mixed.area_fraction / laws_[c].mean_area
+                                           : mixed.number_fraction.value_or(1));
+    }
+    return shares;
+  }
+
+  // Of the die's area, where the count is left open.
+  int count(const std::vector<double>& shares) {
+    double number = 0, sum = 0;
+    for (std::size_t c = 0; c < shares.size(); ++c) {
+      number += shares[c];
+      sum += shares[c] * laws_[c].mean_area;
+    }
+    const double wanted = *packing_.density * packing_.width * *packing_.height / (sum / number);
+    if (wanted >= 0.5 && wanted <= 1e5) return static_cast<int>(wanted + 0.5);
+    refuse(".height",
+           fmt::format("{:.3g} particles fill the die, allowed: from 1 to 100000", wanted));
+    return 0;
+  }
+
+  std::vector<int> numbers_of_classes() {
+    std::vector<int> numbers;
+    for (const MixtureClass& mixed : packing_.classes)
+      if (mixed.number) numbers.push_back(*mixed.number);
+    if (!numbers.empty()) return numbers;
+    const std::vector<double> shares = number_shares();
+    return apportioned(packing_.count ? *packing_.count : count(shares), shares);
+  }
+
+  void add(std::size_t c, int number, Mixture& mixture) {
+    const Law& law = laws_[c];
+    const MixtureClass& mixed = packing_.classes[c];
+    if (number == 0 && !wrong_)
+      refuse(class_key(c, mixed.area_fraction ? "area_fraction" : "number_fraction"),
+             "no whole particle of this class remains, allowed: a larger count or fraction");
+    std::vector<double> shares;
+    for (const SizeShare& size : law.sizes) shares.push_back(size.share);
+    const std::vector<int> numbers = apportioned(number, shares);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (numbers[i] == 0) continue;  // of a law with more sizes than particles
+      mixture.sizes.push_back({mixed.particle, scale(law, law.sizes[i]), numbers[i]});
+      mixture.count += numbers[i];
+      mixture.area += numbers[i] * area(law, law.sizes[i]);
+    }
+  }
+
+  const Scene& scene_;
+  const PackingSpec& packing_;
+  const std::string& path_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+  std::vector<Law> laws_;
+  bool wrong_ = false;
+};
+
+}  // namespace
+
+Mixture mixture_of(const Scene& scene, const PackingSpec& packing, const std::string& path,
+                   const schema::Origins& origins, Problems& problems) {
+  return Mixer(scene, packing, path, origins, problems).run();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,86 @@
+#include "scenes/packing/place.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace pulvis {
+namespace {
+
+struct Source {  // one [[body]] or [[packing]]
+  SourceMark mark;
+  const BodySpec* body;
+  const PackingSpec* packing;
+};
+
+std::vector<Source> sources_in_file_order(const Scene& scene) {
+  std::vector<Source> sources;
+  for (const BodySpec& body : scene.bodies) sources.push_back({body.mark, &body, nullptr});
+  for (const PackingSpec& packing : scene.packings)
+    sources.push_back({packing.mark, nullptr, &packing});
+  std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
+    return std::pair(a.mark.line, a.mark.column) < std::pair(b.mark.line, b.mark.column);
+  });
+  return sources;
+}
+
+void add_packing(const PackingSpec& packing, std::vector<BodySpec>& bodies) {
+  if (!is_lattice(packing)) {
+    bodies.insert(bodies.end(), packing.placed.begin(), packing.placed.end());
+    return;
+  }
+  const bool hexagonal = packing.kind == PackingSpec::Kind::hexagonal;
+  const double rise = hexagonal ? std::numbers::sqrt3 / 2 : 1;
+  for (int row = 0; row < packing.rows; ++row) {
+    const int fewer = packing.columns - particles_in_row(packing, row);
+    for (int column = 0; column < packing.columns - fewer; ++column) {
+      BodySpec body;
+      body.particle = packing.particle;
+      body.position =
+          packing.corner + packing.spacing * Vec2(column + 0.5 + 0.5 * fewer, rise * row + 0.5);
+      body.mark = packing.mark;
+      bodies.push_back(body);
+    }
+  }
+}
+
+}  // namespace
+
+int particles_in_row(const PackingSpec& packing, int row) {
+  const bool shifted = packing.kind == PackingSpec::Kind::hexagonal && row % 2 == 1;
+  return packing.columns - (shifted ? 1 : 0);
+}
+
+bool is_lattice(const PackingSpec& packing) {
+  return packing.kind == PackingSpec::Kind::square || packing.kind == PackingSpec::Kind::hexagonal;
+}
+
+double top_of_lattice(const PackingSpec& packing) {
+  const bool hexagonal = packing.kind == PackingSpec::Kind::hexagonal;
+  const double rise = hexagonal ? std::numbers::sqrt3 / 2 : 1;
+  return packing.corner.y() + packing.spacing * (rise * (packing.rows - 1) + 1);
+}
+
+double top_of_packings(const Scene& scene) {
+  double top = std::numeric_limits<double>::lowest();
+  for (const PackingSpec& packing : scene.packings) top = std::max(top, packing.top);
+  return top;
+}
+
+std::int64_t particle_count(const PackingSpec& packing) {
+  if (!is_lattice(packing)) return static_cast<std::int64_t>(packing.placed.size());
+  const std::int64_t pairs = packing.rows / 2, odd = packing.rows % 2;
+  return pairs * (particles_in_row(packing, 0) + particles_in_row(packing, 1)) +
+         odd * particles_in_row(packing, 0);
+}
+
+std::vector<BodySpec> place_bodies(const Scene& scene) {
+  std::vector<BodySpec> bodies;
+  for (const Source& source : sources_in_file_order(scene)) {
+    if (source.body != nullptr) bodies.push_back(*source.body);
+    if (source.packing != nullptr) add_packing(*source.packing, bodies);
+  }
+  return bodies;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,168 @@
+#include "scenes/packing/rigid_contact.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace pulvis {
+namespace {
+
+using portable::dot;
+using portable::length;
+using portable::Turn;
+using portable::V2;
+
+constexpr double none = std::numeric_limits<double>::lowest();
+constexpr double hair = 1e-9;  // share of a diameter, below which two gaps count as equal
+
+struct Widest {
+  double gap = none;
+  std::size_t side = 0;    // of the piece
+  std::size_t corner = 0;  // of the other one, deepest behind that side
+};
+
+// The side of `piece` that the other one lies farthest in front of.
+Widest widest_gap(const RigidPiece& piece, const RigidPiece& other, double enough) {
+  Widest best;
+  for (std::size_t s = 0; s < piece.normals.size() && best.gap <= enough; ++s) {
+    const V2 n = piece.normals[s], from = piece.corners[s];
+    double least = std::numeric_limits<double>::max();
+    std::size_t deepest = 0;
+    for (std::size_t c = 0; c < other.corners.size(); ++c)
+      if (const double gap = dot(n, other.corners[c] - from); gap < least) {
+        least = gap;
+        deepest = c;
+      }
+    if (least > best.gap) best = {least, s, deepest};
+  }
+  return best;
+}
+
+V2 nearest_on_side(const RigidPiece& piece, std::size_t side, V2 p) {
+  const V2 a = piece.corners[side];
+  if (piece.corners.size() == 1) return a;
+  const V2 along = piece.corners[(side + 1) % piece.corners.size()] - a;
+  const double share = std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0);
+  return a + share * along;
+}
+
+void put(const RigidPiece& from, Turn turn, V2 by, RigidPiece& to) {
+  to.corners.resize(from.corners.size());
+  to.normals.resize(from.normals.size());
+  for (std::size_t i = 0; i < from.corners.size(); ++i) to.corners[i] = by + turn * from.corners[i];
+  for (std::size_t i = 0; i < from.normals.size(); ++i) to.normals[i] = turn * from.normals[i];
+  to.radius = from.radius;
+  to.centre = by + turn * from.centre;
+  to.reach = from.reach;
+}
+
+}  // namespace
+
+const std::vector<RigidTouch>& RigidContacts::between(const RigidShape& a, const RigidPose& at_a,
+                                                      const RigidShape& b, const RigidPose& at_b,
+                                                      double range) {
+  found_.clear();
+  const V2 by = turned_back(at_a.turn, at_b.at - at_a.at);
+  const Turn turn{at_a.turn.c * at_b.turn.c + at_a.turn.s * at_b.turn.s,
+                  at_a.turn.c * at_b.turn.s - at_a.turn.s * at_b.turn.c};
+  for (const RigidPiece& q : b.pieces) {
+    put(q, turn, by, other_);
+    for (const RigidPiece& p : a.pieces) {
+      const double reach = p.reach + q.reach + range;
+      const V2 apart = other_.centre - p.centre;
+      if (dot(apart, apart) < reach * reach) pieces(p, other_, range);
+    }
+  }
+  for (RigidTouch& touch : found_) {
+    touch.point = at_a.at + at_a.turn * touch.point;
+    touch.normal = at_a.turn * touch.normal;
+  }
+  return found_;
+}
+
+void RigidContacts::pieces(const RigidPiece& a, const RigidPiece& b, double range) {
+  const double enough = range + a.radius + b.radius;
+  const Widest of_a = widest_gap(a, b, enough);
+  if (of_a.gap > enough) return;
+  const Widest of_b = widest_gap(b, a, enough);
+  if (of_b.gap > enough) return;
+  const bool a_leads = of_a.gap >= of_b.gap - hair;
+  const Widest& lead = a_leads ? of_a : of_b;
+  const RigidPiece& leader = a_leads ? a : b;
+  const RigidPiece& other = a_leads ? b : a;
+  normals_sign_ = a_leads ? 1 : -1;
+  const std::size_t before = found_.size();
+  if (lead.gap > none) sides(leader, other, lead.side, lead.corner, range);
+  const auto is_apart = [&](const RigidTouch& touch) {
+    return touch.gap + leader.radius + other.radius > lead.gap + hair;
+  };
+  const bool beside =
+      std::all_of(found_.begin() + static_cast<std::ptrdiff_t>(before), found_.end(), is_apart);
+  if (!beside) return;  // the deepest corner lies in front of the side: that is the distance
+  found_.resize(before);
+  const V2 out = leader.normals.empty() ? V2{1, 0} : normals_sign_ * leader.normals[lead.side];
+  // (Of two stadiums end to end no side tells that they are apart.)
+  if (lead.gap > -hair || lead.gap == none) return nearest(a, b, out, range);
+  add(other.corners[lead.corner], leader.normals[lead.side],
+      lead.gap - leader.radius - other.radius);
+}
+
+// The part of the other piece's side that lies in front of the leader's, by its ends.
+void RigidContacts::sides(const RigidPiece& leader, const RigidPiece& other, std::size_t side,
+                          std::size_t corner, double range) {
+  const V2 n = leader.normals[side], from = leader.corners[side];
+  const V2 t{-n.y, n.x};
+  const double end = dot(leader.corners[(side + 1) % leader.corners.size()] - from, t);
+  V2 p = other.corners[corner], q = p;
+  if (other.corners.size() > 1) {
+    const std::size_t last = (corner + other.corners.size() - 1) % other.corners.size();
+    const bool goes_on = dot(other.normals[corner], n) < dot(other.normals[last], n);
+    q = other.corners[goes_on ? (corner + 1) % other.corners.size() : last];
+  }
+  const double at_p = dot(p - from, t), at_q = dot(q - from, t);
+  if (std::max(at_p, at_q) < 0 || std::min(at_p, at_q) > end) return;
+  const auto add_at = [&](double share) {
+    const V2 point = p + share * (q - p);
+    const double gap = dot(n, point - from) - leader.radius - other.radius;
+    if (gap < range) add(point, n, gap);
+  };
+  if (at_p == at_q) return add_at(0);
+  const double first = (0 - at_p) / (at_q - at_p), second = (end - at_p) / (at_q - at_p);
+  const double begin_share = std::clamp(std::min(first, second), 0.0, 1.0);
+  const double end_share = std::clamp(std::max(first, second), 0.0, 1.0);
+  add_at(begin_share);
+  if (end_share > begin_share) add_at(end_share);
+}
+
+// `out`: the normal where the two have a point in common.
+void RigidContacts::nearest(const RigidPiece& a, const RigidPiece& b, V2 out, double range) {
+  double least = std::numeric_limits<double>::max();
+  V2 on_a, on_b;
+  // A corner this far from the circle around the other's corners cannot be nearest.
+  const auto too_far = [&](V2 corner, const RigidPiece& piece) {
+    const double reach = piece.reach - piece.radius, apart = length(corner - piece.centre) - reach;
+    return apart > 0 && apart * apart > least;
+  };
+  const auto compare = [&](V2 p, V2 q) {
+    const V2 apart = q - p;
+    if (dot(apart, apart) >= least) return;
+    least = dot(apart, apart);
+    on_a = p;
+    on_b = q;
+  };
+  for (const V2 corner : a.corners)
+    for (std::size_t s = 0; s < b.corners.size() && !too_far(corner, b); ++s)
+      compare(corner, nearest_on_side(b, s, corner));
+  for (const V2 corner : b.corners)
+    for (std::size_t s = 0; s < a.corners.size() && !too_far(corner, a); ++s)
+      compare(nearest_on_side(a, s, corner), corner);
+  const double distance = std::sqrt(least), gap = distance - a.radius - b.radius;
+  if (gap >= range) return;
+  normals_sign_ = 1;
+  add(on_b, distance > hair ? (1 / distance) * (on_b - on_a) : out, gap);
+}
+
+void RigidContacts::add(V2 point, V2 normal, double gap) {
+  found_.push_back({point, normals_sign_ * normal, gap});
+}
+
+}  // namespace pulvis

@@ -1,0 +1,70 @@
+// Rigid particles between the walls, floor and top punch of a die: pushed out of each other, shaken,
+// squeezed. Lengths in units of a mean diameter; the left wall and the floor go through the origin.
+#pragma once
+
+#include "scenes/packing/rigid_contact.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pulvis {
+
+class RigidPowder {
+ public:
+  // `margin`: particles are pushed apart as if each were wider by this all around, so that what is left
+  // of their overlap at the end is a gap.
+  RigidPowder(std::vector<RigidShape> shapes, std::vector<int> shape_of, double width,
+              double margin);
+
+  void scatter(double height, portable::Random& random);  // anywhere, overlaps and all
+  void squeeze(double height);                       // every particle's place is scaled with it
+  void shake(double way, portable::Random& random);  // every particle by up to so much
+
+  // Pushes particles apart until no two overlap; false where that takes more than so many sweeps.
+  bool relax(int most_sweeps);
+
+  double height() const { return height_; }
+  double width() const { return width_; }
+  const std::vector<RigidPose>& poses() const { return poses_; }
+  void restore(const std::vector<RigidPose>& poses, double height);
+  std::int64_t sweeps() const { return sweeps_; }
+
+  double
+  least_gap();  // of all particles to each other and to the tools; negative where they overlap
+  // Gaps of every particle to its three nearest neighbours, tools being neighbours, in its diameters; a
+  // particle without one within half a diameter counts half a diameter. `touches`: pairs of particles
+  // whose gap is below `touching` diameters of the smaller one.
+  std::vector<std::array<double, 3>> near_gaps(double touching, int& touches);
+
+ private:
+  struct Pair {
+    std::int32_t a, b;
+  };
+  const RigidShape& shape(std::size_t i) const {
+    return shapes_[static_cast<std::size_t>(shape_of_[i])];
+  }
+  void find_pairs(double range);
+  bool lists_hold() const;
+  void drift();
+  double sweep();  // largest overlap it met
+  double push(const Pair& pair);
+  double push_from_tools(std::size_t i);
+  void correct(std::size_t i, portable::V2 arm, portable::V2 way);
+  void touches_with_tools(std::size_t i, double range, std::vector<RigidTouch>& touches) const;
+
+  std::vector<RigidShape> shapes_;
+  std::vector<int> shape_of_;
+  double width_, margin_;
+  double height_ = 0;
+  double largest_reach_ = 0;
+  std::vector<RigidPose> poses_;
+  std::vector<RigidPose> before_;  // the last sweep
+  std::vector<RigidPose> listed_;  // where particles were when the pairs were found
+  std::vector<Pair> pairs_;
+  RigidContacts contacts_;
+  std::vector<RigidTouch> tool_touches_;
+  std::int64_t sweeps_ = 0;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,353 @@
+// Declarations of reduce.toml: instruments, compact, clocks and what is taken from the curves.
+#include "scenes/records/declare_lab.hpp"
+
+#include "scenes/keys/declare.hpp"
+
+#include <array>
+
+namespace pulvis::lab {
+
+using namespace schema;
+
+namespace {
+
+template <class Spec>
+Key<Spec> column_key(const char* name, const char* fallback, std::string Spec::*member,
+                     const char* doc) {
+  return {{.name = name, .kind = Kind::text, .fallback = value_of(fallback), .doc = doc},
+          to(member)};
+}
+
+template <class Spec>
+Key<Spec> header_key() {
+  return {{.name = "header_line",
+           .kind = Kind::integer,
+           .range = within(0, 10000),
+           .fallback = value_of(0),
+           .doc = "Line of the file that holds the names of the columns; 0: the first line that is "
+                  "neither empty nor a comment (#)."},
+          integer_to(&Spec::header_line)};
+}
+
+std::vector<Key<CompactSpec>> geometry_keys() {
+  return {
+      {{.name = "die_diameter",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = above(0, 1),
+        .fallback = value_of("15 mm"),
+        .doc = "Diameter D of die and punch (3.1)."},
+       to(&CompactSpec::die_diameter)},
+      {{.name = "length",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = above(0, 1),
+        .doc = "Length L of the compact when sliding starts; the punch displacement shortens it "
+               "from there on. Give it or `fill_height`.",
+        .fallback_doc = "from `fill_height`"},
+       to(&CompactSpec::length)},
+      {{.name = "fill_height",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = above(0, 1),
+        .doc = "Height of the powder where the punch displacement is zero: L is this less the "
+               "displacement.",
+        .fallback_doc = "from `length`"},
+       to(&CompactSpec::fill_height)},
+  };
+}
+
+std::vector<Key<CompactSpec>> powder_keys() {
+  return {
+      {{.name = "poissons_ratio",
+        .kind = Kind::number,
+        .range = within(0, 0.499),
+        .doc = "Poisson's ratio of the compact in (3.1). Give it or `powder`.",
+        .fallback_doc = "of the `powder`"},
+       to(&CompactSpec::poissons_ratio)},
+      {{.name = "powder",
+        .kind = Kind::choice,
+        .choices = {{"OFHC Cu", "0.35"}, {"316L", "0.3"}, {"salt", "0.252"}, {"sugar", "0.25"}},
+        .doc = "Takes Poisson's ratio from Table 3.2 of the thesis.",
+        .fallback_doc = "none"},
+       [](CompactSpec& spec, const Decoded& value) { spec.powder = value.index; }},
+      {{.name = "wall_friction",
+        .kind = Kind::number,
+        .range = within(0, 5),
+        .doc = "Coefficient on the die wall, in (3.1) only.",
+        .fallback_doc = "the coefficient on the target, solved for in (3.1) and (3.2) together"},
+       to(&CompactSpec::wall_friction)},
+  };
+}
+
+std::vector<Key<AnalysisSpec>> window_keys() {
+  return {
+      {{.name = "shortest_sliding",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = above(0, 10),
+        .fallback = value_of("15 mm"),
+        .doc = "A run that slides less is refused. The default is the compact's diameter: only "
+               "beyond it does all of the compact meet fresh surface."},
+       to(&AnalysisSpec::shortest_sliding)},
+      {{.name = "static_within",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = above(0, 10),
+        .fallback = value_of("3 mm"),
+        .doc = "The static coefficient is the largest one within this distance from the start."},
+       to(&AnalysisSpec::static_within)},
+      {{.name = "dynamic_from",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = within(0, 10),
+        .fallback = value_of("10 mm"),
+        .doc = "Distance where the dynamic mean and the search for stick-slip begin."},
+       to(&AnalysisSpec::dynamic_from)},
+      {{.name = "dynamic_until",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = above(0, 10),
+        .doc = "Distance where they end.",
+        .fallback_doc = "the end of sliding"},
+       to(&AnalysisSpec::dynamic_until)},
+  };
+}
+
+}  // namespace
+
+const TableDeclaration<Settings>& declared_top() {
+  static const TableDeclaration<Settings> declaration{
+      {"", false, "", "One series of tests: the same powder, surface, load and speed."},
+      {{{.name = "title",
+         .kind = Kind::text,
+         .doc = "Stands above the report.",
+         .fallback_doc = "none"},
+        to(&Settings::title)}}};
+  return declaration;
+}
+
+const TableDeclaration<PressSpec>& declared_press() {
+  static const TableDeclaration<PressSpec> declaration{
+      {"press", false, "", "Records of the press: time, normal force, punch displacement."},
+      {column_key("time", "time", &PressSpec::time, "Name of the column with the press's time."),
+       column_key("force", "force", &PressSpec::force,
+                  "Name of the column with the force on the punch; its sign does not matter."),
+       column_key("displacement", "displacement", &PressSpec::displacement,
+                  "Name of the column with the punch displacement; its sign is found from the "
+                  "loading."),
+       header_key<PressSpec>(),
+       {{.name = "capacity",
+         .kind = Kind::quantity,
+         .unit = "N",
+         .range = above(0, 1e9),
+         .fallback = value_of("20 kN"),
+         .doc = "A record that reaches this force is refused as saturated (3.2.3)."},
+        to(&PressSpec::capacity)},
+       {{.name = "hold_tolerance",
+         .kind = Kind::number,
+         .range = between(0, 1),
+         .fallback = value_of(0.1),
+         .doc = "The force counts as held while it stays within this share of its median over the "
+                "upper half."},
+        to(&PressSpec::hold_tolerance)}}};
+  return declaration;
+}
+
+const TableDeclaration<LoggerSpec>& declared_logger() {
+  static const TableDeclaration<LoggerSpec> declaration{
+      {"logger", false, "",
+       "Records of the data logger: time, strain of the load cell, LVDT volts."},
+      {column_key("time", "time", &LoggerSpec::time, "Name of the column with the logger's time."),
+       column_key("strain", "strain", &LoggerSpec::strain,
+                  "Name of the column with the load cell's strain, in um/m (or ue, ppm, m/m, %)."),
+       column_key("lvdt", "lvdt", &LoggerSpec::lvdt,
+                  "Name of the column with the LVDT's volts; their sign is found from the motion."),
+       header_key<LoggerSpec>(),
+       {{.name = "strain_limit",
+         .kind = Kind::number,
+         .range = above(0, 1),
+         .doc =
+             "A record whose strain reaches this size is refused as saturated; 0.003 is 3000 um/m.",
+         .fallback_doc = "none: only samples that repeat at the record's extreme are refused"},
+        to(&LoggerSpec::strain_limit)},
+       {{.name = "lvdt_limit",
+         .kind = Kind::quantity,
+         .unit = "V",
+         .range = above(0, 1e3),
+         .doc = "A record whose LVDT voltage reaches this size is refused as saturated.",
+         .fallback_doc = "none: only samples that repeat at the record's extreme are refused"},
+        to(&LoggerSpec::lvdt_limit)}}};
+  return declaration;
+}
+
+const TableDeclaration<LoadCellSpec>& declared_load_cell() {
+  static const TableDeclaration<LoadCellSpec> declaration{
+      {"load_cell", false, "",
+       "Calibration of the load cell: shear force = gain x strain + offset (3.2.4)."},
+      {{{.name = "gain",
+         .kind = Kind::quantity,
+         .unit = "N",
+         .range = within(-1e12, 1e12),
+         .fallback = value_of("0.7257 N/(um/m)"),
+         .doc = "Force for each strain; negative where the bridge is wired the other way."},
+        to(&LoadCellSpec::gain)},
+       {{.name = "offset",
+         .kind = Kind::quantity,
+         .unit = "N",
+         .range = within(-1e6, 1e6),
+         .fallback = value_of("1.3795 N"),
+         .doc = "Force at zero strain."},
+        to(&LoadCellSpec::offset)},
+       {{.name = "zero",
+         .kind = Kind::choice,
+         .choices = {{"calibration", "the offset as calibrated"},
+                     {"standstill", "the mean before sliding starts is taken as no force"}},
+         .fallback = value_of("calibration"),
+         .doc = "Where the shear force is zero."},
+        index_to(&LoadCellSpec::zero)}}};
+  return declaration;
+}
+
+const TableDeclaration<LvdtSpec>& declared_lvdt() {
+  static const TableDeclaration<LvdtSpec> declaration{
+      {"lvdt", false, "", "Calibration of the displacement transducer (3.2.5)."},
+      {{{.name = "sensitivity",
+         .kind = Kind::quantity,
+         .unit = "V/m",
+         .range = above(0, 1e9),
+         .fallback = value_of("3.58 mV/mm"),
+         .doc = "Volts for each length."},
+        to(&LvdtSpec::sensitivity)}}};
+  return declaration;
+}
+
+const TableDeclaration<CompactSpec>& declared_compact() {
+  static const TableDeclaration<CompactSpec> declaration = [] {
+    TableDeclaration<CompactSpec> made{
+        {"compact", false, "",
+         "The compact, as (3.1) needs it: force at its bottom = force on the punch x "
+         "exp(-4 mu nu L / (D (1 - nu)))."},
+        geometry_keys()};
+    for (const auto& key : powder_keys()) made.keys.push_back(key);
+    return made;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<ClockSpec>& declared_clock() {
+  static const TableDeclaration<ClockSpec> declaration{
+      {"clock", false, "", "How the clocks of press and logger are brought together."},
+      {{{.name = "drift",
+         .kind = Kind::choice,
+         .choices =
+             {{"events",
+               "from start and end of sliding, where both records show both and it is larger than "
+               "three of its uncertainties"},
+              {"none", "the clocks run at the same rate; the start alone decides"}},
+         .fallback = value_of("events"),
+         .doc = "How the rate of one clock against the other is found."},
+        index_to(&ClockSpec::drift)},
+       {{.name = "largest_drift",
+         .kind = Kind::number,
+         .range = within(0, 0.5),
+         .fallback = value_of(0.001),
+         .doc = "Clocks that differ by more than this rate, and more than four standard "
+                "uncertainties, are refused as those of different tests."},
+        to(&ClockSpec::largest_drift)},
+       {{.name = "window",
+         .kind = Kind::quantity,
+         .unit = "s",
+         .range = above(0, 1e4),
+         .fallback = value_of("3 s"),
+         .doc = "Time to either side of an event in which two lines are fitted to the record."},
+        to(&ClockSpec::window)},
+       {{.name = "longest_gap",
+         .kind = Kind::number,
+         .range = within(1.5, 1e6),
+         .fallback = value_of(5.0),
+         .doc = "A longer time between two samples, in units of the record's median, is refused as "
+                "a gap."},
+        to(&ClockSpec::longest_gap)}}};
+  return declaration;
+}
+
+const TableDeclaration<AnalysisSpec>& declared_analysis() {
+  static const TableDeclaration<AnalysisSpec> declaration = [] {
+    TableDeclaration<AnalysisSpec> made{
+        {"analysis", false, "", "What is taken from the curve of each run, and over the runs."},
+        window_keys()};
+    made.keys.push_back({{.name = "confidence",
+                          .kind = Kind::number,
+                          .range = between(0, 1),
+                          .fallback = value_of(0.95),
+                          .doc = "Level of the confidence interval of a mean over the runs."},
+                         to(&AnalysisSpec::confidence)});
+    made.keys.push_back({{.name = "distance_step",
+                          .kind = Kind::quantity,
+                          .unit = "m",
+                          .range = within(1e-6, 1),
+                          .fallback = value_of("0.1 mm"),
+                          .doc = "Step of the common grid on which curves are compared."},
+                         to(&AnalysisSpec::distance_step)});
+    return made;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<SimulationSpec>& declared_simulation() {
+  static const TableDeclaration<SimulationSpec> declaration{
+      {"simulation", false, "", "How a run folder given with `--simulation` is read."},
+      {{{.name = "target",
+         .kind = Kind::name,
+         .fallback = value_of("target"),
+         .doc = "The tool that slides under the compact: its forces give the coefficient, its "
+                "travel along x the distance."},
+        to(&SimulationSpec::target)}}};
+  return declaration;
+}
+
+const TableDeclaration<RunSpec>& declared_run() {
+  static const TableDeclaration<RunSpec> declaration{
+      {"run", true, "", "One test. Records given on the command line are added behind these."},
+      {{{.name = "name",
+         .kind = Kind::name,
+         .doc = "Names the run's file and curve.",
+         .fallback_doc = "`run-1`, `run-2`, ..."},
+        to(&RunSpec::name)},
+       {{.name = "press",
+         .kind = Kind::file,
+         .required = true,
+         .doc = "Record of the press (CSV), as a path from the folder of this file."},
+        to(&RunSpec::press)},
+       {{.name = "logger",
+         .kind = Kind::file,
+         .required = true,
+         .doc = "Record of the data logger (CSV), likewise."},
+        to(&RunSpec::logger)},
+       {{.name = "offset",
+         .kind = Kind::quantity,
+         .unit = "s",
+         .range = within(-1e9, 1e9),
+         .doc = "Time on the press's clock less that on the logger's, where a trigger told it; no "
+                "event is looked for in the press's record then.",
+         .fallback_doc = "found from the start of sliding"},
+        to(&RunSpec::offset)}}};
+  return declaration;
+}
+
+double CompactSpec::poisson() const {
+  static constexpr std::array table_3_2{0.35, 0.3, 0.252, 0.25};  // in the order of the choices
+  return poissons_ratio ? *poissons_ratio : table_3_2.at(static_cast<std::size_t>(powder.value()));
+}
+
+const Language& language() {
+  static const Language tables{
+      view_of(declared_top()),       view_of(declared_press()),    view_of(declared_logger()),
+      view_of(declared_load_cell()), view_of(declared_lvdt()),     view_of(declared_compact()),
+      view_of(declared_clock()),     view_of(declared_analysis()), view_of(declared_simulation()),
+      view_of(declared_wedge()),     view_of(declared_run())};
+  return tables;
+}
+
+}  // namespace pulvis::lab

@@ -1,0 +1,20 @@
+// The tables of reduce.toml, declared as those of a scene are.
+#pragma once
+
+#include "scenes/records/lab_settings.hpp"
+
+namespace pulvis::lab {
+
+const schema::TableDeclaration<Settings>& declared_top();
+const schema::TableDeclaration<PressSpec>& declared_press();
+const schema::TableDeclaration<LoggerSpec>& declared_logger();
+const schema::TableDeclaration<LoadCellSpec>& declared_load_cell();
+const schema::TableDeclaration<LvdtSpec>& declared_lvdt();
+const schema::TableDeclaration<CompactSpec>& declared_compact();
+const schema::TableDeclaration<ClockSpec>& declared_clock();
+const schema::TableDeclaration<AnalysisSpec>& declared_analysis();
+const schema::TableDeclaration<SimulationSpec>& declared_simulation();
+const schema::TableDeclaration<WedgeSpec>& declared_wedge();
+const schema::TableDeclaration<RunSpec>& declared_run();
+
+}  // namespace pulvis::lab

@@ -1,0 +1,83 @@
+// Sliding-plate tests from their raw records to friction curves, figures and repeatability.
+//
+//   records -> sliding (LVDT) -> one clock -> forces -> friction coefficient -> figures -> over the runs
+//
+// Curve    samples of the logger from the start of sliding to its end; the press's force and
+//          displacement are interpolated between its samples
+// Static   the largest coefficient within analysis.static_within of the start, one sample
+// Dynamic  the mean over distance (trapezoidal rule) from analysis.dynamic_from on, the ends of the
+//          window interpolated
+// Trend    slope of the straight line through the same part, per metre
+#pragma once
+
+#include "scenes/records/lab_clock.hpp"
+#include "scenes/records/lab_statistics.hpp"
+#include "scenes/records/lab_stick_slip.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pulvis::lab {
+
+struct Curve {                       // one value a sample
+  std::vector<double> time;          // s, since the start of sliding, on the logger's clock
+  std::vector<double> distance;      // m
+  std::vector<double> shear_force;   // N
+  std::vector<double> punch_force;   // N
+  std::vector<double> punch_travel;  // m, since the start of sliding, into the die
+  std::vector<double> length;        // m, of the compact
+  std::vector<double> target_force;  // N, transmitted to the target
+  std::vector<double> friction;      // -
+};
+
+struct Static {
+  double value = 0, distance = 0;  // -, m
+  bool is_distinct = false;        // above the dynamic mean, beyond stick-slip and noise
+};
+
+struct Dynamic {
+  double mean = 0, deviation = 0;  // -, of the samples
+  double trend = 0;                // 1/m
+  double from = 0, until = 0;      // m
+};
+
+struct ReducedRun {
+  std::string name;
+  std::filesystem::path press, logger;
+  Clocks clocks;
+  bool has_end = false;   // the plate stopped within the record
+  double speed = 0;       // m/s, mean
+  double shear_zero = 0;  // N, taken off the calibrated shear force
+  double noise = 0;       // -, of the coefficient, from the load cell at standstill
+  Curve curve;
+  Static peak;
+  Dynamic dynamic;
+  std::optional<StickSlip> stick_slip;
+};
+
+struct RunFiles {
+  std::string name;
+  std::filesystem::path press, logger;
+  std::optional<double> offset;
+};
+
+ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Settings& settings,
+                  const RunFiles& run);
+
+// The figures of a curve that is there already; `noise` as in ReducedRun.
+Static static_peak(const Curve& curve, double within);
+Dynamic dynamic_mean(const Curve& curve, const AnalysisSpec& spec);
+
+// A curve on the grid 0, step, 2 step, ... up to its end: linear between samples that go forward.
+std::vector<double> on_grid(const std::vector<double>& distance, const std::vector<double>& values,
+                            double step);
+
+struct Repeatability {
+  Sample peak, dynamic, amplitude, period;  // the last two of the runs with stick-slip
+  std::vector<Sample> friction;             // on the grid, as far as all runs go
+};
+
+Repeatability repeatability(const std::vector<ReducedRun>& runs, double step);
+
+}  // namespace pulvis::lab

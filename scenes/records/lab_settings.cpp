@@ -1,0 +1,170 @@
+#include "scenes/records/lab_settings.hpp"
+#include "scenes/language/describe_schema.hpp"
+
+#include "engine/files/input_file.hpp"
+#include "scenes/language/describe.hpp"
+#include "scenes/language/override.hpp"
+#include "scenes/language/scene_text.hpp"
+#include "scenes/language/table_reader.hpp"
+#include "scenes/read.hpp"
+#include "scenes/records/declare_lab.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pulvis::lab {
+namespace {
+
+constexpr std::size_t largest_file = 16U << 20U;  // bytes
+constexpr const char* introduction = R"(# The settings of `pulvis reduce`
+
+<!-- Generated from the declarations in scenes/records/declare_lab.cpp: change those, not this file. -->
+
+A TOML file (`reduce.toml`) that tells `pulvis reduce` about instruments, compact and runs. Every key
+can also be given as `--set key.path=value`. Quantities are strings with a unit, as in a scene; ranges
+below are in SI units. Numbers in brackets, as (3.1), are equations and sections of the thesis; how the
+figures are taken is in [laboratory.md](laboratory.md).
+)";
+
+class SettingsReader {
+ public:
+  SettingsReader(const document::Table& root, Problems& problems)
+      : root_(root), problems_(problems), tables_(root, problems, language()) {}
+
+  Settings read(const std::filesystem::path& file) {
+    Settings all;
+    all.file = file;
+    tables_.read(declared_top(), document::Value{root_, {{1, 1}, -1}}, "", "", all);
+    read_one(declared_press(), all.press);
+    read_one(declared_logger(), all.logger);
+    read_one(declared_load_cell(), all.load_cell);
+    read_one(declared_lvdt(), all.lvdt);
+    read_one(declared_compact(), all.compact);
+    read_one(declared_clock(), all.clock);
+    read_one(declared_analysis(), all.analysis);
+    read_one(declared_simulation(), all.simulation);
+    read_one(declared_wedge(), all.wedge);
+    read_runs(all.runs);
+    return all;
+  }
+
+  void check(const Settings& all) {
+    if (!all.wedge.loops.empty()) return;  // nothing of the compact is used
+    exactly_one("compact.length", all.compact.length.has_value(), "compact.fill_height",
+                all.compact.fill_height.has_value(), "length = \"10 mm\"");
+    exactly_one("compact.poissons_ratio", all.compact.poissons_ratio.has_value(), "compact.powder",
+                all.compact.powder.has_value(), "powder = \"316L\"");
+    if (all.load_cell.gain == 0)
+      add("load_cell.gain", "is 0 N, allowed: the load cell's force for each strain");
+    const AnalysisSpec& a = all.analysis;
+    if (a.dynamic_until && !(*a.dynamic_until > a.dynamic_from))
+      add("analysis.dynamic_until",
+          fmt::format("{:g} m is not beyond dynamic_from, allowed: > {:g} m", *a.dynamic_until,
+                      a.dynamic_from));
+  }
+
+ private:
+  template <class Spec>
+  void read_one(const schema::TableDeclaration<Spec>& declaration, Spec& spec) {
+    if (const document::Entry* entry = document::find(root_, declaration.info.path))
+      tables_.read(declaration, entry->value, declaration.info.path, "", spec);
+  }
+
+  void read_runs(std::vector<RunSpec>& runs) {
+    const document::Array& elements = tables_.elements(root_, "", declared_run().info);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      RunSpec run;
+      run.mark = elements[i].origin.mark;
+      tables_.read(declared_run(), elements[i], fmt::format("run[{}]", i), "", run);
+      runs.push_back(std::move(run));
+    }
+  }
+
+  void add(const std::string& path, const std::string& message) {
+    const auto& origins = tables_.origins();
+    const std::string table = path.substr(0, path.find('.'));
+    const auto found = origins.contains(path) ? origins.find(path) : origins.find(table);
+    problems_.add(found == origins.end() ? document::Origin{{1, 1}, -1} : found->second, path,
+                  message);
+  }
+
+  void exactly_one(const std::string& a, bool has_a, const std::string& b, bool has_b,
+                   const std::string& example) {
+    if (has_a == has_b)
+      add(a, fmt::format("{} given, allowed: {} or {}, one of them, as in {}",
+                         has_a ? "two are" : "none is", a, b, example));
+  }
+
+  const document::Table& root_;
+  Problems& problems_;
+  schema::TableReader tables_;
+};
+
+document::Table parsed(const std::string& text, Problems& problems) {
+  try {
+    return document::parse(text);
+  } catch (const document::SyntaxError& error) {
+    problems.add({error.mark, -1}, "syntax", error.what());
+    problems.throw_if_any();
+    throw;  // not reached
+  }
+}
+
+void make_complete(LoadedSettings& loaded) {
+  document::Table root = loaded.root;
+  loaded.inputs = keep_inputs(root, loaded.settings.file.parent_path(), {}, language());
+  loaded.text = scene_text(root, language());
+}
+
+}  // namespace
+
+std::string reference() { return reference_of(introduction, language()); }
+
+std::string json_schema() {
+  return json_schema_of("Pulvis: settings of the reduction of sliding-plate tests",
+                        "scenes/records/declare_lab.cpp", language());
+}
+
+LoadedSettings load_settings_text(const std::string& text, const std::filesystem::path& file,
+                                  const std::vector<std::string>& overrides) {
+  Problems problems(file, overrides);
+  document::Table root = parsed(text, problems);
+  apply_overrides(root, overrides, problems);
+  problems.throw_if_any();
+  schema::fill_defaults(root, language());
+  SettingsReader reader(root, problems);
+  LoadedSettings loaded{reader.read(file)};
+  problems.throw_if_any();
+  reader.check(loaded.settings);
+  problems.throw_if_any();
+  loaded.root = std::move(root);
+  make_complete(loaded);
+  return loaded;
+}
+
+void add_runs(LoadedSettings& loaded, const std::vector<RunSpec>& runs) {
+  if (runs.empty()) return;
+  if (document::find(loaded.root, "run") == nullptr)
+    loaded.root.push_back({"run", {}, {document::Array{}, {}}});
+  auto& tables = document::find(loaded.root, "run")->value.get<document::Array>();
+  for (const RunSpec& run : runs)
+    tables.push_back({document::Table{{"name", {}, {run.name, {}}},
+                                      {"press", {}, {run.press, {}}},
+                                      {"logger", {}, {run.logger, {}}}},
+                      {}});
+  make_complete(loaded);
+}
+
+LoadedSettings load_settings(const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides) {
+  if (file.empty()) return load_settings_text("", "reduce.toml (none given)", overrides);
+  try {
+    return load_settings_text(text_of_input(file, largest_file), file, overrides);
+  } catch (const UnfitInput& unfit) {
+    throw SceneError({{file.string(), 1, 1, "", "settings",
+                       fmt::format("{}, allowed: settings of a reduction (TOML)", unfit.what())}});
+  }
+}
+
+}  // namespace pulvis::lab

@@ -1,0 +1,97 @@
+#include "scenes/records/wedge_records.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "scenes/language/csv_table.hpp"
+
+namespace pulvis::wedge {
+namespace {
+
+constexpr std::size_t fewest_places = 10;  // of a trace, the ends left out
+
+std::vector<double> column(const csv::Table& table, const char* name, const char* unit) {
+  return csv::numbers(table, csv::column_at(table, name), unit);
+}
+
+Value mean_of(std::span<const double> y) {
+  const auto n = static_cast<double>(y.size());
+  double mean = 0, squares = 0, neighbours = 0;
+  for (const double v : y) mean += v / n;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    squares += (y[i] - mean) * (y[i] - mean);
+    if (i > 0) neighbours += (y[i] - mean) * (y[i - 1] - mean);
+  }
+  const double r = squares > 0 ? std::clamp(neighbours / squares, 0.0, 0.99) : 0;
+  const double independent = n * (1 - r) / (1 + r);
+  return {mean, std::sqrt(squares / (n - 1) / independent)};
+}
+
+std::vector<Loop> loops_of_figures(const csv::Table& table) {
+  csv::only(table, {"slope", "load", "half_width", "offset", "half_width_error", "offset_error"});
+  const auto slope = column(table, "slope", "rad"), load = column(table, "load", "N");
+  const auto width = column(table, "half_width", "V"), offset = column(table, "offset", "V");
+  std::vector<Loop> loops;
+  for (std::size_t i = 0; i < slope.size(); ++i)
+    loops.push_back({slope[i], load[i], width[i], offset[i], {}, {}});
+  for (const auto& [name, member] : {std::pair{"half_width_error", &Loop::half_width_error},
+                                     std::pair{"offset_error", &Loop::offset_error}}) {
+    if (!csv::has_column(table, name)) continue;
+    const auto error = column(table, name, "V");
+    for (std::size_t i = 0; i < error.size(); ++i) {
+      if (error[i] < 0)
+        csv::refuse(table, i, csv::column_at(table, name), "is negative, allowed: >= 0 V");
+      loops[i].*member = error[i];
+    }
+  }
+  return loops;
+}
+
+std::vector<Loop> loops_of_traces(const csv::Table& table, double skip) {
+  csv::only(table, {"slope", "load", "forth", "back", "position"});
+  const auto slope = column(table, "slope", "rad"), load = column(table, "load", "N");
+  const auto forth = column(table, "forth", "V"), back = column(table, "back", "V");
+  std::vector<Loop> loops;
+  for (std::size_t begin = 0, end = 0; begin < slope.size(); begin = end) {
+    while (end < slope.size() && slope[end] == slope[begin] && load[end] == load[begin]) ++end;
+    const auto left_out = static_cast<std::size_t>(skip * static_cast<double>(end - begin));
+    const std::size_t count = end - begin - 2 * left_out;
+    if (count < fewest_places)
+      csv::refuse(table, end - 1, csv::column_at(table, "forth"),
+                  fmt::format("the loop ends after {} places, {} of them at its ends, allowed: at "
+                              "least {} others",
+                              end - begin, 2 * left_out, fewest_places));
+    const Value f = mean_of(std::span(forth).subspan(begin + left_out, count));
+    const Value b = mean_of(std::span(back).subspan(begin + left_out, count));
+    const double error = 0.5 * std::hypot(*f.error, *b.error);
+    loops.push_back({slope[begin], load[begin], 0.5 * (f.value - b.value),
+                     0.5 * (f.value + b.value), error, error});
+  }
+  return loops;
+}
+
+}  // namespace
+
+// Records of other instruments may have lines before their header: whoever reads them says what is wrong.
+bool holds_loops(const std::filesystem::path& file) {
+  try {
+    const csv::Table table = csv::read(file);
+    return csv::has_column(table, "slope") && csv::has_column(table, "load") &&
+           (csv::has_column(table, "half_width") || csv::has_column(table, "forth"));
+  } catch (const SceneError&) {
+    return false;
+  }
+}
+
+std::vector<Loop> read_loops(const std::filesystem::path& file, double skip) {
+  const csv::Table table = csv::read(file);
+  std::vector<Loop> loops =
+      csv::has_column(table, "forth") ? loops_of_traces(table, skip) : loops_of_figures(table);
+  if (loops.empty()) csv::refuse(table, "slope", "there is no loop, allowed: rows of numbers");
+  return loops;
+}
+
+}  // namespace pulvis::wedge

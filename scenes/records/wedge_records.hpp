@@ -1,0 +1,25 @@
+// Friction loops as an experimenter has them, for the wedge calibration (scenes/lever/wedge_calibration.hpp).
+//
+// One CSV file: `slope` of the facet (> 0: the trace forth runs uphill), `load`, and either
+//   half_width, offset   volts of each loop, if known with half_width_error, offset_error
+//   forth, back          raw traces in volts, one row a place; rows of the same slope and load that follow
+//                        each other are one loop, and `skip` of them is left out at both ends, where the tip
+//                        sticks after it has turned
+// Half-width and offset of raw traces are half the difference and half the sum of their means. The error of
+// a mean is s/sqrt(n_eff), n_eff = n (1 - r)/(1 + r) with r the correlation of neighbours.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "scenes/lever/wedge_calibration.hpp"
+
+namespace pulvis::wedge {
+
+// Whether its first line names the columns of loops.
+bool holds_loops(const std::filesystem::path& file);
+
+// Throws SceneError with file, line and what is allowed.
+std::vector<Loop> read_loops(const std::filesystem::path& file, double skip);
+
+}  // namespace pulvis::wedge

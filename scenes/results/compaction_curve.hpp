@@ -1,0 +1,72 @@
+// What a compaction in a die is judged by: forces on the four tools, density and size of the die, sample
+// by sample; and how much of the top punch's force reaches the bottom, beside what theory says.
+//
+// Sources   round die: F_b = F_t exp(-4 mu nu L / (D (1 - nu)))   (thesis 3.1; D: here the width W)
+//           slot, plane strain: F_b = F_t exp(-(mu_l + mu_r) K H / W), from the balance of a slice of the
+//           compact whose walls carry K times the axial stress. Elastic: K = nu/(1 - nu); and with the K
+//           that the run itself shows. Valid where the compact slides at both walls, away from one punch.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/results/results.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+struct CompactionSample {
+  double density = 0;
+  double top = 0, bottom = 0, lateral = 0;  // N, towards the tool; lateral: mean of both walls
+  double width = 0, height = 0;             // m
+  double bottom_place = 0;                  // m, y of the bottom punch
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(density, top, bottom, lateral, width, height, bottom_place);
+  }
+};
+
+class CompactionCurve {
+ public:
+  explicit CompactionCurve(const Scene& scene);
+  void sample(const Results& results);  // nothing where the scene has no die
+  bool has_die() const { return cell_.has_value(); }
+  const std::vector<CompactionSample>& samples() const { return samples_; }
+  std::vector<double> densities() const;
+  std::vector<double> punch_pressures() const;  // Pa, top force / (width thickness)
+  const std::string& top() const { return top_; }
+  const std::string& bottom() const { return bottom_; }
+
+  // What a checkpoint keeps; the rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(samples_);
+  }
+
+ private:
+  std::optional<DieCell> cell_;
+  std::string left_, right_, bottom_, top_;
+  double thickness_ = 0;
+  std::vector<CompactionSample> samples_;
+};
+
+struct TransmissionShare {  // means over a piece of the loading
+  double density = 0;
+  double height_over_width = 0;
+  double lateral_ratio = 0;  // measured K: wall stress / mean axial stress
+  double measured = 0;       // F_bottom / F_top
+  std::optional<double> round_die, slot, slot_measured_ratio;
+};
+
+struct Transmission {
+  std::string not_measured;  // why; empty: it is
+  std::string not_compared;  // why there is no theory beside it; empty: there is
+  double wall_friction = 0, poissons_ratio = 0;
+  std::vector<TransmissionShare> shares;  // by rising density; the last one ends at the largest
+};
+
+Transmission transmission(const Scene& scene, const CompactionCurve& curve);
+
+}  // namespace pulvis

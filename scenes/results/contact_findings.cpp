@@ -1,0 +1,108 @@
+#include "scenes/results/contact_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/contact.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double stiff = 10;          // contact.stiffness that leaves 1% to metals
+constexpr double stiffest = 100;      // that a scene may have
+constexpr double least_force = 1e-3;  // of the largest: below it a way has no meaning
+
+double largest_tool_force(const World& world) {
+  double largest = 0;
+  const Column<ToolForce>& force = world.column<ToolForce>();
+  for (std::size_t t = 0; t < force.table.rows; ++t)
+    largest = std::max(largest, std::hypot(force.values()[2 * t], force.values()[2 * t + 1]));
+  return largest;
+}
+
+// y at x, of a curve with rising xs; 0 before it begins.
+double value_at(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  const auto after = std::ranges::lower_bound(xs, x);
+  if (after == xs.begin() || after == xs.end()) return after == xs.end() ? ys.back() : 0;
+  const auto i = static_cast<std::size_t>(after - xs.begin());
+  return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
+}
+
+}  // namespace
+
+ContactLoading::ContactLoading(const Scene& scene) : stiffness_(scene.contact.stiffness) {
+  using Kind = StageSpec::Kind;
+  bool loads = true;
+  for (const StageSpec& stage : scene.stages) {
+    loads &= stage.kind == Kind::settle || stage.kind == Kind::compact || stage.kind == Kind::hold;
+    loads_.push_back(loads);
+  }
+}
+
+bool ContactLoading::loads(const World& world) const {
+  if (!world.has<ContactQuality>() || !world.has<ToolProgram>()) return false;
+  const std::size_t stage = world.resource<ToolProgram>().stage_at(world.resource<Clock>().time);
+  return stage < loads_.size() ? loads_[stage] : loads_.back();
+}
+
+void ContactLoading::sample(const Results& results, const World& world) {
+  if (!loads(world)) return;
+  const ContactQuality& now = world.resource<ContactQuality>();
+  if (now.force > heaviest_.force) heaviest_ = now;
+  const double work = results.energies().external - work_, force = largest_tool_force(world);
+  work_ = results.energies().external;
+  const double mean = force_.empty() ? force : 0.5 * (force + force_.back());
+  const double before = approach_.empty() ? 0 : approach_.back();
+  approach_.push_back(before + (mean > 0 ? std::max(work, 0.0) / mean : 0));
+  force_.push_back(force);
+  sunk_.push_back(force > 0 ? now.penetration_work / force : 0);
+}
+
+std::optional<double> ContactLoading::force_error() const {
+  if (force_.empty()) return std::nullopt;
+  const auto peak = static_cast<std::size_t>(std::ranges::max_element(force_) - force_.begin());
+  if (!(force_[peak] > 0) || peak == 0) return std::nullopt;
+  std::vector<double> ways, forces;
+  for (std::size_t i = 0; i <= peak; ++i) {
+    if (force_[i] < least_force * force_[peak]) continue;
+    if (!ways.empty() && approach_[i] <= ways.back()) continue;
+    ways.push_back(approach_[i]);
+    forces.push_back(force_[i]);
+  }
+  return value_at(ways, forces, approach_[peak] - sunk_[peak]) / force_[peak] - 1;
+}
+
+ContactFindings ContactLoading::findings() const {
+  ContactFindings found;
+  found.stiffness = stiffness_;
+  found.force_error = force_error();
+  if (!(heaviest_.narrow_force > 0)) return found;
+  found.narrow_share = heaviest_.narrow_force / heaviest_.force;
+  found.narrow_edges = heaviest_.narrow_edges / heaviest_.narrow_force;
+  found.edge_to_do = heaviest_.narrow_width / heaviest_.narrow_force / ContactQuality::least_edges;
+  return found;
+}
+
+// Penetrations go with 1/stiffness.
+double ContactFindings::stiffness_to_do() const {
+  return std::min(std::max(stiff, 4 * stiffness), stiffest);
+}
+
+std::vector<std::string> ContactFindings::warnings() const {
+  std::vector<std::string> lines;
+  if (too_narrow())
+    lines.push_back(fmt::format(
+        "{:.0f}% of the contact force is on contacts narrower than two boundary edges, {:.2g} on "
+        "average: too coarse a mesh for them; edges of {}{:.2g} um would do",
+        100 * narrow_share, narrow_edges, too_soft() ? "at most " : "", 1e6 * edge_to_do));
+  if (too_soft())
+    lines.push_back(
+        fmt::format("surfaces sink into each other: the largest force is low by some {:.2g}%; "
+                    "contact.stiffness = {:g} would do",
+                    -100 * *force_error, stiffness_to_do()));
+  return lines;
+}
+
+}  // namespace pulvis

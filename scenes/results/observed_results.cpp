@@ -1,0 +1,273 @@
+// Series and fields of what is observed beyond forces and energies; see scenes/results/observe.hpp.
+#include "scenes/results/observed_results.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "components/run_state.hpp"
+#include "scenes/results/observe.hpp"
+#include "scenes/results/results.hpp"
+#include "scenes/tools/die_sides.hpp"
+#include "systems/observe/network_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+using Fields = std::vector<std::vector<double>>;
+
+// What numbers of a particle column lies in a slot.
+template <class C>
+const double* in_slot(const World& world, int slot) {
+  const Lane* row = world.column<C>().lanes() + std::ptrdiff_t{slot / lane_count} * C::count;
+  return reinterpret_cast<const double*>(row) +
+         slot % lane_count;  // the next is lane_count further
+}
+
+template <class C>
+std::vector<double> by_number(const World& world) {
+  std::vector<double> all;
+  for (const int slot : world.resource<Bodies>().slot_of_number)
+    for (int k = 0; k < C::count; ++k) all.push_back(in_slot<C>(world, slot)[k * lane_count]);
+  return all;
+}
+
+// ---- stress -----------------------------------------------------------------------------------------
+void append_compact_stress(const World& world, double die_area, std::vector<double>& row) {
+  std::array<double, 4> sum{};
+  for (const int slot : world.resource<Bodies>().slot_of_number)
+    for (std::size_t k = 0; k < 4; ++k)
+      sum[k] += in_slot<DeformedArea>(world, slot)[0] *
+                in_slot<ParticleStress>(world, slot)[k * lane_count];
+  row.insert(row.end(), {sum[0] / die_area, sum[1] / die_area, sum[3] / die_area,
+                         (sum[0] + sum[1] + sum[2]) / (3 * die_area)});
+}
+
+// ---- contacts -----------------------------------------------------------------------------------------
+struct Counts {
+  std::vector<double> pairs, tools;  // [particles]
+};
+
+Counts contact_counts(const World& world) {
+  const auto& network = world.resource<ContactNetwork>();
+  const auto particles = static_cast<std::size_t>(world.resource<Bodies>().particles());
+  Counts counts{std::vector<double>(particles), std::vector<double>(particles)};
+  kernels::count_contacts(network.pairs, true, counts.pairs);
+  kernels::count_contacts(network.tools, false, counts.tools);
+  return counts;
+}
+
+double share_of(const std::vector<std::int32_t>& chain) {
+  const auto in_none = std::ranges::count(chain, 0);
+  return 1 - static_cast<double>(in_none) / static_cast<double>(chain.size());
+}
+
+void append_network(const World& world, std::vector<double>& row) {
+  const auto& network = world.resource<ContactNetwork>();
+  const auto particles = static_cast<double>(world.resource<Bodies>().particles());
+  const Counts counts = contact_counts(world);
+  double rattlers = 0;
+  for (std::size_t p = 0; p < counts.pairs.size(); ++p)
+    if (counts.pairs[p] + counts.tools[p] < 2) rattlers += 1;
+  const kernels::Fabric fabric = kernels::fabric(network.pairs);
+  const kernels::ForceSizes sizes = kernels::force_sizes(network.pairs);
+  row.insert(row.end(),
+             {2 * static_cast<double>(network.pairs.size()) / particles,
+              static_cast<double>(network.tools.size()) / particles, rattlers / particles,
+              fabric.xx, fabric.xy, fabric.yy, fabric.anisotropy(), fabric.angle(), sizes.mean,
+              sizes.most, share_of(world.resource<ForceChains>().chain)});
+}
+
+std::vector<FieldInfo> contact_fields(const std::string& group, bool pairs) {
+  const auto field = [&](const char* name, const char* unit, const char* meaning, int components,
+                         bool whole = false) {
+    return FieldInfo{group + "/" + name, unit, meaning, FieldPlace::list, components, whole};
+  };
+  return {field("ids", "-",
+                pairs ? "numbers of the two particles"
+                      : "number of the particle, position of the tool in the scene",
+                2, true),
+          field("point", "m", "where it acts: mean of the points, weighted with their forces", 2),
+          field("normal", "-", "unit vector into the first particle", 2),
+          field("force", "N", "on the first particle", 2),
+          field("normal_force", "N", "along the normal; compression > 0", 1),
+          field("tangential_force", "N", "along the normal turned by 90 degrees", 1),
+          field("length", "m", "of the surface that touches; times thickness: area", 1)};
+}
+
+void append_links(const std::vector<ContactLink>& links, Fields& fields) {
+  const auto column = [&](const auto& add) {
+    std::vector<double>& values = fields.emplace_back();
+    for (const ContactLink& link : links) add(link, values);
+  };
+  const auto add_point = [](const Point& p, std::vector<double>& to) {
+    to.insert(to.end(), p.begin(), p.end());
+  };
+  column([](const ContactLink& l, auto& to) {
+    to.insert(to.end(), {static_cast<double>(l.first), static_cast<double>(l.second)});
+  });
+  column([&](const ContactLink& l, auto& to) { add_point(l.point, to); });
+  column([&](const ContactLink& l, auto& to) { add_point(l.normal, to); });
+  column([&](const ContactLink& l, auto& to) { add_point(l.force, to); });
+  column([](const ContactLink& l, auto& to) { to.push_back(l.normal_force()); });
+  column([](const ContactLink& l, auto& to) { to.push_back(l.tangential_force()); });
+  column([](const ContactLink& l, auto& to) { to.push_back(l.length); });
+}
+
+void append_network_frame(const World& world, Fields& fields) {
+  const auto& network = world.resource<ContactNetwork>();
+  append_links(network.pairs, fields);
+  append_links(network.tools, fields);
+  const kernels::Rose rose = kernels::rose(network.pairs);
+  fields.emplace_back(rose.number.begin(), rose.number.end());
+  fields.emplace_back(rose.force.begin(), rose.force.end());
+  const Counts counts = contact_counts(world);
+  fields.push_back(counts.pairs);
+  fields.push_back(counts.tools);
+  const auto& chain = world.resource<ForceChains>().chain;
+  fields.emplace_back(chain.begin(), chain.end());
+}
+
+// ---- density ------------------------------------------------------------------------------------------
+// A cell that a tool fills but for round-off has no density.
+double density_of(double filled, double room, double cell) {
+  return room > 1e-9 * cell ? filled / room : std::numeric_limits<double>::quiet_NaN();
+}
+
+struct GridView {
+  const DensityGrid& grid;
+  double width = (grid.side[1] - grid.side[0]) / grid.columns;
+  double height = (grid.side[3] - grid.side[2]) / grid.rows;
+
+  std::vector<double> cells() const {
+    std::vector<double> density;
+    for (std::size_t c = 0; c < grid.filled.size(); ++c)
+      density.push_back(density_of(grid.filled[c], grid.room[c], width * height));
+    return density;
+  }
+  std::vector<double> profile() const {
+    std::vector<double> density;
+    for (int j = 0; j < grid.rows; ++j) {
+      double filled = 0, room = 0;
+      for (int i = 0; i < grid.columns; ++i) {
+        const auto c = static_cast<std::size_t>(j * grid.columns + i);
+        filled += grid.filled[c];
+        room += grid.room[c];
+      }
+      density.push_back(density_of(filled, room, width * height));
+    }
+    return density;
+  }
+  std::vector<double> lines(int first_side, int cells, double size) const {
+    std::vector<double> at;
+    for (int i = 0; i <= cells; ++i)
+      at.push_back(grid.side[static_cast<std::size_t>(first_side)] + i * size);
+    return at;
+  }
+};
+
+void append_density(const World& world, std::vector<double>& row) {
+  const auto& grid = world.resource<DensityGrid>();
+  const std::vector<double> cells = GridView{grid}.cells();
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double filled = 0, room = 0, least = unknown, most = unknown, squares = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    filled += grid.filled[c];
+    room += grid.room[c];
+    if (std::isnan(cells[c])) continue;
+    least = std::fmin(least, cells[c]);  // the other one where one is no number
+    most = std::fmax(most, cells[c]);
+  }
+  const double mean = filled / room;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (!std::isnan(cells[c])) squares += grid.room[c] * (cells[c] - mean) * (cells[c] - mean);
+  row.insert(row.end(), {mean, least, most, std::sqrt(squares / room)});
+}
+
+void append_density_frame(const World& world, Fields& fields) {
+  const GridView view{world.resource<DensityGrid>()};
+  fields.push_back(view.cells());
+  fields.push_back(view.profile());
+  fields.push_back(view.lines(DensityGrid::left, view.grid.columns, view.width));
+  fields.push_back(view.lines(DensityGrid::bottom, view.grid.rows, view.height));
+}
+
+}  // namespace
+
+std::vector<SeriesInfo> observed_series(const Scene& scene) {
+  std::vector<SeriesInfo> all;
+  if (scene.output.stresses() && die_cell(scene))
+    all.insert(all.end(),
+               {{"stress/xx", "Pa", "Cauchy, mean over the area between the tools; tension > 0"},
+                {"stress/yy", "Pa", "Cauchy, mean over the area between the tools; tension > 0"},
+                {"stress/xy", "Pa", "Cauchy, mean over the area between the tools"},
+                {"stress/mean", "Pa", "(xx + yy + zz) / 3 over the area between the tools"}});
+  if (scene.output.contacts)
+    all.insert(
+        all.end(),
+        {{"network/coordination", "-", "other particles that a particle touches, mean"},
+         {"network/tools", "-", "tools that a particle touches, mean"},
+         {"network/rattlers", "-", "share of particles that touch fewer than two others or tools"},
+         {"network/fabric_xx", "-", "fabric tensor of the contacts between particles"},
+         {"network/fabric_xy", "-", "fabric tensor of the contacts between particles"},
+         {"network/fabric_yy", "-", "fabric tensor of the contacts between particles"},
+         {"network/anisotropy", "-", "difference of the fabric tensor's principal values"},
+         {"network/fabric_angle", "rad", "of the direction that most contacts face, from x"},
+         {"network/mean_force", "N", "normal, between particles"},
+         {"network/largest_force", "N", "normal, between particles"},
+         {"network/chain_share", "-", "share of particles in force chains"}});
+  if (scene.output.density())
+    all.insert(
+        all.end(),
+        {{"density/compact", "-", "deformed particle area / area between the tools' surfaces"},
+         {"density/least", "-", "of the cells"},
+         {"density/greatest", "-", "of the cells"},
+         {"density/deviation", "-", "standard deviation over the cells, by their areas"}});
+  return all;
+}
+
+std::vector<FieldInfo> observed_fields(const Scene& scene) {
+  std::vector<FieldInfo> all;
+  const auto append = [&](std::vector<FieldInfo> more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  if (scene.output.stresses())
+    append({{"particle_stress", "Pa", ParticleStress::info.meaning, FieldPlace::particle, 4},
+            {"particle_centre", "m", ParticleCentre::info.meaning, FieldPlace::particle, 2}});
+  if (scene.output.contacts) {
+    append(contact_fields("contacts", true));
+    append(contact_fields("tool_contacts", false));
+    append({{"rose/number", "-",
+             "share of the contacts between particles whose normal lies in each of 18 sectors, the "
+             "first around the x axis",
+             FieldPlace::list, 1},
+            {"rose/force", "-", "the same, weighted with the normal force", FieldPlace::list, 1},
+            {"coordination", "-", "other particles that it touches", FieldPlace::particle, 1, true},
+            {"tools_touched", "-", "tools that it touches", FieldPlace::particle, 1, true},
+            {"force_chain", "-", "number of its force chain; 0: in none", FieldPlace::particle, 1,
+             true}});
+  }
+  if (scene.output.density())
+    append({{"local_density", "-", "of every cell; NaN where a tool fills it. Rows from the bottom",
+             FieldPlace::list, scene.output.density_cells[0]},
+            {"density_profile", "-", "of every row of cells, from the bottom", FieldPlace::list, 1},
+            {"density_grid/x", "m", "lines between the columns", FieldPlace::list, 1},
+            {"density_grid/y", "m", "lines between the rows", FieldPlace::list, 1}});
+  return all;
+}
+
+void append_observed_sample(const World& world, double die_area, std::vector<double>& row) {
+  if (world.has<ParticleStress>() && die_area > 0) append_compact_stress(world, die_area, row);
+  if (world.has<ContactNetwork>()) append_network(world, row);
+  if (world.has<DensityGrid>()) append_density(world, row);
+}
+
+void append_observed_frame(const World& world, Fields& fields) {
+  if (world.has<ParticleStress>()) {
+    fields.push_back(by_number<ParticleStress>(world));
+    fields.push_back(by_number<ParticleCentre>(world));
+  }
+  if (world.has<ContactNetwork>()) append_network_frame(world, fields);
+  if (world.has<DensityGrid>()) append_density_frame(world, fields);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,104 @@
+// What a run hands back: history series, frame fields and the mesh, taken from an observed world.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/run_state.hpp"
+#include "engine/files/record.hpp"
+#include "engine/world.hpp"
+#include "scenes/results/shear_results.hpp"
+#include "scenes/spec/scene.hpp"
+#include "scenes/tools/die_cell.hpp"
+
+namespace pulvis {
+
+// Energies of the whole scene at t_n, J. `balance` is what the others leave over: 0 in a perfect run.
+struct Energies {
+  double kinetic = 0, elastic = 0, plastic = 0, hourglass = 0, contact = 0;
+  double friction = 0, damping = 0, bulk_damping = 0, external = 0, balance = 0;
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(kinetic, elastic, plastic, hourglass, contact, friction, damping, bulk_damping, external,
+          balance);
+  }
+  double internal() const { return elastic + plastic + hourglass; }
+};
+
+// The series that a run of the scene keeps, in the order of Results::sample().
+std::vector<SeriesInfo> history_series(const Scene& scene);
+// Of Results::momentum(), which the history leaves out: it costs a walk over all nodes.
+std::vector<SeriesInfo> momentum_series();
+
+class Results {
+ public:
+  Results(const Scene& scene, const World& world);
+
+  const std::vector<SeriesInfo>& series() const { return series_; }
+  const std::vector<FieldInfo>& fields() const { return fields_; }
+  RunMesh mesh() const;
+
+  // One value a series. Keeps the worst energy error and ratios seen, for the summary.
+  std::vector<double> sample();
+  // One list a field: particles in the order of their numbers, each with its nodes or elements.
+  std::vector<std::vector<double>> frame() const;
+
+  // Of the last sample.
+  double value(const std::string& series) const;
+  bool has(const std::string& series) const { return !last_.empty() && position_.contains(series); }
+  // Along x and y, and angular about the origin. Forces within the powder leave all three alone, step by
+  // step and not only in the limit: positions at t_n, velocities at t_(n-1/2).
+  std::array<double, 3> momentum() const;
+  const Energies& energies() const { return energies_; }
+  // Largest |balance| so far over the largest energy that came in or was there at the start: what is reported,
+  // expected and judged by `limits`, at every sample. At first touch there is next to no energy to compare with:
+  // what the tools do in `steps_of_a_touch` of their strongest steps does not count, and no round-off.
+  double energy_balance_error() const;
+  // Largest kinetic over internal energy so far, from a tenth of the run on (nothing is quasi-static at first
+  // touch), while the internal one is above 1% of its largest so far. Reported and judged as well.
+  double kinetic_ratio() const;
+  // Smallest det F of any element at any step so far.
+  double least_jacobian() const;
+  std::int64_t elements() const { return elements_; }
+  const ShearResults& shear() const { return shear_; }
+  double end_time() const { return world_.resource<Clock>().end; }
+
+  // What a checkpoint keeps; the rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(last_, energies_, initial_energy_, worst_balance_, largest_energy_, largest_internal_,
+          kinetic_ratios_, shear_, first_);
+  }
+
+ private:
+  void take_energies();
+  void take_kinetic_ratio();
+  Vec2 die_size() const;  // m, width and height between the tools; only with a cell
+  void append_tools(std::vector<double>& row) const;
+  void append_density(std::vector<double>& row) const;
+  void append_energies(std::vector<double>& row) const;
+  void append_contacts(std::vector<double>& row) const;
+
+  const World& world_;
+  std::optional<DieCell> cell_;
+  std::optional<double> yield_stress_;  // where all particles share one
+  double particle_area_ = 0;
+  std::int64_t elements_ = 0, nodes_ = 0;
+  std::vector<SeriesInfo> series_;
+  std::vector<FieldInfo> fields_;
+  std::map<std::string, std::size_t> position_;
+  std::vector<double> last_;
+  Energies energies_;
+  double stiffness_energy_ = 0;  // J, largest bulk modulus times volume of the particles
+  double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
+  double largest_internal_ = 0;
+  // Kinetic over internal energy and the internal energy, of samples that may be the worst.
+  std::vector<std::pair<double, double>> kinetic_ratios_;
+  ShearResults shear_;
+  bool first_ = true;
+};
+
+}  // namespace pulvis

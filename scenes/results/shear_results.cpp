@@ -1,0 +1,210 @@
+#include "scenes/results/shear_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/contact.hpp"
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "scenes/tools/die_sides.hpp"
+#include "systems/tools/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double straight = 1 - 1e-9;  // cosine between directions that are taken for one
+constexpr double goes_along = 0.1;     // share of the target's speed that a locked particle may lag
+constexpr double static_share = 0.25;  // of the way, from its beginning
+constexpr double dynamic_share = 0.5;  // of the way, to its end
+
+Vec2 vector_of(const double* values, int row) { return {values[2 * row], values[2 * row + 1]}; }
+
+// The plane whose normal looks this way; -1: none.
+int plane_facing(const Scene& scene, const Vec2& way) {
+  for (std::size_t t = 0; t < scene.tools.size(); ++t)
+    if (scene.tools[t].shape == ToolSpec::Shape::plane && scene.tools[t].normal.dot(way) > straight)
+      return static_cast<int>(t);
+  return -1;
+}
+
+// Mean velocity of a particle's outline.
+Vec2 velocity_of(const World& world, int slot) {
+  const Bodies& bodies = world.resource<Bodies>();
+  const Column<Velocity>& column = world.column<Velocity>();
+  const auto first = static_cast<std::size_t>(
+      column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
+  const int nodes = bodies.shape_of_slot(slot).boundary_nodes;
+  Vec2 sum = Vec2::Zero();
+  for (int n = 0; n < nodes; ++n) {
+    const Lane* at = column.lanes() + 2 * (first + static_cast<std::size_t>(n));
+    sum += Vec2(at[0][slot % lane_count], at[1][slot % lane_count]);
+  }
+  return sum / nodes;
+}
+
+}  // namespace
+
+std::optional<ShearSetup> shear_setup(const Scene& scene) {
+  const auto stage = std::ranges::find(scene.stages, StageSpec::Kind::shear, &StageSpec::kind);
+  if (stage == scene.stages.end() || stage->moves.empty()) return std::nullopt;
+  const MoveSpec& move = *std::ranges::max_element(
+      stage->moves, {}, [](const MoveSpec& m) { return m.displacement.norm(); });
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(move.tool)];
+  if (tool.shape == ToolSpec::Shape::grip) return std::nullopt;
+  ShearSetup setup;
+  setup.stage = static_cast<int>(stage - scene.stages.begin());
+  setup.target = move.tool;
+  setup.up = face_normal(tool);
+  const Vec2 along = move.displacement - move.displacement.dot(setup.up) * setup.up;
+  if (along.norm() < 1e-9 * move.displacement.norm()) return std::nullopt;  // it presses only
+  setup.along = along.normalized();
+  setup.punch = plane_facing(scene, -setup.up);
+  setup.wall = plane_facing(scene, -setup.along);
+  const int other = plane_facing(scene, setup.along);
+  if (setup.wall >= 0 && other >= 0)
+    setup.width = (scene.tools[static_cast<std::size_t>(setup.wall)].point -
+                   scene.tools[static_cast<std::size_t>(other)].point)
+                      .dot(setup.along);
+  return setup;
+}
+
+std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
+  const auto setup = shear_setup(scene);
+  if (!setup) return {};
+  std::vector<SeriesInfo> all{
+      {"shear/distance", "m", "way of the target along itself since the shear stage began"},
+      {"shear/friction", "-", "lateral over normal force on the target; NaN where it bears none"},
+      {"shear/work", "J", "of the target against friction and grooves"},
+      {"shear/locked", "-", "particles that touch the target and go along with it, within 10%"}};
+  if (setup->width > 0) {
+    all.push_back({"shear/normal_stress", "Pa", "on the target: normal force / width x thickness"});
+    all.push_back({"shear/lateral_stress", "Pa", "on the target, against its way"});
+    if (setup->punch >= 0)
+      all.push_back({"shear/punch_lateral_stress", "Pa", "on the punch, along the target's way"});
+  }
+  if (setup->punch >= 0)
+    all.push_back({"shear/dilation", "m",
+                   "way of the punch away from the target since the shear stage began"});
+  if (setup->wall >= 0)
+    all.push_back({"shear/wall_share", "-",
+                   "force on the wall that the powder is drawn against / lateral force on the "
+                   "target; NaN where that is none"});
+  return all;
+}
+
+std::vector<FieldInfo> ShearResults::fields(const Scene& scene) {
+  if (!shear_setup(scene)) return {};
+  return {{"target_slip", "m",
+           "way of the target past the particle while they touch, since the shear stage began, "
+           "summed up over samples",
+           FieldPlace::particle, 1}};
+}
+
+ShearResults::ShearResults(const Scene& scene, const World& world)
+    : setup_(shear_setup(scene)), world_(world) {
+  if (setup_) slip_.resize(static_cast<std::size_t>(world.resource<Bodies>().particles()));
+}
+
+double ShearResults::distance_now() const {
+  const ToolProgram& program = world_.resource<ToolProgram>();
+  const double begin = program.stages[static_cast<std::size_t>(setup_->stage)].begin;
+  const double time = world_.resource<Clock>().time;
+  if (time <= begin) return 0;
+  const Point now = tool_position_at(program, setup_->target, time);
+  const Point then = tool_position_at(program, setup_->target, begin);
+  return Vec2(now[0] - then[0], now[1] - then[1]).dot(setup_->along);
+}
+
+int ShearResults::take_touching(bool sliding) {
+  const Clock& clock = world_.resource<Clock>();
+  const Bodies& bodies = world_.resource<Bodies>();
+  const auto& pair = world_.column<ContactPair<ToolContact>>();
+  const auto& touches = world_.column<ContactTouches<ToolContact>>();
+  const double speed =
+      vector_of(world_.column<ToolVelocity>().values(), setup_->target).dot(setup_->along);
+  std::vector<int> touching;
+  for (std::size_t r = 0; r < pair.table.rows; ++r) {
+    const std::int32_t* row = pair.values() + 3 * r;
+    if (touches.values()[r] != 0 && row[2] == setup_->target) touching.push_back(row[0]);
+  }
+  std::ranges::sort(touching);
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+  int locked = 0;
+  for (const int slot : touching) {
+    const double lag = speed - velocity_of(world_, slot).dot(setup_->along);
+    const auto number =
+        static_cast<std::size_t>(bodies.slots[static_cast<std::size_t>(slot)].number);
+    if (sliding) slip_[number] += lag * (clock.time - time_before_);
+    if (speed > 0 && std::abs(lag) < goes_along * speed) locked += 1;
+  }
+  return locked;
+}
+
+void ShearResults::append_sample(std::vector<double>& row) {
+  if (!setup_) return;
+  const double* forces = world_.column<ToolForce>().values();
+  const double* positions = world_.column<ToolPosition>().values();
+  const Vec2 force = vector_of(forces, setup_->target);
+  const double normal = -force.dot(setup_->up), lateral = -force.dot(setup_->along);
+  const double distance = distance_now();
+  const double face = setup_->width * world_.resource<Bodies>().thickness;
+  const double friction = normal > 0 ? lateral / normal : nothing;
+  work_ += 0.5 * (lateral + lateral_before_) * (distance - distance_before_);
+  row.insert(row.end(),
+             {distance, friction, work_, static_cast<double>(take_touching(distance > 0))});
+  if (setup_->width > 0) {
+    row.insert(row.end(), {normal / face, lateral / face});
+    if (setup_->punch >= 0)
+      row.push_back(vector_of(forces, setup_->punch).dot(setup_->along) / face);
+  }
+  if (setup_->punch >= 0) {
+    const double at = vector_of(positions, setup_->punch).dot(setup_->up);
+    if (distance > 0 && !punch_at_begin_) punch_at_begin_ = punch_before_;
+    dilation_ = punch_at_begin_ ? at - *punch_at_begin_ : 0;
+    punch_before_ = at;
+    row.push_back(dilation_);
+  }
+  if (setup_->wall >= 0)
+    row.push_back(lateral > 0 ? vector_of(forces, setup_->wall).dot(setup_->along) / lateral
+                              : nothing);
+  if (distance > 0) samples_.push_back({distance, friction, face > 0 ? normal / face : 0});
+  lateral_before_ = lateral;
+  distance_before_ = distance;
+  time_before_ = world_.resource<Clock>().time;
+}
+
+void ShearResults::append_frame(std::vector<std::vector<double>>& fields) const {
+  if (setup_) fields.push_back(slip_);
+}
+
+// Means are over the way, not over time.
+std::optional<ShearFigures> ShearResults::figures() const {
+  if (samples_.empty()) return std::nullopt;
+  ShearFigures f;
+  f.distance = samples_.back().distance;
+  f.dilation = dilation_;
+  double way = 0, sum = 0, square = 0, stress = 0;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Sample& s = samples_[i];
+    if (std::isnan(s.friction)) continue;
+    if (s.distance <= static_share * f.distance)
+      f.static_friction = std::max(f.static_friction, s.friction);
+    if (i == 0 || s.distance < (1 - dynamic_share) * f.distance) continue;
+    const double step = s.distance - samples_[i - 1].distance;
+    way += step;
+    sum += step * s.friction;
+    square += step * s.friction * s.friction;
+    stress += step * s.normal_stress;
+  }
+  if (way > 0) {
+    f.dynamic_friction = sum / way;
+    f.dynamic_deviation =
+        std::sqrt(std::max(square / way - f.dynamic_friction * f.dynamic_friction, 0.0));
+    f.normal_stress = stress / way;
+  }
+  return f;
+}
+
+}  // namespace pulvis

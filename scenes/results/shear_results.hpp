@@ -1,0 +1,77 @@
+// What a shear stage is about: a target surface drawn along under the powder, the friction that it meets, and
+// how the compact answers.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/files/record.hpp"
+#include "engine/world.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// The first stage of kind "shear": its target is the tool that moves farthest in it.
+struct ShearSetup {
+  int stage = 0, target = 0;
+  int punch = -1;              // the plane on the other side of the powder; -1: none
+  int wall = -1;               // the plane that the target draws the powder against; -1: none
+  Vec2 along = Vec2::UnitX();  // the way the target goes
+  Vec2 up = Vec2::UnitY();     // out of the target
+  double width = 0;            // m, between the walls; 0: there are no two
+};
+std::optional<ShearSetup> shear_setup(const Scene& scene);
+
+// Static and dynamic friction of the whole stage, and how much went into them.
+struct ShearFigures {
+  double static_friction = 0;    // largest in the first quarter of the way
+  double dynamic_friction = 0;   // mean over the second half of the way
+  double dynamic_deviation = 0;  // its standard deviation there
+  double normal_stress = 0;      // Pa, mean over the second half; 0 where there is no width
+  double distance = 0;           // m
+  double dilation = 0;           // m, at the end
+};
+
+class ShearResults {
+ public:
+  // `world` has the tools of the scene.
+  ShearResults(const Scene& scene, const World& world);
+
+  static std::vector<SeriesInfo> series(const Scene& scene);
+  static std::vector<FieldInfo> fields(const Scene& scene);
+
+  // In the order of series(); of an observed world. Sums up slip over samples.
+  void append_sample(std::vector<double>& row);
+  void append_frame(std::vector<std::vector<double>>& fields) const;
+  // None before the target has moved.
+  std::optional<ShearFigures> figures() const;
+
+  // What a checkpoint keeps; the rest is the scene's.
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(punch_at_begin_, punch_before_, time_before_, work_, lateral_before_, distance_before_,
+          slip_, samples_, dilation_);
+  }
+
+ private:
+  struct Sample {
+    double distance, friction, normal_stress;
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(distance, friction, normal_stress);
+    }
+  };
+  double distance_now() const;
+  int take_touching(bool sliding);  // sums up slip while sliding; returns how many go along
+
+  std::optional<ShearSetup> setup_;
+  const World& world_;
+  std::optional<double> punch_at_begin_;  // m, along `up`
+  double punch_before_ = 0;
+  double time_before_ = 0, work_ = 0, lateral_before_ = 0, distance_before_ = 0;
+  std::vector<double> slip_;  // m, [particles]
+  std::vector<Sample> samples_;
+  double dilation_ = 0;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,121 @@
+#include "scenes/results/state_hash.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "components/contact.hpp"
+#include "components/probe.hpp"
+#include "components/run_state.hpp"
+#include "components/solid.hpp"
+#include "engine/files/xxh3.hpp"
+
+namespace pulvis {
+namespace {
+
+class StateHash {
+ public:
+  explicit StateHash(const World& world)
+      : world_(world), bodies_(world.resource<Bodies>()), clock_(world.resource<Clock>()) {}
+
+  std::uint64_t value() {
+    add(clock_.step);
+    for (const double time : {clock_.time, clock_.dt_before, clock_.dt}) add(time);
+    for (const int slot : bodies_.slot_of_number) add_particle(slot);
+    add_contacts<Contact>([this](int slot) { return number_in(slot); });
+    add_contacts<ToolContact>([](int tool) { return tool; });
+    return hash_.value();
+  }
+
+ private:
+  template <class T>
+  void add(const T& value) {
+    hash_.add(std::as_bytes(std::span(&value, 1)));
+  }
+
+  void add_particle(int slot) {
+    add_rows<Position>(slot);
+    add_rows<Velocity>(slot);
+    add_rows<PlasticMetric<1>>(slot);
+    add_rows<PlasticMetric<4>>(slot);
+    add_rows<PlasticStrain<1>>(slot);
+    add_rows<PlasticStrain<4>>(slot);
+    add_rows<PlasticHourglass>(slot);
+  }
+
+  // What a laned column holds of the particle in `slot`, row by row; nothing where the scene has none.
+  template <class C>
+  void add_rows(int slot) {
+    if (!world_.has<C>()) return;
+    const Column<C>& column = world_.column<C>();
+    const int chunk = slot / lane_count, lane = slot % lane_count;
+    const std::int32_t* rows = &column.table.chunk_begin[static_cast<std::size_t>(chunk)];
+    for (std::ptrdiff_t i = std::ptrdiff_t{rows[0]} * C::count;
+         i < std::ptrdiff_t{rows[1]} * C::count; ++i)
+      add(column.values()[i * lane_count + lane]);
+  }
+
+  int number_in(int slot) const { return bodies_.slots[static_cast<std::size_t>(slot)].number; }
+
+  template <class At, class Partner>
+  void add_contacts(const Partner& partner) {
+    if (!world_.has<ContactPair<At>>()) return;
+    const auto& pair = world_.column<ContactPair<At>>();
+    const auto& touches = world_.column<ContactTouches<At>>();
+    std::vector<std::array<int, 4>> touching;  // number, edge, partner; row
+    for (std::size_t r = 0; r < pair.table.rows; ++r) {
+      const std::int32_t* key = pair.values() + 3 * r;
+      if (touches.values()[r] != 0)
+        touching.push_back({number_in(key[0]), key[1], partner(key[2]), static_cast<int>(r)});
+    }
+    std::ranges::sort(touching);
+    for (const auto& [number, edge, other, row] : touching) {
+      add(std::array{number, edge, other});
+      if (world_.has<ElasticSlip<At>>())
+        for (int g = 0; g < edge_points; ++g)
+          add(world_.column<ElasticSlip<At>>().values()[edge_points * row + g]);
+      if (world_.has<StaticLost<At>>())
+        for (int g = 0; g < edge_points; ++g)
+          add(world_.column<StaticLost<At>>().values()[edge_points * row + g]);
+    }
+  }
+
+  const World& world_;
+  const Bodies& bodies_;
+  const Clock& clock_;
+  Xxh3 hash_;
+};
+
+// Of a column that has no lanes: its rows stand in the order of the mesh.
+template <class C>
+void add_column(const World& world, Xxh3& hash) {
+  if (!world.has<C>()) return;
+  const Column<C>& column = world.column<C>();
+  hash.add(std::span(column.data(), column.bytes()));
+}
+
+std::uint64_t solid_hash(const World& world) {
+  Xxh3 hash;
+  add_column<Displacement>(world, hash);
+  add_column<AppliedForce>(world, hash);
+  add_column<SolidMemory>(world, hash);
+  add_column<ProbeForce>(world, hash);
+  add_column<ProbeMemory>(world, hash);
+  // Target, and the stiffness that the factors were made from: they may serve the next increment again.
+  for (const World::SavedResource& resource : world.saved_resources()) hash.add(resource.state());
+  return hash.value();
+}
+
+}  // namespace
+
+std::uint64_t state_hash(const World& world) {
+  return world.has<SolidMesh>() ? solid_hash(world) : StateHash(world).value();
+}
+
+std::string state_hash_text(const World& world) {
+  return fmt::format("{:016x}", state_hash(world));
+}
+
+}  // namespace pulvis

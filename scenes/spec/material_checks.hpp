@@ -1,0 +1,15 @@
+// Checks of materials that every family shares.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+using Refuse = std::function<void(const std::string& path, const std::string& message)>;
+
+void check_materials(const Scene& scene, const Refuse& refuse);
+
+}  // namespace pulvis

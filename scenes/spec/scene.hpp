@@ -1,0 +1,362 @@
+// A scene as the program sees it once its file has been read and refused or accepted: plain values,
+// SI units, names resolved to positions in the lists below. Nothing here runs; scenes/build.* turns it
+// into tables, columns and systems.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenes/language/source_mark.hpp"
+#include "scenes/language/vec2.hpp"
+
+namespace pulvis {
+
+struct MaterialSpec {
+  std::string name;
+  double density = 0;                  // kg/m^3, > 0
+  double youngs_modulus = 0;           // Pa, > 0
+  double poissons_ratio = 0;           // -, in (-1, 0.5)
+  std::optional<double> yield_stress;  // Pa, > 0; absent: elastic
+  double hardening_modulus = 0;        // Pa, >= 0; dsigma_y/deps_p; 0: perfectly plastic
+  SourceMark mark;
+  double mass_damping = 0;       // 1/s, alpha of Rayleigh damping
+  double stiffness_damping = 0;  // s, beta
+  bool damped() const { return mass_damping > 0 || stiffness_damping > 0; }
+};
+
+// Meshes and outlines. An outline names the mesh that goes with it; scenes/outlines/outline.cpp knows its geometry,
+// scenes/mesh_<outline>.cpp meshes it, scenes/keys/declare_powder.cpp declares its keys.
+struct DiscMesh {
+  int boundary_edges = 40;  // a multiple of 4, with a coarse core of 12
+  int rings = 1;  // of quads between the core and the outline; 0: the core's rim is the outline
+  double refinement = 1;  // >= 1: edges at top and bottom are this much finer than at the sides
+  enum class Core {
+    even,  // (boundary_edges/4)^2 quads
+    coarse,  // (boundary_edges/12)^2, and a ring of transition quads: one edge for three of the outline
+  } core = Core::even;
+};
+struct RectangleMesh {
+  int columns = 8;  // quads along the width
+  int rows = 8;     // quads along the height
+};
+struct RoundedRectangleMesh {
+  int boundary_edges = 48;  // a multiple of 4
+  int rings = 1;            // >= 1
+};
+struct RingMesh {
+  int boundary_edges = 40;  // a multiple of 4
+  int rings = 4;            // layers of quads through the wall, >= 1
+};
+struct StarMesh {           // of any outline that one point inside sees as a whole
+  int boundary_edges = 48;  // a multiple of 4
+  int rings = 1;            // >= 1
+};
+using MeshSpec = std::variant<DiscMesh, RectangleMesh, RoundedRectangleMesh, RingMesh, StarMesh>;
+
+struct DiscOutline {
+  using Mesh = DiscMesh;
+  double diameter = 0;  // m
+};
+struct RectangleOutline {
+  using Mesh = RectangleMesh;
+  double width = 0;   // m, along the particle's own x axis
+  double height = 0;  // m
+};
+struct RoundedRectangleOutline {
+  using Mesh = RoundedRectangleMesh;
+  double width = 0;   // m, along the particle's own x axis
+  double height = 0;  // m
+  double radius = 0;  // m, of the four corners; at most half of the shorter side
+};
+struct RingOutline {  // a tube; nothing touches its inner surface
+  using Mesh = RingMesh;
+  double diameter = 0;  // m
+  double hole = 0;      // m, diameter of the hole
+};
+struct EllipseOutline {
+  using Mesh = StarMesh;
+  double width = 0;   // m, along the particle's own x axis
+  double height = 0;  // m
+};
+struct SuperellipseOutline {  // |2x/width|^exponent + |2y/height|^exponent = 1
+  using Mesh = StarMesh;
+  double width = 0;     // m
+  double height = 0;    // m
+  double exponent = 2;  // -
+};
+// Its corners, or regular: so many sides in a circle of this diameter, one side below.
+struct PolygonOutline {
+  using Mesh = StarMesh;
+  int sides = 0;                   // 0: by corners
+  double diameter = 0;             // m
+  std::vector<Vec2> corners = {};  // m, either way round; the centre of the area becomes the origin
+  double rounding = 0;             // m, radius of all corners; 0: sharp
+  bool mirrored = false;           // x -> -x
+};
+// A closed C2 curve (periodic cubic spline) through measured points or near them.
+struct PointsOutline {
+  using Mesh = StarMesh;
+  std::string file = {};          // CSV, relative to the scene
+  std::string unit = {};          // of its numbers, where its header names none
+  std::vector<Vec2> points = {};  // m, as the file has them
+  double smoothing = 0;           // m, root mean square distance of the curve from the points
+  std::optional<double> width =
+      {};  // m, what it is scaled to, at most one of these: its extent in x,
+  std::optional<double> diameter = {};  // m, the diameter of the circle of the same area,
+  std::optional<double> area = {};      // m^2
+  bool mirrored = false;                // x -> -x
+};
+using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline,
+                             EllipseOutline, SuperellipseOutline, PolygonOutline, PointsOutline>;
+
+struct ParticleSpec {  // a class of equal particles
+  std::string name;
+  int material = 0;  // position in Scene::materials
+  Outline outline;
+  MeshSpec mesh;
+  bool random_mesh_phase =
+      false;              // every particle's mesh turned by its own random angle (disc, ring)
+  double mesh_phase = 0;  // rad, the same turn for all when not random (disc, ring)
+  SourceMark mark;
+  std::optional<double> mesh_size = {};  // m, of the edges; the counts in `mesh` come from it
+  int class_of = -1;  // of one size of a packing: the class that is scaled, in Scene::particles
+  double scale = 1;   // of that class's outline
+};
+
+struct BodySpec {                // one particle, placed by hand
+  int particle = 0;              // position in Scene::particles
+  Vec2 position = Vec2::Zero();  // m, centre of the outline
+  double angle = 0;              // rad, counter-clockwise
+  Vec2 velocity = Vec2::Zero();  // m/s
+  double angular_velocity = 0;   // rad/s
+  SourceMark mark;
+};
+
+// By number: uniform, normal, log-normal; by area: sieve. The size of a particle is the least width of its
+// outline, which is what passes a sieve.
+struct SizeLaw {
+  enum class Kind { mono, uniform, normal, lognormal, sieve } kind = Kind::mono;
+  double mean = 0;                       // m, of the whole law, before it is cut off
+  double deviation = 0;                  // m, standard, of the size itself
+  std::optional<double> least, largest;  // m, nothing lies beyond
+  std::string file;                      // sieve curve, relative to the scene's folder
+  int sizes = 8;                         // that stand for the law
+};
+
+// Of a random packing: particles of one class and their sizes.
+struct MixtureClass {
+  int particle = 0;                       // position in Scene::particles
+  std::optional<int> number;              // one of these three
+  std::optional<double> number_fraction;  // -, of all particles
+  std::optional<double> area_fraction;    // -, of all their area
+  SizeLaw size;
+  SourceMark mark;
+};
+
+struct PackingReached {  // what came out of a random packing
+  double density = 0;    // -, area of the particles over that of the die up to its top
+  double mean_gap = 0;   // -, to the three nearest neighbours, in diameters
+  double least_gap = 0;  // m, between any two particles, or a particle and the die
+  int touches = 0;       // pairs of particles with a gap below a thousandth of a diameter
+};
+
+// Square, hexagonal: rows of particles from the bottom. Hexagonal: they lie sqrt(3)/2 of the spacing apart, and
+// every second one, shifted by half of it, has one particle less: between flat walls it is symmetric, its full
+// rows touch both walls, and beside the others half a particle is missing at each. Random: a mixture in a die,
+// of which two of count, density and height are given. CSV: where a file says.
+struct PackingSpec {
+  enum class Kind { square, hexagonal, random, csv } kind = Kind::square;
+  enum class Dense { given, touching, densest };
+  int particle = 0;
+  int rows = 1;
+  int columns = 1;
+  double spacing = 0;  // m, centre to centre
+  Vec2 corner =
+      Vec2::Zero();  // m, lower left corner of the first particle's lattice cell, or the die
+  double width = 0;  // m, of the die
+  std::optional<double> height;   // m
+  std::optional<int> count;       // where the classes give fractions
+  std::optional<double> density;  // -
+  Dense dense = Dense::given;     // otherwise instead of a density
+  std::string file;               // relative to the scene's folder
+  std::vector<MixtureClass> classes;
+  SourceMark mark;
+  // Of random and CSV packings, when the scene has been read:
+  std::vector<BodySpec> placed = {};
+  double top = 0;  // m, where a punch rests on the packing
+  PackingReached reached = {};
+};
+
+// Relief of a target surface: heights below its crests against x. It repeats, or is made, as far as the
+// powder can come.
+struct ProfileSpec {
+  enum class Kind { flat, triangle, sine, trapezoid, rough, file } kind = Kind::flat;
+  double pitch = 0;               // m, from crest to crest
+  std::optional<double> depth;    // m, from crest to valley; or
+  std::optional<double> ra;       // m, arithmetic mean deviation from the mean line
+  double flat_share = 0.25;       // -, of the pitch, of a trapezoid's crest, and of its valley
+  double correlation_length = 0;  // m, of a rough profile
+  std::string file;               // of a measured one, relative to the scene
+};
+
+// Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
+// the right of its points, a profile below its relief; a grip touches nothing and holds the nodes of one body that lie in a box, or
+// within a radius of `point`.
+struct ToolSpec {
+  enum class Shape { plane, polyline, grip, profile };
+  enum class Holds { x, y, both, radial };
+  std::string name;
+  Vec2 point = Vec2::Zero();    // m; of a radial grip, and of one with a radius: its centre
+  bool on_packing = false;      // point.y is the top of the highest packing
+  Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
+  SourceMark mark;
+  Shape shape = Shape::plane;
+  std::vector<Vec2> points = {};  // m, polyline; of a profile made from `relief`
+  ProfileSpec relief = {};        // of a profile, whose crests are at the height of `point`
+  double rounding = 0;            // m, radius of a polyline's convex corners
+  int body = 0;                   // of a grip, in the order of placement
+  Vec2 low = Vec2::Zero();        // m, corners of a grip's box
+  Vec2 high = Vec2::Zero();
+  std::optional<double> radius = {};  // m, about `point`, instead of the box
+  Holds holds = Holds::both;
+};
+
+struct MoveSpec {
+  int tool = 0;                      // position in Scene::tools
+  Vec2 displacement = Vec2::Zero();  // m, travelled over the stage
+  double ramp =
+      0.1;  // -, share of the stage in which the speed rises smoothly from zero, and falls again at its end
+  SourceMark mark;
+};
+
+struct ServoSpec {                // a tool that holds a force, through one stage
+  int tool = 0;                   // position in Scene::tools
+  std::optional<Vec2> direction;  // unit vector, the way it pushes; absent: a plane's normal
+  double force = 0;               // N
+  double rise = 0.2;              // -, share of the stage until the force is asked for in full
+  std::optional<double> rate;     // N/s, instead of `rise`
+  double response = 0.1;          // -, mass of the servo over that of the powder
+  double fastest = 10;            // m/s
+  double tolerance = 0.05;        // -, of the force, at the end of the stage
+  SourceMark mark;
+};
+
+// What ends a stage before its time is over: one of the three.
+struct UntilSpec {
+  std::optional<int> tool;
+  std::optional<double> force;         // N
+  std::optional<double> displacement;  // m
+  std::optional<double> relative_density;
+  SourceMark mark;
+};
+
+struct StageSpec {
+  std::string name;
+  enum class Kind { settle, compact, hold, unload, eject, shear } kind = Kind::hold;
+  double duration = 0;  // s, at most where there is an `until`
+  std::vector<MoveSpec> moves;
+  std::vector<ServoSpec> servos;
+  std::optional<UntilSpec> until;
+  SourceMark mark;
+};
+
+struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names (materials or tools)
+  std::string first, second;
+  double coefficient = 0;                    // -, dynamic where there is a static one
+  std::optional<double> static_coefficient;  // -, before sliding
+  std::optional<double> decay_length;        // m, sliding way in which the difference fades by 1/e
+  std::optional<double> shear_strength;      // Pa
+  SourceMark mark;
+};
+
+struct ContactSpec {
+  double friction = 0;  // -, Coulomb coefficient of every pair that no [[friction]] names
+  // k of kappa = k K L/A (bulk modulus, boundary edge length, element area). 0.5: softer, the penetration
+  // delays the lateral force; stiffer, the force depends on where the mesh nodes lie (docs/accuracy.md).
+  double stiffness = 0.5;
+  double damping = 0;  // -, share of the critical damping of the contact spring (T 5.1, 5.2)
+  // -, share of the shortest edge that surfaces may move towards each other before contact rows are made
+  // anew. That costs two steps once in hundreds; rows that are apart cost memory.
+  double skin = 0.2;
+};
+
+struct TimeSpec {
+  enum class Estimate { element, highest_mode };
+  double safety = 0.9;  // -, share of the stable time step that is used, in (0, 1)
+  Estimate estimate = Estimate::element;
+};
+
+struct ElementSpec {
+  enum class Formulation { four_point, one_point, standard } formulation = Formulation::one_point;
+};
+
+struct OutputSpec {
+  int frames = 50;                     // fields written over the run, besides the first
+  int samples = 1000;                  // history rows over the run, besides the first
+  std::array<int, 2> density_cells{};  // columns and rows; 0: no local densities
+  bool contacts = false;               // the network of contacts
+  bool particle_stress = false;
+
+  bool density() const { return density_cells[0] > 0; }
+  bool stresses() const { return particle_stress || contacts; }  // force chains need them
+};
+
+struct LimitSpec {               // health: a run that passes one of these stops
+  double energy_balance = 0.05;  // -, |balance| / largest energy of the run
+  double penetration = 0.5;      // -, penetration / boundary edge length
+  std::optional<double>
+      kinetic_energy;  // -, kinetic / internal energy, where the scene asks for quasi-statics
+};
+
+// What must hold of the run; `pulvis run` checks it at its end.
+struct ExpectSpec {
+  enum class When { end, always, max, min, mean, range };
+  struct Bound {
+    double number = 0;  // in the SI unit of the series
+    std::string
+        quantity;  // as written, until the unit of the series is known; empty: a bare number
+  };
+  std::string series;  // empty: the expectation is one of the outcome
+  std::optional<When> when;
+  std::optional<Bound> above, below, equals;
+  std::optional<double>
+      within;  // -, of |equals| or of the other series; absolute where equals is 0
+  std::optional<double> from, until;  // -, share of the run
+  std::string like;                   // another scene, relative to this one's folder
+  double scale = 1;                   // -, the other series times this
+  bool stops = false;                 // the run is to be stopped by a health check or limit
+  std::string message;                // regular expression that its message must contain
+  SourceMark mark;
+};
+
+struct AfmScene;  // scenes/spec/afm_scene.hpp
+
+struct Scene {
+  std::filesystem::path file;
+  std::string title;
+  double thickness = 1e-3;  // m, of the plane-strain slice: forces are in N
+  std::uint64_t seed = 1;
+  std::vector<MaterialSpec> materials;
+  std::vector<ParticleSpec> particles;
+  std::vector<BodySpec> bodies;         // [[body]]
+  std::vector<PackingSpec> packings;    // [[packing]]
+  std::vector<ToolSpec> tools;          // [[tool]]
+  std::vector<StageSpec> stages;        // [[stage]]
+  std::vector<FrictionSpec> frictions;  // [[friction]]
+  ContactSpec contact;
+  ElementSpec element;
+  TimeSpec time;
+  OutputSpec output;
+  LimitSpec limits;
+  std::vector<ExpectSpec> expects;  // [[expect]]
+  // family = "afm": then there are no particles, tools and stages. Not changed once it is read.
+  std::shared_ptr<AfmScene> afm;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,250 @@
+#include "scenes/study/declare_study.hpp"
+
+#include "scenes/keys/declare.hpp"
+
+namespace pulvis::schema {
+namespace {
+
+auto bound_to(std::optional<StudyExpect::Bound> StudyExpect::*member) {
+  return [member](StudyExpect& spec, const Decoded& value) {
+    spec.*member = {value.number, value.text};
+  };
+}
+auto texts_to(std::vector<std::string> StudyExpect::*member) {
+  return [member](StudyExpect& spec, const Decoded& value) { spec.*member = value.texts; };
+}
+
+std::vector<Key<StudyExpect>> quantity_keys() {
+  return {
+      {{.name = "series",
+        .kind = Kind::text,
+        .required = true,
+        .doc = "A series of `history.csv`, or one made from it (see above)."},
+       to(&StudyExpect::series)},
+      {{.name = "at",
+        .kind = Kind::bound,
+        .doc = "Its value where `against` first passes this one, by linear interpolation.",
+        .fallback_doc = "what `when` says"},
+       bound_to(&StudyExpect::at)},
+      {{.name = "when",
+        .kind = Kind::choice,
+        .choices = {{"end", "its last sample"},
+                    {"max", "its largest"},
+                    {"min", "its smallest"},
+                    {"mean", "the mean of its samples"},
+                    {"roughness",
+                     "rms distance from a straight line through the twentieth of the samples "
+                     "around each, as a share of largest less smallest: 0 of a smooth curve"}},
+        .doc = "What of the series is meant.",
+        .fallback_doc = "`\"end\"`, or what `at` says"},
+       [](StudyExpect& spec, const Decoded& value) {
+         spec.when = static_cast<StudyExpect::When>(value.index);
+       }},
+      {{.name = "against",
+        .kind = Kind::text,
+        .doc = "The series that `at`, `from` and `until` are values of.",
+        .fallback_doc = "`\"relative_density\"`"},
+       to(&StudyExpect::against)},
+      {{.name = "from",
+        .kind = Kind::bound,
+        .doc = "Samples before `against` first reaches this do not count.",
+        .fallback_doc = "all count"},
+       bound_to(&StudyExpect::from)},
+      {{.name = "until",
+        .kind = Kind::bound,
+        .doc = "Samples from where `against` first passes this on do not count.",
+        .fallback_doc = "all count"},
+       bound_to(&StudyExpect::until)},
+  };
+}
+
+std::vector<Key<StudyExpect>> across_keys() {
+  return {
+      {{.name = "order",
+        .kind = Kind::texts,
+        .doc = "Variations whose values rise or fall in this order.",
+        .fallback_doc = "none"},
+       texts_to(&StudyExpect::order)},
+      {{.name = "trend",
+        .kind = Kind::choice,
+        .choices = {{"increasing", "each value is larger than the one before"},
+                    {"decreasing", "each is smaller"}},
+        .needs = "order",
+        .doc = "Which way.",
+        .fallback_doc = "required with `order`"},
+       [](StudyExpect& spec, const Decoded& value) {
+         spec.trend = static_cast<StudyExpect::Trend>(value.index);
+       }},
+      {{.name = "by",
+        .kind = Kind::number,
+        .range = within(0, 1e6),
+        .needs = "order",
+        .doc = "Least step between neighbours, as a share of the larger of the two.",
+        .fallback_doc = "0"},
+       to(&StudyExpect::by)},
+      {{.name = "ratio",
+        .kind = Kind::texts,
+        .doc = "Two variations: the value of the first over that of the second keeps the bounds.",
+        .fallback_doc = "none"},
+       texts_to(&StudyExpect::ratio)},
+      {{.name = "effect",
+        .kind = Kind::texts,
+        .doc = "Two variations between which the value changes by more (either way) than between "
+               "the two of `exceeds`.",
+        .fallback_doc = "none"},
+       texts_to(&StudyExpect::effect)},
+      {{.name = "exceeds",
+        .kind = Kind::texts,
+        .needs = "effect",
+        .doc = "The two variations that `effect` is compared with.",
+        .fallback_doc = "required with `effect`"},
+       texts_to(&StudyExpect::exceeds)},
+      {{.name = "factor",
+        .kind = Kind::number,
+        .range = above(0, 1e6),
+        .needs = "effect",
+        .doc = "How many times as large it must at least be.",
+        .fallback_doc = "1"},
+       to(&StudyExpect::factor)},
+      {{.name = "of",
+        .kind = Kind::text,
+        .doc = "One variation, whose value keeps the bounds.",
+        .fallback_doc = "none"},
+       to(&StudyExpect::of)},
+  };
+}
+
+std::vector<Key<StudyExpect>> bound_keys() {
+  return {
+      {{.name = "above",
+        .kind = Kind::bound,
+        .doc = "Smallest value of `of` or `ratio` that will do; a ratio is a number.",
+        .fallback_doc = "no such bound"},
+       bound_to(&StudyExpect::above)},
+      {{.name = "below",
+        .kind = Kind::bound,
+        .doc = "Largest value of `of` or `ratio` that will do.",
+        .fallback_doc = "no such bound"},
+       bound_to(&StudyExpect::below)},
+      {{.name = "equals",
+        .kind = Kind::bound,
+        .doc = "The value that is expected of `of` or `ratio`.",
+        .fallback_doc = "none"},
+       bound_to(&StudyExpect::equals)},
+      {{.name = "within",
+        .kind = Kind::number,
+        .range = within(0, 1e30),
+        .needs = "equals",
+        .doc = "How far off is near enough: a share of |equals|, in the SI unit where that is 0.",
+        .fallback_doc = "required with `equals`"},
+       to(&StudyExpect::within)},
+  };
+}
+
+// A table whose keys are those of the scene.
+TableView free_keys(const char* path, const char* doc) { return {{path, false, "", doc}, {}}; }
+
+}  // namespace
+
+const TableDeclaration<StudySpec>& study_top_level() {
+  static const TableDeclaration<StudySpec> declaration{
+      {"", false, "", "Keys before the first table."},
+      {{{.name = "title",
+         .kind = Kind::text,
+         .doc = "What the report is headed with.",
+         .fallback_doc = "the name of the file"},
+        to(&StudySpec::title)},
+       {{.name = "scene",
+         .kind = Kind::scene,
+         .doc = "The scene that is varied, as a path from this file's folder.",
+         .fallback_doc = "none: every variation names its own"},
+        to(&StudySpec::scene)},
+       {{.name = "seeds",
+         .kind = Kind::integers,
+         .range = within(0, 1e15),
+         .doc = "Every variation is run once with each of these as the scene's `seed`; the report "
+                "shows their mean and the band between smallest and largest.",
+         .fallback_doc = "the scene's own, once"},
+        [](StudySpec& spec, const Decoded& value) { spec.seeds = value.integers; }}}};
+  return declaration;
+}
+
+const TableDeclaration<VariationSpec>& study_variation() {
+  static const TableDeclaration<VariationSpec> declaration{
+      {"variation", true, "",
+       "One variation of the list. Where there is a `[grid]` too, each of the list is run with "
+       "every point of it, and is called `name,key=value,...`."},
+      {{{.name = "name",
+         .kind = Kind::name,
+         .required = true,
+         .doc =
+             "What it is called in the report, in expectations and as a folder: no name of a file "
+             "of the study, and without '.' at the beginning."},
+        to(&VariationSpec::name)},
+       {{.name = "scene",
+         .kind = Kind::scene,
+         .doc = "Its scene, as a path from this file's folder.",
+         .fallback_doc = "the study's `scene`"},
+        to(&VariationSpec::scene)}}};
+  return declaration;
+}
+
+const TableDeclaration<StudyCurve>& study_curve() {
+  static const TableDeclaration<StudyCurve> declaration{
+      {"curve", true, "",
+       "A chart of the report with one curve a variation. Without any: axial stress over yield "
+       "stress and its transmission against relative density, and the top punch's force against "
+       "its "
+       "travel, as far as the scenes have them."},
+      {{{.name = "y", .kind = Kind::text, .required = true, .doc = "The series that is drawn."},
+        to(&StudyCurve::y)},
+       {{.name = "x",
+         .kind = Kind::text,
+         .doc = "The series it is drawn against, or `time`.",
+         .fallback_doc = "`\"relative_density\"`"},
+        to(&StudyCurve::x)},
+       {{.name = "title",
+         .kind = Kind::text,
+         .doc = "Above the chart.",
+         .fallback_doc = "made of `x` and `y`"},
+        to(&StudyCurve::title)}}};
+  return declaration;
+}
+
+const TableDeclaration<StudyExpect>& study_expect() {
+  static const TableDeclaration<StudyExpect> declaration = [] {
+    TableDeclaration<StudyExpect> made{
+        {"expect", true, "",
+         "Something that must hold across the runs: `pulvis study` says whether it does, and exits "
+         "with code 3 if not. One number is taken of each run (`series` with `at` or `when`), over "
+         "seeds their mean, and variations are compared by exactly one of `order`, `ratio`, "
+         "`effect` or `of`."},
+        quantity_keys()};
+    for (const auto& more : {across_keys(), bound_keys()})
+      made.keys.insert(made.keys.end(), more.begin(), more.end());
+    return made;
+  }();
+  return declaration;
+}
+
+const Language& study_language() {
+  static const Language language{
+      view_of(study_top_level()),
+      free_keys("set",
+                "Keys of the scene that all variations change, as `--set` does: "
+                "`output.frames = 20`."),
+      free_keys(
+          "grid",
+          "Keys of the scene, each with a list of values; every combination is a variation: "
+          "`contact.friction = [0.001, 0.1, 0.3]` makes `friction=0.001`, `friction=0.1` and "
+          "`friction=0.3`. A variation is named by the last word of each key, or by the whole "
+          "key where two end in the same word. Elements of repeated tables are reached as in "
+          "`--set`, in quotes: `\"stage.press.duration\" = [\"1 ms\", \"2 ms\"]`."),
+      view_of(study_variation()),
+      free_keys("variation.set", "Keys of the scene that this variation changes."),
+      view_of(study_curve()),
+      view_of(study_expect())};
+  return language;
+}
+
+}  // namespace pulvis::schema

@@ -1,0 +1,227 @@
+#include "scenes/study/study_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "scenes/checks/expect_checks.hpp"
+#include "scenes/study/study_series.hpp"
+
+namespace pulvis {
+namespace {
+
+const SeriesInfo* find_series(const std::vector<SeriesInfo>& all, const std::string& name) {
+  const auto found = std::ranges::find(all, name, &SeriesInfo::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string unit_in(const std::vector<SeriesInfo>& all, const std::string& name) {
+  const SeriesInfo* series = find_series(all, name);
+  return series == nullptr ? "-" : series->unit;
+}
+
+std::vector<std::string> names_of(const std::vector<SeriesInfo>& all) {
+  std::vector<std::string> names;
+  for (const SeriesInfo& series : all) names.push_back(series.name);
+  return names;
+}
+
+class StudyChecks {
+ public:
+  StudyChecks(Study& study, const schema::Origins& origins, Problems& problems)
+      : study_(study), origins_(origins), problems_(problems) {}
+
+  void run() {
+    seeds();
+    curves();
+    for (std::size_t i = 0; i < study_.spec.expects.size(); ++i) {
+      path_ = fmt::format("expect[{}]", i);
+      expect(study_.spec.expects[i]);
+    }
+  }
+
+ private:
+  void refuse(const std::string& key, const std::string& message) {
+    const std::string path = schema::joined_path(path_, key);
+    auto found = origins_.find(path);
+    if (key.empty() || found == origins_.end()) found = origins_.find(path_);
+    problems_.add(found->second, path, message);
+  }
+
+  void seeds() {
+    const std::set<std::int64_t> different(study_.spec.seeds.begin(), study_.spec.seeds.end());
+    if (different.size() != study_.spec.seeds.size())
+      refuse("seeds", "a seed is given twice, allowed: each once");
+  }
+
+  void curves() {
+    for (std::size_t i = 0; i < study_.spec.curves.size(); ++i) {
+      path_ = fmt::format("curve[{}]", i);
+      const StudyCurve& curve = study_.spec.curves[i];
+      drawn("x", curve.x);
+      drawn("y", curve.y);
+    }
+    if (study_.spec.curves.empty()) usual_curves();
+  }
+
+  // A curve is drawn of the runs that have its series: one is enough.
+  void drawn(const std::string& key, const std::string& name) {
+    std::vector<std::string> known;
+    for (const StudyRun& run : study_.runs) {
+      known = names_of(study_series(run.scene));
+      if (std::ranges::find(known, name) != known.end()) return;
+    }
+    refuse(key, fmt::format("no run has the series '{}'{}, allowed: {}", name,
+                            suggestion(name, known), listed(known)));
+  }
+
+  void usual_curves() {
+    const std::vector<SeriesInfo> all = study_series(study_.runs.front().scene);
+    const auto add = [&](const std::string& y, const std::string& x) {
+      if (find_series(all, x) != nullptr && find_series(all, y) != nullptr)
+        study_.spec.curves.push_back({"", x, y, {}});
+    };
+    add("stress_ratio/axial", "relative_density");
+    add("tool/top/force_y", "travel/top");
+    add("transmission", "relative_density");
+    if (study_.spec.curves.empty()) add("energy/external", "time");
+  }
+
+  void expect(StudyExpect& expect) {
+    const bool bounds = expect.above || expect.below || expect.equals;
+    const int kinds = int{!expect.order.empty()} + int{!expect.ratio.empty()} +
+                      int{!expect.effect.empty()} + int{!expect.of.empty()};
+    if (kinds != 1)
+      refuse("", fmt::format("{} of `order`, `ratio`, `effect` and `of` given, allowed: one",
+                             kinds == 0 ? "none" : "more than one"));
+    if (!expect.order.empty()) order(expect);
+    if (!expect.ratio.empty() && expect.ratio.size() != 2)
+      refuse("ratio", "allowed: two variations, [\"a\", \"b\"]");
+    if (!expect.effect.empty()) effect(expect);
+    const bool bounded = !expect.ratio.empty() || !expect.of.empty();
+    if (kinds == 1 && bounds && !bounded)
+      refuse("",
+             "bounds have no effect here, allowed: `above`, `below` and `equals` of `ratio` and "
+             "`of`");
+    if (kinds == 1 && bounded) one_kind_of_bound(expect);
+    names(expect);
+  }
+
+  void order(const StudyExpect& expect) {
+    if (expect.order.size() < 2) refuse("order", "one variation is given, allowed: two or more");
+    if (!expect.trend)
+      refuse("trend", "required key is missing, allowed: \"increasing\", \"decreasing\"");
+  }
+
+  void effect(const StudyExpect& expect) {
+    if (expect.effect.size() != 2) refuse("effect", "allowed: two variations, [\"a\", \"b\"]");
+    if (expect.exceeds.size() != 2)
+      refuse("exceeds", "allowed: the two variations that `effect` is compared with");
+  }
+
+  void one_kind_of_bound(const StudyExpect& expect) {
+    const bool range = expect.above || expect.below, equals = expect.equals.has_value();
+    if (range == equals)
+      refuse("", fmt::format("{}, allowed: `above` and `below`, or `equals` with `within`",
+                             range ? "both bounds and `equals` given" : "no bound given"));
+    if (equals && !expect.within)
+      refuse("within", "required key is missing, allowed: a number >= 0");
+  }
+
+  void names(StudyExpect& expect) {
+    std::vector<std::string> named = expect.order;
+    for (const auto* more : {&expect.ratio, &expect.effect, &expect.exceeds})
+      named.insert(named.end(), more->begin(), more->end());
+    if (!expect.of.empty()) named.push_back(expect.of);
+    const StudyRun* first = nullptr;
+    for (const std::string& name : named) {
+      const StudyRun* run = first_run_of(study_, name);
+      if (run == nullptr) {
+        refuse(key_of(expect, name),
+               fmt::format("no variation is called '{}'{}, allowed: {}", name,
+                           suggestion(name, study_.variations), listed(study_.variations)));
+        return;
+      }
+      if (!has_series(expect, *run)) return;
+      if (first == nullptr) first = run;
+    }
+    if (first != nullptr) units(expect, study_series(first->scene));
+  }
+
+  static std::string key_of(const StudyExpect& expect, const std::string& name) {
+    const auto in = [&](const std::vector<std::string>& list) {
+      return std::ranges::find(list, name) != list.end();
+    };
+    return in(expect.order)     ? "order"
+           : in(expect.ratio)   ? "ratio"
+           : in(expect.effect)  ? "effect"
+           : in(expect.exceeds) ? "exceeds"
+                                : "of";
+  }
+
+  bool has_series(const StudyExpect& expect, const StudyRun& run) {
+    const std::vector<SeriesInfo> all = study_series(run.scene);
+    for (const auto& [key, name] :
+         {std::pair{"series", expect.series}, {"against", abscissa(expect)}})
+      if (find_series(all, name) == nullptr) {
+        const bool said = std::string(key) == "series" || !expect.against.empty();
+        refuse(said ? key : "",
+               fmt::format("a run of '{}' has no series '{}'{}, allowed: {}", run.variation, name,
+                           suggestion(name, names_of(all)), listed(names_of(all))));
+        return false;
+      }
+    return true;
+  }
+
+  // Without a place on it the abscissa does not matter; every run has the time.
+  static std::string abscissa(StudyExpect expect) {
+    const bool placed = expect.at || expect.from || expect.until;
+    if (!expect.against.empty()) return expect.against;
+    return placed ? "relative_density" : "time";
+  }
+
+  void units(StudyExpect& expect, const std::vector<SeriesInfo>& all) {
+    if (expect.at && expect.when) refuse("when", "has no effect beside `at`, allowed: one of them");
+    if (!expect.against.empty() && !expect.at && !expect.from && !expect.until)
+      refuse("against",
+             "has no effect without `at`, `from` or `until`, allowed: beside one of them");
+    if (expect.at && (expect.from || expect.until))
+      refuse(expect.from ? "from" : "until", "has no effect beside `at`, allowed: with `when`");
+    expect.against = abscissa(expect);
+    const std::string place = unit_in(all, expect.against);
+    convert(expect.at, "at", place);
+    convert(expect.from, "from", place);
+    convert(expect.until, "until", place);
+    const bool share = expect.of.empty() || expect.when == StudyExpect::When::roughness;
+    const std::string unit = share ? "-" : unit_in(all, expect.series);
+    convert(expect.above, "above", unit);
+    convert(expect.below, "below", unit);
+    convert(expect.equals, "equals", unit);
+    if (expect.above && expect.below && expect.above->number > expect.below->number)
+      refuse("above", "is above the other bound, allowed: above <= below");
+  }
+
+  void convert(std::optional<StudyExpect::Bound>& bound, const std::string& key,
+               const std::string& unit) {
+    if (const std::string fault = settle_bound(bound, unit); !fault.empty()) refuse(key, fault);
+  }
+
+  Study& study_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+  std::string path_;
+};
+
+}  // namespace
+
+const StudyRun* first_run_of(const Study& study, const std::string& variation) {
+  const auto found = std::ranges::find(study.runs, variation, &StudyRun::variation);
+  return found == study.runs.end() ? nullptr : &*found;
+}
+
+void complete_and_check_study(Study& study, const schema::Origins& origins, Problems& problems) {
+  StudyChecks(study, origins, problems).run();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,326 @@
+#include "scenes/study/study_read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+
+#include "scenes/language/describe.hpp"
+#include "scenes/language/table_reader.hpp"
+#include "scenes/read.hpp"
+#include "scenes/study/declare_study.hpp"
+#include "scenes/study/study_checks.hpp"
+
+namespace pulvis {
+namespace {
+
+using document::Entry;
+using document::Origin;
+using document::Table;
+using document::Value;
+
+constexpr std::size_t most_runs = 10'000;
+
+const char* const introduction = R"(# The study file
+
+<!-- Generated from the declarations in scenes/study/declare_study.cpp: change those, not this file. -->
+
+A study is a TOML file that names a scene and what to vary in it. `pulvis study STUDY.toml` runs every
+variation, several at once, and puts their figures into one table and their curves into one report.
+
+```toml
+scene = "../compaction/regular-100.toml"
+
+[grid]
+contact.friction = [0.001, 0.1, 0.3]
+
+[[expect]]
+series = "stress_ratio/axial"
+at = 0.85                              # of the relative density
+order = ["friction=0.001", "friction=0.1", "friction=0.3"]
+trend = "increasing"
+```
+
+Keys of the scene are written as for `--set` (docs/scene.md). What a variation changes is applied in this
+order: `[set]`, the variation's own `set`, the grid, the seed, and `--set` of the command line. Anything
+that is wrong, in the study or in a scene it makes, is refused before the first run as
+`file:line:col: key: what is wrong, allowed: what is allowed`.
+
+**Series** are those of `history.csv` and `time`; for every tool `travel/<tool>`, its way since the start
+[m]; and in a die of four plane tools `pressure/<tool>`, the force towards the tool over its face [Pa], and
+`transmission`, the bottom punch's force over the top punch's.
+)";
+
+// Settings of a table whose keys are paths into a scene; nested tables are paths, too.
+void flatten(const Table& table, const std::string& above, std::vector<StudySetting>& settings) {
+  for (const Entry& entry : table) {
+    const std::string path = schema::joined_path(above, entry.key);
+    if (const auto* inner = entry.value.as<Table>())
+      flatten(*inner, path, settings);
+    else
+      settings.push_back({path, entry.value, entry.value.origin});
+  }
+}
+
+std::string name_text(const Value& value) {
+  if (const auto* array = value.as<document::Array>()) {
+    std::string text;
+    for (const Value& element : *array) {
+      if (!text.empty()) text += '_';
+      text += name_text(element);
+    }
+    return text;
+  }
+  const auto* string = value.as<std::string>();
+  std::string text;
+  for (const char c : string != nullptr ? *string : document::value_text(value)) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' ||
+                       c == '+' || c == '.';
+    if (plain)
+      text += c;
+    else if (c != ' ')
+      text += '-';
+  }
+  return text;
+}
+
+std::string last_word(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+// What an axis is called in the names of variations.
+std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) {
+  const auto same = [&](const StudyAxis& other) {
+    return last_word(other.path) == last_word(axis.path);
+  };
+  return std::ranges::count_if(all, same) == 1 ? last_word(axis.path)
+                                               : name_text(Value{axis.path, {}});
+}
+
+// What lies beside the folders of the runs.
+constexpr std::array files_of_a_study{"study.toml",  "study.csv",   "summary.json",
+                                      "curves.json", "report.html", "pictures"};
+
+// File systems that know no capital letters take two such names for one.
+bool can_be_folder(std::string name) {
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return !name.starts_with('.') &&
+         std::ranges::find(files_of_a_study, name) == files_of_a_study.end();
+}
+
+class StudyReader {
+ public:
+  StudyReader(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+      : overrides_(overrides), problems_(file, overrides) {
+    study_.file = file;
+    study_.text = toml_file_text(file, "a study");
+  }
+
+  Study read() {
+    Value root{parsed(), {{1, 1}, -1}};
+    const Table& table = root.get<Table>();
+    schema::TableReader reader(table, problems_, schema::study_language());
+    reader.read(schema::study_top_level(), root, "", "", study_.spec);
+    study_.spec.common = free_table(table, "set", "set");
+    read_grid(table);
+    study_.spec.list = elements(reader, schema::study_variation(), table);
+    read_variation_settings(reader, table);
+    study_.spec.curves = elements(reader, schema::study_curve(), table);
+    study_.spec.expects = elements(reader, schema::study_expect(), table);
+    problems_.throw_if_any();
+    scene_origin_ = document::find(table, "scene") == nullptr
+                        ? root.origin
+                        : document::find(table, "scene")->value.origin;
+    make_runs();
+    problems_.throw_if_any();
+    complete_and_check_study(study_, reader.origins(), problems_);
+    problems_.throw_if_any();
+    return std::move(study_);
+  }
+
+ private:
+  Table parsed() {
+    try {
+      Table root = document::parse(study_.text);
+      if (root.empty()) problems_.add({{1, 1}, -1}, "study", "is empty, allowed: a study (TOML)");
+      problems_.throw_if_any();
+      return root;
+    } catch (const document::SyntaxError& error) {
+      problems_.add({error.mark, -1}, "syntax", error.what());
+      problems_.throw_if_any();
+      throw;  // not reached
+    }
+  }
+
+  template <class Spec>
+  std::vector<Spec> elements(schema::TableReader& reader,
+                             const schema::TableDeclaration<Spec>& declaration, const Table& root) {
+    const document::Array& array = reader.elements(root, "", declaration.info);
+    std::vector<Spec> specs(array.size());
+    for (std::size_t i = 0; i < array.size(); ++i) {
+      specs[i].mark = array[i].origin.mark;
+      reader.read(declaration, array[i], fmt::format("{}[{}]", declaration.info.path, i), "",
+                  specs[i]);
+    }
+    return specs;
+  }
+
+  std::vector<StudySetting> free_table(const Table& parent, const std::string& key,
+                                       const std::string& path) {
+    std::vector<StudySetting> settings;
+    const Entry* entry = document::find(parent, key);
+    if (entry == nullptr) return settings;
+    if (const auto* table = entry->value.as<Table>())
+      flatten(*table, "", settings);
+    else
+      problems_.add(entry->origin, path,
+                    fmt::format("wrong type, {} is given, allowed: a table of keys of the scene",
+                                document::type_name(entry->value)));
+    return settings;
+  }
+
+  void read_grid(const Table& root) {
+    for (const StudySetting& line : free_table(root, "grid", "grid")) {
+      const auto* values = line.value.as<document::Array>();
+      if (values == nullptr || values->empty()) {
+        problems_.add(
+            line.origin, "grid." + line.path,
+            fmt::format("{} is given, allowed: one or more values, [0.1, 0.3]",
+                        values == nullptr ? document::type_name(line.value) : "an empty array"));
+        continue;
+      }
+      StudyAxis axis{line.path, {}};
+      for (const Value& value : *values) axis.settings.push_back({line.path, value, value.origin});
+      study_.spec.grid.push_back(std::move(axis));
+    }
+  }
+
+  void read_variation_settings(schema::TableReader& reader, const Table& root) {
+    const document::Array& array = reader.elements(root, "", schema::study_variation().info);
+    for (std::size_t i = 0; i < study_.spec.list.size(); ++i)
+      study_.spec.list[i].settings =
+          free_table(array[i].get<Table>(), "set", fmt::format("variation[{}].set", i));
+  }
+
+  // Grid, list and seeds multiplied out; the last axis changes fastest, seeds faster still.
+  void make_runs() {
+    std::vector<VariationSpec> list = study_.spec.list;
+    if (list.empty()) list.push_back({"", "", {}, scene_origin_.mark});
+    std::size_t points = 1;
+    for (const StudyAxis& axis : study_.spec.grid) points *= axis.settings.size();
+    const std::size_t seeds = std::max<std::size_t>(1, study_.spec.seeds.size());
+    if (points > most_runs || list.size() * points * seeds > most_runs) {
+      problems_.add(scene_origin_, "grid",
+                    fmt::format("makes more than {} runs, allowed: at most as many", most_runs));
+      return;
+    }
+    for (const VariationSpec& one : list)
+      for (std::size_t point = 0; point < points; ++point) add_variation(one, point);
+  }
+
+  void add_variation(const VariationSpec& one, std::size_t point) {
+    StudyRun run;
+    run.varied = one.settings;
+    std::vector<std::string> name;
+    if (!one.name.empty()) name.push_back(one.name);
+    std::size_t left = point;
+    std::vector<const StudySetting*> chosen(study_.spec.grid.size());
+    for (std::size_t a = chosen.size(); a-- > 0;) {
+      const std::vector<StudySetting>& settings = study_.spec.grid[a].settings;
+      chosen[a] = &settings[left % settings.size()];
+      left /= settings.size();
+    }
+    for (std::size_t a = 0; a < chosen.size(); ++a) {
+      name.push_back(axis_name(study_.spec.grid[a], study_.spec.grid) + "=" +
+                     name_text(chosen[a]->value));
+      run.varied.push_back(*chosen[a]);
+    }
+    run.variation = name.empty() ? "base" : fmt::format("{}", fmt::join(name, ","));
+    const Origin origin{chosen.empty() ? one.mark : chosen.front()->origin.mark, -1};
+    if (std::ranges::find(study_.variations, run.variation) != study_.variations.end())
+      problems_.add(origin, "variation",
+                    fmt::format("two are called '{}', allowed: each name once", run.variation));
+    if (!can_be_folder(run.variation))
+      problems_.add(
+          origin, "variation.name",
+          fmt::format("'{}' is no name for the folder of a run, allowed: one that does not "
+                      "begin with '.' and that the study has no file of ({})",
+                      run.variation, fmt::join(files_of_a_study, ", ")));
+    study_.variations.push_back(run.variation);
+    const std::string& scene = one.scene.empty() ? study_.spec.scene : one.scene;
+    if (scene.empty()) {
+      problems_.add({one.mark, -1}, "scene",
+                    "required key is missing, allowed: the path of a scene, here or in every "
+                    "[[variation]]");
+      return;
+    }
+    run.file = study_.file.parent_path() / scene;
+    add_seeds(run, one.scene.empty() ? scene_origin_ : Origin{one.mark, -1});
+  }
+
+  void add_seeds(const StudyRun& variation, const Origin& scene_origin) {
+    std::vector<std::optional<std::int64_t>> seeds{std::nullopt};
+    if (!study_.spec.seeds.empty()) seeds = {study_.spec.seeds.begin(), study_.spec.seeds.end()};
+    for (const std::optional<std::int64_t>& seed : seeds) {
+      StudyRun run = variation;
+      run.seed = seed;
+      run.name = run.variation + (seed ? fmt::format(",seed={}", *seed) : "");
+      load(run, scene_origin);
+      study_.runs.push_back(std::move(run));
+    }
+  }
+
+  // Reads the run's scene; what is wrong with it is told at the line of the study that made it so.
+  void load(StudyRun& run, const Origin& scene_origin) {
+    std::vector<Origin> origins;
+    for (const auto* settings : {&study_.spec.common, &run.varied})
+      for (const StudySetting& setting : *settings) {
+        run.overrides.push_back(setting.text());
+        origins.push_back(setting.origin);
+      }
+    if (run.seed) {
+      run.overrides.push_back(fmt::format("seed={}", *run.seed));
+      origins.push_back(scene_origin);
+    }
+    for (std::size_t i = 0; i < overrides_.size(); ++i) {
+      run.overrides.push_back(overrides_[i]);
+      origins.push_back({{}, static_cast<int>(i)});
+    }
+    try {
+      LoadedScene loaded = load_scene(run.file, run.overrides);
+      run.scene = std::move(loaded.scene);
+      run.hash = loaded.hash;
+    } catch (const SceneError& error) {
+      for (const SceneProblem& problem : error.errors()) tell(problem, run, origins, scene_origin);
+    }
+  }
+
+  void tell(const SceneProblem& problem, const StudyRun& run, const std::vector<Origin>& origins,
+            const Origin& scene_origin) {
+    if (!told_.insert(problem.text()).second) return;  // every run would say it again
+    const auto cause = std::ranges::find(run.overrides, problem.override_text);
+    if (problem.override_text.empty() || cause == run.overrides.end())
+      problems_.add(scene_origin, "scene", problem.text());
+    else
+      problems_.add(origins[static_cast<std::size_t>(cause - run.overrides.begin())], problem.key,
+                    problem.message);
+  }
+
+  std::vector<std::string> overrides_;
+  Problems problems_;
+  Study study_;
+  Origin scene_origin_;
+  std::set<std::string> told_;
+};
+
+}  // namespace
+
+std::string StudySetting::text() const { return path + "=" + document::value_text(value); }
+
+Study load_study(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return StudyReader(file, overrides).read();
+}
+
+std::string study_reference() { return reference_of(introduction, schema::study_language()); }
+
+}  // namespace pulvis

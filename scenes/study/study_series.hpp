@@ -1,0 +1,24 @@
+// Series that a study can name: those of a run's history, and what is made of them in a die.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/files/record.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// `time`, the history, and where the scene has them:
+//   travel/<tool>        m, way of the tool since the first sample
+//   pressure/<tool>      Pa, of the four tools of a die: force towards the tool over its face
+//   transmission         -, F_bottom / F_top; no number while F_top is below 1% of its largest value
+std::vector<SeriesInfo> study_series(const Scene& scene);
+
+// The values of one of them; `history` gives those of the run.
+using History = std::function<std::vector<double>(const std::string&)>;
+std::vector<double> study_values(const Scene& scene, const std::string& name,
+                                 const History& history);
+
+}  // namespace pulvis

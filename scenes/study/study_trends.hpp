@@ -1,0 +1,32 @@
+// What a study expects across its runs, held against their curves.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/expectations.hpp"
+#include "scenes/study/study.hpp"
+
+namespace pulvis {
+
+// The one number that an expectation takes of a run, from samples of its series and of what it is
+// against. NaN where there is none: no sample in range, or a value that is never reached.
+double figure_of(const StudyExpect& expect, std::span<const double> against,
+                 std::span<const double> series);
+
+// rms distance of each sample from the straight line through its neighbours (a twentieth of all, at least
+// five), over the range of all; samples are taken to be evenly spaced.
+double roughness(std::span<const double> values);
+
+// A series of one run; empty where the run has no results.
+using SeriesOfRun = std::function<std::vector<double>(const StudyRun&, const std::string&)>;
+// `failed` tells why a run has no results to trust, or nothing.
+using FailureOfRun = std::function<std::string(const StudyRun&)>;
+
+// One verdict an expectation; not met where a run that it needs has failed.
+std::vector<Verdict> judge_study(const Study& study, const SeriesOfRun& series,
+                                 const FailureOfRun& failed);
+
+}  // namespace pulvis

@@ -1,0 +1,37 @@
+#include "scenes/tools/contact_rules.hpp"
+
+#include "scenes/tools/grips.hpp"
+
+namespace pulvis {
+
+ContactRules::Friction friction_of(const Scene& scene, const std::string& a, const std::string& b) {
+  for (const FrictionSpec& f : scene.frictions) {
+    if (!((f.first == a && f.second == b) || (f.first == b && f.second == a))) continue;
+    ContactRules::Friction friction{.coefficient = f.coefficient};
+    if (f.static_coefficient) {
+      friction.drop = *f.static_coefficient - f.coefficient;
+      friction.over_decay = 1 / *f.decay_length;
+    }
+    if (f.shear_strength) friction.strength = *f.shear_strength;
+    return friction;
+  }
+  return {.coefficient = scene.contact.friction};
+}
+
+ContactRules contact_rules(const Scene& scene) {
+  ContactRules rules;
+  rules.stiffness = scene.contact.stiffness;
+  rules.damping = scene.contact.damping;
+  rules.penetration_limit = scene.limits.penetration;
+  rules.materials = static_cast<int>(scene.materials.size());
+  for (const MaterialSpec& a : scene.materials)
+    for (const MaterialSpec& b : scene.materials)
+      rules.friction.push_back(friction_of(scene, a.name, b.name));
+  for (const ToolSpec& tool : scene.tools)
+    for (const MaterialSpec& m : scene.materials)
+      rules.tool_friction.push_back(is_grip(tool) ? ContactRules::Friction{}
+                                                  : friction_of(scene, tool.name, m.name));
+  return rules;
+}
+
+}  // namespace pulvis

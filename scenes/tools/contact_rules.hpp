@@ -1,0 +1,16 @@
+// How surfaces of the scene's materials and tools meet.
+#pragma once
+
+#include <string>
+
+#include "components/run_state.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// Between two materials, or a material and a tool.
+ContactRules::Friction friction_of(const Scene& scene, const std::string& a, const std::string& b);
+
+ContactRules contact_rules(const Scene& scene);
+
+}  // namespace pulvis

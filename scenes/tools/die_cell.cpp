@@ -1,0 +1,41 @@
+#include "scenes/tools/die_cell.hpp"
+
+#include <algorithm>
+
+#include "scenes/tools/die_sides.hpp"
+
+namespace pulvis {
+namespace {
+
+// A target surface, or a polyline like one: it goes on in x, the powder above it.
+bool is_ground(const ToolSpec& tool) {
+  if (tool.shape == ToolSpec::Shape::profile) return true;
+  if (tool.shape != ToolSpec::Shape::polyline || tool.points.empty()) return false;
+  return std::ranges::adjacent_find(tool.points, [](const Vec2& a, const Vec2& b) {
+           return !(b.x() > a.x());
+         }) == tool.points.end();
+}
+
+}  // namespace
+
+std::optional<DieCell> die_cell(const Scene& scene) {
+  DieCell cell{-1, -1, -1, -1};
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const ToolSpec& tool = scene.tools[t];
+    if (tool.shape == ToolSpec::Shape::grip) continue;
+    if (tool.shape != ToolSpec::Shape::plane && !is_ground(tool))
+      return std::nullopt;  // takes space of its own
+    const Vec2 n = face_normal(tool);
+    int* side = n.x() > 1 - 1e-12    ? &cell.left
+                : n.x() < -1 + 1e-12 ? &cell.right
+                : n.y() > 1 - 1e-12  ? &cell.bottom
+                : n.y() < -1 + 1e-12 ? &cell.top
+                                     : nullptr;
+    if (side == nullptr || *side >= 0) return std::nullopt;
+    *side = static_cast<int>(t);
+  }
+  if (cell.left < 0 || cell.right < 0 || cell.bottom < 0 || cell.top < 0) return std::nullopt;
+  return cell;
+}
+
+}  // namespace pulvis

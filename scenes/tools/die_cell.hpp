@@ -1,0 +1,15 @@
+// The box between four tools whose normals look along +x, -x, +y, -y: what relative density refers to.
+#pragma once
+
+#include <optional>
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+struct DieCell {
+  int left, right, bottom, top;  // tools
+};
+std::optional<DieCell> die_cell(const Scene& scene);
+
+}  // namespace pulvis

@@ -1,0 +1,155 @@
+#include "scenes/tools/drives.hpp"
+
+#include "scenes/tools/die_relief.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/contact.hpp"
+#include "components/run_state.hpp"
+#include "components/servo.hpp"
+#include "engine/access.hpp"
+#include "scenes/outlines/outline.hpp"
+#include "scenes/tools/die_cell.hpp"
+#include "scenes/tools/servo_checks.hpp"
+#include "systems/tools/servo_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+ToolProgram tool_program(const World& world, const Scene& scene) {
+  ToolProgram program;
+  const double* start = world.column<ToolPosition>().values();
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    program.names.push_back(scene.tools[t].name);
+    program.start.push_back({start[2 * t], start[2 * t + 1]});
+  }
+  double begin = 0;
+  for (const StageSpec& stage : scene.stages) {
+    const int number = static_cast<int>(program.stages.size());
+    for (const MoveSpec& move : stage.moves)
+      program.segments.push_back({move.tool,
+                                  begin,
+                                  stage.duration,
+                                  move.ramp,
+                                  {move.displacement.x(), move.displacement.y()},
+                                  number});
+    program.stages.push_back({stage.name, begin, begin + stage.duration});
+    begin += stage.duration;
+  }
+  return program;
+}
+
+// ---- servos ---------------------------------------------------------------------------------------
+struct Powder {
+  double mass = 0;       // kg
+  double impedance = 0;  // Pa s/m, largest of its materials: density times dilatational speed
+  double area = 0;       // m^2
+};
+
+Powder powder_of(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  Powder powder;
+  for (const BodySpec& body : bodies) {
+    const ParticleSpec& particle = scene.particles[static_cast<std::size_t>(body.particle)];
+    const MaterialSpec& m = scene.materials[static_cast<std::size_t>(particle.material)];
+    const double area = outline_area(particle.outline), nu = m.poissons_ratio;
+    const double modulus = m.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+    powder.area += area;
+    powder.mass += m.density * area * scene.thickness;
+    powder.impedance = std::max(powder.impedance, std::sqrt(m.density * modulus));
+  }
+  return powder;
+}
+
+// Across `direction`; particles count as discs of their area.
+double width_of(const Scene& scene, const std::vector<BodySpec>& bodies, const Vec2& direction) {
+  double low = 1e300, high = -1e300;
+  for (const BodySpec& body : bodies) {
+    const auto& outline = scene.particles[static_cast<std::size_t>(body.particle)].outline;
+    const double radius = std::sqrt(outline_area(outline) / std::numbers::pi);
+    const double at = body.position.x() * direction.y() - body.position.y() * direction.x();
+    low = std::min(low, at - radius);
+    high = std::max(high, at + radius);
+  }
+  return high - low;
+}
+
+ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  const Powder powder = powder_of(scene, bodies);
+  ToolServos servos;
+  for (std::size_t s = 0; s < scene.stages.size(); ++s)
+    for (const ServoSpec& spec : scene.stages[s].servos) {
+      const Vec2 direction = direction_of(spec, scene);
+      // `response`: the tool's mass and the one it drags, over the powder's. A solid block of the powder's
+      // mass, stiffness and width would be damped critically by the latter and the dashpot in series.
+      const double wave = powder.impedance * width_of(scene, bodies, direction) * scene.thickness;
+      const double tool = spec.response / (1 + kernels::dragged_mass);
+      servos.servos.push_back({.tool = spec.tool,
+                               .stage = static_cast<int>(s),
+                               .direction = {direction.x(), direction.y()},
+                               .force = spec.force,
+                               .rise = spec.rise * scene.stages[s].duration,
+                               .rate = spec.rate.value_or(0),
+                               .mass = tool * powder.mass,
+                               .damping = 0.5 * std::sqrt(kernels::dragged_mass * tool) * wave,
+                               .fastest = spec.fastest,
+                               .tolerance = spec.tolerance});
+    }
+  return servos;
+}
+
+// ---- ends -----------------------------------------------------------------------------------------
+StageEnds::End end_of(const Scene& scene, int stage, const UntilSpec& until) {
+  StageEnds::End end{.stage = stage};
+  if (until.relative_density) {
+    end.kind = StageEnds::Kind::density;
+    end.value = *until.relative_density;
+    return end;
+  }
+  end.tool = *until.tool;
+  end.kind = until.force ? StageEnds::Kind::force : StageEnds::Kind::displacement;
+  end.value = until.force ? *until.force : *until.displacement;
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(end.tool)];
+  if (tool.shape == ToolSpec::Shape::plane) end.direction = {tool.normal.x(), tool.normal.y()};
+  return end;
+}
+
+StageEnds stage_ends(const World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
+  StageEnds ends;
+  for (std::size_t s = 0; s < scene.stages.size(); ++s)
+    if (scene.stages[s].until)
+      ends.ends.push_back(end_of(scene, static_cast<int>(s), *scene.stages[s].until));
+  if (const auto cell = die_cell(scene))
+    ends.cell = {cell->left,
+                 cell->right,
+                 cell->bottom,
+                 cell->top,
+                 powder_of(scene, bodies).area,
+                 relief_of(world, cell->bottom)};
+  return ends;
+}
+
+bool has_servos(const Scene& scene) {
+  return std::ranges::any_of(scene.stages, [](const StageSpec& s) { return !s.servos.empty(); });
+}
+bool has_early_ends(const Scene& scene) {
+  return std::ranges::any_of(scene.stages, [](const StageSpec& s) { return s.until.has_value(); });
+}
+
+}  // namespace
+
+void add_drives(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
+  world.emplace<ToolProgram>(tool_program(world, scene));
+  if (has_servos(scene)) {
+    world.add<ServoTravel>();
+    world.add<ServoVelocity>();
+    world.add<ServoMass>();
+    world.add<ServoDragged>();
+    world.add<ServoForce>();
+    world.emplace<ToolServos>(tool_servos(scene, bodies));
+  }
+  if (has_early_ends(scene)) world.emplace<StageEnds>(stage_ends(world, scene, bodies));
+}
+
+}  // namespace pulvis

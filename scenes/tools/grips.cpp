@@ -1,0 +1,172 @@
+#include "scenes/tools/grips.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "components/body.hpp"
+#include "components/shape.hpp"
+#include "components/surface.hpp"
+#include "scenes/language/problem.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double round_off =
+    1e-9;  // of the body's size: how far outside of its box or circle a node may lie
+
+struct Held {
+  std::int32_t chunk, node, lane, tool;
+  Vec2 place;
+  Vec2 direction = Vec2::Zero();
+  Vec2 travel = Vec2::Zero();  // of the node, along `direction`, by the tool's x and y
+};
+
+[[noreturn]] void refuse(const Scene& scene, int tool, const std::string& key,
+                         const std::string& message) {
+  const SourceMark& mark = scene.tools[static_cast<std::size_t>(tool)].mark;
+  throw SceneError({{scene.file.string(), mark.line, mark.column, "",
+                     fmt::format("tool[{}].{}", tool, key), message}});
+}
+
+std::vector<Vec2> places_of(const World& world, int slot) {
+  const auto& x = world.column<Position>();
+  const auto first =
+      static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
+  const std::size_t count = world.resource<Bodies>().shape_of_slot(slot).nodes.size();
+  std::vector<Vec2> places;
+  for (std::size_t n = first; n < first + count; ++n)
+    places.emplace_back(x.lanes()[2 * n][slot % lane_count],
+                        x.lanes()[2 * n + 1][slot % lane_count]);
+  return places;
+}
+
+double size_of(const std::vector<Vec2>& places) {
+  double size = 0;
+  for (const Vec2& p : places) size = std::max(size, (p - places.front()).norm());
+  return size;
+}
+
+void hold_node(const Scene& scene, const Held& node, double size, std::vector<Held>& held) {
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(node.tool)];
+  const auto add = [&](const Vec2& direction, const Vec2& travel) {
+    held.push_back(node);
+    held.back().direction = direction;
+    held.back().travel = travel;
+  };
+  using Holds = ToolSpec::Holds;
+  if (tool.holds == Holds::x || tool.holds == Holds::both) add(Vec2::UnitX(), Vec2::UnitX());
+  if (tool.holds == Holds::y || tool.holds == Holds::both) add(Vec2::UnitY(), Vec2::UnitY());
+  if (tool.holds != Holds::radial) return;
+  const Vec2 arm = node.place - tool.point;
+  if (arm.norm() <= round_off * size)
+    refuse(scene, node.tool, "point",
+           fmt::format("node {} of particle {} lies at the centre, where no direction is radial, "
+                       "allowed: a point where the grip holds no node",
+                       node.node, tool.body));
+  add(arm.normalized(), Vec2::UnitX());
+}
+
+bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
+  if (tool.radius) return (place - tool.point).norm() <= *tool.radius + margin;
+  return (place.array() >= tool.low.array() - margin).all() &&
+         (place.array() <= tool.high.array() + margin).all();
+}
+
+[[noreturn]] void refuse_empty(const Scene& scene, int number, const std::vector<Vec2>& places) {
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
+  if (!tool.radius)
+    refuse(scene, number, "low",
+           fmt::format("no node of particle {} lies in the box, allowed: a box with at least one "
+                       "node in it",
+                       tool.body));
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec2& place : places) nearest = std::min(nearest, (place - tool.point).norm());
+  refuse(scene, number, "radius",
+         fmt::format("no node of particle {} lies within it, allowed: at least {:.6g} m, where the "
+                     "nearest is",
+                     tool.body, nearest));
+}
+
+std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
+  const Bodies& bodies = world.resource<Bodies>();
+  if (tool.body >= bodies.particles())
+    refuse(scene, number, "body",
+           fmt::format("there is no particle {}, allowed: >= 0 and <= {}", tool.body,
+                       bodies.particles() - 1));
+  const int slot = bodies.slot_of_number[static_cast<std::size_t>(tool.body)];
+  const std::vector<Vec2> places = places_of(world, slot);
+  const double size = size_of(places);
+  std::vector<Held> held;
+  for (std::size_t n = 0; n < places.size(); ++n)
+    if (holds_place(tool, places[n], round_off * size))
+      hold_node(
+          scene,
+          {slot / lane_count, static_cast<std::int32_t>(n), slot % lane_count, number, places[n]},
+          size, held);
+  if (held.empty()) refuse_empty(scene, number, places);
+  return held;
+}
+
+// Two grips may hold a node only at right angles: otherwise neither could give way to the other.
+void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    for (std::size_t j = i + 1; j < sorted.size(); ++j) {
+      const Held &a = sorted[i], &b = sorted[j];
+      if (std::tie(a.chunk, a.lane, a.node) != std::tie(b.chunk, b.lane, b.node)) break;
+      if (std::abs(a.direction.dot(b.direction)) < round_off) continue;
+      refuse(scene, std::max(a.tool, b.tool), "holds",
+             fmt::format("node {} of particle {} at ({:.6g}, {:.6g}) m is held by '{}' and '{}' in "
+                         "the same direction, allowed: one grip, or two at right angles",
+                         a.node, scene.tools[static_cast<std::size_t>(a.tool)].body, a.place.x(),
+                         a.place.y(), scene.tools[static_cast<std::size_t>(a.tool)].name,
+                         scene.tools[static_cast<std::size_t>(b.tool)].name));
+    }
+}
+
+void fill(World& world, const std::vector<Held>& held) {
+  for (std::size_t r = 0; r < held.size(); ++r) {
+    const Held& h = held[r];
+    std::int32_t* target = world.column<GripTarget>().values() + 3 * r;
+    std::tie(target[0], target[1], target[2]) = std::tie(h.node, h.lane, h.tool);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      world.column<GripDirection>().values()[2 * r + k] = h.direction[axis];
+      world.column<GripTravel>().values()[2 * r + k] = h.travel[axis];
+    }
+    world.column<GripOrigin>().values()[r] = h.direction.dot(h.place);
+  }
+}
+
+}  // namespace
+
+void add_grips(World& world, const Scene& scene) {
+  std::vector<Held> held;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (!is_grip(scene.tools[t])) continue;
+    const std::vector<Held> own = held_by(scene, world, static_cast<int>(t));
+    held.insert(held.end(), own.begin(), own.end());
+  }
+  std::vector<Held> by_node = held;
+  std::ranges::stable_sort(by_node, {},
+                           [](const Held& h) { return std::tie(h.chunk, h.lane, h.node); });
+  check_shared(scene, by_node);
+  std::ranges::stable_sort(held, {}, &Held::chunk);
+
+  std::vector<std::int32_t> rows(static_cast<std::size_t>(world.resource<Bodies>().chunks()), 0);
+  for (const Held& h : held) rows[static_cast<std::size_t>(h.chunk)] += 1;
+  world.add_table<GrippedNode>(rows);
+  world.add<GripTarget>();
+  world.add<GripDirection>();
+  world.add<GripTravel>();
+  world.add<GripOrigin>();
+  world.add<GripReaction>();
+  world.emplace<GripIndex>().begin = world.table<GrippedNode>().chunk_begin;
+  fill(world, held);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,278 @@
+#include "scenes/tools/profile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/portable_math.hpp"
+#include "scenes/outlines/outline.hpp"
+#include "scenes/packing/place.hpp"
+#include "scenes/tools/profile_file.hpp"
+#include "scenes/tools/rough_profile.hpp"
+#include "scenes/tools/surface.hpp"
+
+namespace pulvis {
+namespace {
+
+using Kind = ProfileSpec::Kind;
+using std::numbers::pi;
+
+constexpr int chords_of_a_sine = 32;
+constexpr double pitches_beyond = 2;  // what the powder can press aside stays on the relief
+constexpr int most_stations = 20'000;
+constexpr double upright = 1 - 1e-9;  // of a wall's normal along x
+
+double depth_of(const ProfileSpec& relief) {
+  return relief.depth ? *relief.depth : depth_for(relief, *relief.ra);
+}
+
+struct Extent {
+  double low, high;  // m
+};
+
+// Of the powder along x, and as far as it can be pressed aside: to walls that are there.
+Extent powder_extent(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  Extent extent{1e300, -1e300};
+  for (const BodySpec& body : bodies) {
+    const Outline& outline = scene.particles[static_cast<std::size_t>(body.particle)].outline;
+    const double size = std::sqrt(outline_area(outline));
+    double reach = 0;
+    for (const Vec2& corner : outline_polygon(outline, 0.1 * size))
+      reach = std::max(reach, 1.1 * corner.norm());
+    extent.low = std::min(extent.low, body.position.x() - reach);
+    extent.high = std::max(extent.high, body.position.x() + reach);
+  }
+  for (const ToolSpec& tool : scene.tools) {
+    if (tool.shape != ToolSpec::Shape::plane || std::abs(tool.normal.x()) < upright) continue;
+    extent.low = std::min(extent.low, tool.point.x());
+    extent.high = std::max(extent.high, tool.point.x());
+  }
+  return extent;
+}
+
+// The tool's own frame goes the other way than the powder in it.
+Extent covered(const Scene& scene, int tool, Extent powder) {
+  double at = 0, least = 0, most = 0;
+  for (const StageSpec& stage : scene.stages)
+    for (const MoveSpec& move : stage.moves) {
+      if (move.tool != tool) continue;
+      at += move.displacement.x();
+      least = std::min(least, at);
+      most = std::max(most, at);
+    }
+  return {powder.low - most, powder.high - least};
+}
+
+std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {
+  const ProfileSpec& relief = tool.relief;
+  const std::vector<Vec2> pitch = one_pitch(relief);
+  const double from = tool.point.x();
+  const double first = std::floor((extent.low - from) / relief.pitch) - pitches_beyond;
+  const double last = std::ceil((extent.high - from) / relief.pitch) + pitches_beyond;
+  std::vector<Vec2> points{tool.point + Vec2((first - 1) * relief.pitch, 0)};  // crests go on, flat
+  for (double k = first; k < last; ++k)
+    for (const Vec2& corner : pitch)
+      points.push_back(tool.point + corner + Vec2(k * relief.pitch, 0));
+  points.push_back(tool.point + Vec2(last * relief.pitch, 0));
+  points.push_back(tool.point + Vec2((last + 1) * relief.pitch, 0));
+  return points;
+}
+
+// Crests at the height of the tool's point; where nothing comes the surface goes on at that height.
+std::vector<Vec2> between_flats(const std::vector<Vec2>& relief, double height) {
+  double top = relief.front().y();
+  for (const Vec2& p : relief) top = std::max(top, p.y());
+  const double from = relief.front().x(), to = relief.back().x(), length = to - from;
+  std::vector<Vec2> points{{from - 2 * length, height}, {from - length, height}};
+  for (const Vec2& p : relief) points.push_back({p.x(), p.y() + height - top});
+  points.push_back({to + length, height});
+  points.push_back({to + 2 * length, height});
+  return points;
+}
+
+int period_of(double length, double correlation_length) {
+  double lengths = lengths_a_period;
+  while (lengths * correlation_length < length && lengths * stations_a_length <= most_stations)
+    lengths *= 2;
+  return static_cast<int>(lengths);
+}
+
+// Refused where it would take too many stations: none.
+std::vector<Vec2> rough(const ToolSpec& tool, std::uint64_t seed, Extent extent) {
+  const ProfileSpec& relief = tool.relief;
+  const double step = relief.correlation_length / stations_a_length;
+  const int lengths = period_of(extent.high - extent.low, relief.correlation_length);
+  const double first = std::floor((extent.low - tool.point.x()) / step) - stations_a_length;
+  const double last = std::ceil((extent.high - tool.point.x()) / step) + stations_a_length;
+  if (last - first > most_stations) return {};
+  const std::vector<double> heights = rough_heights(*relief.ra, seed, lengths);
+  const auto count = static_cast<std::int64_t>(heights.size());
+  std::vector<Vec2> points;
+  for (auto i = static_cast<std::int64_t>(first); i <= static_cast<std::int64_t>(last); ++i)
+    points.push_back({tool.point.x() + static_cast<double>(i) * step,
+                      heights[static_cast<std::size_t>((i % count + count) % count)]});
+  return between_flats(points, tool.point.y());
+}
+
+}  // namespace
+
+double depth_for(const ProfileSpec& relief, double ra) {
+  if (relief.kind == Kind::sine) return pi * ra;
+  if (relief.kind == Kind::trapezoid) return ra / (0.25 + 0.5 * relief.flat_share);
+  return 4 * ra;
+}
+
+std::vector<Vec2> one_pitch(const ProfileSpec& relief) {
+  const double p = relief.pitch, d = depth_of(relief);
+  std::vector<Vec2> points;
+  if (relief.kind == Kind::triangle) points = {{0, 0}, {p / 2, -d}};
+  if (relief.kind == Kind::trapezoid) {
+    const double half = relief.flat_share * p / 2;
+    points = {{half, 0}, {p / 2 - half, -d}, {p / 2 + half, -d}, {p - half, 0}};
+  }
+  if (relief.kind == Kind::sine)
+    for (int i = 0; i < chords_of_a_sine; ++i) {
+      const double x = static_cast<double>(i) / chords_of_a_sine;
+      points.push_back({p * x, -0.5 * d * (1 - portable::cos(2 * pi * x))});
+    }
+  return points;
+}
+
+namespace {
+
+class ProfileChecks {
+ public:
+  ProfileChecks(const ToolSpec& tool, std::string path, const schema::Origins& origins,
+                Problems& problems)
+      : relief_(tool.relief), path_(std::move(path)), origins_(origins), problems_(problems) {}
+
+  void run() {
+    const bool rough = relief_.kind == Kind::rough, measured = relief_.kind == Kind::file;
+    const bool repeats = relief_.kind != Kind::flat && !rough && !measured;
+    belongs("pitch", repeats, "\"triangle\", \"sine\" or \"trapezoid\"");
+    belongs("depth", repeats, "\"triangle\", \"sine\" or \"trapezoid\"");
+    belongs("ra", repeats || rough, "\"triangle\", \"sine\", \"trapezoid\" or \"rough\"");
+    belongs("flat_share", relief_.kind == Kind::trapezoid, "\"trapezoid\"");
+    belongs("correlation_length", rough, "\"rough\"");
+    belongs("file", measured, "\"file\"");
+    if (repeats) wanted("pitch", "a quantity in m");
+    if (rough) wanted("ra", "a quantity in m");
+    if (rough) wanted("correlation_length", "a quantity in m");
+    if (measured) wanted("file", "the name of a CSV file");
+    if (repeats && given("depth") == given("ra"))
+      refuse(given("ra") ? "ra" : "depth",
+             given("ra") ? "has no effect beside depth, allowed: one of the two"
+                         : "required key is missing, allowed: a quantity in m, or ra instead");
+  }
+
+ private:
+  bool given(const std::string& key) const { return origins_.contains(path_ + "." + key); }
+  void belongs(const char* key, bool does, const char* where) {
+    if (given(key) && !does)
+      refuse(key, fmt::format("has no effect, allowed: only with relief = {}", where));
+  }
+  void wanted(const char* key, const char* what) {
+    if (!given(key)) refuse(key, fmt::format("required key is missing, allowed: {}", what));
+  }
+  void refuse(const std::string& key, const std::string& message) {
+    const std::string at = path_ + "." + key;
+    problems_.add(origins_.at(given(key) ? at : path_), at, message);
+  }
+  const ProfileSpec& relief_;
+  std::string path_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+};
+
+// One tool's polyline, and what is wrong with it.
+class ProfileMaker {
+ public:
+  ProfileMaker(Scene& scene, std::size_t tool, Extent powder, const schema::Origins& origins,
+               Problems& problems)
+      : scene_(scene),
+        tool_(scene.tools[tool]),
+        extent_(covered(scene, static_cast<int>(tool), powder)),
+        path_(fmt::format("tool[{}]", tool)),
+        origins_(origins),
+        problems_(problems) {}
+
+  void run() {
+    const std::vector<Vec2> points = made();
+    if (points.empty()) return;  // refused
+    tool_.points = points;
+    tool_.shape = ToolSpec::Shape::polyline;
+    if (const std::string fault = fault_of_polyline(points, tool_.rounding); !fault.empty())
+      refuse("rounding", fault);
+  }
+
+ private:
+  std::vector<Vec2> made() {
+    if (tool_.relief.kind == Kind::flat) return flat();
+    if (tool_.relief.kind == Kind::rough) return made_rough();
+    if (tool_.relief.kind == Kind::file) return measured();
+    return repeated(tool_, extent_);
+  }
+
+  std::vector<Vec2> flat() const {
+    return {{extent_.low, tool_.point.y()}, {extent_.high, tool_.point.y()}};
+  }
+
+  std::vector<Vec2> made_rough() {
+    std::vector<Vec2> points = rough(tool_, scene_.seed, extent_);
+    if (points.empty())
+      refuse(
+          "correlation_length",
+          fmt::format("too short for the {:.6g} m that the powder comes over, allowed: >= {:.6g} m",
+                      length(), 1.01 * length() * stations_a_length / most_stations));
+    return points;
+  }
+
+  std::vector<Vec2> measured() {
+    std::vector<Vec2> points = read_profile(scene_.file.parent_path() / tool_.relief.file);
+    const double begin = points.front().x();
+    for (Vec2& p : points) p.x() += tool_.point.x() - begin;
+    const double from = points.front().x(), to = points.back().x();
+    if (from <= extent_.low && to >= extent_.high) return between_flats(points, tool_.point.y());
+    refuse(
+        "file",
+        fmt::format("the profile is {:.6g} m long and lies from x = {:.6g} m to {:.6g} m; powder "
+                    "and sliding take it from {:.6g} m to {:.6g} m, allowed: a profile of at least "
+                    "{:.6g} m, which starts (point) at x <= {:.6g} m",
+                    to - from, from, to, extent_.low, extent_.high, length(), extent_.low));
+    return {};
+  }
+
+  double length() const { return extent_.high - extent_.low; }
+  void refuse(const std::string& key, const std::string& message) {
+    const std::string at = path_ + "." + key;
+    problems_.add(origins_.at(origins_.contains(at) ? at : path_), at, message);
+  }
+
+  Scene& scene_;
+  ToolSpec& tool_;
+  Extent extent_;
+  std::string path_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+void check_profile(const ToolSpec& tool, const std::string& path, const schema::Origins& origins,
+                   Problems& problems) {
+  ProfileChecks(tool, path, origins, problems).run();
+}
+
+void make_profiles(Scene& scene, const schema::Origins& origins, Problems& problems) {
+  const bool any = std::ranges::any_of(
+      scene.tools, [](const ToolSpec& t) { return t.shape == ToolSpec::Shape::profile; });
+  if (!any) return;
+  const Extent powder = powder_extent(scene, place_bodies(scene));
+  for (std::size_t t = 0; t < scene.tools.size(); ++t)
+    if (scene.tools[t].shape == ToolSpec::Shape::profile)
+      ProfileMaker(scene, t, powder, origins, problems).run();
+}
+
+}  // namespace pulvis

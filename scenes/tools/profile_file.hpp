@@ -1,0 +1,15 @@
+// Measured profiles: heights against x from a CSV file.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// Columns "x" and "height", each with its unit; others may be there. Heights are levelled: what is left above
+// the least squares line through them. Throws SceneError where x does not rise from row to row.
+std::vector<Vec2> read_profile(const std::filesystem::path& file);
+
+}  // namespace pulvis

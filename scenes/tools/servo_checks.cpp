@@ -1,0 +1,106 @@
+#include "scenes/tools/servo_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scenes/tools/die_cell.hpp"
+
+namespace pulvis {
+namespace {
+
+class ServoChecks {
+ public:
+  ServoChecks(const Scene& scene, const StageSpec& stage, std::string path,
+              const schema::Origins& origins, Problems& problems)
+      : scene_(scene),
+        stage_(stage),
+        path_(std::move(path)),
+        origins_(origins),
+        problems_(problems) {}
+
+  void run() {
+    for (std::size_t i = 0; i < stage_.servos.size(); ++i) {
+      const std::string path = fmt::format("{}.servo[{}]", path_, i);
+      servo(stage_.servos[i], path);
+      for (std::size_t k = 0; k < i; ++k)
+        if (stage_.servos[k].tool == stage_.servos[i].tool)
+          refuse(path, "tool",
+                 fmt::format("'{}' has two servos in this stage, allowed: one for each tool",
+                             tool(stage_.servos[i]).name));
+      if (stage_.servos[i].rate && given(path + ".rise"))
+        refuse(path, "rise", "has no effect beside rate, allowed: one of the two");
+    }
+    if (stage_.until) until(*stage_.until);
+  }
+
+ private:
+  bool given(const std::string& path) const { return origins_.contains(path); }
+  void refuse(const std::string& path, const std::string& key, const std::string& message) {
+    const std::string at = path + "." + key;
+    problems_.add(origins_.at(given(at) ? at : path), at, message);
+  }
+  const ToolSpec& tool(const ServoSpec& servo) const {
+    return scene_.tools[static_cast<std::size_t>(servo.tool)];
+  }
+
+  void servo(const ServoSpec& servo, const std::string& path) {
+    if (tool(servo).shape == ToolSpec::Shape::grip)
+      return refuse(path, "tool",
+                    fmt::format("'{}' is a grip, allowed: a plane or a polyline, which bear what "
+                                "touches them",
+                                tool(servo).name));
+    const Vec2 direction = direction_of(servo, scene_);
+    if (direction.isZero(0))
+      return refuse(path, "direction",
+                    "required key is missing: only a plane has a normal, allowed: two numbers, not "
+                    "both zero");
+    for (const MoveSpec& move : stage_.moves)
+      if (move.tool == servo.tool &&
+          std::abs(move.displacement.dot(direction)) > 1e-9 * move.displacement.norm())
+        refuse(
+            path, "tool",
+            fmt::format("'{}' is moved along its servo's direction in the same stage, allowed: a "
+                        "move across it",
+                        tool(servo).name));
+  }
+
+  void until(const UntilSpec& until) {
+    const std::string path = path_ + ".until";
+    const int aims = int{until.force.has_value()} + int{until.displacement.has_value()} +
+                     int{until.relative_density.has_value()};
+    if (aims != 1)
+      return refuse(
+          path, aims == 0 ? "force" : "relative_density",
+          fmt::format("{} of force, displacement and relative_density are given, allowed: "
+                      "one",
+                      aims));
+    if (until.relative_density && until.tool)
+      refuse(path, "tool", "has no effect beside relative_density, allowed: without it");
+    if (until.relative_density && !die_cell(scene_))
+      refuse(path, "relative_density",
+             "there is no die that it refers to, allowed: in a scene whose tools are four planes "
+             "with normals along +x, -x, +y and -y");
+  }
+
+  const Scene& scene_;
+  const StageSpec& stage_;
+  std::string path_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+Vec2 direction_of(const ServoSpec& servo, const Scene& scene) {
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(servo.tool)];
+  if (servo.direction) return *servo.direction;
+  return tool.shape == ToolSpec::Shape::plane ? tool.normal : Vec2::Zero();
+}
+
+void check_servos(const Scene& scene, const StageSpec& stage, const std::string& path,
+                  const schema::Origins& origins, Problems& problems) {
+  ServoChecks(scene, stage, path, origins, problems).run();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,123 @@
+#include "scenes/tools/tool_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "scenes/tools/profile.hpp"
+#include "scenes/tools/servo_checks.hpp"
+#include "scenes/tools/surface.hpp"
+
+namespace pulvis {
+namespace {
+
+class ToolChecks {
+ public:
+  ToolChecks(const Scene& scene, const schema::Origins& origins, Problems& problems)
+      : scene_(scene), origins_(origins), problems_(problems) {}
+
+  void run() {
+    for (std::size_t t = 0; t < scene_.tools.size(); ++t) {
+      const std::string path = fmt::format("tool[{}]", t);
+      point(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::profile)
+        check_profile(scene_.tools[t], path, origins_, problems_);
+      if (scene_.tools[t].shape == ToolSpec::Shape::grip) region(scene_.tools[t], path);
+    }
+    for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
+      const StageSpec& stage = scene_.stages[s];
+      for (std::size_t m = 0; m < stage.moves.size(); ++m)
+        move(stage.moves[m], fmt::format("stage[{}].move[{}]", s, m));
+      check_servos(scene_, stage, fmt::format("stage[{}]", s), origins_, problems_);
+    }
+    for (std::size_t f = 0; f < scene_.frictions.size(); ++f) friction(scene_.frictions[f], f);
+  }
+
+ private:
+  bool given(const std::string& path) const { return origins_.contains(path); }
+
+  void refuse(const std::string& path, const std::string& key, const std::string& message) {
+    const std::string at = path + "." + key;
+    problems_.add(origins_.at(given(at) ? at : path), at, message);
+  }
+
+  void point(const ToolSpec& tool, const std::string& path) {
+    const bool plane = tool.shape == ToolSpec::Shape::plane;
+    const bool radial =
+        tool.shape == ToolSpec::Shape::grip && tool.holds == ToolSpec::Holds::radial;
+    const bool profile = tool.shape == ToolSpec::Shape::profile;
+    const bool wanted = plane || profile || radial || tool.radius;
+    if (wanted && !given(path + ".point"))
+      refuse(path, "point",
+             fmt::format("required key is missing: {}, allowed: two quantities [x, y] in m",
+                         plane     ? "the plane goes through it"
+                         : profile ? "a crest stands there"
+                         : radial  ? "nodes move radially from it"
+                                   : "it is the centre of the radius"));
+    if (!wanted && given(path + ".point"))
+      refuse(path, "point",
+             "has no effect, allowed: only with shape = \"plane\" or \"profile\", or shape = "
+             "\"grip\" and holds = "
+             "\"radial\" or a radius");
+  }
+
+  void polyline(const ToolSpec& tool, const std::string& path) {
+    const std::string sharp = fault_of_polyline(tool.points, 0);
+    const std::string rounded = fault_of_polyline(tool.points, tool.rounding);
+    if (!sharp.empty())
+      refuse(path, "points", sharp);
+    else if (!rounded.empty())
+      refuse(path, "rounding", rounded);
+  }
+
+  // A grip says in one of two ways which nodes it holds.
+  void region(const ToolSpec& tool, const std::string& path) {
+    for (const char* corner : {"low", "high"}) {
+      const bool there = given(path + "." + corner);
+      if (tool.radius && there)
+        refuse(path, corner, "has no effect beside radius, allowed: low and high, or radius alone");
+      if (!tool.radius && !there)
+        refuse(path, corner,
+               "required key is missing, allowed: two quantities [x, y] in m, or radius instead of "
+               "low and high");
+    }
+    const bool box = !tool.radius && given(path + ".low") && given(path + ".high");
+    if (!box || (tool.low.array() <= tool.high.array()).all()) return;
+    refuse(path, "high", "the box is empty, allowed: not below and not left of low");
+  }
+
+  // Where a grip leaves a node free it has nothing to move.
+  void move(const MoveSpec& move, const std::string& path) {
+    const ToolSpec& tool = scene_.tools[static_cast<std::size_t>(move.tool)];
+    if (tool.shape != ToolSpec::Shape::grip) return;
+    using Holds = ToolSpec::Holds;
+    const bool x_free = tool.holds == Holds::y;
+    const bool y_free = tool.holds == Holds::x || tool.holds == Holds::radial;
+    if ((x_free && move.displacement.x() != 0) || (y_free && move.displacement.y() != 0))
+      refuse(path, "displacement",
+             fmt::format(
+                 "'{}' does not hold its nodes in {}, allowed: 0 m there{}", tool.name,
+                 x_free ? "x" : "y",
+                 tool.holds == Holds::radial ? ", the way outwards as the first component" : ""));
+  }
+
+  void friction(const FrictionSpec& friction, std::size_t number) {
+    for (const ToolSpec& tool : scene_.tools)
+      if (tool.shape == ToolSpec::Shape::grip &&
+          (tool.name == friction.first || tool.name == friction.second))
+        refuse(fmt::format("friction[{}]", number), "between",
+               fmt::format("nothing touches the grip '{}', allowed: tools that are no grips",
+                           tool.name));
+  }
+
+  const Scene& scene_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+void check_tools(const Scene& scene, const schema::Origins& origins, Problems& problems) {
+  ToolChecks(scene, origins, problems).run();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,12 @@
+// Checks of tools that need more than one key: what each shape asks for, and how each may move.
+#pragma once
+
+#include "scenes/language/problem.hpp"
+#include "scenes/language/table_reader.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+void check_tools(const Scene& scene, const schema::Origins& origins, Problems& problems);
+
+}  // namespace pulvis

@@ -1,0 +1,163 @@
+// damping_force: bulk damping of the particles, proportional to mass and to stiffness:
+//   f = -alpha M v - beta K v
+//
+// Source   systems/body/damping_kernel.hpp. The force is added to the internal one, as a grip's reaction is, so
+//          that whoever reads the force on a node sees it. Velocities are those half a step back, which the
+//          stable time step allows for. Work by the trapezoidal rule over each step, from the forces at
+//          both of its ends: what the leapfrog takes out of its kinetic energy (systems/body/energies.cpp)
+// Runs     after internal_force, before hold_grips and integrate
+// Active   when a material of the scene has [material.damping]
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "systems/body/damping_kernel.hpp"
+#include "systems/body/element_access.hpp"
+#include "systems/body/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+using Map = kernels::QuadMap<Lane>;
+using Flux = kernels::QuadFlux<Lane>;
+
+struct Viscosity {
+  Lane shear, bulk, bending;  // Pa s: beta times 2 mu, K, E'
+};
+
+// An element's map now, half a step back, and that of its velocities.
+struct Motion {
+  Map now, middle, rate;
+};
+
+Map halfway_back(const Map& now, const Map& rate, double half_step) {
+  return {now.ax - half_step * rate.ax, now.ay - half_step * rate.ay, now.bx - half_step * rate.bx,
+          now.by - half_step * rate.by, now.hx - half_step * rate.hx, now.hy - half_step * rate.hy};
+}
+
+// Rate of strain at a point, and det A there half a step back and now.
+struct PointRate {
+  kernels::StrainRate<Lane> strain;
+  kernels::Matrix2<Lane> map;
+  Lane before, now;
+};
+PointRate point_rate(const Motion& m, double xi, double eta) {
+  const auto a = kernels::map_gradient(m.middle, xi, eta);
+  const auto now = kernels::map_gradient(m.now, xi, eta);
+  return {kernels::strain_rate(a, kernels::map_gradient(m.rate, xi, eta)), now, determinant(a),
+          determinant(now)};
+}
+
+// One point, and the bending that it does not see.
+Flux viscous_flux(OnePoint, const Motion& m, const Viscosity& v, const Shape& shape,
+                  std::size_t e) {
+  const double area = shape.centre[e][0].determinant;
+  const PointRate at = point_rate(m, 0, 0);
+  const Lane theta = at.now * (4 / area);
+  const auto s = kernels::viscous_stress(at.strain, at.strain.trace(), v.shear / theta,
+                                         kernels::viscous_bulk_modulus(v.bulk, theta));
+  auto flux = kernels::central_flux(at.map, 4.0 * s.xx, 4.0 * s.yy, 4.0 * s.xy);
+  const auto& reference = shape.hourglass[e];
+  const auto rate = kernels::hourglass_rate(m.middle, m.rate);
+  const kernels::Hourglass<Lane> stress{v.bending * fma(reference.skew[0], rate.two, rate.one),
+                                        v.bending * fma(reference.skew[1], rate.one, rate.two)};
+  const Lane over = 1.0 / at.now;
+  kernels::add_hourglass_flux(flux, m.now, kernels::natural_hourglass(m.now, over), over,
+                              kernels::bending_moment<Lane>(stress, reference, area / 3));
+  return flux;
+}
+
+// Four points; with a mean dilatation, or each with its own.
+template <class F>
+Flux viscous_flux(F, const Motion& m, const Viscosity& v, const Shape& shape, std::size_t e) {
+  PointRate at[4];
+  Lane dilatation{}, before{}, now{};
+  double area = 0;
+  for (int g = 0; g < 4; ++g) {
+    at[g] = point_rate(m, kernels::gauss_xi[g], kernels::gauss_eta[g]);
+    dilatation += at[g].before * at[g].strain.trace();
+    before += at[g].before;
+    now += at[g].now;
+    area += shape.gauss[e][static_cast<std::size_t>(g)].determinant;
+  }
+  Flux flux;
+  for (int g = 0; g < 4; ++g) {
+    const Lane j = at[g].now * (1 / shape.gauss[e][static_cast<std::size_t>(g)].determinant);
+    const bool own = F::volumes == F::points;
+    const Lane theta = own ? j : now * (1 / area);
+    const auto s =
+        kernels::viscous_stress(at[g].strain, own ? at[g].strain.trace() : dilatation / before,
+                                v.shear / j, kernels::viscous_bulk_modulus(v.bulk, theta));
+    kernels::add_flux(flux, at[g].map, s.xx, s.yy, s.xy, kernels::gauss_xi[g],
+                      kernels::gauss_eta[g]);
+  }
+  return flux;
+}
+
+template <class F, class Nodes, class Velocities, class Forces>
+void add_viscous_forces(const Shape& shape, const Nodes& x, const Velocities& v,
+                        const Viscosity& viscosity, double half_step, double thickness,
+                        const Forces& force) {
+  for (std::size_t e = 0; e < shape.quads.size(); ++e) {
+    const Quad& q = shape.quads[e];
+    const Map now = quad_map<4>(x, q), rate = quad_map<4>(v, q);
+    const auto flux =
+        viscous_flux(F{}, {now, halfway_back(now, rate, half_step), rate}, viscosity, shape, e);
+    const auto out = kernels::node_forces(flux, 0.25 * thickness);
+    for (std::size_t k = 0; k < 4; ++k) {
+      force(q[k], 0) += out.x[k];
+      force(q[k], 1) += out.y[k];
+    }
+  }
+}
+
+// Power of a force on nodes that move with v.
+template <class Forces, class Velocities>
+Lane power(const Shape& shape, const Forces& force, const Velocities& v) {
+  Lane sum{};
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
+    for (int k = 0; k < 2; ++k) sum += force(Row<Node>(i), k) * v(Row<Node>(i), k);
+  return sum;
+}
+
+}  // namespace
+
+template <class F>
+[[gnu::flatten]] void damping_force(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
+                                    Read<Position> position, Read<Velocity> velocity,
+                                    Read<Density> density, Read<ShearModulus> mu,
+                                    Read<BulkModulus> bulk, Read<MassDamping> alpha,
+                                    Read<StiffnessDamping> beta, Write<DampingForce> damping,
+                                    Write<DampingWork> work, Write<InternalForce> internal) {
+  const Row<Particle> particle;
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto x = position.chunk(chunk);
+  const auto v = velocity.chunk(chunk);
+  const auto force = damping.chunk(chunk);
+  // The first force acts for half a step (systems/body/integrate.cpp).
+  const double start = clock->step == 1 ? 0.5 : 1.0;
+  const Lane before = start * power(shape, force, v);
+
+  const Lane drag =
+      alpha.chunk(chunk)(particle) * density.chunk(chunk)(particle) * bodies->thickness;
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
+    for (int k = 0; k < 2; ++k)
+      force(Row<Node>(i), k) =
+          -(shape.nodal_area[static_cast<std::size_t>(i)] * drag) * v(Row<Node>(i), k);
+
+  const Lane viscous = beta.chunk(chunk)(particle);
+  if (any(viscous > 0.0)) {
+    const Lane shear = mu.chunk(chunk)(particle), k = bulk.chunk(chunk)(particle);
+    const Viscosity viscosity{2.0 * viscous * shear, viscous * k,
+                              viscous * kernels::plane_strain_modulus(shear, k)};
+    add_viscous_forces<F>(shape, x, v, viscosity, 0.5 * clock->dt_before, bodies->thickness, force);
+  }
+
+  work.chunk(chunk)(particle) -= 0.5 * clock->dt_before * (before + power(shape, force, v));
+  const auto f = internal.chunk(chunk);
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
+    for (int k = 0; k < 2; ++k) f(Row<Node>(i), k) += force(Row<Node>(i), k);
+}
+template decltype(damping_force<FourPoint>) damping_force<FourPoint>;
+template decltype(damping_force<Standard>) damping_force<Standard>;
+template decltype(damping_force<OnePoint>) damping_force<OnePoint>;
+
+}  // namespace pulvis

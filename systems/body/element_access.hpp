@@ -1,0 +1,71 @@
+// How the element systems reach an element of a chunk: its map, points and state. No physics.
+#pragma once
+
+#include "components/shape.hpp"
+#include "engine/access.hpp"
+#include "systems/body/j2_kernel.hpp"
+
+namespace pulvis {
+
+using Quad = std::array<Row<Node>, 4>;
+template <int Points>
+using ElementPoints = std::array<Shape::GaussPoint, static_cast<std::size_t>(Points)>;
+
+template <int Points>
+const ElementPoints<Points>& points_of(const Shape& shape, int element) {
+  if constexpr (Points == 1)
+    return shape.centre[static_cast<std::size_t>(element)];
+  else
+    return shape.gauss[static_cast<std::size_t>(element)];
+}
+
+// Of an element with one point: four times the map.
+template <int Points, class Nodes>
+kernels::QuadMap<Lane> quad_map(const Nodes& x, const Quad& q) {
+  constexpr auto map = Points == 1 ? kernels::fourfold_map<Lane> : kernels::quad_map<Lane>;
+  return map(x(q[0], 0), x(q[0], 1), x(q[1], 0), x(q[1], 1), x(q[2], 0), x(q[2], 1), x(q[3], 0),
+             x(q[3], 1));
+}
+
+// At point g of an element with `Points`.
+template <int Points>
+kernels::Matrix2<Lane> map_gradient(const kernels::QuadMap<Lane>& map, int g) {
+  if constexpr (Points == 1)
+    return {map.ax, map.bx, map.ay, map.by};
+  else
+    return kernels::map_gradient(map, kernels::gauss_xi[g], kernels::gauss_eta[g]);
+}
+
+// theta: current over undeformed area of the element.
+inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoints<4>& points) {
+  Lane now{};
+  double before = 0;
+  for (int g = 0; g < 4; ++g) {
+    now += determinant(map_gradient<4>(map, g));
+    before += points[static_cast<std::size_t>(g)].determinant;
+  }
+  return now * (1 / before);
+}
+// A quad's area is that of its centre's parallelogram: 1/4 det of the fourfold map.
+inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoints<1>& points) {
+  return determinant(map_gradient<1>(map, 0)) * (0.25 / points[0].determinant);
+}
+
+template <class View>
+kernels::Symmetric3<Lane> plastic_metric(const View& c, Row<Element> e, int g) {
+  return {c(e, 4 * g), c(e, 4 * g + 1), c(e, 4 * g + 2), c(e, 4 * g + 3)};
+}
+
+template <class View>
+kernels::Deviator<Lane> deviator(const View& s, Row<Element> e, int g) {
+  return {s(e, 3 * g), s(e, 3 * g + 1), s(e, 3 * g + 2)};
+}
+
+template <class View>
+void store(const View& s, Row<Element> e, int g, const kernels::Deviator<Lane>& value) {
+  s(e, 3 * g) = value.xx;
+  s(e, 3 * g + 1) = value.yy;
+  s(e, 3 * g + 2) = value.xy;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,62 @@
+// What both estimates of the stable time step take into account of an element besides its moduli.
+#pragma once
+
+#include <limits>
+
+#include "components/run_state.hpp"
+#include "systems/body/element_access.hpp"
+#include "systems/body/time_step_kernel.hpp"
+
+namespace pulvis {
+
+// Largest norm of the deviatoric stress at the Gauss points of an element.
+template <int Points, class View>
+Lane largest_norm(const View& stress, Row<Element> e) {
+  Lane most{};
+  for (int g = 0; g < Points; ++g) {
+    const auto s = deviator(stress, e, g);
+    most = max(most, s.xx * s.xx + s.yy * s.yy + (s.xx + s.yy) * (s.xx + s.yy) + 2.0 * s.xy * s.xy);
+  }
+  return sqrt(most);
+}
+
+// A quad with a corner that closes swings faster there than its middle says: about by the square of how much
+// smaller the map is at that Gauss point, which bears a quarter of the energy (half, to be safe). One for all
+// elements that are not badly distorted; at most 9, so that a corner that is about to turn inside out does so
+// (and is named) instead of stopping the clock.
+inline Lane corner_factor(const kernels::QuadMap<Lane>& map) {
+  Lane least = determinant(map_gradient<4>(map, 0));
+  for (int g = 1; g < 4; ++g) least = min(least, determinant(map_gradient<4>(map, g)));
+  const Lane ratio = determinant(map_gradient<1>(map, 0)) / max(least, 1e-300);
+  return min(max(1.0, 0.5 * ratio * ratio), 9.0);
+}
+
+// What particles with that highest rho omega^2 can stand, bulk damping included.
+inline Lane stable_step(Chunk chunk, Lane density, Lane highest,
+                        const Optional<Read<MassDamping>>& alpha,
+                        const Optional<Read<StiffnessDamping>>& beta) {
+  if (!alpha) return 2.0 * sqrt(density / highest);
+  const Row<Particle> particle;
+  return kernels::damped_step<Lane>(highest / density, alpha->chunk(chunk)(particle),
+                                    beta->chunk(chunk)(particle));
+}
+
+// Least L/A of an element's edges on the outline; infinite where it has none.
+inline double softest_edge(const Shape& shape, const Quad& quad) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < 4; ++c) {
+    const int from = quad[c].value, to = quad[(c + 1) % 4].value;
+    if (from < shape.boundary_nodes && to == (from + 1) % shape.boundary_nodes)
+      least = std::min(least, shape.edges[static_cast<std::size_t>(from)].stiffness);
+  }
+  return least;
+}
+
+// Contact dashpots over contact springs of k K L/A, times sqrt(kK/rho) L/A: 2 xi with a tool. Two equal bodies
+// that move against each other feel twice a dashpot of half the spring: sqrt(2) of that.
+inline double dashpot_ratio(const ContactRules& rules) {
+  constexpr double of_pairs = 1.4142135623730951;
+  return of_pairs * 2 * rules.damping;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,122 @@
+// kinetic_energy, elastic_energy, plastic_work, hourglass_energy: per particle, on the steps that are sampled.
+//
+// Kinetic energy is 1/2 m v_(n-1/2) . v_(n+1/2): together with the stored energy at t_n it is what the
+// leapfrog conserves (Hairer, Lubich & Wanner 2006), so that the balance shows errors and not phase.
+#include <cmath>
+
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "systems/body/element_access.hpp"
+#include "systems/body/hourglass_kernel.hpp"
+#include "systems/body/systems.hpp"
+
+namespace pulvis {
+
+void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Density> density,
+                    Read<InternalForce> internal, Optional<Read<ContactForce>> contact,
+                    Read<Velocity> velocity, Write<KineticEnergy> energy) {
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto f = internal.chunk(chunk);
+  const auto v = velocity.chunk(chunk);
+  const Lane mass_per_area = density.chunk(chunk)(Row<Particle>()) * bodies->thickness;
+  const double half = 0.5 * (clock->dt_before + clock->dt);
+  Lane total{};
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
+    const Row<Node> n(i);
+    const Lane mass = mass_per_area * shape.nodal_area[static_cast<std::size_t>(i)];
+    for (int k = 0; k < 2; ++k) {
+      Lane force = f(n, k);
+      if (contact && i < shape.boundary_nodes)
+        force += contact->chunk(chunk)(Row<BoundaryNode>(i), k);
+      total += 0.5 * v(n, k) * (mass * v(n, k) + force * half);
+    }
+  }
+  energy.chunk(chunk)(Row<Particle>()) = total;
+}
+
+template <class F>
+[[gnu::flatten]] void elastic_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                     Read<ShearModulus> mu, Read<BulkModulus> bulk,
+                                     Optional<Read<PlasticMetric<F::points>>> metric,
+                                     Write<ElasticEnergy> energy) {
+  const Row<Particle> particle;
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto nodes = x.chunk(chunk);
+  const Lane shear = mu.chunk(chunk)(particle), k = bulk.chunk(chunk)(particle);
+  Lane total{};
+  const auto add_volumetric = [&](double area, Lane theta) {
+    for (int l = 0; l < lane_count; ++l)
+      total[l] += area * kernels::volumetric_energy(k[l], theta[l]);
+  };
+  for (int i = 0; i < shape.elements(); ++i) {
+    const Row<Element> e(i);
+    const auto map = quad_map<F::points>(nodes, shape.quads[static_cast<std::size_t>(i)]);
+    const auto& points = points_of<F::points>(shape, i);
+    double area = 0;
+    for (int g = 0; g < F::points; ++g) {
+      const auto& point = points[static_cast<std::size_t>(g)];
+      const auto f =
+          kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
+      const auto c =
+          metric ? plastic_metric(metric->chunk(chunk), e, g) : kernels::Symmetric3<Lane>{};
+      total += point.determinant * kernels::isochoric_energy(f, c, shear);
+      if constexpr (F::volumes == F::points) add_volumetric(point.determinant, determinant(f));
+      area += point.determinant;
+    }
+    if constexpr (F::volumes < F::points) add_volumetric(area, mean_dilatation(map, points));
+  }
+  energy.chunk(chunk)(particle) = total * bodies->thickness;
+}
+template decltype(elastic_energy<FourPoint>) elastic_energy<FourPoint>;
+template decltype(elastic_energy<Standard>) elastic_energy<Standard>;
+template decltype(elastic_energy<OnePoint>) elastic_energy<OnePoint>;
+
+template <class F>
+void plastic_work(Chunk chunk, Read<Bodies> bodies, Read<YieldStress> sigma_y,
+                  Read<HardeningModulus> hardening, Read<PlasticStrain<F::points>> eps,
+                  Optional<Read<HourglassWork>> hourglass, Write<PlasticWork> work) {
+  const Row<Particle> particle;
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
+  const Lane yield = min(sigma_y.chunk(chunk)(particle), 1e300);
+  const kernels::LinearHardening<Lane> law{yield, hardening.chunk(chunk)(particle)};
+  const auto strain = eps.chunk(chunk);
+  Lane total{};
+  for (int i = 0; i < shape.elements(); ++i)
+    for (int g = 0; g < F::points; ++g)
+      total += points_of<F::points>(shape, i)[static_cast<std::size_t>(g)].determinant *
+               law.plastic_work(strain(Row<Element>(i), g));
+  total *= bodies->thickness;
+  // The joint flow of stress and hourglass stress spends both; the latter is reported by itself.
+  if (hourglass) total -= hourglass->chunk(chunk)(particle);
+  work.chunk(chunk)(particle) = total;
+}
+template decltype(plastic_work<FourPoint>) plastic_work<FourPoint>;
+template decltype(plastic_work<Standard>) plastic_work<Standard>;
+template decltype(plastic_work<OnePoint>) plastic_work<OnePoint>;
+
+void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+                      Read<BulkModulus> bulk, Read<HourglassStress> stress,
+                      Optional<Read<HourglassWork>> spent, Write<HourglassEnergy> energy) {
+  const Row<Particle> particle;
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const Lane shear = mu.chunk(chunk)(particle);
+  const Lane modulus = kernels::plane_strain_modulus(shear, bulk.chunk(chunk)(particle));
+  const auto m = stress.chunk(chunk);
+  const auto nodes = x.chunk(chunk);
+  Lane total{};
+  for (int i = 0; i < shape.elements(); ++i) {
+    const Row<Element> e(i);
+    const auto at = static_cast<std::size_t>(i);
+    const auto map = quad_map<1>(nodes, shape.quads[at]);
+    const auto w = kernels::natural_hourglass(map, 1.0 / determinant(map_gradient<1>(map, 0)));
+    total += shape.centre[at][0].determinant *
+             (kernels::hourglass_energy<Lane>({m(e, 0), m(e, 1)}, modulus) +
+              kernels::folding_energy(kernels::corner_ratios(w, shape.hourglass[at]), shear));
+  }
+  total *= bodies->thickness;
+  if (spent) total += spent->chunk(chunk)(particle);
+  energy.chunk(chunk)(particle) = total;
+}
+
+}  // namespace pulvis

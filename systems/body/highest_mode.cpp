@@ -1,0 +1,149 @@
+// highest_mode: the time step that each particle as a whole can stand, in place of its worst element's.
+//
+// Source   Power iteration on M^-1 K (Rayleigh quotient), the idea of Abaqus/Explicit's global estimator.
+//          K of highest_mode_kernel.hpp at the current positions, with every edge of the outline in
+//          contact: none of it is softer than what the step integrates, so that contact may come and go
+//          between two looks. The quotient comes from below, hence a margin. What is kept is the ratio to
+//          the elements' bound, which itself follows the geometry at every look; the mode changes slowly,
+//          an iteration every fourth look follows it
+// Runs     after stable_time_step, when that does
+// Active   where the scene says time.estimate = "highest-mode"
+#include "systems/body/highest_mode.hpp"
+
+#include "components/servo.hpp"
+#include "systems/body/element_bound.hpp"
+#include "systems/body/highest_mode_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr int first_iterations = 300;
+constexpr double looks_between_iterations = 4;
+constexpr double margin = 0.98;  // what 300 iterations leave of the frequency is half a percent
+constexpr double longest_gain = 1.3;  // over the elements' bound; undeformed discs reach 1.2
+
+template <int Points>
+struct Body {
+  const Shape& shape;
+  ChunkView<Position, const Lane*> x;
+  ChunkView<DeviatoricStress<Points>, const Lane*> stress;
+  const ChunkView<ContactSupport, const Lane*>* support;  // null: nothing to touch
+  Lane bulk, shear, contact;                              // Pa
+};
+
+// -K v into components 2 and 3; of a slice one deep.
+template <int Points>
+void elastic_forces(const Body<Points>& body, const ChunkView<HighestMode, Lane*>& mode) {
+  const Shape& shape = body.shape;
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
+    const Row<Node> n(i);
+    const Lane spring = body.support && i < shape.boundary_nodes
+                            ? body.contact * (*body.support)(Row<BoundaryNode>(i))
+                            : Lane{};
+    for (int k = 0; k < 2; ++k) mode(n, 2 + k) = -(spring * mode(n, k));
+  }
+  const Lane over_shear = 1.0 / body.shear;
+  for (int i = 0; i < shape.elements(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Quad& q = shape.quads[at];
+    const auto map = quad_map<4>(body.x, q);
+    const double area = shape.centre[at][0].determinant;
+    const Lane theta = determinant(map_gradient<1>(map, 0)) * (4 / area);
+    const Lane distortion = theta * over_shear * largest_norm<Points>(body.stress, Row<Element>(i));
+    const auto flux =
+        kernels::tangent_flux(map, quad_map<4>(mode, q),
+                              kernels::tangent_moduli(body.bulk, body.shear, theta, distortion),
+                              Lane(area), corner_factor(map));
+    const auto out = kernels::node_forces(flux, 0.25);
+    for (std::size_t k = 0; k < 4; ++k) {
+      mode(q[k], 2) += out.x[k];
+      mode(q[k], 3) += out.y[k];
+    }
+  }
+}
+
+// One iteration; rho omega^2 of the mode as it came, Pa/m^2.
+template <int Points>
+Lane iterate(const Body<Points>& body, const ChunkView<HighestMode, Lane*>& mode) {
+  elastic_forces(body, mode);
+  const auto nodes = static_cast<int>(body.shape.nodes.size());
+  const auto area = [&](int i) { return body.shape.nodal_area[static_cast<std::size_t>(i)]; };
+  Lane energy{}, mass{};
+  for (int i = 0; i < nodes; ++i)
+    for (int k = 0; k < 2; ++k) {
+      const Lane v = mode(Row<Node>(i), k);
+      energy -= v * mode(Row<Node>(i), 2 + k);
+      mass += area(i) * (v * v);
+    }
+  const Lane quotient = energy / mass;
+  // Shifted by somewhat less than half of the spectrum, which is from zero to the quotient: the others
+  // die twice as fast.
+  const Lane shift = 0.45 * quotient, scale = 1.0 / (quotient * sqrt(mass));
+  for (int i = 0; i < nodes; ++i)
+    for (int k = 0; k < 2; ++k) {
+      Lane& v = mode(Row<Node>(i), k);
+      v = -(scale * (mode(Row<Node>(i), 2 + k) * (1 / area(i)) + shift * v));
+    }
+  return quotient;
+}
+
+// Blocks with less damping than that are stable with stiffness 0.35 to 100 in what the springs' own bound leaves.
+constexpr double little_damping = 0.3;
+
+// k K of the springs on the outline. A dashpot c that answers half a step late costs what a spring of 2 c/dt
+// does; no step is shorter than the elements' bound, which stands for dt.
+Lane contact_modulus(const ContactRules& rules, double stiffening, const Shape& shape, bool servos,
+                     const Lane& bulk, const Lane& rho, const Lane& step) {
+  if (rules.damping == 0 || (!servos && rules.damping <= little_damping))
+    return rules.stiffness * (stiffening + 2 * rules.damping) * bulk;
+  double softest = std::numeric_limits<double>::infinity();
+  for (const Shape::Edge& edge : shape.edges) softest = std::min(softest, edge.stiffness);
+  return rules.stiffness * stiffening * bulk +
+         (2 * dashpot_ratio(rules) / softest) * sqrt(rules.stiffness * bulk * rho) / step;
+}
+
+}  // namespace
+
+template <int Points>
+[[gnu::flatten]] void highest_mode(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
+                                   Read<Position> x, Read<ShearModulus> mu, Read<BulkModulus> bulk,
+                                   Read<Density> density, Read<DeviatoricStress<Points>> s,
+                                   Optional<Read<ContactRules>> rules,
+                                   Optional<Read<ContactSupport>> support,
+                                   Optional<Read<MassDamping>> alpha,
+                                   Optional<Read<StiffnessDamping>> beta,
+                                   Optional<Read<ToolServos>> servos, Write<HighestMode> mode,
+                                   Write<ModeGain> gain, Write<StableTimeStep> stable) {
+  if (clock->step < clock->next_look) return;
+  const auto known = gain.chunk(chunk);
+  const Row<Particle> particle;
+  Lane& step = stable.chunk(chunk)(particle);
+  if (clock->step > 0 && known(particle, 1)[0] < looks_between_iterations) {
+    known(particle, 1) += 1.0;
+    step *= known(particle, 0);
+    return;
+  }
+  const Lane k = bulk.chunk(chunk)(particle), rho = density.chunk(chunk)(particle);
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const Lane contact = rules ? contact_modulus(**rules, clock->stiffening, shape,
+                                               static_cast<bool>(servos), k, rho, step)
+                             : Lane{};
+  Body<Points> body{shape,  x.chunk(chunk), s.chunk(chunk), nullptr, k, mu.chunk(chunk)(particle),
+                    contact};
+  using Support = ChunkView<ContactSupport, const Lane*>;
+  const Support springs = support ? support->chunk(chunk) : Support(nullptr);
+  if (support) body.support = &springs;
+
+  Lane highest{};
+  for (int i = 0; i < (clock->step == 0 ? first_iterations : 1); ++i)
+    highest = iterate(body, mode.chunk(chunk));
+  const Lane estimate = margin * stable_step(chunk, rho, highest, alpha, beta);
+  known(particle, 0) = max(1.0, min(estimate / step, longest_gain));
+  known(particle, 1) = 1.0;
+  step *= known(particle, 0);
+}
+
+template decltype(highest_mode<1>) highest_mode<1>;
+template decltype(highest_mode<4>) highest_mode<4>;
+
+}  // namespace pulvis

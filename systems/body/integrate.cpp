@@ -1,0 +1,41 @@
+// integrate: leapfrog with a time step that may change (T 5.4, 5.5):
+//   v_(n+1/2) = v_(n-1/2) + a_n (dt_before + dt) / 2,   x_(n+1) = x_n + v_(n+1/2) dt
+// with a = (internal + contact force) / lumped mass.
+//
+// Runs     after every force of the step
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "systems/body/systems.hpp"
+
+namespace pulvis {
+
+[[gnu::flatten]] void integrate(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
+                                Read<Density> density, Read<InternalForce> internal,
+                                Optional<Read<ContactForce>> contact, Write<Velocity> velocity,
+                                Write<Position> position) {
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto f = internal.chunk(chunk);
+  const auto v = velocity.chunk(chunk);
+  const auto x = position.chunk(chunk);
+  const double dt = clock->dt;
+  const Lane kick =
+      0.5 * (clock->dt_before + dt) / (density.chunk(chunk)(Row<Particle>()) * bodies->thickness);
+  const auto move = [&](Row<Node> n, int k, Lane force) {
+    const Lane next =
+        v(n, k) + force * (kick * (1.0 / shape.nodal_area[static_cast<std::size_t>(n.value)]));
+    v(n, k) = next;
+    x(n, k) += next * dt;
+  };
+
+  int n = 0;
+  if (contact) {
+    const auto g = contact->chunk(chunk);
+    for (; n < shape.boundary_nodes; ++n)
+      for (int k = 0; k < 2; ++k)
+        move(Row<Node>(n), k, f(Row<Node>(n), k) + g(Row<BoundaryNode>(n), k));
+  }
+  for (; n < static_cast<int>(shape.nodes.size()); ++n)
+    for (int k = 0; k < 2; ++k) move(Row<Node>(n), k, f(Row<Node>(n), k));
+}
+
+}  // namespace pulvis

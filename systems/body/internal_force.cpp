@@ -1,0 +1,128 @@
+// internal_force: nodal forces of the stresses.
+//
+// Source   systems/body/element_kernel.hpp. Mean dilatation: the deviator acts pointwise, scaled theta/J to the
+//          Kirchhoff stress of the point, the mean stress on the element's area. Else Cauchy stress acts
+//          at every point; with one point the bending of systems/body/hourglass_kernel.hpp too. All are the
+//          exact derivative of the element's stored energy
+// Runs     after the stresses are final, before integrate
+#include "systems/body/element_access.hpp"
+#include "systems/body/hourglass_kernel.hpp"
+#include "systems/body/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+using Map = kernels::QuadMap<Lane>;
+using Flux = kernels::QuadFlux<Lane>;
+
+struct Bending {
+  ChunkView<HourglassStress, const Lane*> stress;
+  Lane mu;
+  bool folding;  // some corner of the chunk's elements is about to fold
+};
+
+template <class F>
+struct Views {
+  ChunkView<DeviatoricStress<F::points>, const Lane*> s;
+  ChunkView<MeanStress<F::volumes>, const Lane*> p;
+  const Bending* bending;  // null: not stabilised
+};
+
+Flux stress_flux(const Views<FourPoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
+  const auto& points = points_of<4>(shape, e.value);
+  const Lane theta = mean_dilatation(map, points), mean = v.p(e);
+  kernels::Matrix2<Lane> gradient[4];
+  Lane now[4];
+  for (int g = 0; g < 4; ++g) {
+    gradient[g] = map_gradient<4>(map, g);
+    now[g] = determinant(gradient[g]);
+  }
+  // A division for two points: it is the dearest operation of the loop.
+  const Lane over[2] = {theta / (now[0] * now[1]), theta / (now[2] * now[3])};
+  Flux flux;
+  for (int g = 0; g < 4; ++g) {
+    const auto& a = gradient[g];
+    const Lane kirchhoff =
+        over[g / 2] * now[g ^ 1] * points[static_cast<std::size_t>(g)].determinant;
+    const auto d = deviator(v.s, e, g);
+    kernels::add_flux(flux, a, kirchhoff * d.xx + mean, kirchhoff * d.yy + mean, kirchhoff * d.xy,
+                      kernels::gauss_xi[g], kernels::gauss_eta[g]);
+  }
+  return flux;
+}
+
+Flux stress_flux(const Views<Standard>& v, const Map& map, const Shape&, Row<Element> e) {
+  Flux flux;
+  for (int g = 0; g < 4; ++g) {
+    const auto d = deviator(v.s, e, g);
+    kernels::add_flux(flux, map_gradient<4>(map, g), d.xx + v.p(e, g), d.yy + v.p(e, g), d.xy,
+                      kernels::gauss_xi[g], kernels::gauss_eta[g]);
+  }
+  return flux;
+}
+
+Flux stress_flux(const Views<OnePoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
+  const auto a = map_gradient<1>(map, 0);
+  const auto d = deviator(v.s, e, 0);
+  const Lane mean = v.p(e);
+  // Of four times the map, which stands for the four quarters of (xi, eta).
+  auto flux = kernels::central_flux(a, d.xx + mean, d.yy + mean, d.xy);
+  const Lane over_det = 1.0 / determinant(a);
+  const auto& reference = shape.hourglass[static_cast<std::size_t>(e.value)];
+  const double area = 4 * points_of<1>(shape, e.value)[0].determinant;  // by scale / over_det
+  const auto w = kernels::natural_hourglass(map, over_det);
+  auto moment = kernels::bending_moment<Lane>({v.bending->stress(e, 0), v.bending->stress(e, 1)},
+                                              reference, (1.0 / 3.0) * area);
+  if (v.bending->folding) {
+    const auto more = kernels::folding_moment(kernels::corner_ratios(w, reference), reference,
+                                              area * v.bending->mu);
+    moment.one += more.one;
+    moment.two += more.two;
+  }
+  kernels::add_hourglass_flux(flux, map, w, over_det, moment);
+  return flux;
+}
+
+template <class F>
+void chunk_force(BusyChunk chunk, const Views<F>& views, const ChunkView<Position, const Lane*>& x,
+                 const ChunkView<InternalForce, Lane*>& f, const Shape& shape, double thickness) {
+  for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n)
+    f(Row<Node>(n), 0) = f(Row<Node>(n), 1) = Lane{};
+
+  chunk.for_elements(shape.elements(), [&](int i) {
+    const Quad& quad = shape.quads[static_cast<std::size_t>(i)];
+    const auto flux = stress_flux(views, quad_map<F::points>(x, quad), shape, Row<Element>(i));
+    const auto out = kernels::node_forces(flux, 0.25 * thickness);
+    for (std::size_t k = 0; k < 4; ++k) {
+      f(quad[k], 0) += out.x[k];
+      f(quad[k], 1) += out.y[k];
+    }
+  });
+}
+
+}  // namespace
+
+template <class F>
+[[gnu::flatten]] void internal_force(BusyChunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                     Read<DeviatoricStress<F::points>> s,
+                                     Read<MeanStress<F::volumes>> p, Read<ShearModulus> mu,
+                                     Optional<Read<HourglassStress>> hourglass,
+                                     Optional<Read<LeastCorner>> least_corner,
+                                     Write<InternalForce> force) {
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  Views<F> views{s.chunk(chunk), p.chunk(chunk), nullptr};
+  if constexpr (F::stabilised) {
+    const Row<Particle> particle;
+    const Bending bending{hourglass->chunk(chunk), mu.chunk(chunk)(particle),
+                          any(least_corner->chunk(chunk)(particle) < kernels::folding)};
+    views.bending = &bending;
+    chunk_force(chunk, views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+  } else {
+    chunk_force(chunk, views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+  }
+}
+template decltype(internal_force<FourPoint>) internal_force<FourPoint>;
+template decltype(internal_force<Standard>) internal_force<Standard>;
+template decltype(internal_force<OnePoint>) internal_force<OnePoint>;
+
+}  // namespace pulvis

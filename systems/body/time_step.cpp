@@ -1,0 +1,85 @@
+// stable_time_step: the greatest time step that every element (and the contact springs on the outline)
+// of a particle can stand.
+//
+// Source   The highest frequency of an assembly is at most that of its worst element, however the masses of
+//          the nodes are dealt out among the elements around (Irons; Flanagan & Belytschko 1984); the
+//          shape deals them out so that the worst is least (scenes/meshes/mass_shares). Elements:
+//          systems/body/time_step_kernel.hpp. One on the outline also bears contact springs of k K L/A (a
+//          tool's, or the half of it that two equal bodies share, moving against each other), and dashpots
+//          that answer half a step late: stable while dt^2 omega^2 + 2 dt gamma <= 4 (systems/tools/servo_kernel.hpp).
+// Runs     stable_time_step every few steps, while the stresses of a chunk are at hand
+#include <span>
+
+#include "components/run_state.hpp"
+#include "components/servo.hpp"
+#include "engine/access.hpp"
+#include "systems/body/element_bound.hpp"
+#include "systems/body/systems.hpp"
+#include "systems/body/time_step_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+// Damped blocks on plates and on each other (stiffness 0.35 to 100, damping 0.3 to 1) swing up from 1.36 times
+// what late_frequency allows.
+constexpr double too_strict = 1.25;
+
+// rho omega^2 of the undamped element whose stable step is that of an element on the outline with dashpots:
+// gamma/2 + sqrt(gamma^2/4 + omega^2) for omega.
+Lane late_frequency(const ContactRules& rules, double stiffening, const Shape& shape,
+                    std::size_t element, const Lane& bulk, const Lane& solid) {
+  const double geometry = shape.contact_frequency[element];
+  const Lane springs = rules.stiffness * stiffening * geometry * bulk;
+  const Lane half = 0.5 * dashpot_ratio(rules) * geometry /
+                    softest_edge(shape, shape.quads[element]) * sqrt(rules.stiffness * bulk);
+  const Lane omega = half + sqrt(half * half + solid + springs);
+  return omega * omega;
+}
+
+}  // namespace
+
+template <int Points>
+[[gnu::flatten]] void stable_time_step(
+    Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Position> x, Read<ShearModulus> mu,
+    Read<BulkModulus> bulk, Read<Density> density, Read<DeviatoricStress<Points>> s,
+    Optional<Read<ContactRules>> rules, Optional<Read<MassDamping>> alpha,
+    Optional<Read<StiffnessDamping>> beta, Optional<Read<ToolServos>> servos,
+    Write<StableTimeStep> stable) {
+  if (clock->step < clock->next_look) return;
+  const Row<Particle> particle;
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto nodes = x.chunk(chunk);
+  const auto stress = s.chunk(chunk);
+  const Lane k = bulk.chunk(chunk)(particle), rho = density.chunk(chunk)(particle);
+  const Lane shear = mu.chunk(chunk)(particle), over_shear = 1.0 / shear;
+  // Enough for little damping, within what `safety` leaves; with more, `late` says what it takes.
+  const double contact =
+      rules ? (*rules)->stiffness * (clock->stiffening + 2 * (*rules)->damping) : 0;
+  const bool damped = rules && (*rules)->damping > 0;
+  Lane highest{}, late{};
+  for (int i = 0; i < shape.elements(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto map = quad_map<4>(nodes, shape.quads[at]);
+    const Lane theta = determinant(map_gradient<1>(map, 0)) * (4 / shape.centre[at][0].determinant);
+    const auto spread =
+        kernels::mode_spread(kernels::map_gradient(map, 0, 0), shape.corner_moment[at]);
+    const Lane distortion = theta * over_shear * largest_norm<Points>(stress, Row<Element>(i));
+    const Lane element = kernels::frequency_bound(spread, k, shear, theta, distortion);
+    const Lane solid = element * corner_factor(map);
+    highest = max(highest, solid + contact * shape.contact_frequency[at] * k);
+    if (damped && shape.contact_frequency[at] > 0)
+      late = max(late, late_frequency(**rules, clock->stiffening, shape, at, k, solid));
+  }
+  Lane& step = stable.chunk(chunk)(particle);
+  step = stable_step(chunk, rho, highest, alpha, beta);
+  if (!damped) return;
+  // A servo's tool lives on the whole of what `safety` leaves; without one, what is known to be too strict in
+  // the bound need not be paid for.
+  const Lane longest = stable_step(chunk, rho, late, alpha, beta);
+  step = servos ? min(longest, step) : min(too_strict / clock->safety * longest, step);
+}
+
+template decltype(stable_time_step<1>) stable_time_step<1>;
+template decltype(stable_time_step<4>) stable_time_step<4>;
+
+}  // namespace pulvis

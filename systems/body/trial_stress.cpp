@@ -1,0 +1,161 @@
+// trial_stress: Cauchy stress at every point of an element as if no plastic flow happened in this step.
+// elastic_stress: the same for scenes without plasticity, where it is the stress.
+//
+// Source   systems/body/element_kernel.hpp, systems/body/j2_kernel.hpp; hourglass stress of elements with one point:
+//          systems/body/hourglass_kernel.hpp
+// Runs     after integrate of the step before; before j2_return_map and internal_force
+// Watches  least det F of every particle, for the health system
+#include <optional>
+
+#include "systems/body/element_access.hpp"
+#include "systems/body/hourglass_kernel.hpp"
+#include "systems/body/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+template <class F>
+struct Views {
+  ChunkView<Position, const Lane*> x;
+  ChunkView<DeviatoricStress<F::points>, Lane*> s;
+  ChunkView<MeanStress<F::volumes>, Lane*> p;
+  Lane mu, bulk;
+};
+
+// Elements with one point: the trial stress of their hourglass modes, over the plastic part `gone`.
+struct HourglassViews {
+  ChunkView<HourglassStress, Lane*> stress;
+  const ChunkView<PlasticHourglass, const Lane*>* gone;  // null: elastic
+  Lane modulus;
+  Lane least_corner;  // of the chunk's elements so far
+};
+
+// Returns the least det F of where the Gauss points of a four-point element would be, over theta: it tells
+// a folded element.
+Lane hourglass_stress(HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane over_det,
+                      const Shape::Hourglass& reference, Row<Element> e) {
+  const auto w = kernels::natural_hourglass(map, over_det);
+  auto strain = kernels::bending_strain(w, reference);
+  if (v.gone != nullptr) {
+    strain.one -= (*v.gone)(e, 0);
+    strain.two -= (*v.gone)(e, 1);
+  }
+  v.stress(e, 0) = v.modulus * strain.one;
+  v.stress(e, 1) = v.modulus * strain.two;
+  const Lane corner = kernels::least_ratio(kernels::corner_ratios(w, reference));
+  v.least_corner = min(corner, v.least_corner);
+  return corner;
+}
+
+// `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the least det F of the element's points.
+template <class F, class LeftCauchyGreen>
+Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& shape,
+                    Row<Element> e, const LeftCauchyGreen& left) {
+  const auto map = quad_map<F::points>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  const auto& points = points_of<F::points>(shape, e.value);
+  Lane theta{}, over_theta{}, least = 1e300;
+  if constexpr (F::volumes < F::points) {
+    theta = least = mean_dilatation(map, points);
+    over_theta = 1.0 / theta;
+    v.p(e) = 0.5 * v.bulk * (theta - over_theta);
+  }
+  for (int g = 0; g < F::points; ++g) {
+    const auto& point = points[static_cast<std::size_t>(g)];
+    const auto f =
+        kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
+    const Lane j = determinant(f);
+    const Lane r = kernels::inverse_cube_root(j);
+    const Lane r2 = r * r;
+    if constexpr (F::volumes == F::points) {
+      over_theta = r2 * r;
+      v.p(e, g) = 0.5 * v.bulk * (j - over_theta);
+    }
+    store(v.s, e, g, kernels::scaled_deviator(left(f, r, e, g), v.mu * over_theta * r2));
+    least = min(j, least);
+  }
+  if constexpr (F::stabilised)
+    least *= hourglass_stress(*hourglass, map, over_theta * (0.25 / points[0].determinant),
+                              shape.hourglass[static_cast<std::size_t>(e.value)], e);
+  return least;
+}
+
+// A NaN wins every comparison and is not replaced by a later number, so that it is seen.
+void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
+  const LaneMask lower = ~(least >= worst) & (worst == worst);
+  worst_element = select(lower, e.value, worst_element);
+  worst = select(lower, least, worst);
+}
+
+// `gone`: null for elastic material.
+template <class F, class LeftCauchyGreen>
+void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
+                  const Optional<Write<HourglassStress>>& bending,
+                  const Optional<Read<PlasticHourglass>>* gone,
+                  const Optional<Write<LeastCorner>>& least_corner,
+                  Write<LeastJacobian> least_jacobian, Write<WorstElement> worst_element,
+                  const LeftCauchyGreen& left) {
+  std::optional<ChunkView<PlasticHourglass, const Lane*>> plastic;
+  std::optional<HourglassViews> hourglass;
+  if constexpr (F::stabilised) {
+    if (gone != nullptr) plastic = (*gone)->chunk(chunk);
+    hourglass = {bending->chunk(chunk), plastic ? &*plastic : nullptr,
+                 kernels::plane_strain_modulus(v.mu, v.bulk), 1e300};
+  }
+  const Shape& shape = bodies.shape_of_chunk(chunk);
+  Lane worst = 1e300, which{};
+  for (int i = 0; i < shape.elements(); ++i)
+    keep_worst(
+        element_stress<F>(v, hourglass ? &*hourglass : nullptr, shape, Row<Element>(i), left),
+        Row<Element>(i), worst, which);
+  if constexpr (F::stabilised)
+    least_corner->chunk(chunk)(Row<Particle>()) = hourglass->least_corner;
+  least_jacobian.chunk(chunk)(Row<Particle>()) = worst;
+  worst_element.chunk(chunk)(Row<Particle>()) = which;
+}
+
+}  // namespace
+
+template <class F>
+[[gnu::flatten]] void trial_stress(
+    Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
+    Read<BulkModulus> bulk, Read<PlasticMetric<F::points>> metric,
+    Optional<Read<PlasticHourglass>> gone, Write<IsochoricScale<F::points>> isochoric,
+    Write<DeviatoricStress<F::points>> s, Write<MeanStress<F::volumes>> p,
+    Optional<Write<HourglassStress>> bending, Optional<Write<LeastCorner>> least_corner,
+    Write<LeastJacobian> least, Write<WorstElement> worst) {
+  const Row<Particle> particle;
+  const Views<F> views{x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
+                       bulk.chunk(chunk)(particle)};
+  const auto c = metric.chunk(chunk);
+  const auto scale = isochoric.chunk(chunk);
+  const auto left = [&](const kernels::Matrix2<Lane>& f, Lane r, Row<Element> e, int g) {
+    scale(e, g) = r;
+    return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
+  };
+  chunk_stress<F>(chunk, *bodies, views, bending, &gone, least_corner, least, worst, left);
+}
+template decltype(trial_stress<FourPoint>) trial_stress<FourPoint>;
+template decltype(trial_stress<Standard>) trial_stress<Standard>;
+template decltype(trial_stress<OnePoint>) trial_stress<OnePoint>;
+
+template <class F>
+[[gnu::flatten]] void elastic_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
+                                     Read<ShearModulus> mu, Read<BulkModulus> bulk,
+                                     Write<DeviatoricStress<F::points>> s,
+                                     Write<MeanStress<F::volumes>> p,
+                                     Optional<Write<HourglassStress>> bending,
+                                     Optional<Write<LeastCorner>> least_corner,
+                                     Write<LeastJacobian> least, Write<WorstElement> worst) {
+  const Row<Particle> particle;
+  const Views<F> views{x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
+                       bulk.chunk(chunk)(particle)};
+  const auto left = [](const kernels::Matrix2<Lane>& f, Lane, Row<Element>, int) {
+    return kernels::left_cauchy_green(f);
+  };
+  chunk_stress<F>(chunk, *bodies, views, bending, nullptr, least_corner, least, worst, left);
+}
+template decltype(elastic_stress<FourPoint>) elastic_stress<FourPoint>;
+template decltype(elastic_stress<Standard>) elastic_stress<Standard>;
+template decltype(elastic_stress<OnePoint>) elastic_stress<OnePoint>;
+
+}  // namespace pulvis

@@ -1,0 +1,250 @@
+// bin_edges, bin_tool_edges: broad phase: make the contact rows anew when the surfaces have moved through the
+// skin.
+//
+// History (closest points, friction springs) is carried by the key (particle, edge, other): rows are
+// sorted by it, so that old and new rows of a particle are merged in one pass.
+// Runs     after skin_check, which says when; a sync point (rows change)
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "systems/contact/broad_phase.hpp"
+#include "systems/contact/contact_row.hpp"
+#include "systems/contact/surface_search.hpp"
+#include "systems/contact/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+struct RowKey {
+  std::int32_t slot, edge, other;
+  auto operator<=>(const RowKey&) const = default;
+};
+
+struct ToolCandidate {
+  std::int32_t slot, edge, tool;
+  PieceRange range;  // of a polyline
+};
+
+RowKey key_of(const EdgeCandidate& c) { return {c.slot, c.edge, c.other}; }
+RowKey key_of(const ToolCandidate& c) { return {c.slot, c.edge, c.tool}; }
+
+// For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, as they were
+// made; empty when none were.
+template <class At, class Candidate>
+std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin,
+                                const Write<ContactPair<At>>& before,
+                                const BySlot<Candidate>& now) {
+  std::vector<std::int32_t> source(now.all.size(), -1);
+  if (before_begin.empty()) return source;
+  for_slots(static_cast<int>(now.begin.size()) - 1, [&](int slot) {
+    const auto s = static_cast<std::size_t>(slot);
+    std::int32_t b = before_begin[s];
+    const auto old_key = [&] {
+      const Row<At> row(b);
+      return RowKey{before(row, 0), before(row, 1), before(row, 2)};
+    };
+    for (auto n = now.begin[s]; n < now.begin[s + 1]; ++n) {
+      const RowKey key = key_of(now.all[static_cast<std::size_t>(n)]);
+      while (b < before_begin[s + 1] && old_key() < key) ++b;
+      if (b < before_begin[s + 1] && old_key() == key) source[static_cast<std::size_t>(n)] = b;
+    }
+  });
+  return source;
+}
+
+// The rows of each slot as the other body.
+void list_other_rows(const BySlot<EdgeCandidate>& rows, ContactIndex& index) {
+  std::vector<std::int32_t>& begin = index.other_begin;
+  begin.assign(rows.begin.size(), 0);
+  for (const EdgeCandidate& c : rows.all) begin[static_cast<std::size_t>(c.other) + 1] += 1;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::int32_t> next = begin;
+  index.other_rows.resize(rows.all.size());
+  for (std::size_t r = 0; r < rows.all.size(); ++r)
+    index
+        .other_rows[static_cast<std::size_t>(next[static_cast<std::size_t>(rows.all[r].other)]++)] =
+        static_cast<std::int32_t>(r);
+}
+
+struct PairLaw {
+  double kappa;
+  const ContactRules::Friction& friction;
+  double damping;
+};
+
+template <class At>
+void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw& law,
+             const Write<ContactPair<At>>& pair, const Write<ContactLaw<At>>& of_row,
+             const Optional<Write<FrictionMore<At>>>& more) {
+  const Shape::Edge& edge =
+      bodies.shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
+  using Law = ContactLaw<At>;
+  pair(row, 0) = key.slot;
+  pair(row, 1) = key.edge;
+  pair(row, 2) = key.other;
+  of_row(row, Law::stiffness) = law.kappa;
+  of_row(row, Law::friction) = law.friction.coefficient;
+  if (more) {
+    using More = FrictionMore<At>;
+    (*more)(row, More::drop) = law.friction.drop;
+    (*more)(row, More::over_decay) = law.friction.over_decay;
+    (*more)(row, More::strength) = law.friction.strength;
+  }
+  of_row(row, Law::damping) = law.damping;
+  of_row(row, Law::over_length) = 1 / edge.length;
+  for (std::size_t g = 0; g < edge_points; ++g)
+    of_row(row, Law::weight + static_cast<int>(g)) = edge.weight[g] * bodies.thickness;
+}
+
+// kappa = k K L/A of the sampled edge in series with the other outline's mean, like two springs: a disc
+// on its mirror image feels what it feels on a rigid plane. Not with the edge that happens to be nearest: a kappa that changed while two bodies slide would make or eat energy.
+double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, const Bodies& bodies,
+                      const RowKey& key) {
+  const auto slot = static_cast<std::size_t>(key.slot), other = static_cast<std::size_t>(key.other);
+  const Shape& shape = bodies.shape_of_slot(key.slot);
+  const double a = bulk[slot] * shape.edges[static_cast<std::size_t>(key.edge)].stiffness;
+  const double b = bulk[other] * bodies.shape_of_slot(key.other).mean_edge_stiffness;
+  return rules.stiffness * a * b / (a + b);
+}
+
+// c = 2 xi sqrt(kappa rho h): the boundary element's mass per area on the contact spring.
+double damping_of(const ContactRules& rules, double kappa, double rho, const Shape::Edge& edge) {
+  return 2 * rules.damping * std::sqrt(kappa * rho / edge.stiffness);
+}
+
+}  // namespace
+
+void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
+               Read<Density> density, Read<CurvePosition> control, Write<ContactIndex> index,
+               Structural<Contact> structure, Write<ContactPair<Contact>> pair,
+               Write<ContactLaw<Contact>> law, Write<ContactReach<Contact>> reach,
+               Write<ContactPlace> place, Write<ClosestPoint> closest,
+               Optional<Write<FrictionMore<Contact>>> more) {
+  if (!index->due) return;
+  BySlot<std::int32_t> neighbours =
+      particle_neighbours(*bodies, control.values(), index->neighbourhood);
+  BySlot<EdgeCandidate> found = edge_candidates(*bodies, control.values(), neighbours, index->skin);
+  const std::vector<std::int32_t> source = match(index->sampled_begin, pair, found);
+  structure.rebuild(source);
+
+  tbb::parallel_for(std::size_t{0}, found.all.size(), [&](std::size_t r) {
+    const Row<Contact> row(static_cast<std::int64_t>(r));
+    const RowKey key = key_of(found.all[r]);
+    const auto& slots = bodies->slots;
+    const double kappa = pair_stiffness(*rules, bulk.values(), *bodies, key);
+    const double rho = std::min(density.values()[static_cast<std::size_t>(key.slot)],
+                                density.values()[static_cast<std::size_t>(key.other)]);
+    const Shape::Edge& edge =
+        bodies->shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
+    set_row(row, *bodies, key,
+            {kappa,
+             rules->friction_between(slots[static_cast<std::size_t>(key.slot)].material,
+                                     slots[static_cast<std::size_t>(key.other)].material),
+             damping_of(*rules, kappa, rho, edge)},
+            pair, law, more);
+    const bool known = source[r] >= 0;
+    // What was found to be the far side of a thin part stays that (edge_contact).
+    if (!(known && reach(row) == far_side))
+      reach(row) = known || key.slot != key.other ? 0 : unseen;
+    place(row, 0) = slots[static_cast<std::size_t>(key.slot)].first_control + edge.first_control;
+    place(row, 1) = slots[static_cast<std::size_t>(key.other)].first_control;
+    if (known) return;
+    const int start = bodies->shape_of_slot(key.other)
+                          .edges[static_cast<std::size_t>(found.all[r].start)]
+                          .first_control;
+    for (int g = 0; g < edge_points; ++g) closest(row, g) = start + 0.5;
+  });
+  list_other_rows(found, *index);
+  index->sampled_begin = std::move(found.begin);
+  index->neighbour_begin = std::move(neighbours.begin);
+  index->neighbours = std::move(neighbours.all);
+}
+
+namespace {
+
+// The pieces of a polyline that an edge can touch, or stand behind by up to its own length, before the skin
+// is used up. (Deeper than that no force would be right.)
+PieceRange near_pieces(const ToolSurface& surface, Point at, const double* points, double reach) {
+  Box box = box_of(points, 4);
+  for (int k = 0; k < 2; ++k) {
+    box.low[k] -= at[static_cast<std::size_t>(k)];
+    box.high[k] -= at[static_cast<std::size_t>(k)];
+  }
+  return pieces_near(surface, box, reach);
+}
+
+double least_distance(const double* points, Point at, Point normal) {
+  double least = std::numeric_limits<double>::max();
+  for (int a = 0; a < 4; ++a)
+    least = std::min(least,
+                     (points[2 * a] - at[0]) * normal[0] + (points[2 * a + 1] - at[1]) * normal[1]);
+  return least;
+}
+
+// Edges within `skin` of a tool's surface, or behind it.
+BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const double> control,
+                                      const Read<ToolPosition>& position,
+                                      const Read<ToolNormal>& normal,
+                                      const Optional<Read<ToolShapes>>& shapes, double skin) {
+  const auto is = [&](int tool, ToolShapes::Kind kind) {
+    return shapes ? (*shapes)->is(tool, kind) : kind == ToolShapes::Kind::plane;
+  };
+  return list_by_slot<ToolCandidate>(
+      static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ToolCandidate>& found) {
+        const Bodies::Slot& s = bodies.slots[static_cast<std::size_t>(slot)];
+        if (s.number == Bodies::nobody) return;
+        const auto& edges = bodies.shape_of_slot(slot).edges;
+        for (std::int32_t e = 0; e < static_cast<std::int32_t>(edges.size()); ++e)
+          for (int t = 0; t < position.rows(); ++t) {
+            const Row<Tool> tool(t);
+            const Shape::Edge& edge = edges[static_cast<std::size_t>(e)];
+            const double* points = control.data() + 2 * (s.first_control + edge.first_control);
+            const Point at{position(tool, 0), position(tool, 1)};
+            if (is(t, ToolShapes::Kind::plane)) {
+              if (least_distance(points, at, {normal(tool, 0), normal(tool, 1)}) < skin)
+                found.push_back({slot, e, t, {}});
+            } else if (is(t, ToolShapes::Kind::polyline)) {
+              const PieceRange range =
+                  near_pieces((*shapes)->surface_of(t), at, points, skin + edge.length);
+              if (!range.empty()) found.push_back({slot, e, t, range});
+            }
+          }
+      });
+}
+
+}  // namespace
+
+void bin_tool_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
+                    Read<Density> density, Read<CurvePosition> control,
+                    Read<ToolPosition> tool_position, Read<ToolNormal> tool_normal,
+                    Write<ContactIndex> index, Structural<ToolContact> structure,
+                    Write<ContactPair<ToolContact>> pair, Write<ContactLaw<ToolContact>> law,
+                    Write<ContactReach<ToolContact>> reach, Optional<Read<ToolShapes>> shapes,
+                    Optional<Write<SurfaceRange>> range,
+                    Optional<Write<FrictionMore<ToolContact>>> more) {
+  if (!index->due) return;
+  BySlot<ToolCandidate> found =
+      tool_candidates(*bodies, control.values(), tool_position, tool_normal, shapes, index->skin);
+  structure.rebuild(match(index->tool_begin, pair, found));
+  for (std::size_t r = 0; r < found.all.size(); ++r) {
+    const Row<ToolContact> row(static_cast<std::int64_t>(r));
+    const RowKey key = key_of(found.all[r]);
+    const auto slot = static_cast<std::size_t>(key.slot);
+    const Shape::Edge& edge =
+        bodies->shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
+    const double kappa = rules->stiffness * bulk.values()[slot] * edge.stiffness;
+    set_row(row, *bodies, key,
+            {kappa, rules->friction_with_tool(key.other, bodies->slots[slot].material),
+             damping_of(*rules, kappa, density.values()[slot], edge)},
+            pair, law, more);
+    reach(row) = 0;
+    if (!range) continue;
+    (*range)(row, 0) = found.all[r].range.first;
+    (*range)(row, 1) = found.all[r].range.last;
+  }
+  index->tool_begin = std::move(found.begin);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,264 @@
+#include "systems/contact/broad_phase.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pulvis {
+
+Box box_of(const double* points, int count) {
+  Box box{{points[0], points[1]}, {points[0], points[1]}};
+  for (int i = 1; i < count; ++i)
+    for (int k = 0; k < 2; ++k) {
+      box.low[k] = std::min(box.low[k], points[2 * i + k]);
+      box.high[k] = std::max(box.high[k], points[2 * i + k]);
+    }
+  return box;
+}
+
+bool near(const Box& a, const Box& b, double skin) {
+  for (int k = 0; k < 2; ++k)
+    if (a.low[k] > b.high[k] + skin || b.low[k] > a.high[k] + skin) return false;
+  return true;
+}
+
+namespace {
+
+// Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours
+// stand in the cells around.
+class Grid {
+ public:
+  Grid(const std::vector<Box>& boxes, const std::vector<int>& slots, double distance) {
+    Box all = boxes[static_cast<std::size_t>(slots.front())];
+    for (const int s : slots) {
+      const Box& b = boxes[static_cast<std::size_t>(s)];
+      for (int k = 0; k < 2; ++k) {
+        all.low[k] = std::min(all.low[k], b.low[k]);
+        all.high[k] = std::max(all.high[k], b.high[k]);
+        size_ = std::max(size_, b.high[k] - b.low[k] + distance);
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      low_[k] = all.low[k];
+      // A particle that flew off must not ask for a grid of its own; far cells fold into the last one.
+      count_[k] = static_cast<int>(std::clamp((all.high[k] - all.low[k]) / size_ + 1, 1.0, 4096.0));
+    }
+    cell_begin_.assign(static_cast<std::size_t>(count_[0] * count_[1]) + 1, 0);
+    for (const int s : slots) cell_begin_[cell(boxes[static_cast<std::size_t>(s)]) + 1] += 1;
+    std::partial_sum(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin());
+    members_.resize(slots.size());
+    std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
+    for (const int s : slots)
+      members_[static_cast<std::size_t>(next[cell(boxes[static_cast<std::size_t>(s)])]++)] = s;
+  }
+
+  template <class Visit>
+  void around(const Box& box, const Visit& visit) const {
+    const int cx = index(box, 0), cy = index(box, 1);
+    for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, count_[1] - 1); ++y)
+      for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, count_[0] - 1); ++x) {
+        const auto c = static_cast<std::size_t>(y * count_[0] + x);
+        for (int m = cell_begin_[c]; m < cell_begin_[c + 1]; ++m)
+          visit(members_[static_cast<std::size_t>(m)]);
+      }
+  }
+
+ private:
+  int index(const Box& box, int k) const {
+    const double middle = 0.5 * (box.low[k] + box.high[k]);
+    return static_cast<int>(std::clamp((middle - low_[k]) / size_, 0.0, count_[k] - 1.0));
+  }
+  std::size_t cell(const Box& box) const {
+    return static_cast<std::size_t>(index(box, 1) * count_[0] + index(box, 0));
+  }
+
+  double size_ = 0;
+  double low_[2] = {0, 0};
+  int count_[2] = {1, 1};
+  std::vector<std::int32_t> cell_begin_, members_;
+};
+
+// Of one outline after the other: boxes of the whole, and of its edges.
+struct Boxes {
+  std::vector<Box> particle;             // [slots]; undefined where nobody is
+  std::vector<std::int32_t> edge_begin;  // [slots] into edge
+  std::vector<Box> edge;
+};
+
+struct Curves {
+  const Bodies& bodies;
+  std::span<const double> control;
+
+  int slots() const { return static_cast<int>(bodies.slots.size()); }
+  bool nobody(int slot) const {
+    return bodies.slots[static_cast<std::size_t>(slot)].number == Bodies::nobody;
+  }
+  int edges(int slot) const { return static_cast<int>(bodies.shape_of_slot(slot).edges.size()); }
+  const double* points(int slot) const {
+    return control.data() + 2 * bodies.slots[static_cast<std::size_t>(slot)].first_control;
+  }
+  const double* edge_points(int slot, int e) const {
+    const Shape& shape = bodies.shape_of_slot(slot);
+    return points(slot) + 2 * shape.edges[static_cast<std::size_t>(e)].first_control;
+  }
+
+  std::vector<Box> particle_boxes() const {
+    std::vector<Box> boxes(bodies.slots.size());
+    for_slots(slots(), [&](int s) {
+      boxes[static_cast<std::size_t>(s)] =
+          box_of(points(s), bodies.shape_of_slot(s).control_points());
+    });
+    return boxes;
+  }
+  Boxes boxes() const {
+    Boxes all{particle_boxes(), {}, {}};
+    std::int32_t count = 0;
+    for (int s = 0; s < slots(); ++s) {
+      all.edge_begin.push_back(count);
+      count += edges(s);
+    }
+    all.edge.resize(static_cast<std::size_t>(count));
+    for_slots(slots(), [&](int s) {
+      Box* box = &all.edge[static_cast<std::size_t>(all.edge_begin[static_cast<std::size_t>(s)])];
+      for (int e = 0; e < edges(s); ++e) box[e] = box_of(edge_points(s, e), 4);
+    });
+    return all;
+  }
+};
+
+using Spot = std::array<double, 2>;
+
+// Where the edge with these four control points begins.
+Spot knot(const double* y) { return {(y[0] + 4 * y[2] + y[4]) / 6, (y[1] + 4 * y[3] + y[5]) / 6}; }
+
+double squared_distance_to_chord(const Spot& p, const double* control) {
+  const Spot a = knot(control), b = knot(control + 2);
+  const double cx = b[0] - a[0], cy = b[1] - a[1], rx = p[0] - a[0], ry = p[1] - a[1];
+  const double share = std::clamp((rx * cx + ry * cy) / (cx * cx + cy * cy), 0.0, 1.0);
+  const double dx = rx - share * cx, dy = ry - share * cy;
+  return dx * dx + dy * dy;
+}
+
+// The search for candidates of one slot after the other.
+class EdgeSearch {
+ public:
+  EdgeSearch(const Curves& curves, const Boxes& boxes, const BySlot<std::int32_t>& neighbours,
+             double skin)
+      : curves_(curves), boxes_(boxes), neighbours_(neighbours), skin_(skin) {}
+
+  void operator()(int slot, std::vector<EdgeCandidate>& found) const {
+    const std::vector<Other> others = others_of(slot);
+    if (others.empty()) return;
+    for (int e = 0; e < curves_.edges(slot); ++e) {
+      const Sampled sampled{slot, e, edge_box(slot, e), middle_of(slot, e)};
+      for (const Other& other : others) {
+        const int start = nearest_edge(other, sampled);
+        if (start != Shape::no_edge) found.push_back({slot, e, other.slot, start});
+      }
+    }
+  }
+
+ private:
+  struct Sampled {
+    int slot, edge;
+    Box box;
+    Spot middle;
+  };
+  struct Other {
+    int slot;
+    std::vector<int> edges;  // those that come near the sampled particle's box
+  };
+
+  const Box& edge_box(int slot, int e) const {
+    return boxes_
+        .edge[static_cast<std::size_t>(boxes_.edge_begin[static_cast<std::size_t>(slot)] + e)];
+  }
+
+  Spot middle_of(int slot, int e) const {
+    const Spot begin = knot(curves_.edge_points(slot, e)),
+               end = knot(curves_.edge_points(slot, e) + 2);
+    return {0.5 * (begin[0] + end[0]), 0.5 * (begin[1] + end[1])};
+  }
+
+  std::vector<Other> others_of(int slot) const {
+    const auto s = static_cast<std::size_t>(slot);
+    const Box& own = boxes_.particle[s];
+    std::vector<Other> others;
+    for (auto k = neighbours_.begin[s]; k < neighbours_.begin[s + 1]; ++k) {
+      Other other{neighbours_.all[static_cast<std::size_t>(k)], {}};
+      if (!near(own, boxes_.particle[static_cast<std::size_t>(other.slot)], skin_)) continue;
+      for (int e = 0; e < curves_.edges(other.slot); ++e)
+        if (near(own, edge_box(other.slot, e), skin_)) other.edges.push_back(e);
+      if (!other.edges.empty()) others.push_back(std::move(other));
+    }
+    return others;
+  }
+
+  // The edge of `other` nearest to the middle of the sampled edge, of those that come near its box, or
+  // no_edge. Of its own outline the neighbours are left out: there it is that the outline folds. By the
+  // distance of chords, not of middles: beside the end of a long edge the middle of a short one around the
+  // corner may be nearer, and from there no search leads back over the corner.
+  int nearest_edge(const Other& other, const Sampled& own) const {
+    if (!near(own.box, boxes_.particle[static_cast<std::size_t>(other.slot)], skin_))
+      return Shape::no_edge;
+    int nearest = Shape::no_edge;
+    double least = std::numeric_limits<double>::max();
+    for (const int e : other.edges) {
+      if (!near(own.box, edge_box(other.slot, e), skin_)) continue;
+      if (other.slot == own.slot &&
+          edges_between(own.edge, e, curves_.edges(own.slot)) < least_fold)
+        continue;
+      const double distance =
+          squared_distance_to_chord(own.middle, curves_.edge_points(other.slot, e));
+      if (distance < least) {
+        least = distance;
+        nearest = e;
+      }
+    }
+    return nearest;
+  }
+
+  const Curves& curves_;
+  const Boxes& boxes_;
+  const BySlot<std::int32_t>& neighbours_;
+  double skin_;
+};
+
+}  // namespace
+
+int edges_between(int a, int b, int edges) {
+  const int apart = std::abs(a - b);
+  return std::min(apart, edges - apart);
+}
+
+BySlot<std::int32_t> particle_neighbours(const Bodies& bodies, std::span<const double> control,
+                                         double distance) {
+  if (bodies.slot_of_number.empty()) return {{0}, {}};
+  std::vector<int> slots = bodies.slot_of_number;
+  std::ranges::sort(slots);
+  const Curves curves{bodies, control};
+  const std::vector<Box> boxes = curves.particle_boxes();
+  const Grid grid(boxes, slots, distance);
+  return list_by_slot<std::int32_t>(
+      curves.slots(), [&](int slot, std::vector<std::int32_t>& found) {
+        if (curves.nobody(slot)) return;
+        const auto first = static_cast<std::ptrdiff_t>(found.size());
+        const Box& own = boxes[static_cast<std::size_t>(slot)];
+        grid.around(own, [&](int other) {
+          if (near(own, boxes[static_cast<std::size_t>(other)], distance)) found.push_back(other);
+        });
+        std::sort(found.begin() + first, found.end());
+      });
+}
+
+BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
+                                      const BySlot<std::int32_t>& neighbours, double skin) {
+  if (bodies.slot_of_number.empty()) return {{0}, {}};
+  const Curves curves{bodies, control};
+  const Boxes boxes = curves.boxes();
+  return list_by_slot<EdgeCandidate>(curves.slots(), EdgeSearch(curves, boxes, neighbours, skin));
+}
+
+}  // namespace pulvis

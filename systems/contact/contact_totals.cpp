@@ -1,0 +1,44 @@
+// contact_totals: sums of the contact rows.
+//
+// Runs     every step, since dissipation adds up over steps
+#include <cmath>
+
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "systems/contact/systems.hpp"
+
+namespace pulvis {
+
+namespace {
+
+BlockSums sum_of(const std::vector<BlockSums>& blocks) {
+  BlockSums sum;
+  for (const BlockSums& block : blocks) {
+    sum.touching += block.touching;
+    sum.energy += block.energy;
+    sum.friction_work += block.friction_work;
+    sum.damping_work += block.damping_work;
+  }
+  return sum;
+}
+
+}  // namespace
+
+// Damping by the trapezoidal rule, like the work of the tools: the forces at both ends of the step times its way, so
+// that none is booked before the first touch. The force before times the rate now is, of a linear damper, the
+// geometric mean of both powers.
+void contact_totals(Read<Clock> clock, Optional<Read<ContactSums<Contact>>> sums,
+                    Optional<Read<ContactSums<ToolContact>>> tool_sums, Write<Totals> totals) {
+  const BlockSums pairs = sums ? sum_of((*sums)->blocks) : BlockSums{};
+  const BlockSums tools = tool_sums ? sum_of((*tool_sums)->blocks) : BlockSums{};
+  totals->touching = pairs.touching + tools.touching;
+  totals->contact_energy = pairs.energy + tools.energy;
+  totals->friction_work += pairs.friction_work;
+  totals->friction_work += tools.friction_work;
+  const double dt = clock->dt_before;
+  const double power = dt > 0 ? (pairs.damping_work + tools.damping_work) / dt : 0;
+  totals->damping_work += 0.5 * (std::sqrt(totals->damping_power * power) + power) * dt;
+  totals->damping_power = power;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,168 @@
+// skin_check: whether the contact rows must be made anew: it compares how far surfaces that are near each
+// other have come nearer since the rows were made with the skin for which they were made.
+//
+// Clock::travel bounds that for any two surfaces. Only when it could be used up, all are looked at: then
+// what they moved together (a compact pushed out of its die, the upper part of a long one that is pressed)
+// and what they moved to and fro is left out. What is left of the skin says when to look again.
+//
+// Source   systems/contact/skin_kernel.hpp
+// Runs     first of the contact systems; does nothing while Clock::travel is below `look_at`
+// Active   when anything can touch
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include <algorithm>
+
+#include "components/contact.hpp"
+#include "components/surface.hpp"
+#include "systems/contact/skin_kernel.hpp"
+#include "systems/contact/surface_search.hpp"
+#include "systems/contact/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double least_left = 0.2;  // of the skin: with less, looking costs more than new rows
+
+// What the next step may use up, where steps are long beside the skin: surfaces are to be found before they
+// meet. (A fold of an outline that is first seen when its sides are through each other looks like the far side
+// of a thin part.)
+double look_ahead(const ContactIndex& index, double travel) {
+  const double step = travel - index.travel_seen;
+  return step > least_left * index.skin ? step : 0;
+}
+
+struct Motion {  // of the outline in a slot since the rows were made
+  Box before, displacement;
+};
+
+struct ToolAccess {
+  const Read<ToolPosition>& position;
+  const Read<ToolNormal>& normal;
+  const Optional<Read<ToolShapes>>& shapes;
+};
+
+Motion motion_of(const double* before, const double* now, int points) {
+  Motion m{box_of(before, points), {}};
+  for (int k = 0; k < 2; ++k) {
+    m.displacement.low[k] = m.displacement.high[k] = now[k] - before[k];
+    for (int i = 1; i < points; ++i) {
+      const double u = now[2 * i + k] - before[2 * i + k];
+      m.displacement.low[k] = std::min(m.displacement.low[k], u);
+      m.displacement.high[k] = std::max(m.displacement.high[k], u);
+    }
+  }
+  return m;
+}
+
+// Of a minimum: the same bits in whatever order the threads take the slots.
+template <class Left>
+double least_of_slots(const std::vector<int>& slots, const Left& left) {
+  using Range = tbb::blocked_range<std::size_t>;
+  return tbb::parallel_reduce(
+      Range(0, slots.size()), 1e300,
+      [&](const Range& range, double least) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+          least = std::min(least, left(slots[i]));
+        return least;
+      },
+      [](double a, double b) { return std::min(a, b); });
+}
+
+// Particles that were no neighbours: whichever of all moved most against each other.
+double left_of_strangers(const ContactIndex& index, const std::vector<int>& slots,
+                         const std::vector<Motion>& motion) {
+  Box all = motion[static_cast<std::size_t>(slots.front())].displacement;
+  for (const int slot : slots)
+    for (int k = 0; k < 2; ++k) {
+      const Box& u = motion[static_cast<std::size_t>(slot)].displacement;
+      all.low[k] = std::min(all.low[k], u.low[k]);
+      all.high[k] = std::max(all.high[k], u.high[k]);
+    }
+  return index.neighbourhood - kernels::closing(all, all);
+}
+
+double left_of_neighbours(const ContactIndex& index, const std::vector<Motion>& motion, int slot) {
+  const auto s = static_cast<std::size_t>(slot);
+  if (index.neighbour_begin.empty()) return 1e300;
+  double least = 1e300;
+  for (auto k = index.neighbour_begin[s]; k < index.neighbour_begin[s + 1]; ++k) {
+    const auto other = static_cast<std::size_t>(index.neighbours[static_cast<std::size_t>(k)]);
+    if (other < s) continue;  // seen from there
+    const double allowed =
+        std::max(index.skin, kernels::gap(motion[s].before, motion[other].before));
+    least = std::min(
+        least, allowed - kernels::closing(motion[s].displacement, motion[other].displacement));
+  }
+  return least;
+}
+
+// Towards a plane only what goes against its normal counts, so that a compact may slide along it.
+double left_of_tools(const ContactIndex& index, const ToolAccess& tools, const Motion& m) {
+  double least = 1e300;
+  for (int t = 0; t < tools.position.rows(); ++t) {
+    const Row<Tool> tool(t);
+    const Point before = index.tools_before[static_cast<std::size_t>(t)];
+    const Point back{-before[0], -before[1]};
+    const Point moved{before[0] - tools.position(tool, 0), before[1] - tools.position(tool, 1)};
+    const Box own = kernels::moved(m.before, back), u = kernels::moved(m.displacement, moved);
+    if (tools.shapes && !(*tools.shapes)->is(t, ToolShapes::Kind::plane)) {
+      if (!(*tools.shapes)->is(t, ToolShapes::Kind::polyline)) continue;
+      const bool far =
+          pieces_near((*tools.shapes)->surface_of(t), own, index.neighbourhood).empty();
+      const double allowed = far ? index.neighbourhood : index.skin;
+      least = std::min(least, allowed - kernels::closing(u, Box{{0, 0}, {0, 0}}));
+      continue;
+    }
+    const Point normal{tools.normal(tool, 0), tools.normal(tool, 1)};
+    least = std::min(least, std::max(index.skin, kernels::least_along(own, normal)) +
+                                kernels::least_along(u, normal));
+  }
+  return least;
+}
+
+}  // namespace
+
+void skin_check(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> control,
+                Optional<Read<ToolPosition>> tool_position, Optional<Read<ToolNormal>> tool_normal,
+                Optional<Read<ToolShapes>> shapes, Write<CurveBefore> before,
+                Write<ContactIndex> index) {
+  index->due = false;
+  const double ahead = look_ahead(*index, clock->travel);
+  index->travel_seen = clock->travel;
+  if (index->travel_at_bin >= 0) {
+    if (clock->travel + ahead < index->look_at) return;
+    std::vector<Motion> motion(bodies->slots.size());
+    const auto& slots = bodies->slot_of_number;
+    tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
+      const auto s = static_cast<std::size_t>(slots[i]);
+      const std::size_t first = 2 * static_cast<std::size_t>(bodies->slots[s].first_control);
+      motion[s] = motion_of(before.values().data() + first, control.values().data() + first,
+                            bodies->shape_of_slot(slots[i]).control_points());
+    });
+    double left = left_of_strangers(*index, slots, motion);
+    left = std::min(left, least_of_slots(slots, [&](int slot) {
+                      return left_of_neighbours(*index, motion, slot);
+                    }));
+    if (tool_normal) {
+      const ToolAccess tools{*tool_position, *tool_normal, shapes};
+      left = std::min(left, least_of_slots(slots, [&](int slot) {
+                        return left_of_tools(*index, tools, motion[static_cast<std::size_t>(slot)]);
+                      }));
+    }
+    index->look_at = clock->travel + left;
+    if (left > std::max(least_left * index->skin, ahead)) return;
+  }
+  index->due = true;
+  index->travel_at_bin = clock->travel;
+  index->look_at = clock->travel + index->skin;
+  index->bins += 1;
+  std::ranges::copy(control.values(), before.values().begin());
+  index->tools_before.clear();
+  for (int t = 0; tool_position && t < tool_position->rows(); ++t)
+    index->tools_before.push_back(
+        {(*tool_position)(Row<Tool>(t), 0), (*tool_position)(Row<Tool>(t), 1)});
+}
+
+}  // namespace pulvis

@@ -1,0 +1,51 @@
+// How much of the skin two bodies have used up since the contact rows were made.
+//
+// Source   Verlet 1967 (neighbour lists), here by net displacement and relative to each other, so that
+//          neither common motion nor vibration counts.
+// Symbols  u   displacement of a surface point since then, m
+//          D   smallest axis-aligned box that holds u of all control points of a body
+// Law      Curves lie in the hull of their control points, so two points of bodies a and b that were apart by
+//          more than g along an axis have not met while closing(D_a, D_b) < g.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "systems/contact/broad_phase.hpp"
+
+namespace pulvis::kernels {
+
+// Largest distance between two boxes along an axis; < 0 where they overlap.
+inline double gap(const Box& a, const Box& b) {
+  double largest = -1e300;
+  for (int k = 0; k < 2; ++k)
+    largest = std::max({largest, a.low[k] - b.high[k], b.low[k] - a.high[k]});
+  return largest;
+}
+
+// How far points with displacements in these boxes can have come nearer along an axis, at most.
+inline double closing(const Box& a, const Box& b) {
+  double most = 0;
+  for (int k = 0; k < 2; ++k) most = std::max({most, a.high[k] - b.low[k], b.high[k] - a.low[k]});
+  return most;
+}
+
+// Least x . n of a box, and the most by which displacements from a box can go against n.
+inline double least_along(const Box& box, const std::array<double, 2>& n) {
+  double least = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double way = n[static_cast<std::size_t>(k)];
+    least += std::min(way * box.low[k], way * box.high[k]);
+  }
+  return least;
+}
+
+inline Box moved(Box box, const std::array<double, 2>& by) {
+  for (int k = 0; k < 2; ++k) {
+    box.low[k] += by[static_cast<std::size_t>(k)];
+    box.high[k] += by[static_cast<std::size_t>(k)];
+  }
+  return box;
+}
+
+}  // namespace pulvis::kernels

@@ -1,0 +1,22 @@
+// Which pieces of a tool's polyline are near a box: a binary tree of boxes over the chain, so that a
+// search costs the logarithm of its length. Pure geometry, no columns.
+#pragma once
+
+#include "components/surface.hpp"
+#include "systems/contact/broad_phase.hpp"
+
+namespace pulvis {
+
+struct PieceRange {
+  std::int32_t first = 0, last = -1;  // nothing is near: last < first
+  bool empty() const { return last < first; }
+};
+
+// Fills `tree`; once, when the chain is made.
+void index_pieces(ToolSurface& surface);
+
+// From the first to the last piece with a point within `reach` of `box` (in the tool's frame). Exact for
+// the straight parts' lines; pieces between the two need not be near.
+PieceRange pieces_near(const ToolSurface& surface, const Box& box, double reach);
+
+}  // namespace pulvis

@@ -1,0 +1,57 @@
+// What shear stress surfaces bear that press on each other.
+//
+// Friction Coulomb with a tangential spring u [m] per point, return-mapped (Cundall & Strack 1979, as
+//          plasticity: Wriggers 2006, ch. 5). The slip increment is objective: the rotation of the
+//          surface across the gap is taken out, and the same term acts on the other body, so that
+//          angular momentum is kept although the two points are a gap apart.
+#pragma once
+
+#include "engine/lane.hpp"
+
+namespace pulvis::kernels {
+
+template <class T>
+struct Friction {
+  T traction;      // Pa, on the sampled body along t
+  T elastic_slip;  // m, new
+  T work;          // J/m^2, dissipated in this step, >= 0
+};
+
+// ---- friction laws ------------------------------------------------------------------------------------
+// A law says what shear stress the surfaces bear at a pressure, and what sliding does to that: a struct with
+// strength(pressure) [Pa] and slide(way) [m, >= 0].
+template <class T>
+struct Coulomb {
+  T mu;
+  T strength(T pressure) const { return mu * pressure; }
+  void slide(T) {}
+};
+
+// Static and dynamic friction: the static part fades as e^(-way/decay) (backward Euler), and comes back when
+// the surfaces part. No more than the shear strength of the softer surface.
+template <class T>
+struct Weakening {
+  T mu;          // dynamic
+  T drop;        // static less dynamic
+  T over_decay;  // 1/m
+  T most;        // Pa; of one pass
+  T lost;        // share of the static part that is gone
+  T strength(T pressure) const { return min(fma(drop, 1.0 - lost, mu) * pressure, most); }
+  void slide(T way) { lost = 1.0 - (1.0 - lost) / fma(way, over_decay, T{} + 1.0); }
+};
+
+// `slip` m: how far the sampled body slid along t in the last step; `over_kappa` = 1 / kappa. The traction is
+// returned to what the law allows.
+template <class T, class Law>
+Friction<T> friction_return(T elastic_slip, T slip, T pressure, Law& law, T kappa, T over_kappa) {
+  const T trial = elastic_slip + slip;
+  const T limit = law.strength(pressure) * over_kappa;
+  const T held = max(min(trial, limit), -limit);
+  // Mean traction of the step times what slipped: what the spring does not keep. (A reversal over the
+  // whole limit within one step would make it negative.)
+  const T work = 0.5 * kappa * (elastic_slip + held) * (trial - held);
+  law.slide(abs(trial - held));
+  return {-(kappa * held), held, max(work, T{})};
+}
+
+}  // namespace pulvis::kernels

@@ -1,0 +1,256 @@
+#include "systems/lever/solid_contact_problem.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace pulvis {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr int most_iterations = 60;
+constexpr int most_cuts = 12;        // halvings of a step of the line search
+constexpr int most_steps = 400;      // of the flow through a jump
+constexpr double tolerance = 1e-11;  // -, of the largest force
+
+struct Linearised {
+  MatrixXd matrix;  // of the forces, then the servo's row and column
+  VectorXd missing;
+  bool touches = false;
+};
+
+class ContactNewton {
+ public:
+  explicit ContactNewton(const ContactProblem& problem)
+      : problem_(problem), size_(3 * static_cast<Index>(problem.points.size())) {
+    start_.resize(size_);
+    for (Index p = 0; p < size_ / 3; ++p) start_.segment<3>(3 * p) = point(p).force;
+    force_ = start_;
+    if (problem_.set_point) follow();
+  }
+
+  // Full steps settle nearly always in a few iterations; where the normal turns quickly (valleys) they
+  // throw the probe from side to side, and a line search on the residual does not.
+  ContactAnswer solve(bool line_search) {
+    int i = 0;
+    for (; i < most_iterations; ++i) {
+      Linearised now = linearise();
+      if (problem_.set_point && !now.touches) {
+        press_nearest();
+        now = linearise();
+      }
+      const double largest =
+          std::max({force_.lpNorm<Eigen::Infinity>(), std::abs(problem_.set_point.value_or(0)),
+                    std::ranges::max(problem_.points, {}, [](const ContactPoint& point) {
+                      return point.law.pull_off;
+                    }).law.pull_off});
+      if (now.missing.norm() <= tolerance * largest) return {true, force_, height_, i, 0};
+      const VectorXd step = now.matrix.partialPivLu().solve(now.missing);
+      if (!step.allFinite()) break;
+      move(step, 1);
+      double share = 1;
+      const double before = now.missing.norm();
+      for (int cut = 0; line_search && cut < most_cuts; ++cut) {
+        if (linearise().missing.norm() < (1 - 1e-4 * share) * before) break;
+        share /= 2;
+        move(step, -share);
+      }
+    }
+    return {false, force_, height_, i, 0};
+  }
+
+ private:
+  const ContactPoint& point(Index p) const { return problem_.points[static_cast<std::size_t>(p)]; }
+
+  void move(const VectorXd& step, double share) {
+    force_ += share * step.head(size_);
+    if (problem_.set_point) height_ += share * step[size_];
+  }
+
+  kernels::ProbePlace place(Index p) const {
+    const Vector3d moved = problem_.compliance.middleRows<3>(3 * p) * (force_ - start_);
+    return place_on(*problem_.shape, point(p), problem_.end_radius,
+                    point(p).place + moved - height_ * Vector3d::UnitZ());
+  }
+
+  // The target follows the point that pressed hardest: an increment's way along a slope shall not tear the
+  // probe off before the law has been asked.
+  void follow() {
+    Index hardest = -1;
+    double most = 0;
+    for (Index p = 0; p < size_ / 3; ++p) {
+      const double pressing = place(p).normal.dot(start_.segment<3>(3 * p));
+      if (pressing > most) most = pressing, hardest = p;
+    }
+    if (hardest < 0) return;
+    const auto at = place(hardest);
+    height_ = (at.gap + most / point(hardest).law.normal_stiffness) / at.normal.z();
+  }
+
+  // Nothing touches, but the servo wants its force: the nearest point takes it.
+  void press_nearest() {
+    Index nearest = 0;
+    double gap = place(0).gap;
+    for (Index p = 1; p < size_ / 3; ++p)
+      if (place(p).gap < gap) gap = place(p).gap, nearest = p;
+    const double held = force_(Eigen::seqN(2, size_ / 3, 3)).sum();
+    const auto at = place(nearest);
+    force_.segment<3>(3 * nearest) += (*problem_.set_point - held) / at.normal.z() * at.normal;
+    const auto then = place(nearest);
+    height_ += (then.gap + then.normal.dot(force_.segment<3>(3 * nearest)) /
+                               point(nearest).law.normal_stiffness) /
+               then.normal.z();
+  }
+
+  Linearised linearise() const {
+    const bool servo = problem_.set_point.has_value();
+    Linearised now;
+    now.matrix.setZero(size_ + servo, size_ + servo);
+    now.missing.setZero(size_ + servo);
+    for (Index p = 0; p < size_ / 3; ++p) {
+      const auto at = place(p);
+      const Matrix3d s = problem_.compliance.block<3, 3>(3 * p, 3 * p);
+      const double give = at.normal.dot(s * at.normal);
+      const auto r = kernels::probe_equation(point(p).law, at, force_.segment<3>(3 * p), 1 / give,
+                                             1 / (s.trace() - give));
+      now.touches = now.touches || r.state != kernels::ProbeEquation::State::apart;
+      now.missing.segment<3>(3 * p) = -r.residual;
+      now.matrix.block(3 * p, 0, 3, size_) = r.by_place * problem_.compliance.middleRows<3>(3 * p);
+      now.matrix.block<3, 3>(3 * p, 3 * p) += r.by_force;
+      if (servo) {
+        now.matrix.block<3, 1>(3 * p, size_) = -r.by_place.col(2);
+        now.matrix(size_, 3 * p + 2) = 1;
+      }
+    }
+    if (servo)
+      now.missing[size_] = *problem_.set_point - force_(Eigen::seqN(2, size_ / 3, 3)).sum();
+    return now;
+  }
+
+  const ContactProblem& problem_;
+  Index size_;
+  VectorXd start_, force_;
+  double height_ = 0;
+};
+
+ContactAnswer settle(const ContactProblem& problem) {
+  const ContactAnswer answer = ContactNewton(problem).solve(false);
+  return answer.converged ? answer : ContactNewton(problem).solve(true);
+}
+
+// No equilibrium is near: adhesion (DMT) draws more steeply than the lever holds. The points flow to the next one
+// against dashpots c that are taken away step by step, x + c S (x - x_k) = x_0 + S (f - f_0); what the
+// dashpots eat is what a real snap radiates.
+ContactAnswer jump(const ContactProblem& problem) {
+  // Eigen cuts large products, and with them their sums, by the caches of the processor at hand.
+  Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20);
+  const MatrixXd& s = problem.compliance;
+  const auto size = s.rows();
+  const MatrixXd one = MatrixXd::Identity(size, size);
+  VectorXd x(size), force(size);
+  double steepest = 0;
+  for (Index p = 0; p < size / 3; ++p) {
+    const ContactPoint& point = problem.points[static_cast<std::size_t>(p)];
+    x.segment<3>(3 * p) = point.place;
+    force.segment<3>(3 * p) = point.force;
+    steepest = std::max(steepest, 2 * point.law.pull_off / point.law.range);
+  }
+  const VectorXd unpressed = x - s * force;
+  const auto in_touch = [&](Index p, const VectorXd& places) {
+    const ContactPoint& point = problem.points[static_cast<std::size_t>(p)];
+    const Vector3d at = places.segment<3>(3 * p);
+    return point.touched && place_on(*problem.shape, point, problem.end_radius, at).gap <= 0;
+  };
+  const double softest = 1 / s.diagonal().maxCoeff();
+  double c = 10 * std::max(steepest, softest), eaten = 0;
+  for (int i = 0; i < most_steps && c > 1e-5 * softest; ++i) {
+    const Eigen::PartialPivLU<MatrixXd> damped(one + c * s);
+    ContactProblem step = problem;
+    step.compliance = damped.solve(s);
+    const VectorXd place = damped.solve(unpressed + c * (s * x)) + step.compliance * force;
+    for (Index p = 0; p < size / 3; ++p) {
+      step.points[static_cast<std::size_t>(p)].place = place.segment<3>(3 * p);
+      step.points[static_cast<std::size_t>(p)].force = force.segment<3>(3 * p);
+      step.points[static_cast<std::size_t>(p)].touched = in_touch(p, x);
+    }
+    const ContactAnswer answer = settle(step);
+    if (!answer.converged) {
+      c *= 8;
+      continue;
+    }
+    const VectorXd then = place + step.compliance * (answer.force - force);
+    eaten += c * (then - x).squaredNorm();
+    x = then;
+    force = answer.force;
+    c /= 2;
+  }
+  ContactProblem end = problem;
+  const VectorXd place = unpressed + s * force;
+  for (Index p = 0; p < size / 3; ++p) {
+    end.points[static_cast<std::size_t>(p)].place = place.segment<3>(3 * p);
+    end.points[static_cast<std::size_t>(p)].force = force.segment<3>(3 * p);
+    end.points[static_cast<std::size_t>(p)].touched = in_touch(p, x);
+  }
+  ContactAnswer answer = settle(end);
+  answer.released = eaten;
+  return answer;
+}
+
+}  // namespace
+
+ContactAnswer solve_contact(const ContactProblem& problem) {
+  ContactAnswer answer = settle(problem);
+  // The law of an adhesive ball jumps of itself.
+  const bool by_law = problem.points.front().law.ball.work > 0;
+  if (!answer.converged && problem.may_jump && !problem.set_point && !by_law)
+    answer = jump(problem);
+  return answer;
+}
+
+kernels::ProbePlace place_on(const TargetShape& shape, const ContactPoint& point, double end_radius,
+                             const Vector3d& place) {
+  const auto nearest = shape.nearest({place.x(), place.y(), place.z() + end_radius});
+  return {nearest.distance - end_radius,
+          Vector3d(nearest.normal.data()),
+          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(nearest.turn.data()),
+          place - point.before,
+          point.old_tangential,
+          point.touched};
+}
+
+Vector3d probe_place(Row<ProbePoint> row, const Read<ReferencePosition>& reference,
+                     const Read<Displacement>& displacement, const Target& target,
+                     const Read<ProbeNode>& node) {
+  const Row<SolidNode> at(node(row));
+  Vector3d x, u;
+  for (int k = 0; k < 3; ++k) x[k] = reference(at, k), u[k] = displacement(at, k);
+  return place_from(target, x, u);
+}
+
+Vector3d place_from(const Target& target, const Vector3d& reference, const Vector3d& displacement) {
+  return (reference - Vector3d(target.origin.data())) +
+         (displacement - Vector3d(target.travel.data()));
+}
+
+ContactPoint contact_point(Row<ProbePoint> row, const Vector3d& place, const Target& target,
+                           const Read<ProbeStiffness>& stiffness, const Read<ProbeShare>& share,
+                           const Read<ProbeMemory>& memory, const Read<ProbeForce>& force) {
+  ContactPoint point;
+  point.law = {stiffness(row, 0), stiffness(row, 1), target.friction, target.pull_off * share(row),
+               target.range,      target.ball};
+  point.place = place;
+  for (int k = 0; k < 3; ++k) {
+    point.force[k] = force(row, k);
+    point.old_tangential[k] = memory(row, k);
+    point.before[k] = memory(row, 3 + k);
+  }
+  point.touched = memory(row, 6) != 0;
+  return point;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,272 @@
+#include "systems/lever/static_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/interruption.hpp"
+#include "systems/lever/solid_systems.hpp"
+
+namespace pulvis {
+namespace {
+
+// ---- the order of an equilibrium iteration: a newcomer's first page ---------------------------
+std::vector<System> evaluation(World& w, bool with_tangent) {
+  std::vector<System> list{with_tangent ? make_system(w, "solid_element", solid_element)
+                                        : make_system(w, "element_force", element_force)};
+  if (w.has<TetrahedronForce>())
+    list.push_back(with_tangent ? make_system(w, "solid_tetrahedron", solid_tetrahedron)
+                                : make_system(w, "tetrahedron_force", tetrahedron_force));
+  list.push_back(make_system(w, "solid_force", solid_force));
+  if (w.has<ProbeNode>()) list.push_back(make_system(w, "probe_contact", probe_contact));
+  list.push_back(make_system(w, "residual", residual));
+  return list;
+}
+
+std::vector<System> linearisation(World& w) {
+  if (w.resource<SolidEquations>().in_extended) {
+    std::vector<System> list = evaluation(w, false);
+    list.push_back(make_system(w, "factorise_extended", factorise_extended));
+    return list;
+  }
+  std::vector<System> list = evaluation(w, true);
+  list.push_back(make_system(w, "block_tangent", block_tangent));
+  list.push_back(make_system(w, "factorise", factorise));
+  return list;
+}
+
+// With the solid's factors of an earlier iteration, or new ones. The contact is always solved anew.
+std::vector<System> iteration(World& w, bool new_factors) {
+  std::vector<System> list = new_factors ? linearisation(w) : evaluation(w, false);
+  list.push_back(make_system(w, "newton_direction", newton_direction));
+  if (w.has<ProbeNode>()) list.push_back(make_system(w, "contact_direction", contact_direction));
+  return list;
+}
+
+// What an equilibrium leaves behind for the next increment.
+std::vector<System> memory(World& w) {
+  std::vector<System> list;
+  if (w.has<ProbeNode>()) list.push_back(make_system(w, "remember_contact", remember_contact));
+  if (w.has<SolidYield>())
+    list.push_back(make_system(w, "remember_plasticity", remember_plasticity));
+  return list;
+}
+
+// Displacements of all nodes from those of the free ones.
+void expand(const SolidMesh& mesh, const double* free, double* all) {
+  const auto nodes = static_cast<int>(mesh.unknown.size());
+  for (int n = 0; n < nodes; ++n)
+    for (int k = 0; k < 3; ++k) {
+      double sum = 0;
+      for (const auto& support : mesh.supports_of(n))
+        sum += support.weight * free[3 * mesh.unknown[static_cast<std::size_t>(support.node)] + k];
+      all[3 * n + k] = sum;
+    }
+}
+
+}  // namespace
+
+void add_solid_columns(World& world) {
+  world.add<Displacement>();
+  world.add<AppliedForce>();
+  world.add<SolidForce>();
+  world.add<ElementForce>();
+  world.add<ElementTangent>();
+  world.add<ElementEnergy>();
+  world.add<BlockTangent>();
+  world.emplace<SolidEquations>();
+}
+
+void add_tetrahedron_columns(World& world) {
+  world.add<TetrahedronLame>();
+  world.add<TetrahedronForce>();
+  world.add<TetrahedronTangent>();
+  world.add<TetrahedronEnergy>();
+}
+
+void add_plastic_columns(World& world) {
+  world.add<SolidYield>();
+  world.add<SolidMemory>();
+}
+
+void add_probe_columns(World& world, std::size_t points) {
+  world.add_table<ProbePoint>(points);
+  world.add<ProbeNode>();
+  world.add<ProbeStiffness>();
+  world.add<ProbeShare>();
+  world.add<ProbeMemory>();
+  world.add<ProbeForce>();
+  world.add<ProbeState>();
+}
+
+StaticSolver::StaticSolver(World& world)
+    : world_(world),
+      reuse_(iteration(world, false), world.chunks()),
+      look_(evaluation(world, false), world.chunks()) {
+  make_graphs();
+  if (auto list = memory(world); !list.empty())
+    remember_ = std::make_unique<TaskGraph>(std::move(list), world.chunks());
+}
+
+StaticSolver::~StaticSolver() = default;
+
+void StaticSolver::make_graphs() {
+  linearise_ = std::make_unique<TaskGraph>(linearisation(world_), world_.chunks());
+  iterate_ = std::make_unique<TaskGraph>(iteration(world_, true), world_.chunks());
+}
+
+void StaticSolver::remember() {
+  if (remember_) remember_->run();
+}
+
+void StaticSolver::linearise() { linearise_->run(); }
+
+void StaticSolver::extend_precision() {
+  auto& equations = world_.resource<SolidEquations>();
+  equations.in_extended = true;
+  equations.plain = {};
+  make_graphs();
+}
+
+bool StaticSolver::in_extended_precision() const {
+  return world_.resource<SolidEquations>().in_extended;
+}
+
+bool StaticSolver::stable() const { return world_.resource<SolidEquations>().positive(); }
+
+std::vector<double> StaticSolver::respond(std::span<const double> forces) const {
+  const auto& mesh = world_.resource<SolidMesh>();
+  const auto& equations = world_.resource<SolidEquations>();
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.unknowns);
+  for (std::size_t n = 0; n < mesh.unknown.size(); ++n)
+    for (const auto& support : mesh.supports_of(static_cast<int>(n)))
+      for (std::size_t k = 0; k < 3; ++k)
+        f[3 * mesh.unknown[static_cast<std::size_t>(support.node)] + static_cast<int>(k)] +=
+            support.weight * forces[3 * n + k];
+  const Eigen::VectorXd u = equations.solve(f);
+  std::vector<double> all(forces.size());
+  expand(mesh, u.data(), all.data());
+  return all;
+}
+
+void StaticSolver::move(double share) {
+  const auto& mesh = world_.resource<SolidMesh>();
+  const auto& equations = world_.resource<SolidEquations>();
+  std::vector<double> step(3 * mesh.unknown.size());
+  expand(mesh, equations.direction.data(), step.data());
+  double* u = world_.column<Displacement>().values();
+  for (std::size_t i = 0; i < step.size(); ++i) u[i] += share * step[i];
+  if (!world_.has<Target>()) return;
+  world_.resource<Target>().travel[2] += share * equations.height_step;
+  double* force = world_.column<ProbeForce>().values();
+  for (Eigen::Index i = 0; i < equations.force_step.size(); ++i)
+    force[i] += share * equations.force_step[i];
+}
+
+void StaticSolver::search(double allowed, int cuts) {
+  double share = 1;
+  for (int i = 0; i < cuts; ++i) {
+    look_.run();
+    if (error() <= allowed) return;
+    share *= 0.5;
+    move(-share);
+  }
+}
+
+double StaticSolver::error() const {
+  const auto& equations = world_.resource<SolidEquations>();
+  const double size = equations.residual.norm();
+  return size == 0 ? 0 : size / equations.scale;
+}
+
+// Where a stiff tip hangs on a soft lever, round-off in its displacements leaves more than the tolerance: a residual
+// that no longer falls is as good as it gets, where Newton's method itself would hardly move on. (A lever 10,000 times
+// longer than thick answers the last digit of its displacements with more than its load.) Then the law of contact
+// holds where its forces fit the places, or where both have stopped changing: the places of a ball a
+// thousand times stiffer than its lever are good to 1e-13 of its way, which is 1e-5 of its forces.
+bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& settings) const {
+  const auto& equations = world_.resource<SolidEquations>();
+  const bool stays = r.size() > 1 && r.back() > 0.1 * r[r.size() - 2];
+  const bool small = r.back() <= settings.round_off && step_size() <= settings.step;
+  const bool floor =
+      stays && (small || (equations.in_extended && step_size() <= settings.last_digits));
+  const double contact =
+      floor ? std::min(equations.contact_error, equations.contact_change) : equations.contact_error;
+  if (std::max(std::abs(equations.set_point_error), contact) > settings.contact_tolerance)
+    return false;
+  return r.back() <= settings.tolerance || floor;
+}
+
+// Of Newton's direction, over the displacements or the scanner's way.
+double StaticSolver::step_size() const {
+  const auto& u = world_.column<Displacement>();
+  double largest = 0;
+  for (std::size_t i = 0; i < u.bytes() / sizeof(double); ++i)
+    largest = std::max(largest, std::abs(u.values()[i]));
+  if (world_.has<Target>())
+    for (const double way : world_.resource<Target>().travel)
+      largest = std::max(largest, std::abs(way));
+  const double step = world_.resource<SolidEquations>().direction.lpNorm<Eigen::Infinity>();
+  return step == 0 ? 0 : step / std::max(step, largest);
+}
+
+// The full step is taken at first: the residual of a thin lever, whose membrane is a million times stiffer
+// than its bending, rises far above its start and then falls quadratically. From the third iteration on
+// a step must not make it grow tenfold; it is halved until it does not.
+NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
+  NewtonReport report;
+  const auto& equations = world_.resource<SolidEquations>();
+  const State start = state();
+  if (world_.has<Target>()) world_.resource<Target>().may_jump = settings.may_jump;
+  world_.resource<SolidEquations>().jumped = false;
+  bool may_reuse = settings.reuse_factors;
+  bool reuse = may_reuse && equations.has_factors();
+  for (int i = 0; i <= settings.iterations; ++i) {
+    stop_if_asked();
+    (reuse ? reuse_ : *iterate_).run();
+    report.residuals.push_back(error());
+    // Factors that do not gain a digit an iteration are too old, until round-off is reached.
+    // (The first one started from balance: what the contact's new forces left is no measure.)
+    const bool good = error() <= settings.round_off || i == 1 ||
+                      (i > 0 && error() < 0.1 * report.residuals[report.residuals.size() - 2]);
+    // A very stiff tip that has turned by a thousandth of a radian is another one for the old factors:
+    // what they made of it is too far off to go on from.
+    if (i == 2 && reuse && !(error() < 0.5 * report.residuals[1] || good)) {
+      restore(start);
+      report = {};
+      world_.resource<SolidEquations>().jumped = false;
+      may_reuse = reuse = false;
+      i = -1;
+      continue;
+    }
+    if (i > 0) reuse = may_reuse && good;
+    if (!std::isfinite(report.residuals.back())) break;
+    report.converged = settled(report.residuals, settings);
+    if (report.converged) return report;
+    if (!equations.contact_solved) break;
+    report.released += equations.released;
+    move(1);
+    if (i >= 2) search(10 * report.residuals.back(), settings.cuts);
+  }
+  restore(start);
+  return report;
+}
+
+StaticSolver::State StaticSolver::state() const {
+  State state;
+  const auto& u = world_.column<Displacement>();
+  state.displacement.assign(u.values(), u.values() + u.bytes() / sizeof(double));
+  if (!world_.has<Target>()) return state;
+  const auto& force = world_.column<ProbeForce>();
+  state.force.assign(force.values(), force.values() + 3 * force.table.rows);
+  state.height = world_.resource<Target>().travel[2];
+  return state;
+}
+
+void StaticSolver::restore(const State& state) {
+  std::ranges::copy(state.displacement, world_.column<Displacement>().values());
+  if (!world_.has<Target>()) return;
+  std::ranges::copy(state.force, world_.column<ProbeForce>().values());
+  world_.resource<Target>().travel[2] = state.height;
+}
+
+}  // namespace pulvis

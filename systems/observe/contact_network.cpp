@@ -1,0 +1,170 @@
+// contact_network: the points of all contact rows summed up into one contact for every pair of particles,
+// and for every particle and tool that touch.
+//
+// Law      force = sum over the points of both half passes, as contact_force gives them to the bodies; the
+//          normal is the direction of the sum of their normal parts, so that it does not depend on where
+//          the mesh nodes lie. Length: current length that the touching points stand for, mean of both sides
+// Runs     on sampled steps, after the narrow phases
+// Active   when the scene asks for contacts
+#include <algorithm>
+
+#include "systems/contact/by_slot.hpp"
+#include "systems/contact/contact_outlines.hpp"
+#include "systems/observe/systems.hpp"
+#include "systems/tools/surface_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+// Sums of a contact while its points are gathered.
+struct Gathered {
+  ContactLink link;
+  double weight = 0;
+
+  // `force` on the sampled side, `normal` into it; `side` -1 where that is the link's second particle.
+  void add(const Point& at, const Point& normal, const Point& force, double length, double side) {
+    const double size = length_of(force);
+    const double push = force[0] * normal[0] + force[1] * normal[1];
+    weight += size;
+    link.length += length;
+    for (std::size_t k = 0; k < 2; ++k) {
+      link.point[k] += size * at[k];
+      link.force[k] += side * force[k];
+      link.normal[k] += side * push * normal[k];
+    }
+  }
+  ContactLink finished(double sides) const {
+    ContactLink done = link;
+    const double push = length_of(link.normal);
+    for (std::size_t k = 0; k < 2; ++k) {
+      done.point[k] /= weight;
+      done.normal[k] /= push;
+    }
+    done.length /= sides;
+    return done;
+  }
+};
+
+// The contacts of one particle, found by their other side.
+class Partners {
+ public:
+  explicit Partners(int first) : first_(first) {}
+  Gathered& with(int second) {
+    const auto same = [second](const Gathered& g) { return g.link.second == second; };
+    const auto found = std::ranges::find_if(all_, same);
+    if (found != all_.end()) return *found;
+    all_.emplace_back().link.first = first_;
+    all_.back().link.second = second;
+    return all_.back();
+  }
+  // Points may touch without a force, where the surfaces just meet: those make no contact.
+  void move_to(std::vector<ContactLink>& links, double sides) const {
+    for (const Gathered& g : all_)
+      if (g.weight > 0) links.push_back(g.finished(sides));
+  }
+
+ private:
+  int first_;
+  std::vector<Gathered> all_;
+};
+
+// Adds the points of a row that bear a force; normal_at(point, g) looks into the sampled particle.
+template <class At, class NormalAt>
+void add_points(const Curve& sampled, const Read<PointForce<At>>& force, Row<At> row, double side,
+                const NormalAt& normal_at, Gathered& contact) {
+  for (int g = 0; g < edge_points; ++g) {
+    const Point f{force(row, 2 * g), force(row, 2 * g + 1)};
+    if (f[0] == 0 && f[1] == 0) continue;
+    const Point at = sampled.value(kernels::edge_u[g]), along = sampled.slope(kernels::edge_u[g]);
+    const double length = kernels::edge_w[g] * length_of(along);
+    contact.add(at, normal_at(at, g), f, length, side);
+  }
+}
+
+void sort_by_numbers(std::vector<ContactLink>& links) {
+  std::ranges::sort(links, {}, [](const ContactLink& l) { return std::pair(l.first, l.second); });
+}
+
+std::vector<ContactLink> pairs(const Bodies& bodies, const ContactIndex& index,
+                               const Outlines& outlines, const Read<ContactPair<Contact>>& pair,
+                               const Read<ContactTouches<Contact>>& touches,
+                               const Read<PointForce<Contact>>& force,
+                               const Read<ClosestPoint>& closest) {
+  const auto add_row = [&](Row<Contact> row, double side, Gathered& contact) {
+    const auto normal_at = [&](const Point&, int g) {
+      const int control = static_cast<int>(closest(row, g));
+      return outlines.from(pair(row, 2), control).normal(closest(row, g) - control);
+    };
+    add_points(outlines.edge(pair(row, 0), pair(row, 1)), force, row, side, normal_at, contact);
+  };
+  // Each pair belongs to its particle of lower number, whose rows and those against it are looked through.
+  auto links = list_by_slot<ContactLink>(
+      static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ContactLink>& found) {
+        const int number = outlines.number(slot);
+        if (number == Bodies::nobody) return;
+        const auto s = static_cast<std::size_t>(slot);
+        Partners partners(number);
+        for (int r = index.sampled_begin[s]; r < index.sampled_begin[s + 1]; ++r) {
+          const Row<Contact> row(r);
+          if (touches(row) == 0) continue;
+          const int other = outlines.number(pair(row, 2));
+          if (other > number) add_row(row, 1, partners.with(other));
+        }
+        for (int k = index.other_begin[s]; k < index.other_begin[s + 1]; ++k) {
+          const Row<Contact> row(index.other_rows[static_cast<std::size_t>(k)]);
+          if (touches(row) == 0) continue;
+          const int other = outlines.number(pair(row, 0));
+          if (other > number) add_row(row, -1, partners.with(other));
+        }
+        partners.move_to(found, 2);
+      });
+  sort_by_numbers(links.all);
+  return std::move(links.all);
+}
+
+}  // namespace
+
+void contact_network(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePosition> control,
+                     Optional<Read<ContactPair<Contact>>> pair,
+                     Optional<Read<ContactTouches<Contact>>> touches,
+                     Optional<Read<PointForce<Contact>>> force,
+                     Optional<Read<ClosestPoint>> closest,
+                     Optional<Read<ContactPair<ToolContact>>> tool_pair,
+                     Optional<Read<ContactTouches<ToolContact>>> tool_touches,
+                     Optional<Read<PointForce<ToolContact>>> tool_force,
+                     Optional<Read<ToolPosition>> tool_position,
+                     Optional<Read<ToolNormal>> tool_normal, Optional<Read<ToolShapes>> shapes,
+                     Optional<Read<SurfaceRange>> range, Write<ContactNetwork> network) {
+  const Outlines outlines(*bodies, control.values());
+  network->pairs.clear();
+  network->tools.clear();
+  if (pair) network->pairs = pairs(*bodies, *index, outlines, *pair, *touches, *force, *closest);
+  if (!tool_pair) return;
+
+  const auto tool_normal_at = [&](Row<ToolContact> row, const Point& at) {
+    const Row<Tool> tool((*tool_pair)(row, 2));
+    if (!range || !(*shapes)->is(tool.value, ToolShapes::Kind::polyline))
+      return Point{(*tool_normal)(tool, 0), (*tool_normal)(tool, 1)};
+    const auto nearest = kernels::nearest_on_surface(
+        (*shapes)->surface_of(tool.value), (*range)(row, 0), (*range)(row, 1),
+        at[0] - (*tool_position)(tool, 0), at[1] - (*tool_position)(tool, 1),
+        std::numeric_limits<double>::infinity());
+    return Point{nearest.nx, nearest.ny};
+  };
+  for (const int slot : bodies->slot_of_number) {
+    const auto s = static_cast<std::size_t>(slot);
+    Partners partners(outlines.number(slot));
+    for (int r = index->tool_begin[s]; r < index->tool_begin[s + 1]; ++r) {
+      const Row<ToolContact> row(r);
+      if ((*tool_touches)(row) == 0) continue;
+      add_points(
+          outlines.edge(slot, (*tool_pair)(row, 1)), *tool_force, row, 1,
+          [&](const Point& at, int) { return tool_normal_at(row, at); },
+          partners.with((*tool_pair)(row, 2)));
+    }
+    partners.move_to(network->tools, 1);
+  }
+  sort_by_numbers(network->tools);
+}
+
+}  // namespace pulvis

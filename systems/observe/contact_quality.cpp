@@ -1,0 +1,154 @@
+// contact_quality: how far the outlines sink into each other, and which contacts are too narrow for their mesh.
+//
+// Law      overlap = sum over the touching points of gap times the length they stand for; of a pair both
+//          half passes see all of it, hence half of each. Penetration work = sum of normal force times
+//          gap: what a penetration costs the tools in way, by virtual work (scenes/results/contact_findings.hpp).
+//          Width of a contact in edges: the shares of its edges that its touching points stand for. A face
+//          of one edge between two corners counts as wide enough: what presses on the whole of it is no
+//          contact of curved outlines
+// Runs     on sampled steps, after the narrow phases
+// Active   wherever there is contact
+#include <algorithm>
+
+#include "systems/contact/by_slot.hpp"
+#include "systems/contact/contact_outlines.hpp"
+#include "systems/observe/systems.hpp"
+#include "systems/tools/surface_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+// What one outline feels of one other, or of a tool.
+struct Side {
+  int other = 0;
+  Point force{};      // N
+  double edges = 0;   // -, width in edges
+  double width = 0;   // m
+  bool face = false;  // a whole face of one edge between two corners
+};
+
+// All that one particle contributes.
+struct Found {
+  double overlap = 0;  // m^2
+  double work = 0;     // J
+  std::vector<Side> sides;
+
+  Side& with(int other) {
+    const auto found = std::ranges::find(sides, other, &Side::other);
+    if (found != sides.end()) return *found;
+    sides.emplace_back().other = other;
+    return sides.back();
+  }
+};
+
+struct Gap {
+  double depth;  // m, > 0 in penetration
+  Point normal;  // into the sampled particle
+};
+
+// `gap_at(point, g)`: how deep the point of the row is in the other. `share` of the overlap that is the row's.
+template <class At, class GapAt>
+void add_row(const Curve& sampled, const Shape::Edge& edge, const Read<PointForce<At>>& force,
+             Row<At> row, double share, int other, const GapAt& gap_at, Found& found) {
+  Side& side = found.with(other);
+  side.face |= edge.previous == Shape::no_edge && edge.next == Shape::no_edge;
+  for (int g = 0; g < edge_points; ++g) {
+    const Point f{force(row, 2 * g), force(row, 2 * g + 1)};
+    if (f[0] == 0 && f[1] == 0) continue;
+    const double u = kernels::edge_u[g], w = kernels::edge_w[g];
+    const double length = w * length_of(sampled.slope(u));
+    const Gap gap = gap_at(sampled.value(u), g);
+    side.force[0] += f[0];
+    side.force[1] += f[1];
+    side.edges += w;
+    side.width += length;
+    found.overlap += share * length * gap.depth;
+    found.work += gap.depth * (f[0] * gap.normal[0] + f[1] * gap.normal[1]);
+  }
+}
+
+void add_up(const Found& found, ContactQuality& quality) {
+  quality.overlap += found.overlap;
+  quality.penetration_work += found.work;
+  for (const Side& side : found.sides) {
+    const double force = length_of(side.force);
+    quality.force += force;
+    if (side.edges >= ContactQuality::least_edges || side.face) continue;
+    quality.narrow_force += force;
+    quality.narrow_width += force * side.width;
+    quality.narrow_edges += force * side.edges;
+  }
+}
+
+}  // namespace
+
+void contact_quality(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePosition> control,
+                     Optional<Read<ContactPair<Contact>>> pair,
+                     Optional<Read<ContactTouches<Contact>>> touches,
+                     Optional<Read<PointForce<Contact>>> force,
+                     Optional<Read<ClosestPoint>> closest,
+                     Optional<Read<ContactPair<ToolContact>>> tool_pair,
+                     Optional<Read<ContactTouches<ToolContact>>> tool_touches,
+                     Optional<Read<PointForce<ToolContact>>> tool_force,
+                     Optional<Read<ToolPosition>> tool_position,
+                     Optional<Read<ToolNormal>> tool_normal, Optional<Read<ToolShapes>> shapes,
+                     Optional<Read<SurfaceRange>> range, Write<ContactQuality> quality) {
+  const Outlines outlines(*bodies, control.values());
+  const auto edge_of = [&](int slot, int edge) -> const Shape::Edge& {
+    return bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(edge)];
+  };
+  const auto gap_to_curve = [&](Row<Contact> row, const Point& at, int g) {
+    const int first = static_cast<int>((*closest)(row, g));
+    const double u = (*closest)(row, g) - first;
+    const Curve curve = outlines.from((*pair)(row, 2), first);
+    const Point m = curve.value(u), n = curve.normal(u);
+    return Gap{(m[0] - at[0]) * n[0] + (m[1] - at[1]) * n[1], n};
+  };
+  const auto gap_to_tool = [&](Row<ToolContact> row, const Point& at) {
+    const Row<Tool> tool((*tool_pair)(row, 2));
+    const double x = at[0] - (*tool_position)(tool, 0), y = at[1] - (*tool_position)(tool, 1);
+    if (!range || !(*shapes)->is(tool.value, ToolShapes::Kind::polyline)) {
+      const Point n{(*tool_normal)(tool, 0), (*tool_normal)(tool, 1)};
+      return Gap{-(x * n[0] + y * n[1]), n};
+    }
+    const auto nearest = kernels::nearest_on_surface((*shapes)->surface_of(tool.value),
+                                                     (*range)(row, 0), (*range)(row, 1), x, y,
+                                                     std::numeric_limits<double>::infinity());
+    return Gap{-nearest.distance, {nearest.nx, nearest.ny}};
+  };
+  const auto add_pairs = [&](int slot, Found& found) {
+    const auto s = static_cast<std::size_t>(slot);
+    for (int r = index->sampled_begin[s]; r < index->sampled_begin[s + 1]; ++r) {
+      const Row<Contact> row(r);
+      if ((*touches)(row) == 0) continue;
+      const int edge = (*pair)(row, 1);
+      add_row(
+          outlines.edge(slot, edge), edge_of(slot, edge), *force, row, 0.5, (*pair)(row, 2),
+          [&](const Point& at, int g) { return gap_to_curve(row, at, g); }, found);
+    }
+  };
+  const auto add_tools = [&](int slot, Found& found) {
+    const auto s = static_cast<std::size_t>(slot);
+    for (int r = index->tool_begin[s]; r < index->tool_begin[s + 1]; ++r) {
+      const Row<ToolContact> row(r);
+      if ((*tool_touches)(row) == 0) continue;
+      const int edge = (*tool_pair)(row, 1), tool = (*tool_pair)(row, 2);
+      add_row(
+          outlines.edge(slot, edge), edge_of(slot, edge), *tool_force, row, 1, -1 - tool,
+          [&](const Point& at, int) { return gap_to_tool(row, at); }, found);
+    }
+  };
+
+  const auto found = list_by_slot<Found>(static_cast<int>(bodies->slots.size()),
+                                         [&](int slot, std::vector<Found>& list) {
+                                           Found mine;
+                                           if (outlines.number(slot) == Bodies::nobody) return;
+                                           if (pair) add_pairs(slot, mine);
+                                           if (tool_pair) add_tools(slot, mine);
+                                           if (!mine.sides.empty()) list.push_back(std::move(mine));
+                                         });
+  *quality = {};
+  for (const Found& one : found.all) add_up(one, *quality);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,29 @@
+// force_chains: which particles pass the load on to each other.
+//
+// Source   systems/observe/force_chain_kernel.hpp
+// Runs     on sampled steps, after particle_stress and contact_network
+// Active   when the scene asks for contacts
+#include "systems/observe/force_chain_kernel.hpp"
+#include "systems/observe/systems.hpp"
+
+namespace pulvis {
+
+void force_chains(Read<Bodies> bodies, Read<ParticleStress> stress, Read<ParticleCentre> centre,
+                  Read<ContactNetwork> network, Write<ForceChains> chains) {
+  const Row<Particle> particle;
+  std::vector<kernels::PlaneStress> stresses;
+  std::vector<Point> centres;
+  for (const int slot : bodies->slot_of_number) {
+    const Chunk chunk{slot / lane_count};
+    const int lane = slot % lane_count;
+    const auto s = stress.chunk(chunk);
+    const auto x = centre.chunk(chunk);
+    stresses.push_back({s(particle, 0)[lane], s(particle, 1)[lane], s(particle, 3)[lane]});
+    centres.push_back({x(particle, 0)[lane], x(particle, 1)[lane]});
+  }
+  std::vector<std::pair<std::int32_t, std::int32_t>> touching;
+  for (const ContactLink& link : network->pairs) touching.emplace_back(link.first, link.second);
+  chains->chain = kernels::force_chains(stresses, centres, touching);
+}
+
+}  // namespace pulvis

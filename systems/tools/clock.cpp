@@ -1,0 +1,142 @@
+// first_time_step, advance_clock: choose the next step; the latter moves time on.
+//
+// The step is what every body can stand (stable_time_step), times `safety`. Stability knows nothing of speeds:
+// where surfaces would move by more than a share of the thinnest part of an outline or a tool
+// (scenes/meshes/thinnest), the step is shorter, so that nothing is passed unseen.
+//
+// Runs     advance_clock last in a step
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "components/run_state.hpp"
+#include "components/servo.hpp"
+#include "engine/access.hpp"
+#include "engine/portable_math.hpp"
+#include "engine/run_failure.hpp"
+#include "systems/laws/normal_contact.hpp"
+#include "systems/tools/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+// Geometry changes little in a step; where it does, at impact, the stable step is looked at more often.
+constexpr std::int64_t most_steps_between_looks = 8;
+constexpr double most_strain_between_looks = 0.01;
+// Of the thinnest part, that surfaces may move against each other in a step: what they pass into is seen while
+// its near side is the nearer one by far, also where speeds grow within the step.
+constexpr double most_way = 0.25;
+
+// Of all tools, from `time` on.
+double farthest_way(const ToolProgram& program, const Optional<Read<ServoVelocity>>& servo,
+                    double time, double dt) {
+  double farthest = 0;
+  for (int t = 0; t < static_cast<int>(program.names.size()); ++t) {
+    const Point now = tool_position_at(program, t, time);
+    const Point next = tool_position_at(program, t, time + dt);
+    double way = portable::hypot(next[0] - now[0], next[1] - now[1]);
+    const Row<Tool> tool(t);
+    if (servo) way += portable::hypot((*servo)(tool, 0), (*servo)(tool, 1)) * dt;
+    farthest = std::max(farthest, way);
+  }
+  return farthest;
+}
+
+// How far any two surfaces move against each other in a step, at most.
+class Approach {
+ public:
+  Approach(const Optional<Read<MaximumSpeed>>& speed, const Optional<Read<ToolProgram>>& program,
+           const Optional<Read<ServoVelocity>>& servo)
+      : program_(program), servo_(servo), anything_(speed) {
+    if (!speed) return;
+    for (const double v : speed->values()) fastest_ = std::max(fastest_, v);
+  }
+  bool anything() const { return anything_; }  // that can touch
+  double way(double time, double dt) const {
+    const double fastest = fastest_ * dt;
+    return fastest + std::max(fastest, program_ ? farthest_way(**program_, servo_, time, dt) : 0.0);
+  }
+
+ private:
+  const Optional<Read<ToolProgram>>& program_;
+  const Optional<Read<ServoVelocity>>& servo_;
+  bool anything_;
+  double fastest_ = 0;  // m/s
+};
+
+// No surface may be on one side of a part before a step and on its other side after it, or nearer to that.
+double without_passing(const Approach& approach, const Clock& clock, double thinnest, double dt) {
+  const double most = most_way * thinnest;
+  for (double way = approach.way(clock.time, dt); way > most && std::isfinite(way);
+       way = approach.way(clock.time, dt))
+    dt *= 0.99 * most / way;
+  return dt;
+}
+
+void choose_time_step(std::span<const double> stable, const Approach& approach,
+                      const Optional<Read<ContactRules>>& rules, Clock& clock) {
+  double least_step = 1e300;
+  for (const double dt : stable) least_step = std::min(least_step, dt);
+  // Never grow fast: the accelerations that follow from a sudden change belong to the old step.
+  const double wanted = clock.safety * least_step;
+  clock.dt = clock.dt_before > 0 ? std::min(wanted, 1.02 * clock.dt_before) : wanted;
+  if (approach.anything())
+    clock.dt = without_passing(approach, clock, (*rules)->thinnest, clock.dt);
+  // Land on the end of the run exactly, without a sliver of a last step.
+  const double left = clock.end - clock.time;
+  if (left > 0 && left < 2 * clock.dt) clock.dt = left > clock.dt ? 0.5 * left : left;
+  if (left > 0 && clock.time + clock.dt == clock.time)
+    throw RunFailure(fmt::format(
+        "advance_clock: step {} at t = {:.6g} s would be {:.3g} s long, too short to be "
+        "added to the time (is a tool too fast?)",
+        clock.step, clock.time, clock.dt));
+}
+
+// Where speeds grow manifold within a step, the bound on the next one is no help.
+void require_in_sight(double way, const ContactRules& rules, const Clock& clock) {
+  if (way <= rules.thinnest || std::isnan(way)) return;
+  throw RunFailure(fmt::format(
+      "advance_clock: surfaces moved up to {:.6g} m against each other in step {}, t = {:.6g} s: "
+      "contacts may have been passed unseen; allowed {:.6g} m, the thinnest part of an outline or "
+      "a tool (is the load too sudden?)",
+      way, clock.step, clock.time, rules.thinnest));
+}
+
+}  // namespace
+
+void first_time_step(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
+                     Optional<Read<ToolProgram>> program, Optional<Read<ServoVelocity>> servo,
+                     Optional<Read<ContactRules>> rules, Write<Clock> clock) {
+  choose_time_step(stable.values(), {speed, program, servo}, rules, *clock);
+}
+
+void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
+                   Optional<Read<ToolProgram>> program, Optional<Read<ServoVelocity>> servo,
+                   Read<Totals> totals, Optional<Read<ContactRules>> rules, Write<Clock> clock) {
+  const Approach approach{speed, program, servo};
+  const bool looked = clock->step >= clock->next_look;
+  std::int64_t interval = most_steps_between_looks;
+  if (approach.anything()) {
+    const double way = approach.way(clock->time, clock->dt);
+    require_in_sight(way, **rules, *clock);
+    clock->travel += way;
+    const double strain = way / (*rules)->shortest_edge;  // of an edge in a step, at most
+    if (looked) {
+      interval = std::clamp<std::int64_t>(
+          static_cast<std::int64_t>(most_strain_between_looks / std::max(strain, 1e-6)), 1,
+          most_steps_between_looks);
+    }
+    // As deep as the surfaces are, or can be at the next look.
+    clock->stiffening =
+        kernels::stiffening(totals->penetration + static_cast<double>(interval) * strain);
+  }
+  if (looked) clock->next_look = clock->step + interval;
+  clock->time += clock->dt;
+  clock->dt_before = clock->dt;
+  clock->step += 1;
+  choose_time_step(stable.values(), approach, rules, *clock);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,66 @@
+// hold_grips: replaces the force on every gripped node, in the direction in which it is held, by the one
+// that lets the leapfrog meet the prescribed position at t_(n+1), and keeps the difference as reaction.
+//
+// Source   systems/tools/grip_kernel.hpp. The reaction is added to the internal force, so that the kinetic
+//          energy of the step (systems/body/energies.cpp) sees the force that acted.
+// Runs     after every force of the step, before integrate
+// Active   when the scene has grips
+#include "components/run_state.hpp"
+#include "components/surface.hpp"
+#include "engine/access.hpp"
+#include "systems/tools/grip_kernel.hpp"
+#include "systems/tools/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+// How far the programme has taken a tool from its start.
+Point tool_travel(const ToolProgram& program, int tool, double time) {
+  const Point now = tool_position_at(program, tool, time);
+  const Point& start = program.start[static_cast<std::size_t>(tool)];
+  return {now[0] - start[0], now[1] - start[1]};
+}
+
+}  // namespace
+
+void hold_grips(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<ToolProgram> program,
+                Read<GripIndex> index, Read<GripTarget> target, Read<GripDirection> direction,
+                Read<GripTravel> travel, Read<GripOrigin> origin, Read<Density> density,
+                Read<Position> position, Read<Velocity> velocity,
+                Optional<Read<ContactForce>> contact, Write<InternalForce> internal,
+                Write<GripReaction> reaction) {
+  const Shape& shape = bodies->shape_of_chunk(chunk);
+  const auto x = position.chunk(chunk);
+  const auto v = velocity.chunk(chunk);
+  const auto f = internal.chunk(chunk);
+  const auto c = static_cast<std::size_t>(chunk.index);
+  const double kick = 0.5 * (clock->dt_before + clock->dt);
+  int tool = -1;
+  Point way{};
+  for (int r = index->begin[c]; r < index->begin[c + 1]; ++r) {
+    const Row<GrippedNode> row(r);
+    const Row<Node> node(target(row, 0));
+    const int lane = target(row, 1);
+    if (target(row, 2) != tool) {
+      tool = target(row, 2);
+      way = tool_travel(*program, tool, clock->time + clock->dt);
+    }
+    const double mass = density.chunk(chunk)(Row<Particle>())[lane] * bodies->thickness *
+                        shape.nodal_area[static_cast<std::size_t>(node.value)];
+    double at = 0, speed = 0, free = 0;
+    for (int k = 0; k < 2; ++k) {
+      const double d = direction(row, k);
+      at += d * x(node, k)[lane];
+      speed += d * v(node, k)[lane];
+      free += d * f(node, k)[lane];
+      if (contact && node.value < shape.boundary_nodes)
+        free += d * contact->chunk(chunk)(Row<BoundaryNode>(node.value), k)[lane];
+    }
+    const double place = origin(row) + travel(row, 0) * way[0] + travel(row, 1) * way[1];
+    const double held = kernels::grip_force(place, at, speed, free, mass, kick, clock->dt);
+    for (int k = 0; k < 2; ++k) f(node, k)[lane] += held * direction(row, k);
+    reaction.chunk(chunk)(Row<GrippedNode>(r - index->begin[c])) = held;
+  }
+}
+
+}  // namespace pulvis

@@ -1,0 +1,81 @@
+// A tool that is to bear a set force F_set while it bears F: it moves as if it had a mass M, were pushed by
+// F_set, and dragged a second mass m along through a dashpot c (Lanchester's damper):
+//   M dV/dt = F_set - F - c (V - W),   m dW/dt = c (V - W)
+// Nothing of it stores energy but the two masses, so that no powder, however stiff, layered or damped, is
+// made to swing by it. At rest, and at any steady speed, F = F_set; otherwise F_set - F = M dV/dt + m dW/dt.
+// W lies between its last value and V: it does not run up where V is held back.
+//
+// In time the tool is a node of the leapfrog like those of the powder (h the mean of two steps):
+//   V+ = V + h/M (F_set - F_n - c (V+ - W+)),   W+ = W + h/m c (V+ - W+),   X+ = X + dt V+
+// with its own dashpot taken implicitly, which is two divisions, and the contact's explicitly: F_n comes from
+// places at t_n and from velocities half a step before.
+//
+// Stability. Of M' x'' + C x' + K x with C taken half a step late, the leapfrog keeps
+//   E = 1/2 v (M' - dt C/2 - dt^2 K/4) v + 1/2 x_mean K x_mean,   dE/dt = -v_mean C v_mean
+// as long as 4 M' > 2 dt C + dt^2 K (multiply the scheme by v_mean; an implicit dashpot only adds to M').
+// The stable step of the powder (systems/body/time_step.cpp) gives dt^2 K <= 4 s^2 m_n and 2 dt C <= 4 s m_n in all,
+// s its safety, with the tool at rest. A contact between a node x and the tool X adds at most
+//   K (x - X)^2 <= K x^2/s^2 + K X^2/(1 - s^2),   C (x - X)^2 <= C x^2/s + C X^2/(1 - s)
+// so that powder and tool together are stable in the step of the powder alone, if over all that touches it
+//   M >= dt^2/(4 (1 - s^2)) sum K + dt/(2 (1 - s)) sum C
+// M may follow that while the run goes on, as what is picked up is at rest and what is let go keeps its speed:
+// both take energy away.
+// Source: Hairer, Lubich and Wanner 2006 (leapfrog's energy); Den Hartog 1956, ch. 3 (the damper).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace pulvis::kernels {
+
+// ---- what touches it ------------------------------------------------------------------------------------
+struct TouchSums {
+  double stiffness = 0;  // N/m, tangent
+  double damping = 0;    // N s/m
+};
+
+// Tangent of the contact spring kappa g (1 + (g/g_s)^2) that presses with `pressure`, over kappa; from above.
+inline double tangent_at(double pressure, double kappa, double g_s) {
+  const double q = pressure / (kappa * g_s);  // x (1 + x^2) for x = g/g_s
+  double x = std::min(q, std::sqrt(q));       // above the root, where Newton's steps stay
+  for (int i = 0; i < 4; ++i) x -= (x * (1 + x * x) - q) / (1 + 3 * x * x);
+  return 1 + 3 * x * x;
+}
+
+// See above; `safety` in (0, 1).
+inline double least_tool_mass(const TouchSums& touching, double dt, double safety) {
+  return dt * dt / (4 * (1 - safety * safety)) * touching.stiffness +
+         dt / (2 * (1 - safety)) * touching.damping;
+}
+
+// ---- its motion -----------------------------------------------------------------------------------------
+struct ServoState {
+  double mass;     // kg, M
+  double speed;    // m/s, V
+  double dragged;  // m/s, W
+};
+
+// The dragged mass is that many of the tool's: enough to damp it, and not more force that is off.
+inline constexpr double dragged_mass = 4;
+// Of the mass, that may be let go in a step: what touches comes and goes, and each time would brake.
+inline constexpr double let_go = 1e-3;
+
+// The state once the mass is at least `least`.
+inline ServoState with_mass(const ServoState& s, double least) {
+  if (least <= s.mass) return {std::max(least, (1 - let_go) * s.mass), s.speed, s.dragged};
+  const double kept = s.mass / least;
+  return {least, kept * s.speed, kept * s.dragged};
+}
+
+// `missing`: F_set - F, N. No faster than `fastest`.
+inline ServoState servo_step(const ServoState& s, double missing, double damping, double fastest,
+                             double h) {
+  const double m = dragged_mass * s.mass;
+  const double through = damping * m / (m + damping * h);  // force on W over V+ - W
+  const double speed =
+      (s.mass * s.speed + h * (missing + through * s.dragged)) / (s.mass + through * h);
+  const double next = std::clamp(speed, -fastest, fastest);
+  return {s.mass, next, s.dragged + through * h / m * (next - s.dragged)};
+}
+
+}  // namespace pulvis::kernels

@@ -1,0 +1,110 @@
+// stage_control: ends a stage when what its `until` asks for is reached. Its tools come to rest smoothly, in
+// as long as they took to start, and all that follows begins earlier.
+//
+// Runs     after tool_reaction, before tool_servo
+// Active   when a stage of the scene has an `until`
+// Watches  that it is reached before the stage's time is over
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/servo.hpp"
+#include "engine/access.hpp"
+#include "engine/portable_math.hpp"
+#include "engine/run_failure.hpp"
+#include "systems/tools/relief_kernel.hpp"
+#include "systems/tools/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+using End = StageEnds::End;
+
+double relative_density(const StageEnds::Cell& cell, const Read<ToolPosition>& at) {
+  const Row<Tool> bottom(cell.bottom);
+  const kernels::DieSides sides{at(Row<Tool>(cell.left), 0), at(Row<Tool>(cell.right), 0),
+                                at(Row<Tool>(cell.top), 1), at(bottom, 0), at(bottom, 1)};
+  return cell.particle_area / kernels::die_area(sides, cell.relief);
+}
+
+double value_now(const End& end, const StageEnds& ends, const Read<ToolPosition>& at,
+                 const Read<ToolForce>& force) {
+  const Row<Tool> tool(end.tool);
+  if (end.kind == StageEnds::Kind::density) return relative_density(ends.cell, at);
+  if (end.kind == StageEnds::Kind::displacement) {
+    const Point& from = ends.tools_at_begin[static_cast<std::size_t>(end.tool)];
+    return portable::hypot(at(tool, 0) - from[0], at(tool, 1) - from[1]);
+  }
+  const double along = force(tool, 0) * end.direction[0] + force(tool, 1) * end.direction[1];
+  const bool any_way = end.direction == Point{};
+  return any_way ? portable::hypot(force(tool, 0), force(tool, 1)) : -along;
+}
+
+// How long its tools take to come to rest; 0 where none is on its way.
+double time_to_rest(const ToolProgram& program, int stage) {
+  double longest = 0;
+  for (const ToolProgram::Segment& s : program.segments)
+    if (s.stage == stage) longest = std::max(longest, s.ramp * s.duration);
+  return longest;
+}
+
+void end_early(const End& end, ToolProgram& program, Clock& clock) {
+  ToolProgram::Stage& stage = program.stages[static_cast<std::size_t>(end.stage)];
+  const double saved = stage.end - (clock.time + time_to_rest(program, end.stage));
+  if (saved <= 0) return;  // its time is all but over
+  stage.end -= saved;
+  clock.end -= saved;
+  for (auto s = static_cast<std::size_t>(end.stage) + 1; s < program.stages.size(); ++s) {
+    program.stages[s].begin -= saved;
+    program.stages[s].end -= saved;
+  }
+  for (ToolProgram::Segment& s : program.segments) {
+    if (s.stage == end.stage) s.cut = clock.time;
+    if (s.stage > end.stage) s.begin -= saved;
+  }
+}
+
+[[noreturn]] void stop(const End& end, const ToolProgram& program, const Clock& clock,
+                       double value) {
+  const std::string& tool = program.names[static_cast<std::size_t>(end.tool)];
+  const std::string what = end.kind == StageEnds::Kind::density ? "relative density is"
+                           : end.kind == StageEnds::Kind::force
+                               ? fmt::format("'{}' bears", tool)
+                               : fmt::format("'{}' has moved", tool);
+  const char* unit = end.kind == StageEnds::Kind::density ? ""
+                     : end.kind == StageEnds::Kind::force ? " N"
+                                                          : " m";
+  throw RunFailure(
+      fmt::format("stage_control: {} {:.6g}{} when the time of stage '{}' is over, step {}, t = "
+                  "{:.6g} s; it was "
+                  "to end at {:.6g}{} (stage.until)",
+                  what, value, unit, program.stages[static_cast<std::size_t>(end.stage)].name,
+                  clock.step, clock.time, end.value, unit));
+}
+
+}  // namespace
+
+void stage_control(Read<ToolPosition> position, Read<ToolForce> force, Write<StageEnds> ends,
+                   Write<ToolProgram> program, Write<Clock> clock) {
+  const std::size_t stage = program->stage_at(clock->time);
+  const bool new_stage = stage != ends->stage;
+  if (new_stage)
+    for (End& end : ends->ends)
+      if (static_cast<std::size_t>(end.stage) == ends->stage && !end.reached)
+        stop(end, *program, *clock, value_now(end, *ends, position, force));
+  if (new_stage) {
+    ends->tools_at_begin.resize(static_cast<std::size_t>(position.rows()));
+    for (int t = 0; t < position.rows(); ++t)
+      ends->tools_at_begin[static_cast<std::size_t>(t)] = {position(Row<Tool>(t), 0),
+                                                           position(Row<Tool>(t), 1)};
+  }
+  ends->stage = stage;
+  for (End& end : ends->ends) {
+    if (static_cast<std::size_t>(end.stage) != stage || end.reached) continue;
+    end.reached = value_now(end, *ends, position, force) >= end.value;
+    if (end.reached) end_early(end, *program, *clock);
+  }
+}
+
+}  // namespace pulvis

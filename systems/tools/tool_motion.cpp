@@ -1,0 +1,97 @@
+// tool_motion: where the tools' programmes put them at t_n, and their mean velocity over the last step.
+// tool_reaction: what the particles do to each tool, and the work that the tools have done.
+#include <algorithm>
+#include <cmath>
+
+#include "components/contact.hpp"
+#include "components/run_state.hpp"
+#include "components/servo.hpp"
+#include "engine/access.hpp"
+#include "systems/tools/systems.hpp"
+#include "systems/tools/tool_kernel.hpp"
+
+namespace pulvis {
+
+Point tool_position_at(const ToolProgram& program, int tool, double time) {
+  Point at = program.start[static_cast<std::size_t>(tool)];
+  for (const ToolProgram::Segment& s : program.segments) {
+    if (s.tool != tool) continue;
+    const double share =
+        kernels::cut_travel((time - s.begin) / s.duration, s.ramp, (s.cut - s.begin) / s.duration);
+    at[0] += share * s.displacement[0];
+    at[1] += share * s.displacement[1];
+  }
+  return at;
+}
+
+void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Optional<Read<ServoVelocity>> servo,
+                 Optional<Write<ServoTravel>> servo_travel, Write<ToolPosition> position,
+                 Write<ToolVelocity> velocity) {
+  for (int t = 0; t < position.rows(); ++t) {
+    const Row<Tool> tool(t);
+    const Point now = tool_position_at(*program, t, clock->time);
+    const Point before = tool_position_at(*program, t, clock->time - clock->dt_before);
+    for (int k = 0; k < 2; ++k) {
+      const double moved = now[static_cast<std::size_t>(k)] - before[static_cast<std::size_t>(k)];
+      velocity(tool, k) = clock->dt_before > 0 ? moved / clock->dt_before : 0;
+      position(tool, k) = now[static_cast<std::size_t>(k)];
+      if (!servo) continue;
+      (*servo_travel)(tool, k) += (*servo)(tool, k) * clock->dt_before;
+      velocity(tool, k) += (*servo)(tool, k);
+      position(tool, k) += (*servo_travel)(tool, k);
+    }
+  }
+}
+
+namespace {
+
+void add_contacts(const Read<ContactPair<ToolContact>>& pair,
+                  const Read<ContactTouches<ToolContact>>& touches,
+                  const Read<PointForce<ToolContact>>& force, const Write<ToolForce>& tool_force) {
+  for (int r = 0; r < pair.rows(); ++r) {
+    const Row<ToolContact> row(r);
+    if (touches(row) == 0) continue;
+    const Row<Tool> tool(pair(row, 2));
+    for (int g = 0; g < edge_points; ++g)
+      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= force(row, 2 * g + k);
+  }
+}
+
+// A radial grip moves by x alone and has the sum of the radial forces as x: work is force times way
+// for every grip alike.
+void add_grips(const Read<GripTarget>& target, const Read<GripTravel>& travel,
+               const Read<GripReaction>& reaction, const Write<ToolForce>& tool_force) {
+  for (int r = 0; r < target.rows(); ++r) {
+    const Row<GrippedNode> row(r);
+    for (int k = 0; k < 2; ++k)
+      tool_force(Row<Tool>(target(row, 2)), k) -= travel(row, k) * reaction(row);
+  }
+}
+
+}  // namespace
+
+// Work by the trapezoidal rule: forces at both ends of the step, which is what keeps the energy balance
+// of the leapfrog to second order.
+void tool_reaction(Read<Clock> clock, Optional<Read<ContactPair<ToolContact>>> pair,
+                   Optional<Read<ContactTouches<ToolContact>>> touches,
+                   Optional<Read<PointForce<ToolContact>>> force, Optional<Read<GripTarget>> grip,
+                   Optional<Read<GripTravel>> grip_travel,
+                   Optional<Read<GripReaction>> grip_reaction, Read<ToolVelocity> velocity,
+                   Write<ToolForce> tool_force, Write<Totals> totals) {
+  const auto power = [&] {
+    double sum = 0;
+    for (int t = 0; t < tool_force.rows(); ++t)
+      for (int k = 0; k < 2; ++k) sum -= tool_force(Row<Tool>(t), k) * velocity(Row<Tool>(t), k);
+    return sum;
+  };
+  const double power_before = power();
+  for (int t = 0; t < tool_force.rows(); ++t)
+    tool_force(Row<Tool>(t), 0) = tool_force(Row<Tool>(t), 1) = 0;
+  if (pair) add_contacts(*pair, *touches, *force, tool_force);
+  if (grip) add_grips(*grip, *grip_travel, *grip_reaction, tool_force);
+  const double work = 0.5 * (power_before + power()) * clock->dt_before;
+  totals->external_work += work;
+  totals->largest_work = std::max(totals->largest_work, std::abs(work));
+}
+
+}  // namespace pulvis

@@ -1,0 +1,124 @@
+// tool_servo: how fast tools that hold a force move in the next step, from the force that they bear now.
+//
+// Source   systems/tools/servo_kernel.hpp
+// Runs     after tool_reaction; tool_motion adds the way in the next step
+// Active   when a stage of the scene has a servo
+// Watches  that the force is held when its stage ends
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "components/contact.hpp"
+#include "components/servo.hpp"
+#include "engine/access.hpp"
+#include "engine/run_failure.hpp"
+#include "systems/laws/normal_contact.hpp"
+#include "systems/tools/servo_kernel.hpp"
+#include "systems/tools/systems.hpp"
+#include "systems/tools/tool_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+using Servo = ToolServos::Servo;
+
+double along(const auto& column, Row<Tool> tool, const Point& direction) {
+  return column(tool, 0) * direction[0] + column(tool, 1) * direction[1];
+}
+void set_along(const auto& column, Row<Tool> tool, const Point& direction, double value) {
+  column(tool, 0) = value * direction[0], column(tool, 1) = value * direction[1];
+}
+
+// What the tool bears against the way it pushes.
+double borne(const Servo& servo, const Read<ToolForce>& force) {
+  return -along(force, Row<Tool>(servo.tool), servo.direction);
+}
+
+const Servo* servo_of(const ToolServos& servos, int tool, std::size_t stage) {
+  for (const Servo& servo : servos.servos)
+    if (servo.tool == tool && static_cast<std::size_t>(servo.stage) == stage) return &servo;
+  return nullptr;
+}
+
+void check_held(const Servo& servo, const ToolProgram& program, const Clock& clock, double force) {
+  if (std::abs(force - servo.force) <= servo.tolerance * std::abs(servo.force)) return;
+  throw RunFailure(fmt::format(
+      "tool_servo: '{}' bears {:.6g} N at the end of stage '{}', step {}, t = {:.6g} s; asked for "
+      "{:.6g} N, allowed: within {:g} of it (stage.servo.tolerance); a longer stage, a higher "
+      "fastest or a powder that bears more would reach it",
+      program.names[static_cast<std::size_t>(servo.tool)], force,
+      program.stages[static_cast<std::size_t>(servo.stage)].name, clock.step, clock.time,
+      servo.force, servo.tolerance));
+}
+
+// Springs and dashpots of the contact points that press on a tool now, as if all pointed its way.
+kernels::TouchSums touching(int tool, const Read<ContactPair<ToolContact>>& pair,
+                            const Read<ContactTouches<ToolContact>>& touches,
+                            const Read<ContactLaw<ToolContact>>& law,
+                            const Read<PointForce<ToolContact>>& force) {
+  using Law = ContactLaw<ToolContact>;
+  kernels::TouchSums sums;
+  for (int r = 0; r < pair.rows(); ++r) {
+    const Row<ToolContact> row(r);
+    if (touches(row) == 0 || pair(row, 2) != tool) continue;
+    const double kappa = law(row, Law::stiffness);
+    const double g_s = kernels::stiffening_depth / law(row, Law::over_length);
+    for (int g = 0; g < edge_points; ++g) {
+      const double weight = law(row, Law::weight + g);
+      const double x = force(row, 2 * g), y = force(row, 2 * g + 1);
+      const double pressure = std::sqrt(x * x + y * y) / weight;
+      if (!(pressure > 0)) continue;
+      sums.stiffness += weight * kappa * kernels::tangent_at(pressure, kappa, g_s);
+      sums.damping += weight * law(row, Law::damping);
+    }
+  }
+  return sums;
+}
+
+// Asked for now: smoothly from what the tool bore when the stage began.
+double asked_for(const Servo& servo, double at_begin, double since) {
+  const double rise = servo.rate > 0 ? std::abs(servo.force - at_begin) / servo.rate : servo.rise;
+  const double share = since < rise ? kernels::ramp_speed(since / rise) : 1;
+  return at_begin + share * (servo.force - at_begin);
+}
+
+}  // namespace
+
+void tool_servo(Read<Clock> clock, Read<ToolProgram> program, Read<ToolForce> force,
+                Read<ContactPair<ToolContact>> pair, Read<ContactTouches<ToolContact>> touches,
+                Read<ContactLaw<ToolContact>> law, Read<PointForce<ToolContact>> point_force,
+                Write<ToolServos> servos, Write<ServoMass> mass, Write<ServoVelocity> velocity,
+                Write<ServoDragged> dragged, Write<ServoForce> asked) {
+  const std::size_t stage = program->stage_at(clock->time);
+  const bool new_stage = stage != servos->stage;
+  for (int t = 0; t < force.rows(); ++t) {
+    const Row<Tool> tool(t);
+    const Servo* servo = servo_of(*servos, t, stage);
+    const Servo* last = servo_of(*servos, t, servos->stage);
+    if (new_stage && last != nullptr) check_held(*last, *program, *clock, borne(*last, force));
+    if (servo == nullptr) {
+      set_along(velocity, tool, {}, 0), set_along(dragged, tool, {}, 0);
+      continue;
+    }
+    const double bears = borne(*servo, force);
+    if (new_stage) asked(tool, 1) = bears;
+    if (new_stage && last == nullptr) mass(tool) = servo->mass;
+    asked(tool, 0) = asked_for(*servo, asked(tool, 1), clock->time - program->stages[stage].begin);
+
+    const double least = kernels::least_tool_mass(touching(t, pair, touches, law, point_force),
+                                                  clock->dt, clock->safety);
+    const kernels::ServoState now =
+        kernels::with_mass({mass(tool), along(velocity, tool, servo->direction),
+                            along(dragged, tool, servo->direction)},
+                           std::max(servo->mass, least));
+    const kernels::ServoState next = kernels::servo_step(
+        now, asked(tool, 0) - bears, servo->damping * std::sqrt(now.mass / servo->mass),
+        servo->fastest, 0.5 * (clock->dt_before + clock->dt));
+    mass(tool) = next.mass;
+    set_along(velocity, tool, servo->direction, next.speed);
+    set_along(dragged, tool, servo->direction, next.dragged);
+  }
+  servos->stage = stage;
+}
+
+}  // namespace pulvis

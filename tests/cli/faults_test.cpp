@@ -1,0 +1,172 @@
+// When the machine fails a run: exit code 4, a message that names file and reason, and every frame that was
+// written before can be read. What was stopped goes on as soon as the cause is gone.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "engine/files/hdf5.hpp"
+#include "scenes/memory_need.hpp"
+#include "tests/helpers/experiment.hpp"
+#include "tests/helpers/paths.hpp"
+#include "tests/helpers/program.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+class Faults : public ProgramTest {
+ protected:
+  // Writes some 60 kB a frame.
+  Words long_run() const {
+    return {"run",       scene("compaction/regular-25.toml"),
+            "-o",        "run",
+            "--threads", "1",
+            "--set",     "stage.press.duration=80 us",
+            "--set",     "stage.press.move[0].displacement=[\"0 mm\", \"-1.6 mm\"]",
+            "--set",     "output.frames=100",
+            "--set",     "output.samples=100"};
+  }
+
+  // Returns how many frames there are, each of them whole.
+  std::size_t whole_frames() const {
+    const auto file = hdf5::File::open(place / "run" / "run.h5");
+    const auto frames = file.children("/frames");
+    for (const std::string& frame : frames) {
+      EXPECT_EQ(file.number_attribute("/frames/" + frame, "complete"), 1);
+      EXPECT_FALSE(file.read_doubles("/frames/" + frame + "/position").empty());
+    }
+    EXPECT_GE(file.read_doubles("/history/time").size(), frames.size());
+    return frames.size();
+  }
+
+  static bool may_mount() {
+    return std::system("unshare -m mount -t tmpfs none /mnt 2>/dev/null") == 0;
+  }
+
+  // Runs the program where `mount` has mounted what nobody else sees, and `after` before that is gone.
+  Outcome mounted(const std::string& mount, const Words& words,
+                  const std::string& after = "true") const {
+    std::string command = "cd '" + place.string() + "' && unshare -m sh -c '" + mount +
+                          " && { \"$@\" >out 2>err; code=$?; " + after + "; exit $code; }' sh '" +
+                          paths::program() + "'";
+    for (const std::string& word : words) command += " '" + word + "'";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), text_of(place / "out"), text_of(place / "err")};
+  }
+
+  void wait_for_frames(std::size_t count) const {
+    for (int tries = 0; tries < 6000; ++tries) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      if (fs::exists(place / "run" / "run.h5") && whole_frames() >= count) return;
+    }
+  }
+};
+
+TEST_F(Faults, AFileSizeLimitStopsTheRunAndItGoesOnWithoutIt) {
+  const Outcome end = pulvis(long_run(), "ulimit -f 12000");  // of 512 bytes: 6 MB
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, ContainsRegex("run.h5: cannot [a-z]+ .*: File too large"));
+  EXPECT_THAT(end.err, HasSubstr("pulvis resume run"));
+  EXPECT_GT(whole_frames(), 5U);
+  EXPECT_LT(whole_frames(), 101U);
+  const Outcome rest = pulvis({"resume", "run"});
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(whole_frames(), 101U);
+}
+
+// A file system of 5 MB of the run's own; needs the right to mount one.
+TEST_F(Faults, AFullFileSystemKeepsTheFramesBefore) {
+  if (!may_mount()) GTEST_SKIP() << "may not mount";
+  fs::create_directory(place / "run");
+  const Outcome end =
+      mounted("mount -t tmpfs -o size=5m none run", long_run(), "cp run/run.h5 saved.h5");
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, HasSubstr("No space left on device"));
+  fs::rename(place / "saved.h5", place / "run" / "run.h5");
+  EXPECT_GT(whole_frames(), 5U);
+}
+
+TEST_F(Faults, AFolderMountedReadOnlyIsNamed) {
+  if (!may_mount()) GTEST_SKIP() << "may not mount";
+  fs::create_directory(place / "run");
+  const Outcome end = mounted("mount -t tmpfs -o ro none run", long_run());
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, ContainsRegex("run[/a-z.0-9-]*: cannot .*: Read-only file system"));
+  EXPECT_TRUE(fs::is_empty(place / "run"));
+}
+
+// The disk of a run that was stopped comes back read-only: its frames can be read, and it goes on as soon as
+// it may write again.
+TEST_F(Faults, AStoppedRunMountedReadOnlyKeepsItsFrames) {
+  if (!may_mount()) GTEST_SKIP() << "may not mount";
+  ASSERT_EQ(pulvis(long_run(), "ulimit -f 6000").code, 4);
+  const std::size_t frames = whole_frames();
+  EXPECT_GT(frames, 2U);
+  const Outcome end =
+      mounted("mount --bind run run && mount -o remount,bind,ro run", {"resume", "run"});
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, ContainsRegex("run[/a-z.0-9-]*: cannot .*: Read-only file system"));
+  EXPECT_EQ(whole_frames(), frames);
+  const Outcome rest = pulvis({"resume", "run"});
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(whole_frames(), 101U);
+}
+
+TEST_F(Faults, AFolderThatVanishesIsNamed) {
+  const pid_t child = start(long_run());
+  wait_for_frames(3);
+  fs::rename(place / "run", place / "gone");  // at once: nothing is written in between
+  const Outcome end = end_of(child);
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, ContainsRegex("run/[a-z.0-9-]+: cannot .*: No such file or directory"));
+}
+
+TEST_F(Faults, TooLittleMemoryIsRefusedBeforeTheFolderIsMade) {
+  const Outcome end = pulvis({"run", scene("compaction/hexagonal-1683.toml"), "-o", "run"},
+                             "ulimit -v 250000");  // kB
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err,
+              ContainsRegex("hexagonal-1683.toml: cannot run it: it needs about [0-9.]+ MB "
+                            "of memory, [0-9.]+ MB are available"));
+  EXPECT_FALSE(fs::exists(place / "run"));
+  // A million particles of 204 quads: no machine of today's has it; refused at once.
+  const Outcome huge = pulvis({"run", scene("compaction/hexagonal-1683.toml"), "-o", "run", "--set",
+                               "packing[0].rows=900", "--set", "packing[0].columns=900"});
+  EXPECT_EQ(huge.code, 4) << huge.err;
+  EXPECT_FALSE(fs::exists(place / "run"));
+}
+
+// What is promised before is what the world then takes.
+TEST(MemoryNeed, ColumnsAreThoseOfTheWorld) {
+  for (const char* name : {"compaction/regular-100.toml", "basic/oblique-impact.toml",
+                           "shear/grooves-16.toml", "basic/traced-grain.toml"}) {
+    Experiment e(name);
+    double fixed = 0, rows = 0;
+    for (const ColumnBase* column : e.simulation.world().columns())
+      (column->place.ends_with("contact") ? rows : fixed) += static_cast<double>(column->bytes());
+    const MemoryNeed need = memory_need(e.scene);
+    EXPECT_NEAR(static_cast<double>(need.columns), fixed, 0.06 * fixed) << name;
+  }
+}
+
+TEST(MemoryNeed, ContactRowsOfADensePowderAreWithin) {
+  Experiment e(
+      "compaction/regular-25.toml",
+      {"stage.press.duration=0.2 ms", "stage.press.move[0].displacement=[\"0 mm\", \"-8 mm\"]"});
+  e.simulation.run_until(e.simulation.clock().end);
+  double rows = 0;
+  for (const ColumnBase* column : e.simulation.world().columns())
+    if (column->place.ends_with("contact")) rows += static_cast<double>(column->bytes());
+  const auto promised = static_cast<double>(memory_need(e.scene).contacts);
+  EXPECT_LT(rows, promised);
+  EXPECT_GT(rows, 0.2 * promised);
+}
+
+}  // namespace
+}  // namespace pulvis

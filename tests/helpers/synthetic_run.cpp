@@ -1,0 +1,243 @@
+#include "tests/helpers/synthetic_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "engine/files/own_files.hpp"
+#include "engine/files/recorder.hpp"
+#include "engine/files/run_folder.hpp"
+
+namespace pulvis::testing {
+namespace {
+
+constexpr double duration = 1e-3, yield = 290e6;
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+// A square's points moved onto a disc of radius 1, and back towards the square as `flat` goes to 1.
+Point on_disc(double u, double v, double flat) {
+  const double x = u * std::sqrt(1 - v * v / 2), y = v * std::sqrt(1 - u * u / 2);
+  return {x + flat * (u - x), y + flat * (v - y)};
+}
+
+double squeeze(double share) { return 1 - 0.2 * share; }  // height of the compact, of its first one
+
+int side(const SyntheticRun& run) { return run.divisions + 1; }
+
+std::vector<double> positions(const SyntheticRun& run, double share) {
+  std::vector<double> xy;
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    for (int node = 0; node < side(run) * side(run); ++node) {
+      const double u = 2.0 * (node % side(run)) / run.divisions - 1;
+      const double v = 2.0 * (node / side(run)) / run.divisions - 1;
+      const Point at = on_disc(u, v, 0.85 * share);
+      xy.push_back(run.diameter * (disc % run.columns + 0.5 + at.x / 2));
+      xy.push_back(run.diameter * (disc / run.columns + 0.5 + at.y / 2) * squeeze(share));
+    }
+  }
+  return xy;
+}
+
+RunMesh mesh_of(const SyntheticRun& run) {
+  RunMesh mesh;
+  const int nodes = side(run) * side(run);
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    mesh.node_particle.insert(mesh.node_particle.end(), static_cast<std::size_t>(nodes), disc);
+    for (int cell = 0; cell < run.divisions * run.divisions; ++cell) {
+      const int first = disc * nodes + cell / run.divisions * side(run) + cell % run.divisions;
+      mesh.quads.insert(mesh.quads.end(),
+                        {first, first + 1, first + side(run) + 1, first + side(run)});
+      mesh.cell_particle.push_back(disc);
+    }
+  }
+  mesh.reference = positions(run, 0);
+  return mesh;
+}
+
+// High where discs touch, with a little of each disc's own.
+std::vector<double> stresses(const SyntheticRun& run, double share) {
+  std::vector<double> values;
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    for (int cell = 0; cell < run.divisions * run.divisions; ++cell) {
+      const double u = 2.0 * (cell % run.divisions + 0.5) / run.divisions - 1;
+      const double v = 2.0 * (cell / run.divisions + 0.5) / run.divisions - 1;
+      const double reach = 0.35 + 0.65 * std::max(std::abs(u), std::abs(v));
+      values.push_back(yield * share * std::min(1.2, reach * (1.1 + 0.15 * std::sin(3.7 * disc))));
+    }
+  }
+  return values;
+}
+
+std::vector<FieldInfo> fields(const SyntheticRun& run) {
+  std::vector<FieldInfo> all{
+      {"position", "m", "position of the node", FieldPlace::node, 2},
+      {"velocity", "m/s", "velocity of the node", FieldPlace::node, 2},
+      {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
+      {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
+      {"stress", "Pa", "Cauchy stress xx, yy, zz, xy", FieldPlace::cell, 4}};
+  if (!run.observed) return all;
+  const auto add = [&](const std::string& name, const char* unit, FieldPlace place, int components,
+                       bool whole = false) {
+    all.push_back({name, unit, "made up", place, components, whole});
+  };
+  add("particle_centre", "m", FieldPlace::particle, 2);
+  add("force_chain", "-", FieldPlace::particle, 1, true);
+  add("local_density", "-", FieldPlace::list, 2);
+  add("density_profile", "-", FieldPlace::list, 1);
+  add("density_grid/x", "m", FieldPlace::list, 1);
+  add("density_grid/y", "m", FieldPlace::list, 1);
+  for (const std::string group : {"contacts/", "tool_contacts/"}) {
+    add(group + "ids", "-", FieldPlace::list, 2, true);
+    add(group + "point", "m", FieldPlace::list, 2);
+    add(group + "normal_force", "N", FieldPlace::list, 1);
+  }
+  add("rose/number", "-", FieldPlace::list, 1);
+  add("rose/force", "-", FieldPlace::list, 1);
+  return all;
+}
+
+// Each disc touches the one to its right, and the first of them the bottom.
+void add_observed(const SyntheticRun& run, double share, std::vector<std::vector<double>>& fields) {
+  const double d = run.diameter, height = d * squeeze(share);
+  std::vector<double> centre, chain, ids, point, force, rose(18, 0.0);
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    centre.insert(centre.end(),
+                  {d * (disc % run.columns + 0.5), height * (disc / run.columns + 0.5)});
+    chain.push_back(disc / run.columns);
+    if ((disc + 1) % run.columns == 0) continue;
+    ids.insert(ids.end(), {1.0 * disc, disc + 1.0});
+    point.insert(point.end(), {d * (disc % run.columns + 1), height * (disc / run.columns + 0.5)});
+    force.push_back(100.0 * share * (1 + disc % 3));
+  }
+  rose[0] = 1;
+  const double nan = std::numeric_limits<double>::quiet_NaN(), density = 0.785 / squeeze(share);
+  fields.insert(fields.end(), {centre,
+                               chain,
+                               {density, nan, 1.01 * density, nan},
+                               {density, 1.01 * density},
+                               {0, d * run.columns / 2, d * run.columns},
+                               {0, height * run.rows / 2, height * run.rows},
+                               ids,
+                               point,
+                               force,
+                               {0, 1},
+                               {d / 2, 0},
+                               {50 * share},
+                               rose,
+                               rose});
+}
+
+std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share) {
+  const auto xy = positions(run, share);
+  const auto stress = stresses(run, share);
+  std::vector<double> strain, tensor;
+  for (const double value : stress) {
+    strain.push_back(0.3 * share * value / yield);
+    tensor.insert(tensor.end(), {-0.4 * value, -value, -0.5 * value, 0.1 * value});
+  }
+  std::vector<std::vector<double>> fields{xy, std::vector<double>(xy.size(), 0.5), stress, strain,
+                                          tensor};
+  if (run.observed) add_observed(run, share, fields);
+  return fields;
+}
+
+std::vector<SeriesInfo> series(bool tools) {
+  std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy"},
+                                 {"energy/elastic", "J", "elastic energy"},
+                                 {"energy/plastic", "J", "plastic work"},
+                                 {"energy/hourglass", "J", "energy of hourglass modes"},
+                                 {"energy/balance", "J", "energy made or lost"},
+                                 {"contacts", "-", "edges in contact"}};
+  if (!tools) return all;
+  for (const std::string tool : {"top", "bottom"}) {
+    all.push_back({"tool/" + tool + "/position_x", "m", "position of the tool"});
+    all.push_back({"tool/" + tool + "/position_y", "m", "position of the tool"});
+    all.push_back({"tool/" + tool + "/force_x", "N", "force on the tool"});
+    all.push_back({"tool/" + tool + "/force_y", "N", "force on the tool"});
+  }
+  all.push_back({"relative_density", "-", "solid share of the die"});
+  all.push_back({"stress_ratio/axial", "-", "axial stress over the yield stress"});
+  all.push_back({"stress_ratio/lateral", "-", "lateral stress over the yield stress"});
+  return all;
+}
+
+// The punch comes down to share 1 at 0.9 of the time and lifts a little: the density turns back.
+double share_at(double time) {
+  const double t = time / duration;
+  return t < 0.9 ? t / 0.9 : 1 - 0.3 * (t - 0.9);
+}
+
+std::vector<double> row(const SyntheticRun& run, double time) {
+  const double share = share_at(time), ratio = 3 * share * share * share + 0.3 * share;
+  const double load = time > 0.9 * duration ? 1 - 8 * (1 - share) : 1;
+  const double force = std::max(0.0, load) * ratio * yield * run.columns * run.diameter * 1e-3;
+  const double height = run.rows * run.diameter * squeeze(share), work = 0.3 * force * 1e-3;
+  std::vector<double> values = {0.004 * work * (1 + std::sin(40 * share)),
+                                0.2 * work,
+                                0.75 * work,
+                                0.012 * work,
+                                0.002 * work,
+                                std::floor(400 * share)};
+  if (!run.tools) return values;
+  values.insert(values.end(), {0, height, 0.001 * force, force});
+  values.insert(values.end(), {0, 0, -0.001 * force, -0.93 * force});
+  values.insert(values.end(), {0.785 / squeeze(share), std::max(0.0, load) * ratio,
+                               0.55 * ratio * (0.3 + 0.7 * std::max(0.0, load))});
+  return values;
+}
+
+void write_summary(const SyntheticRun& run, const std::filesystem::path& folder) {
+  const int cells = run.rows * run.columns * run.divisions * run.divisions;
+  nlohmann::ordered_json summary = {{"title", "A synthetic compact </script><b>& more</b>"},
+                                    {"outcome", "done"},
+                                    {"steps", 94000},
+                                    {"elements", cells},
+                                    {"wall_seconds", 18.34},
+                                    {"threads", 2},
+                                    {"element_updates_per_second", 98.2e6},
+                                    {"peak_memory_bytes", 61e6},
+                                    {"thickness", 1e-3},
+                                    {"energy_balance_error", 0.0021},
+                                    {"materials",
+                                     {{{"name", "steel"},
+                                       {"density", 7960},
+                                       {"youngs_modulus", 193e9},
+                                       {"poissons_ratio", 0.3},
+                                       {"yield_stress", 290e6}}}}};
+  if (run.tools) {
+    const double top = run.rows * run.diameter * squeeze(share_at(duration));
+    const double right = run.columns * run.diameter;
+    summary["relative_density"] = 0.962;
+    summary["limits"] = {{"energy_balance", 0.05}, {"kinetic_energy", 0.05}};
+    summary["tools"] = {{{"name", "top"}, {"point", {0.0, top}}, {"normal", {0, -1}}},
+                        {{"name", "bottom"}, {"point", {0.0, 0.0}}, {"normal", {0, 1}}},
+                        {{"name", "left"}, {"point", {0.0, 0.0}}, {"normal", {1, 0}}},
+                        {{"name", "right"}, {"point", {right, 0.0}}, {"normal", {-1, 0}}}};
+  }
+  write_own(folder / "summary.json", role::run, summary.dump(2) + "\n");
+}
+
+}  // namespace
+
+void record(const SyntheticRun& run, const std::filesystem::path& folder) {
+  open_run_folder(folder, true);
+  Recorder recorder(folder, {"0.1.0", "0123abc", "A synthetic compact", "f00d", 7, 2}, mesh_of(run),
+                    series(run.tools), fields(run));
+  const int samples = (run.frames - 1) * run.samples_a_frame;
+  for (int i = 0; i <= samples; ++i) {
+    const double time = duration * i / std::max(1, samples);
+    recorder.sample(time, row(run, time));
+    if (run.pictures && i % run.samples_a_frame == 0)
+      recorder.frame(time, 94 * i, frame_of(run, share_at(time)));
+  }
+  recorder.finish();
+  write_summary(run, folder);
+}
+
+}  // namespace pulvis::testing

@@ -1,9 +1,0 @@
-#include "tests/paths.hpp"
-
-namespace pulvis::paths {
-
-std::string source_dir() { return PULVIS_SOURCE_DIR; }
-std::string program() { return PULVIS_PROGRAM; }
-std::string libraries() { return PULVIS_LIBRARIES; }
-
-}  // namespace pulvis::paths

@@ -1,0 +1,69 @@
+// Tips pulled off planes, drawn over bumps and maps.
+#include <cmath>
+
+#include "scenes/lever/afm_image.hpp"
+#include "tests/helpers/afm_run.hpp"
+
+namespace pulvis {
+namespace {
+
+// Pull-off at the adhesion, snap-in where attraction gets steeper than the lever.
+TEST(ForceCurve, TheTipLeavesWhereTheLeverDrawsWithTheAdhesion) {
+  const Scene scene = shipped_afm("force-curve.toml");
+  AfmSimulation simulation(scene);
+  const double k = simulation.calibrate().normal_stiffness;
+  const AfmHistory h = history_of(scene);
+  double least = 0, snapped_at = 0;
+  for (std::size_t i = 1; i < h.rows.size(); ++i) {
+    least = std::min(least, h.value(i, "probe/force_z"));
+    const bool in = h.times[i] > 1 && h.times[i] < 3 && h.value(i, "contact/points") > 0;
+    if (in && snapped_at == 0) snapped_at = h.value(i, "scanner/z");
+  }
+  EXPECT_NEAR(least / -20e-9, 1, 0.005);
+  // The lever snaps on where d/dg [A/(1 + g/r)^2] = -k: the gap there, less how far the tip is drawn by then.
+  const double stretch = std::cbrt(2 * 20e-9 / (k * 1e-9));
+  const double expected = -1e-9 * (stretch - 1) - 20e-9 / (stretch * stretch) / k;
+  EXPECT_GT(snapped_at, expected - 1e-11);
+  EXPECT_LT(snapped_at, expected + 1e-9);  // an increment
+  // Of the lever, A^2/2k; steps of finite length lose some of it.
+  const double stored = 20e-9 * 20e-9 / (2 * k);
+  EXPECT_GT(last(h, "energy/released"), 0.8 * stored);
+  EXPECT_LT(last(h, "energy/released"), stored);
+  EXPECT_NEAR(last(h, "clamp/force_z"), -last(h, "probe/force_z"), 1e-12);
+}
+
+// The tip follows a slope of 0.5 with the force of the formula, from the foot of a bump on.
+TEST(ForceCurve, ABumpIsClimbedWithTheForceOfTheFormula) {
+  const AfmHistory h = history_of(shipped_afm("bump.toml"));
+  const double up = wedge::uphill(1, 0, 0.1, std::atan(0.5));
+  int on_flank = 0;
+  for (std::size_t i = 20; i < h.rows.size(); ++i) {
+    EXPECT_NEAR(h.value(i, "probe/force_z"), 100e-9, 1e-13) << i;
+    EXPECT_NEAR(h.value(i, "clamp/force_y") / -h.value(i, "probe/force_y"), 1, 1e-4) << i;
+    if (std::abs(-h.value(i, "probe/force_y") / 100e-9 / up - 1) < 0.005) ++on_flank;
+  }
+  EXPECT_GT(on_flank, 20);
+  EXPECT_NEAR(-last(h, "probe/force_y") / 100e-9 / up, 1, 0.005);
+}
+
+// A rigid tip under a kept force over an inclined map: the topography is the plane.
+TEST(Raster, TheTopographyIsTheSurface) {
+  const Scene scene = shipped_afm(
+      "raster.toml",
+      {"action[3].lines=3", "action[3].increments=6", "action[3].distance=120 nm",
+       "action[3].width=40 nm", "surface.friction=0", "action[1].distance=-100 nm",
+       "action[1].increments=5", "action[2].distance=-100 nm", "action[2].increments=5"});
+  const AfmHistory h = history_of(scene);
+  const auto images = raster_images(scene, h);
+  ASSERT_EQ(images.size(), 6u);
+  const AfmImage &forth = images[0], &back = images[1];
+  EXPECT_EQ(forth.info.name, "action_3/topography_forth");
+  ASSERT_EQ(forth.values.size(), 18u);
+  // Without friction the way back is the way forth: a pixel's near end is the last one's far end.
+  for (std::size_t line = 0; line < 3; ++line)
+    for (std::size_t pixel = 1; pixel < 6; ++pixel)
+      EXPECT_NEAR(back.values[6 * line + pixel], forth.values[6 * line + pixel - 1], 2e-12);
+}
+
+}  // namespace
+}  // namespace pulvis

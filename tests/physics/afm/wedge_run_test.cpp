@@ -1,0 +1,33 @@
+// Wedge calibration of a simulated microscope: friction and the detector's sensitivity that were put into it come
+// back out of its volts, from one load and from several.
+#include <cmath>
+
+#include "tests/helpers/afm_run.hpp"
+
+namespace pulvis {
+namespace {
+
+TEST(AfmWedge, FrictionAndSensitivityComeBackOutOfTheVolts) {
+  const Scene scene = afm_scene(std::string(beam_with_tip) + inclined_plane(-12.5, 0.1) +
+                                    press_and_scan(12, "60 nN") + press_and_scan(12, "100 nN"),
+                                {"detector.lateral_gain=2e5 V/rad"});
+  AfmSimulation simulation(scene);
+  // Lateral force by volts, as a small lateral force tells it.
+  const Calibration c = simulation.calibrate();
+  const double sensitivity = 1 / (2e5 * std::abs(c.lateral.spot.lateral));
+  const AfmHistory history = history_of(simulation);
+  const auto loops = friction_loops(scene, history);
+  ASSERT_EQ(loops.size(), 2u);
+  for (const FrictionLoop& loop : loops) {
+    EXPECT_NEAR(loop.friction.value_or(0), 0.1, 0.001);
+    EXPECT_NEAR(std::abs(loop.sensitivity.value_or(0)) / sensitivity, 1, 0.01);
+  }
+  const auto all = calibrate_wedge(scene, loops);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->facets.front().loads, 2);
+  EXPECT_NEAR(all->friction.value, 0.1, 0.001);
+  EXPECT_NEAR(std::abs(all->sensitivity.value) / sensitivity, 1, 0.01);
+}
+
+}  // namespace
+}  // namespace pulvis

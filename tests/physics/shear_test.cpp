@@ -1,0 +1,320 @@
+// Tools that hold a force, stages that end early, target surfaces.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "components/servo.hpp"
+#include "engine/run_failure.hpp"
+#include "scenes/tools/profile.hpp"
+#include "tests/helpers/experiment.hpp"
+#include "tests/helpers/paths.hpp"
+#include "tests/helpers/right_scene.hpp"
+
+namespace pulvis {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::string> joined(std::vector<std::string> first,
+                                const std::vector<std::string>& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
+}
+
+// One disc in its die, pressed by 0.5 mm in 0.5 ms.
+const std::vector<std::string> one_disc{
+    "packing[0].rows=1",
+    "packing[0].columns=1",
+    "tool.right.point=[\"10 mm\", \"0 mm\"]",
+    "tool.top.point=[\"0 mm\", \"10 mm\"]",
+    "stage.press.duration=0.5 ms",
+    "stage.press.move.top.displacement=[\"0 mm\", \"-0.5 mm\"]"};
+
+Experiment pressed_until(const std::vector<std::string>& until) {
+  return Experiment("compaction/regular-25.toml", joined(one_disc, until));
+}
+
+double end_after_running(Experiment& e) {
+  while (!e.simulation.finished()) e.simulation.run_steps(1);
+  e.simulation.observe();
+  e.results.sample();
+  return e.simulation.clock().time;
+}
+
+TEST(StageUntil, ADisplacementEndsItEarlyAndTheToolComesToRest) {
+  Experiment e =
+      pressed_until({"stage.press.until.tool=top", "stage.press.until.displacement=0.2 mm"});
+  const double end = end_after_running(e);
+  // It goes at 0.5 mm / 0.45 ms, and half of the ramp of 0.05 ms further.
+  const double speed = 0.5e-3 / 0.45e-3;
+  EXPECT_NEAR(end, 0.025e-3 + 0.2e-3 / speed + 0.05e-3, 2e-7);
+  EXPECT_NEAR(0.01 - e.value("tool/top/position_y"), 0.2e-3 + speed * 0.025e-3, 1e-6);
+  EXPECT_LT(std::abs(e.column<ToolVelocity>().values()[7]), 1e-3);
+}
+
+TEST(StageUntil, AForceEndsItAboveThatForce) {
+  Experiment e = pressed_until({"stage.press.until.tool=top", "stage.press.until.force=1 kN"});
+  EXPECT_LT(end_after_running(e), 0.45e-3);
+  EXPECT_GT(e.value("tool/top/force_y"), 1000);
+  EXPECT_LT(e.value("tool/top/force_y"), 1500);
+}
+
+TEST(StageUntil, ADensityEndsItThere) {
+  Experiment e = pressed_until({"stage.press.until.relative_density=0.8"});
+  end_after_running(e);
+  EXPECT_GT(e.value("relative_density"), 0.8);
+  EXPECT_LT(e.value("relative_density"), 0.805);
+}
+
+TEST(StageUntil, StopsTheRunWhenItsTimeIsOverBefore) {
+  Experiment e = pressed_until({"stage.press.until.relative_density=1.1"});
+  try {
+    end_after_running(e);
+    FAIL() << "it ran to its end";
+  } catch (const RunFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("stage_control: relative density is 0.82"));
+    EXPECT_THAT(failure.what(), HasSubstr("stage 'press'"));
+    EXPECT_THAT(failure.what(), HasSubstr("1.1"));
+  }
+}
+
+const std::vector<std::string> one_sheared{"packing[0].rows=1", "packing[0].columns=1",
+                                           "tool.right.point=[\"10 mm\", \"0 mm\"]",
+                                           "tool.top.point=[\"0 mm\", \"10 mm\"]"};
+
+TEST(Servo, HoldsItsForceWhileTheTargetSlides) {
+  Experiment e(
+      "shear/flat-16.toml",
+      joined(one_sheared, {"stage.load.servo.top.force=1 kN", "stage.load.duration=0.6 ms",
+                           "stage.shear.servo.top.force=1 kN", "stage.shear.duration=0.4 ms",
+                           "stage.shear.move.target.displacement=[\"0.4 mm\", \"0 mm\"]"}));
+  double worst = 0, friction = 0;
+  e.run(100, [&] {
+    const double time = e.simulation.clock().time;
+    if (time < 0.75e-3 || time > 0.9e-3) return;
+    worst = std::max(worst, std::abs(e.value("tool/top/force_y") - 1000));
+    friction = std::max(friction, std::abs(e.value("shear/friction") - 0.1));
+  });
+  EXPECT_LT(worst, 10);
+  EXPECT_LT(friction, 1e-3);
+  EXPECT_NEAR(e.value("shear/distance"), 0.4e-3, 1e-9);
+}
+
+TEST(Servo, StopsWithTheForceReachedWhereItCannotReachMore) {
+  Experiment e("shear/flat-16.toml",
+               joined(one_sheared, {"stage.load.servo.top.force=1 MN", "stage.load.duration=0.1 ms",
+                                    "stage.load.servo.top.fastest=0.5 m/s"}));
+  try {
+    e.run(10);
+    FAIL() << "it ran to its end";
+  } catch (const RunFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("tool_servo: 'top' bears "));
+    EXPECT_THAT(failure.what(), HasSubstr("asked for 1e+06 N"));
+  }
+}
+
+// A body on an incline: (s + mu) / (1 - mu s) up, (mu - s) / (1 + mu s) down. The way of the disc over the
+// grooves' flanks, mm: up from 0.4 to 1.5, down from 3.3 to 5.
+TEST(Shear, ADiscOverGroovesFollowsTheLawOfTheInclineBothWays) {
+  constexpr double mu = 0.3, s = 0.25;
+  constexpr double up = (s + mu) / (1 - mu * s), down = (mu - s) / (1 + mu * s);
+  Experiment e("shear/groove-law.toml", {"contact.friction=0.3"});
+  int seen = 0;
+  e.run(200, [&] {
+    const double way = e.value("shear/distance");
+    const bool rising = way > 0.4e-3 && way<1.5e-3, falling = way> 3.3e-3 && way < 5e-3;
+    if (!rising && !falling) return;
+    const double wanted = rising ? up : down;
+    EXPECT_NEAR(e.value("shear/friction"), wanted, 0.005 * wanted) << way;
+    ++seen;
+  });
+  EXPECT_GT(seen, 50);
+}
+
+const std::vector<std::string> one_in_its_die =
+    joined(one_sheared, {"stage.load.servo.top.force=1 kN", "stage.load.duration=0.6 ms",
+                         "stage.shear.servo.top.force=1 kN", "stage.shear.duration=0.4 ms",
+                         "stage.shear.move.target.displacement=[\"0.4 mm\", \"0 mm\"]"});
+
+Experiment sheared(const std::string& law) {
+  std::ifstream stream(paths::source_dir() + "/scenes/shear/flat-16.toml");
+  std::ostringstream text;
+  text << stream.rdbuf() << "[[friction]]\nbetween = [\"316L\", \"target\"]\n" << law;
+  return Experiment(load_scene_text(text.str(), "shear.toml", one_in_its_die).scene);
+}
+
+// Of the whole, as of the contact: 0.2 before sliding, then down to 0.1.
+TEST(Shear, StaticPeakAndDynamicMeanAreThoseOfTheLaw) {
+  Experiment e =
+      sheared("coefficient = 0.1\nstatic_coefficient = 0.2\ndecay_length = \"0.02 mm\"\n");
+  e.run(400);
+  const auto figures = e.results.shear().figures();
+  ASSERT_TRUE(figures);
+  EXPECT_NEAR(figures->dynamic_friction, 0.1, 5e-4);
+  EXPECT_GT(figures->static_friction, 0.15);  // points begin to slide one after the other
+  EXPECT_LE(figures->static_friction, 0.2);
+}
+
+// Shear stress at most 20 MPa on what touches, whatever the pressure: the coefficient falls with it.
+TEST(Shear, ShearStrengthCapsTheForce) {
+  Experiment e = sheared("coefficient = 0.3\nshear_strength = \"20 MPa\"\n");
+  e.run(400);
+  const auto figures = e.results.shear().figures();
+  ASSERT_TRUE(figures);
+  EXPECT_LT(figures->dynamic_friction, 0.15);
+  EXPECT_GT(figures->dynamic_friction, 0);
+}
+
+TEST(Servo, IsNotThereWhereNoStageAsks) {
+  Experiment e("compaction/regular-25.toml", one_disc);
+  EXPECT_FALSE(e.simulation.world().has<ServoTravel>());
+  EXPECT_FALSE(e.simulation.world().has<ToolServos>());
+  EXPECT_FALSE(e.simulation.world().has<StageEnds>());
+}
+
+// ---- target surfaces --------------------------------------------------------------------------------
+// Mean distance from the mean line of a chain of points, by the trapezoidal rule on many stations.
+double roughness(const ProfileSpec& relief) {
+  std::vector<Vec2> points = one_pitch(relief);
+  points.push_back(points.front() + Vec2(relief.pitch, 0));
+  constexpr int stations = 20000;
+  std::vector<double> heights;
+  std::size_t piece = 0;
+  for (int i = 0; i < stations; ++i) {
+    const double x = points.front().x() + relief.pitch * (i + 0.5) / stations;
+    while (points[piece + 1].x() < x) ++piece;
+    const Vec2 a = points[piece], b = points[piece + 1];
+    heights.push_back(a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x()));
+  }
+  double mean = 0, sum = 0;
+  for (const double h : heights) mean += h / stations;
+  for (const double h : heights) sum += std::abs(h - mean) / stations;
+  return sum;
+}
+
+TEST(Profile, HasTheRoughnessThatIsAskedFor) {
+  using Kind = ProfileSpec::Kind;
+  for (const Kind kind : {Kind::triangle, Kind::trapezoid, Kind::sine}) {
+    ProfileSpec relief;
+    relief.kind = kind;
+    relief.pitch = 8e-3;
+    relief.ra = 0.3e-3;
+    // A sine is drawn by 32 chords, which stay within it.
+    EXPECT_NEAR(roughness(relief), 0.3e-3, kind == Kind::sine ? 2e-6 : 1e-9);
+  }
+}
+
+TEST(Profile, ReachesAsFarAsThePowderComesOverIt) {
+  const Scene scene = read_scene(paths::source_dir() + "/scenes/shear/grooves-16.toml");
+  const std::vector<Vec2>& points = scene.tools.at(2).points;
+  // The target goes 2 mm to the right: powder of 0 to 40 mm stands over -2 to 40 mm of it.
+  EXPECT_LT(points.front().x(), -2e-3);
+  EXPECT_GT(points.back().x(), 40e-3);
+  for (const Vec2& p : points) EXPECT_LE(p.y(), 0);
+}
+
+// 16 discs stand on the crests of five grooves, which belong to the volume under the punch: a triangle of
+// depth x pitch / 2 each, and what the rounding takes off the crest, r^2 (tan a - a) with flanks at the angle a.
+TEST(Profile, GroovesBelongToTheVolumeOfRelativeDensity) {
+  Experiment e("shear/grooves-16.toml", {"tool.target.depth=1.9 mm"});
+  e.simulation.observe();
+  e.results.sample();
+  const double flank = std::atan(1.9 / 4), disc = std::acos(-1.0) * 25;
+  const double groove = 0.5 * 8 * 1.9 + 0.4 * 0.4 * (std::tan(flank) - flank);
+  EXPECT_NEAR(e.value("relative_density"), 16 * disc / (1600 + 5 * groove), 1e-6);
+}
+
+TEST(StageUntil, ADensityCountsTheGrooves) {
+  Experiment e("shear/grooves-16.toml",
+               joined(one_sheared, {"stage.load.servo.top.force=5 kN", "stage.load.duration=1 ms",
+                                    "stage.load.servo.top.tolerance=1e9",
+                                    "stage.load.until.relative_density=0.8"}));
+  while (e.simulation.world().resource<ToolProgram>().stage_at(e.simulation.clock().time) == 0)
+    e.simulation.run_steps(1);
+  e.simulation.observe();
+  e.results.sample();
+  EXPECT_NEAR(e.value("relative_density"), 0.8, 0.003);
+}
+
+// ---- bad input ----------------------------------------------------------------------------------------
+struct Wrong {
+  const char* name;
+  const char* text;  // after the right scene, whose last table is a stage
+  const char* key;
+  const char* says;
+};
+void PrintTo(const Wrong& wrong, std::ostream* stream) { *stream << wrong.name; }
+
+class WrongDrive : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongDrive, IsRefused) {
+  const std::string text = std::string(right_scene) + GetParam().text;
+  try {
+    load_scene_text(text, "wrong.toml");
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    EXPECT_THAT(error.errors().front().key, HasSubstr(GetParam().key)) << error.what();
+    EXPECT_THAT(error.what(), HasSubstr(GetParam().says));
+  }
+}
+
+#define STAGE "[[stage]]\nname = \"more\"\nkind = \"hold\"\nduration = \"1 ms\"\n"
+#define PROFILE "[[tool]]\nname = \"target\"\nshape = \"profile\"\npoint = [\"0 mm\", \"-9 mm\"]\n"
+
+INSTANTIATE_TEST_SUITE_P(
+    Drives, WrongDrive,
+    testing::Values(
+        Wrong{"UntilNothing", STAGE "[stage.until]\n", "until", "allowed: one"},
+        Wrong{"UntilTwoThings",
+              STAGE "[stage.until]\ntool = \"top\"\nforce = \"1 N\"\ndisplacement = \"1 mm\"\n",
+              "until", "allowed: one"},
+        Wrong{"ServoWithRiseAndRate",
+              STAGE
+              "[[stage.servo]]\ntool = \"top\"\nforce = \"1 N\"\nrise = 0.1\nrate = \"1 N/s\"\n",
+              "servo[0].rise", "allowed: one of the two"},
+        Wrong{"ServoTwice",
+              STAGE "[[stage.servo]]\ntool = \"top\"\nforce = \"1 N\"\n[[stage.servo]]\ntool = "
+                    "\"top\"\nforce = \"2 N\"\n",
+              "servo[1].tool", "two servos"},
+        Wrong{"ProfileWithoutPitch", PROFILE "relief = \"sine\"\nra = \"1 um\"\n", "pitch",
+              "required key is missing"},
+        Wrong{"ProfileWithDepthAndRa",
+              PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\ndepth = \"1 um\"\n",
+              "ra", "one of the two"},
+        Wrong{"FlatWithPitch", PROFILE "relief = \"flat\"\npitch = \"1 mm\"\n", "pitch",
+              "only with relief = \"triangle\", \"sine\" or \"trapezoid\""},
+        Wrong{
+            "RoughWithPitch",
+            PROFILE
+            "relief = \"rough\"\npitch = \"1 mm\"\nra = \"1 um\"\ncorrelation_length = \"1 mm\"\n",
+            "pitch", "only with relief"},
+        Wrong{"RoughWithoutRa", PROFILE "relief = \"rough\"\ncorrelation_length = \"1 mm\"\n", "ra",
+              "required key is missing"},
+        Wrong{"RoughWithoutLength", PROFILE "relief = \"rough\"\nra = \"1 um\"\n",
+              "correlation_length", "required key is missing"},
+        Wrong{"RoughTooFine",
+              PROFILE "relief = \"rough\"\nra = \"1 nm\"\ncorrelation_length = \"1 um\"\n",
+              "correlation_length", "allowed: >= "},
+        Wrong{"MeasuredWithoutFile", PROFILE "relief = \"file\"\n", "file",
+              "required key is missing"},
+        Wrong{"FileOfASine",
+              PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\nfile = \"a.csv\"\n",
+              "file", "only with relief = \"file\""},
+        Wrong{"ServoOfAGrip",
+              "[[tool]]\nname = \"hand\"\nshape = \"grip\"\nlow = [\"0 mm\", \"0 mm\"]\nhigh = "
+              "[\"1 mm\", \"1 "
+              "mm\"]\nholds = \"x\"\n" STAGE "[[stage.servo]]\ntool = \"hand\"\nforce = \"1 N\"\n",
+              "servo[0].tool", "is a grip"},
+        Wrong{"ServoAgainstAMove",
+              STAGE "[[stage.servo]]\ntool = \"top\"\nforce = \"1 N\"\n[[stage.move]]\ntool = "
+                    "\"top\"\ndisplacement = [\"0 mm\", \"-1 mm\"]\n",
+              "servo[0].tool", "is moved along its servo's direction"},
+        Wrong{"ShareOfASine",
+              PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\nflat_share = 0.2\n",
+              "flat_share", "trapezoid"}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace pulvis

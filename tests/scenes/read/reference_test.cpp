@@ -1,0 +1,54 @@
+// The committed descriptions of the scene language are those the declarations give.
+// To renew them: pulvis check --print-reference, or copy what the failing test found.
+#include "scenes/keys/scene_reference.hpp"
+#include "scenes/keys/tables.hpp"
+#include "scenes/language/schema.hpp"
+#include "tests/helpers/paths.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
+
+namespace pulvis {
+namespace {
+
+std::string committed(const std::string& name) {
+  std::ifstream file(paths::source_dir() + "/docs/" + name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(Reference, TheMarkdownIsCurrent) { EXPECT_EQ(committed("scene.md"), scene_reference()); }
+
+TEST(Reference, TheJsonSchemaIsCurrent) {
+  EXPECT_EQ(committed("scene.schema.json"), scene_json_schema());
+}
+
+TEST(Reference, EveryKeyIsInBoth) {
+  const std::string markdown = scene_reference();
+  const std::string json = scene_json_schema();
+  for (const schema::TableView& view : schema::scene_language()) {
+    for (const schema::KeyInfo& key : view.keys) {
+      EXPECT_NE(markdown.find("| `" + key.name + "` |"), std::string::npos) << key.name;
+      EXPECT_NE(json.find('"' + key.name + '"'), std::string::npos) << key.name;
+      EXPECT_FALSE(key.doc.empty()) << key.name;
+    }
+  }
+}
+
+TEST(Reference, TheSchemaForbidsKeysOfTheOtherOutline) {
+  const auto json = nlohmann::json::parse(scene_json_schema());
+  const auto& particle = json["properties"]["particle"]["items"];
+  EXPECT_EQ(particle["additionalProperties"], false);
+  const auto& disc = particle["allOf"][0];
+  EXPECT_EQ(disc["if"]["properties"]["outline"]["const"], "disc");
+  EXPECT_EQ(disc["then"]["properties"]["width"], false);
+  EXPECT_EQ(disc["then"]["properties"]["mesh"]["properties"]["columns"], false);
+  EXPECT_EQ(disc["then"]["required"], nlohmann::json::array({"diameter"}));
+}
+
+}  // namespace
+}  // namespace pulvis

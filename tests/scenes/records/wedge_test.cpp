@@ -1,0 +1,146 @@
+// The wedge calibration gives back the truth of synthetic loops: exactly without noise, within the uncertainty
+// that it states with it.
+#include "scenes/lever/wedge_calibration.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+
+#include "scenes/lever/afm_loop.hpp"
+#include "scenes/records/wedge_records.hpp"
+
+namespace pulvis::wedge {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct Truth {
+  double friction = 0.13, sensitivity = 240e-9;             // -, N/V
+  double adhesion = 12e-9, crosstalk = 3e5, offset = 0.02;  // N, V/N, V
+
+  Loop loop(double degrees, double load) const {
+    const double a = degrees * degree;
+    const double up = uphill(load, adhesion, friction, a);
+    const double down = downhill(load, adhesion, friction, a);
+    return {a,
+            load,
+            (up - down) / 2 / sensitivity,
+            (up + down) / 2 / sensitivity + crosstalk * load + offset,
+            {},
+            {}};
+  }
+  std::vector<Loop> loops(const std::vector<double>& slopes,
+                          const std::vector<double>& loads) const {
+    std::vector<Loop> all;
+    for (const double slope : slopes)
+      for (const double load : loads) all.push_back(loop(slope, load));
+    return all;
+  }
+};
+
+const std::vector<double> loads{20e-9, 50e-9, 80e-9, 110e-9, 140e-9};
+
+TEST(WedgeCalibration, SeveralLoadsGiveFrictionSensitivityAndAdhesionWithoutNoise) {
+  const Truth truth;
+  const Calibration c = calibrate(truth.loops({14, 0, -12.5}, loads), {});
+  EXPECT_NEAR(c.friction.value, truth.friction, 1e-10);
+  EXPECT_NEAR(c.sensitivity.value / truth.sensitivity, 1, 1e-10);
+  EXPECT_NEAR(c.crosstalk->value / truth.crosstalk, 1, 1e-9);
+  EXPECT_NEAR(*c.flat_friction, truth.friction, 1e-10);
+  ASSERT_EQ(c.facets.size(), 3u);
+  for (const Facet& facet : c.facets)
+    EXPECT_NEAR(facet.adhesion->value / truth.adhesion, 1, 1e-8) << facet.slope;
+}
+
+TEST(WedgeCalibration, OneLoadIsEnoughWhereAdhesionIsKnown) {
+  Truth truth;
+  truth.crosstalk = truth.offset = 0;
+  const Calibration c = calibrate(truth.loops({-12.5}, {80e-9}), {truth.adhesion, 0, 0});
+  EXPECT_NEAR(c.friction.value, truth.friction, 1e-10);
+  EXPECT_NEAR(c.sensitivity.value / truth.sensitivity, 1, 1e-10);
+  EXPECT_FALSE(c.friction.error);
+}
+
+// Five hundred experiments: the errors, in units of what was stated for them, have a mean square of one.
+TEST(WedgeCalibration, StatedUncertaintiesAreThoseThatAreSeen) {
+  Truth truth;
+  std::mt19937 random(7);
+  constexpr double noise = 2e-4;  // V
+  std::normal_distribution<double> normal(0, noise);
+  double friction2 = 0, sensitivity2 = 0;
+  constexpr int experiments = 500;
+  for (int e = 0; e < experiments; ++e) {
+    auto loops = truth.loops({14, 0, -12.5}, loads);
+    for (Loop& loop : loops) {
+      loop.half_width += normal(random);
+      loop.offset += normal(random);
+      loop.half_width_error = loop.offset_error = noise;
+    }
+    const Calibration c = calibrate(loops, {});
+    friction2 += std::pow((c.friction.value - truth.friction) / *c.friction.error, 2);
+    sensitivity2 += std::pow((c.sensitivity.value - truth.sensitivity) / *c.sensitivity.error, 2);
+  }
+  // The larger of two errors is stated, so the squares are rather smaller than one.
+  EXPECT_NEAR(friction2 / experiments, 0.8, 0.3);
+  EXPECT_NEAR(sensitivity2 / experiments, 0.8, 0.3);
+}
+
+TEST(WedgeCalibration, WhatFitsNoFrictionIsRefused) {
+  const auto message = [](const std::vector<Loop>& loops) -> std::string {
+    try {
+      calibrate(loops, {});
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(message({{14 * degree, 1e-7, 0.1, 0.01, {}, {}}}), HasSubstr("allowed: >= 2"));
+  EXPECT_THAT(message({{0, 1e-7, 0.1, 0.01, {}, {}}}), HasSubstr("no facet with a slope"));
+  EXPECT_THAT(message({{14 * degree, 1e-7, 0, 0.01, {}, {}}}), HasSubstr("no width"));
+}
+
+// Raw traces as an instrument writes them, with noise of neighbours that go together, and the tip sticking where
+// it has turned.
+TEST(WedgeRecords, RawTracesGiveTheTruthBackWithinTheStatedUncertainty) {
+  const Truth truth;
+  const auto file = std::filesystem::temp_directory_path() / "pulvis-wedge-traces.csv";
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal(0, 0.004);
+  {
+    std::ofstream out(file);
+    out << "slope [deg],load [nN],position [nm],forth [V],back [V]\n";
+    constexpr int places = 256;
+    for (const double slope : {14.0, 0.0, -12.5})
+      for (const double load : loads) {
+        const Loop loop = truth.loop(slope, load);
+        double drift_forth = 0, drift_back = 0;
+        for (int i = 0; i < places; ++i) {
+          drift_forth = 0.7 * drift_forth + normal(random);
+          drift_back = 0.7 * drift_back + normal(random);
+          const double stick_forth = std::exp(-i / 6.0);
+          const double stick_back = std::exp(-(places - 1 - i) / 6.0);
+          out << fmt::format("{},{},{},{:.6f},{:.6f}\n", slope, load * 1e9, i,
+                             loop.offset + loop.half_width * (1 - 2 * stick_forth) + drift_forth,
+                             loop.offset - loop.half_width * (1 - 2 * stick_back) + drift_back);
+        }
+      }
+  }
+  EXPECT_TRUE(holds_loops(file));
+  const Calibration c = calibrate(read_loops(file, 0.15), {});
+  std::filesystem::remove(file);
+  EXPECT_LT(*c.friction.error, 0.05 * truth.friction);
+  EXPECT_LT(std::abs(c.friction.value - truth.friction), 3 * *c.friction.error);
+  EXPECT_LT(std::abs(c.sensitivity.value - truth.sensitivity), 3 * *c.sensitivity.error);
+}
+
+}  // namespace
+}  // namespace pulvis::wedge

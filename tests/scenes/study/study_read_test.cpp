@@ -1,0 +1,235 @@
+// Study files: what they are multiplied out to, and what is refused, at its line.
+#include "scenes/study/study_read.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "scenes/language/problem.hpp"
+#include "tests/helpers/paths.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string shipped = paths::source_dir() + "/scenes/";
+const std::string matrix = "scene = \"" + shipped + "compaction/regular-25.toml\"\n";
+
+class StudyRead : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file = fs::temp_directory_path() / ("pulvis-study-" + std::to_string(getpid()) + ".toml");
+  }
+  void TearDown() override { fs::remove(file); }
+
+  Study read(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    std::ofstream(file) << text;
+    return load_study(file, overrides);
+  }
+
+  // The message without the file's name: "3:1: grid.x: ...".
+  std::string refusal(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const SceneError& error) {
+      std::string message = error.what();
+      for (auto at = message.find(file.string() + ":"); at != std::string::npos;
+           at = message.find(file.string() + ":"))
+        message.erase(at, file.string().size() + 1);
+      return message;
+    }
+    return "nothing is refused";
+  }
+
+  fs::path file;
+};
+
+TEST_F(StudyRead, GridListAndSeedsAreMultipliedOut) {
+  const Study study = read(matrix + R"(seeds = [3, 4]
+[set]
+output.frames = 7
+[[variation]]
+name = "a"
+[[variation]]
+name = "b"
+set = { contact.damping = 0.2 }
+[grid]
+contact.friction = [0.1, 0.3]
+"stage.press.duration" = ["1 ms", "2 ms"]
+)");
+  EXPECT_EQ(study.runs.size(), 16U);
+  EXPECT_EQ(study.variations.size(), 8U);
+  EXPECT_EQ(study.runs[0].name, "a,friction=0.1,duration=1ms,seed=3");
+  EXPECT_EQ(study.runs[1].name, "a,friction=0.1,duration=1ms,seed=4");
+  EXPECT_EQ(study.runs[2].name, "a,friction=0.1,duration=2ms,seed=3");
+  const StudyRun& last = study.runs.back();
+  EXPECT_EQ(last.variation, "b,friction=0.3,duration=2ms");
+  EXPECT_EQ(last.scene.contact.friction, 0.3);
+  EXPECT_EQ(last.scene.contact.damping, 0.2);
+  EXPECT_EQ(last.scene.stages[0].duration, 2e-3);
+  EXPECT_EQ(last.scene.output.frames, 7);
+  EXPECT_EQ(last.scene.seed, 4U);
+  EXPECT_EQ(study.runs.front().scene.contact.damping, 0.1);
+}
+
+// Later settings win: the study's, the variation's, the grid's, the command line's.
+TEST_F(StudyRead, TheNearestSettingWins) {
+  const std::string text = matrix + R"([set]
+contact.friction = 0.5
+time.safety = 0.5
+output.frames = 5
+contact.damping = 0.5
+[[variation]]
+name = "a"
+set = { contact.friction = 0.4, time.safety = 0.4, output.frames = 4 }
+[grid]
+contact.friction = [0.3]
+time.safety = [0.3]
+)";
+  const Scene scene = read(text, {"contact.friction=0.2"}).runs.front().scene;
+  EXPECT_EQ(scene.contact.friction, 0.2);
+  EXPECT_EQ(scene.time.safety, 0.3);
+  EXPECT_EQ(scene.output.frames, 4);
+  EXPECT_EQ(scene.contact.damping, 0.5);
+}
+
+// What is the same scene has the same hash, whatever it is called: a run is known again by it.
+TEST_F(StudyRead, AHashChangesWithTheSceneOnly) {
+  const Study one = read(matrix + "[grid]\ncontact.friction = [0.1, 0.3]\n");
+  const Study other = read(matrix + "title = \"x\"\n[grid]\ncontact.friction = [0.3, 0.2]\n");
+  EXPECT_EQ(one.runs[1].hash, other.runs[0].hash);
+  EXPECT_NE(one.runs[0].hash, other.runs[1].hash);
+}
+
+TEST_F(StudyRead, KeysThatEndAlikeAreNamedInFull) {
+  const Study study = read(matrix +
+                           "[grid]\n\"material.316L.density\" = [\"7990 kg/m^3\"]\n"
+                           "\"tool.top.point\" = [[\"0 mm\", \"50 mm\"]]\n"
+                           "\"tool.left.point\" = [[\"0 mm\", \"0 mm\"]]\n");
+  EXPECT_THAT(study.variations, ElementsAre("density=7990kg-m-3,tool.top.point=0mm_50mm,"
+                                            "tool.left.point=0mm_0mm"));
+}
+
+TEST_F(StudyRead, WithoutAnyVariationThereIsOneRun) {
+  EXPECT_THAT(read(matrix).variations, ElementsAre("base"));
+}
+
+TEST_F(StudyRead, CurvesAreThoseOfACompactionWhereNoneIsGiven) {
+  const Study study = read(matrix);
+  ASSERT_EQ(study.spec.curves.size(), 3U);
+  EXPECT_EQ(study.spec.curves[0].y, "stress_ratio/axial");
+  EXPECT_EQ(study.spec.curves[1].x, "travel/top");
+}
+
+TEST_F(StudyRead, BoundsAreConvertedToTheUnitOfTheSeries) {
+  const Study study = read(matrix + R"([[expect]]
+series = "pressure/top"
+against = "travel/top"
+at = "2 mm"
+of = "base"
+above = "10 MPa"
+)");
+  EXPECT_DOUBLE_EQ(study.spec.expects[0].at->number, 2e-3);
+  EXPECT_DOUBLE_EQ(study.spec.expects[0].above->number, 1e7);
+}
+
+TEST_F(StudyRead, EverythingShippedIsRight) {
+  int studies = 0;
+  for (const auto& entry : fs::directory_iterator(shipped + "studies")) {
+    if (entry.path().extension() != ".toml") continue;
+    const Study study = load_study(entry.path());
+    EXPECT_FALSE(study.spec.expects.empty()) << entry.path();
+    EXPECT_FALSE(study.spec.title.empty()) << entry.path();
+    bool steel = false,
+         copper = false;  // each is made for both metals, shear for 316L alone (Sec. 6.2)
+    for (const StudyRun& run : study.runs) {
+      steel = steel || run.scene.materials[0].name == "316L";
+      copper = copper || run.scene.materials[0].name == "OFHC-Cu";
+    }
+    const bool shear = entry.path().filename().string().starts_with("shear-");
+    EXPECT_TRUE(steel && copper != shear) << entry.path();
+    ++studies;
+  }
+  EXPECT_GE(studies, 5);
+}
+
+TEST_F(StudyRead, WhatIsWrongIsToldAtItsLine) {
+  EXPECT_THAT(refusal("title = \"x\"\n"), HasSubstr("scene: required key is missing"));
+  EXPECT_THAT(refusal(""), HasSubstr("1:1: study: is empty"));
+  EXPECT_THAT(refusal(matrix + "sceen = 1\n"),
+              HasSubstr("2:1: sceen: unknown key, did you mean 'scene'?"));
+  EXPECT_THAT(refusal("scene = \"none.toml\"\n"), HasSubstr("there is no such file"));
+  EXPECT_THAT(refusal(matrix + "seeds = [1, 1]\n"), HasSubstr("2:9: seeds: a seed is given twice"));
+  EXPECT_THAT(refusal(matrix + "seeds = []\n"), HasSubstr("2:9: seeds: an empty array"));
+  EXPECT_THAT(refusal(matrix + "seeds = [-1]\n"), HasSubstr("out of range"));
+  EXPECT_THAT(refusal(matrix + "grid = 3\n"), HasSubstr("2:1: grid: wrong type"));
+  EXPECT_THAT(refusal(matrix + "[grid]\ncontact.friction = 0.1\n"),
+              HasSubstr("3:20: grid.contact.friction: a number is given, allowed: one or more"));
+  EXPECT_THAT(refusal(matrix + "[grid]\ncontact.friction = []\n"), HasSubstr("an empty array"));
+  EXPECT_THAT(refusal(matrix + "[grid]\ncontact.friction = [0.1, 0.10]\n"),
+              HasSubstr("two are called 'friction=0.1'"));
+  EXPECT_THAT(refusal(matrix + "[[variation]]\nname = \"a\"\n[[variation]]\nname = \"a\"\n"),
+              HasSubstr("'a' is the name of another variation"));
+  EXPECT_THAT(refusal(matrix + "[[curve]]\ny = \"stress\"\n"),
+              HasSubstr("3:5: curve[0].y: no run has the series 'stress'"));
+}
+
+// What a study does to a scene is refused where the study says it, once for all runs.
+TEST_F(StudyRead, WrongKeysOfTheSceneAreToldInTheStudy) {
+  const std::string wrong =
+      refusal(matrix + "seeds = [1, 2, 3]\n[grid]\ncontact.frictoin = [0.1]\n");
+  EXPECT_THAT(wrong, HasSubstr("4:21: contact.frictoin: unknown key, did you mean 'friction'?"));
+  EXPECT_EQ(std::ranges::count(wrong, '\n'), 0) << wrong;
+  EXPECT_THAT(refusal(matrix + "[set]\n\"stage.press.duration\" = \"3 kg\"\n"),
+              HasSubstr("3:26: stage[0].duration:"));
+}
+
+std::string with_expect(const std::string& lines) {
+  return matrix + "[grid]\ncontact.friction = [0.1, 0.3]\n[[expect]]\n" + lines;
+}
+
+TEST_F(StudyRead, ExpectationsThatSayNothingOrTooMuchAreRefused) {
+  const std::string series = "series = \"tool/top/force_y\"\n";
+  EXPECT_THAT(refusal(with_expect(series)), HasSubstr("none of `order`"));
+  EXPECT_THAT(refusal(with_expect(series + "of = \"friction=0.1\"\nabove = 1\n"
+                                           "ratio = [\"friction=0.1\", \"friction=0.3\"]\n")),
+              HasSubstr("more than one of `order`"));
+  EXPECT_THAT(refusal(with_expect(series + "of = \"friction=0.2\"\nabove = 1\n")),
+              HasSubstr("6:6: expect[0].of: no variation is called 'friction=0.2', did you mean"));
+  EXPECT_THAT(refusal(with_expect(series + "of = \"friction=0.1\"\n")),
+              HasSubstr("no bound given"));
+  EXPECT_THAT(refusal(with_expect(series + "of = \"friction=0.1\"\nequals = 1\n")),
+              HasSubstr("expect[0].within: required"));
+  EXPECT_THAT(refusal(with_expect(series + "of = \"friction=0.1\"\nabove = \"3 mm\"\n")),
+              HasSubstr("7:9: expect[0].above:"));
+  EXPECT_THAT(refusal(with_expect(series + "order = [\"friction=0.1\", \"friction=0.3\"]\n")),
+              HasSubstr("expect[0].trend: required"));
+  EXPECT_THAT(refusal(with_expect(series + "order = [\"friction=0.1\"]\ntrend = \"increasing\"\n")),
+              HasSubstr("one variation is given"));
+  EXPECT_THAT(refusal(with_expect(series + "effect = [\"friction=0.1\", \"friction=0.3\"]\n")),
+              HasSubstr("expect[0].exceeds"));
+  EXPECT_THAT(refusal(with_expect(series + "ratio = [\"friction=0.1\", \"friction=0.3\"]\n"
+                                           "above = \"1 N\"\n")),
+              HasSubstr("no unit"));
+  EXPECT_THAT(refusal(with_expect(series + "of = \"friction=0.1\"\nat = 0.8\nwhen = \"max\"\n"
+                                           "above = 1\n")),
+              HasSubstr("no effect beside `at`"));
+  EXPECT_THAT(refusal(with_expect("series = \"force\"\nof = \"friction=0.1\"\nabove = 1\n")),
+              HasSubstr("5:10: expect[0].series: a run of 'friction=0.1' has no series 'force'"));
+}
+
+TEST_F(StudyRead, TheReferenceIsTheOneInTheDocs) {
+  std::ostringstream text;
+  text << std::ifstream(paths::source_dir() + "/docs/study.md").rdbuf();
+  EXPECT_EQ(study_reference(), text.str()) << "pulvis study --reference text > docs/study.md";
+}
+
+}  // namespace
+}  // namespace pulvis

@@ -1,0 +1,193 @@
+// Contact between two deformable particles: forces from an energy, momentum, patch test.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "scenes/build.hpp"
+#include "systems/body/systems.hpp"
+#include "systems/contact/systems.hpp"
+#include "systems/step.hpp"
+
+namespace pulvis {
+namespace {
+
+MaterialSpec steel() { return {"steel", 7850, 200e9, 0.3, {}, 0, {}}; }
+
+Scene two_discs(double distance, double angle, double friction = 0) {
+  Scene scene;
+  scene.materials = {steel()};
+  scene.particles = {{"disc", 0, DiscOutline{10e-3}, DiscMesh{40, 1, 1}, false, 0, {}}};
+  BodySpec left, right;
+  right.position = distance * Vec2(std::cos(angle), std::sin(angle));
+  scene.bodies = {left, right};
+  scene.stages.emplace_back().duration = 1e-3;
+  scene.contact.friction = friction;
+  return scene;
+}
+
+// Contact forces and energy of a world at its present positions, without moving it.
+struct Contacts {
+  explicit Contacts(World& w) : world(w) {}
+  void update() {
+    TaskGraph(start_list(world), world.chunks()).run();
+    world.resource<ContactIndex>().travel_at_bin = -1;  // positions were set by hand: bin anew
+    std::vector<System> forces;
+    for (System& system : step_list(world).forces)
+      if (system.name == "bin_edges" || system.name == "skin_check" ||
+          system.name == "edge_contact" || system.name == "contact_totals" ||
+          system.name == "contact_force")
+        forces.push_back(std::move(system));
+    TaskGraph(std::move(forces), world.chunks()).run();
+  }
+  double energy() const { return world.resource<Totals>().contact_energy; }
+  World& world;
+};
+
+// Rows are worked on two by two: one that is left over must count once. All rows are looked at here.
+TEST(Contact, EveryTouchingRowIsCountedOnce) {
+  int left_over_and_touching = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 0.0314 * i, shift = 160e-6;
+    Scene scene = two_discs(10.1e-3, angle);
+    scene.bodies[1].angle =
+        0.05;  // not each other's mirror image, which would have an even number of rows
+    const auto world = build_world(scene);
+    const int right = world->resource<Bodies>().slot_of_number[1];
+    auto& x = world->column<Position>();
+    for (std::size_t node = 0; node < x.table.rows; ++node) {
+      x.lanes()[2 * node][right] -= shift * std::cos(angle);
+      x.lanes()[2 * node + 1][right] -= shift * std::sin(angle);
+    }
+    Contacts(*world).update();
+    const auto& touches = world->column<ContactTouches<Contact>>();
+    const std::size_t rows = touches.table.rows;
+    std::int64_t touching = 0;
+    for (std::size_t r = 0; r < rows; ++r) touching += touches.values()[r];
+    ASSERT_GT(touching, 0);
+    EXPECT_EQ(world->resource<Totals>().touching, touching);
+    if (rows % 2 != 0 && touches.values()[rows - 1] != 0) ++left_over_and_touching;
+  }
+  EXPECT_GT(left_over_and_touching, 0);
+}
+
+TEST(Contact, ForceIsMinusTheGradientOfTheEnergy) {
+  const auto world = build_world(two_discs(10e-3, 0.7));
+  auto& x = world->column<Position>();
+  const std::size_t nodes = x.table.rows;
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> noise(-2e-6, 2e-6);
+  for (std::size_t i = 0; i < 2 * nodes; ++i)
+    for (int l = 0; l < 2; ++l) x.lanes()[i][l] += noise(random) + (l == 1 ? -12e-6 : 0);
+  Contacts contacts(*world);
+  contacts.update();
+  ASSERT_GT(contacts.energy(), 0);
+  const auto& f = world->column<ContactForce>();
+  std::vector<Lane> force(f.lanes(), f.lanes() + 2 * f.table.rows);
+  double largest = 0;
+  for (const Lane& v : force) largest = std::max({largest, std::abs(v[0]), std::abs(v[1])});
+  const double h = 1e-9;
+  for (std::size_t i = 0; i < force.size(); ++i)
+    for (int l = 0; l < 2; ++l) {
+      const double was = x.lanes()[i][l];
+      x.lanes()[i][l] = was + h;
+      contacts.update();
+      const double up = contacts.energy();
+      x.lanes()[i][l] = was - h;
+      contacts.update();
+      const double down = contacts.energy();
+      x.lanes()[i][l] = was;
+      // Central differences of a quadratic energy with a kink where points touch: h / penetration.
+      EXPECT_NEAR(-(up - down) / (2 * h), force[i][l], 2e-4 * largest)
+          << "node " << i / 2 << " lane " << l;
+    }
+}
+
+// A long bar bent to a ring whose ends meet: the same outline on both sides of the contact.
+class BentBar {
+ public:
+  BentBar() {
+    Scene scene;
+    scene.materials = {steel()};
+    scene.particles = {
+        {"bar", 0, RectangleOutline{length, 4e-3}, RectangleMesh{40, 4}, false, 0, {}}};
+    BodySpec bar, far;
+    far.position = Vec2(0, 0.2);
+    scene.bodies = {bar, far};
+    scene.stages.emplace_back().duration = 1e-3;
+    scene.contact.friction = 0.3;
+    world = build_world(scene);
+    for (std::size_t i = 0; i < nodes(); ++i)
+      rest.push_back({world->column<Position>().lanes()[2 * i][0],
+                      world->column<Position>().lanes()[2 * i + 1][0]});
+  }
+  std::size_t nodes() const { return world->column<Position>().table.rows; }
+  // `gap` m between the ends, negative where they overlap.
+  void bend(double gap) {
+    const double radius = length / (2 * std::numbers::pi);
+    for (std::size_t i = 0; i < nodes(); ++i) {
+      const double angle = rest[i][0] / length * (2 * std::numbers::pi - gap / radius);
+      const double r = radius - rest[i][1];
+      world->column<Position>().lanes()[2 * i][0] = r * std::sin(angle);
+      world->column<Position>().lanes()[2 * i + 1][0] = -r * std::cos(angle);
+    }
+  }
+
+  static constexpr double length = 80e-3;
+  std::unique_ptr<World> world;
+  std::vector<Point> rest;
+};
+
+TEST(SelfContact, EndsOfABentBarPushEachOtherApart) {
+  BentBar bar;
+  Contacts contacts(*bar.world);
+  bar.bend(0.1e-3);  // near, and seen from outside
+  contacts.update();
+  EXPECT_EQ(contacts.energy(), 0);
+  bar.bend(-2e-6);
+  contacts.update();
+  ASSERT_GT(contacts.energy(), 0);
+  const auto& f = bar.world->column<ContactForce>();
+  const auto& x = bar.world->column<Position>();
+  double sum_x = 0, sum_y = 0, moment = 0, size = 0;
+  for (std::size_t i = 0; i < f.table.rows; ++i) {
+    const double fx = f.lanes()[2 * i][0], fy = f.lanes()[2 * i + 1][0];
+    sum_x += fx;
+    sum_y += fy;
+    moment += x.lanes()[2 * i][0] * fy - x.lanes()[2 * i + 1][0] * fx;
+    size += std::hypot(fx, fy);
+  }
+  EXPECT_NEAR(sum_x, 0, 1e-12 * size);
+  EXPECT_NEAR(sum_y, 0, 1e-12 * size);
+  EXPECT_NEAR(moment, 0, 1e-12 * size * bar.length);
+  // Both ends push over their height, each with half of the springs of two bodies.
+  const double h = 1e-8;
+  bar.bend(-2e-6 + h);
+  contacts.update();
+  const double less = contacts.energy();
+  bar.bend(-2e-6 - h);
+  contacts.update();
+  EXPECT_GT(contacts.energy(), less);
+}
+
+TEST(SelfContact, TheFarSideOfAThinPartIsNotTouched) {
+  Scene scene;
+  scene.materials = {steel()};
+  scene.particles = {
+      {"strip", 0, RectangleOutline{10e-3, 0.1e-3}, RectangleMesh{20, 1}, false, 0, {}}};
+  BodySpec one, other;
+  other.position = Vec2(0, 1e-3);
+  scene.bodies = {one, other};
+  scene.stages.emplace_back().duration = 1e-3;
+  const auto world = build_world(scene);
+  Contacts contacts(*world);
+  contacts.update();
+  EXPECT_EQ(contacts.energy(), 0);
+  auto& x = world->column<Position>();
+  for (std::size_t i = 0; i < x.table.rows; ++i) x.lanes()[2 * i + 1][0] *= 0.2;  // squeezed flat
+  contacts.update();
+  EXPECT_EQ(contacts.energy(), 0);
+}
+
+}  // namespace
+}  // namespace pulvis

@@ -1,0 +1,212 @@
+// A tool that holds a force: what it moves with and drags along takes energy from whatever it pushes, in the
+// discrete scheme and at any stiffness, damping and step; it reaches its force and keeps to its speed.
+#include "systems/tools/servo_kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "systems/tools/tool_kernel.hpp"
+
+namespace pulvis::kernels {
+namespace {
+
+// ---- a chain of masses under the tool -----------------------------------------------------------------
+// The lowest stands on a spring, the uppermost bears the tool by a contact spring and its dashpot.
+struct Chain {
+  std::vector<double> spring;  // N/m, below each mass
+  TouchSums contact;
+  double mass = 1, dt = 0, safety = 0.9;
+
+  int size() const { return static_cast<int>(spring.size()); }
+
+  // 4 M - dt^2 K - 2 dt C with the tool at rest: the leapfrog is stable while it is positive.
+  bool stable(double step) const {
+    const int n = size();
+    Eigen::MatrixXd q = 4 * mass * Eigen::MatrixXd::Identity(n, n);
+    const auto add = [&](int i, double k) {
+      q(i, i) -= step * step * k;
+      if (i == 0) return;
+      q(i - 1, i - 1) -= step * step * k;
+      q(i, i - 1) += step * step * k;
+      q(i - 1, i) += step * step * k;
+    };
+    for (int i = 0; i < n; ++i) add(i, spring[static_cast<std::size_t>(i)]);
+    q(n - 1, n - 1) -= step * step * contact.stiffness + 2 * step * contact.damping;
+    return q.selfadjointView<Eigen::Lower>().ldlt().vectorD().minCoeff() > 0;
+  }
+  void choose_step() {
+    double low = 0, high = 1;
+    while (stable(high)) high *= 2;
+    for (int i = 0; i < 60; ++i) (stable(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    dt = safety * low;
+  }
+};
+
+Chain random_chain(std::mt19937_64& random) {
+  const auto log = [&](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<>()(random));
+  };
+  Chain chain;
+  chain.spring.resize(1 + random() % 16);
+  for (double& k : chain.spring) k = log(1e-3, 1e3);
+  chain.contact.stiffness = log(1e-4, 1e4);
+  if (random() % 4 != 0)
+    chain.contact.damping = 2 * log(1e-3, 10) * std::sqrt(chain.contact.stiffness);
+  chain.safety = std::uniform_real_distribution<>(0.3, 0.99)(random);
+  chain.choose_step();
+  return chain;
+}
+
+class Pressed {
+ public:
+  Pressed(const Chain& chain, double damping, double mass_over_least = 1)
+      : chain_(chain), damping_(damping) {
+    const auto n = static_cast<std::size_t>(chain.size());
+    x_.resize(n), v_.resize(n);
+    servo_.mass = mass_over_least * least_tool_mass(chain.contact, chain.dt, chain.safety);
+  }
+
+  void shake(std::mt19937_64& random) {
+    std::normal_distribution<> any;
+    for (double& x : x_) x = any(random);
+    for (double& v : v_) v = any(random) / chain_.dt;
+    tool_ = any(random), servo_.speed = any(random) / chain_.dt;
+  }
+
+  // One step of the powder's leapfrog and of the servo, as the program takes them.
+  void step(double asked) {
+    const std::size_t n = x_.size();
+    borne_ = chain_.contact.stiffness * (x_.back() - tool_) +
+             chain_.contact.damping * (v_.back() - servo_.speed);
+    std::vector<double> force(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double f = chain_.spring[i] * (x_[i] - (i > 0 ? x_[i - 1] : 0));
+      force[i] -= f + (i + 1 == n ? borne_ : 0);
+      if (i > 0) force[i - 1] += f;
+    }
+    before_ = x_, tool_before_ = tool_;
+    for (std::size_t i = 0; i < n; ++i)
+      x_[i] += (v_[i] += chain_.dt * force[i] / chain_.mass) * chain_.dt;
+    // It pushes towards lower x.
+    ServoState down = servo_;
+    down.speed *= -1, down.dragged *= -1;
+    down = servo_step(down, asked - borne_, damping_, 1e300, chain_.dt);
+    servo_ = {down.mass, -down.speed, -down.dragged};
+    tool_ += servo_.speed * chain_.dt;
+  }
+
+  // That of the servo's head comment, of powder, contact and servo together, in the middle of the last step.
+  double energy() const {
+    const double dt = chain_.dt;
+    const auto spring = [&](double k, double stretch, double before, double rate) {
+      const double mean = 0.5 * (stretch + before);
+      return 0.5 * k * (mean * mean - 0.25 * dt * dt * rate * rate);
+    };
+    double sum = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const auto below = [&](const std::vector<double>& of) { return i > 0 ? of[i - 1] : 0.0; };
+      sum += 0.5 * chain_.mass * v_[i] * v_[i] + spring(chain_.spring[i], x_[i] - below(x_),
+                                                        before_[i] - below(before_),
+                                                        v_[i] - below(v_));
+    }
+    const double approach = v_.back() - servo_.speed, slip = servo_.speed - servo_.dragged;
+    sum += spring(chain_.contact.stiffness, x_.back() - tool_, before_.back() - tool_before_,
+                  approach);
+    sum -= 0.25 * dt * chain_.contact.damping * approach * approach;
+    sum += 0.25 * dt * damping_ * slip * slip;
+    return sum + 0.5 * servo_.mass *
+                     (servo_.speed * servo_.speed + dragged_mass * servo_.dragged * servo_.dragged);
+  }
+  double borne() const { return borne_; }
+
+ private:
+  Chain chain_;
+  double damping_;
+  std::vector<double> x_, v_, before_;
+  double tool_ = 0, tool_before_ = 0, borne_ = 0;
+  ServoState servo_{};
+};
+
+TEST(Servo, TakesEnergyFromEveryChainInEveryStep) {
+  std::mt19937_64 random(1);
+  for (int run = 0; run < 2000; ++run) {
+    const Chain chain = random_chain(random);
+    const double damping = std::pow(10, std::uniform_real_distribution<>(-4, 4)(random));
+    const double more = std::pow(10, std::uniform_real_distribution<>(0, 4)(random));
+    Pressed pressed(chain, damping, run % 2 == 0 ? 1 : more);
+    pressed.shake(random);
+    pressed.step(0);
+    const double first = pressed.energy();
+    double before = first;
+    ASSERT_GT(first, 0);
+    for (int i = 0; i < 300; ++i) {
+      pressed.step(0);
+      const double now = pressed.energy();
+      ASSERT_LE(now, before + 1e-11 * first) << "run " << run << ", step " << i;
+      ASSERT_GE(now, -1e-11 * first);
+      before = now;
+    }
+  }
+}
+
+TEST(Servo, ReachesItsForceAndStaysThere) {
+  std::mt19937_64 random(2);
+  for (int run = 0; run < 20; ++run) {
+    Chain chain;
+    chain.spring.assign(12, 1);
+    chain.contact.stiffness = std::pow(10, std::uniform_real_distribution<>(-0.5, 1)(random));
+    chain.contact.damping = 0.4 * std::sqrt(chain.contact.stiffness);
+    chain.choose_step();
+    Pressed pressed(chain, 0.3, 1);
+    double worst = 0;
+    for (int i = 0; i < 8000; ++i) {
+      pressed.step(10 * ramp_speed(std::min(i / 4000.0, 1.0)));
+      if (i >= 4000) worst = std::max(worst, std::abs(pressed.borne() - 10));
+    }
+    EXPECT_LT(worst, 0.01) << "contact stiffness " << chain.contact.stiffness;
+  }
+}
+
+// ---- its parts ------------------------------------------------------------------------------------------
+TEST(Servo, MassThatComesAndGoesTakesEnergyAway) {
+  const auto energy = [](const ServoState& s) {
+    return s.mass * (s.speed * s.speed + dragged_mass * s.dragged * s.dragged);
+  };
+  const ServoState state{2, 3, -1};
+  const ServoState heavier = with_mass(state, 3), lighter = with_mass(state, 1);
+  EXPECT_DOUBLE_EQ(heavier.mass * heavier.speed, state.mass * state.speed);
+  EXPECT_DOUBLE_EQ(heavier.mass * heavier.dragged, state.mass * state.dragged);
+  EXPECT_LT(energy(heavier), energy(state));
+  EXPECT_DOUBLE_EQ(lighter.mass, 2 * (1 - let_go));
+  EXPECT_EQ(lighter.speed, state.speed);
+  EXPECT_LT(energy(lighter), energy(state));
+}
+
+TEST(Servo, TheTangentOfTheContactIsNeverTakenTooSmall) {
+  const double kappa = 3e13, g_s = 2e-5;
+  for (const double x : {1e-6, 1e-3, 0.1, 0.5, 1.0, 2.0, 10.0}) {
+    const double exact = 1 + 3 * x * x,
+                 found = tangent_at(kappa * g_s * x * (1 + x * x), kappa, g_s);
+    EXPECT_GE(found, exact * (1 - 1e-14));
+    EXPECT_LE(found, exact * 1.05) << x;
+  }
+}
+
+TEST(Servo, KeepsToItsSpeedAndDoesNotRunUp) {
+  ServoState state{1, 0, 0};
+  for (int i = 0; i < 1000; ++i) {
+    state = servo_step(state, 1e9, 1, 2.0, 0.1);
+    ASSERT_LE(state.speed, 2.0);
+    ASSERT_LE(state.dragged, 2.0);
+  }
+  EXPECT_DOUBLE_EQ(state.speed, 2.0);
+  // Turned round at once by what is missing now.
+  EXPECT_LT(servo_step(state, -100, 1, 2.0, 0.1).speed, 0);
+}
+
+}  // namespace
+}  // namespace pulvis::kernels
