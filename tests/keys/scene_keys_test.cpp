@@ -7,6 +7,7 @@
 #include "key_plan.hpp"
 #include "scenes/build.hpp"
 #include "scenes/checks/overlaps.hpp"
+#include "scenes/keys/tables.hpp"
 #include "scenes/lever/afm_build.hpp"
 #include "scenes/meshes/mesh.hpp"
 #include "scenes/packing/place.hpp"
