@@ -17,6 +17,7 @@
 #include "engine/portable_math.hpp"
 #include "scenes/highest_mode.hpp"
 #include "scenes/hilbert.hpp"
+#include "scenes/meshes/hollows.hpp"
 #include "scenes/meshes/mesh.hpp"
 #include "scenes/meshes/thinnest.hpp"
 #include "scenes/needs.hpp"
@@ -326,6 +327,13 @@ void find_thinnest(const Scene& scene, const Bodies& bodies, ContactRules& rules
   }
 }
 
+void add_hollows(World& world, const Bodies& bodies) {
+  Hollows hollows;
+  for (const Shape& shape : bodies.shapes) hollows.of_shape.push_back(hollows_of(shape));
+  if (!std::ranges::all_of(hollows.of_shape, [](const auto& loops) { return loops.empty(); }))
+    world.emplace<Hollows>(std::move(hollows));
+}
+
 void add_clock(World& world, const Scene& scene) {
   Clock& clock = world.emplace<Clock>();
   clock.safety = scene.time.safety;
@@ -355,6 +363,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
     add_highest_mode(*world, layout.bodies, needs);
+  if (needs.contact() || needs.grips) add_hollows(*world, layout.bodies);
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);
   add_clock(*world, scene);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenes/outlines/outline.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis {
@@ -14,19 +15,25 @@ bool any_friction(const ContactRules& rules, const Needs& needs, const Acts& act
          (needs.tools && std::ranges::any_of(rules.tool_friction, acts));
 }
 
+template <class Is>
+bool any_outline(const Scene& scene, const Is& is) {
+  return std::ranges::any_of(scene.particles, [&](const ParticleSpec& p) { return is(p.outline); });
+}
+
 }  // namespace
 
 Needs needs_of(const Scene& scene, std::size_t particles) {
   Needs needs;
   needs.plastic = std::ranges::any_of(
       scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
-  needs.pairs = particles > 1;
   const auto any = [&](ToolSpec::Shape shape) {
     return std::ranges::any_of(scene.tools, [&](const ToolSpec& t) { return t.shape == shape; });
   };
   needs.polylines = any(ToolSpec::Shape::polyline);
   needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
   needs.grips = any(ToolSpec::Shape::grip);
+  needs.pairs = particles > 1 || (needs.tools && any_outline(scene, can_fold)) ||
+                (needs.grips && any_outline(scene, has_notch));
   using Friction = ContactRules::Friction;
   const ContactRules rules = contact_rules(scene);
   needs.friction =

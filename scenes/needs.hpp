@@ -8,7 +8,7 @@ namespace pulvis {
 // What a scene needs: decides which columns (and with them which systems) exist.
 struct Needs {
   bool plastic = false;  // a material yields
-  bool pairs = false;    // more than one particle
+  bool pairs = false;    // more than one particle, or one that tools can fold onto itself
   bool tools = false;    // something that particles touch
   bool polylines = false;
   bool grips = false;

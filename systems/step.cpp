@@ -7,6 +7,7 @@
 #include "systems/body/highest_mode.hpp"
 #include "systems/body/systems.hpp"
 #include "systems/contact/lost_bodies.hpp"
+#include "systems/contact/outline_health.hpp"
 #include "systems/contact/systems.hpp"
 #include "systems/observe/systems.hpp"
 #include "systems/tools/systems.hpp"
@@ -76,6 +77,7 @@ StepList step_list_of(World& w) {
   if (grips) drives();
 
   observe(tools,   "lost_bodies",     lost_bodies);
+  observe(touching || grips, "outline_health", outline_health);
   observe(true,    "kinetic_energy",  kinetic_energy);
   observe(true,    "elastic_energy",  elastic_energy<F>);
   observe(plastic, "plastic_work",    plastic_work<F>);

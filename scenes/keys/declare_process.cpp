@@ -275,7 +275,7 @@ const TableDeclaration<LimitSpec>& limits() {
          .range = above(0, 1e6),
          .fallback = value_of(0.5),
          .doc = "Penetration over the length of a boundary edge, of a tool's corner in an outline "
-                "too."},
+                "and of an outline in itself, too."},
         to(&LimitSpec::penetration)},
        {{.name = "kinetic_energy",
          .kind = Kind::number,

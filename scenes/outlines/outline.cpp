@@ -82,6 +82,26 @@ std::vector<Vec2> outline_polygon(const Outline& outline, double deviation) {
       outline);
 }
 
+bool has_notch(const Outline& outline) {
+  constexpr double deviation = 1e-3, round_off = 1e-9;
+  const auto points = outline_polygon(outline, deviation * std::sqrt(outline_area(outline)));
+  for (std::size_t i = 0, n = points.size(); i < n; ++i) {
+    const Vec2 a = points[(i + 1) % n] - points[i], b = points[(i + 2) % n] - points[(i + 1) % n];
+    if (a.x() * b.y() - a.y() * b.x() < -round_off * a.norm() * b.norm()) return true;
+  }
+  return false;
+}
+
+bool can_fold(const Outline& outline) {
+  constexpr double slender =
+      4;  // length over width: bent to a ring, its fibres are strained by pi / 4
+  const double area = outline_area(outline);
+  double longest = 0;
+  for (const Vec2& p : outline_polygon(outline, 0.1 * std::sqrt(area)))
+    longest = std::max(longest, 2 * p.norm());
+  return longest * longest > slender * area || has_notch(outline);
+}
+
 double outline_area(const Outline& outline) {
   return std::visit([](const auto& o) { return area_of(o); }, outline);
 }

@@ -21,6 +21,10 @@ std::optional<RoundedBox> rounded_box(const Outline& outline);
 // `deviation` (m, > 0). Of a ring its outer circle.
 std::vector<Vec2> outline_polygon(const Outline& outline, double deviation);
 
+bool has_notch(const Outline& outline);  // goes inwards somewhere
+// Notched, or so slender that its ends can meet.
+bool can_fold(const Outline& outline);
+
 double outline_area(const Outline& outline);  // m^2, of the material inside
 
 }  // namespace pulvis

@@ -119,9 +119,9 @@ double damping_of(const ContactRules& rules, double kappa, double rho, const Sha
 void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
                Read<Density> density, Read<CurvePosition> control, Write<ContactIndex> index,
                Structural<Contact> structure, Write<ContactPair<Contact>> pair,
-               Write<ContactLaw<Contact>> law, Write<ContactReach<Contact>> reach,
-               Write<ContactPlace> place, Write<ClosestPoint> closest,
-               Optional<Write<FrictionMore<Contact>>> more) {
+               Write<ContactLaw<Contact>> law, Read<ContactTouches<Contact>> touches,
+               Write<ContactReach<Contact>> reach, Write<ContactPlace> place,
+               Write<ClosestPoint> closest, Optional<Write<FrictionMore<Contact>>> more) {
   if (!index->due) return;
   BySlot<std::int32_t> neighbours =
       particle_neighbours(*bodies, control.values(), index->neighbourhood);
@@ -144,10 +144,11 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
                                      slots[static_cast<std::size_t>(key.other)].material),
              damping_of(*rules, kappa, rho, edge)},
             pair, law, more);
-    const bool known = source[r] >= 0;
-    // What was found to be the far side of a thin part stays that (edge_contact).
-    if (!(known && reach(row) == far_side))
-      reach(row) = known || key.slot != key.other ? 0 : unseen;
+    // An outline against itself is looked for anew: its closest points may have gone home along it (edge_contact).
+    const bool again = found.all[r].faces && touches(row) == 0;
+    const bool known = source[r] >= 0 && !again;
+    // What was found to be the far side of a thin part stays that.
+    if (!(known && reach(row) == far_side)) reach(row) = 0;
     place(row, 0) = slots[static_cast<std::size_t>(key.slot)].first_control + edge.first_control;
     place(row, 1) = slots[static_cast<std::size_t>(key.other)].first_control;
     if (known) return;

@@ -133,12 +133,49 @@ using Spot = std::array<double, 2>;
 // Where the edge with these four control points begins.
 Spot knot(const double* y) { return {(y[0] + 4 * y[2] + y[4]) / 6, (y[1] + 4 * y[3] + y[5]) / 6}; }
 
-double squared_distance_to_chord(const Spot& p, const double* control) {
+// From the nearest point of the edge's chord to p.
+Spot way_from_chord(const Spot& p, const double* control) {
   const Spot a = knot(control), b = knot(control + 2);
   const double cx = b[0] - a[0], cy = b[1] - a[1], rx = p[0] - a[0], ry = p[1] - a[1];
   const double share = std::clamp((rx * cx + ry * cy) / (cx * cx + cy * cy), 0.0, 1.0);
-  const double dx = rx - share * cx, dy = ry - share * cy;
-  return dx * dx + dy * dy;
+  return {rx - share * cx, ry - share * cy};
+}
+
+double squared_distance_to_chord(const Spot& p, const double* control) {
+  const Spot d = way_from_chord(p, control);
+  return d[0] * d[0] + d[1] * d[1];
+}
+
+// How far `way` goes out of the edge with these control points, of its length: 1 straight out, -1 straight in.
+double outwards(const Spot& way, const double* control) {
+  const Spot a = knot(control), b = knot(control + 2);
+  const double out = way[0] * (b[1] - a[1]) - way[1] * (b[0] - a[0]);
+  const double size = (way[0] * way[0] + way[1] * way[1]) *
+                      ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]));
+  return size > 0 ? out / std::sqrt(size) : 0;
+}
+
+double product_of_normals(const double* one, const double* other) {
+  const Spot a = knot(one), b = knot(one + 2);
+  return outwards({b[1] - a[1], a[0] - b[0]}, other);
+}
+
+// Whether some part of an edge sees another one in front of it, and is seen by it. Close by, beside each other counts,
+// too: an edge that slides along a flank comes near it from there.
+bool faces(const double* own, const double* other) {
+  constexpr double opposite = -0.1, close = 0.25, least_close = -0.5;
+  if (product_of_normals(own, other) >= opposite) return false;
+  const Spot begin = knot(own), end = knot(own + 2);
+  const Spot chord{end[0] - begin[0], end[1] - begin[1]};
+  const double length = chord[0] * chord[0] + chord[1] * chord[1];
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const Spot way =
+        way_from_chord({begin[0] + share * chord[0], begin[1] + share * chord[1]}, other);
+    const bool near = way[0] * way[0] + way[1] * way[1] < close * close * length;
+    const double least = near ? least_close : 0;
+    if (outwards(way, other) > least && outwards({-way[0], -way[1]}, own) > least) return true;
+  }
+  return false;
 }
 
 // The search for candidates of one slot after the other.
@@ -154,8 +191,11 @@ class EdgeSearch {
     for (int e = 0; e < curves_.edges(slot); ++e) {
       const Sampled sampled{slot, e, edge_box(slot, e), middle_of(slot, e)};
       for (const Other& other : others) {
-        const int start = nearest_edge(other, sampled);
-        if (start != Shape::no_edge) found.push_back({slot, e, other.slot, start});
+        const bool own = other.slot == slot;
+        const int ahead = own ? nearest_edge(other, sampled, Of::faced) : Shape::no_edge;
+        const bool faced = ahead != Shape::no_edge;
+        const int start = faced ? ahead : nearest_edge(other, sampled, Of::all);
+        if (start != Shape::no_edge) found.push_back({slot, e, other.slot, start, faced});
       }
     }
   }
@@ -170,6 +210,8 @@ class EdgeSearch {
     int slot;
     std::vector<int> edges;  // those that come near the sampled particle's box
   };
+
+  enum class Of { all, faced };
 
   const Box& edge_box(int slot, int e) const {
     return boxes_
@@ -196,26 +238,33 @@ class EdgeSearch {
     return others;
   }
 
+  bool folded(const Sampled& own, int e) const {
+    return e != own.edge && product_of_normals(curves_.edge_points(own.slot, own.edge),
+                                               curves_.edge_points(own.slot, e)) < sharp_fold;
+  }
+
   // The edge of `other` nearest to the middle of the sampled edge, of those that come near its box, or
   // no_edge. Of its own outline the neighbours are left out: there it is that the outline folds. By the
   // distance of chords, not of middles: beside the end of a long edge the middle of a short one around the
   // corner may be nearer, and from there no search leads back over the corner.
-  int nearest_edge(const Other& other, const Sampled& own) const {
+  int nearest_edge(const Other& other, const Sampled& own, Of of) const {
     if (!near(own.box, boxes_.particle[static_cast<std::size_t>(other.slot)], skin_))
       return Shape::no_edge;
     int nearest = Shape::no_edge;
     double least = std::numeric_limits<double>::max();
     for (const int e : other.edges) {
       if (!near(own.box, edge_box(other.slot, e), skin_)) continue;
-      if (other.slot == own.slot &&
+      if (other.slot == own.slot && (of == Of::all || !folded(own, e)) &&
           edges_between(own.edge, e, curves_.edges(own.slot)) < least_fold)
         continue;
       const double distance =
           squared_distance_to_chord(own.middle, curves_.edge_points(other.slot, e));
-      if (distance < least) {
-        least = distance;
-        nearest = e;
-      }
+      if (distance >= least) continue;
+      if (of == Of::faced &&
+          !faces(curves_.edge_points(own.slot, own.edge), curves_.edge_points(other.slot, e)))
+        continue;
+      least = distance;
+      nearest = e;
     }
     return nearest;
   }

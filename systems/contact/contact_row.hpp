@@ -72,8 +72,8 @@ struct RowColumns {
   Optional<Write<StaticLost<At>>> lost;
 };
 
-// Reaches of rows of an outline against itself: not looked at yet; and seen from inside, which no touch is.
-inline constexpr double unseen = -1, far_side = std::numeric_limits<double>::infinity();
+// Reach of a row of an outline against itself that sees its own neighbourhood or the far side of a thin part.
+inline constexpr double far_side = std::numeric_limits<double>::infinity();
 
 // A row whose points are all apart: nothing acts, and nothing can until `clearance` has been travelled.
 template <class At>

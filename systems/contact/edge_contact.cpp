@@ -3,11 +3,13 @@
 //
 // Source   systems/contact/contact_kernel.hpp
 // Runs     after bin_edges, before contact_force
-// Active   when the scene has more than one particle
+// Active   when the scene has more than one particle, or one whose outline can fold
 #include "engine/run_failure.hpp"
 #include "systems/contact/broad_phase.hpp"
+#include "systems/contact/contact_outlines.hpp"
 #include "systems/contact/contact_row.hpp"
 #include "systems/contact/systems.hpp"
+#include "systems/contact/winding_kernel.hpp"
 
 namespace pulvis {
 namespace {
@@ -156,18 +158,69 @@ struct Closest {
   return m;
 }
 
-// An outline against itself: two parts of it that meet from outside, where it folds. From inside each point
-// is at some depth below the far side of its own body: a row that begins like that, or deeper than contacts
-// get, is none. Points whose closest point is their own neighbourhood do not touch.
-bool is_far_side(const Closest& c, int half, int edge, const Shape& shape, bool unseen, Lane& gap) {
-  double deepest = -1;
-  for (int l = half * edge_points; l < (half + 1) * edge_points; ++l) {
-    const int there = edge_number(shape, c.at.edge[static_cast<std::size_t>(l)]);
-    if (edges_between(there, edge, static_cast<int>(shape.edges.size())) < least_fold) gap[l] = -1;
-    deepest = std::max(deepest, gap[l]);
+// An outline against itself: two parts of it that meet from outside, where it folds. Seen from inside, each point
+// is at some depth below the far side of its own body, too. What tells them apart: half way to the closest point the
+// outline is gone round once there, and twice where it overlaps itself.
+class OwnOutline {
+ public:
+  OwnOutline(const Shape& shape, const double* control) : shape_(shape), control_(control) {}
+
+  // Half way from the closest point on the edge `there`, against whose normal it sees the point on `edge`. Both
+  // are known to be passed as curves are; chords stand for all the others.
+  bool overlaps(int edge, int there, const Point& half_way, const Point& back) const {
+    int times = 1;  // through the point itself, out of its own part
+    for (int e = 0; e < static_cast<int>(shape_.edges.size()); ++e)
+      if (e != edge && e != there)
+        times += kernels::crossing(half_way, back, knot(e, 0), knot(e, 1));
+    return times > 1;
   }
-  if (!(deepest > 0)) return unseen && half_of(c.beyond, half) != 0;
-  return unseen || deepest > 0.25 * shape.edges[static_cast<std::size_t>(edge)].length;
+  Point normal(int edge, double u) const { return curve(edge).normal(u); }
+  int edges() const { return static_cast<int>(shape_.edges.size()); }
+
+ private:
+  Curve curve(int edge) const {
+    return Curve(control_ + 2 * shape_.edges[static_cast<std::size_t>(edge)].first_control);
+  }
+  Point knot(int edge, int end) const {
+    const double* y =
+        control_ + 2 * (shape_.edges[static_cast<std::size_t>(edge)].first_control + end);
+    return {(y[0] + 4 * y[2] + y[4]) / 6, (y[1] + 4 * y[3] + y[5]) / 6};
+  }
+
+  const Shape& shape_;
+  const double* control_;
+};
+
+// Of an edge: no contact begins deeper; its spring would be stiffer at once than the time step knows. (What got there
+// unseen, outline_health tells.)
+constexpr double deepest_begin = 0.1;
+
+// Of a row against its own outline: takes out the points that do not touch, those that touched in the step before
+// (`touched`) apart, and returns how near the others are, m: endless where all see their own neighbourhood or the
+// far side. (A contact may get as deep as limits.penetration lets it.)
+double leave_folds(const Closest& c, int half, int edge, const OwnOutline& own, const Shape& shape,
+                   unsigned touched, RowMotion& m) {
+  const double deepest = deepest_begin * shape.edges[static_cast<std::size_t>(edge)].length;
+  double nearest = far_side;
+  for (int g = 0; g < edge_points; ++g) {
+    const int l = half * edge_points + g;
+    const int there = edge_number(shape, c.at.edge[static_cast<std::size_t>(l)]);
+    const Point n = own.normal(edge, kernels::edge_u[g]), back{-m.nx[l], -m.ny[l]};
+    const double product = -(n[0] * back[0] + n[1] * back[1]);
+    const bool near = edges_between(there, edge, own.edges()) < least_fold;
+    if (there == edge || (near && product > sharp_fold)) {
+      m.gap[l] = -1;
+    } else if (!(m.gap[l] > 0)) {
+      nearest = std::min(nearest, std::sqrt(c.rx[l] * c.rx[l] + c.ry[l] * c.ry[l]));
+    } else {
+      const bool before = (touched >> g & 1) != 0, deep = m.gap[l] > deepest;
+      if (before && !deep) continue;
+      const Point half_way{c.points.x[l] - 0.5 * c.rx[l], c.points.y[l] - 0.5 * c.ry[l]};
+      if (product > 0 || (deep && !before) || !own.overlaps(edge, there, half_way, back))
+        m.gap[l] = -1;
+    }
+  }
+  return nearest;
 }
 
 // The force on the other bodies' slope that makes friction free of torque: -T g/|x'| n.
@@ -223,20 +276,27 @@ void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
     motion.gap = select(LaneMask::of(c.beyond), -1.0, motion.gap);
     return motion;
   };
+  const auto nearest_fold = [&](Row<Contact> row, int half, const Closest& c, RowMotion& motion) {
+    const Shape& shape = bodies->shape_of_slot(pair(row, 2));
+    unsigned touched = 0;
+    for (int g = 0; touches(row) != 0 && g < edge_points; ++g)
+      if (force(row, 2 * g) != 0 || force(row, 2 * g + 1) != 0) touched |= 1U << g;
+    return leave_folds(c, half, pair(row, 1), {shape, points + 2 * number(place(row, 1))}, shape,
+                       touched, motion);
+  };
   const auto act = [&](const RowPair<Contact>& rows, const Closest& c, RowMotion& motion,
                        LaneSums& sum) __attribute__((always_inline)) {
     unsigned touching = 0;
     for (int i = 0; i < rows_in(rows); ++i) {
       const Row<Contact> row = rows[static_cast<std::size_t>(i)];
-      if (pair(row, 2) == pair(row, 0) &&
-          is_far_side(c, i, pair(row, 1), bodies->shape_of_slot(pair(row, 2)), reach(row) == unseen,
-                      motion.gap)) {
-        set_apart(columns, row, far_side);
-      } else if (half_of((motion.gap > 0.0).bits(), i) != 0) {
+      const bool itself = pair(row, 2) == pair(row, 0);
+      const double nearest = itself ? nearest_fold(row, i, c, motion) : 0;
+      if (half_of((motion.gap > 0.0).bits(), i) != 0) {
         touching |= 1U << i;
       } else {
         const Lane square = c.rx * c.rx + c.ry * c.ry;
-        set_apart(columns, row, clock->travel + std::sqrt(least_of_half(square, i)));
+        set_apart(columns, row,
+                  clock->travel + (itself ? nearest : std::sqrt(least_of_half(square, i))));
       }
     }
     if (touching == 0) return;

@@ -18,8 +18,8 @@ void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<To
 void bin_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                Read<CurvePosition>, Write<ContactIndex>, Structural<Contact>,
                Write<ContactPair<Contact>>, Write<ContactLaw<Contact>>,
-               Write<ContactReach<Contact>>, Write<ContactPlace>, Write<ClosestPoint>,
-               Optional<Write<FrictionMore<Contact>>>);
+               Read<ContactTouches<Contact>>, Write<ContactReach<Contact>>, Write<ContactPlace>,
+               Write<ClosestPoint>, Optional<Write<FrictionMore<Contact>>>);
 void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
                     Read<CurvePosition>, Read<ToolPosition>, Read<ToolNormal>, Write<ContactIndex>,
                     Structural<ToolContact>, Write<ContactPair<ToolContact>>,

@@ -170,6 +170,67 @@ TEST(SelfContact, EndsOfABentBarPushEachOtherApart) {
   EXPECT_GT(contacts.energy(), less);
 }
 
+// A thin strip bent to a drop, whose legs lie beside each other: a leg's own far side is nearer to it than the other
+// leg until they meet.
+class Drop {
+ public:
+  Drop() {
+    Scene scene;
+    scene.materials = {steel()};
+    scene.particles = {
+        {"strip", 0, RectangleOutline{length, thickness}, RectangleMesh{80, 1}, false, 0, {}}};
+    BodySpec strip, far;
+    far.position = Vec2(0, 0.2);
+    scene.bodies = {strip, far};
+    scene.stages.emplace_back().duration = 1e-3;
+    scene.contact.skin = 4;
+    world = build_world(scene);
+    for (std::size_t i = 0; i < world->column<Position>().table.rows; ++i)
+      rest.push_back({world->column<Position>().lanes()[2 * i][0],
+                      world->column<Position>().lanes()[2 * i + 1][0]});
+  }
+  // Round a circle by 150 degrees to each side of the bottom, back by 60, and straight on, `gap` m between the legs.
+  void bend(double gap) {
+    constexpr double pi = std::numbers::pi, big = 4e-3;
+    const double small = big - thickness - gap, first = big * 5 * pi / 6, second = small * pi / 3;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const double side = rest[i][0] < 0 ? -1 : 1, way = std::abs(rest[i][0]);
+      const double round = std::min(way, first) / big;
+      const double back = std::clamp((way - first) / small, 0.0, pi / 3);
+      const double angle = round - back, on = std::max(0.0, way - first - second);
+      const double cx =
+          big * std::sin(round) - small * (std::sin(5 * pi / 6 - back) - std::sin(5 * pi / 6));
+      const double cy =
+          -big * std::cos(round) + small * (std::cos(5 * pi / 6 - back) - std::cos(5 * pi / 6));
+      const double x = cx + on * std::cos(angle) - rest[i][1] * std::sin(angle);
+      world->column<Position>().lanes()[2 * i][0] = side * x;
+      world->column<Position>().lanes()[2 * i + 1][0] =
+          cy + on * std::sin(angle) + rest[i][1] * std::cos(angle);
+    }
+  }
+
+  static constexpr double length = 80e-3, thickness = 0.3e-3;
+  std::unique_ptr<World> world;
+  std::vector<Point> rest;
+};
+
+TEST(SelfContact, ThinLegsMeetAlthoughTheirFarSidesAreNearer) {
+  Drop drop;
+  Contacts contacts(*drop.world);
+  for (const double gap : {0.6e-3, 0.4e-3, 0.2e-3, 0.01e-3}) {
+    drop.bend(gap);
+    contacts.update();
+    EXPECT_EQ(contacts.energy(), 0) << gap;
+  }
+  drop.bend(-2e-6);
+  contacts.update();
+  EXPECT_GT(contacts.energy(), 0);
+  EXPECT_GE(drop.world->resource<Totals>().touching, 2 * 25);  // edges that lie beside each other
+  drop.bend(0.01e-3);
+  contacts.update();
+  EXPECT_EQ(contacts.energy(), 0);
+}
+
 TEST(SelfContact, TheFarSideOfAThinPartIsNotTouched) {
   Scene scene;
   scene.materials = {steel()};
