@@ -114,6 +114,43 @@ double damping_of(const ContactRules& rules, double kappa, double rho, const Sha
   return 2 * rules.damping * std::sqrt(kappa * rho / edge.stiffness);
 }
 
+// Flat flanks of one outline that are deeper in each other than the skin have boxes apart: their rows stay while
+// they touch.
+BySlot<EdgeCandidate> with_touching_folds(const std::vector<std::int32_t>& before_begin,
+                                          const Write<ContactPair<Contact>>& before,
+                                          const Read<ContactTouches<Contact>>& touches,
+                                          const BySlot<EdgeCandidate>& found) {
+  return list_by_slot<EdgeCandidate>(
+      static_cast<int>(found.begin.size()) - 1, [&](int slot, std::vector<EdgeCandidate>& list) {
+        const auto s = static_cast<std::size_t>(slot);
+        auto n = found.begin[s];
+        const auto copy_below = [&](const RowKey* key) {
+          for (; n < found.begin[s + 1]; ++n) {
+            const EdgeCandidate& c = found.all[static_cast<std::size_t>(n)];
+            if (key != nullptr && !(key_of(c) < *key)) return key_of(c) == *key;
+            list.push_back(c);
+          }
+          return false;
+        };
+        for (auto b = before_begin[s]; b < before_begin[s + 1]; ++b) {
+          const Row<Contact> row(b);
+          const RowKey key{before(row, 0), before(row, 1), before(row, 2)};
+          if (key.slot != key.other || touches(row) == 0) continue;
+          if (!copy_below(&key)) list.push_back({key.slot, key.edge, key.other, key.edge, false});
+        }
+        copy_below(nullptr);
+      });
+}
+
+bool any_fold_touches(const Write<ContactPair<Contact>>& pair,
+                      const Read<ContactTouches<Contact>>& touches) {
+  for (int r = 0; r < touches.rows(); ++r) {
+    const Row<Contact> row(r);
+    if (touches(row) != 0 && pair(row, 0) == pair(row, 2)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
@@ -126,6 +163,8 @@ void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> 
   BySlot<std::int32_t> neighbours =
       particle_neighbours(*bodies, control.values(), index->neighbourhood);
   BySlot<EdgeCandidate> found = edge_candidates(*bodies, control.values(), neighbours, index->skin);
+  if (any_fold_touches(pair, touches))
+    found = with_touching_folds(index->sampled_begin, pair, touches, found);
   const std::vector<std::int32_t> source = match(index->sampled_begin, pair, found);
   structure.rebuild(source);
 

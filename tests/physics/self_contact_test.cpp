@@ -19,6 +19,7 @@ struct Press {
   double way = 6;        // mm, of the right one
   double duration = 20;  // ms
   double friction = 0;
+  double stiffness = 10;
 };
 
 std::string number(double value) { return std::to_string(value); }
@@ -35,7 +36,8 @@ Experiment pressed(const Press& press) {
       "material = \"jelly\"\n" +
       press.particle + "\n[[body]]\nparticle = \"one\"\nposition = [\"0 mm\", \"0 mm\"]\n\n" +
       plane("left", -press.half, "[1, 0]") + plane("right", press.half, "[-1, 0]") +
-      "[contact]\nstiffness = 10\nfriction = " + number(press.friction) +
+      "[contact]\nstiffness = " + number(press.stiffness) +
+      "\nfriction = " + number(press.friction) +
       "\n\n[[stage]]\nname = \"press\"\nkind = \"compact\"\nduration = \"" +
       number(press.duration) + " ms\"\n[[stage.move]]\ntool = \"right\"\ndisplacement = [\"-" +
       number(press.way) + " mm\", \"0 mm\"]\nramp = 0.3\n";
@@ -136,6 +138,14 @@ TEST(SelfContact, AClosedNotchPassesOnTheForce) {
   EXPECT_EQ(run(e), "");
   const double left = -e.value("tool/left/force_x"), right = e.value("tool/right/force_x");
   EXPECT_NEAR(left, right, 0.01 * right);
+  EXPECT_LT(e.results.energy_balance_error(), 1e-4);
+}
+
+// Deeper than the skin of the search, flat flanks stay in contact.
+TEST(SelfContact, SoftSidesOfANotchStayInContact) {
+  Experiment e = pressed({.particle = notched(192), .duration = 6, .stiffness = 0.5});
+  EXPECT_EQ(run(e), "");
+  EXPECT_GT(e.value("penetration"), 0.2);
   EXPECT_LT(e.results.energy_balance_error(), 1e-4);
 }
 
