@@ -2,6 +2,8 @@
 // All are four-node quads; the systems of the elements are templates of them.
 #pragma once
 
+#include <stdexcept>
+
 namespace pulvis {
 
 // 2x2 Gauss points, one dilatation for the whole element (mean dilatation).
@@ -24,5 +26,21 @@ struct OnePoint {
   static constexpr int volumes = 1;
   static constexpr bool stabilised = true;
 };
+
+enum class Formulation { four_point, one_point, standard };
+
+// What a scene's formulation decides, decided here and nowhere else: visit(F{}), F the struct above.
+template <class Visit>
+decltype(auto) with_formulation(Formulation formulation, const Visit& visit) {
+  switch (formulation) {
+    case Formulation::four_point:
+      return visit(FourPoint{});
+    case Formulation::one_point:
+      return visit(OnePoint{});
+    case Formulation::standard:
+      return visit(Standard{});
+  }
+  throw std::logic_error("no such element formulation");
+}
 
 }  // namespace pulvis

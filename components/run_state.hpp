@@ -85,6 +85,7 @@ struct ContactRules {
   // m: least width of an element and of a tool's ridge. What is thinner than a step's way can be passed unseen.
   double thinnest = std::numeric_limits<double>::infinity();
   std::vector<double> tool_thickness;  // m, [tools]: of thin ridges; infinite where there are none
+  bool servos = false;                 // some tool holds a force
   int materials = 0;
   struct Friction {
     double coefficient = 0;  // -, Coulomb's; where there is a static one, the dynamic

@@ -1,6 +1,7 @@
 // Tools that hold a force, and stages that end when something is reached: only in scenes that ask for them.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -80,12 +81,13 @@ struct StageEnds {
   std::vector<End> ends;
   Cell cell;
   std::vector<Point> tools_at_begin;  // m, [tools]: where they stood when the stage began
+  double run_end = std::numeric_limits<double>::infinity();  // s: Clock::end from the next step on
   std::size_t stage = static_cast<std::size_t>(-1);
 
   // The cell is the scene's.
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(ends, tools_at_begin, stage);
+    bytes(ends, tools_at_begin, stage, run_end);
   }
 };
 

@@ -88,6 +88,7 @@ struct Bodies {
   };
 
   double thickness = 0;  // m
+  Formulation formulation = Formulation::one_point;
   std::vector<Shape> shapes;
   std::vector<Slot> slots;          // [lane_count * chunks]
   std::vector<int> slot_of_number;  // [particles]

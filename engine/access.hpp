@@ -1,23 +1,14 @@
-// A system's only door to data: Read<C>, Write<C> and Structural<Place>, as function parameters.
-// What a system may touch is its signature; writing through Read does not compile.
+// A system's only door to data: Read<C>, Write<C> and Structural<Place>, as its members.
+// What a system may touch is what it declares; writing through Read does not compile.
 #pragma once
 
+#include <optional>
 #include <span>
 
+#include "engine/bundle.hpp"
 #include "engine/world.hpp"
 
 namespace pulvis {
-
-enum class AccessMode { read, write, structural };
-
-struct AccessInfo {
-  TypeKey key;       // of the component, resource, or (structural) place
-  TypeKey place;     // of the component's place; null for resources
-  std::string name;  // "node/velocity"; "clock"
-  AccessMode mode;
-  bool chunked;  // the place is divided by chunks, so a chunk system may write it
-  bool transient = false;
-};
 
 // The rows of one column that a chunk owns, addressed from zero: view(row, component).
 template <class C, class Pointer>
@@ -67,6 +58,7 @@ AccessInfo access_info(AccessMode mode) {
 template <class T>
 class Read {
  public:
+  static bool is_there(const World& world) { return world.has<T>(); }
   explicit Read(World& world) : column_(&world.column<T>()) {}
   static AccessInfo info() { return detail::access_info<T>(AccessMode::read); }
 
@@ -91,6 +83,7 @@ class Read {
 template <class T>
 class Write {
  public:
+  static bool is_there(const World& world) { return world.has<T>(); }
   explicit Write(World& world) : column_(&world.column<T>()) {}
   static AccessInfo info() { return detail::access_info<T>(AccessMode::write); }
 
@@ -114,6 +107,7 @@ class Write {
 template <IsResource R>
 class Read<R> {
  public:
+  static bool is_there(const World& world) { return world.has<R>(); }
   explicit Read(World& world) : resource_(&world.resource<R>()) {}
   static AccessInfo info() { return detail::access_info<R>(AccessMode::read); }
   const R& operator*() const { return *resource_; }
@@ -128,6 +122,7 @@ class Write<R> {
   static_assert(HasState<R>, "a resource that a system writes has a state that checkpoints keep");
 
  public:
+  static bool is_there(const World& world) { return world.has<R>(); }
   explicit Write(World& world) : resource_(&world.resource<R>()) {}
   static AccessInfo info() { return detail::access_info<R>(AccessMode::write); }
   R& operator*() const { return *resource_; }
@@ -142,6 +137,7 @@ class Write<R> {
 template <class Place>
 class Structural {
  public:
+  static bool is_there(const World& world) { return world.has_table<Place>(); }
   explicit Structural(World& world) : world_(&world) {}
   static AccessInfo info() {
     return {type_key<Place>(), type_key<Place>(), std::string(Place::name) + "/*",
@@ -154,27 +150,21 @@ class Structural {
   World* world_;
 };
 
-// A component or resource that a system uses only where the scene has it: test with `if (handle)`.
-// The graph holds it to the same rules when it is there.
-template <class Access>
-class Optional;
-
-template <template <class> class Mode, class T>
-class Optional<Mode<T>> {
+// An access or bundle that a system uses only where the scene has it: test with `if (handle)`. A bundle is there when
+// its first member is; all others must be there then. The graph holds it to the same rules when it is there.
+template <class T>
+class Optional {
  public:
-  explicit Optional(World& world)
-      : there_(world.has<T>()), access_(there_ ? new_access(world) : nullptr) {}
-  static AccessInfo info() { return Mode<T>::info(); }
-  explicit operator bool() const { return there_; }
-  const Mode<T>& operator*() const { return *access_; }
-  const Mode<T>* operator->() const { return access_.get(); }
+  explicit Optional(World& world) : Optional(detail::Opener{world}) {}
+  explicit Optional(const detail::Opener& opener) {
+    if (detail::is_there<T>(opener.world)) inner_.emplace(opener.open<T>());
+  }
+  explicit operator bool() const { return inner_.has_value(); }
+  const T& operator*() const { return *inner_; }
+  const T* operator->() const { return &*inner_; }
 
  private:
-  static std::shared_ptr<Mode<T>> new_access(World& world) {
-    return std::make_shared<Mode<T>>(world);
-  }
-  bool there_;
-  std::shared_ptr<Mode<T>> access_;
+  std::optional<T> inner_;
 };
 
 }  // namespace pulvis

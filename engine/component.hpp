@@ -70,9 +70,7 @@ struct Chunk {
 // Of a system that divides the whole world into tasks far smaller than a chunk. It begins when the chunks that can
 // be computed beside it have been taken: its tasks then fill the time in which a thread would wait for another's
 // chunk.
-struct SmallTasks {
-  explicit SmallTasks(World&) {}
-};
+struct SmallTasks {};
 
 // Identity of a component, resource or place type at run time.
 using TypeKey = const void*;

@@ -1,9 +1,15 @@
-// A system: a plain function whose parameters declare what it reads and writes.
+// A system: a struct whose members declare what it reads and writes, and whose call does the work.
 //
-//   void integrate(Chunk chunk, Read<Clock> clock, Read<NodeMass> m, Write<Velocity> v, ...);
+//   struct integrate {
+//     Read<Clock> clock;
+//     Read<Density> density;
+//     Write<Velocity> velocity;
+//     void operator()(Chunk chunk) const;
+//   };
 //
-// With a leading Chunk it works on the rows of one chunk and may be fused with its neighbours in the
-// step list; without, it works on the whole world, and in many small tasks where it takes SmallTasks.
+// Called with a Chunk it works on the rows of one chunk and may be fused with its neighbours in the step list; with
+// nothing, on the whole world, and in many small tasks where it takes SmallTasks. A plain function of accesses and
+// bundles, after a first Chunk or none, is a system too.
 #pragma once
 
 #include <concepts>
@@ -29,31 +35,36 @@ struct System {
 };
 
 namespace detail {
-
-template <class Access>
-bool present(const World&) {
-  return true;
-}
-template <class Access>
-requires requires(World& w) { Access(w).operator bool(); }
-bool present(const World& world) { return static_cast<bool>(Access(const_cast<World&>(world))); }
-
-template <class Access>
-void declare(const World& world, std::vector<AccessInfo>& accesses) {
-  if constexpr (!std::is_same_v<Access, SmallTasks>)
-    if (present<Access>(world)) accesses.push_back(Access::info());
-}
-
 void check_chunk_writes(const System& system);
-
 }  // namespace detail
+
+template <IsBundle S>
+System make_system(World& world, std::string name, When when = When::every_step) {
+  constexpr bool by_chunk = std::invocable<const S&, BusyChunk>;
+  constexpr bool busy = by_chunk && !std::invocable<const S&, Chunk>;
+  constexpr bool small_tasks = std::invocable<const S&, SmallTasks>;
+  System system{std::move(name), when, by_chunk, busy, small_tasks, {}, {}};
+  system.run = [opened = detail::Opener{world, &system.accesses}.template open<S>()](Chunk chunk) {
+    if constexpr (busy)
+      opened(BusyChunk{chunk});
+    else if constexpr (by_chunk)
+      opened(chunk);
+    else if constexpr (small_tasks)
+      opened(SmallTasks{});
+    else
+      opened();
+  };
+  if (by_chunk) detail::check_chunk_writes(system);
+  return system;
+}
 
 template <std::derived_from<Chunk> C, class... Access>
 System make_system(World& world, std::string name, void (*function)(C, Access...),
                    When when = When::every_step) {
   System system{std::move(name), when, true, std::is_same_v<C, BusyChunk>, false, {}, {}};
-  (detail::declare<Access>(world, system.accesses), ...);
-  system.run = [function, handles = std::tuple<Access...>(Access(world)...)](Chunk chunk) {
+  [[maybe_unused]] const detail::Opener opener{world, &system.accesses};
+  system.run = [function,
+                handles = std::tuple<Access...>{opener.template open<Access>()...}](Chunk chunk) {
     std::apply([&](const auto&... handle) { function(C{chunk}, handle...); }, handles);
   };
   detail::check_chunk_writes(system);
@@ -65,8 +76,9 @@ System make_system(World& world, std::string name, void (*function)(Access...),
                    When when = When::every_step) {
   System system{
       std::move(name), when, false, false, (std::is_same_v<Access, SmallTasks> || ...), {}, {}};
-  (detail::declare<Access>(world, system.accesses), ...);
-  system.run = [function, handles = std::tuple<Access...>(Access(world)...)](Chunk) {
+  [[maybe_unused]] const detail::Opener opener{world, &system.accesses};
+  system.run = [function,
+                handles = std::tuple<Access...>{opener.template open<Access>()...}](Chunk) {
     std::apply([&](const auto&... handle) { function(handle...); }, handles);
   };
   return system;

@@ -64,22 +64,68 @@ std::vector<std::pair<int, int>> reduced_edges(const std::vector<StagePlan>& sta
   return edges;
 }
 
-// The systems of each stage, as positions in the list.
-std::vector<std::vector<std::size_t>> group(const std::vector<System>& systems) {
-  std::vector<std::vector<std::size_t>> stages;
+using Stages = std::vector<std::vector<std::size_t>>;  // positions in the list
+
+bool systems_conflict(const System& a, const System& b) {
+  return std::ranges::any_of(a.accesses, [&](const AccessInfo& x) {
+    return std::ranges::any_of(b.accesses, [&](const AccessInfo& y) { return conflict(x, y); });
+  });
+}
+
+// Of every system: it works by chunk, and waits for none but such systems.
+std::vector<bool> wait_for_nothing(const std::vector<System>& systems) {
+  std::vector<bool> free(systems.size());
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    const bool joins = i > 0 && systems[i].by_chunk && systems[i - 1].by_chunk;
-    if (!joins) stages.emplace_back();
-    stages.back().push_back(i);
+    free[i] = systems[i].by_chunk;
+    for (std::size_t k = 0; k < i && free[i]; ++k)
+      free[i] = free[k] || !systems_conflict(systems[k], systems[i]);
+  }
+  return free;
+}
+
+// Consecutive chunk systems are one pass; of `apart`, those that wait for nothing, before the others.
+Stages consecutive(const std::vector<System>& systems, const std::vector<bool>& apart) {
+  Stages stages;
+  std::size_t i = 0;
+  while (i < systems.size()) {
+    std::vector<std::size_t> first, rest;
+    do (apart[i] ? first : rest).push_back(i);
+    while (systems[i++].by_chunk && i < systems.size() && systems[i].by_chunk);
+    if (!first.empty()) stages.push_back(std::move(first));
+    if (!rest.empty()) stages.push_back(std::move(rest));
   }
   return stages;
 }
 
+// Where the pass `from` goes on: the next pass, unless a stage between the two must come after the one and before
+// the other. None: the number of stages.
+std::size_t next_pass(const std::vector<System>& systems, const Stages& stages, std::size_t from) {
+  std::size_t next = from + 1;
+  for (; next < stages.size() && !systems[stages[next].front()].by_chunk; ++next)
+    for (const std::size_t i : stages[from])
+      if (systems_conflict(systems[i], systems[stages[next].front()])) return stages.size();
+  return next;
+}
+
 }  // namespace
 
-GraphPlan derive_plan(const std::vector<System>& systems) {
+Stages stages_of(const std::vector<System>& systems, Passes passes) {
+  std::vector<bool> apart(systems.size());
+  if (passes == Passes::beside) apart = wait_for_nothing(systems);
+  Stages stages = consecutive(systems, apart);
+  for (std::size_t s = stages.size(); s-- > 0;) {
+    if (!systems[stages[s].front()].by_chunk || apart[stages[s].front()]) continue;
+    const std::size_t next = next_pass(systems, stages, s);
+    if (next == stages.size()) continue;
+    stages[next].insert(stages[next].begin(), stages[s].begin(), stages[s].end());
+    stages.erase(stages.begin() + static_cast<std::ptrdiff_t>(s));
+  }
+  return stages;
+}
+
+GraphPlan derive_plan(const std::vector<System>& systems, Passes passes) {
   GraphPlan plan;
-  for (const auto& members : group(systems)) {
+  for (const auto& members : stages_of(systems, passes)) {
     StagePlan stage;
     stage.by_chunk = systems[members.front()].by_chunk;
     for (const std::size_t i : members) {
@@ -92,14 +138,14 @@ GraphPlan derive_plan(const std::vector<System>& systems) {
   return plan;
 }
 
-std::vector<TypeKey> droppable_components(const std::vector<System>& systems) {
+std::vector<TypeKey> droppable_components(const std::vector<System>& systems, Passes passes) {
   struct Use {
     TypeKey key;
     std::size_t stage;
     bool droppable;  // written first, by a pass over the chunks, and touched by no other
   };
   std::vector<Use> uses;
-  const auto stages = group(systems);
+  const Stages stages = stages_of(systems, passes);
   for (std::size_t s = 0; s < stages.size(); ++s)
     for (const std::size_t i : stages[s])
       for (const AccessInfo& access : systems[i].accesses) {
@@ -220,14 +266,14 @@ struct TaskGraph::Flow {
   std::vector<std::unique_ptr<Node>> nodes;
 };
 
-TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Transients transients,
+TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Passes passes, Transients transients,
                      const World* world)
-    : plan_(derive_plan(systems)), flow_(std::make_unique<Flow>()) {
+    : plan_(derive_plan(systems, passes)), flow_(std::make_unique<Flow>()) {
   flow_->systems = std::move(systems);
   flow_->times.assign(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
                       {std::vector<double>(flow_->systems.size())});
   flow_->drops = transients == Transients::dropped;
-  const auto stages = group(flow_->systems);
+  const Stages stages = stages_of(flow_->systems, passes);
   for (std::size_t s = 0; s < stages.size(); ++s) {
     std::vector<const System*> members;
     for (const std::size_t i : stages[s]) members.push_back(&flow_->systems[i]);

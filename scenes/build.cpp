@@ -96,6 +96,7 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
                std::size_t particles) {
   Layout layout;
   layout.bodies.thickness = scene.thickness;
+  layout.bodies.formulation = scene.element.formulation;
   layout.bodies.slot_of_number.assign(particles, Bodies::nobody);
   int control = 0;
   for (std::size_t c = 0; c < classes.size(); ++c) {
@@ -145,17 +146,6 @@ void add_element_columns(World& world, const Needs& needs) {
   }
 }
 
-void add_element_columns(World& world, const Needs& needs) {
-  switch (needs.formulation) {
-    case ElementSpec::Formulation::four_point:
-      return add_element_columns<FourPoint>(world, needs);
-    case ElementSpec::Formulation::one_point:
-      return add_element_columns<OnePoint>(world, needs);
-    case ElementSpec::Formulation::standard:
-      return add_element_columns<Standard>(world, needs);
-  }
-}
-
 void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add_table<Node>(rows_by_chunk(bodies, [](const Shape& s) { return s.nodes.size(); }));
   world.add_table<Element>(rows_by_chunk(bodies, [](const Shape& s) { return s.quads.size(); }));
@@ -163,7 +153,7 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add<Position>();
   world.add<Velocity>();
   world.add<InternalForce>();
-  add_element_columns(world, needs);
+  with_formulation(bodies.formulation, [&]<class F>(F) { add_element_columns<F>(world, needs); });
   world.add<ShearModulus>();
   world.add<BulkModulus>();
   world.add<Density>();
@@ -357,6 +347,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
     world->emplace<ContactQuality>();
     ContactRules& rules = world->emplace<ContactRules>(contact_rules(scene));
     find_thinnest(scene, layout.bodies, rules);
+    rules.servos = world->has<ToolServos>();
     ContactIndex& index = world->emplace<ContactIndex>();
     index.skin = scene.contact.skin * rules.shortest_edge;
     index.neighbourhood = skins_of_neighbourhood * index.skin;

@@ -42,15 +42,7 @@ std::uint64_t element_bytes(const Needs& needs) {
 }
 
 std::uint64_t element_bytes(const Needs& needs) {
-  switch (needs.formulation) {
-    case ElementSpec::Formulation::four_point:
-      return element_bytes<FourPoint>(needs);
-    case ElementSpec::Formulation::one_point:
-      return element_bytes<OnePoint>(needs);
-    case ElementSpec::Formulation::standard:
-      return element_bytes<Standard>(needs);
-  }
-  return 0;
+  return with_formulation(needs.formulation, [&]<class F>(F) { return element_bytes<F>(needs); });
 }
 
 std::uint64_t row_bytes(const Needs& needs) {

@@ -16,7 +16,7 @@ struct Needs {
   bool weakening = false;     // and a law beyond Coulomb's
   bool damping = false;       // of contacts
   bool bulk_damping = false;  // of a material
-  ElementSpec::Formulation formulation = ElementSpec::Formulation::one_point;
+  Formulation formulation = Formulation::one_point;
   bool contact() const { return pairs || tools; }
 };
 

@@ -1,7 +1,9 @@
 #include "scenes/simulation.hpp"
 
 #include <algorithm>
+#include <limits>
 
+#include "components/servo.hpp"
 #include "scenes/build.hpp"
 
 namespace pulvis {
@@ -18,9 +20,15 @@ Simulation::~Simulation() {
   workers_.run([&] { step_.reset(); });
 }
 
+double Simulation::end() const {
+  const bool may_end_early = world_->has<StageEnds>();
+  return std::min(clock().end, may_end_early ? world_->resource<StageEnds>().run_end
+                                             : std::numeric_limits<double>::infinity());
+}
+
 void Simulation::run_until(double time, const std::function<bool()>& stop) {
   workers_.run([&] {
-    while (clock().time < std::min(time, clock().end)) {
+    while (clock().time < std::min(time, end())) {
       step_->run();
       if (stop && stop()) return;
     }

@@ -22,7 +22,7 @@ class Simulation {
   const Clock& clock() const { return world_->resource<Clock>(); }
   const GraphPlan& plan() const { return step_->plan(); }
   std::vector<SystemCost> costs() const { return step_->costs(); }
-  bool finished() const { return clock().time >= clock().end; }
+  bool finished() const { return clock().time >= end(); }
 
   // Runs plain steps while t_n < `time` and the end of the run, which may come early; `stop` is asked after every step and ends it early. Afterwards
   // t_n >= time, and positions, but not yet the forces, belong to t_n. Throws RunFailure.
@@ -35,6 +35,7 @@ class Simulation {
   void run_steps(std::int64_t count);
 
  private:
+  double end() const;  // s, of the run
   std::unique_ptr<World> world_;
   Workers workers_;
   std::unique_ptr<Step> step_;

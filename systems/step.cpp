@@ -4,19 +4,33 @@
 
 #include <algorithm>
 
-#include "systems/body/highest_mode.hpp"
 #include "systems/body/systems.hpp"
-#include "systems/contact/lost_bodies.hpp"
-#include "systems/contact/outline_health.hpp"
 #include "systems/contact/systems.hpp"
 #include "systems/observe/systems.hpp"
 #include "systems/tools/systems.hpp"
 
 namespace pulvis {
+namespace {
 
-// Chunks (of eight particles, some 200 kB of state where each has 140 elements) that stay in a processor's
-// last cache from one step to the next.
-constexpr int chunks_in_cache = 64;
+// Systems in order, each where the scene asks for it.
+class SystemList {
+ public:
+  explicit SystemList(World& world, When when = When::every_step) : world_(world), when_(when) {}
+  template <class S>
+  void add(const char* name, bool asked = true) {
+    if (asked) systems_.push_back(make_system<S>(world_, name, when_));
+  }
+  template <class... Accesses>
+  void add(const char* name, bool asked, void (*function)(Accesses...)) {
+    if (asked) systems_.push_back(make_system(world_, name, function, when_));
+  }
+  std::vector<System> taken() { return std::move(systems_); }
+
+ private:
+  World& world_;
+  When when_;
+  std::vector<System> systems_;
+};
 
 // ---- the order of a step: a newcomer's first page ------------------------------------------------
 // F: how the elements of the scene take their stresses (components/formulation.hpp).
@@ -27,92 +41,71 @@ StepList step_list_of(World& w) {
   const bool tools = w.has<ContactPair<ToolContact>>();
   const bool touching = pairs || tools;
   const bool grips = w.has<GripReaction>();
-  StepList step;
-  const auto force = [&](bool asked, const char* name, auto* function) {
-    if (asked) step.forces.push_back(make_system(w, name, function));
-  };
-  const auto observe = [&](bool asked, const char* name, auto* function) {
-    if (asked) step.observe.push_back(make_system(w, name, function, When::on_sample));
-  };
-  const auto move = [&](bool asked, const char* name, auto* function) {
-    if (asked) step.motion.push_back(make_system(w, name, function));
-  };
+  SystemList force(w), observe(w, When::on_sample), move(w);
 
   // clang-format off
-  // Forces of the bodies need no contact. Beside the narrow phase they keep all threads busy to the end of
-  // it; but then bodies are passed over twice in a step, which costs where they come from memory each time.
-  const bool one_pass = w.chunks() > chunks_in_cache;
-  const auto bodies = [&] {
-    force(!plastic, "elastic_stress",   elastic_stress<F>);
-    force(plastic,  "trial_stress",     trial_stress<F>);
-    force(plastic,  "j2_return_map",    j2_return_map<F>);
-    force(true,     "internal_force",   internal_force<F>);
-    force(w.has<DampingForce>(), "damping_force", damping_force<F>);
-    force(true,     "stable_time_step", stable_time_step<F::points>);
-    force(w.has<HighestMode>(), "highest_mode", highest_mode<F::points>);
-  };
+  force.add<tool_motion>                ("tool_motion",       tools || grips);
+  force.add<skin_check>                 ("skin_check",        touching);
+  force.add<bin_edges>                  ("bin_edges",         pairs);
+  force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
+  force.add<edge_contact>               ("edge_contact",      pairs);
+  force.add<tool_contact>               ("tool_contact",      tools);
+  force.add<contact_totals>             ("contact_totals",    touching);
+  force.add<contact_health>             ("contact_health",    touching);
+  force.add<ridge_health>               ("ridge_health",      w.has<SurfaceRange>());
+  force.add<contact_force>              ("contact_force",     touching);
+  force.add<elastic_stress<F>>          ("elastic_stress",    !plastic);
+  force.add<trial_stress<F>>            ("trial_stress",      plastic);
+  force.add                             ("j2_return_map",     plastic, j2_return_map<F>);
+  force.add<internal_force<F>>          ("internal_force");
+  force.add<damping_force<F>>           ("damping_force",     w.has<DampingForce>());
+  force.add<stable_time_step<F::points>>("stable_time_step");
+  force.add<highest_mode<F::points>>    ("highest_mode",      w.has<HighestMode>());
+  force.add<hold_grips>                 ("hold_grips",        grips);
+  force.add<tool_reaction>              ("tool_reaction",     tools || grips);
+  force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
+  force.add<tool_servo>                 ("tool_servo",        w.has<ToolServos>());
 
-  const auto drives = [&] {
-    force(w.has<StageEnds>(),  "stage_control", stage_control);
-    force(w.has<ToolServos>(), "tool_servo",    tool_servo);
-  };
+  observe.add<lost_bodies>              ("lost_bodies",       tools);
+  observe.add<outline_health>           ("outline_health",    touching || grips);
+  observe.add<kinetic_energy>           ("kinetic_energy");
+  observe.add<elastic_energy<F>>        ("elastic_energy");
+  observe.add<plastic_work<F>>          ("plastic_work",      plastic);
+  observe.add<hourglass_energy>         ("hourglass_energy",  F::stabilised);
+  observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress>());
+  observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork>());
+  observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
+  observe.add<force_chains>             ("force_chains",      w.has<ForceChains>());
+  observe.add<local_density>            ("local_density",     w.has<DensityGrid>());
 
-  force(tools || grips, "tool_motion", tool_motion);
-  force(touching, "skin_check",       skin_check);
-  force(pairs,    "bin_edges",        bin_edges);
-  force(tools,    "bin_tool_edges",   bin_tool_edges);
-  force(pairs,    "edge_contact",     edge_contact);
-  force(tools,    "tool_contact",     tool_contact);
-  if (!one_pass) bodies();
-  force(touching, "contact_totals",   contact_totals);
-  force(touching, "contact_health",   contact_health);
-  force(w.has<SurfaceRange>(), "ridge_health", ridge_health);
-  force(tools && !grips, "tool_reaction", tool_reaction);
-  if (!grips) drives();
-  // One pass over the chunks from here to the end of the step.
-  force(touching, "contact_force",    contact_force);
-  if (one_pass) bodies();
-  force(grips,    "hold_grips",       hold_grips);
-  force(grips,    "tool_reaction",    tool_reaction);  // theirs is known last
-  if (grips) drives();
-
-  observe(tools,   "lost_bodies",     lost_bodies);
-  observe(touching || grips, "outline_health", outline_health);
-  observe(true,    "kinetic_energy",  kinetic_energy);
-  observe(true,    "elastic_energy",  elastic_energy<F>);
-  observe(plastic, "plastic_work",    plastic_work<F>);
-  observe(F::stabilised, "hourglass_energy", hourglass_energy);
-  observe(w.has<ParticleStress>(), "particle_stress", particle_stress<F>);
-  observe(w.has<ContactNetwork>(), "contact_network", contact_network);
-  observe(w.has<ContactQuality>(), "contact_quality", contact_quality);
-  observe(w.has<ForceChains>(), "force_chains", force_chains);
-  observe(w.has<DensityGrid>(), "local_density", local_density);
-
-  move(true,      "integrate",        integrate);
-  move(touching,  "contact_curve",    contact_curve);
-  move(true,      "element_health",   element_health);
-  move(true,      "advance_clock",    advance_clock);
+  move.add<integrate>                   ("integrate");
+  move.add<contact_curve>               ("contact_curve",     touching);
+  move.add<element_health>              ("element_health");
+  move.add<advance_clock>               ("advance_clock");
   // clang-format on
-  return step;
+  return {force.taken(), observe.taken(), move.taken()};
 }
 
+template <class F>
+std::vector<System> start_list_of(World& w) {
+  SystemList start(w);
+  start.add<contact_curve>("contact_curve", w.has<CurvePosition>());
+  start.add<stable_time_step<F::points>>("stable_time_step");
+  start.add<highest_mode<F::points>>("highest_mode", w.has<HighestMode>());
+  start.add<first_time_step>("first_time_step");
+  return start.taken();
+}
+
+Formulation formulation(const World& w) { return w.resource<Bodies>().formulation; }
+
+}  // namespace
+
 StepList step_list(World& w) {
-  if (w.has<DeviatoricStress<OnePoint::points>>()) return step_list_of<OnePoint>(w);
-  if (w.has<MeanStress<Standard::volumes>>()) return step_list_of<Standard>(w);
-  return step_list_of<FourPoint>(w);
+  return with_formulation(formulation(w), [&]<class F>(F) { return step_list_of<F>(w); });
 }
 
 std::vector<System> start_list(World& w) {
-  std::vector<System> start;
-  if (w.has<CurvePosition>()) start.push_back(make_system(w, "contact_curve", contact_curve));
-  start.push_back(w.has<DeviatoricStress<1>>()
-                      ? make_system(w, "stable_time_step", stable_time_step<1>)
-                      : make_system(w, "stable_time_step", stable_time_step<4>));
-  if (w.has<HighestMode>())
-    start.push_back(w.has<DeviatoricStress<1>>() ? make_system(w, "highest_mode", highest_mode<1>)
-                                                 : make_system(w, "highest_mode", highest_mode<4>));
-  start.push_back(make_system(w, "first_time_step", first_time_step));
-  return start;
+  return with_formulation(formulation(w), [&]<class F>(F) { return start_list_of<F>(w); });
 }
 
 namespace {
@@ -127,9 +120,18 @@ std::vector<System> whole_step(World& world) {
   return joined(step_list(world).forces, step_list(world).motion);
 }
 
+// Chunks (of eight particles, some 200 kB of state where each has 140 elements) that stay in a processor's
+// last cache from one step to the next.
+constexpr int chunks_in_cache = 64;
+
+bool from_memory(const World& world) { return world.chunks() > chunks_in_cache; }
+Passes passes_of(const World& world) {
+  return from_memory(world) ? Passes::fewest : Passes::beside;
+}
+
 // Room for the transient components of every thread that may run the step.
 World& with_transients(World& world) {
-  world.allocate_transient(droppable_components(whole_step(world)),
+  world.allocate_transient(droppable_components(whole_step(world), passes_of(world)),
                            tbb::this_task_arena::max_concurrency());
   return world;
 }
@@ -138,9 +140,10 @@ World& with_transients(World& world) {
 
 Step::Step(World& world)
     : world_(with_transients(world)),
-      whole_(whole_step(world), world.chunks(), Transients::dropped,
-             world.chunks() > chunks_in_cache ? &world : nullptr),
-      observed_(joined(step_list(world).forces, step_list(world).observe), world.chunks()),
+      whole_(whole_step(world), world.chunks(), passes_of(world), Transients::dropped,
+             from_memory(world) ? &world : nullptr),
+      observed_(joined(step_list(world).forces, step_list(world).observe), world.chunks(),
+                passes_of(world)),
       motion_(step_list(world).motion, world.chunks()) {}
 
 void Step::start() { TaskGraph(start_list(world_), world_.chunks()).run(); }

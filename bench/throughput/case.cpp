@@ -76,7 +76,7 @@ void slow_down(World& world, double factor) {
 }  // namespace
 
 const std::vector<Case>& cases() {
-  using enum ElementSpec::Formulation;
+  using enum Formulation;
   constexpr const char* regular = "compaction/regular-100.toml";
   static const std::vector<Case> all{
       {"100", regular, 0, 0, 0.03, 240, one_point},

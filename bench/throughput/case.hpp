@@ -20,7 +20,7 @@ struct Case {
       columns = 0;  // of its first packing, and of a die around it; 0: as the scene has them
   double compression = 0.03;  // of the height, before anything is timed
   int batch = 0;  // steps that are timed at once; the stable time step is looked at every 8
-  ElementSpec::Formulation formulation = ElementSpec::Formulation::one_point;
+  Formulation formulation = Formulation::one_point;
 };
 
 const std::vector<Case>& cases();

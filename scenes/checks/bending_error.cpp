@@ -13,8 +13,6 @@ constexpr double least_slenderness = 3;  // squat bodies hardly bend
 constexpr double most_error = 0.1;       // more is told
 constexpr double good_error = 0.02;
 
-using Formulation = ElementSpec::Formulation;
-
 struct Rows {
   int across = 0;
   double aspect = 0;  // -, length along the body over height of an element

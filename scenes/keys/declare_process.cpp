@@ -192,7 +192,7 @@ const TableDeclaration<ElementSpec>& element() {
          .fallback = value_of("one-point"),
          .doc = "Where an element takes its stresses."},
         [](ElementSpec& spec, const Decoded& value) {
-          spec.formulation = static_cast<ElementSpec::Formulation>(value.index);
+          spec.formulation = static_cast<Formulation>(value.index);
         }}}};
   return declaration;
 }

@@ -79,9 +79,8 @@ ElementColumns columns_of(const World& world) {
           F::volumes};
 }
 ElementColumns element_columns(const World& world) {
-  if (world.has<DeviatoricStress<OnePoint::points>>()) return columns_of<OnePoint>(world);
-  if (world.has<MeanStress<Standard::volumes>>()) return columns_of<Standard>(world);
-  return columns_of<FourPoint>(world);
+  return with_formulation(world.resource<Bodies>().formulation,
+                          [&]<class F>(F) { return columns_of<F>(world); });
 }
 
 double mean_of(const Lane* values, int count, int lane) {

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "components/formulation.hpp"
 #include "scenes/language/source_mark.hpp"
 #include "scenes/language/vec2.hpp"
 
@@ -293,7 +294,7 @@ struct TimeSpec {
 };
 
 struct ElementSpec {
-  enum class Formulation { four_point, one_point, standard } formulation = Formulation::one_point;
+  Formulation formulation = Formulation::one_point;
 };
 
 struct OutputSpec {

@@ -24,7 +24,7 @@ struct Viscosity {
 };
 
 // An element's map now, half a step back, and that of its velocities.
-struct Motion {
+struct Maps {
   Map now, middle, rate;
 };
 
@@ -39,7 +39,7 @@ struct PointRate {
   kernels::Matrix2<Lane> map;
   Lane before, now;
 };
-PointRate point_rate(const Motion& m, double xi, double eta) {
+PointRate point_rate(const Maps& m, double xi, double eta) {
   const auto a = kernels::map_gradient(m.middle, xi, eta);
   const auto now = kernels::map_gradient(m.now, xi, eta);
   return {kernels::strain_rate(a, kernels::map_gradient(m.rate, xi, eta)), now, determinant(a),
@@ -47,8 +47,7 @@ PointRate point_rate(const Motion& m, double xi, double eta) {
 }
 
 // One point, and the bending that it does not see.
-Flux viscous_flux(OnePoint, const Motion& m, const Viscosity& v, const Shape& shape,
-                  std::size_t e) {
+Flux viscous_flux(OnePoint, const Maps& m, const Viscosity& v, const Shape& shape, std::size_t e) {
   const double area = shape.centre[e][0].determinant;
   const PointRate at = point_rate(m, 0, 0);
   const Lane theta = at.now * (4 / area);
@@ -67,7 +66,7 @@ Flux viscous_flux(OnePoint, const Motion& m, const Viscosity& v, const Shape& sh
 
 // Four points; with a mean dilatation, or each with its own.
 template <class F>
-Flux viscous_flux(F, const Motion& m, const Viscosity& v, const Shape& shape, std::size_t e) {
+Flux viscous_flux(F, const Maps& m, const Viscosity& v, const Shape& shape, std::size_t e) {
   PointRate at[4];
   Lane dilatation{}, before{}, now{};
   double area = 0;
@@ -121,31 +120,27 @@ Lane power(const Shape& shape, const Forces& force, const Velocities& v) {
 }  // namespace
 
 template <class F>
-[[gnu::flatten]] void damping_force(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
-                                    Read<Position> position, Read<Velocity> velocity,
-                                    Read<Density> density, Read<ShearModulus> mu,
-                                    Read<BulkModulus> bulk, Read<MassDamping> alpha,
-                                    Read<StiffnessDamping> beta, Write<DampingForce> damping,
-                                    Write<DampingWork> work, Write<InternalForce> internal) {
+[[gnu::flatten]] void damping_force<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto x = position.chunk(chunk);
-  const auto v = velocity.chunk(chunk);
+  const auto x = motion.position.chunk(chunk);
+  const auto v = motion.velocity.chunk(chunk);
   const auto force = damping.chunk(chunk);
   // The first force acts for half a step (systems/body/integrate.cpp).
   const double start = clock->step == 1 ? 0.5 : 1.0;
   const Lane before = start * power(shape, force, v);
 
-  const Lane drag =
-      alpha.chunk(chunk)(particle) * density.chunk(chunk)(particle) * bodies->thickness;
+  const Lane drag = constants.mass.chunk(chunk)(particle) *
+                    material.density.chunk(chunk)(particle) * bodies->thickness;
   for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
     for (int k = 0; k < 2; ++k)
       force(Row<Node>(i), k) =
           -(shape.nodal_area[static_cast<std::size_t>(i)] * drag) * v(Row<Node>(i), k);
 
-  const Lane viscous = beta.chunk(chunk)(particle);
+  const Lane viscous = constants.stiffness.chunk(chunk)(particle);
   if (any(viscous > 0.0)) {
-    const Lane shear = mu.chunk(chunk)(particle), k = bulk.chunk(chunk)(particle);
+    const Lane shear = material.elastic.shear.chunk(chunk)(particle),
+               k = material.elastic.bulk.chunk(chunk)(particle);
     const Viscosity viscosity{2.0 * viscous * shear, viscous * k,
                               viscous * kernels::plane_strain_modulus(shear, k)};
     add_viscous_forces<F>(shape, x, v, viscosity, 0.5 * clock->dt_before, bodies->thickness, force);
@@ -156,8 +151,8 @@ template <class F>
   for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
     for (int k = 0; k < 2; ++k) f(Row<Node>(i), k) += force(Row<Node>(i), k);
 }
-template decltype(damping_force<FourPoint>) damping_force<FourPoint>;
-template decltype(damping_force<Standard>) damping_force<Standard>;
-template decltype(damping_force<OnePoint>) damping_force<OnePoint>;
+template struct damping_force<FourPoint>;
+template struct damping_force<Standard>;
+template struct damping_force<OnePoint>;
 
 }  // namespace pulvis

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "components/run_state.hpp"
+#include "components/bundles.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/time_step_kernel.hpp"
 
@@ -33,12 +33,11 @@ inline Lane corner_factor(const kernels::QuadMap<Lane>& map) {
 
 // What particles with that highest rho omega^2 can stand, bulk damping included.
 inline Lane stable_step(Chunk chunk, Lane density, Lane highest,
-                        const Optional<Read<MassDamping>>& alpha,
-                        const Optional<Read<StiffnessDamping>>& beta) {
-  if (!alpha) return 2.0 * sqrt(density / highest);
+                        const Optional<BulkDamping>& damping) {
+  if (!damping) return 2.0 * sqrt(density / highest);
   const Row<Particle> particle;
-  return kernels::damped_step<Lane>(highest / density, alpha->chunk(chunk)(particle),
-                                    beta->chunk(chunk)(particle));
+  return kernels::damped_step<Lane>(highest / density, damping->mass.chunk(chunk)(particle),
+                                    damping->stiffness.chunk(chunk)(particle));
 }
 
 // Least L/A of an element's edges on the outline; infinite where it has none.

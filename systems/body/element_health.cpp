@@ -12,9 +12,8 @@
 
 namespace pulvis {
 
-void element_health(Read<Bodies> bodies, Read<Clock> clock, Read<LeastJacobian> least,
-                    Read<WorstElement> worst, Write<Totals> totals) {
-  const auto values = least.values();
+void element_health::operator()() const {
+  const auto values = worst.value.values();
   for (std::size_t slot = 0; slot < values.size(); ++slot) {
     totals->least_jacobian = std::min(totals->least_jacobian, values[slot]);
     if (values[slot] > 0) continue;  // NaN is not
@@ -22,7 +21,7 @@ void element_health(Read<Bodies> bodies, Read<Clock> clock, Read<LeastJacobian> 
         "trial_stress: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the "
         "element "
         "turned inside out; allowed > 0 (is a tool too fast, or the mesh too coarse for the load?)",
-        bodies->slots[slot].number, static_cast<int>(worst.values()[slot]), values[slot],
+        bodies->slots[slot].number, static_cast<int>(worst.element.values()[slot]), values[slot],
         clock->step, clock->time));
   }
 }

@@ -12,11 +12,9 @@
 
 namespace pulvis {
 
-void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Density> density,
-                    Read<InternalForce> internal, Optional<Read<ContactForce>> contact,
-                    Read<Velocity> velocity, Write<KineticEnergy> energy) {
+void kinetic_energy::operator()(Chunk chunk) const {
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto f = internal.chunk(chunk);
+  const auto f = forces.internal.chunk(chunk);
   const auto v = velocity.chunk(chunk);
   const Lane mass_per_area = density.chunk(chunk)(Row<Particle>()) * bodies->thickness;
   const double half = 0.5 * (clock->dt_before + clock->dt);
@@ -26,8 +24,8 @@ void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<De
     const Lane mass = mass_per_area * shape.nodal_area[static_cast<std::size_t>(i)];
     for (int k = 0; k < 2; ++k) {
       Lane force = f(n, k);
-      if (contact && i < shape.boundary_nodes)
-        force += contact->chunk(chunk)(Row<BoundaryNode>(i), k);
+      if (forces.contact && i < shape.boundary_nodes)
+        force += forces.contact->chunk(chunk)(Row<BoundaryNode>(i), k);
       total += 0.5 * v(n, k) * (mass * v(n, k) + force * half);
     }
   }
@@ -35,14 +33,11 @@ void kinetic_energy(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<De
 }
 
 template <class F>
-[[gnu::flatten]] void elastic_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
-                                     Read<ShearModulus> mu, Read<BulkModulus> bulk,
-                                     Optional<Read<PlasticMetric<F::points>>> metric,
-                                     Write<ElasticEnergy> energy) {
+[[gnu::flatten]] void elastic_energy<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto nodes = x.chunk(chunk);
-  const Lane shear = mu.chunk(chunk)(particle), k = bulk.chunk(chunk)(particle);
+  const auto nodes = position.chunk(chunk);
+  const Lane shear = elastic.shear.chunk(chunk)(particle), k = elastic.bulk.chunk(chunk)(particle);
   Lane total{};
   const auto add_volumetric = [&](double area, Lane theta) {
     for (int l = 0; l < lane_count; ++l)
@@ -67,14 +62,12 @@ template <class F>
   }
   energy.chunk(chunk)(particle) = total * bodies->thickness;
 }
-template decltype(elastic_energy<FourPoint>) elastic_energy<FourPoint>;
-template decltype(elastic_energy<Standard>) elastic_energy<Standard>;
-template decltype(elastic_energy<OnePoint>) elastic_energy<OnePoint>;
+template struct elastic_energy<FourPoint>;
+template struct elastic_energy<Standard>;
+template struct elastic_energy<OnePoint>;
 
 template <class F>
-void plastic_work(Chunk chunk, Read<Bodies> bodies, Read<YieldStress> sigma_y,
-                  Read<HardeningModulus> hardening, Read<PlasticStrain<F::points>> eps,
-                  Optional<Read<HourglassWork>> hourglass, Write<PlasticWork> work) {
+void plastic_work<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
   // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
@@ -91,19 +84,17 @@ void plastic_work(Chunk chunk, Read<Bodies> bodies, Read<YieldStress> sigma_y,
   if (hourglass) total -= hourglass->chunk(chunk)(particle);
   work.chunk(chunk)(particle) = total;
 }
-template decltype(plastic_work<FourPoint>) plastic_work<FourPoint>;
-template decltype(plastic_work<Standard>) plastic_work<Standard>;
-template decltype(plastic_work<OnePoint>) plastic_work<OnePoint>;
+template struct plastic_work<FourPoint>;
+template struct plastic_work<Standard>;
+template struct plastic_work<OnePoint>;
 
-void hourglass_energy(Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
-                      Read<BulkModulus> bulk, Read<HourglassStress> stress,
-                      Optional<Read<HourglassWork>> spent, Write<HourglassEnergy> energy) {
+void hourglass_energy::operator()(Chunk chunk) const {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const Lane shear = mu.chunk(chunk)(particle);
-  const Lane modulus = kernels::plane_strain_modulus(shear, bulk.chunk(chunk)(particle));
+  const Lane shear = elastic.shear.chunk(chunk)(particle);
+  const Lane modulus = kernels::plane_strain_modulus(shear, elastic.bulk.chunk(chunk)(particle));
   const auto m = stress.chunk(chunk);
-  const auto nodes = x.chunk(chunk);
+  const auto nodes = position.chunk(chunk);
   Lane total{};
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);

@@ -8,11 +8,11 @@
 //          an iteration every fourth look follows it
 // Runs     after stable_time_step, when that does
 // Active   where the scene says time.estimate = "highest-mode"
-#include "systems/body/highest_mode.hpp"
+#include <limits>
 
-#include "components/servo.hpp"
 #include "systems/body/element_bound.hpp"
 #include "systems/body/highest_mode_kernel.hpp"
+#include "systems/body/systems.hpp"
 
 namespace pulvis {
 namespace {
@@ -92,9 +92,9 @@ constexpr double little_damping = 0.3;
 
 // k K of the springs on the outline. A dashpot c that answers half a step late costs what a spring of 2 c/dt
 // does; no step is shorter than the elements' bound, which stands for dt.
-Lane contact_modulus(const ContactRules& rules, double stiffening, const Shape& shape, bool servos,
+Lane contact_modulus(const ContactRules& rules, double stiffening, const Shape& shape,
                      const Lane& bulk, const Lane& rho, const Lane& step) {
-  if (rules.damping == 0 || (!servos && rules.damping <= little_damping))
+  if (rules.damping == 0 || (!rules.servos && rules.damping <= little_damping))
     return rules.stiffness * (stiffening + 2 * rules.damping) * bulk;
   double softest = std::numeric_limits<double>::infinity();
   for (const Shape::Edge& edge : shape.edges) softest = std::min(softest, edge.stiffness);
@@ -105,45 +105,42 @@ Lane contact_modulus(const ContactRules& rules, double stiffening, const Shape& 
 }  // namespace
 
 template <int Points>
-[[gnu::flatten]] void highest_mode(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
-                                   Read<Position> x, Read<ShearModulus> mu, Read<BulkModulus> bulk,
-                                   Read<Density> density, Read<DeviatoricStress<Points>> s,
-                                   Optional<Read<ContactRules>> rules,
-                                   Optional<Read<ContactSupport>> support,
-                                   Optional<Read<MassDamping>> alpha,
-                                   Optional<Read<StiffnessDamping>> beta,
-                                   Optional<Read<ToolServos>> servos, Write<HighestMode> mode,
-                                   Write<ModeGain> gain, Write<StableTimeStep> stable) {
+[[gnu::flatten]] void highest_mode<Points>::operator()(Chunk chunk) const {
   if (clock->step < clock->next_look) return;
-  const auto known = gain.chunk(chunk);
+  const auto known = estimate.gain.chunk(chunk);
   const Row<Particle> particle;
-  Lane& step = stable.chunk(chunk)(particle);
+  Lane& step = estimate.stable.chunk(chunk)(particle);
   if (clock->step > 0 && known(particle, 1)[0] < looks_between_iterations) {
     known(particle, 1) += 1.0;
     step *= known(particle, 0);
     return;
   }
-  const Lane k = bulk.chunk(chunk)(particle), rho = density.chunk(chunk)(particle);
+  const Lane k = material.elastic.bulk.chunk(chunk)(particle),
+             rho = material.density.chunk(chunk)(particle);
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const Lane contact = rules ? contact_modulus(**rules, clock->stiffening, shape,
-                                               static_cast<bool>(servos), k, rho, step)
-                             : Lane{};
-  Body<Points> body{shape,  x.chunk(chunk), s.chunk(chunk), nullptr, k, mu.chunk(chunk)(particle),
+  const Lane contact =
+      springs ? contact_modulus(*springs->rules, clock->stiffening, shape, k, rho, step) : Lane{};
+  Body<Points> body{shape,
+                    position.chunk(chunk),
+                    deviator.chunk(chunk),
+                    nullptr,
+                    k,
+                    material.elastic.shear.chunk(chunk)(particle),
                     contact};
   using Support = ChunkView<ContactSupport, const Lane*>;
-  const Support springs = support ? support->chunk(chunk) : Support(nullptr);
-  if (support) body.support = &springs;
+  const Support support = springs ? springs->support.chunk(chunk) : Support(nullptr);
+  if (springs) body.support = &support;
 
   Lane highest{};
   for (int i = 0; i < (clock->step == 0 ? first_iterations : 1); ++i)
-    highest = iterate(body, mode.chunk(chunk));
-  const Lane estimate = margin * stable_step(chunk, rho, highest, alpha, beta);
-  known(particle, 0) = max(1.0, min(estimate / step, longest_gain));
+    highest = iterate(body, estimate.mode.chunk(chunk));
+  const Lane longest = margin * stable_step(chunk, rho, highest, damping);
+  known(particle, 0) = max(1.0, min(longest / step, longest_gain));
   known(particle, 1) = 1.0;
   step *= known(particle, 0);
 }
 
-template decltype(highest_mode<1>) highest_mode<1>;
-template decltype(highest_mode<4>) highest_mode<4>;
+template struct highest_mode<1>;
+template struct highest_mode<4>;
 
 }  // namespace pulvis

@@ -9,12 +9,9 @@
 
 namespace pulvis {
 
-[[gnu::flatten]] void integrate(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock,
-                                Read<Density> density, Read<InternalForce> internal,
-                                Optional<Read<ContactForce>> contact, Write<Velocity> velocity,
-                                Write<Position> position) {
+[[gnu::flatten]] void integrate::operator()(Chunk chunk) const {
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto f = internal.chunk(chunk);
+  const auto f = forces.internal.chunk(chunk);
   const auto v = velocity.chunk(chunk);
   const auto x = position.chunk(chunk);
   const double dt = clock->dt;
@@ -28,8 +25,8 @@ namespace pulvis {
   };
 
   int n = 0;
-  if (contact) {
-    const auto g = contact->chunk(chunk);
+  if (forces.contact) {
+    const auto g = forces.contact->chunk(chunk);
     for (; n < shape.boundary_nodes; ++n)
       for (int k = 0; k < 2; ++k)
         move(Row<Node>(n), k, f(Row<Node>(n), k) + g(Row<BoundaryNode>(n), k));

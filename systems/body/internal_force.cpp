@@ -15,7 +15,7 @@ namespace {
 using Map = kernels::QuadMap<Lane>;
 using Flux = kernels::QuadFlux<Lane>;
 
-struct Bending {
+struct BendingViews {
   ChunkView<HourglassStress, const Lane*> stress;
   Lane mu;
   bool folding;  // some corner of the chunk's elements is about to fold
@@ -25,7 +25,7 @@ template <class F>
 struct Views {
   ChunkView<DeviatoricStress<F::points>, const Lane*> s;
   ChunkView<MeanStress<F::volumes>, const Lane*> p;
-  const Bending* bending;  // null: not stabilised
+  const BendingViews* bending;  // null: not stabilised
 };
 
 Flux stress_flux(const Views<FourPoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
@@ -103,26 +103,21 @@ void chunk_force(BusyChunk chunk, const Views<F>& views, const ChunkView<Positio
 }  // namespace
 
 template <class F>
-[[gnu::flatten]] void internal_force(BusyChunk chunk, Read<Bodies> bodies, Read<Position> x,
-                                     Read<DeviatoricStress<F::points>> s,
-                                     Read<MeanStress<F::volumes>> p, Read<ShearModulus> mu,
-                                     Optional<Read<HourglassStress>> hourglass,
-                                     Optional<Read<LeastCorner>> least_corner,
-                                     Write<InternalForce> force) {
+[[gnu::flatten]] void internal_force<F>::operator()(BusyChunk chunk) const {
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  Views<F> views{s.chunk(chunk), p.chunk(chunk), nullptr};
+  Views<F> views{stress.deviator.chunk(chunk), stress.mean.chunk(chunk), nullptr};
   if constexpr (F::stabilised) {
     const Row<Particle> particle;
-    const Bending bending{hourglass->chunk(chunk), mu.chunk(chunk)(particle),
-                          any(least_corner->chunk(chunk)(particle) < kernels::folding)};
-    views.bending = &bending;
-    chunk_force(chunk, views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+    const BendingViews modes{bending->stress.chunk(chunk), shear.chunk(chunk)(particle),
+                             any(bending->least_corner.chunk(chunk)(particle) < kernels::folding)};
+    views.bending = &modes;
+    chunk_force(chunk, views, position.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
   } else {
-    chunk_force(chunk, views, x.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+    chunk_force(chunk, views, position.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
   }
 }
-template decltype(internal_force<FourPoint>) internal_force<FourPoint>;
-template decltype(internal_force<Standard>) internal_force<Standard>;
-template decltype(internal_force<OnePoint>) internal_force<OnePoint>;
+template struct internal_force<FourPoint>;
+template struct internal_force<Standard>;
+template struct internal_force<OnePoint>;
 
 }  // namespace pulvis

@@ -53,15 +53,13 @@ void add_element(const Shape& shape, int i, const Nodes& x, const Deviators& s, 
 }  // namespace
 
 template <class F>
-void particle_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
-                     Read<DeviatoricStress<F::points>> s, Read<MeanStress<F::volumes>> p,
-                     Write<ParticleStress> stress, Write<DeformedArea> area,
-                     Write<ParticleCentre> centre) {
+void particle_stress<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
   Sums sums;
   for (int i = 0; i < shape.elements(); ++i)
-    add_element<F>(shape, i, x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), sums);
+    add_element<F>(shape, i, position.chunk(chunk), element.deviator.chunk(chunk),
+                   element.mean.chunk(chunk), sums);
   const auto mean = stress.chunk(chunk);
   mean(particle, 0) = (sums.xx + sums.mean) / sums.area;
   mean(particle, 1) = (sums.yy + sums.mean) / sums.area;
@@ -71,8 +69,8 @@ void particle_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
   centre.chunk(chunk)(particle, 0) = sums.x / sums.area;
   centre.chunk(chunk)(particle, 1) = sums.y / sums.area;
 }
-template decltype(particle_stress<FourPoint>) particle_stress<FourPoint>;
-template decltype(particle_stress<Standard>) particle_stress<Standard>;
-template decltype(particle_stress<OnePoint>) particle_stress<OnePoint>;
+template struct particle_stress<FourPoint>;
+template struct particle_stress<Standard>;
+template struct particle_stress<OnePoint>;
 
 }  // namespace pulvis

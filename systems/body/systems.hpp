@@ -1,68 +1,178 @@
-// Systems of the bodies, by signature. What a system reads and writes is what it declares here; systems/step.cpp puts
-// them in order.
+// Systems of the bodies. What a system reads and writes is what it declares here, once; systems/step.cpp puts them in
+// order, and each is described at the top of its own file.
 // F: the formulation of the elements (components/formulation.hpp).
 #pragma once
 
-#include "components/contact.hpp"
+#include "components/bundles.hpp"
+#include "components/highest_mode.hpp"
 #include "components/observed.hpp"
-#include "components/run_state.hpp"
-#include "components/servo.hpp"
-#include "components/surface.hpp"
-#include "engine/access.hpp"
 #include "engine/look_ahead.hpp"
 
 namespace pulvis {
 
+// ---- stresses and forces ------------------------------------------------------------------------
 template <class F>
-void elastic_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                    Write<DeviatoricStress<F::points>>, Write<MeanStress<F::volumes>>,
-                    Optional<Write<HourglassStress>>, Optional<Write<LeastCorner>>,
-                    Write<LeastJacobian>, Write<WorstElement>);
+struct elastic_stress {
+  Read<Bodies> bodies;
+  Read<Position> position;
+  Elasticity elastic;
+  ElementStress<Write, F> stress;
+  Optional<Bending<Write>> bending;
+  WorstJacobian<Write> worst;
+  void operator()(Chunk chunk) const;
+};
+
 template <class F>
-void trial_stress(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                  Read<PlasticMetric<F::points>>, Optional<Read<PlasticHourglass>>,
-                  Write<IsochoricScale<F::points>>, Write<DeviatoricStress<F::points>>,
-                  Write<MeanStress<F::volumes>>, Optional<Write<HourglassStress>>,
-                  Optional<Write<LeastCorner>>, Write<LeastJacobian>, Write<WorstElement>);
+struct trial_stress {
+  Read<Bodies> bodies;
+  Read<Position> position;
+  Elasticity elastic;
+  struct Plastic {
+    Read<PlasticMetric<F::points>> metric;
+    Optional<Read<PlasticHourglass>> hourglass;
+    Write<IsochoricScale<F::points>> isochoric;
+  } plastic;
+  ElementStress<Write, F> stress;
+  Optional<Bending<Write>> bending;
+  WorstJacobian<Write> worst;
+  void operator()(Chunk chunk) const;
+};
+
 template <class F>
 void j2_return_map(BusyChunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
                    Read<YieldStress>, Read<HardeningModulus>, Read<IsochoricScale<F::points>>,
                    Write<DeviatoricStress<F::points>>, Write<PlasticMetric<F::points>>,
                    Write<PlasticStrain<F::points>>, Optional<Write<HourglassStress>>,
                    Optional<Write<PlasticHourglass>>, Optional<Write<HourglassWork>>);
+
 template <class F>
-void internal_force(BusyChunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<F::points>>,
-                    Read<MeanStress<F::volumes>>, Read<ShearModulus>,
-                    Optional<Read<HourglassStress>>, Optional<Read<LeastCorner>>,
-                    Write<InternalForce>);
+struct internal_force {
+  Read<Bodies> bodies;
+  Read<Position> position;
+  ElementStress<Read, F> stress;
+  Read<ShearModulus> shear;
+  Optional<Bending<Read>> bending;
+  Write<InternalForce> force;
+  void operator()(BusyChunk chunk) const;
+};
+
 template <class F>
-void damping_force(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<Velocity>, Read<Density>,
-                   Read<ShearModulus>, Read<BulkModulus>, Read<MassDamping>, Read<StiffnessDamping>,
-                   Write<DampingForce>, Write<DampingWork>, Write<InternalForce>);
-void kinetic_energy(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalForce>,
-                    Optional<Read<ContactForce>>, Read<Velocity>, Write<KineticEnergy>);
-template <class F>
-void elastic_energy(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                    Optional<Read<PlasticMetric<F::points>>>, Write<ElasticEnergy>);
-template <class F>
-void plastic_work(Chunk, Read<Bodies>, Read<YieldStress>, Read<HardeningModulus>,
-                  Read<PlasticStrain<F::points>>, Optional<Read<HourglassWork>>,
-                  Write<PlasticWork>);
-void hourglass_energy(Chunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                      Read<HourglassStress>, Optional<Read<HourglassWork>>, Write<HourglassEnergy>);
-template <class F>
-void particle_stress(Chunk, Read<Bodies>, Read<Position>, Read<DeviatoricStress<F::points>>,
-                     Read<MeanStress<F::volumes>>, Write<ParticleStress>, Write<DeformedArea>,
-                     Write<ParticleCentre>);
-void integrate(Chunk, Read<Bodies>, Read<Clock>, Read<Density>, Read<InternalForce>,
-               Optional<Read<ContactForce>>, Write<Velocity>, Write<Position>);
+struct damping_force {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Motion motion;
+  Material material;
+  BulkDamping constants;
+  Write<DampingForce> damping;
+  Write<DampingWork> work;
+  Write<InternalForce> internal;
+  void operator()(Chunk chunk) const;
+};
+
+// ---- motion, and the steps that it can take -----------------------------------------------------
+struct integrate {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<Density> density;
+  NodalForces<Read> forces;
+  Write<Velocity> velocity;
+  Write<Position> position;
+  void operator()(Chunk chunk) const;
+};
+
 template <int Points>
-void stable_time_step(Chunk, Read<Bodies>, Read<Clock>, Read<Position>, Read<ShearModulus>,
-                      Read<BulkModulus>, Read<Density>, Read<DeviatoricStress<Points>>,
-                      Optional<Read<ContactRules>>, Optional<Read<MassDamping>>,
-                      Optional<Read<StiffnessDamping>>, Optional<Read<ToolServos>>,
-                      Write<StableTimeStep>);
-void element_health(Read<Bodies>, Read<Clock>, Read<LeastJacobian>, Read<WorstElement>,
-                    Write<Totals>);
+struct stable_time_step {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<Position> position;
+  Material material;
+  Read<DeviatoricStress<Points>> deviator;
+  Optional<Read<ContactRules>> rules;
+  Optional<BulkDamping> damping;
+  Write<StableTimeStep> stable;
+  void operator()(Chunk chunk) const;
+};
+
+template <int Points>
+struct highest_mode {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<Position> position;
+  Material material;
+  Read<DeviatoricStress<Points>> deviator;
+  struct Springs {
+    Read<ContactSupport> support;
+    Read<ContactRules> rules;
+  };
+  Optional<Springs> springs;
+  Optional<BulkDamping> damping;
+  struct Estimate {
+    Write<HighestMode> mode;
+    Write<ModeGain> gain;
+    Write<StableTimeStep> stable;
+  } estimate;
+  void operator()(Chunk chunk) const;
+};
+
+struct element_health {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  WorstJacobian<Read> worst;
+  Write<Totals> totals;
+  void operator()() const;
+};
+
+// ---- on sampled steps -----------------------------------------------------------------------------
+struct kinetic_energy {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<Density> density;
+  NodalForces<Read> forces;
+  Read<Velocity> velocity;
+  Write<KineticEnergy> energy;
+  void operator()(Chunk chunk) const;
+};
+
+template <class F>
+struct elastic_energy {
+  Read<Bodies> bodies;
+  Read<Position> position;
+  Elasticity elastic;
+  Optional<Read<PlasticMetric<F::points>>> metric;
+  Write<ElasticEnergy> energy;
+  void operator()(Chunk chunk) const;
+};
+
+template <class F>
+struct plastic_work {
+  Read<Bodies> bodies;
+  Read<YieldStress> sigma_y;
+  Read<HardeningModulus> hardening;
+  Read<PlasticStrain<F::points>> eps;
+  Optional<Read<HourglassWork>> hourglass;
+  Write<PlasticWork> work;
+  void operator()(Chunk chunk) const;
+};
+
+struct hourglass_energy {
+  Read<Bodies> bodies;
+  Read<Position> position;
+  Elasticity elastic;
+  Read<HourglassStress> stress;
+  Optional<Read<HourglassWork>> spent;
+  Write<HourglassEnergy> energy;
+  void operator()(Chunk chunk) const;
+};
+
+template <class F>
+struct particle_stress {
+  Read<Bodies> bodies;
+  Read<Position> position;
+  ElementStress<Read, F> element;
+  Write<ParticleStress> stress;
+  Write<DeformedArea> area;
+  Write<ParticleCentre> centre;
+  void operator()(Chunk chunk) const;
+};
 
 }  // namespace pulvis

@@ -11,7 +11,6 @@
 #include <span>
 
 #include "components/run_state.hpp"
-#include "components/servo.hpp"
 #include "engine/access.hpp"
 #include "systems/body/element_bound.hpp"
 #include "systems/body/systems.hpp"
@@ -39,19 +38,15 @@ Lane late_frequency(const ContactRules& rules, double stiffening, const Shape& s
 }  // namespace
 
 template <int Points>
-[[gnu::flatten]] void stable_time_step(
-    Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<Position> x, Read<ShearModulus> mu,
-    Read<BulkModulus> bulk, Read<Density> density, Read<DeviatoricStress<Points>> s,
-    Optional<Read<ContactRules>> rules, Optional<Read<MassDamping>> alpha,
-    Optional<Read<StiffnessDamping>> beta, Optional<Read<ToolServos>> servos,
-    Write<StableTimeStep> stable) {
+[[gnu::flatten]] void stable_time_step<Points>::operator()(Chunk chunk) const {
   if (clock->step < clock->next_look) return;
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto nodes = x.chunk(chunk);
-  const auto stress = s.chunk(chunk);
-  const Lane k = bulk.chunk(chunk)(particle), rho = density.chunk(chunk)(particle);
-  const Lane shear = mu.chunk(chunk)(particle), over_shear = 1.0 / shear;
+  const auto nodes = position.chunk(chunk);
+  const auto stress = deviator.chunk(chunk);
+  const Lane k = material.elastic.bulk.chunk(chunk)(particle),
+             rho = material.density.chunk(chunk)(particle);
+  const Lane shear = material.elastic.shear.chunk(chunk)(particle), over_shear = 1.0 / shear;
   // Enough for little damping, within what `safety` leaves; with more, `late` says what it takes.
   const double contact =
       rules ? (*rules)->stiffness * (clock->stiffening + 2 * (*rules)->damping) : 0;
@@ -71,15 +66,15 @@ template <int Points>
       late = max(late, late_frequency(**rules, clock->stiffening, shape, at, k, solid));
   }
   Lane& step = stable.chunk(chunk)(particle);
-  step = stable_step(chunk, rho, highest, alpha, beta);
+  step = stable_step(chunk, rho, highest, damping);
   if (!damped) return;
   // A servo's tool lives on the whole of what `safety` leaves; without one, what is known to be too strict in
   // the bound need not be paid for.
-  const Lane longest = stable_step(chunk, rho, late, alpha, beta);
-  step = servos ? min(longest, step) : min(too_strict / clock->safety * longest, step);
+  const Lane longest = stable_step(chunk, rho, late, damping);
+  step = (*rules)->servos ? min(longest, step) : min(too_strict / clock->safety * longest, step);
 }
 
-template decltype(stable_time_step<1>) stable_time_step<1>;
-template decltype(stable_time_step<4>) stable_time_step<4>;
+template struct stable_time_step<1>;
+template struct stable_time_step<4>;
 
 }  // namespace pulvis

@@ -22,6 +22,14 @@ struct Views {
   Lane mu, bulk;
 };
 
+template <class F>
+Views<F> views_of(const Read<Position>& position, const ElementStress<Write, F>& stress,
+                  const Elasticity& elastic, Chunk chunk) {
+  const Row<Particle> particle;
+  return {position.chunk(chunk), stress.deviator.chunk(chunk), stress.mean.chunk(chunk),
+          elastic.shear.chunk(chunk)(particle), elastic.bulk.chunk(chunk)(particle)};
+}
+
 // Elements with one point: the trial stress of their hourglass modes, over the plastic part `gone`.
 struct HourglassViews {
   ChunkView<HourglassStress, Lane*> stress;
@@ -89,16 +97,14 @@ void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
 // `gone`: null for elastic material.
 template <class F, class LeftCauchyGreen>
 void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
-                  const Optional<Write<HourglassStress>>& bending,
+                  const Optional<Bending<Write>>& bending,
                   const Optional<Read<PlasticHourglass>>* gone,
-                  const Optional<Write<LeastCorner>>& least_corner,
-                  Write<LeastJacobian> least_jacobian, Write<WorstElement> worst_element,
-                  const LeftCauchyGreen& left) {
+                  const WorstJacobian<Write>& worst_jacobian, const LeftCauchyGreen& left) {
   std::optional<ChunkView<PlasticHourglass, const Lane*>> plastic;
   std::optional<HourglassViews> hourglass;
   if constexpr (F::stabilised) {
     if (gone != nullptr) plastic = (*gone)->chunk(chunk);
-    hourglass = {bending->chunk(chunk), plastic ? &*plastic : nullptr,
+    hourglass = {bending->stress.chunk(chunk), plastic ? &*plastic : nullptr,
                  kernels::plane_strain_modulus(v.mu, v.bulk), 1e300};
   }
   const Shape& shape = bodies.shape_of_chunk(chunk);
@@ -108,54 +114,38 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
         element_stress<F>(v, hourglass ? &*hourglass : nullptr, shape, Row<Element>(i), left),
         Row<Element>(i), worst, which);
   if constexpr (F::stabilised)
-    least_corner->chunk(chunk)(Row<Particle>()) = hourglass->least_corner;
-  least_jacobian.chunk(chunk)(Row<Particle>()) = worst;
-  worst_element.chunk(chunk)(Row<Particle>()) = which;
+    bending->least_corner.chunk(chunk)(Row<Particle>()) = hourglass->least_corner;
+  worst_jacobian.value.chunk(chunk)(Row<Particle>()) = worst;
+  worst_jacobian.element.chunk(chunk)(Row<Particle>()) = which;
 }
 
 }  // namespace
 
 template <class F>
-[[gnu::flatten]] void trial_stress(
-    Chunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
-    Read<BulkModulus> bulk, Read<PlasticMetric<F::points>> metric,
-    Optional<Read<PlasticHourglass>> gone, Write<IsochoricScale<F::points>> isochoric,
-    Write<DeviatoricStress<F::points>> s, Write<MeanStress<F::volumes>> p,
-    Optional<Write<HourglassStress>> bending, Optional<Write<LeastCorner>> least_corner,
-    Write<LeastJacobian> least, Write<WorstElement> worst) {
-  const Row<Particle> particle;
-  const Views<F> views{x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
-                       bulk.chunk(chunk)(particle)};
-  const auto c = metric.chunk(chunk);
-  const auto scale = isochoric.chunk(chunk);
+[[gnu::flatten]] void trial_stress<F>::operator()(Chunk chunk) const {
+  const Views<F> views = views_of<F>(position, stress, elastic, chunk);
+  const auto c = plastic.metric.chunk(chunk);
+  const auto scale = plastic.isochoric.chunk(chunk);
   const auto left = [&](const kernels::Matrix2<Lane>& f, Lane r, Row<Element> e, int g) {
     scale(e, g) = r;
     return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
   };
-  chunk_stress<F>(chunk, *bodies, views, bending, &gone, least_corner, least, worst, left);
+  chunk_stress<F>(chunk, *bodies, views, bending, &plastic.hourglass, worst, left);
 }
-template decltype(trial_stress<FourPoint>) trial_stress<FourPoint>;
-template decltype(trial_stress<Standard>) trial_stress<Standard>;
-template decltype(trial_stress<OnePoint>) trial_stress<OnePoint>;
+template struct trial_stress<FourPoint>;
+template struct trial_stress<Standard>;
+template struct trial_stress<OnePoint>;
 
 template <class F>
-[[gnu::flatten]] void elastic_stress(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
-                                     Read<ShearModulus> mu, Read<BulkModulus> bulk,
-                                     Write<DeviatoricStress<F::points>> s,
-                                     Write<MeanStress<F::volumes>> p,
-                                     Optional<Write<HourglassStress>> bending,
-                                     Optional<Write<LeastCorner>> least_corner,
-                                     Write<LeastJacobian> least, Write<WorstElement> worst) {
-  const Row<Particle> particle;
-  const Views<F> views{x.chunk(chunk), s.chunk(chunk), p.chunk(chunk), mu.chunk(chunk)(particle),
-                       bulk.chunk(chunk)(particle)};
+[[gnu::flatten]] void elastic_stress<F>::operator()(Chunk chunk) const {
+  const Views<F> views = views_of<F>(position, stress, elastic, chunk);
   const auto left = [](const kernels::Matrix2<Lane>& f, Lane, Row<Element>, int) {
     return kernels::left_cauchy_green(f);
   };
-  chunk_stress<F>(chunk, *bodies, views, bending, nullptr, least_corner, least, worst, left);
+  chunk_stress<F>(chunk, *bodies, views, bending, nullptr, worst, left);
 }
-template decltype(elastic_stress<FourPoint>) elastic_stress<FourPoint>;
-template decltype(elastic_stress<Standard>) elastic_stress<Standard>;
-template decltype(elastic_stress<OnePoint>) elastic_stress<OnePoint>;
+template struct elastic_stress<FourPoint>;
+template struct elastic_stress<Standard>;
+template struct elastic_stress<OnePoint>;
 
 }  // namespace pulvis

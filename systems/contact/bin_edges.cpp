@@ -76,26 +76,25 @@ struct PairLaw {
 
 template <class At>
 void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw& law,
-             const Write<ContactPair<At>>& pair, const Write<ContactLaw<At>>& of_row,
-             const Optional<Write<FrictionMore<At>>>& more) {
+             const NewRows<At>& rows) {
   const Shape::Edge& edge =
       bodies.shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
   using Law = ContactLaw<At>;
-  pair(row, 0) = key.slot;
-  pair(row, 1) = key.edge;
-  pair(row, 2) = key.other;
-  of_row(row, Law::stiffness) = law.kappa;
-  of_row(row, Law::friction) = law.friction.coefficient;
-  if (more) {
+  rows.pair(row, 0) = key.slot;
+  rows.pair(row, 1) = key.edge;
+  rows.pair(row, 2) = key.other;
+  rows.law(row, Law::stiffness) = law.kappa;
+  rows.law(row, Law::friction) = law.friction.coefficient;
+  if (rows.more) {
     using More = FrictionMore<At>;
-    (*more)(row, More::drop) = law.friction.drop;
-    (*more)(row, More::over_decay) = law.friction.over_decay;
-    (*more)(row, More::strength) = law.friction.strength;
+    (*rows.more)(row, More::drop) = law.friction.drop;
+    (*rows.more)(row, More::over_decay) = law.friction.over_decay;
+    (*rows.more)(row, More::strength) = law.friction.strength;
   }
-  of_row(row, Law::damping) = law.damping;
-  of_row(row, Law::over_length) = 1 / edge.length;
+  rows.law(row, Law::damping) = law.damping;
+  rows.law(row, Law::over_length) = 1 / edge.length;
   for (std::size_t g = 0; g < edge_points; ++g)
-    of_row(row, Law::weight + static_cast<int>(g)) = edge.weight[g] * bodies.thickness;
+    rows.law(row, Law::weight + static_cast<int>(g)) = edge.weight[g] * bodies.thickness;
 }
 
 // kappa = k K L/A of the sampled edge in series with the other outline's mean, like two springs: a disc
@@ -153,48 +152,45 @@ bool any_fold_touches(const Write<ContactPair<Contact>>& pair,
 
 }  // namespace
 
-void bin_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
-               Read<Density> density, Read<CurvePosition> control, Write<ContactIndex> index,
-               Structural<Contact> structure, Write<ContactPair<Contact>> pair,
-               Write<ContactLaw<Contact>> law, Read<ContactTouches<Contact>> touches,
-               Write<ContactReach<Contact>> reach, Write<ContactPlace> place,
-               Write<ClosestPoint> closest, Optional<Write<FrictionMore<Contact>>> more) {
+void bin_edges::operator()() const {
   if (!index->due) return;
+  const ContactRules& rules = *material.rules;
   BySlot<std::int32_t> neighbours =
       particle_neighbours(*bodies, control.values(), index->neighbourhood);
   BySlot<EdgeCandidate> found = edge_candidates(*bodies, control.values(), neighbours, index->skin);
-  if (any_fold_touches(pair, touches))
-    found = with_touching_folds(index->sampled_begin, pair, touches, found);
-  const std::vector<std::int32_t> source = match(index->sampled_begin, pair, found);
+  if (any_fold_touches(rows.pair, touches))
+    found = with_touching_folds(index->sampled_begin, rows.pair, touches, found);
+  const std::vector<std::int32_t> source = match(index->sampled_begin, rows.pair, found);
   structure.rebuild(source);
 
   tbb::parallel_for(std::size_t{0}, found.all.size(), [&](std::size_t r) {
     const Row<Contact> row(static_cast<std::int64_t>(r));
     const RowKey key = key_of(found.all[r]);
     const auto& slots = bodies->slots;
-    const double kappa = pair_stiffness(*rules, bulk.values(), *bodies, key);
-    const double rho = std::min(density.values()[static_cast<std::size_t>(key.slot)],
-                                density.values()[static_cast<std::size_t>(key.other)]);
+    const double kappa = pair_stiffness(rules, material.bulk.values(), *bodies, key);
+    const double rho = std::min(material.density.values()[static_cast<std::size_t>(key.slot)],
+                                material.density.values()[static_cast<std::size_t>(key.other)]);
     const Shape::Edge& edge =
         bodies->shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
     set_row(row, *bodies, key,
             {kappa,
-             rules->friction_between(slots[static_cast<std::size_t>(key.slot)].material,
-                                     slots[static_cast<std::size_t>(key.other)].material),
-             damping_of(*rules, kappa, rho, edge)},
-            pair, law, more);
+             rules.friction_between(slots[static_cast<std::size_t>(key.slot)].material,
+                                    slots[static_cast<std::size_t>(key.other)].material),
+             damping_of(rules, kappa, rho, edge)},
+            rows);
     // An outline against itself is looked for anew: its closest points may have gone home along it (edge_contact).
     const bool again = found.all[r].faces && touches(row) == 0;
     const bool known = source[r] >= 0 && !again;
     // What was found to be the far side of a thin part stays that.
-    if (!(known && reach(row) == far_side)) reach(row) = 0;
-    place(row, 0) = slots[static_cast<std::size_t>(key.slot)].first_control + edge.first_control;
-    place(row, 1) = slots[static_cast<std::size_t>(key.other)].first_control;
+    if (!(known && rows.reach(row) == far_side)) rows.reach(row) = 0;
+    curves.place(row, 0) =
+        slots[static_cast<std::size_t>(key.slot)].first_control + edge.first_control;
+    curves.place(row, 1) = slots[static_cast<std::size_t>(key.other)].first_control;
     if (known) return;
     const int start = bodies->shape_of_slot(key.other)
                           .edges[static_cast<std::size_t>(found.all[r].start)]
                           .first_control;
-    for (int g = 0; g < edge_points; ++g) closest(row, g) = start + 0.5;
+    for (int g = 0; g < edge_points; ++g) curves.closest(row, g) = start + 0.5;
   });
   list_other_rows(found, *index);
   index->sampled_begin = std::move(found.begin);
@@ -225,29 +221,24 @@ double least_distance(const double* points, Point at, Point normal) {
 
 // Edges within `skin` of a tool's surface, or behind it.
 BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const double> control,
-                                      const Read<ToolPosition>& position,
-                                      const Read<ToolNormal>& normal,
-                                      const Optional<Read<ToolShapes>>& shapes, double skin) {
-  const auto is = [&](int tool, ToolShapes::Kind kind) {
-    return shapes ? (*shapes)->is(tool, kind) : kind == ToolShapes::Kind::plane;
-  };
+                                      const ToolSurfaces& tools, double skin) {
   return list_by_slot<ToolCandidate>(
       static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ToolCandidate>& found) {
         const Bodies::Slot& s = bodies.slots[static_cast<std::size_t>(slot)];
         if (s.number == Bodies::nobody) return;
         const auto& edges = bodies.shape_of_slot(slot).edges;
         for (std::int32_t e = 0; e < static_cast<std::int32_t>(edges.size()); ++e)
-          for (int t = 0; t < position.rows(); ++t) {
+          for (int t = 0; t < tools.position.rows(); ++t) {
             const Row<Tool> tool(t);
             const Shape::Edge& edge = edges[static_cast<std::size_t>(e)];
             const double* points = control.data() + 2 * (s.first_control + edge.first_control);
-            const Point at{position(tool, 0), position(tool, 1)};
-            if (is(t, ToolShapes::Kind::plane)) {
-              if (least_distance(points, at, {normal(tool, 0), normal(tool, 1)}) < skin)
+            const Point at{tools.position(tool, 0), tools.position(tool, 1)};
+            if (tools.is(t, ToolShapes::Kind::plane)) {
+              if (least_distance(points, at, {tools.normal(tool, 0), tools.normal(tool, 1)}) < skin)
                 found.push_back({slot, e, t, {}});
-            } else if (is(t, ToolShapes::Kind::polyline)) {
+            } else if (tools.is(t, ToolShapes::Kind::polyline)) {
               const PieceRange range =
-                  near_pieces((*shapes)->surface_of(t), at, points, skin + edge.length);
+                  near_pieces((*tools.shapes)->surface_of(t), at, points, skin + edge.length);
               if (!range.empty()) found.push_back({slot, e, t, range});
             }
           }
@@ -256,30 +247,23 @@ BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const doub
 
 }  // namespace
 
-void bin_tool_edges(Read<Bodies> bodies, Read<ContactRules> rules, Read<BulkModulus> bulk,
-                    Read<Density> density, Read<CurvePosition> control,
-                    Read<ToolPosition> tool_position, Read<ToolNormal> tool_normal,
-                    Write<ContactIndex> index, Structural<ToolContact> structure,
-                    Write<ContactPair<ToolContact>> pair, Write<ContactLaw<ToolContact>> law,
-                    Write<ContactReach<ToolContact>> reach, Optional<Read<ToolShapes>> shapes,
-                    Optional<Write<SurfaceRange>> range,
-                    Optional<Write<FrictionMore<ToolContact>>> more) {
+void bin_tool_edges::operator()() const {
   if (!index->due) return;
-  BySlot<ToolCandidate> found =
-      tool_candidates(*bodies, control.values(), tool_position, tool_normal, shapes, index->skin);
-  structure.rebuild(match(index->tool_begin, pair, found));
+  const ContactRules& rules = *material.rules;
+  BySlot<ToolCandidate> found = tool_candidates(*bodies, control.values(), tools, index->skin);
+  structure.rebuild(match(index->tool_begin, rows.pair, found));
   for (std::size_t r = 0; r < found.all.size(); ++r) {
     const Row<ToolContact> row(static_cast<std::int64_t>(r));
     const RowKey key = key_of(found.all[r]);
     const auto slot = static_cast<std::size_t>(key.slot);
     const Shape::Edge& edge =
         bodies->shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
-    const double kappa = rules->stiffness * bulk.values()[slot] * edge.stiffness;
+    const double kappa = rules.stiffness * material.bulk.values()[slot] * edge.stiffness;
     set_row(row, *bodies, key,
-            {kappa, rules->friction_with_tool(key.other, bodies->slots[slot].material),
-             damping_of(*rules, kappa, density.values()[slot], edge)},
-            pair, law, more);
-    reach(row) = 0;
+            {kappa, rules.friction_with_tool(key.other, bodies->slots[slot].material),
+             damping_of(rules, kappa, material.density.values()[slot], edge)},
+            rows);
+    rows.reach(row) = 0;
     if (!range) continue;
     (*range)(row, 0) = found.all[r].range.first;
     (*range)(row, 1) = found.all[r].range.last;

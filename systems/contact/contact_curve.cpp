@@ -43,13 +43,10 @@ void put(const View& list, int control_points, int c, const ControlLanes& y) {
 
 }  // namespace
 
-[[gnu::flatten]] void contact_curve(Chunk chunk, Read<Bodies> bodies, Read<Position> x,
-                                    Read<Velocity> v, Write<CurvePosition> position,
-                                    Optional<Write<CurveVelocity>> velocity,
-                                    Write<MaximumSpeed> speed) {
+[[gnu::flatten]] void contact_curve::operator()(Chunk chunk) const {
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto nodes = x.chunk(chunk);
-  const auto rates = v.chunk(chunk);
+  const auto nodes = motion.position.chunk(chunk);
+  const auto rates = motion.velocity.chunk(chunk);
   Lane fastest{};
   const int count = shape.control_points();
   for (int c = 0; c < count; ++c) {

@@ -118,16 +118,7 @@ void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const
 
 }  // namespace
 
-[[gnu::flatten]] void contact_force(Chunk chunk, Read<Bodies> bodies, Read<ContactIndex> index,
-                                    Optional<Read<ContactPlace>> place,
-                                    Optional<Read<ContactTouches<Contact>>> touches,
-                                    Optional<Read<PointForce<Contact>>> point_force,
-                                    Optional<Read<ClosestPoint>> closest,
-                                    Optional<Read<FrictionCouple>> couple,
-                                    Optional<Read<ContactPair<ToolContact>>> tool_pair,
-                                    Optional<Read<ContactTouches<ToolContact>>> tool_touches,
-                                    Optional<Read<PointForce<ToolContact>>> tool_force,
-                                    Write<CurveForce> curve_force, Write<ContactForce> node_force) {
+[[gnu::flatten]] void contact_force::operator()(Chunk chunk) const {
   static const auto by_point = basis_by_point();
   const Polynomial& n = basis();
   const Shape& shape = bodies->shape_of_chunk(chunk);
@@ -143,21 +134,21 @@ void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const
     if (!from_memory || slot + 1 >= index->sampled_begin.size()) return;
     for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
       const Row<Contact> row(r);
-      if ((*touches)(row) == 0) continue;
-      prefetch(&(*place)(row));
-      prefetch(&(*point_force)(row));
+      if (pairs->touching.rows.touches(row) == 0) continue;
+      prefetch(&pairs->place(row));
+      prefetch(&pairs->touching.rows.force(row));
     }
   };
   const auto fetch_other = [&](std::size_t k) {
     if (!from_memory) return;
     const auto& rows = index->other_rows;
-    if (k + 48 < rows.size()) prefetch(&(*touches)(Row<Contact>(rows[k + 48])));
+    if (k + 48 < rows.size()) prefetch(&pairs->touching.rows.touches(Row<Contact>(rows[k + 48])));
     if (k + 24 >= rows.size()) return;
     const Row<Contact> row(rows[k + 24]);
-    if ((*touches)(row) == 0) return;
-    prefetch(&(*closest)(row));
-    prefetch(&(*point_force)(row));
-    if (couple) prefetch(&(*couple)(row));
+    if (pairs->touching.rows.touches(row) == 0) return;
+    prefetch(&pairs->touching.closest(row));
+    prefetch(&pairs->touching.rows.force(row));
+    if (pairs->couple) prefetch(&(*pairs->couple)(row));
   };
 
   const auto sampled = [&](const double* force, double* own, int edge) {
@@ -167,28 +158,28 @@ void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto slot = static_cast<std::size_t>(lane_count * chunk.index + lane);
     double* own = all + static_cast<std::size_t>(lane) * numbers;
-    if (place) {
+    if (pairs) {
       const int first_control = bodies->slots[slot].first_control;
       fetch_sampled(slot + 1);
       for (int r = index->sampled_begin[slot]; r < index->sampled_begin[slot + 1]; ++r) {
         const Row<Contact> row(r);
-        if ((*touches)(row) != 0)
-          sampled(&(*point_force)(row), own, (*place)(row, 0) - first_control);
+        if (pairs->touching.rows.touches(row) != 0)
+          sampled(&pairs->touching.rows.force(row), own, pairs->place(row, 0) - first_control);
       }
       for (int k = index->other_begin[slot]; k < index->other_begin[slot + 1]; ++k) {
         fetch_other(static_cast<std::size_t>(k));
         const Row<Contact> row(index->other_rows[static_cast<std::size_t>(k)]);
-        if ((*touches)(row) != 0)
-          add_other(n, &(*closest)(row), &(*point_force)(row), couple ? &(*couple)(row) : nullptr,
-                    own, touched);
+        if (pairs->touching.rows.touches(row) != 0)
+          add_other(n, &pairs->touching.closest(row), &pairs->touching.rows.force(row),
+                    pairs->couple ? &(*pairs->couple)(row) : nullptr, own, touched);
       }
     }
-    if (tool_pair) {
+    if (tools) {
       for (int r = index->tool_begin[slot]; r < index->tool_begin[slot + 1]; ++r) {
         const Row<ToolContact> row(r);
-        if ((*tool_touches)(row) != 0)
-          sampled(&(*tool_force)(row), own,
-                  shape.edges[static_cast<std::size_t>((*tool_pair)(row, 1))].first_control);
+        if (tools->touches(row) != 0)
+          sampled(&tools->force(row), own,
+                  shape.edges[static_cast<std::size_t>(tools->pair(row, 1))].first_control);
       }
     }
   }

@@ -22,48 +22,42 @@ using PartnerName = std::function<std::string(int)>;
 
 template <class At>
 void check_rows(const Bodies& bodies, const Clock& clock, double limit, const char* system,
-                const PartnerName& partner, const Read<ContactPair<At>>& pair,
-                const ContactSums<At>& sums, double& deepest) {
+                const PartnerName& partner, const RowsInSum<At>& rows, double& deepest) {
   BlockSums worst;
-  for (const BlockSums& block : sums.blocks)
+  for (const BlockSums& block : rows.sums->blocks)
     if (block.deepest >= 0) book_depth(Row<At>(block.deepest), block.depth, worst);
   deepest = std::max(deepest, worst.depth);
   if (worst.depth <= limit) return;  // NaN is not
   const Row<At> row(worst.deepest);
-  const Bodies::Slot& slot = bodies.slots[static_cast<std::size_t>(pair(row, 0))];
+  const Bodies::Slot& slot = bodies.slots[static_cast<std::size_t>(rows.pair(row, 0))];
   const Shape::Edge& edge =
-      bodies.shape_of_slot(pair(row, 0)).edges[static_cast<std::size_t>(pair(row, 1))];
+      bodies.shape_of_slot(rows.pair(row, 0)).edges[static_cast<std::size_t>(rows.pair(row, 1))];
   throw RunFailure(fmt::format(
       "{}: particle {}, edge {} against {}: penetration {:.6g} m is {:.3g} of the edge length at "
       "step {}, t = {:.6g} s; allowed {:.3g} (limits.penetration)",
-      system, slot.number, pair(row, 1), partner(pair(row, 2)), worst.depth * edge.length,
+      system, slot.number, rows.pair(row, 1), partner(rows.pair(row, 2)), worst.depth * edge.length,
       worst.depth, clock.step, clock.time, limit));
 }
 
 }  // namespace
 
-void contact_health(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
-                    Optional<Read<ContactPair<Contact>>> pair,
-                    Optional<Read<ContactSums<Contact>>> sums,
-                    Optional<Read<ContactPair<ToolContact>>> tool_pair,
-                    Optional<Read<ContactSums<ToolContact>>> tool_sums,
-                    Optional<Read<ToolProgram>> program, Write<Totals> totals) {
+void contact_health::operator()() const {
   const double limit = rules->penetration_limit;
   totals->penetration = 0;
-  if (pair)
+  if (pairs)
     check_rows<Contact>(
         *bodies, *clock, limit, "edge_contact",
         [&](int slot) {
           return fmt::format("particle {}", bodies->slots[static_cast<std::size_t>(slot)].number);
         },
-        *pair, **sums, totals->penetration);
-  if (tool_pair)
+        *pairs, totals->penetration);
+  if (tools)
     check_rows<ToolContact>(
         *bodies, *clock, limit, "tool_contact",
         [&](int tool) {
           return fmt::format("tool '{}'", (*program)->names[static_cast<std::size_t>(tool)]);
         },
-        *tool_pair, **tool_sums, totals->penetration);
+        *tools, totals->penetration);
   totals->worst_penetration = std::max(totals->worst_penetration, totals->penetration);
 }
 

@@ -5,13 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "components/contact.hpp"
-#include "components/run_state.hpp"
-#include "engine/access.hpp"
 #include "engine/deal.hpp"
 #include "engine/lane_memory.hpp"
 #include "engine/prefetch.hpp"
 #include "systems/contact/contact_kernel.hpp"
+#include "systems/contact/systems.hpp"
 #include "systems/laws/friction.hpp"
 #include "systems/laws/normal_contact.hpp"
 
@@ -57,19 +55,6 @@ struct RowMotion {
   Lane gap_rate;    // m/s
   Lane slip_rate;   // m/s, along t = (-ny, nx)
   Lane over_slope;  // 1/m, 1/|x'| of the other curve; where it has one
-};
-
-// The columns of a row; elastic slip only in scenes with friction.
-template <class At>
-struct RowColumns {
-  Read<ContactPair<At>> pair;
-  Write<ContactTouches<At>> touches;
-  Write<ContactReach<At>> reach;
-  Read<ContactLaw<At>> law;
-  Write<PointForce<At>> force;
-  Optional<Write<ElasticSlip<At>>> elastic_slip;
-  Optional<Read<FrictionMore<At>>> more;
-  Optional<Write<StaticLost<At>>> lost;
 };
 
 // Reach of a row of an outline against itself that sees its own neighbourhood or the far side of a thin part.

@@ -27,16 +27,15 @@ BlockSums sum_of(const std::vector<BlockSums>& blocks) {
 // Damping by the trapezoidal rule, like the work of the tools: the forces at both ends of the step times its way, so
 // that none is booked before the first touch. The force before times the rate now is, of a linear damper, the
 // geometric mean of both powers.
-void contact_totals(Read<Clock> clock, Optional<Read<ContactSums<Contact>>> sums,
-                    Optional<Read<ContactSums<ToolContact>>> tool_sums, Write<Totals> totals) {
-  const BlockSums pairs = sums ? sum_of((*sums)->blocks) : BlockSums{};
-  const BlockSums tools = tool_sums ? sum_of((*tool_sums)->blocks) : BlockSums{};
-  totals->touching = pairs.touching + tools.touching;
-  totals->contact_energy = pairs.energy + tools.energy;
-  totals->friction_work += pairs.friction_work;
-  totals->friction_work += tools.friction_work;
+void contact_totals::operator()() const {
+  const BlockSums of_pairs = pairs ? sum_of((*pairs)->blocks) : BlockSums{};
+  const BlockSums of_tools = tools ? sum_of((*tools)->blocks) : BlockSums{};
+  totals->touching = of_pairs.touching + of_tools.touching;
+  totals->contact_energy = of_pairs.energy + of_tools.energy;
+  totals->friction_work += of_pairs.friction_work;
+  totals->friction_work += of_tools.friction_work;
   const double dt = clock->dt_before;
-  const double power = dt > 0 ? (pairs.damping_work + tools.damping_work) / dt : 0;
+  const double power = dt > 0 ? (of_pairs.damping_work + of_tools.damping_work) / dt : 0;
   totals->damping_work += 0.5 * (std::sqrt(totals->damping_power * power) + power) * dt;
   totals->damping_power = power;
 }

@@ -236,23 +236,14 @@ void set_couple(const RowMotion& m, const Lane& along, unsigned touching,
 
 }  // namespace
 
-void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
-                  Optional<Read<CurveVelocity>> velocity, Write<ClosestPoint> closest,
-                  Read<ContactPair<Contact>> pair, Read<ContactPlace> place,
-                  Write<ContactTouches<Contact>> touches, Write<ContactReach<Contact>> reach,
-                  Read<ContactLaw<Contact>> law, Write<PointForce<Contact>> force,
-                  Optional<Write<ElasticSlip<Contact>>> elastic_slip,
-                  Optional<Read<FrictionMore<Contact>>> more,
-                  Optional<Write<StaticLost<Contact>>> lost, Optional<Write<FrictionCouple>> couple,
-                  Write<ContactSums<Contact>> sums) {
-  const RowColumns<Contact> columns{pair, touches, reach, law, force, elastic_slip, more, lost};
-  const double* points = position.values().data();
-  const double* rates = velocity ? velocity->values().data() : nullptr;
+void edge_contact::operator()(SmallTasks) const {
+  const double* points = curves.position.values().data();
+  const double* rates = curves.velocity ? curves.velocity->values().data() : nullptr;
   const auto number = [](std::int32_t control) { return static_cast<std::size_t>(control); };
 
   const auto begin = [&](const RowPair<Contact>& rows) __attribute__((always_inline)) {
     Closest c;
-    c.other = {{pair(rows[0], 2), pair(rows[1], 2)},
+    c.other = {{columns.pair(rows[0], 2), columns.pair(rows[1], 2)},
                {number(place(rows[0], 1)), number(place(rows[1], 1))},
                points,
                rates};
@@ -277,19 +268,19 @@ void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
     return motion;
   };
   const auto nearest_fold = [&](Row<Contact> row, int half, const Closest& c, RowMotion& motion) {
-    const Shape& shape = bodies->shape_of_slot(pair(row, 2));
+    const Shape& shape = bodies->shape_of_slot(columns.pair(row, 2));
     unsigned touched = 0;
-    for (int g = 0; touches(row) != 0 && g < edge_points; ++g)
-      if (force(row, 2 * g) != 0 || force(row, 2 * g + 1) != 0) touched |= 1U << g;
-    return leave_folds(c, half, pair(row, 1), {shape, points + 2 * number(place(row, 1))}, shape,
-                       touched, motion);
+    for (int g = 0; columns.touches(row) != 0 && g < edge_points; ++g)
+      if (columns.force(row, 2 * g) != 0 || columns.force(row, 2 * g + 1) != 0) touched |= 1U << g;
+    return leave_folds(c, half, columns.pair(row, 1), {shape, points + 2 * number(place(row, 1))},
+                       shape, touched, motion);
   };
   const auto act = [&](const RowPair<Contact>& rows, const Closest& c, RowMotion& motion,
                        LaneSums& sum) __attribute__((always_inline)) {
     unsigned touching = 0;
     for (int i = 0; i < rows_in(rows); ++i) {
       const Row<Contact> row = rows[static_cast<std::size_t>(i)];
-      const bool itself = pair(row, 2) == pair(row, 0);
+      const bool itself = columns.pair(row, 2) == columns.pair(row, 0);
       const double nearest = itself ? nearest_fold(row, i, c, motion) : 0;
       if (half_of((motion.gap > 0.0).bits(), i) != 0) {
         touching |= 1U << i;
@@ -321,7 +312,8 @@ void edge_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
     act(b, to_b, of_b, sum);
   };
   for_active_pairs<Contact>(
-      pair.rows(), *sums, [&](Row<Contact> row) { return clock->travel >= reach(row); },
+      columns.pair.rows(), *sums,
+      [&](Row<Contact> row) { return clock->travel >= columns.reach(row); },
       [&](Row<Contact> row) {
         fetch(columns, row);
         prefetch(&place(row));

@@ -3,18 +3,13 @@
 //
 // Runs     on sampled steps
 // Active   when the scene has tools that touch
-#include "systems/contact/lost_bodies.hpp"
-
 #include <fmt/format.h>
 
 #include "engine/run_failure.hpp"
+#include "systems/contact/systems.hpp"
 
 namespace pulvis {
 namespace {
-
-bool is_plane(const Optional<Read<ToolShapes>>& shapes, int tool) {
-  return !shapes || (*shapes)->is(tool, ToolShapes::Kind::plane);
-}
 
 // Mean of the contact curve's control points.
 Point middle_of(const Bodies& bodies, int slot, const Read<CurvePosition>& curve) {
@@ -29,16 +24,14 @@ Point middle_of(const Bodies& bodies, int slot, const Read<CurvePosition>& curve
 
 }  // namespace
 
-void lost_bodies(Read<Bodies> bodies, Read<Clock> clock, Read<ToolProgram> program,
-                 Read<ToolPosition> position, Read<ToolNormal> normal,
-                 Optional<Read<ToolShapes>> shapes, Read<CurvePosition> curve) {
+void lost_bodies::operator()() const {
   for (const int slot : bodies->slot_of_number) {
     const Point middle = middle_of(*bodies, slot, curve);
-    for (int t = 0; t < position.rows(); ++t) {
-      if (!is_plane(shapes, t)) continue;
+    for (int t = 0; t < tools.position.rows(); ++t) {
+      if (!tools.is(t, ToolShapes::Kind::plane)) continue;
       const Row<Tool> tool(t);
-      const double height = (middle[0] - position(tool, 0)) * normal(tool, 0) +
-                            (middle[1] - position(tool, 1)) * normal(tool, 1);
+      const double height = (middle[0] - tools.position(tool, 0)) * tools.normal(tool, 0) +
+                            (middle[1] - tools.position(tool, 1)) * tools.normal(tool, 1);
       if (height >= 0) continue;
       throw RunFailure(fmt::format(
           "lost_bodies: particle {} has gone through tool '{}': its middle is {:.6g} m behind it "

@@ -8,8 +8,6 @@
 // Source   systems/contact/winding_kernel.hpp
 // Runs     on sampled steps
 // Active   when the scene has tools, or more than one particle
-#include "systems/contact/outline_health.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,6 +16,7 @@
 
 #include "engine/run_failure.hpp"
 #include "systems/contact/by_slot.hpp"
+#include "systems/contact/systems.hpp"
 #include "systems/contact/winding_kernel.hpp"
 
 namespace pulvis {
@@ -148,14 +147,13 @@ void look_at(const Boundary& boundary, int slot, double limit, std::vector<Fault
 
 }  // namespace
 
-void outline_health(Read<Bodies> bodies, Read<Clock> clock, Read<Position> x,
-                    Optional<Read<ContactRules>> rules, Optional<Read<Hollows>> hollows) {
+void outline_health::operator()() const {
   const double limit = (rules ? **rules : ContactRules{}).penetration_limit;
   const Hollows* holes = hollows ? &**hollows : nullptr;
   const auto faults = list_by_slot<Fault>(
       static_cast<int>(bodies->slots.size()), [&](int slot, std::vector<Fault>& found) {
         if (bodies->slots[static_cast<std::size_t>(slot)].number == Bodies::nobody) return;
-        look_at(Boundary(*bodies, slot, x, holes), slot, limit, found);
+        look_at(Boundary(*bodies, slot, position, holes), slot, limit, found);
       });
   if (faults.all.empty()) return;
   const Fault& fault = faults.all.front();

@@ -33,18 +33,12 @@ double look_ahead(const ContactIndex& index, double travel) {
   return step > least_left * index.skin ? step : 0;
 }
 
-struct Motion {  // of the outline in a slot since the rows were made
+struct OutlineMotion {  // of the outline in a slot since the rows were made
   Box before, displacement;
 };
 
-struct ToolAccess {
-  const Read<ToolPosition>& position;
-  const Read<ToolNormal>& normal;
-  const Optional<Read<ToolShapes>>& shapes;
-};
-
-Motion motion_of(const double* before, const double* now, int points) {
-  Motion m{box_of(before, points), {}};
+OutlineMotion motion_of(const double* before, const double* now, int points) {
+  OutlineMotion m{box_of(before, points), {}};
   for (int k = 0; k < 2; ++k) {
     m.displacement.low[k] = m.displacement.high[k] = now[k] - before[k];
     for (int i = 1; i < points; ++i) {
@@ -72,7 +66,7 @@ double least_of_slots(const std::vector<int>& slots, const Left& left) {
 
 // Particles that were no neighbours: whichever of all moved most against each other.
 double left_of_strangers(const ContactIndex& index, const std::vector<int>& slots,
-                         const std::vector<Motion>& motion) {
+                         const std::vector<OutlineMotion>& motion) {
   Box all = motion[static_cast<std::size_t>(slots.front())].displacement;
   for (const int slot : slots)
     for (int k = 0; k < 2; ++k) {
@@ -83,7 +77,8 @@ double left_of_strangers(const ContactIndex& index, const std::vector<int>& slot
   return index.neighbourhood - kernels::closing(all, all);
 }
 
-double left_of_neighbours(const ContactIndex& index, const std::vector<Motion>& motion, int slot) {
+double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMotion>& motion,
+                          int slot) {
   const auto s = static_cast<std::size_t>(slot);
   if (index.neighbour_begin.empty()) return 1e300;
   double least = 1e300;
@@ -99,7 +94,7 @@ double left_of_neighbours(const ContactIndex& index, const std::vector<Motion>& 
 }
 
 // Towards a plane only what goes against its normal counts, so that a compact may slide along it.
-double left_of_tools(const ContactIndex& index, const ToolAccess& tools, const Motion& m) {
+double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const OutlineMotion& m) {
   double least = 1e300;
   for (int t = 0; t < tools.position.rows(); ++t) {
     const Row<Tool> tool(t);
@@ -124,16 +119,13 @@ double left_of_tools(const ContactIndex& index, const ToolAccess& tools, const M
 
 }  // namespace
 
-void skin_check(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> control,
-                Optional<Read<ToolPosition>> tool_position, Optional<Read<ToolNormal>> tool_normal,
-                Optional<Read<ToolShapes>> shapes, Write<CurveBefore> before,
-                Write<ContactIndex> index) {
+void skin_check::operator()() const {
   index->due = false;
   const double ahead = look_ahead(*index, clock->travel);
   index->travel_seen = clock->travel;
   if (index->travel_at_bin >= 0) {
     if (clock->travel + ahead < index->look_at) return;
-    std::vector<Motion> motion(bodies->slots.size());
+    std::vector<OutlineMotion> motion(bodies->slots.size());
     const auto& slots = bodies->slot_of_number;
     tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
       const auto s = static_cast<std::size_t>(slots[i]);
@@ -145,12 +137,11 @@ void skin_check(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> cont
     left = std::min(left, least_of_slots(slots, [&](int slot) {
                       return left_of_neighbours(*index, motion, slot);
                     }));
-    if (tool_normal) {
-      const ToolAccess tools{*tool_position, *tool_normal, shapes};
-      left = std::min(left, least_of_slots(slots, [&](int slot) {
-                        return left_of_tools(*index, tools, motion[static_cast<std::size_t>(slot)]);
-                      }));
-    }
+    if (tools)
+      left =
+          std::min(left, least_of_slots(slots, [&](int slot) {
+                     return left_of_tools(*index, *tools, motion[static_cast<std::size_t>(slot)]);
+                   }));
     index->look_at = clock->travel + left;
     if (left > std::max(least_left * index->skin, ahead)) return;
   }
@@ -160,9 +151,9 @@ void skin_check(Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> cont
   index->bins += 1;
   std::ranges::copy(control.values(), before.values().begin());
   index->tools_before.clear();
-  for (int t = 0; tool_position && t < tool_position->rows(); ++t)
+  for (int t = 0; tools && t < tools->position.rows(); ++t)
     index->tools_before.push_back(
-        {(*tool_position)(Row<Tool>(t), 0), (*tool_position)(Row<Tool>(t), 1)});
+        {tools->position(Row<Tool>(t), 0), tools->position(Row<Tool>(t), 1)});
 }
 
 }  // namespace pulvis

@@ -1,52 +1,158 @@
-// Systems of surfaces that meet, by signature. What a system reads and writes is what it declares here; systems/step.cpp puts
-// them in order.
+// Systems of surfaces that meet. What a system reads and writes is what it declares here, once; systems/step.cpp puts
+// them in order, and each is described at the top of its own file.
 #pragma once
 
-#include "components/contact.hpp"
-#include "components/observed.hpp"
-#include "components/run_state.hpp"
-#include "components/servo.hpp"
-#include "components/surface.hpp"
-#include "engine/access.hpp"
+#include "components/bundles.hpp"
+#include "components/hollow.hpp"
 #include "engine/look_ahead.hpp"
 
 namespace pulvis {
 
-void skin_check(Read<Bodies>, Read<Clock>, Read<CurvePosition>, Optional<Read<ToolPosition>>,
-                Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>, Write<CurveBefore>,
-                Write<ContactIndex>);
-void bin_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
-               Read<CurvePosition>, Write<ContactIndex>, Structural<Contact>,
-               Write<ContactPair<Contact>>, Write<ContactLaw<Contact>>,
-               Read<ContactTouches<Contact>>, Write<ContactReach<Contact>>, Write<ContactPlace>,
-               Write<ClosestPoint>, Optional<Write<FrictionMore<Contact>>>);
-void bin_tool_edges(Read<Bodies>, Read<ContactRules>, Read<BulkModulus>, Read<Density>,
-                    Read<CurvePosition>, Read<ToolPosition>, Read<ToolNormal>, Write<ContactIndex>,
-                    Structural<ToolContact>, Write<ContactPair<ToolContact>>,
-                    Write<ContactLaw<ToolContact>>, Write<ContactReach<ToolContact>>,
-                    Optional<Read<ToolShapes>>, Optional<Write<SurfaceRange>>,
-                    Optional<Write<FrictionMore<ToolContact>>>);
-void edge_contact(SmallTasks, Read<Bodies>, Read<Clock>, Read<CurvePosition>,
-                  Optional<Read<CurveVelocity>>, Write<ClosestPoint>, Read<ContactPair<Contact>>,
-                  Read<ContactPlace>, Write<ContactTouches<Contact>>, Write<ContactReach<Contact>>,
-                  Read<ContactLaw<Contact>>, Write<PointForce<Contact>>,
-                  Optional<Write<ElasticSlip<Contact>>>, Optional<Read<FrictionMore<Contact>>>,
-                  Optional<Write<StaticLost<Contact>>>, Optional<Write<FrictionCouple>>,
-                  Write<ContactSums<Contact>>);
-void contact_health(Read<Bodies>, Read<Clock>, Read<ContactRules>,
-                    Optional<Read<ContactPair<Contact>>>, Optional<Read<ContactSums<Contact>>>,
-                    Optional<Read<ContactPair<ToolContact>>>,
-                    Optional<Read<ContactSums<ToolContact>>>, Optional<Read<ToolProgram>>,
-                    Write<Totals>);
-void contact_force(Chunk, Read<Bodies>, Read<ContactIndex>, Optional<Read<ContactPlace>>,
-                   Optional<Read<ContactTouches<Contact>>>, Optional<Read<PointForce<Contact>>>,
-                   Optional<Read<ClosestPoint>>, Optional<Read<FrictionCouple>>,
-                   Optional<Read<ContactPair<ToolContact>>>,
-                   Optional<Read<ContactTouches<ToolContact>>>,
-                   Optional<Read<PointForce<ToolContact>>>, Write<CurveForce>, Write<ContactForce>);
-void contact_curve(Chunk, Read<Bodies>, Read<Position>, Read<Velocity>, Write<CurvePosition>,
-                   Optional<Write<CurveVelocity>>, Write<MaximumSpeed>);
-void contact_totals(Read<Clock>, Optional<Read<ContactSums<Contact>>>,
-                    Optional<Read<ContactSums<ToolContact>>>, Write<Totals>);
+// ---- which rows there are -----------------------------------------------------------------------
+struct skin_check {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<CurvePosition> control;
+  Optional<ToolSurfaces> tools;
+  Write<CurveBefore> before;
+  Write<ContactIndex> index;
+  void operator()() const;
+};
+
+// What the laws of a row follow from.
+struct ContactStiffness {
+  Read<ContactRules> rules;
+  Read<BulkModulus> bulk;
+  Read<Density> density;
+};
+// What is set when a row is made.
+template <class At>
+struct NewRows {
+  Write<ContactPair<At>> pair;
+  Write<ContactLaw<At>> law;
+  Write<ContactReach<At>> reach;
+  Optional<Write<FrictionMore<At>>> more;
+};
+
+struct bin_edges {
+  Read<Bodies> bodies;
+  ContactStiffness material;
+  Read<CurvePosition> control;
+  Write<ContactIndex> index;
+  Structural<Contact> structure;
+  NewRows<Contact> rows;
+  Read<ContactTouches<Contact>> touches;
+  struct Curves {
+    Write<ContactPlace> place;
+    Write<ClosestPoint> closest;
+  } curves;
+  void operator()() const;
+};
+
+struct bin_tool_edges {
+  Read<Bodies> bodies;
+  ContactStiffness material;
+  Read<CurvePosition> control;
+  ToolSurfaces tools;
+  Write<ContactIndex> index;
+  Structural<ToolContact> structure;
+  NewRows<ToolContact> rows;
+  Optional<Write<SurfaceRange>> range;
+  void operator()() const;
+};
+
+// ---- what they do ---------------------------------------------------------------------------------
+// What the narrow phases read and write of a row; elastic slip only in scenes with friction.
+template <class At>
+struct RowColumns {
+  Read<ContactPair<At>> pair;
+  Write<ContactTouches<At>> touches;
+  Write<ContactReach<At>> reach;
+  Read<ContactLaw<At>> law;
+  Write<PointForce<At>> force;
+  Optional<Write<ElasticSlip<At>>> elastic_slip;
+  Optional<Read<FrictionMore<At>>> more;
+  Optional<Write<StaticLost<At>>> lost;
+};
+
+struct edge_contact {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  ContactCurves curves;
+  RowColumns<Contact> columns;
+  Read<ContactPlace> place;
+  Write<ClosestPoint> closest;
+  Optional<Write<FrictionCouple>> couple;
+  Write<ContactSums<Contact>> sums;
+  void operator()(SmallTasks) const;
+};
+
+struct contact_totals {
+  Read<Clock> clock;
+  Optional<Read<ContactSums<Contact>>> pairs;
+  Optional<Read<ContactSums<ToolContact>>> tools;
+  Write<Totals> totals;
+  void operator()() const;
+};
+
+struct contact_force {
+  Read<Bodies> bodies;
+  Read<ContactIndex> index;
+  struct Pairs {
+    TouchingPairs touching;
+    Read<ContactPlace> place;
+    Optional<Read<FrictionCouple>> couple;
+  };
+  Optional<Pairs> pairs;
+  Optional<TouchingRows<ToolContact>> tools;
+  Write<CurveForce> curve_force;
+  Write<ContactForce> node_force;
+  void operator()(Chunk chunk) const;
+};
+
+struct contact_curve {
+  Read<Bodies> bodies;
+  Motion motion;
+  Write<CurvePosition> position;
+  Optional<Write<CurveVelocity>> velocity;
+  Write<MaximumSpeed> speed;
+  void operator()(Chunk chunk) const;
+};
+
+// ---- whether the run is still sound -----------------------------------------------------------------
+template <class At>
+struct RowsInSum {
+  Read<ContactPair<At>> pair;
+  Read<ContactSums<At>> sums;
+};
+
+struct contact_health {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<ContactRules> rules;
+  Optional<RowsInSum<Contact>> pairs;
+  Optional<RowsInSum<ToolContact>> tools;
+  Optional<Read<ToolProgram>> program;
+  Write<Totals> totals;
+  void operator()() const;
+};
+
+struct lost_bodies {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<ToolProgram> program;
+  ToolSurfaces tools;
+  Read<CurvePosition> curve;
+  void operator()() const;
+};
+
+struct outline_health {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<Position> position;
+  Optional<Read<ContactRules>> rules;
+  Optional<Read<Hollows>> hollows;
+  void operator()() const;
+};
 
 }  // namespace pulvis

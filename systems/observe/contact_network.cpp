@@ -10,8 +10,8 @@
 
 #include "systems/contact/by_slot.hpp"
 #include "systems/contact/contact_outlines.hpp"
+#include "systems/observe/nearest_of_tool.hpp"
 #include "systems/observe/systems.hpp"
-#include "systems/tools/surface_kernel.hpp"
 
 namespace pulvis {
 namespace {
@@ -85,11 +85,10 @@ void sort_by_numbers(std::vector<ContactLink>& links) {
   std::ranges::sort(links, {}, [](const ContactLink& l) { return std::pair(l.first, l.second); });
 }
 
-std::vector<ContactLink> pairs(const Bodies& bodies, const ContactIndex& index,
-                               const Outlines& outlines, const Read<ContactPair<Contact>>& pair,
-                               const Read<ContactTouches<Contact>>& touches,
-                               const Read<PointForce<Contact>>& force,
-                               const Read<ClosestPoint>& closest) {
+std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex& index,
+                                        const Outlines& outlines, const TouchingPairs& pairs) {
+  const auto& [pair, touches, force] = pairs.rows;
+  const Read<ClosestPoint>& closest = pairs.closest;
   const auto add_row = [&](Row<Contact> row, double side, Gathered& contact) {
     const auto normal_at = [&](const Point&, int g) {
       const int control = static_cast<int>(closest(row, g));
@@ -124,43 +123,23 @@ std::vector<ContactLink> pairs(const Bodies& bodies, const ContactIndex& index,
 
 }  // namespace
 
-void contact_network(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePosition> control,
-                     Optional<Read<ContactPair<Contact>>> pair,
-                     Optional<Read<ContactTouches<Contact>>> touches,
-                     Optional<Read<PointForce<Contact>>> force,
-                     Optional<Read<ClosestPoint>> closest,
-                     Optional<Read<ContactPair<ToolContact>>> tool_pair,
-                     Optional<Read<ContactTouches<ToolContact>>> tool_touches,
-                     Optional<Read<PointForce<ToolContact>>> tool_force,
-                     Optional<Read<ToolPosition>> tool_position,
-                     Optional<Read<ToolNormal>> tool_normal, Optional<Read<ToolShapes>> shapes,
-                     Optional<Read<SurfaceRange>> range, Write<ContactNetwork> network) {
+void contact_network::operator()() const {
   const Outlines outlines(*bodies, control.values());
   network->pairs.clear();
   network->tools.clear();
-  if (pair) network->pairs = pairs(*bodies, *index, outlines, *pair, *touches, *force, *closest);
-  if (!tool_pair) return;
+  if (pairs) network->pairs = links_of_pairs(*bodies, *index, outlines, *pairs);
+  if (!tools) return;
 
-  const auto tool_normal_at = [&](Row<ToolContact> row, const Point& at) {
-    const Row<Tool> tool((*tool_pair)(row, 2));
-    if (!range || !(*shapes)->is(tool.value, ToolShapes::Kind::polyline))
-      return Point{(*tool_normal)(tool, 0), (*tool_normal)(tool, 1)};
-    const auto nearest = kernels::nearest_on_surface(
-        (*shapes)->surface_of(tool.value), (*range)(row, 0), (*range)(row, 1),
-        at[0] - (*tool_position)(tool, 0), at[1] - (*tool_position)(tool, 1),
-        std::numeric_limits<double>::infinity());
-    return Point{nearest.nx, nearest.ny};
-  };
   for (const int slot : bodies->slot_of_number) {
     const auto s = static_cast<std::size_t>(slot);
     Partners partners(outlines.number(slot));
     for (int r = index->tool_begin[s]; r < index->tool_begin[s + 1]; ++r) {
       const Row<ToolContact> row(r);
-      if ((*tool_touches)(row) == 0) continue;
+      if (tools->rows.touches(row) == 0) continue;
       add_points(
-          outlines.edge(slot, (*tool_pair)(row, 1)), *tool_force, row, 1,
-          [&](const Point& at, int) { return tool_normal_at(row, at); },
-          partners.with((*tool_pair)(row, 2)));
+          outlines.edge(slot, tools->rows.pair(row, 1)), tools->rows.force, row, 1,
+          [&](const Point& at, int) { return nearest_of_tool(*tools, row, at).normal; },
+          partners.with(tools->rows.pair(row, 2)));
     }
     partners.move_to(network->tools, 1);
   }

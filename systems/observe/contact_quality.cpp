@@ -12,8 +12,8 @@
 
 #include "systems/contact/by_slot.hpp"
 #include "systems/contact/contact_outlines.hpp"
+#include "systems/observe/nearest_of_tool.hpp"
 #include "systems/observe/systems.hpp"
-#include "systems/tools/surface_kernel.hpp"
 
 namespace pulvis {
 namespace {
@@ -82,48 +82,31 @@ void add_up(const Found& found, ContactQuality& quality) {
 
 }  // namespace
 
-void contact_quality(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePosition> control,
-                     Optional<Read<ContactPair<Contact>>> pair,
-                     Optional<Read<ContactTouches<Contact>>> touches,
-                     Optional<Read<PointForce<Contact>>> force,
-                     Optional<Read<ClosestPoint>> closest,
-                     Optional<Read<ContactPair<ToolContact>>> tool_pair,
-                     Optional<Read<ContactTouches<ToolContact>>> tool_touches,
-                     Optional<Read<PointForce<ToolContact>>> tool_force,
-                     Optional<Read<ToolPosition>> tool_position,
-                     Optional<Read<ToolNormal>> tool_normal, Optional<Read<ToolShapes>> shapes,
-                     Optional<Read<SurfaceRange>> range, Write<ContactQuality> quality) {
+void contact_quality::operator()() const {
   const Outlines outlines(*bodies, control.values());
   const auto edge_of = [&](int slot, int edge) -> const Shape::Edge& {
     return bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(edge)];
   };
   const auto gap_to_curve = [&](Row<Contact> row, const Point& at, int g) {
-    const int first = static_cast<int>((*closest)(row, g));
-    const double u = (*closest)(row, g) - first;
-    const Curve curve = outlines.from((*pair)(row, 2), first);
+    const int first = static_cast<int>(pairs->closest(row, g));
+    const double u = pairs->closest(row, g) - first;
+    const Curve curve = outlines.from(pairs->rows.pair(row, 2), first);
     const Point m = curve.value(u), n = curve.normal(u);
     return Gap{(m[0] - at[0]) * n[0] + (m[1] - at[1]) * n[1], n};
   };
   const auto gap_to_tool = [&](Row<ToolContact> row, const Point& at) {
-    const Row<Tool> tool((*tool_pair)(row, 2));
-    const double x = at[0] - (*tool_position)(tool, 0), y = at[1] - (*tool_position)(tool, 1);
-    if (!range || !(*shapes)->is(tool.value, ToolShapes::Kind::polyline)) {
-      const Point n{(*tool_normal)(tool, 0), (*tool_normal)(tool, 1)};
-      return Gap{-(x * n[0] + y * n[1]), n};
-    }
-    const auto nearest = kernels::nearest_on_surface((*shapes)->surface_of(tool.value),
-                                                     (*range)(row, 0), (*range)(row, 1), x, y,
-                                                     std::numeric_limits<double>::infinity());
-    return Gap{-nearest.distance, {nearest.nx, nearest.ny}};
+    const auto [distance, normal] = nearest_of_tool(*tools, row, at);
+    return Gap{-distance, normal};
   };
   const auto add_pairs = [&](int slot, Found& found) {
     const auto s = static_cast<std::size_t>(slot);
     for (int r = index->sampled_begin[s]; r < index->sampled_begin[s + 1]; ++r) {
       const Row<Contact> row(r);
-      if ((*touches)(row) == 0) continue;
-      const int edge = (*pair)(row, 1);
+      if (pairs->rows.touches(row) == 0) continue;
+      const int edge = pairs->rows.pair(row, 1);
       add_row(
-          outlines.edge(slot, edge), edge_of(slot, edge), *force, row, 0.5, (*pair)(row, 2),
+          outlines.edge(slot, edge), edge_of(slot, edge), pairs->rows.force, row, 0.5,
+          pairs->rows.pair(row, 2),
           [&](const Point& at, int g) { return gap_to_curve(row, at, g); }, found);
     }
   };
@@ -131,10 +114,10 @@ void contact_quality(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePo
     const auto s = static_cast<std::size_t>(slot);
     for (int r = index->tool_begin[s]; r < index->tool_begin[s + 1]; ++r) {
       const Row<ToolContact> row(r);
-      if ((*tool_touches)(row) == 0) continue;
-      const int edge = (*tool_pair)(row, 1), tool = (*tool_pair)(row, 2);
+      if (tools->rows.touches(row) == 0) continue;
+      const int edge = tools->rows.pair(row, 1), tool = tools->rows.pair(row, 2);
       add_row(
-          outlines.edge(slot, edge), edge_of(slot, edge), *tool_force, row, 1, -1 - tool,
+          outlines.edge(slot, edge), edge_of(slot, edge), tools->rows.force, row, 1, -1 - tool,
           [&](const Point& at, int) { return gap_to_tool(row, at); }, found);
     }
   };
@@ -143,8 +126,8 @@ void contact_quality(Read<Bodies> bodies, Read<ContactIndex> index, Read<CurvePo
                                          [&](int slot, std::vector<Found>& list) {
                                            Found mine;
                                            if (outlines.number(slot) == Bodies::nobody) return;
-                                           if (pair) add_pairs(slot, mine);
-                                           if (tool_pair) add_tools(slot, mine);
+                                           if (pairs) add_pairs(slot, mine);
+                                           if (tools) add_tools(slot, mine);
                                            if (!mine.sides.empty()) list.push_back(std::move(mine));
                                          });
   *quality = {};

@@ -8,8 +8,7 @@
 
 namespace pulvis {
 
-void force_chains(Read<Bodies> bodies, Read<ParticleStress> stress, Read<ParticleCentre> centre,
-                  Read<ContactNetwork> network, Write<ForceChains> chains) {
+void force_chains::operator()() const {
   const Row<Particle> particle;
   std::vector<kernels::PlaneStress> stresses;
   std::vector<Point> centres;

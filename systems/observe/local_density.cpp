@@ -190,8 +190,7 @@ class Grid {
 
 }  // namespace
 
-void local_density(Read<Bodies> bodies, Read<Position> position, Read<ToolPosition> tool_position,
-                   Write<DensityGrid> grid) {
+void local_density::operator()() const {
   const Grid frame(*grid, tool_position);
   if (frame.empty()) {
     for (auto* areas : {&grid->filled, &grid->room})

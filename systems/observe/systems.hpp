@@ -1,35 +1,47 @@
-// Systems of sampled steps that look at a powder as a whole, by signature. What a system reads and writes is what it declares here; systems/step.cpp puts
-// them in order.
+// Systems of sampled steps that look at a powder as a whole. What a system reads and writes is what it declares here,
+// once; systems/step.cpp puts them in order, and each is described at the top of its own file.
 #pragma once
 
-#include "components/contact.hpp"
+#include "components/bundles.hpp"
 #include "components/observed.hpp"
-#include "components/run_state.hpp"
-#include "components/servo.hpp"
-#include "components/surface.hpp"
-#include "engine/access.hpp"
-#include "engine/look_ahead.hpp"
 
 namespace pulvis {
 
-void contact_network(Read<Bodies>, Read<ContactIndex>, Read<CurvePosition>,
-                     Optional<Read<ContactPair<Contact>>>, Optional<Read<ContactTouches<Contact>>>,
-                     Optional<Read<PointForce<Contact>>>, Optional<Read<ClosestPoint>>,
-                     Optional<Read<ContactPair<ToolContact>>>,
-                     Optional<Read<ContactTouches<ToolContact>>>,
-                     Optional<Read<PointForce<ToolContact>>>, Optional<Read<ToolPosition>>,
-                     Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>,
-                     Optional<Read<SurfaceRange>>, Write<ContactNetwork>);
-void contact_quality(Read<Bodies>, Read<ContactIndex>, Read<CurvePosition>,
-                     Optional<Read<ContactPair<Contact>>>, Optional<Read<ContactTouches<Contact>>>,
-                     Optional<Read<PointForce<Contact>>>, Optional<Read<ClosestPoint>>,
-                     Optional<Read<ContactPair<ToolContact>>>,
-                     Optional<Read<ContactTouches<ToolContact>>>,
-                     Optional<Read<PointForce<ToolContact>>>, Optional<Read<ToolPosition>>,
-                     Optional<Read<ToolNormal>>, Optional<Read<ToolShapes>>,
-                     Optional<Read<SurfaceRange>>, Write<ContactQuality>);
-void force_chains(Read<Bodies>, Read<ParticleStress>, Read<ParticleCentre>, Read<ContactNetwork>,
-                  Write<ForceChains>);
-void local_density(Read<Bodies>, Read<Position>, Read<ToolPosition>, Write<DensityGrid>);
+struct contact_network {
+  Read<Bodies> bodies;
+  Read<ContactIndex> index;
+  Read<CurvePosition> control;
+  Optional<TouchingPairs> pairs;
+  Optional<TouchingTools> tools;
+  Write<ContactNetwork> network;
+  void operator()() const;
+};
+
+struct contact_quality {
+  Read<Bodies> bodies;
+  Read<ContactIndex> index;
+  Read<CurvePosition> control;
+  Optional<TouchingPairs> pairs;
+  Optional<TouchingTools> tools;
+  Write<ContactQuality> quality;
+  void operator()() const;
+};
+
+struct force_chains {
+  Read<Bodies> bodies;
+  Read<ParticleStress> stress;
+  Read<ParticleCentre> centre;
+  Read<ContactNetwork> network;
+  Write<ForceChains> chains;
+  void operator()() const;
+};
+
+struct local_density {
+  Read<Bodies> bodies;
+  Read<Position> position;
+  Read<ToolPosition> tool_position;
+  Write<DensityGrid> grid;
+  void operator()() const;
+};
 
 }  // namespace pulvis

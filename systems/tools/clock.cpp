@@ -47,22 +47,20 @@ double farthest_way(const ToolProgram& program, const Optional<Read<ServoVelocit
 // How far any two surfaces move against each other in a step, at most.
 class Approach {
  public:
-  Approach(const Optional<Read<MaximumSpeed>>& speed, const Optional<Read<ToolProgram>>& program,
-           const Optional<Read<ServoVelocity>>& servo)
-      : program_(program), servo_(servo), anything_(speed) {
-    if (!speed) return;
-    for (const double v : speed->values()) fastest_ = std::max(fastest_, v);
+  explicit Approach(const SurfaceSpeeds& speeds) : speeds_(speeds) {
+    if (!speeds.outlines) return;
+    for (const double v : speeds.outlines->values()) fastest_ = std::max(fastest_, v);
   }
-  bool anything() const { return anything_; }  // that can touch
+  bool anything() const { return static_cast<bool>(speeds_.outlines); }  // that can touch
   double way(double time, double dt) const {
     const double fastest = fastest_ * dt;
-    return fastest + std::max(fastest, program_ ? farthest_way(**program_, servo_, time, dt) : 0.0);
+    return fastest + std::max(fastest, speeds_.program ? farthest_way(**speeds_.program,
+                                                                      speeds_.servo, time, dt)
+                                                       : 0.0);
   }
 
  private:
-  const Optional<Read<ToolProgram>>& program_;
-  const Optional<Read<ServoVelocity>>& servo_;
-  bool anything_;
+  const SurfaceSpeeds& speeds_;
   double fastest_ = 0;  // m/s
 };
 
@@ -106,16 +104,12 @@ void require_in_sight(double way, const ContactRules& rules, const Clock& clock)
 
 }  // namespace
 
-void first_time_step(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
-                     Optional<Read<ToolProgram>> program, Optional<Read<ServoVelocity>> servo,
-                     Optional<Read<ContactRules>> rules, Write<Clock> clock) {
-  choose_time_step(stable.values(), {speed, program, servo}, rules, *clock);
+void first_time_step::operator()() const {
+  choose_time_step(stable.values(), Approach(speeds), rules, *clock);
 }
 
-void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> speed,
-                   Optional<Read<ToolProgram>> program, Optional<Read<ServoVelocity>> servo,
-                   Read<Totals> totals, Optional<Read<ContactRules>> rules, Write<Clock> clock) {
-  const Approach approach{speed, program, servo};
+void advance_clock::operator()() const {
+  const Approach approach(speeds);
   const bool looked = clock->step >= clock->next_look;
   std::int64_t interval = most_steps_between_looks;
   if (approach.anything()) {
@@ -132,6 +126,7 @@ void advance_clock(Read<StableTimeStep> stable, Optional<Read<MaximumSpeed>> spe
     clock->stiffening =
         kernels::stiffening(totals->penetration + static_cast<double>(interval) * strain);
   }
+  if (ends) clock->end = std::min(clock->end, (*ends)->run_end);
   if (looked) clock->next_look = clock->step + interval;
   clock->time += clock->dt;
   clock->dt_before = clock->dt;

@@ -23,43 +23,39 @@ Point tool_travel(const ToolProgram& program, int tool, double time) {
 
 }  // namespace
 
-void hold_grips(Chunk chunk, Read<Bodies> bodies, Read<Clock> clock, Read<ToolProgram> program,
-                Read<GripIndex> index, Read<GripTarget> target, Read<GripDirection> direction,
-                Read<GripTravel> travel, Read<GripOrigin> origin, Read<Density> density,
-                Read<Position> position, Read<Velocity> velocity,
-                Optional<Read<ContactForce>> contact, Write<InternalForce> internal,
-                Write<GripReaction> reaction) {
+void hold_grips::operator()(Chunk chunk) const {
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  const auto x = position.chunk(chunk);
-  const auto v = velocity.chunk(chunk);
-  const auto f = internal.chunk(chunk);
+  const auto x = motion.position.chunk(chunk);
+  const auto v = motion.velocity.chunk(chunk);
+  const auto f = forces.internal.chunk(chunk);
   const auto c = static_cast<std::size_t>(chunk.index);
   const double kick = 0.5 * (clock->dt_before + clock->dt);
   int tool = -1;
   Point way{};
-  for (int r = index->begin[c]; r < index->begin[c + 1]; ++r) {
+  for (int r = grips.index->begin[c]; r < grips.index->begin[c + 1]; ++r) {
     const Row<GrippedNode> row(r);
-    const Row<Node> node(target(row, 0));
-    const int lane = target(row, 1);
-    if (target(row, 2) != tool) {
-      tool = target(row, 2);
+    const Row<Node> node(grips.target(row, 0));
+    const int lane = grips.target(row, 1);
+    if (grips.target(row, 2) != tool) {
+      tool = grips.target(row, 2);
       way = tool_travel(*program, tool, clock->time + clock->dt);
     }
     const double mass = density.chunk(chunk)(Row<Particle>())[lane] * bodies->thickness *
                         shape.nodal_area[static_cast<std::size_t>(node.value)];
     double at = 0, speed = 0, free = 0;
     for (int k = 0; k < 2; ++k) {
-      const double d = direction(row, k);
+      const double d = grips.direction(row, k);
       at += d * x(node, k)[lane];
       speed += d * v(node, k)[lane];
       free += d * f(node, k)[lane];
-      if (contact && node.value < shape.boundary_nodes)
-        free += d * contact->chunk(chunk)(Row<BoundaryNode>(node.value), k)[lane];
+      if (forces.contact && node.value < shape.boundary_nodes)
+        free += d * forces.contact->chunk(chunk)(Row<BoundaryNode>(node.value), k)[lane];
     }
-    const double place = origin(row) + travel(row, 0) * way[0] + travel(row, 1) * way[1];
+    const double place =
+        grips.origin(row) + grips.travel(row, 0) * way[0] + grips.travel(row, 1) * way[1];
     const double held = kernels::grip_force(place, at, speed, free, mass, kick, clock->dt);
-    for (int k = 0; k < 2; ++k) f(node, k)[lane] += held * direction(row, k);
-    reaction.chunk(chunk)(Row<GrippedNode>(r - index->begin[c])) = held;
+    for (int k = 0; k < 2; ++k) f(node, k)[lane] += held * grips.direction(row, k);
+    reaction.chunk(chunk)(Row<GrippedNode>(r - grips.index->begin[c])) = held;
   }
 }
 

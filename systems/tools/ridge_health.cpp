@@ -36,12 +36,6 @@ Point curve_point(const double* control, double u) {
   return p;
 }
 
-struct Rows {
-  const Read<ContactPair<ToolContact>>& pair;
-  const Read<ContactTouches<ToolContact>>& touches;
-  const Read<SurfaceRange>& range;
-};
-
 // Of the points of a row.
 double deepest_in(const ToolSurface& surface, const Point& at, const double* control, double length,
                   int first, int last) {
@@ -118,7 +112,7 @@ struct Scenery {
   }
 };
 
-void check_flanks(const Scenery& s, const Rows& rows) {
+void check_flanks(const Scenery& s, const ridge_health::Rows& rows) {
   for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<ToolContact> row(r);
     if (rows.touches(row) == 0) continue;
@@ -165,18 +159,14 @@ void check_corners(const Scenery& s, int slot, int tool) {
 
 }  // namespace
 
-void ridge_health(Read<Bodies> bodies, Read<Clock> clock, Read<ContactRules> rules,
-                  Read<ContactIndex> index, Read<CurvePosition> curve, Read<ToolPosition> position,
-                  Read<ToolShapes> shapes, Read<ToolProgram> program,
-                  Read<ContactPair<ToolContact>> pair, Read<ContactTouches<ToolContact>> touches,
-                  Read<SurfaceRange> range) {
-  const Scenery scenery{*bodies,  *clock,  *rules,  curve.values().data(),
-                        position, *shapes, *program};
-  check_flanks(scenery, {pair, touches, range});
+void ridge_health::operator()() const {
+  const Scenery scenery{*bodies,        *clock,        *rules,        curve.values().data(),
+                        tools.position, *tools.shapes, *tools.program};
+  check_flanks(scenery, rows);
   if (!index->due) return;
   for (const int slot : bodies->slot_of_number)
-    for (int tool = 0; tool < position.rows(); ++tool)
-      if (shapes->is(tool, ToolShapes::Kind::polyline)) check_corners(scenery, slot, tool);
+    for (int tool = 0; tool < tools.position.rows(); ++tool)
+      if (tools.shapes->is(tool, ToolShapes::Kind::polyline)) check_corners(scenery, slot, tool);
 }
 
 }  // namespace pulvis

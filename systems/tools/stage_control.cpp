@@ -49,18 +49,18 @@ double time_to_rest(const ToolProgram& program, int stage) {
   return longest;
 }
 
-void end_early(const End& end, ToolProgram& program, Clock& clock) {
+void end_early(const End& end, double time, ToolProgram& program, double& run_end) {
   ToolProgram::Stage& stage = program.stages[static_cast<std::size_t>(end.stage)];
-  const double saved = stage.end - (clock.time + time_to_rest(program, end.stage));
+  const double saved = stage.end - (time + time_to_rest(program, end.stage));
   if (saved <= 0) return;  // its time is all but over
   stage.end -= saved;
-  clock.end -= saved;
+  run_end -= saved;
   for (auto s = static_cast<std::size_t>(end.stage) + 1; s < program.stages.size(); ++s) {
     program.stages[s].begin -= saved;
     program.stages[s].end -= saved;
   }
   for (ToolProgram::Segment& s : program.segments) {
-    if (s.stage == end.stage) s.cut = clock.time;
+    if (s.stage == end.stage) s.cut = time;
     if (s.stage > end.stage) s.begin -= saved;
   }
 }
@@ -85,8 +85,7 @@ void end_early(const End& end, ToolProgram& program, Clock& clock) {
 
 }  // namespace
 
-void stage_control(Read<ToolPosition> position, Read<ToolForce> force, Write<StageEnds> ends,
-                   Write<ToolProgram> program, Write<Clock> clock) {
+void stage_control::operator()() const {
   const std::size_t stage = program->stage_at(clock->time);
   const bool new_stage = stage != ends->stage;
   if (new_stage)
@@ -100,10 +99,11 @@ void stage_control(Read<ToolPosition> position, Read<ToolForce> force, Write<Sta
                                                            position(Row<Tool>(t), 1)};
   }
   ends->stage = stage;
+  ends->run_end = std::min(ends->run_end, clock->end);
   for (End& end : ends->ends) {
     if (static_cast<std::size_t>(end.stage) != stage || end.reached) continue;
     end.reached = value_now(end, *ends, position, force) >= end.value;
-    if (end.reached) end_early(end, *program, *clock);
+    if (end.reached) end_early(end, clock->time, *program, ends->run_end);
   }
 }
 

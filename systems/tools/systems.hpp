@@ -1,54 +1,141 @@
-// Systems of the tools, by signature. What a system reads and writes is what it declares here; systems/step.cpp puts
-// them in order.
+// Systems of the tools, and of the clock. What a system reads and writes is what it declares here, once;
+// systems/step.cpp puts them in order, and each is described at the top of its own file.
 #pragma once
 
-#include "components/contact.hpp"
-#include "components/observed.hpp"
-#include "components/run_state.hpp"
+#include "components/bundles.hpp"
 #include "components/servo.hpp"
-#include "components/surface.hpp"
-#include "engine/access.hpp"
-#include "engine/look_ahead.hpp"
+#include "systems/contact/systems.hpp"
 
 namespace pulvis {
 
-void tool_motion(Read<Clock>, Read<ToolProgram>, Optional<Read<ServoVelocity>>,
-                 Optional<Write<ServoTravel>>, Write<ToolPosition>, Write<ToolVelocity>);
-void stage_control(Read<ToolPosition>, Read<ToolForce>, Write<StageEnds>, Write<ToolProgram>,
-                   Write<Clock>);
-void tool_servo(Read<Clock>, Read<ToolProgram>, Read<ToolForce>, Read<ContactPair<ToolContact>>,
-                Read<ContactTouches<ToolContact>>, Read<ContactLaw<ToolContact>>,
-                Read<PointForce<ToolContact>>, Write<ToolServos>, Write<ServoMass>,
-                Write<ServoVelocity>, Write<ServoDragged>, Write<ServoForce>);
-void tool_contact(SmallTasks, Read<Bodies>, Read<Clock>, Read<CurvePosition>,
-                  Optional<Read<CurveVelocity>>, Read<ToolPosition>, Read<ToolVelocity>,
-                  Read<ToolNormal>, Read<ContactPair<ToolContact>>,
-                  Write<ContactTouches<ToolContact>>, Write<ContactReach<ToolContact>>,
-                  Read<ContactLaw<ToolContact>>, Write<PointForce<ToolContact>>,
-                  Optional<Write<ElasticSlip<ToolContact>>>,
-                  Optional<Read<FrictionMore<ToolContact>>>,
-                  Optional<Write<StaticLost<ToolContact>>>, Optional<Read<ToolShapes>>,
-                  Optional<Read<SurfaceRange>>, Write<ContactSums<ToolContact>>);
-void tool_reaction(Read<Clock>, Optional<Read<ContactPair<ToolContact>>>,
-                   Optional<Read<ContactTouches<ToolContact>>>,
-                   Optional<Read<PointForce<ToolContact>>>, Optional<Read<GripTarget>>,
-                   Optional<Read<GripTravel>>, Optional<Read<GripReaction>>, Read<ToolVelocity>,
-                   Write<ToolForce>, Write<Totals>);
-void ridge_health(Read<Bodies>, Read<Clock>, Read<ContactRules>, Read<ContactIndex>,
-                  Read<CurvePosition>, Read<ToolPosition>, Read<ToolShapes>, Read<ToolProgram>,
-                  Read<ContactPair<ToolContact>>, Read<ContactTouches<ToolContact>>,
-                  Read<SurfaceRange>);
-void hold_grips(Chunk, Read<Bodies>, Read<Clock>, Read<ToolProgram>, Read<GripIndex>,
-                Read<GripTarget>, Read<GripDirection>, Read<GripTravel>, Read<GripOrigin>,
-                Read<Density>, Read<Position>, Read<Velocity>, Optional<Read<ContactForce>>,
-                Write<InternalForce>, Write<GripReaction>);
+// ---- how tools move -------------------------------------------------------------------------------
+struct tool_motion {
+  Read<Clock> clock;
+  Read<ToolProgram> program;
+  Optional<Read<ServoVelocity>> servo;
+  Optional<Write<ServoTravel>> servo_travel;
+  Write<ToolPosition> position;
+  Write<ToolVelocity> velocity;
+  void operator()() const;
+};
+
+struct stage_control {
+  Read<Clock> clock;
+  Read<ToolPosition> position;
+  Read<ToolForce> force;
+  Write<StageEnds> ends;
+  Write<ToolProgram> program;
+  void operator()() const;
+};
+
+struct tool_servo {
+  Read<Clock> clock;
+  Read<ToolProgram> program;
+  Read<ToolForce> force;
+  TouchingRows<ToolContact> rows;
+  Read<ContactLaw<ToolContact>> law;
+  Write<ToolServos> servos;
+  struct Drive {
+    Write<ServoMass> mass;
+    Write<ServoVelocity> velocity;
+    Write<ServoDragged> dragged;
+    Write<ServoForce> asked;
+  } drive;
+  void operator()() const;
+};
+
 // Where the programme puts a tool at `time`, m. Used outside the step, too.
 Point tool_position_at(const ToolProgram& program, int tool, double time);
-void first_time_step(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>,
-                     Optional<Read<ToolProgram>>, Optional<Read<ServoVelocity>>,
-                     Optional<Read<ContactRules>>, Write<Clock>);  // once, at the start
-void advance_clock(Read<StableTimeStep>, Optional<Read<MaximumSpeed>>, Optional<Read<ToolProgram>>,
-                   Optional<Read<ServoVelocity>>, Read<Totals>, Optional<Read<ContactRules>>,
-                   Write<Clock>);
+
+// ---- what they bear -------------------------------------------------------------------------------
+struct tool_contact {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  ContactCurves curves;
+  RowColumns<ToolContact> columns;
+  ToolSurfaces tools;
+  Read<ToolVelocity> tool_velocity;
+  Optional<Read<SurfaceRange>> range;
+  Write<ContactSums<ToolContact>> sums;
+  void operator()(SmallTasks) const;
+};
+
+struct hold_grips {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<ToolProgram> program;
+  struct Grips {
+    Read<GripIndex> index;
+    Read<GripTarget> target;
+    Read<GripDirection> direction;
+    Read<GripTravel> travel;
+    Read<GripOrigin> origin;
+  } grips;
+  Read<Density> density;
+  Motion motion;
+  NodalForces<Write> forces;
+  Write<GripReaction> reaction;
+  void operator()(Chunk chunk) const;
+};
+
+struct tool_reaction {
+  Read<Clock> clock;
+  Optional<TouchingRows<ToolContact>> contacts;
+  struct Grips {
+    Read<GripTarget> target;
+    Read<GripTravel> travel;
+    Read<GripReaction> reaction;
+  };
+  Optional<Grips> grips;
+  Read<ToolVelocity> velocity;
+  Write<ToolForce> tool_force;
+  Write<Totals> totals;
+  void operator()() const;
+};
+
+struct ridge_health {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<ContactRules> rules;
+  Read<ContactIndex> index;
+  Read<CurvePosition> curve;
+  struct Polylines {
+    Read<ToolPosition> position;
+    Read<ToolShapes> shapes;
+    Read<ToolProgram> program;
+  } tools;
+  struct Rows {
+    Read<ContactPair<ToolContact>> pair;
+    Read<ContactTouches<ToolContact>> touches;
+    Read<SurfaceRange> range;
+  } rows;
+  void operator()() const;
+};
+
+// ---- the clock --------------------------------------------------------------------------------------
+// How fast surfaces are; nothing where nothing can touch.
+struct SurfaceSpeeds {
+  Optional<Read<MaximumSpeed>> outlines;
+  Optional<Read<ToolProgram>> program;
+  Optional<Read<ServoVelocity>> servo;
+};
+
+struct first_time_step {  // once, at the start
+  Read<StableTimeStep> stable;
+  SurfaceSpeeds speeds;
+  Optional<Read<ContactRules>> rules;
+  Write<Clock> clock;
+  void operator()() const;
+};
+
+struct advance_clock {
+  Read<StableTimeStep> stable;
+  SurfaceSpeeds speeds;
+  Read<Totals> totals;
+  Optional<Read<StageEnds>> ends;
+  Optional<Read<ContactRules>> rules;
+  Write<Clock> clock;
+  void operator()() const;
+};
 
 }  // namespace pulvis

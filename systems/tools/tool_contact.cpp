@@ -10,35 +10,26 @@
 
 namespace pulvis {
 
-void tool_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<CurvePosition> position,
-                  Optional<Read<CurveVelocity>> velocity, Read<ToolPosition> tool_position,
-                  Read<ToolVelocity> tool_velocity, Read<ToolNormal> tool_normal,
-                  Read<ContactPair<ToolContact>> pair, Write<ContactTouches<ToolContact>> touches,
-                  Write<ContactReach<ToolContact>> reach, Read<ContactLaw<ToolContact>> law,
-                  Write<PointForce<ToolContact>> force,
-                  Optional<Write<ElasticSlip<ToolContact>>> elastic_slip,
-                  Optional<Read<FrictionMore<ToolContact>>> more,
-                  Optional<Write<StaticLost<ToolContact>>> lost, Optional<Read<ToolShapes>> shapes,
-                  Optional<Read<SurfaceRange>> range, Write<ContactSums<ToolContact>> sums) {
-  const RowColumns<ToolContact> columns{pair, touches, reach, law, force, elastic_slip, more, lost};
-  const double* points = position.values().data();
-  const double* rates = velocity ? velocity->values().data() : nullptr;
+void tool_contact::operator()(SmallTasks) const {
+  const double* points = curves.position.values().data();
+  const double* rates = curves.velocity ? curves.velocity->values().data() : nullptr;
 
   // Of both rows, as if `tool` were that of both.
   const auto gap_to = [&](Row<ToolContact> row, const PointLanes& at, double farthest) {
-    const Row<Tool> tool(pair(row, 2));
-    const Lane rx = at.x - tool_position(tool, 0), ry = at.y - tool_position(tool, 1);
+    const Row<Tool> tool(columns.pair(row, 2));
+    const Lane rx = at.x - tools.position(tool, 0), ry = at.y - tools.position(tool, 1);
     RowMotion m;
-    if (range && (*shapes)->is(tool.value, ToolShapes::Kind::polyline)) {
+    if (range && (*tools.shapes)->is(tool.value, ToolShapes::Kind::polyline)) {
       // Farther than an edge the range of pieces tells nothing; see bin_tool_edges.
-      const auto nearest = kernels::nearest_on_surface(
-          (*shapes)->surface_of(tool.value), (*range)(row, 0), (*range)(row, 1), rx, ry, farthest);
+      const auto nearest =
+          kernels::nearest_on_surface((*tools.shapes)->surface_of(tool.value), (*range)(row, 0),
+                                      (*range)(row, 1), rx, ry, farthest);
       m.nx = nearest.nx;
       m.ny = nearest.ny;
       m.gap = -nearest.distance;
     } else {
-      m.nx = tool_normal(tool, 0);
-      m.ny = tool_normal(tool, 1);
+      m.nx = tools.normal(tool, 0);
+      m.ny = tools.normal(tool, 1);
       m.gap = -(rx * m.nx + ry * m.ny);
     }
     return m;
@@ -47,8 +38,9 @@ void tool_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
     std::array<const Shape::Edge*, 2> edge;
     std::array<std::size_t, 2> first;
     for (std::size_t i = 0; i < 2; ++i) {
-      const int slot = pair(rows[i], 0);
-      edge[i] = &bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(pair(rows[i], 1))];
+      const int slot = columns.pair(rows[i], 0);
+      edge[i] =
+          &bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(columns.pair(rows[i], 1))];
       const int control = bodies->slots[static_cast<std::size_t>(slot)].first_control;
       first[i] = 2 * static_cast<std::size_t>(control + edge[i]->first_control);
     }
@@ -72,7 +64,7 @@ void tool_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
     m.gap_rate = m.slip_rate = Lane{};
     if (rates != nullptr) {
       const PointLanes speed = edge_points_at(rates + first[0], rates + first[1]);
-      const Row<Tool> a(pair(rows[0], 2)), b(pair(rows[1], 2));
+      const Row<Tool> a(columns.pair(rows[0], 2)), b(columns.pair(rows[1], 2));
       const Lane wx = speed.x - halves(tool_velocity(a, 0), tool_velocity(b, 0));
       const Lane wy = speed.y - halves(tool_velocity(a, 1), tool_velocity(b, 1));
       m.gap_rate = -(wx * m.nx + wy * m.ny);
@@ -81,7 +73,8 @@ void tool_contact(SmallTasks, Read<Bodies> bodies, Read<Clock> clock, Read<Curve
     set_touching(columns, rows, touching, m, 1.0, clock->dt_before, sum);
   };
   for_active_pairs<ToolContact>(
-      pair.rows(), *sums, [&](Row<ToolContact> row) { return clock->travel >= reach(row); },
+      columns.pair.rows(), *sums,
+      [&](Row<ToolContact> row) { return clock->travel >= columns.reach(row); },
       [&](Row<ToolContact> row) { fetch(columns, row); }, [](Row<ToolContact>) {}, look_at);
 }
 

@@ -24,9 +24,7 @@ Point tool_position_at(const ToolProgram& program, int tool, double time) {
   return at;
 }
 
-void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Optional<Read<ServoVelocity>> servo,
-                 Optional<Write<ServoTravel>> servo_travel, Write<ToolPosition> position,
-                 Write<ToolVelocity> velocity) {
+void tool_motion::operator()() const {
   for (int t = 0; t < position.rows(); ++t) {
     const Row<Tool> tool(t);
     const Point now = tool_position_at(*program, t, clock->time);
@@ -45,26 +43,23 @@ void tool_motion(Read<Clock> clock, Read<ToolProgram> program, Optional<Read<Ser
 
 namespace {
 
-void add_contacts(const Read<ContactPair<ToolContact>>& pair,
-                  const Read<ContactTouches<ToolContact>>& touches,
-                  const Read<PointForce<ToolContact>>& force, const Write<ToolForce>& tool_force) {
-  for (int r = 0; r < pair.rows(); ++r) {
+void add_contacts(const TouchingRows<ToolContact>& rows, const Write<ToolForce>& tool_force) {
+  for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<ToolContact> row(r);
-    if (touches(row) == 0) continue;
-    const Row<Tool> tool(pair(row, 2));
+    if (rows.touches(row) == 0) continue;
+    const Row<Tool> tool(rows.pair(row, 2));
     for (int g = 0; g < edge_points; ++g)
-      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= force(row, 2 * g + k);
+      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= rows.force(row, 2 * g + k);
   }
 }
 
 // A radial grip moves by x alone and has the sum of the radial forces as x: work is force times way
 // for every grip alike.
-void add_grips(const Read<GripTarget>& target, const Read<GripTravel>& travel,
-               const Read<GripReaction>& reaction, const Write<ToolForce>& tool_force) {
-  for (int r = 0; r < target.rows(); ++r) {
+void add_grips(const tool_reaction::Grips& grips, const Write<ToolForce>& tool_force) {
+  for (int r = 0; r < grips.target.rows(); ++r) {
     const Row<GrippedNode> row(r);
     for (int k = 0; k < 2; ++k)
-      tool_force(Row<Tool>(target(row, 2)), k) -= travel(row, k) * reaction(row);
+      tool_force(Row<Tool>(grips.target(row, 2)), k) -= grips.travel(row, k) * grips.reaction(row);
   }
 }
 
@@ -72,12 +67,7 @@ void add_grips(const Read<GripTarget>& target, const Read<GripTravel>& travel,
 
 // Work by the trapezoidal rule: forces at both ends of the step, which is what keeps the energy balance
 // of the leapfrog to second order.
-void tool_reaction(Read<Clock> clock, Optional<Read<ContactPair<ToolContact>>> pair,
-                   Optional<Read<ContactTouches<ToolContact>>> touches,
-                   Optional<Read<PointForce<ToolContact>>> force, Optional<Read<GripTarget>> grip,
-                   Optional<Read<GripTravel>> grip_travel,
-                   Optional<Read<GripReaction>> grip_reaction, Read<ToolVelocity> velocity,
-                   Write<ToolForce> tool_force, Write<Totals> totals) {
+void tool_reaction::operator()() const {
   const auto power = [&] {
     double sum = 0;
     for (int t = 0; t < tool_force.rows(); ++t)
@@ -87,8 +77,8 @@ void tool_reaction(Read<Clock> clock, Optional<Read<ContactPair<ToolContact>>> p
   const double power_before = power();
   for (int t = 0; t < tool_force.rows(); ++t)
     tool_force(Row<Tool>(t), 0) = tool_force(Row<Tool>(t), 1) = 0;
-  if (pair) add_contacts(*pair, *touches, *force, tool_force);
-  if (grip) add_grips(*grip, *grip_travel, *grip_reaction, tool_force);
+  if (contacts) add_contacts(*contacts, tool_force);
+  if (grips) add_grips(*grips, tool_force);
   const double work = 0.5 * (power_before + power()) * clock->dt_before;
   totals->external_work += work;
   totals->largest_work = std::max(totals->largest_work, std::abs(work));

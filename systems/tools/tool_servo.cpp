@@ -52,20 +52,18 @@ void check_held(const Servo& servo, const ToolProgram& program, const Clock& clo
 }
 
 // Springs and dashpots of the contact points that press on a tool now, as if all pointed its way.
-kernels::TouchSums touching(int tool, const Read<ContactPair<ToolContact>>& pair,
-                            const Read<ContactTouches<ToolContact>>& touches,
-                            const Read<ContactLaw<ToolContact>>& law,
-                            const Read<PointForce<ToolContact>>& force) {
+kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
+                            const Read<ContactLaw<ToolContact>>& law) {
   using Law = ContactLaw<ToolContact>;
   kernels::TouchSums sums;
-  for (int r = 0; r < pair.rows(); ++r) {
+  for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<ToolContact> row(r);
-    if (touches(row) == 0 || pair(row, 2) != tool) continue;
+    if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
     const double kappa = law(row, Law::stiffness);
     const double g_s = kernels::stiffening_depth / law(row, Law::over_length);
     for (int g = 0; g < edge_points; ++g) {
       const double weight = law(row, Law::weight + g);
-      const double x = force(row, 2 * g), y = force(row, 2 * g + 1);
+      const double x = rows.force(row, 2 * g), y = rows.force(row, 2 * g + 1);
       const double pressure = std::sqrt(x * x + y * y) / weight;
       if (!(pressure > 0)) continue;
       sums.stiffness += weight * kappa * kernels::tangent_at(pressure, kappa, g_s);
@@ -84,11 +82,7 @@ double asked_for(const Servo& servo, double at_begin, double since) {
 
 }  // namespace
 
-void tool_servo(Read<Clock> clock, Read<ToolProgram> program, Read<ToolForce> force,
-                Read<ContactPair<ToolContact>> pair, Read<ContactTouches<ToolContact>> touches,
-                Read<ContactLaw<ToolContact>> law, Read<PointForce<ToolContact>> point_force,
-                Write<ToolServos> servos, Write<ServoMass> mass, Write<ServoVelocity> velocity,
-                Write<ServoDragged> dragged, Write<ServoForce> asked) {
+void tool_servo::operator()() const {
   const std::size_t stage = program->stage_at(clock->time);
   const bool new_stage = stage != servos->stage;
   for (int t = 0; t < force.rows(); ++t) {
@@ -97,26 +91,26 @@ void tool_servo(Read<Clock> clock, Read<ToolProgram> program, Read<ToolForce> fo
     const Servo* last = servo_of(*servos, t, servos->stage);
     if (new_stage && last != nullptr) check_held(*last, *program, *clock, borne(*last, force));
     if (servo == nullptr) {
-      set_along(velocity, tool, {}, 0), set_along(dragged, tool, {}, 0);
+      set_along(drive.velocity, tool, {}, 0), set_along(drive.dragged, tool, {}, 0);
       continue;
     }
     const double bears = borne(*servo, force);
-    if (new_stage) asked(tool, 1) = bears;
-    if (new_stage && last == nullptr) mass(tool) = servo->mass;
-    asked(tool, 0) = asked_for(*servo, asked(tool, 1), clock->time - program->stages[stage].begin);
+    if (new_stage) drive.asked(tool, 1) = bears;
+    if (new_stage && last == nullptr) drive.mass(tool) = servo->mass;
+    drive.asked(tool, 0) =
+        asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
 
-    const double least = kernels::least_tool_mass(touching(t, pair, touches, law, point_force),
-                                                  clock->dt, clock->safety);
+    const double least = kernels::least_tool_mass(touching(t, rows, law), clock->dt, clock->safety);
     const kernels::ServoState now =
-        kernels::with_mass({mass(tool), along(velocity, tool, servo->direction),
-                            along(dragged, tool, servo->direction)},
+        kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
+                            along(drive.dragged, tool, servo->direction)},
                            std::max(servo->mass, least));
     const kernels::ServoState next = kernels::servo_step(
-        now, asked(tool, 0) - bears, servo->damping * std::sqrt(now.mass / servo->mass),
+        now, drive.asked(tool, 0) - bears, servo->damping * std::sqrt(now.mass / servo->mass),
         servo->fastest, 0.5 * (clock->dt_before + clock->dt));
-    mass(tool) = next.mass;
-    set_along(velocity, tool, servo->direction, next.speed);
-    set_along(dragged, tool, servo->direction, next.dragged);
+    drive.mass(tool) = next.mass;
+    set_along(drive.velocity, tool, servo->direction, next.speed);
+    set_along(drive.dragged, tool, servo->direction, next.dragged);
   }
   servos->stage = stage;
 }

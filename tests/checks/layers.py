@@ -121,13 +121,13 @@ def is_declared(root, source, systems):
         return True
     if inside.parts[0] == "systems":  # a system, or several of one kind
         text = source.read_text(encoding="utf-8")
-        return any(re.search(rf"\bvoid {name}\(", text) for name in systems)
+        return any(re.search(rf"\bvoid {name}(<\w+>)?(::operator\(\))?\(", text) for name in systems)
     return False
 
 
 def names_of_systems(root):
     text = "".join(f.read_text(encoding="utf-8") for f in sorted((root / "systems").rglob("*systems.hpp")))
-    return set(re.findall(r"^(?:\s*)void (\w+)\(", text, re.M))
+    return set(re.findall(r"^(?:void|struct) ([a-z]\w+)[( ]", text, re.M))
 
 
 def main():

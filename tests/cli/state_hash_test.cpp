@@ -113,7 +113,7 @@ TEST_F(StateHashOf, DoesNotSeeWhatIsMadeAnewNorEmptyLanes) {
 
 TEST(StateHash, SeesThePlasticStateOfFourPointElements) {
   Scene scene = fast_scene();
-  scene.element.formulation = ElementSpec::Formulation::four_point;
+  scene.element.formulation = Formulation::four_point;
   Simulation simulation(scene);
   const std::uint64_t before = state_hash(simulation.world());
   simulation.world().column<PlasticStrain<4>>().values()[0] = 1e-9;

@@ -159,6 +159,29 @@ TEST_F(TaskGraphTest, MissingColumnOfASystemNamesItself) {
   EXPECT_THAT(refusal_of([&] { world_system<Read<Absent>>("a"); }), HasSubstr("absent"));
 }
 
+// ---- passes over the chunks -----------------------------------------------------------------------
+// As in a step with contact: `force` gathers what the world systems found, `body` waits for nothing, `move` takes both.
+TEST_F(TaskGraphTest, PassesAreThePolicyOfTheGraph) {
+  const std::vector<System> systems{world_system<Write<Force>>("touch"),
+                                    chunk_system<Read<Force>, Write<Flux>>("force"),
+                                    chunk_system<Read<Weight>, Write<Heat>>("body"),
+                                    world_system<Read<Force>, Write<Ends>>("aside"),
+                                    chunk_system<Read<Heat>, Read<Flux>, Write<Weight>>("move")};
+  using Stage = std::vector<std::size_t>;
+  EXPECT_THAT(stages_of(systems, Passes::beside),
+              ElementsAre(Stage{0}, Stage{2}, Stage{3}, Stage{1, 4}));
+  EXPECT_THAT(stages_of(systems, Passes::fewest), ElementsAre(Stage{0}, Stage{3}, Stage{1, 2, 4}));
+}
+
+// `aside` must come after the one and before the other.
+TEST_F(TaskGraphTest, APassDoesNotJoinAnotherPastWhoWaitsForIt) {
+  const std::vector<System> systems{chunk_system<Write<Heat>>("first"),
+                                    world_system<Read<Heat>, Write<Ends>>("aside"),
+                                    chunk_system<Read<Ends>, Write<Flux>>("second")};
+  for (const Passes passes : {Passes::beside, Passes::fewest})
+    EXPECT_EQ(stages_of(systems, passes).size(), 3U);
+}
+
 // Five stages: a chunk stage of two systems between world systems, one of them off the chain.
 struct CountedRun {
   std::atomic<int> calls[6] = {};
@@ -313,7 +336,7 @@ TEST(Transients, ReachTheNextSystemOfThePassAndLeaveTheColumnAlone) {
   };
   workers.run([&] {
     world.allocate_transient(droppable_components(systems), 3);
-    TaskGraph dropping(systems, chunks, Transients::dropped);
+    TaskGraph dropping(systems, chunks, Passes::beside, Transients::dropped);
     for (int i = 0; i < 20; ++i) dropping.run();
   });
   for (int c = 0; c < chunks; ++c) {
@@ -342,7 +365,7 @@ TEST_F(TaskGraphTest, BusySystemLooksAheadToWhatOthersOfItsPassTouch) {
   const std::vector<System> systems{chunk_system<Read<Heat>>("before"), busy,
                                     chunk_system<Read<Heat>, Write<Flux>>("after"),
                                     world_system<Read<Force>>("in_no_pass")};
-  workers.run([&] { TaskGraph(systems, chunks, Transients::kept, &world).run(); });
+  workers.run([&] { TaskGraph(systems, chunks, Passes::beside, Transients::kept, &world).run(); });
   const int of_next = lines_of(type_key<Heat>()) + lines_of(type_key<Weight>());
   const int of_this = lines_of(type_key<Flux>());
   EXPECT_GT(of_next, 0);

@@ -140,7 +140,7 @@ const DensityGrid& grid_between(Experiment& e, double bottom, double top) {
   const auto& tool = w.resource<DensityGrid>().tool;
   at[2 * tool[DensityGrid::bottom] + 1] = bottom;
   at[2 * tool[DensityGrid::top] + 1] = top;
-  local_density(Read<Bodies>(w), Read<Position>(w), Read<ToolPosition>(w), Write<DensityGrid>(w));
+  open<local_density>(w)();
   return w.resource<DensityGrid>();
 }
 

@@ -121,7 +121,7 @@ TEST(StableTimeStep, HoldsForStrainedParticles) {
 
 // The estimate of the whole particle: below the exact limit too, and nearer to it than the elements' bound.
 void expect_estimate(const Outline& outline, const MeshSpec& mesh, double nu,
-                     ElementSpec::Formulation formulation, double at_least,
+                     Formulation formulation, double at_least,
                      const Eigen::Matrix2d& stretch = Eigen::Matrix2d::Identity()) {
   Scene scene = one_particle(outline, mesh, nu);
   scene.element.formulation = formulation;
@@ -136,9 +136,9 @@ void expect_estimate(const Outline& outline, const MeshSpec& mesh, double nu,
   EXPECT_GE(step, bounded.stable_step());
 }
 
-constexpr auto four_point = ElementSpec::Formulation::four_point;
-constexpr auto one_point = ElementSpec::Formulation::one_point;
-constexpr auto standard = ElementSpec::Formulation::standard;
+constexpr auto four_point = Formulation::four_point;
+constexpr auto one_point = Formulation::one_point;
+constexpr auto standard = Formulation::standard;
 
 TEST(HighestMode, StepOfAWholeParticleIsWithinFourPercent) {
   DiscMesh coarse{48, 0, 1};

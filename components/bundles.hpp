@@ -1,0 +1,86 @@
+// Columns that always go together, as bundles of accesses (engine/bundle.hpp): what the systems of several rooms declare
+// as one. Mode: Read or Write.
+#pragma once
+
+#include "components/contact.hpp"
+#include "components/run_state.hpp"
+#include "components/surface.hpp"
+#include "engine/access.hpp"
+
+namespace pulvis {
+
+// ---- bodies -------------------------------------------------------------------------------------
+struct Elasticity {
+  Read<ShearModulus> shear;
+  Read<BulkModulus> bulk;
+};
+struct Material {
+  Read<Density> density;
+  Elasticity elastic;
+};
+struct BulkDamping {
+  Read<MassDamping> mass;
+  Read<StiffnessDamping> stiffness;
+};
+struct Motion {  // of the nodes
+  Read<Position> position;
+  Read<Velocity> velocity;
+};
+// Forces on the nodes. Those of contact are apart, and only where anything can touch.
+template <template <class> class Mode>
+struct NodalForces {
+  Mode<InternalForce> internal;
+  Optional<Read<ContactForce>> contact;
+};
+// F: the formulation of the elements (components/formulation.hpp).
+template <template <class> class Mode, class F>
+struct ElementStress {
+  Mode<DeviatoricStress<F::points>> deviator;
+  Mode<MeanStress<F::volumes>> mean;
+};
+// Only of elements with one point: the stress of the hourglass modes.
+template <template <class> class Mode>
+struct Bending {
+  Mode<HourglassStress> stress;
+  Mode<LeastCorner> least_corner;
+};
+// The element of each particle that is nearest to turning inside out.
+template <template <class> class Mode>
+struct WorstJacobian {
+  Mode<LeastJacobian> value;
+  Mode<WorstElement> element;
+};
+
+// ---- contact ------------------------------------------------------------------------------------
+struct ContactCurves {
+  Read<CurvePosition> position;
+  Optional<Read<CurveVelocity>> velocity;  // with friction or damping
+};
+// The surfaces of the tools; of polylines, more than a normal.
+struct ToolSurfaces {
+  Read<ToolNormal> normal;
+  Read<ToolPosition> position;
+  Optional<Read<ToolShapes>> shapes;
+
+  bool is(int tool, ToolShapes::Kind kind) const {
+    return shapes ? (*shapes)->is(tool, kind) : kind == ToolShapes::Kind::plane;
+  }
+};
+// What the narrow phases leave for those who look at the rows that touch.
+template <class At>
+struct TouchingRows {
+  Read<ContactPair<At>> pair;
+  Read<ContactTouches<At>> touches;
+  Read<PointForce<At>> force;
+};
+struct TouchingPairs {
+  TouchingRows<Contact> rows;
+  Read<ClosestPoint> closest;
+};
+struct TouchingTools {
+  TouchingRows<ToolContact> rows;
+  ToolSurfaces surfaces;
+  Optional<Read<SurfaceRange>> range;  // with polylines
+};
+
+}  // namespace pulvis
