@@ -40,7 +40,7 @@ struct ElementStress {
 };
 // Only of elements with one point: the stress of the hourglass modes.
 template <template <class> class Mode>
-struct Bending {
+struct BendingModes {
   Mode<HourglassStress> stress;
   Mode<LeastCorner> least_corner;
 };

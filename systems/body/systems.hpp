@@ -17,7 +17,7 @@ struct elastic_stress {
   Read<Position> position;
   Elasticity elastic;
   ElementStress<Write, F> stress;
-  Optional<Bending<Write>> bending;
+  Optional<BendingModes<Write>> bending;
   WorstJacobian<Write> worst;
   void operator()(Chunk chunk) const;
 };
@@ -33,7 +33,7 @@ struct trial_stress {
     Write<IsochoricScale<F::points>> isochoric;
   } plastic;
   ElementStress<Write, F> stress;
-  Optional<Bending<Write>> bending;
+  Optional<BendingModes<Write>> bending;
   WorstJacobian<Write> worst;
   void operator()(Chunk chunk) const;
 };
@@ -51,7 +51,7 @@ struct internal_force {
   Read<Position> position;
   ElementStress<Read, F> stress;
   Read<ShearModulus> shear;
-  Optional<Bending<Read>> bending;
+  Optional<BendingModes<Read>> bending;
   Write<InternalForce> force;
   void operator()(BusyChunk chunk) const;
 };

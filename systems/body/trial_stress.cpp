@@ -97,7 +97,7 @@ void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
 // `gone`: null for elastic material.
 template <class F, class LeftCauchyGreen>
 void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
-                  const Optional<Bending<Write>>& bending,
+                  const Optional<BendingModes<Write>>& bending,
                   const Optional<Read<PlasticHourglass>>* gone,
                   const WorstJacobian<Write>& worst_jacobian, const LeftCauchyGreen& left) {
   std::optional<ChunkView<PlasticHourglass, const Lane*>> plastic;
