@@ -51,6 +51,7 @@ struct Options {
   StudyOptions study;
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
+  bool print = false;     // the scene, whole
   FigureOptions figure;
   std::vector<std::filesystem::path> folders;  // of runs to report on
   std::filesystem::path comparison;
@@ -78,12 +79,19 @@ void print_meshes(const Scene& scene) {
   }
 }
 
+ExitCode print_scene(const LoadedScene& loaded) {
+  tell("{}", loaded.text_in_place);
+  return ExitCode::done;
+}
+
 ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
     tell("{}", options.reference == "schema" ? scene_json_schema() : scene_reference());
     return ExitCode::done;
   }
-  const Scene scene = read_scene(options.run.scene, options.run.overrides);
+  const LoadedScene loaded = load_scene(options.run.scene, options.run.overrides);
+  if (options.print) return print_scene(loaded);
+  const Scene& scene = loaded.scene;
   if (scene.afm) return check_afm_scene(scene);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
@@ -351,6 +359,8 @@ int parse_and_run(int argc, char** argv) {
       ->add_option("--reference", options.reference,
                    "print the scene language instead: text or schema")
       ->check(CLI::IsMember({"text", "schema"}));
+  checks->add_flag("--print", options.print,
+                   "print the scene whole instead: what it extends, overrides and defaults put in");
   checks->callback([&] {
     if (options.run.scene.empty() && options.reference.empty()) throw CLI::RequiredError("scene");
     code = check(options);

@@ -7,6 +7,7 @@
 #include "scenes/checks/checks.hpp"
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/keys/tables.hpp"
+#include "scenes/language/extends.hpp"
 #include "scenes/language/override.hpp"
 #include "scenes/language/scene_text.hpp"
 #include "scenes/language/table_reader.hpp"
@@ -25,8 +26,6 @@ namespace {
 using document::Array;
 using document::Table;
 using document::Value;
-
-constexpr std::size_t largest_file = 16U << 20U;  // bytes; scenes are written by hand
 
 class SceneReader {
  public:
@@ -173,19 +172,6 @@ class SceneReader {
   schema::TableReader tables_;
 };
 
-Table parsed(const std::string& text, Problems& problems) {
-  try {
-    Table root = document::parse(text);
-    if (root.empty()) problems.add({{1, 1}, -1}, "scene", "is empty, allowed: a scene (TOML)");
-    problems.throw_if_any();
-    return root;
-  } catch (const document::SyntaxError& error) {
-    problems.add({error.mark, -1}, "syntax", error.what());
-    problems.throw_if_any();
-    throw;  // not reached
-  }
-}
-
 [[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& message) {
   throw SceneError({{file.string(), 1, 1, "", "scene", message}});
 }
@@ -196,18 +182,26 @@ void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, 
   std::erase_if(root, [&](const document::Entry& entry) {
     return entry.key == "accuracy" || (alone && entry.key == "expect");
   });
+  loaded.text_in_place = scene_text(root, schema::scene_language());
   loaded.inputs =
       keep_inputs(root, loaded.scene.file.parent_path(), others, schema::scene_language());
   loaded.text = scene_text(root, schema::scene_language());
   loaded.hash = hash_with_inputs(loaded.inputs, scene_hash(loaded.text));
 }
 
+// Files have been put together when overrides are applied.
+void refuse_extending(const Table& root, Problems& problems) {
+  if (const document::Entry* entry = document::find(root, "extends"))
+    problems.add(entry->origin, "extends", "cannot be set here, allowed: in a scene's file");
+}
+
 // `alone`: without what is expected of it.
 LoadedScene load(const std::string& text, const std::filesystem::path& file,
                  const std::vector<std::string>& overrides = {}, bool alone = false) {
   Problems problems(file, overrides);
-  Table root = parsed(text, problems);
+  Table root = whole_tree(text, file, schema::scene_language(), problems);
   apply_overrides(root, overrides, problems);
+  refuse_extending(root, problems);
   problems.throw_if_any();
   fill_meshes(root, problems);
   schema::fill_defaults(root, schema::scene_language());
@@ -215,6 +209,7 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   LoadedScene loaded;
   SceneReader reader(root, problems);
   loaded.scene = reader.read(file);
+  loaded.scene.extended = {problems.files().begin() + 1, problems.files().end()};
   problems.throw_if_any();
   if (loaded.scene.afm) {
     load_meshed_lever(loaded.scene, reader.origins(), problems);
@@ -244,7 +239,7 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
 
 std::string toml_file_text(const std::filesystem::path& file, const char* kind) {
   try {
-    return text_of_input(file, largest_file);
+    return text_of_input(file, document::largest_file);
   } catch (const UnfitInput& unfit) {
     refuse_file(file, fmt::format("{}, allowed: {} (TOML)", unfit.what(), kind));
   }

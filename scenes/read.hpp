@@ -15,9 +15,11 @@ namespace pulvis {
 
 struct LoadedScene {
   Scene scene;
-  // The scene as run, as TOML: overrides and defaults included, one fixed layout. It stands alone: its paths
+  // The scene as run, as TOML: what it extends, overrides and defaults included, one fixed layout. It stands alone: its paths
   // lead to copies of the files that it names, as a run's folder keeps them.
   std::string text;
+  // The same with its paths as they are from the folder of the scene's file.
+  std::string text_in_place;
   std::vector<InputFile> inputs;
   // Of that text and of those files: the same for every scene that says the same.
   std::uint64_t hash = 0;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/files/xxh3.hpp"
+#include "scenes/language/named_files.hpp"
 #include "scenes/read.hpp"
 
 namespace pulvis {
@@ -15,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using document::Table;
-using document::Value;
 
 // At most so many bytes of `name`, cut between characters: what is added must fit in a file's name.
 std::string shortened(std::string name) {
@@ -34,37 +34,19 @@ std::string marked(const std::string& name, std::uint64_t hash) {
 
 class InputKeeper {
  public:
-  InputKeeper(const fs::path& folder, const OtherScenes& others, const schema::Language& language)
-      : folder_(folder), others_(others), language_(language) {}
+  InputKeeper(const fs::path& folder, const OtherScenes& others)
+      : folder_(folder), others_(others) {}
 
-  void look_through(Table& table, const std::string& path) {
-    const schema::TableView& view = *schema::find_table(path, language_);
-    for (document::Entry& entry : table)
-      if (const schema::KeyInfo* key = schema::find_key(view, entry.key))
-        look_at(*key, entry.value);
-      else
-        look_below(entry.value, schema::joined_path(path, entry.key));
+  void keep(schema::Kind kind, std::string& path) {
+    if (kind == schema::Kind::file) path = keep_file(folder_ / path).string();
+    const auto other = others_.find(folder_ / path);
+    if (kind == schema::Kind::scene && other != others_.end())
+      path = keep_scene(other->first, other->second).string();
   }
 
   std::vector<InputFile> inputs;
 
  private:
-  void look_below(Value& value, const std::string& path) {
-    if (schema::find_table(path, language_) == nullptr) return;
-    if (auto* table = value.as<Table>()) look_through(*table, path);
-    if (document::is_array_of_tables(value))
-      for (Value& element : value.get<document::Array>()) look_through(element.get<Table>(), path);
-  }
-
-  void look_at(const schema::KeyInfo& key, Value& value) {
-    auto* path = value.as<std::string>();
-    if (path == nullptr || path->empty()) return;
-    if (key.kind == schema::Kind::file) *path = keep_file(folder_ / *path).string();
-    const auto other = others_.find(folder_ / *path);
-    if (key.kind == schema::Kind::scene && other != others_.end())
-      *path = keep_scene(other->first, other->second).string();
-  }
-
   fs::path keep_file(const fs::path& source) {
     const std::uint64_t hash = file_hash(source);
     const std::string name = marked(source.stem().string(), hash);
@@ -91,15 +73,15 @@ class InputKeeper {
 
   const fs::path& folder_;
   const OtherScenes& others_;
-  const schema::Language& language_;
 };
 
 }  // namespace
 
 std::vector<InputFile> keep_inputs(Table& root, const fs::path& folder, const OtherScenes& others,
                                    const schema::Language& language) {
-  InputKeeper keeper(folder, others, language);
-  keeper.look_through(root, "");
+  InputKeeper keeper(folder, others);
+  for_each_path(root, language,
+                [&](schema::Kind kind, std::string& path) { keeper.keep(kind, path); });
   return keeper.inputs;
 }
 

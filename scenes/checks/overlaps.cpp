@@ -222,20 +222,17 @@ class Report {
     if (problems_.size() > most_reports) return;
     const BodySpec& body = bodies_[overlap.particle];
     const bool last = problems_.size() == most_reports;
-    problems_.push_back({scene_.file.string(), body.mark.line, body.mark.column, "",
+    problems_.push_back({scene_.file_of(body.mark).string(), body.mark.line, body.mark.column, "",
                          last ? "scene" : key_of(body),
                          last ? "there are more overlaps, not listed" : message});
   }
 
   // A packing's particles share its mark, so the mark tells where a particle comes from.
   std::string key_of(const BodySpec& body) const {
-    const auto same = [&](SourceMark mark) {
-      return mark.line == body.mark.line && mark.column == body.mark.column;
-    };
     for (std::size_t i = 0; i < scene_.packings.size(); ++i)
-      if (same(scene_.packings[i].mark)) return fmt::format("packing[{}]", i);
+      if (scene_.packings[i].mark == body.mark) return fmt::format("packing[{}]", i);
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
-      if (same(scene_.bodies[i].mark)) return fmt::format("body[{}].position", i);
+      if (scene_.bodies[i].mark == body.mark) return fmt::format("body[{}].position", i);
     return "particle";
   }
 

@@ -52,7 +52,21 @@ auto mesh_to(Set set) {
 const TableDeclaration<Scene>& top_level() {
   static const TableDeclaration<Scene> declaration{
       {"", false, "family", "Keys before the first table.", every_family},
-      {{{.name = "family",
+      {{{.name = "extends",
+         .kind = Kind::scene,
+         .doc = "Another file, from the folder of this one: a scene, or a part of one. This file "
+                "says only what "
+                "differs from it (above).",
+         .fallback_doc = "the scene is whole"},
+        nothing<Scene>},
+       {{.name = "remove",
+         .kind = Kind::texts,
+         .needs = "extends",
+         .doc = "What of the extended file is not wanted: paths of keys, tables and elements as "
+                "for `--set`, "
+                "`[\"tool.left\", \"limits\"]`."},
+        nothing<Scene>},
+       {{.name = "family",
          .kind = Kind::choice,
          .choices = {{"compaction", "deformable particles in a rigid die, 2D plane strain"},
                      {"afm", "a cantilever with a tip or a colloid probe, 3D, quasi-static"}},

@@ -144,10 +144,13 @@ std::vector<const char*> tables_required(const std::string& family) {
   return {"particle", "stage"};
 }
 
+// A whole file, or one that extends another and so may leave out anything.
+enum class Extent { whole, part };
+
 // For one value of the selector: the keys it requires, and the keys of other values forbidden, in
 // the table itself and in the tables below it.
 Json branch(const schema::TableView& view, const std::string& selected,
-            const schema::Language& language) {
+            const schema::Language& language, Extent extent) {
   Json required = Json::array(), properties = Json::object();
   for (const schema::KeyInfo& key : view.keys) {
     if (key.only_for.empty()) continue;
@@ -157,41 +160,44 @@ Json branch(const schema::TableView& view, const std::string& selected,
   }
   for (const schema::TableView* child : children(view.info.path, language))
     if (child->info.selector == view.info.selector)
-      properties[last_word(*child)] = branch(*child, selected, language);
+      properties[last_word(*child)] = branch(*child, selected, language, extent);
   if (view.info.path.empty()) {
     for (const schema::TableView* child : children("", language))
       if (!schema::belongs(child->info, selected)) properties[last_word(*child)] = false;
     for (const char* table : tables_required(selected)) required.push_back(table);
   }
   Json json{{"properties", properties}};
-  if (!required.empty()) json["required"] = required;
+  if (!required.empty() && extent == Extent::whole) json["required"] = required;
   return json;
 }
 
-void add_branches(Json& json, const schema::TableView& view, const schema::Language& language) {
+void add_branches(Json& json, const schema::TableView& view, const schema::Language& language,
+                  Extent extent) {
   const schema::KeyInfo* selector = schema::find_key(view, view.info.selector);
   if (selector == nullptr) return;
   for (const schema::Choice& choice : selector->choices) {
-    const Json test{{"properties", {{selector->name, {{"const", choice.word}}}}}};
-    json["allOf"].push_back({{"if", test}, {"then", branch(view, choice.word, language)}});
+    Json test{{"properties", {{selector->name, {{"const", choice.word}}}}}};
+    if (extent == Extent::part) test["required"] = {selector->name};
+    json["allOf"].push_back({{"if", test}, {"then", branch(view, choice.word, language, extent)}});
   }
 }
 
-Json table(const schema::TableView& view, const schema::Language& language) {
+Json table(const schema::TableView& view, const schema::Language& language, Extent extent) {
   Json json{{"type", "object"}, {"description", view.info.doc}, {"additionalProperties", false}};
   Json required = Json::array();
   for (const schema::KeyInfo& key : view.keys) {
     json["properties"][key.name] = property(key);
     if (key.required && key.only_for.empty()) required.push_back(key.name);
-    if (!key.needs.empty()) json["dependentRequired"][key.name] = {key.needs};
+    if (!key.needs.empty() && extent == Extent::whole)
+      json["dependentRequired"][key.name] = {key.needs};
   }
   for (const schema::TableView* child : children(view.info.path, language)) {
-    Json inner = table(*child, language);
+    Json inner = table(*child, language, extent);
     if (child->info.repeated) inner = {{"type", "array"}, {"minItems", 1}, {"items", inner}};
     json["properties"][last_word(*child)] = inner;
   }
-  if (!required.empty()) json["required"] = required;
-  add_branches(json, view, language);
+  if (!required.empty() && extent == Extent::whole) json["required"] = required;
+  add_branches(json, view, language, extent);
   return json;
 }
 
@@ -203,8 +209,16 @@ std::string json_schema_of(const std::string& title, const std::string& declared
   Json json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
             {"title", title},
             {"$comment", "Generated from the declarations in " + declared_in + "."}};
-  json.update(table(language.front(), language));
-  for (const std::string& key : required) json["required"].push_back(key);
+  Json whole = table(language.front(), language, Extent::whole);
+  for (const std::string& key : required) whole["required"].push_back(key);
+  if (schema::find_key(language.front(), "extends") == nullptr) {
+    json.update(whole);
+    return json.dump(2) + "\n";
+  }
+  json.update(table(language.front(), language, Extent::part));
+  json["if"]["not"]["required"] = {"extends"};
+  json["then"]["$ref"] = "#/$defs/whole";
+  json["$defs"]["whole"] = whole;
   return json.dump(2) + "\n";
 }
 

@@ -5,6 +5,7 @@
 
 #include "scenes/language/source_mark.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -15,9 +16,11 @@
 
 namespace pulvis::document {
 
+inline constexpr std::size_t largest_file = 16U << 20U;  // bytes; scenes are written by hand
+
 struct Origin {
   SourceMark mark;
-  int override_index = -1;  // >= 0: written by this override, not by the file
+  int override_index = -1;  // >= 0: written by this override, not by a file
 };
 
 struct Value;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <span>
 
 namespace pulvis {
 namespace {
@@ -163,7 +164,51 @@ void apply(Value& root, const std::string& path, const std::string& text, int in
   assign(*here, steps.back(), std::move(value), origin);
 }
 
+std::vector<std::string> keys_of(const document::Table& table) {
+  std::vector<std::string> keys;
+  for (const document::Entry& entry : table) keys.push_back(entry.key);
+  return keys;
+}
+
+document::Table::iterator entry_called(document::Table& table, const std::string& key) {
+  const auto entry = std::ranges::find(table, key, &document::Entry::key);
+  if (entry != table.end()) return entry;
+  throw Refused(fmt::format("there is no '{}'{}, allowed: {}", key, suggestion(key, keys_of(table)),
+                            listed(keys_of(table))));
+}
+
+void take_out(Value& here, std::span<const Step> steps) {
+  const bool last = steps.size() == 1;
+  if (document::is_array_of_tables(here)) {
+    auto& array = here.get<document::Array>();
+    Value& element = entered(here, steps.front(), {});
+    if (last)
+      array.erase(array.begin() + (&element - array.data()));
+    else
+      take_out(element, steps.subspan(1));
+    return;
+  }
+  auto* table = here.as<document::Table>();
+  if (table == nullptr || steps.front().position)
+    throw Refused(fmt::format("the path leads into {}", document::type_name(here)));
+  const auto entry = entry_called(*table, steps.front().key);
+  if (!last) take_out(entry->value, steps.subspan(1));
+  const auto* array = entry->value.as<document::Array>();
+  if (last || (array != nullptr && array->empty())) table->erase(entry);
+}
+
 }  // namespace
+
+void remove_path(document::Table& root, const std::string& path, const document::Origin& where,
+                 Problems& problems) {
+  Value top{std::move(root), {}};
+  try {
+    take_out(top, steps_of(path));
+  } catch (const Refused& refused) {
+    problems.add(where, "remove", fmt::format("\"{}\": {}", path, refused.what()));
+  }
+  root = std::move(top.get<document::Table>());
+}
 
 void apply_overrides(document::Table& root, const std::vector<std::string>& overrides,
                      Problems& problems) {

@@ -16,4 +16,9 @@ namespace pulvis {
 void apply_overrides(document::Table& root, const std::vector<std::string>& overrides,
                      Problems& problems);
 
+// Takes the key, table or element at `path` out; `where` says that. A repeated table whose last element goes is
+// gone, too.
+void remove_path(document::Table& root, const std::string& path, const document::Origin& where,
+                 Problems& problems);
+
 }  // namespace pulvis

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <tuple>
 
 #include "engine/printable.hpp"
 
@@ -49,7 +50,8 @@ SceneError::SceneError(std::vector<SceneProblem> problems)
 
 void Problems::add(const document::Origin& origin, const std::string& key,
                    const std::string& message) {
-  SceneProblem problem{file_.string(), origin.mark.line, origin.mark.column, "", key, message};
+  const SourceMark& mark = origin.mark;
+  SceneProblem problem{file_of(mark).string(), mark.line, mark.column, "", key, message};
   if (origin.override_index >= 0) {
     problem.line = problem.column = 0;
     problem.override_text = overrides_.at(static_cast<std::size_t>(origin.override_index));
@@ -60,9 +62,11 @@ void Problems::add(const document::Origin& origin, const std::string& key,
 void Problems::throw_if_any() const {
   if (problems_.empty()) return;
   std::vector<SceneProblem> sorted = problems_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const SceneProblem& a, const SceneProblem& b) {
-    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-  });
+  const auto place = [&](const SceneProblem& problem) {
+    const auto file = std::ranges::find(files_, std::filesystem::path(problem.file));
+    return std::tuple(file - files_.begin(), problem.line, problem.column);
+  };
+  std::ranges::stable_sort(sorted, std::less(), place);
   throw SceneError(std::move(sorted));
 }
 

@@ -33,13 +33,21 @@ class SceneError : public std::runtime_error {
 class Problems {
  public:
   Problems(std::filesystem::path file, std::vector<std::string> overrides)
-      : file_(std::move(file)), overrides_(std::move(overrides)) {}
+      : files_{std::move(file)}, overrides_(std::move(overrides)) {}
+
+  // Marks call a file by its position: the first is the scene's own, each following one is extended by the one
+  // before it.
+  void add_file(const std::filesystem::path& file) { files_.push_back(file); }
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+  const std::filesystem::path& file_of(const SourceMark& mark) const {
+    return files_.at(static_cast<std::size_t>(mark.file));
+  }
 
   void add(const document::Origin& origin, const std::string& key, const std::string& message);
-  void throw_if_any() const;  // SceneError, in the order of the file
+  void throw_if_any() const;  // SceneError, in the order of the files
 
  private:
-  std::filesystem::path file_;
+  std::vector<std::filesystem::path> files_;
   std::vector<std::string> overrides_;
   std::vector<SceneProblem> problems_;
 };

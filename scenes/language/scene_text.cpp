@@ -43,9 +43,8 @@ bool places_particles(const Block& block) {
   return block.view->info.path == "body" || block.view->info.path == "packing";
 }
 
-bool written_before(const Block& a, const Block& b) {
-  const SourceMark left = a.table->origin.mark, right = b.table->origin.mark;
-  return std::pair(left.line, left.column) < std::pair(right.line, right.column);
+bool comes_before(const Block& a, const Block& b) {
+  return written_before(a.table->origin.mark, b.table->origin.mark);
 }
 
 std::string write_block(const Block& block, const schema::Language& language) {
@@ -64,7 +63,7 @@ std::string scene_text(const Table& root, const schema::Language& language) {
   // body and packing are declared next to each other, so their blocks are one run of the list.
   const auto first = std::find_if(blocks.begin(), blocks.end(), places_particles);
   const auto last = std::find_if_not(first, blocks.end(), places_particles);
-  std::stable_sort(first, last, written_before);
+  std::stable_sort(first, last, comes_before);
 
   std::string text = write_keys(root, language.front());
   for (const Block& block : blocks) text += write_block(block, language);

@@ -18,9 +18,8 @@ std::vector<Source> sources_in_file_order(const Scene& scene) {
   for (const BodySpec& body : scene.bodies) sources.push_back({body.mark, &body, nullptr});
   for (const PackingSpec& packing : scene.packings)
     sources.push_back({packing.mark, nullptr, &packing});
-  std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
-    return std::pair(a.mark.line, a.mark.column) < std::pair(b.mark.line, b.mark.column);
-  });
+  std::stable_sort(sources.begin(), sources.end(),
+                   [](const Source& a, const Source& b) { return written_before(a.mark, b.mark); });
   return sources;
 }
 

@@ -340,6 +340,7 @@ struct AfmScene;  // scenes/spec/afm_scene.hpp
 
 struct Scene {
   std::filesystem::path file;
+  std::vector<std::filesystem::path> extended;  // by `file`, and by each other in this order
   std::string title;
   double thickness = 1e-3;  // m, of the plane-strain slice: forces are in N
   std::uint64_t seed = 1;
@@ -358,6 +359,10 @@ struct Scene {
   std::vector<ExpectSpec> expects;  // [[expect]]
   // family = "afm": then there are no particles, tools and stages. Not changed once it is read.
   std::shared_ptr<AfmScene> afm;
+
+  const std::filesystem::path& file_of(const SourceMark& mark) const {
+    return mark.file == 0 ? file : extended.at(static_cast<std::size_t>(mark.file - 1));
+  }
 };
 
 }  // namespace pulvis

@@ -28,7 +28,7 @@ struct Held {
 [[noreturn]] void refuse(const Scene& scene, int tool, const std::string& key,
                          const std::string& message) {
   const SourceMark& mark = scene.tools[static_cast<std::size_t>(tool)].mark;
-  throw SceneError({{scene.file.string(), mark.line, mark.column, "",
+  throw SceneError({{scene.file_of(mark).string(), mark.line, mark.column, "",
                      fmt::format("tool[{}].{}", tool, key), message}});
 }
 

@@ -47,7 +47,17 @@ TEST(Reference, TheSchemaForbidsKeysOfTheOtherOutline) {
   EXPECT_EQ(disc["if"]["properties"]["outline"]["const"], "disc");
   EXPECT_EQ(disc["then"]["properties"]["width"], false);
   EXPECT_EQ(disc["then"]["properties"]["mesh"]["properties"]["columns"], false);
-  EXPECT_EQ(disc["then"]["required"], nlohmann::json::array({"diameter"}));
+  const auto& whole = json["$defs"]["whole"]["properties"]["particle"]["items"];
+  EXPECT_EQ(whole["allOf"][0]["then"]["required"], nlohmann::json::array({"diameter"}));
+}
+
+TEST(Reference, TheSchemaRequiresKeysWhereNothingIsExtended) {
+  const auto json = nlohmann::json::parse(scene_json_schema());
+  EXPECT_EQ(json["if"]["not"]["required"], nlohmann::json::array({"extends"}));
+  EXPECT_EQ(json["then"]["$ref"], "#/$defs/whole");
+  EXPECT_EQ(json["$defs"]["whole"]["required"], nlohmann::json::array({"family", "material"}));
+  EXPECT_FALSE(json.contains("required"));
+  EXPECT_FALSE(json["properties"]["particle"]["items"].contains("required"));
 }
 
 }  // namespace
