@@ -81,7 +81,9 @@ class Program:
         return re.search(r"\((.+)\)", text.stdout)[1]
 
     def key(self, scene, overrides):
-        text = (ROOT / "scenes" / scene).read_text() + json.dumps(overrides, sort_keys=True)
+        command = [self.path, "check", "--print", ROOT / "scenes" / scene]  # with what it extends
+        whole = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        text = whole + json.dumps(overrides, sort_keys=True)
         return hashlib.sha256((self.hash + text).encode()).hexdigest()[:16]
 
     def once(self, scene, overrides, folder):

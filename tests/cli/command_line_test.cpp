@@ -372,10 +372,9 @@ TEST_F(CommandLine, PackWritesWhatAPackingReads) {
   EXPECT_THAT(made.out, HasSubstr("packing.csv: 100 particles"));
   const std::string table = text_of(place / "packing.csv");
   EXPECT_THAT(table, StartsWith("# Packing of random-100.toml, seed 1\n# random: 100 particles"));
-  std::string again = text_of(scene("compaction/random-100.toml"));
-  const auto from = again.find("kind = \"random\""), to = again.find("[[tool]]");
-  again.replace(from, to - from, "kind = \"csv\"\nfile = \"packing.csv\"\n\n");
-  std::ofstream(place / "again.toml") << again;
+  std::ofstream(place / "again.toml")
+      << "extends = \"" << scene("compaction/random-100.toml") << "\"\n"
+      << "packing = [{ kind = \"csv\", file = \"packing.csv\" }]\n";
   EXPECT_EQ(pulvis({"pack", "again.toml", "-o", "again.csv"}).code, 0);
   const auto rows = [](const std::string& text) { return text.substr(text.find("# top:")); };
   EXPECT_EQ(rows(text_of(place / "again.csv")), rows(table));

@@ -1,4 +1,4 @@
-// The scene files that Pulvis ships; beside them lie studies, settings of reductions, and tables.
+// The scene files that Pulvis ships; beside them lie studies, parts of scenes, settings of reductions, and tables.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,8 @@ inline std::vector<std::filesystem::path> shipped_scenes() {
   std::vector<std::filesystem::path> scenes;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const std::filesystem::path folder = entry.path().parent_path();
-    const bool other = folder == root / "studies" || folder == root / "lab";
+    const bool other =
+        folder == root / "studies" || folder == root / "lab" || folder == root / "parts";
     if (entry.path().extension() == ".toml" && !other) scenes.push_back(entry.path());
   }
   std::ranges::sort(scenes);

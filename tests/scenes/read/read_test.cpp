@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <numbers>
+#include <set>
 
 #include "cli/save_scene.hpp"
 #include "tests/helpers/paths.hpp"
@@ -201,6 +202,19 @@ TEST(SceneText, EveryShippedSceneReadsAndItsSavedOneSaysTheSame) {
     EXPECT_FALSE(first.scene.title.empty());
   }
   std::filesystem::remove_all(saved);
+}
+
+// Who looks a number up goes through three files at most, and no part lies about unused.
+TEST(SceneText, ShippedScenesExtendFewFiles) {
+  namespace fs = std::filesystem;
+  std::set<fs::path> extended;
+  for (const auto& file : shipped_scenes()) {
+    const Scene scene = read_scene(file);
+    EXPECT_LE(scene.extended.size(), 2U) << file;
+    for (const fs::path& other : scene.extended) extended.insert(fs::canonical(other));
+  }
+  for (const auto& part : fs::directory_iterator(paths::source_dir() + "/scenes/parts"))
+    EXPECT_TRUE(extended.contains(fs::canonical(part.path()))) << part.path();
 }
 
 TEST(SceneText, HoldsOverridesAndDefaults) {

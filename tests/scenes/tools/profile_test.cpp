@@ -117,8 +117,8 @@ class MeasuredProfile : public testing::Test {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::path(testing::TempDir()) / (std::string("profile_") + test->name());
     std::filesystem::create_directories(folder_);
-    std::ifstream scene(paths::source_dir() + "/scenes/studies/scenes/shear-regular-held.toml");
-    std::ofstream(folder_ / "scene.toml") << scene.rdbuf();
+    std::ofstream(folder_ / "scene.toml") << "extends = \"" << paths::source_dir()
+                                          << "/scenes/studies/scenes/shear-regular-held.toml\"\n";
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
