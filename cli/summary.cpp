@@ -13,6 +13,7 @@
 #include "engine/instruction_set.hpp"
 #include "scenes/results/state_hash.hpp"
 #include "scenes/tools/surface.hpp"
+#include "systems/laws/flow_law.hpp"
 
 namespace pulvis {
 namespace {
@@ -48,7 +49,10 @@ Json materials_json(const Scene& scene) {
                {"poissons_ratio", m.poissons_ratio}};
     if (m.yield_stress) {
       entry["yield_stress"] = *m.yield_stress;
-      entry["hardening_modulus"] = m.hardening_modulus;
+      if (m.flow)
+        entry["hardening"] = name_of(*m.flow);
+      else
+        entry["hardening_modulus"] = m.hardening_modulus;
     }
     if (m.damped())
       entry["damping"] = {{"mass_proportional", m.mass_damping},

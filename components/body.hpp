@@ -95,7 +95,8 @@ struct YieldStress : Component<Particle, double, 1> {
                                       "initial; infinite for elastic particles"};
 };
 struct HardeningModulus : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"hardening_modulus", "Pa", "d sigma_y / d eps_p"};
+  static constexpr ComponentInfo info{"hardening_modulus", "Pa",
+                                      "d sigma_y / d eps_p, of linear hardening"};
 };
 struct LeastJacobian : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"least_jacobian", "-",
@@ -130,6 +131,15 @@ struct PlasticWork : Component<Particle, double, 1> {
 struct HourglassWork : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"hourglass_work", "J",
                                       "spent in plastic hourglassing so far"};
+};
+struct RateWork : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"rate_work", "J",
+                                      "spent so far because flow at a rate bears more"};
+};
+struct ReturnResidual : Component<Particle, double, 2> {
+  static constexpr ComponentInfo info{
+      "return_residual", "-",
+      "of the return that met the flow stress worst: its residual over it, its element"};
 };
 struct HourglassEnergy : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"hourglass_energy", "J",

@@ -27,6 +27,7 @@
 #include "scenes/tools/drives.hpp"
 #include "scenes/tools/grips.hpp"
 #include "scenes/tools/surface.hpp"
+#include "systems/laws/flow_law.hpp"
 
 namespace pulvis {
 
@@ -172,6 +173,8 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add<YieldStress>();
   world.add<HardeningModulus>();
   world.add<PlasticWork>();
+  if (needs.flow_laws) world.add<ReturnResidual>();
+  if (needs.rate) world.add<RateWork>();
 }
 
 template <class At>
@@ -255,6 +258,14 @@ void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
         m.yield_stress.value_or(std::numeric_limits<double>::infinity());
     world.column<HardeningModulus>().values()[slot] = m.hardening_modulus;
   }
+}
+
+// Of materials without one: linear hardening, whose constants are in columns.
+FlowLaws flow_laws(const Scene& scene) {
+  FlowLaws laws;
+  for (const MaterialSpec& m : scene.materials)
+    laws.of_material.push_back(m.flow ? *m.flow : FlowLaw{});
+  return laws;
 }
 
 // What the history calls the tool's position; a grip's is the middle of its box, or its centre.
@@ -357,6 +368,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.contact() || needs.grips) add_hollows(*world, layout.bodies);
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);
+  if (needs.flow_laws) world->emplace<FlowLaws>(flow_laws(scene));
   add_clock(*world, scene);
   world->emplace<Totals>();
   world->emplace<Bodies>(std::move(layout.bodies));

@@ -4,6 +4,7 @@
 
 #include "scenes/outlines/outline.hpp"
 #include "scenes/tools/contact_rules.hpp"
+#include "systems/laws/flow_law.hpp"
 
 namespace pulvis {
 namespace {
@@ -26,6 +27,10 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   Needs needs;
   needs.plastic = std::ranges::any_of(
       scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
+  for (const MaterialSpec& m : scene.materials) {
+    needs.flow_laws = needs.flow_laws || m.flow;
+    needs.rate = needs.rate || (m.flow && m.flow->rate.index() != 0);
+  }
   const auto any = [&](ToolSpec::Shape shape) {
     return std::ranges::any_of(scene.tools, [&](const ToolSpec& t) { return t.shape == shape; });
   };

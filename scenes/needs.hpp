@@ -7,9 +7,11 @@ namespace pulvis {
 
 // What a scene needs: decides which columns (and with them which systems) exist.
 struct Needs {
-  bool plastic = false;  // a material yields
-  bool pairs = false;    // more than one particle, or one that tools can fold onto itself
-  bool tools = false;    // something that particles touch
+  bool plastic = false;    // a material yields
+  bool flow_laws = false;  // and one hardens along a curve or by its rate
+  bool rate = false;       // by its rate
+  bool pairs = false;      // more than one particle, or one that tools can fold onto itself
+  bool tools = false;      // something that particles touch
   bool polylines = false;
   bool grips = false;
   bool friction = false;      // a coefficient above zero can act

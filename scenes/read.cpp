@@ -16,7 +16,9 @@
 #include "scenes/lever/mesh/meshed_tip.hpp"
 #include "scenes/packing/fill_packings.hpp"
 #include "scenes/scene_files.hpp"
+#include "scenes/spec/flow_laws.hpp"
 #include "scenes/tools/profile.hpp"
+#include "systems/laws/flow_law.hpp"
 
 #include <fmt/format.h>
 
@@ -104,11 +106,25 @@ class SceneReader {
   std::vector<MaterialSpec> read_materials() {
     std::vector<MaterialSpec> materials = read_all(schema::material());
     const Array& elements = array_at("material");
-    for (std::size_t i = 0; i < materials.size(); ++i)
-      if (const document::Entry* entry = document::find(elements[i].get<Table>(), "damping"))
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      const Table& table = elements[i].get<Table>();
+      if (const document::Entry* entry = document::find(table, "damping"))
         tables_.read(schema::material_damping(), entry->value, numbered("material", i) + ".damping",
                      family_, materials[i]);
+      materials[i].flow = read_flow_law(table, numbered("material", i));
+    }
     return materials;
+  }
+
+  std::shared_ptr<const FlowLaw> read_flow_law(const Table& material, const std::string& path) {
+    const document::Entry* hardening = document::find(material, "hardening");
+    const document::Entry* rate = document::find(material, "rate");
+    if (hardening == nullptr && rate == nullptr) return nullptr;
+    auto law = std::make_shared<FlowLaw>();
+    if (hardening != nullptr)
+      tables_.read(schema::hardening(), hardening->value, path + ".hardening", "", *law);
+    if (rate != nullptr) tables_.read(schema::rate(), rate->value, path + ".rate", "", *law);
+    return law;
   }
 
   std::vector<ParticleSpec> read_particles() {
@@ -210,6 +226,8 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   SceneReader reader(root, problems);
   loaded.scene = reader.read(file);
   loaded.scene.extended = {problems.files().begin() + 1, problems.files().end()};
+  problems.throw_if_any();
+  complete_flow_laws(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
   if (loaded.scene.afm) {
     load_meshed_lever(loaded.scene, reader.origins(), problems);

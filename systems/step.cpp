@@ -56,7 +56,7 @@ StepList step_list_of(World& w) {
   force.add<contact_force>              ("contact_force",     touching);
   force.add<elastic_stress<F>>          ("elastic_stress",    !plastic);
   force.add<trial_stress<F>>            ("trial_stress",      plastic);
-  force.add                             ("j2_return_map",     plastic, j2_return_map<F>);
+  force.add<j2_return_map<F>>           ("j2_return_map",     plastic);
   force.add<internal_force<F>>          ("internal_force");
   force.add<damping_force<F>>           ("damping_force",     w.has<DampingForce>());
   force.add<stable_time_step<F::points>>("stable_time_step");
@@ -81,6 +81,7 @@ StepList step_list_of(World& w) {
   move.add<integrate>                   ("integrate");
   move.add<contact_curve>               ("contact_curve",     touching);
   move.add<element_health>              ("element_health");
+  move.add<return_health>               ("return_health",     w.has<ReturnResidual>());
   move.add<advance_clock>               ("advance_clock");
   // clang-format on
   return {force.taken(), observe.taken(), move.taken()};

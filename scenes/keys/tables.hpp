@@ -10,6 +10,8 @@ namespace pulvis::schema {
 const TableDeclaration<Scene>& top_level();
 const TableDeclaration<MaterialSpec>& material();
 const TableDeclaration<MaterialSpec>& material_damping();
+const TableDeclaration<FlowLaw>& hardening();
+const TableDeclaration<FlowLaw>& rate();
 const TableDeclaration<ParticleSpec>& particle();
 const TableDeclaration<ParticleSpec>& mesh();
 const TableDeclaration<BodySpec>& body();

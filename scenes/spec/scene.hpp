@@ -18,13 +18,16 @@
 
 namespace pulvis {
 
+struct FlowLaw;  // systems/laws/flow_law.hpp
+
 struct MaterialSpec {
   std::string name;
-  double density = 0;                  // kg/m^3, > 0
-  double youngs_modulus = 0;           // Pa, > 0
-  double poissons_ratio = 0;           // -, in (-1, 0.5)
-  std::optional<double> yield_stress;  // Pa, > 0; absent: elastic
-  double hardening_modulus = 0;        // Pa, >= 0; dsigma_y/deps_p; 0: perfectly plastic
+  double density = 0;                   // kg/m^3, > 0
+  double youngs_modulus = 0;            // Pa, > 0
+  double poissons_ratio = 0;            // -, in (-1, 0.5)
+  std::optional<double> yield_stress;   // Pa, > 0; absent: elastic
+  double hardening_modulus = 0;         // Pa, >= 0; dsigma_y/deps_p; 0: perfectly plastic
+  std::shared_ptr<const FlowLaw> flow;  // where it is another law than that
   SourceMark mark;
   double mass_damping = 0;       // 1/s, alpha of Rayleigh damping
   double stiffness_damping = 0;  // s, beta

@@ -70,16 +70,23 @@ template <class F>
 void plastic_work<F>::operator()(Chunk chunk) const {
   const Row<Particle> particle;
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
-  const Lane yield = min(sigma_y.chunk(chunk)(particle), 1e300);
-  const kernels::LinearHardening<Lane> law{yield, hardening.chunk(chunk)(particle)};
   const auto strain = eps.chunk(chunk);
   Lane total{};
-  for (int i = 0; i < shape.elements(); ++i)
-    for (int g = 0; g < F::points; ++g)
-      total += points_of<F::points>(shape, i)[static_cast<std::size_t>(g)].determinant *
-               law.plastic_work(strain(Row<Element>(i), g));
+  const auto add = [&](const auto& law) {
+    for (int i = 0; i < shape.elements(); ++i)
+      for (int g = 0; g < F::points; ++g)
+        total += points_of<F::points>(shape, i)[static_cast<std::size_t>(g)].determinant *
+                 law.plastic_work(strain(Row<Element>(i), g));
+  };
+  // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.
+  const Lane yield = min(flow.yield_stress.chunk(chunk)(particle), 1e300);
+  const kernels::LinearHardening<Lane> linear{yield, flow.hardening.chunk(chunk)(particle)};
+  if (flow.laws)
+    with_hardening((*flow.laws)->of_chunk(*bodies, chunk), linear, add);
+  else
+    add(linear);
   total *= bodies->thickness;
+  if (rate) total += rate->chunk(chunk)(particle);
   // The joint flow of stress and hourglass stress spends both; the latter is reported by itself.
   if (hourglass) total -= hourglass->chunk(chunk)(particle);
   work.chunk(chunk)(particle) = total;

@@ -4,8 +4,7 @@
 // Source   Modes: Flanagan & Belytschko (1981). Bending stiffness: assumed stress of Pian & Sumihara
 //          (1984), which is the assumed strain of Belytschko & Bindeman (1991) on rectangles: uniaxial
 //          stress along the fibres, linear across them, no shear; right for nu -> 1/2 too. Limit:
-//          plastic moment of a rectangular section beside the centre's stress, a yield surface as
-//          Ilyushin's (1948) for plates; see BendingBeside.
+//          systems/body/j2_bending_kernel.hpp.
 // Symbols  x = centre + a xi + b eta + h xi eta, A = [a b];  w = A^-1 h, natural components of h [-];
 //          w_0 those of the undeformed element: w - w_0 is zero in every homogeneous deformation, and
 //          blind to rotation
@@ -23,12 +22,6 @@
 #include "systems/body/j2_kernel.hpp"
 
 namespace pulvis::kernels {
-
-// The least share of its limit that bending keeps beside fully plastic stretching, where it should have
-// none. With less, the return of stresses that hardly leave the surface amplifies round-off: two runs of
-// 7,000 steps that differ by 1e-14 part to 9e-6 with 0.1, 1e-8 with 0.3, 2e-11 with 0.5. The force of the
-// unit cell (140 quads) falls by 0.6% from 0.1 to 0.5 (docs/accuracy.md).
-inline constexpr double least_width = 0.5;
 
 template <class T>
 struct Hourglass {  // of the fibres along xi, along eta
@@ -119,88 +112,6 @@ void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<
   flux.xi_y = fma(-w.one, qy, flux.xi_y);
   flux.eta_x = fma(-w.two, qx, flux.eta_x);
   flux.eta_y = fma(-w.two, qy, flux.eta_y);
-}
-
-// Squared part of a deviator that stretches the fibres (and shortens what lies across them), as numerator
-// and denominator: s:N with N = (e e - e' e')/sqrt 2. e: the direction of a, which in a rectangle is that
-// of b turned back by a right angle; in others, that of the sum of both.
-template <class T>
-struct Ratio {
-  T numerator, denominator;
-};
-template <class T>
-Ratio<T> squared_stretching(const QuadMap<T>& m, const Deviator<T>& s) {
-  const T x = m.ax + m.by, y = m.ay - m.bx;
-  const T xx = x * x, yy = y * y, length2 = xx + yy;
-  // e with its angle doubled is (x^2 - y^2, 2 x y) / length2.
-  const T stretch = fma(0.5 * (s.xx - s.yy), xx - yy, s.xy * (2.0 * x * y));
-  return {2.0 * stretch * stretch, length2 * length2};
-}
-
-// 1/width: see BendingBeside; with s where it has come back to the surface. `limit2`: 2/3 sigma_y^2.
-template <class T>
-T inverse_width(const QuadMap<T>& m, const Deviator<T>& s, T limit2) {
-  const auto stretching = squared_stretching(m, s);
-  const T norm2 = squared_norm(s);
-  const T full = stretching.denominator * max(norm2, limit2);
-  const T room = fma((-4.0 / 3.0), stretching.numerator,
-                     fma((1.0 / 3.0) * norm2, stretching.denominator, full));
-  return full / max(room, least_width * full);
-}
-
-// The bending stress beside a deviator under the joint yield surface
-//   |s|^2 + t^2/width <= 2/3 sigma_y^2,   t^2 = 2/9 (M_1^2 + M_2^2),
-//   width = 1 - n_f^2 + n_s^2/3,  n = s / (sqrt(2/3) sigma_y), n_f the part along the fibres, n_s the rest.
-// What a fibre section bears exactly in three limits: M = M_p without s; M = M_p (1 - n_f^2) with
-// stretching; and small bending in fully plastic shear. Between them it is right to 1%. The work of t has
-// the compliance 1/(2/3 E'), where that of s has 1/(2 mu); both flow along s and t/width.
-template <class T>
-struct BendingBeside {
-  Hourglass<T> stress;  // trial
-  T softness;           // 2/3 E' / (2 mu): how much faster than s it gives way
-  T stiffness;          // 1 / softness
-  T over_width;
-  T left;  // share of the stress that the return leaves
-
-  T squared_norm() const {
-    return (2.0 / 9.0) * fma(stress.one, stress.one, stress.two * stress.two);
-  }
-  T joint_norm(T norm2) const { return fma(over_width, squared_norm(), norm2); }
-  // Slope of the consistency condition and the excess, both times |S|^2.
-  T slope(T norm2, T joint2, T, T modulus, T two_mu) const {
-    const T flow = over_width * over_width * squared_norm();
-    return fma((2.0 / 3.0) * joint2, modulus, two_mu * fma(softness, flow, norm2));
-  }
-  T push(T excess, T norm) const { return excess * norm; }
-  // The linear step leaves stresses outside the surface where the stretching is large against the elastic
-  // strain: where it is by more than a ten-thousandth (of the squares), both are pulled straight in. The
-  // work that is spent then is that of the stresses left.
-  template <class Mask, class Hardening>
-  void settle(const Mask& flows, T& beta, T& dgamma, T norm2, T two_mu, T eps,
-              const Hardening& law) {
-    constexpr double sqrt_2_3 = 0.81649658092772603273;
-    const T t2 = squared_norm();
-    left = max(fma(softness * over_width, beta - 1.0, 1.0), T{});
-    const T outside = fma(beta * beta, norm2, over_width * (left * left * t2));
-    const T limit = sqrt_2_3 * law.flow_stress(fma(sqrt_2_3, dgamma, eps));
-    const auto beyond = flows & (outside > (1 + 1e-4) * (limit * limit));
-    if (!any(beyond)) return;
-    const T root = sqrt(outside), cost = two_mu * limit;
-    const T over = 1.0 / (root * cost);  // one division for two
-    const T in = select(beyond, limit * cost * over, T{} + 1.0);
-    beta *= in;
-    left *= in;
-    const T spent = fma(beta * (1.0 - beta), norm2, left * (1.0 - left) * (t2 * stiffness));
-    dgamma = select(beyond, spent * (root * over), dgamma);
-  }
-};
-
-// Whether s and t can yield at all, whatever the width: it is never below 1 - |n|^2.
-template <class T>
-auto may_yield(const Deviator<T>& s, const Hourglass<T>& m, T limit2) {
-  const T left = limit2 - squared_norm(s);
-  const T bending2 = (2.0 / 9.0) * fma(m.one, m.one, m.two * m.two);
-  return (left < T{}) | (left * left < bending2 * limit2);
 }
 
 }  // namespace pulvis::kernels

@@ -1,4 +1,4 @@
-// Finite-strain J2 elasto-plasticity, isotropic hardening, plane strain.
+// Finite-strain J2 elasto-plasticity, isotropic hardening (systems/laws), plane strain.
 //
 // Source   Simo & Hughes (1998), boxes 9.1 and 9.2: multiplicative split, radial return on the
 //          isochoric elastic left Cauchy-Green tensor. Two departures: the state is the inverse plastic
@@ -16,6 +16,8 @@
 
 #include "engine/portable_math.hpp"
 #include "systems/body/element_kernel.hpp"
+#include "systems/laws/hardening.hpp"
+#include "systems/laws/rate.hpp"
 
 namespace pulvis::kernels {
 
@@ -71,22 +73,27 @@ T mean_stress(T bulk_modulus, T theta) {
   return 0.5 * bulk_modulus * (theta - 1.0 / theta);
 }
 
-// Isotropic hardening. A law is a struct with flow_stress(eps) and plastic_work(eps) that is linear in
-// eps over a step with slope modulus(eps); perfectly plastic is H = 0.
+// |S_trial| and its parts, where the state began, and 2 mu_bar.
 template <class T>
-struct LinearHardening {
-  T sigma_y, H;
-  T flow_stress(T eps) const { return fma(H, eps, sigma_y); }
-  T modulus(T) const { return H; }
-  T plastic_work(T eps) const { return eps * (sigma_y + 0.5 * H * eps); }  // J/m^3
+struct Trial {
+  T norm2, joint2, norm;
+  T eps, two_mu_bar;
 };
 
-// What stands beside the deviator under the yield surface: nothing. (Bending: hourglass_kernel.hpp.)
-struct NothingBeside {
+// What a multiplier leaves of the stress under the yield surface.
+template <class T>
+struct Remaining {
+  T size, slope;  // |S|; by x
+};
+
+// What shares the yield surface with the deviator. Nothing does in elements that need no stabilisation; that of
+// one-point elements is in systems/body/j2_bending_kernel.hpp. |S| is the joint norm, x = dgamma / |S_trial|.
+struct Uncoupled {
   template <class T>
   T joint_norm(T norm2) const {
     return norm2;
   }
+  // Of the linear step: slope of the consistency condition, its excess, and what it leaves to be done.
   template <class T>
   T slope(T, T, T norm, T modulus, T two_mu) const {
     return norm * fma(2.0 / 3.0, modulus, two_mu);
@@ -97,16 +104,25 @@ struct NothingBeside {
   }
   template <class T, class Hardening>
   void settle(const auto&, T&, T&, T, T, T, const Hardening&) const {}
+  // Of the iteration: the x at which |S| is zero; |S| and its slope by x at beta = 1 - 2 mu x.
+  template <class T>
+  T farthest(T two_mu) const {
+    return 1.0 / two_mu;
+  }
+  template <class T>
+  Remaining<T> keep(T beta, const Trial<T>& t) const {
+    return {t.norm * beta, -(t.two_mu_bar * t.norm)};
+  }
 };
 
 template <class T, class Hardening>
-auto yields(const Deviator<T>& s, T eps, const Hardening& law, const auto& beside) {
+auto yields(const Deviator<T>& s, T eps, const Hardening& law, const auto& coupled) {
   const T limit = law.flow_stress(eps);
-  return beside.joint_norm(squared_norm(s)) > (2.0 / 3.0) * limit * limit;
+  return coupled.joint_norm(squared_norm(s)) > (2.0 / 3.0) * limit * limit;
 }
 template <class T, class Hardening>
 auto yields(const Deviator<T>& s, T eps, const Hardening& law) {
-  return yields(s, eps, law, NothingBeside{});
+  return yields(s, eps, law, Uncoupled{});
 }
 
 template <class T>
@@ -125,55 +141,127 @@ T mean_of_unit_determinant(T q, T det) {
   return 1.0 + (fma(e, t, t) - third_order);
 }
 
-// Radial return of the trial state at a Gauss point. Lanes that do not yield come back unchanged.
-// `r2` = J^(-2/3). b_trial is not formed again: its deviator is theta s / mu, its mean follows from
-// det b = 1. `beside` is returned with the deviator.
-template <class T, class Hardening, class Beside>
-J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
-                         T theta_over_mu, const Hardening& law, Beside&& beside) {
-  constexpr double sqrt_2_3 = 0.81649658092772603273;
-  const auto flows = yields(trial.s, trial.eps, law, beside);
-  const T norm2 = squared_norm(trial.s), joint2 = beside.joint_norm(norm2), norm = sqrt(joint2);
+// ---- step 4: the plastic multiplier -------------------------------------------------------------------
+inline constexpr double sqrt_2_3 = 0.81649658092772603273;
+
+template <class T>
+struct Multiplier {
+  T dgamma;
+  T beta;        // |s| / |s_trial|
+  T residual{};  // of the consistency condition over the flow stress, where it is not met
+};
+
+template <class Law>
+inline constexpr bool is_closed_form = false;
+template <class T>
+inline constexpr bool is_closed_form<LinearHardening<T>> = true;
+
+// Linear hardening: the condition is linear in dgamma.
+template <class T, class Coupled, class Mask>
+Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const LinearHardening<T>& law,
+                         Coupled& coupled) {
+  const T excess = coupled.push(fma(-sqrt_2_3, law.flow_stress(t.eps), t.norm), t.norm);
+  const T slope = coupled.slope(t.norm2, t.joint2, t.norm, law.modulus(t.eps), t.two_mu_bar);
+  const T x = select(flows, excess / slope, T{});
+  Multiplier<T> m{t.norm * x, fma(-t.two_mu_bar, x, 1.0)};
+  coupled.settle(flows, m.beta, m.dgamma, t.norm2, t.two_mu_bar, t.eps, law);
+  return m;
+}
+
+// The condition is met within this of the flow stress and round-off of the trial stress; or where the bracket is no
+// wider than round-off of the plastic strain, on curves that are next to upright.
+inline constexpr double consistency = 1e-12, consistency_of_trial = 1e-15, round_off = 4e-16;
+inline constexpr int most_iterations = 200;
+
+// A residual that is no number meets nothing.
+template <class T>
+T unmet(T f, const Flow<T>& flow, T trial, T width, T eps) {
+  const T allowed = select(width <= round_off * eps, flow.stress,
+                           consistency * flow.stress + consistency_of_trial * trial);
+  return select(abs(f) <= allowed, T{}, T{} + 1.0);
+}
+
+// Any other law: Newton's method for x, halving the bracket where a step leaves it. |S| falls with x and the flow
+// stress does not, so there is one root. It starts from perfect plasticity.
+template <class T, class Hardening, class Coupled, class Mask>
+Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const Hardening& law,
+                         Coupled& coupled) {
+  const auto remaining = [&](T x) { return coupled.keep(fma(-t.two_mu_bar, x, 1.0), t); };
+  const T excess = fma(-sqrt_2_3, law.flow_stress(t.eps), t.norm);
+  T low{}, high = coupled.farthest(t.two_mu_bar), residual{};
+  T x = select(flows, min(excess / -remaining(low).slope, high), T{});
+  Mask open = flows;
+  for (int i = 0; i < most_iterations; ++i) {
+    const Remaining<T> left = remaining(x);
+    const T to_strain = sqrt_2_3 * t.norm, grown = to_strain * x;
+    const Flow<T> flow = flow_after(law, t.eps, grown);
+    const T f = fma(-sqrt_2_3, flow.stress, left.size);
+    open = open & (unmet(f, flow, t.norm, to_strain * (high - low), t.eps + grown) > 0.0);
+    if (!any(open)) break;
+    residual = f / flow.stress;
+    low = select(f > 0.0, x, low);
+    high = select(f > 0.0, high, x);
+    const T newton = x + f / fma((2.0 / 3.0) * t.norm, flow.modulus, -left.slope);
+    const auto inside = (newton > low) & (newton < high);
+    x = select(open, select(inside, newton, 0.5 * (low + high)), x);
+  }
+  remaining(x);
+  return {t.norm * x, max(fma(-t.two_mu_bar, x, 1.0), T{}), select(open, residual, T{})};
+}
+
+// ---- the return map ------------------------------------------------------------------------------------
+// Brings the trial state of a Gauss point back to the yield surface; lanes that do not yield come back unchanged.
+// Numbered as box 9.1, whose steps 1, 2 and 5 trial_stress has done: the configuration and its F, the elastic
+// predictor s_trial, the mean stress. `r2` = J^(-2/3). `coupled` is returned with the deviator.
+template <class T>
+struct Returned : J2State<T> {
+  T residual;  // Multiplier::residual
+};
+
+template <class T, class Hardening, class Coupled>
+Returned<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
+                          T theta_over_mu, const Hardening& law, Coupled&& coupled) {
+  // 2. b_trial is not formed again: its deviator d is theta s / mu, its mean follows from det b = 1.
+  const T norm2 = squared_norm(trial.s), joint2 = coupled.joint_norm(norm2);
   const T dxx = theta_over_mu * trial.s.xx, dyy = theta_over_mu * trial.s.yy;
   const T dxy = theta_over_mu * trial.s.xy;
   const T q = (0.5 * norm2) * (theta_over_mu * theta_over_mu);  // 1/2 d : d
   const T det = (dxx + dyy) * fma(dxy, dxy, -(dxx * dyy));      // det d
-
   const T mean = mean_of_unit_determinant(q, det);
-  const T two_mu_bar = 2.0 * mu_over_theta * mean;
 
-  // Consistency: |s| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps + sqrt(2/3) dgamma), mu_bar = mu tr b/3;
-  // beta = |s_new| / |s_trial|.
-  const T excess = beside.push(fma(-sqrt_2_3, law.flow_stress(trial.eps), norm), norm);
-  const T slope = beside.slope(norm2, joint2, norm, law.modulus(trial.eps), two_mu_bar);
-  const T over = select(flows, excess / slope, T{});
-  T dgamma = norm * over;
-  T beta = fma(-two_mu_bar, over, 1.0);
-  beside.settle(flows, beta, dgamma, norm2, two_mu_bar, trial.eps, law);
+  // 3. Plastic loading?  f_trial = |s_trial| - sqrt(2/3) sigma_y(eps_n) > 0
+  const auto flows = yields(trial.s, trial.eps, law, coupled);
 
+  // 4. Return: |s_trial| - 2 mu_bar dgamma = sqrt(2/3) sigma_y(eps_n + sqrt(2/3) dgamma), mu_bar = mu tr b/3;
+  //    s = beta s_trial, eps = eps_n + sqrt(2/3) dgamma
+  const Trial<T> t{norm2, joint2, sqrt(joint2), trial.eps, 2.0 * mu_over_theta * mean};
+  const Multiplier<T> flow = consistent(flows, t, law, coupled);
+  const T beta = flow.beta;
+  Returned<T> next;
+  next.s = {beta * trial.s.xx, beta * trial.s.yy, beta * trial.s.xy};
+  next.eps = fma(sqrt_2_3, flow.dgamma, trial.eps);
+  next.residual = flow.residual;
+
+  // 6. Intermediate configuration: b = beta dev b_trial + m 1 with det b = 1, pulled back:
+  //    C_p^-1 = beta C_p^-1 + (m - beta mean) J^(2/3) (F^T F)^-1
   const T beta2 = beta * beta;
   const T m = mean_of_unit_determinant(beta2 * q, beta2 * beta * det);
-
-  // Pulled back: C_p^-1 = beta C_p^-1 + (m - beta mean) J^(2/3) (F^T F)^-1.
   const T shift = fma(-beta, mean, m);
   const T j = determinant(f);
   const T pull = shift * (r2 * r2);  // J^(2/3) / J^2
   const T cxx = fma(f.xy, f.xy, f.yy * f.yy), cyy = fma(f.xx, f.xx, f.yx * f.yx);
   const T cxy = -fma(f.xx, f.xy, f.yx * f.yy);
   const T grow = beta - 1.0;
-  J2State<T> next;
-  next.s = {beta * trial.s.xx, beta * trial.s.yy, beta * trial.s.xy};
   next.c = {fma(beta, trial.c.xx, fma(pull, cxx, grow)),
             fma(beta, trial.c.yy, fma(pull, cyy, grow)),
             fma(beta, trial.c.zz, fma(pull * j, j, grow)), fma(beta, trial.c.xy, pull * cxy)};
-  next.eps = fma(sqrt_2_3, dgamma, trial.eps);
   return next;
 }
 
 template <class T, class Hardening>
-J2State<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
-                         T theta_over_mu, const Hardening& law) {
-  return radial_return(trial, f, r2, mu_over_theta, theta_over_mu, law, NothingBeside{});
+Returned<T> radial_return(const J2State<T>& trial, const Matrix2<T>& f, T r2, T mu_over_theta,
+                          T theta_over_mu, const Hardening& law) {
+  return radial_return(trial, f, r2, mu_over_theta, theta_over_mu, law, Uncoupled{});
 }
 
 // Stored energy per undeformed volume, without the volumetric part (which the element has once).

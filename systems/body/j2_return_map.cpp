@@ -1,17 +1,26 @@
 // j2_return_map: brings trial stresses that left the von Mises yield surface back onto it; in elements
 // with one point together with the stress of the hourglass modes.
 //
-// Source   systems/body/j2_kernel.hpp (Simo & Hughes 1998, box 9.1); systems/body/hourglass_kernel.hpp
+// Source   systems/body/j2_kernel.hpp (Simo & Hughes 1998, box 9.1); systems/body/j2_bending_kernel.hpp; laws:
+//          systems/laws
 // Runs     after trial_stress, before internal_force
 // Active   when a material of the scene declares a yield stress
+// Watches  how well each return met the yield surface, for return_health
 #include "systems/body/element_access.hpp"
-#include "systems/body/hourglass_kernel.hpp"
+#include "systems/body/j2_bending_kernel.hpp"
 #include "systems/body/systems.hpp"
 
 namespace pulvis {
 namespace {
 
-template <class F>
+// What the elements of a chunk add up to.
+struct ChunkSums {
+  Lane hourglass_work{};          // J/m
+  Lane rate_work{};               // J/m
+  Lane residual{}, element = -1;  // the worst return's
+};
+
+template <class F, class Law>
 struct Views {
   ChunkView<Position, const Lane*> x;
   ChunkView<IsochoricScale<F::points>, const Lane*> scale;
@@ -19,26 +28,37 @@ struct Views {
   ChunkView<PlasticMetric<F::points>, Lane*> metric;
   ChunkView<PlasticStrain<F::points>, Lane*> strain;
   Lane mu, over_mu;
-  kernels::LinearHardening<Lane> law;
+  Law law;
 };
 
-template <class F, class Beside>
-void return_point(const Views<F>& v, Row<Element> e, int g, const kernels::Matrix2<Lane>& f,
-                  Lane mu_over_theta, Lane theta, Beside&& beside) {
-  const Lane r = v.scale(e, g);
+// Not a number is worse than any.
+void keep_worst(Lane residual, Row<Element> e, ChunkSums& sums) {
+  const LaneMask worse = ~(abs(residual) <= abs(sums.residual)) & (sums.residual == sums.residual);
+  sums.residual = select(worse, residual, sums.residual);
+  sums.element = select(worse, e.value, sums.element);
+}
+
+template <class F, class Law, class Coupled>
+void return_point(const Views<F, Law>& v, Row<Element> e, int g, const kernels::Matrix2<Lane>& f,
+                  Lane mu_over_theta, Lane theta, double area, ChunkSums& sums, Coupled&& coupled) {
+  const Lane r = v.scale(e, g), before = v.strain(e, g);
   const auto next = kernels::radial_return<Lane>(
-      {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), v.strain(e, g)}, f, r * r,
-      mu_over_theta, theta * v.over_mu, v.law, beside);
+      {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), before}, f, r * r, mu_over_theta,
+      theta * v.over_mu, v.law, coupled);
   store(v.stress, e, g, next.s);
   v.metric(e, 4 * g) = next.c.xx;
   v.metric(e, 4 * g + 1) = next.c.yy;
   v.metric(e, 4 * g + 2) = next.c.zz;
   v.metric(e, 4 * g + 3) = next.c.xy;
   v.strain(e, g) = next.eps;
+  if constexpr (!kernels::is_closed_form<Law>) {
+    keep_worst(next.residual, e, sums);
+    sums.rate_work += area * kernels::rate_work(v.law, before, next.eps - before);
+  }
 }
 
-template <class F>
-void return_element(const Views<F>& v, const Shape& shape, Row<Element> e) {
+template <class F, class Law>
+void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, ChunkSums& sums) {
   LaneMask flows[F::points], some = LaneMask::of(0);
   for (int g = 0; g < F::points; ++g) {
     flows[g] = kernels::yields(deviator(v.stress, e, g), v.strain(e, g), v.law);
@@ -52,13 +72,14 @@ void return_element(const Views<F>& v, const Shape& shape, Row<Element> e) {
   Lane mu_over_theta = v.mu / theta;
   for (int g = 0; g < F::points; ++g) {
     if (!any(flows[g])) continue;
-    const auto f = kernels::deformation_gradient(
-        map_gradient<F::points>(map, g), points[static_cast<std::size_t>(g)].inverse_jacobian);
+    const auto& point = points[static_cast<std::size_t>(g)];
+    const auto f =
+        kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
     if constexpr (F::volumes == F::points) {
       theta = determinant(f);
       mu_over_theta = v.mu / theta;
     }
-    return_point(v, e, g, f, mu_over_theta, theta, kernels::NothingBeside{});
+    return_point(v, e, g, f, mu_over_theta, theta, point.determinant, sums, kernels::Uncoupled{});
   }
 }
 
@@ -82,55 +103,69 @@ Lane keep_bending(const Bending& bending, Row<Element> e, const kernels::Hourgla
          fma(stress.one, stress.one, stress.two * stress.two);
 }
 
-Lane return_element(const Views<OnePoint>& v, const Bending& bending, const Shape& shape,
-                    Row<Element> e) {
+template <class Law>
+void return_element(const Views<OnePoint, Law>& v, const Bending& bending, const Shape& shape,
+                    Row<Element> e, ChunkSums& sums) {
   const auto s = deviator(v.stress, e, 0);
   const kernels::Hourglass<Lane> m{bending.stress(e, 0), bending.stress(e, 1)};
   const Lane yield = v.law.flow_stress(v.strain(e)), limit2 = (2.0 / 3.0) * yield * yield;
-  if (!any(kernels::may_yield(s, m, limit2))) return Lane{};
+  if (!any(kernels::may_yield(s, m, limit2))) return;
 
   const auto map = quad_map<1>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
-  kernels::BendingBeside<Lane> beside{m, bending.softness, bending.stiffness,
-                                      kernels::inverse_width(map, s, limit2), 1.0};
+  kernels::CoupledBending<Lane> coupled{m, bending.softness, bending.stiffness,
+                                        kernels::inverse_width(map, s, limit2), 1.0};
   const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
   const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
   const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
-  return_point(v, e, 0, f, v.mu * (r * r * r), determinant(f), beside);
-  return keep_bending(bending, e, m, beside.left, point.determinant);
+  return_point(v, e, 0, f, v.mu * (r * r * r), determinant(f), point.determinant, sums, coupled);
+  sums.hourglass_work += keep_bending(bending, e, m, coupled.left, point.determinant);
 }
 
 }  // namespace
 
 template <class F>
-[[gnu::flatten]] void j2_return_map(
-    BusyChunk chunk, Read<Bodies> bodies, Read<Position> x, Read<ShearModulus> mu,
-    Read<BulkModulus> bulk, Read<YieldStress> sigma_y, Read<HardeningModulus> hardening,
-    Read<IsochoricScale<F::points>> isochoric, Write<DeviatoricStress<F::points>> s,
-    Write<PlasticMetric<F::points>> metric, Write<PlasticStrain<F::points>> eps,
-    Optional<Write<HourglassStress>> hourglass, Optional<Write<PlasticHourglass>> plastic,
-    Optional<Write<HourglassWork>> work) {
+[[gnu::flatten]] void j2_return_map<F>::operator()(BusyChunk chunk) const {
   const Row<Particle> particle;
-  const Lane shear = mu.chunk(chunk)(particle);
-  const Views<F> v{
-      x.chunk(chunk),   isochoric.chunk(chunk),
-      s.chunk(chunk),   metric.chunk(chunk),
-      eps.chunk(chunk), shear,
-      1.0 / shear,      {sigma_y.chunk(chunk)(particle), hardening.chunk(chunk)(particle)}};
+  const Lane mu = elastic.shear.chunk(chunk)(particle);
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  if constexpr (F::stabilised) {
-    const Lane modulus = kernels::plane_strain_modulus(shear, bulk.chunk(chunk)(particle));
-    const Bending bending{hourglass->chunk(chunk), plastic->chunk(chunk),
-                          (1.0 / 3.0) * modulus / shear, 3.0 * shear / modulus, 1.0 / modulus};
-    Lane spent{};
-    chunk.for_elements(shape.elements(),
-                       [&](int i) { spent += return_element(v, bending, shape, Row<Element>(i)); });
-    work->chunk(chunk)(particle) += spent * bodies->thickness;
-  } else {
-    chunk.for_elements(shape.elements(), [&](int i) { return_element(v, shape, Row<Element>(i)); });
+  ChunkSums sums;
+  const auto return_chunk = [&]<class Law>(const Law& law) {
+    const Views<F, Law> v{position.chunk(chunk),
+                          points.isochoric.chunk(chunk),
+                          points.deviator.chunk(chunk),
+                          points.metric.chunk(chunk),
+                          points.strain.chunk(chunk),
+                          mu,
+                          1.0 / mu,
+                          law};
+    if constexpr (F::stabilised) {
+      const Lane modulus = kernels::plane_strain_modulus(mu, elastic.bulk.chunk(chunk)(particle));
+      const Bending bending{hourglass->stress.chunk(chunk), hourglass->plastic.chunk(chunk),
+                            (1.0 / 3.0) * modulus / mu, 3.0 * mu / modulus, 1.0 / modulus};
+      chunk.for_elements(shape.elements(),
+                         [&](int i) { return_element(v, bending, shape, Row<Element>(i), sums); });
+    } else {
+      chunk.for_elements(shape.elements(),
+                         [&](int i) { return_element(v, shape, Row<Element>(i), sums); });
+    }
+  };
+  const kernels::LinearHardening<Lane> linear{flow.yield_stress.chunk(chunk)(particle),
+                                              flow.hardening.chunk(chunk)(particle)};
+  if (flow.laws)
+    with_law((*flow.laws)->of_chunk(*bodies, chunk), linear, 1 / clock->dt_before, return_chunk);
+  else
+    return_chunk(linear);
+  if constexpr (F::stabilised)
+    hourglass->work.chunk(chunk)(particle) += sums.hourglass_work * bodies->thickness;
+  if (const auto& work = iterated.rate_work)
+    work->chunk(chunk)(particle) += sums.rate_work * bodies->thickness;
+  if (const auto& residual = iterated.residual) {
+    residual->chunk(chunk)(particle, 0) = sums.residual;
+    residual->chunk(chunk)(particle, 1) = sums.element;
   }
 }
-template decltype(j2_return_map<FourPoint>) j2_return_map<FourPoint>;
-template decltype(j2_return_map<Standard>) j2_return_map<Standard>;
-template decltype(j2_return_map<OnePoint>) j2_return_map<OnePoint>;
+template struct j2_return_map<FourPoint>;
+template struct j2_return_map<Standard>;
+template struct j2_return_map<OnePoint>;
 
 }  // namespace pulvis

@@ -7,6 +7,7 @@
 #include "components/highest_mode.hpp"
 #include "components/observed.hpp"
 #include "engine/look_ahead.hpp"
+#include "systems/laws/flow_law.hpp"
 
 namespace pulvis {
 
@@ -38,12 +39,38 @@ struct trial_stress {
   void operator()(Chunk chunk) const;
 };
 
+// What a material flows at: constants of linear hardening, or laws.
+struct Flow {
+  Read<YieldStress> yield_stress;
+  Read<HardeningModulus> hardening;
+  Optional<Read<FlowLaws>> laws;
+};
+
 template <class F>
-void j2_return_map(BusyChunk, Read<Bodies>, Read<Position>, Read<ShearModulus>, Read<BulkModulus>,
-                   Read<YieldStress>, Read<HardeningModulus>, Read<IsochoricScale<F::points>>,
-                   Write<DeviatoricStress<F::points>>, Write<PlasticMetric<F::points>>,
-                   Write<PlasticStrain<F::points>>, Optional<Write<HourglassStress>>,
-                   Optional<Write<PlasticHourglass>>, Optional<Write<HourglassWork>>);
+struct j2_return_map {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<Position> position;
+  Elasticity elastic;
+  Flow flow;
+  struct Points {
+    Read<IsochoricScale<F::points>> isochoric;
+    Write<DeviatoricStress<F::points>> deviator;
+    Write<PlasticMetric<F::points>> metric;
+    Write<PlasticStrain<F::points>> strain;
+  } points;
+  struct Hourglass {  // of elements with one point
+    Write<HourglassStress> stress;
+    Write<PlasticHourglass> plastic;
+    Write<HourglassWork> work;
+  };
+  Optional<Hourglass> hourglass;
+  struct Iterated {  // of curved laws and rates
+    Optional<Write<RateWork>> rate_work;
+    Optional<Write<ReturnResidual>> residual;
+  } iterated;
+  void operator()(BusyChunk chunk) const;
+};
 
 template <class F>
 struct internal_force {
@@ -114,6 +141,13 @@ struct highest_mode {
   void operator()(Chunk chunk) const;
 };
 
+struct return_health {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<ReturnResidual> residual;
+  void operator()() const;
+};
+
 struct element_health {
   Read<Bodies> bodies;
   Read<Clock> clock;
@@ -146,10 +180,10 @@ struct elastic_energy {
 template <class F>
 struct plastic_work {
   Read<Bodies> bodies;
-  Read<YieldStress> sigma_y;
-  Read<HardeningModulus> hardening;
+  Flow flow;
   Read<PlasticStrain<F::points>> eps;
   Optional<Read<HourglassWork>> hourglass;
+  Optional<Read<RateWork>> rate;
   Write<PlasticWork> work;
   void operator()(Chunk chunk) const;
 };

@@ -27,10 +27,10 @@ kernels::HexResponse response(const SolidReader& reader, Row<SolidElement> row,
 
 void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                    Read<Displacement> displacement, Read<LameConstants> elastic,
-                   Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
-                   Write<ElementForce> force, Write<ElementTangent> tangent,
-                   Write<ElementEnergy> energy) {
-  const SolidReader reader{*mesh, reference, displacement, elastic};
+                   Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
+                   Optional<Read<SolidMemory>> memory, Write<ElementForce> force,
+                   Write<ElementTangent> tangent, Write<ElementEnergy> energy) {
+  const SolidReader reader{*mesh, reference, displacement, elastic, laws_of(laws)};
   for_elements(chunk, *mesh, [&](Row<SolidElement> row) {
     const kernels::HexResponse r = response(reader, row, yield, memory, true);
     store(row, r, force, energy);
@@ -42,9 +42,10 @@ void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> re
 
 void element_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                    Read<Displacement> displacement, Read<LameConstants> elastic,
-                   Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
-                   Write<ElementForce> force, Write<ElementEnergy> energy) {
-  const SolidReader reader{*mesh, reference, displacement, elastic};
+                   Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
+                   Optional<Read<SolidMemory>> memory, Write<ElementForce> force,
+                   Write<ElementEnergy> energy) {
+  const SolidReader reader{*mesh, reference, displacement, elastic, laws_of(laws)};
   for_elements(chunk, *mesh, [&](Row<SolidElement> row) {
     store(row, response(reader, row, yield, memory, false), force, energy);
   });

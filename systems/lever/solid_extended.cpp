@@ -53,9 +53,9 @@ void wide_tangent(const SolidReader& reader, Row<SolidElement> row,
 void factorise_extended(Read<SolidAssembly> assembly, Read<SolidMesh> mesh,
                         Read<ReferencePosition> reference, Read<Displacement> displacement,
                         Read<LameConstants> elastic, Optional<Read<TetrahedronLame>> tetrahedron,
-                        Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
-                        Write<SolidEquations> equations) {
-  const SolidReader reader{*mesh, reference, displacement, elastic};
+                        Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
+                        Optional<Read<SolidMemory>> memory, Write<SolidEquations> equations) {
+  const SolidReader reader{*mesh, reference, displacement, elastic, laws_of(laws)};
   WideTangents tangents;
   tangents.hexahedra.resize(WideTangents::of_hexahedron * mesh->hexahedra.size());
   tangents.tetrahedra.resize(WideTangents::of_tetrahedron * mesh->tetrahedra.size());

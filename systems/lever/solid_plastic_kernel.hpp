@@ -24,6 +24,7 @@ using HexMemory = std::array<PlasticMemory, 8>;
 struct PlasticMaterial {
   double lambda = 0, mu = 0;  // Pa
   LinearHardening<double> law;
+  const HardeningLaw* curve = nullptr;  // instead of the line
 };
 
 struct PlasticStress {
@@ -42,6 +43,32 @@ inline double tensor_norm(const Voigt& s) {
   return std::sqrt(s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm());
 }
 
+inline double flow_stress_of(const PlasticMaterial& m, double eps) {
+  if (m.curve == nullptr) return m.law.flow_stress(eps);
+  return std::visit([&](const auto& law) { return law.flow_stress(eps); }, *m.curve);
+}
+
+// Growth of the plastic strain, and the slope of the flow stress where it ends. Not a number where a curve gives none:
+// the increment is then cut, as where the modes find no balance.
+struct PlasticStep {
+  double grown, modulus;
+};
+inline PlasticStep plastic_step(const PlasticMaterial& m, double norm, double excess, double eps) {
+  if (m.curve == nullptr) {
+    const double modulus = m.law.modulus(eps);
+    return {excess / (3 * m.mu + modulus), modulus};
+  }
+  return std::visit(
+      [&](const auto& law) -> PlasticStep {
+        Uncoupled alone;
+        const Trial<double> trial{norm * norm, norm * norm, norm, eps, 2 * m.mu};
+        const Multiplier<double> found = consistent(true, trial, law, alone);
+        const double grown = found.residual == 0 ? sqrt_2_3 * found.dgamma : std::nan("");
+        return {grown, law.modulus(eps + grown)};
+      },
+      *m.curve);
+}
+
 // What exceeds the flow stress by round-off does not flow: a point that an equilibrium left on the yield surface
 // answers the next increment elastically first, and is not thrown far beyond where it unloads.
 inline PlasticStress return_map(const Voigt& strain, const PlasticMaterial& m,
@@ -49,11 +76,11 @@ inline PlasticStress return_map(const Voigt& strain, const PlasticMaterial& m,
   PlasticStress p{elastic * (strain - before.strain), elastic, before};
   const Voigt trial = deviator(p.stress);
   const double norm = tensor_norm(trial);
-  const double flow_stress = m.law.flow_stress(before.accumulated);
+  const double flow_stress = flow_stress_of(m, before.accumulated);
   const double excess = std::sqrt(1.5) * norm - flow_stress;
   if (!(excess > 1e-10 * flow_stress)) return p;
-  const double slope = 3 * m.mu + m.law.modulus(before.accumulated);
-  const double step = excess / slope;
+  const PlasticStep returned = plastic_step(m, norm, excess, before.accumulated);
+  const double step = returned.grown, slope = 3 * m.mu + returned.modulus;
   const Voigt n = trial / norm;
   const double shrink = 2 * m.mu * std::sqrt(1.5) * step;  // of the deviator's norm
   p.stress -= shrink * n;

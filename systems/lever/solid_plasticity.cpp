@@ -10,8 +10,9 @@ namespace pulvis {
 
 void remember_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                          Read<Displacement> displacement, Read<LameConstants> elastic,
-                         Read<SolidYield> yield, Write<SolidMemory> memory) {
-  const SolidReader reader{*mesh, reference, displacement, elastic};
+                         Read<SolidYield> yield, Optional<Read<FlowLaws>> laws,
+                         Write<SolidMemory> memory) {
+  const SolidReader reader{*mesh, reference, displacement, elastic, laws_of(laws)};
   for_elements(chunk, *mesh, [&](Row<SolidElement> row) {
     if (!(yield(row, 0) > 0)) return;
     kernels::HexMemory after;

@@ -4,6 +4,7 @@
 
 #include "components/solid.hpp"
 #include "engine/access.hpp"
+#include "systems/laws/flow_law.hpp"
 #include "systems/lever/solid_plastic_kernel.hpp"
 #include "systems/lever/solid_tetrahedron_kernel.hpp"
 
@@ -16,11 +17,16 @@ void for_elements(Chunk chunk, const SolidMesh& mesh, const Each& each) {
   for (int e = mesh.chunk_begin[at]; e < mesh.chunk_begin[at + 1]; ++e) each(Row<SolidElement>(e));
 }
 
+inline const FlowLaws* laws_of(const Optional<Read<FlowLaws>>& laws) {
+  return laws ? &**laws : nullptr;
+}
+
 struct SolidReader {
   const SolidMesh& mesh;
   const Read<ReferencePosition>& reference;
   const Read<Displacement>& displacement;
   const Read<LameConstants>& lame;
+  const FlowLaws* laws = nullptr;  // of the parts; null: all harden linearly
 
   kernels::HexResponse elastic(Row<SolidElement> row, bool with_tangent) const {
     return kernels::hex_response(corners(row, reference), corners(row, displacement), lame(row, 0),
@@ -40,13 +46,20 @@ struct SolidReader {
                                const Memory& memory, bool with_tangent,
                                kernels::HexMemory* after = nullptr) const {
     const kernels::PlasticMaterial material{
-        lame(row, 0), lame(row, 1), {yield(row, 0), yield(row, 1)}};
+        lame(row, 0), lame(row, 1), {yield(row, 0), yield(row, 1)}, curve(row)};
     return kernels::plastic_response(corners(row, reference), corners(row, displacement), material,
                                      formulation(row), remembered(row, memory), with_tangent,
                                      after);
   }
 
  private:
+  const kernels::HardeningLaw* curve(Row<SolidElement> row) const {
+    if (laws == nullptr) return nullptr;
+    const auto part = mesh.part[static_cast<std::size_t>(row.value)];
+    const FlowLaw& law = laws->of_material[part];
+    return law.is_linear() ? nullptr : &law.hardening;
+  }
+
   HexFormulation formulation(Row<SolidElement> row) const {
     return mesh.formulation[static_cast<std::size_t>(row.value)];
   }

@@ -8,15 +8,18 @@
 
 namespace pulvis {
 
+struct FlowLaws;  // systems/laws/flow_law.hpp
+
 void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                    Read<Displacement> displacement, Read<LameConstants> elastic,
-                   Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
-                   Write<ElementForce> force, Write<ElementTangent> tangent,
-                   Write<ElementEnergy> energy);
+                   Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
+                   Optional<Read<SolidMemory>> memory, Write<ElementForce> force,
+                   Write<ElementTangent> tangent, Write<ElementEnergy> energy);
 void element_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                    Read<Displacement> displacement, Read<LameConstants> elastic,
-                   Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
-                   Write<ElementForce> force, Write<ElementEnergy> energy);
+                   Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
+                   Optional<Read<SolidMemory>> memory, Write<ElementForce> force,
+                   Write<ElementEnergy> energy);
 void solid_tetrahedron(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                        Read<Displacement> displacement, Read<TetrahedronLame> elastic,
                        Write<TetrahedronForce> force, Write<TetrahedronTangent> tangent,
@@ -26,7 +29,8 @@ void tetrahedron_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition
                        Write<TetrahedronForce> force, Write<TetrahedronEnergy> energy);
 void remember_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                          Read<Displacement> displacement, Read<LameConstants> elastic,
-                         Read<SolidYield> yield, Write<SolidMemory> memory);
+                         Read<SolidYield> yield, Optional<Read<FlowLaws>> laws,
+                         Write<SolidMemory> memory);
 void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element,
                  Optional<Read<TetrahedronForce>> tetrahedron, Write<SolidForce> force);
 void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
@@ -48,8 +52,8 @@ void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
 void factorise_extended(Read<SolidAssembly> assembly, Read<SolidMesh> mesh,
                         Read<ReferencePosition> reference, Read<Displacement> displacement,
                         Read<LameConstants> elastic, Optional<Read<TetrahedronLame>> tetrahedron,
-                        Optional<Read<SolidYield>> yield, Optional<Read<SolidMemory>> memory,
-                        Write<SolidEquations> equations);
+                        Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
+                        Optional<Read<SolidMemory>> memory, Write<SolidEquations> equations);
 void newton_direction(Write<SolidEquations> equations);
 void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<ReferencePosition> reference,
                        Read<Displacement> displacement, Read<ProbeNode> node,

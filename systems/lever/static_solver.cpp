@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/interruption.hpp"
+#include "systems/laws/flow_law.hpp"
 #include "systems/lever/solid_systems.hpp"
 
 namespace pulvis {

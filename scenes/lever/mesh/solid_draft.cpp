@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "systems/laws/flow_law.hpp"
 #include "systems/lever/static_solver.hpp"
 
 namespace pulvis {
@@ -195,7 +196,7 @@ bool turn_outside_out(const std::vector<Vec3>& nodes, SolidMesh::Hexahedron& cor
 SolidMaterial solid_material(const MaterialSpec& m) {
   const double nu = m.poissons_ratio;
   return {m.youngs_modulus * nu / ((1 + nu) * (1 - 2 * nu)), m.youngs_modulus / (2 * (1 + nu)),
-          m.yield_stress.value_or(0), m.hardening_modulus};
+          m.yield_stress.value_or(0), m.hardening_modulus, m.flow};
 }
 
 std::unique_ptr<World> finish_solid(const SolidDraft& draft,
@@ -218,6 +219,9 @@ std::unique_ptr<World> finish_solid(const SolidDraft& draft,
   if (std::ranges::any_of(draft.part,
                           [&](std::uint8_t part) { return materials[part].yield_stress > 0; }))
     add_plastic_columns(*world);
+  if (std::ranges::any_of(materials, [](const SolidMaterial& m) { return m.flow != nullptr; }))
+    for (FlowLaws& laws = world->emplace<FlowLaws>(); const SolidMaterial& m : materials)
+      laws.of_material.push_back(m.flow ? *m.flow : FlowLaw{});
   fill_columns(draft, materials, *world);
   return world;
 }

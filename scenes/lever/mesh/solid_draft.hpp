@@ -41,6 +41,7 @@ bool turn_outside_out(const std::vector<Vec3>& nodes, SolidMesh::Hexahedron& cor
 struct SolidMaterial {
   double lambda = 0, mu = 0;                       // Pa
   double yield_stress = 0, hardening_modulus = 0;  // Pa; 0 0: elastic
+  std::shared_ptr<const FlowLaw> flow = {};        // where it is another law than that
 };
 SolidMaterial solid_material(const MaterialSpec& material);
 

@@ -4,8 +4,10 @@
 #include <numbers>
 
 #include "components/solid.hpp"
+#include "systems/laws/flow_law.hpp"
 #include "systems/lever/solid_plastic_kernel.hpp"
 #include "tests/helpers/lever.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -46,6 +48,7 @@ Corners uneven_displacements(double size) {
 
 // A cube drawn to a length, its sides free: the width follows by Newton's method in one unknown.
 struct Tension {
+  kernels::PlasticMaterial material = metal();
   HexMemory memory;
   double force = 0;
 
@@ -59,7 +62,7 @@ struct Tension {
       u.row(1) *= width - 1;
       u.row(2) *= width - 1;
       const HexResponse r =
-          kernels::plastic_response(x, u, metal(), HexFormulation::solid, memory, true, &after);
+          kernels::plastic_response(x, u, material, HexFormulation::solid, memory, true, &after);
       double side = 0, slope = 0;
       for (int a = 0; a < 8; ++a)
         for (int k = 1; k < 3; ++k) {
@@ -91,6 +94,51 @@ TEST(SolidPlasticity, SimpleTensionIsOnTheBilinearCurveAndUnloadsAlongTheElastic
   }
   bar.draw(std::sqrt(1 + 2 * (0.3 - yield_stress) / hardening), false);
   EXPECT_NEAR(bar.force, 0, 1e-12);
+}
+
+const std::vector<kernels::HardeningLaw> curves{
+    kernels::VoceHardening{yield_stress, 0.2, 20}, kernels::SwiftHardening{yield_stress, 0.01, 0.2},
+    kernels::LudwikHardening{yield_stress, 0.5, 0.5},
+    kernels::TabulatedHardening{{0, 0.01, 0.03}, {yield_stress, 0.25, 0.3}}};
+
+kernels::PlasticMaterial metal_of(const kernels::HardeningLaw& curve) {
+  kernels::PlasticMaterial m = metal();
+  m.curve = &curve;
+  return m;
+}
+
+TEST(SolidPlasticity, SimpleTensionIsOnTheCurveOfEveryLaw) {
+  for (const kernels::HardeningLaw& curve : curves) {
+    Tension bar;
+    bar.material = metal_of(curve);
+    for (const double plastic : {0.003, 0.02, 0.05}) {
+      const double s = std::visit([&](const auto& law) { return law.flow_stress(plastic); }, curve);
+      const double stretch = std::sqrt(1 + 2 * (s / young + plastic));
+      bar.draw(stretch, true);
+      EXPECT_NEAR(bar.force, stretch * s, 1e-11) << curve.index() << " " << plastic;
+      EXPECT_NEAR(bar.memory[3].accumulated, plastic, 1e-11) << curve.index() << " " << plastic;
+    }
+  }
+}
+
+TEST(SolidPlasticity, TheTangentOfACurveIsTheDerivativeOfTheForce) {
+  for (const kernels::HardeningLaw& curve : curves) {
+    const kernels::PlasticMaterial m = metal_of(curve);
+    const Corners x = skew_corners(), u = uneven_displacements(0.02);
+    const auto at = kernels::plastic_response(x, u, m, HexFormulation::solid, HexMemory{}, true);
+    constexpr double h = 1e-7;
+    for (int i = 0; i < 24; ++i) {
+      Corners up = u, down = u;
+      up(i % 3, i / 3) += h;
+      down(i % 3, i / 3) -= h;
+      const auto f = [&](const Corners& moved) {
+        return kernels::plastic_response(x, moved, m, HexFormulation::solid, HexMemory{}, false)
+            .force;
+      };
+      EXPECT_LT(((f(up) - f(down)) / (2 * h) - at.tangent.col(i)).norm(), 1e-5 * at.tangent.norm())
+          << curve.index() << " " << i;
+    }
+  }
 }
 
 TEST(SolidPlasticity, TheTangentIsTheDerivativeOfTheForce) {
@@ -205,6 +253,37 @@ TEST(SolidPlasticity, NewtonConvergesQuadraticallyWhileItFlows) {
     }
   }
   EXPECT_GE(squared, 2);
+}
+
+// Swift's law with the exponent 1 is a line: sigma_y (1 + eps/e_0), H = sigma_y/e_0.
+TEST(SolidPlasticity, ALeverFlowsByTheLawOfItsScene) {
+  std::string curved = narrow_beam;
+  const std::string line = "hardening_modulus = \"1 MPa\"\n";
+  curved.replace(curved.find(line), line.size(),
+                 "[material.hardening]\nlaw = \"swift\"\nreference_strain = 0.002\nexponent = 1\n");
+  double deflection[2];
+  for (const bool swift : {false, true}) {
+    const Scene scene =
+        swift ? afm_scene(curved) : afm_scene(narrow_beam, {"material.m.hardening_modulus=5 GPa"});
+    AfmSimulation simulation(scene);
+    EXPECT_EQ(simulation.world().has<FlowLaws>(), swift);
+    for (const auto& report : load_by_steps(simulation, 0, 1.6 * 10e6 * 1e-18 / 6 / 200e-6, 4))
+      ASSERT_TRUE(report.converged) << testing::PrintToString(report.residuals);
+    const double* u = simulation.world().column<Displacement>().values();
+    deflection[swift ? 1 : 0] = read(simulation.model().foot, u).z();
+  }
+  EXPECT_NEAR(deflection[1] / deflection[0], 1, 1e-8);
+}
+
+TEST(SolidPlasticity, ARateIsRefusedWhereTheSolutionIsStatic) {
+  std::string text = narrow_beam;
+  const std::string line = "hardening_modulus = \"1 MPa\"\n";
+  text.replace(text.find(line), line.size(),
+               "[material.rate]\nlaw = \"cowper-symonds\"\nreference_rate = \"40 1/s\"\n"
+               "exponent = 5\n");
+  EXPECT_NE(
+      message_of([&] { afm_scene(text); }).find("material[0].rate: levers are solved statically"),
+      std::string::npos);
 }
 
 TEST(SolidPlasticity, AnElasticLeverRemembersNothing) {

@@ -1,5 +1,5 @@
 // Hourglass modes of the one-point quad: bending of its fibres, elastic and at the plastic limit.
-#include "systems/body/hourglass_kernel.hpp"
+#include "systems/body/j2_bending_kernel.hpp"
 
 #include <gtest/gtest.h>
 
@@ -263,9 +263,9 @@ double on_surface(const Section& s, double turn) {
                            k * (s.normal * i2 + s.shear * c2)};
   const QuadMap<double> map{2 * c, 2 * i, -i, c, 0, 0};
   const double limit2 = 2.0 / 3.0;
-  const BendingBeside<double> beside{
+  const CoupledBending<double> coupled{
       {std::numbers::sqrt3 * yield * s.moment, 0}, 1, 1, inverse_width(map, d, limit2), 1};
-  return std::sqrt(beside.joint_norm(squared_norm(d)) / limit2);
+  return std::sqrt(coupled.joint_norm(squared_norm(d)) / limit2);
 }
 
 TEST(BendingLimit, IsThatOfASectionInBendingAndStretching) {
@@ -311,13 +311,13 @@ double limit_moment(int elements, double far) {
       m += modulus_of_fibre * curvature * part / 2;
       const QuadMap<double> map{1, 0, 0, part / 2, 0, 0};
       const double limit2 = 2.0 / 3.0 * yield * yield;
-      BendingBeside<double> beside{{m, 0},
-                                   modulus_of_fibre / (3 * mu),
-                                   3 * mu / modulus_of_fibre,
-                                   inverse_width(map, state.s, limit2),
-                                   1};
-      state = radial_return(state, f, 1.0, mu, 1 / mu, law, beside);
-      m *= beside.left;
+      CoupledBending<double> coupled{{m, 0},
+                                     modulus_of_fibre / (3 * mu),
+                                     3 * mu / modulus_of_fibre,
+                                     inverse_width(map, state.s, limit2),
+                                     1};
+      state = radial_return(state, f, 1.0, mu, 1 / mu, law, coupled);
+      m *= coupled.left;
     }
     moment += part * centre * (state.s.xx - state.s.yy) + part * part / 6 * m;
   }
@@ -340,14 +340,14 @@ TEST(BendingLimit, ReturnEndsOnTheSurfaceAndSpendsEnergy) {
     J2State<double> trial{};
     trial.s = scaled_deviator(left_cauchy_green(f), mu);
     const Hourglass<double> m{random.in(-8e8, 8e8), random.in(-8e8, 8e8)};
-    BendingBeside<double> beside{m, fibre / (3 * mu), 3 * mu / fibre, 1.0, 1.0};
+    CoupledBending<double> coupled{m, fibre / (3 * mu), 3 * mu / fibre, 1.0, 1.0};
     const auto next =
-        radial_return(trial, f, 1.0, mu, 1 / mu, LinearHardening<double>{yield, 440e6}, beside);
-    ASSERT_LE(beside.left, 1);
-    ASSERT_GE(beside.left, 0);
-    beside.stress = {beside.left * m.one, beside.left * m.two};
+        radial_return(trial, f, 1.0, mu, 1 / mu, LinearHardening<double>{yield, 440e6}, coupled);
+    ASSERT_LE(coupled.left, 1);
+    ASSERT_GE(coupled.left, 0);
+    coupled.stress = {coupled.left * m.one, coupled.left * m.two};
     const double limit = yield + 440e6 * next.eps;
-    const double norm = std::sqrt(1.5 * beside.joint_norm(squared_norm(next.s)));
+    const double norm = std::sqrt(1.5 * coupled.joint_norm(squared_norm(next.s)));
     // First order in the step where the moduli of s and t differ: softness 0.99.
     if (next.eps > 0) {
       ASSERT_NEAR(norm / limit, 1, 0.01);

@@ -1,0 +1,154 @@
+// Declarations of how a material flows: its hardening and rate laws.
+#include "scenes/keys/declare.hpp"
+#include "systems/laws/flow_law.hpp"
+
+namespace pulvis::schema {
+namespace {
+
+// The words of `law` have the order of the variant.
+template <std::size_t... I, class Law>
+void choose(Law& law, std::size_t index, std::index_sequence<I...>) {
+  ((I == index ? void(law.template emplace<I>()) : void()), ...);
+}
+template <class Law>
+void choose(Law& law, int index) {
+  choose(law, static_cast<std::size_t>(index),
+         std::make_index_sequence<std::variant_size_v<Law>>());
+}
+
+// A constant of the law that was chosen.
+template <class Law>
+auto hardening_to(double Law::*constant) {
+  return [=](FlowLaw& flow, const Decoded& value) {
+    if (Law* law = std::get_if<Law>(&flow.hardening)) law->*constant = value.number;
+  };
+}
+template <class Law>
+auto rate_to(double Law::*constant) {
+  return [=](FlowLaw& flow, const Decoded& value) {
+    if (Law* law = std::get_if<Law>(&flow.rate)) law->*constant = value.number;
+  };
+}
+
+Key<FlowLaw> exponent_of_hardening() {
+  return {{.name = "exponent",
+           .kind = Kind::number,
+           .range = within(1e-3, 1),
+           .required = true,
+           .only_for = {"swift", "ludwik"},
+           .doc = "n of the power law."},
+          [](FlowLaw& flow, const Decoded& value) {
+            hardening_to (&kernels::SwiftHardening::n)(flow, value);
+            hardening_to (&kernels::LudwikHardening::n)(flow, value);
+          }};
+}
+
+}  // namespace
+
+const TableDeclaration<FlowLaw>& hardening() {
+  using namespace kernels;
+  static const TableDeclaration<FlowLaw> declaration{
+      {"material.hardening", false, "law",
+       "How the flow stress grows from the yield stress with the accumulated plastic strain e.",
+       every_family, true},
+      {{{.name = "law",
+         .kind = Kind::choice,
+         .choices = {{"linear", "yield_stress + modulus e"},
+                     {"voce", "yield_stress + saturation (1 - exp(-saturation_rate e))"},
+                     {"swift",
+                      "yield_stress (1 + e / reference_strain)^exponent, which is K (e_0 + "
+                      "e)^n with K = yield_stress / e_0^n"},
+                     {"ludwik", "yield_stress + strength e^exponent"},
+                     {"table", "straight lines between the points of a file"}},
+         .required = true,
+         .doc = "The law of hardening."},
+        [](FlowLaw& flow, const Decoded& value) { choose(flow.hardening, value.index); }},
+       {{.name = "modulus",
+         .kind = Kind::quantity,
+         .unit = "Pa",
+         .range = within(0, 1e13),
+         .required = true,
+         .only_for = "linear",
+         .doc = "What hardening_modulus of the material says otherwise."},
+        hardening_to(&LinearHardening<double>::H)},
+       {{.name = "saturation",
+         .kind = Kind::quantity,
+         .unit = "Pa",
+         .range = within(0, 1e13),
+         .required = true,
+         .only_for = "voce",
+         .doc = "Q: how much the flow stress grows in all."},
+        hardening_to(&VoceHardening::Q)},
+       {{.name = "saturation_rate",
+         .kind = Kind::number,
+         .range = within(1e-3, 1e6),
+         .required = true,
+         .only_for = "voce",
+         .doc = "b: 63% of the growth come within a plastic strain of 1/b."},
+        hardening_to(&VoceHardening::b)},
+       {{.name = "reference_strain",
+         .kind = Kind::number,
+         .range = within(1e-9, 1e3),
+         .required = true,
+         .only_for = "swift",
+         .doc = "e_0: prestrain of the law."},
+        hardening_to(&SwiftHardening::eps_0)},
+       {{.name = "strength",
+         .kind = Kind::quantity,
+         .unit = "Pa",
+         .range = within(0, 1e13),
+         .required = true,
+         .only_for = "ludwik",
+         .doc = "K: growth of the flow stress at a plastic strain of 1 (B of Johnson and Cook, "
+                "whose A is the yield stress)."},
+        hardening_to(&LudwikHardening::K)},
+       exponent_of_hardening(),
+       {{.name = "file",
+         .kind = Kind::file,
+         .required = true,
+         .only_for = "table",
+         .doc =
+             "CSV with the columns `plastic_strain` and `stress [MPa]` (or another unit): strains "
+             "rise from 0, stresses do not fall. The first is the yield stress, which the "
+             "material then does not state; beyond the last the stress stays."},
+        to(&FlowLaw::file)}}};
+  return declaration;
+}
+
+const TableDeclaration<FlowLaw>& rate() {
+  using namespace kernels;
+  static const TableDeclaration<FlowLaw> declaration{
+      {"material.rate", false, "law",
+       "How the flow stress grows with the rate of plastic strain. Not for levers, whose solution "
+       "is "
+       "static.",
+       every_family, true},
+      {{{.name = "law",
+         .kind = Kind::choice,
+         .choices =
+             {{"cowper-symonds",
+               "the flow stress of hardening times 1 + (rate / reference_rate)^(1/exponent)"}},
+         .required = true,
+         .doc = "The law of the rate."},
+        [](FlowLaw& flow, const Decoded& value) {
+          choose(flow.rate, value.index + 1);  // without a word: none
+        }},
+       {{.name = "reference_rate",
+         .kind = Kind::quantity,
+         .unit = "1/s",
+         .range = within(1e-9, 1e15),
+         .required = true,
+         .only_for = "cowper-symonds",
+         .doc = "C: at this rate the flow stress is twice that of slow flow."},
+        rate_to(&CowperSymonds::C)},
+       {{.name = "exponent",
+         .kind = Kind::number,
+         .range = within(1, 100),
+         .required = true,
+         .only_for = "cowper-symonds",
+         .doc = "p."},
+        rate_to(&CowperSymonds::p)}}};
+  return declaration;
+}
+
+}  // namespace pulvis::schema

@@ -1,0 +1,77 @@
+// Which laws a material flows by. The resource is there only where one hardens along a curve, or by its rate.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/shape.hpp"
+#include "systems/laws/hardening.hpp"
+#include "systems/laws/rate.hpp"
+
+namespace pulvis {
+
+struct FlowLaw {
+  kernels::HardeningLaw hardening;
+  kernels::RateLaw rate;
+  std::string file = {};  // of a table, as the scene names it
+
+  bool is_linear() const { return hardening.index() == 0 && rate.index() == 0; }
+};
+
+// "voce", "linear, cowper-symonds"
+inline std::string name_of(const FlowLaw& law) {
+  std::string name =
+      std::visit([](const auto& own) { return std::string(own.name); }, law.hardening);
+  std::visit(
+      [&]<class Rate>(const Rate& own) {
+        if constexpr (!std::is_same_v<Rate, kernels::NoRate>) name += std::string(", ") + own.name;
+      },
+      law.rate);
+  return name;
+}
+
+struct FlowLaws {
+  static constexpr const char* resource_name = "flow_laws";
+  static constexpr bool fixed = true;
+  std::vector<FlowLaw> of_material;  // of a solid: of each part
+
+  // A chunk's particles are of one class, and so of one material.
+  const FlowLaw& of_chunk(const Bodies& bodies, Chunk chunk) const {
+    const auto first = static_cast<std::size_t>(chunk.index) * lane_count;
+    return of_material[static_cast<std::size_t>(bodies.slots[first].material)];
+  }
+};
+
+// Calls use(law) with the law's own type: once a chunk, not once a point. Linear hardening keeps its columns, where
+// elastic particles have an infinite yield stress.
+template <class Use>
+void with_hardening(const FlowLaw& law, const kernels::LinearHardening<Lane>& linear,
+                    const Use& use) {
+  std::visit(
+      [&]<class Law>(const Law& own) {
+        if constexpr (std::is_same_v<Law, kernels::LinearHardening<double>>)
+          use(linear);
+        else
+          use(own);
+      },
+      law.hardening);
+}
+
+// The same with the rate law, over a step of 1/over_dt. Kept out of its caller, which is inlined as a whole for linear
+// hardening.
+template <class Use>
+[[gnu::noinline]] void with_law(const FlowLaw& law, const kernels::LinearHardening<Lane>& linear,
+                                double over_dt, const Use& use) {
+  with_hardening(law, linear, [&](const auto& hardening) {
+    std::visit(
+        [&]<class Rate>(const Rate& rate) {
+          if constexpr (std::is_same_v<Rate, kernels::NoRate>)
+            use(hardening);
+          else
+            use(kernels::RatedHardening{hardening, rate, over_dt});
+        },
+        law.rate);
+  });
+}
+
+}  // namespace pulvis

@@ -1,0 +1,82 @@
+// Rate dependence: the flow stress of hardening times a factor that grows with the rate of plastic strain.
+//
+// Law      a struct with factor(rate) >= 1, factor(0) = 1, and slope(rate) [s], its derivative; for numbers and
+//          lanes, rate in 1/s
+// Source   Cowper & Symonds (1957)
+#pragma once
+
+#include <variant>
+
+#include "systems/laws/elementary.hpp"
+
+namespace pulvis::kernels {
+
+struct NoRate {};
+
+// 1 + (rate/C)^(1/p)
+struct CowperSymonds {
+  static constexpr const char* name = "cowper-symonds";
+  double C = 0;  // 1/s
+  double p = 0;  // -
+  template <class T>
+  T factor(T rate) const {
+    return 1.0 + power(rate / C, 1 / p);
+  }
+  template <class T>
+  T slope(T rate) const {  // infinite at rest where p > 1
+    return (1 / (p * C)) * power(rate / C, 1 / p - 1);
+  }
+};
+
+using RateLaw = std::variant<NoRate, CowperSymonds>;
+
+// Hardening and rate together, over a step: flow begins at the stress of the one, and goes on at that of both.
+template <class Hardening, class Rate>
+struct RatedHardening {
+  const Hardening& hardening;
+  const Rate& rate;
+  double over_dt;  // 1/s, one over the step
+
+  template <class T>
+  T flow_stress(T eps) const {
+    return hardening.flow_stress(eps);
+  }
+  template <class T>
+  T modulus(T eps) const {
+    return hardening.modulus(eps);
+  }
+};
+
+template <class Hardening, class Rate>
+RatedHardening(const Hardening&, const Rate&, double) -> RatedHardening<Hardening, Rate>;
+
+// Flow stress and its slope once `grown` plastic strain has come onto `eps` in this step.
+template <class T>
+struct Flow {
+  T stress, modulus;
+};
+template <class T, class Hardening>
+Flow<T> flow_after(const Hardening& law, T eps, T grown) {
+  const T now = eps + grown;
+  return {law.flow_stress(now), law.modulus(now)};
+}
+template <class T, class Hardening, class Rate>
+Flow<T> flow_after(const RatedHardening<Hardening, Rate>& law, T eps, T grown) {
+  const Flow<T> slow = flow_after(law.hardening, eps, grown);
+  const T rate = grown * law.over_dt, factor = law.rate.factor(rate);
+  return {slow.stress * factor,
+          slow.modulus * factor + slow.stress * law.rate.slope(rate) * law.over_dt};
+}
+
+// What the rate alone makes of the work of a step, J/m^3: that of hardening is the integral of its curve.
+template <class T, class Hardening>
+T rate_work(const Hardening&, T, T) {
+  return T{};
+}
+template <class T, class Hardening, class Rate>
+T rate_work(const RatedHardening<Hardening, Rate>& law, T eps, T grown) {
+  const T slow = law.hardening.flow_stress(eps + grown);
+  return slow * (law.rate.factor(grown * law.over_dt) - 1.0) * grown;
+}
+
+}  // namespace pulvis::kernels
