@@ -12,6 +12,7 @@
 #include "components/contact.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
+#include "components/servo.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 #include "engine/portable_math.hpp"

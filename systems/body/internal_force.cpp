@@ -15,7 +15,7 @@ namespace {
 using Map = kernels::QuadMap<Lane>;
 using Flux = kernels::QuadFlux<Lane>;
 
-struct BendingViews {
+struct Bending {
   ChunkView<HourglassStress, const Lane*> stress;
   Lane mu;
   bool folding;  // some corner of the chunk's elements is about to fold
@@ -25,7 +25,7 @@ template <class F>
 struct Views {
   ChunkView<DeviatoricStress<F::points>, const Lane*> s;
   ChunkView<MeanStress<F::volumes>, const Lane*> p;
-  const BendingViews* bending;  // null: not stabilised
+  const Bending* bending;  // null: not stabilised
 };
 
 Flux stress_flux(const Views<FourPoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
@@ -108,8 +108,8 @@ template <class F>
   Views<F> views{stress.deviator.chunk(chunk), stress.mean.chunk(chunk), nullptr};
   if constexpr (F::stabilised) {
     const Row<Particle> particle;
-    const BendingViews modes{bending->stress.chunk(chunk), shear.chunk(chunk)(particle),
-                             any(bending->least_corner.chunk(chunk)(particle) < kernels::folding)};
+    const Bending modes{bending->stress.chunk(chunk), shear.chunk(chunk)(particle),
+                        any(bending->least_corner.chunk(chunk)(particle) < kernels::folding)};
     views.bending = &modes;
     chunk_force(chunk, views, position.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
   } else {
