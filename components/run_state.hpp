@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/shape.hpp"
+#include "engine/entry.hpp"
 
 namespace pulvis {
 
@@ -97,10 +98,10 @@ struct ContactRules {
   std::vector<Friction> friction;       // [materials * materials]
   std::vector<Friction> tool_friction;  // [tools * materials]
   const Friction& friction_between(int a, int b) const {
-    return friction[static_cast<std::size_t>(a * materials + b)];
+    return entry(friction, a * materials + b);
   }
   const Friction& friction_with_tool(int tool, int material) const {
-    return tool_friction[static_cast<std::size_t>(tool * materials + material)];
+    return entry(tool_friction, tool * materials + material);
   }
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/body.hpp"
+#include "engine/entry.hpp"
 
 namespace pulvis {
 
@@ -94,12 +95,9 @@ struct Bodies {
   std::vector<int> slot_of_number;  // [particles]
 
   const Shape& shape_of_chunk(Chunk c) const {
-    return shapes[static_cast<std::size_t>(
-        slots[static_cast<std::size_t>(c.index) * lane_count].shape)];
+    return entry(shapes, slots[static_cast<std::size_t>(c.index) * lane_count].shape);
   }
-  const Shape& shape_of_slot(int slot) const {
-    return shapes[static_cast<std::size_t>(slots[static_cast<std::size_t>(slot)].shape)];
-  }
+  const Shape& shape_of_slot(int slot) const { return entry(shapes, entry(slots, slot).shape); }
   int chunks() const { return static_cast<int>(slots.size()) / lane_count; }
   int particles() const { return static_cast<int>(slot_of_number.size()); }
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/places.hpp"
+#include "engine/entry.hpp"
 
 namespace pulvis {
 
@@ -33,8 +34,8 @@ struct ToolShapes {  // only where a tool is no plane
   enum class Kind { plane, polyline, grip };
   std::vector<Kind> kind;            // [tools]
   std::vector<ToolSurface> surface;  // [tools]; empty unless a polyline
-  bool is(int tool, Kind wanted) const { return kind[static_cast<std::size_t>(tool)] == wanted; }
-  const ToolSurface& surface_of(int tool) const { return surface[static_cast<std::size_t>(tool)]; }
+  bool is(int tool, Kind wanted) const { return entry(kind, tool) == wanted; }
+  const ToolSurface& surface_of(int tool) const { return entry(surface, tool); }
 };
 
 // ---- polylines ----------------------------------------------------------------------------------

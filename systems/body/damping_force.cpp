@@ -9,6 +9,7 @@
 // Active   when a material of the scene has [material.damping]
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "systems/body/damping_kernel.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/systems.hpp"
@@ -75,11 +76,11 @@ Flux viscous_flux(F, const Maps& m, const Viscosity& v, const Shape& shape, std:
     dilatation += at[g].before * at[g].strain.trace();
     before += at[g].before;
     now += at[g].now;
-    area += shape.gauss[e][static_cast<std::size_t>(g)].determinant;
+    area += entry(shape.gauss[e], g).determinant;
   }
   Flux flux;
   for (int g = 0; g < 4; ++g) {
-    const Lane j = at[g].now * (1 / shape.gauss[e][static_cast<std::size_t>(g)].determinant);
+    const Lane j = at[g].now * (1 / entry(shape.gauss[e], g).determinant);
     const bool own = F::volumes == F::points;
     const Lane theta = own ? j : now * (1 / area);
     const auto s =
@@ -134,8 +135,7 @@ template <class F>
                     material.density.chunk(chunk)(particle) * bodies->thickness;
   for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
     for (int k = 0; k < 2; ++k)
-      force(Row<Node>(i), k) =
-          -(shape.nodal_area[static_cast<std::size_t>(i)] * drag) * v(Row<Node>(i), k);
+      force(Row<Node>(i), k) = -(entry(shape.nodal_area, i) * drag) * v(Row<Node>(i), k);
 
   const Lane viscous = constants.stiffness.chunk(chunk)(particle);
   if (any(viscous > 0.0)) {

@@ -3,6 +3,7 @@
 
 #include "components/shape.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "systems/body/j2_kernel.hpp"
 
 namespace pulvis {
@@ -14,9 +15,9 @@ using ElementPoints = std::array<Shape::GaussPoint, static_cast<std::size_t>(Poi
 template <int Points>
 const ElementPoints<Points>& points_of(const Shape& shape, int element) {
   if constexpr (Points == 1)
-    return shape.centre[static_cast<std::size_t>(element)];
+    return entry(shape.centre, element);
   else
-    return shape.gauss[static_cast<std::size_t>(element)];
+    return entry(shape.gauss, element);
 }
 
 // Of an element with one point: four times the map.
@@ -42,7 +43,7 @@ inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoin
   double before = 0;
   for (int g = 0; g < 4; ++g) {
     now += determinant(map_gradient<4>(map, g));
-    before += points[static_cast<std::size_t>(g)].determinant;
+    before += entry(points, g).determinant;
   }
   return now * (1 / before);
 }

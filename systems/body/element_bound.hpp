@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "components/bundles.hpp"
+#include "engine/entry.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/time_step_kernel.hpp"
 
@@ -46,7 +47,7 @@ inline double softest_edge(const Shape& shape, const Quad& quad) {
   for (std::size_t c = 0; c < 4; ++c) {
     const int from = quad[c].value, to = quad[(c + 1) % 4].value;
     if (from < shape.boundary_nodes && to == (from + 1) % shape.boundary_nodes)
-      least = std::min(least, shape.edges[static_cast<std::size_t>(from)].stiffness);
+      least = std::min(least, entry(shape.edges, from).stiffness);
   }
   return least;
 }

@@ -6,6 +6,7 @@
 
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/hourglass_kernel.hpp"
 #include "systems/body/systems.hpp"
@@ -21,7 +22,7 @@ void kinetic_energy::operator()(Chunk chunk) const {
   Lane total{};
   for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
     const Row<Node> n(i);
-    const Lane mass = mass_per_area * shape.nodal_area[static_cast<std::size_t>(i)];
+    const Lane mass = mass_per_area * entry(shape.nodal_area, i);
     for (int k = 0; k < 2; ++k) {
       Lane force = f(n, k);
       if (forces.contact && i < shape.boundary_nodes)
@@ -45,11 +46,11 @@ template <class F>
   };
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
-    const auto map = quad_map<F::points>(nodes, shape.quads[static_cast<std::size_t>(i)]);
+    const auto map = quad_map<F::points>(nodes, entry(shape.quads, i));
     const auto& points = points_of<F::points>(shape, i);
     double area = 0;
     for (int g = 0; g < F::points; ++g) {
-      const auto& point = points[static_cast<std::size_t>(g)];
+      const auto& point = entry(points, g);
       const auto f =
           kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
       const auto c =
@@ -75,7 +76,7 @@ void plastic_work<F>::operator()(Chunk chunk) const {
   const auto add = [&](const auto& law) {
     for (int i = 0; i < shape.elements(); ++i)
       for (int g = 0; g < F::points; ++g)
-        total += points_of<F::points>(shape, i)[static_cast<std::size_t>(g)].determinant *
+        total += entry(points_of<F::points>(shape, i), g).determinant *
                  law.plastic_work(strain(Row<Element>(i), g));
   };
   // Elastic particles beside plastic ones have an infinite yield stress and no strain: 0, not NaN.

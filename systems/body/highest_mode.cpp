@@ -10,6 +10,7 @@
 // Active   where the scene says time.estimate = "highest-mode"
 #include <limits>
 
+#include "engine/entry.hpp"
 #include "systems/body/element_bound.hpp"
 #include "systems/body/highest_mode_kernel.hpp"
 #include "systems/body/systems.hpp"
@@ -67,7 +68,7 @@ template <int Points>
 Lane iterate(const Body<Points>& body, const ChunkView<HighestMode, Lane*>& mode) {
   elastic_forces(body, mode);
   const auto nodes = static_cast<int>(body.shape.nodes.size());
-  const auto area = [&](int i) { return body.shape.nodal_area[static_cast<std::size_t>(i)]; };
+  const auto area = [&](int i) { return entry(body.shape.nodal_area, i); };
   Lane energy{}, mass{};
   for (int i = 0; i < nodes; ++i)
     for (int k = 0; k < 2; ++k) {

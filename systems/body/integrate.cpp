@@ -5,6 +5,7 @@
 // Runs     after every force of the step
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "systems/body/systems.hpp"
 
 namespace pulvis {
@@ -18,8 +19,7 @@ namespace pulvis {
   const Lane kick =
       0.5 * (clock->dt_before + dt) / (density.chunk(chunk)(Row<Particle>()) * bodies->thickness);
   const auto move = [&](Row<Node> n, int k, Lane force) {
-    const Lane next =
-        v(n, k) + force * (kick * (1.0 / shape.nodal_area[static_cast<std::size_t>(n.value)]));
+    const Lane next = v(n, k) + force * (kick * (1.0 / entry(shape.nodal_area, n.value)));
     v(n, k) = next;
     x(n, k) += next * dt;
   };

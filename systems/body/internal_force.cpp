@@ -5,6 +5,7 @@
 //          at every point; with one point the bending of systems/body/hourglass_kernel.hpp too. All are the
 //          exact derivative of the element's stored energy
 // Runs     after the stresses are final, before integrate
+#include "engine/entry.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/hourglass_kernel.hpp"
 #include "systems/body/systems.hpp"
@@ -42,8 +43,7 @@ Flux stress_flux(const Views<FourPoint>& v, const Map& map, const Shape& shape, 
   Flux flux;
   for (int g = 0; g < 4; ++g) {
     const auto& a = gradient[g];
-    const Lane kirchhoff =
-        over[g / 2] * now[g ^ 1] * points[static_cast<std::size_t>(g)].determinant;
+    const Lane kirchhoff = over[g / 2] * now[g ^ 1] * entry(points, g).determinant;
     const auto d = deviator(v.s, e, g);
     kernels::add_flux(flux, a, kirchhoff * d.xx + mean, kirchhoff * d.yy + mean, kirchhoff * d.xy,
                       kernels::gauss_xi[g], kernels::gauss_eta[g]);
@@ -68,7 +68,7 @@ Flux stress_flux(const Views<OnePoint>& v, const Map& map, const Shape& shape, R
   // Of four times the map, which stands for the four quarters of (xi, eta).
   auto flux = kernels::central_flux(a, d.xx + mean, d.yy + mean, d.xy);
   const Lane over_det = 1.0 / determinant(a);
-  const auto& reference = shape.hourglass[static_cast<std::size_t>(e.value)];
+  const auto& reference = entry(shape.hourglass, e.value);
   const double area = 4 * points_of<1>(shape, e.value)[0].determinant;  // by scale / over_det
   const auto w = kernels::natural_hourglass(map, over_det);
   auto moment = kernels::bending_moment<Lane>({v.bending->stress(e, 0), v.bending->stress(e, 1)},
@@ -90,7 +90,7 @@ void chunk_force(BusyChunk chunk, const Views<F>& views, const ChunkView<Positio
     f(Row<Node>(n), 0) = f(Row<Node>(n), 1) = Lane{};
 
   chunk.for_elements(shape.elements(), [&](int i) {
-    const Quad& quad = shape.quads[static_cast<std::size_t>(i)];
+    const Quad& quad = entry(shape.quads, i);
     const auto flux = stress_flux(views, quad_map<F::points>(x, quad), shape, Row<Element>(i));
     const auto out = kernels::node_forces(flux, 0.25 * thickness);
     for (std::size_t k = 0; k < 4; ++k) {

@@ -5,6 +5,7 @@
 //          one point adds nothing, since its energy does not change in a uniform strain
 // Runs     on sampled steps, when the stresses are known
 // Active   when the scene asks for particle stresses or contacts
+#include "engine/entry.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/systems.hpp"
 
@@ -28,7 +29,7 @@ Lane area_of_point(const kernels::QuadMap<Lane>& map, const ElementPoints<F::poi
 template <class F, class Nodes, class Deviators, class Means>
 void add_element(const Shape& shape, int i, const Nodes& x, const Deviators& s, const Means& p,
                  Sums& sums) {
-  const Quad& quad = shape.quads[static_cast<std::size_t>(i)];
+  const Quad& quad = entry(shape.quads, i);
   const auto map = quad_map<F::points>(x, quad);
   const auto& points = points_of<F::points>(shape, i);
   const Row<Element> e(i);

@@ -7,6 +7,7 @@
 // Watches  least det F of every particle, for the health system
 #include <optional>
 
+#include "engine/entry.hpp"
 #include "systems/body/element_access.hpp"
 #include "systems/body/hourglass_kernel.hpp"
 #include "systems/body/systems.hpp"
@@ -59,7 +60,7 @@ Lane hourglass_stress(HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane
 template <class F, class LeftCauchyGreen>
 Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& shape,
                     Row<Element> e, const LeftCauchyGreen& left) {
-  const auto map = quad_map<F::points>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
+  const auto map = quad_map<F::points>(v.x, entry(shape.quads, e.value));
   const auto& points = points_of<F::points>(shape, e.value);
   Lane theta{}, over_theta{}, least = 1e300;
   if constexpr (F::volumes < F::points) {
@@ -68,7 +69,7 @@ Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& s
     v.p(e) = 0.5 * v.bulk * (theta - over_theta);
   }
   for (int g = 0; g < F::points; ++g) {
-    const auto& point = points[static_cast<std::size_t>(g)];
+    const auto& point = entry(points, g);
     const auto f =
         kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
     const Lane j = determinant(f);
@@ -83,7 +84,7 @@ Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& s
   }
   if constexpr (F::stabilised)
     least *= hourglass_stress(*hourglass, map, over_theta * (0.25 / points[0].determinant),
-                              shape.hourglass[static_cast<std::size_t>(e.value)], e);
+                              entry(shape.hourglass, e.value), e);
   return least;
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/entry.hpp"
 #include "systems/contact/broad_phase.hpp"
 #include "systems/contact/contact_row.hpp"
 #include "systems/contact/surface_search.hpp"
@@ -46,9 +47,9 @@ std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin,
       return RowKey{before(row, 0), before(row, 1), before(row, 2)};
     };
     for (auto n = now.begin[s]; n < now.begin[s + 1]; ++n) {
-      const RowKey key = key_of(now.all[static_cast<std::size_t>(n)]);
+      const RowKey key = key_of(entry(now.all, n));
       while (b < before_begin[s + 1] && old_key() < key) ++b;
-      if (b < before_begin[s + 1] && old_key() == key) source[static_cast<std::size_t>(n)] = b;
+      if (b < before_begin[s + 1] && old_key() == key) entry(source, n) = b;
     }
   });
   return source;
@@ -63,9 +64,7 @@ void list_other_rows(const BySlot<EdgeCandidate>& rows, ContactIndex& index) {
   std::vector<std::int32_t> next = begin;
   index.other_rows.resize(rows.all.size());
   for (std::size_t r = 0; r < rows.all.size(); ++r)
-    index
-        .other_rows[static_cast<std::size_t>(next[static_cast<std::size_t>(rows.all[r].other)]++)] =
-        static_cast<std::int32_t>(r);
+    entry(index.other_rows, entry(next, rows.all[r].other)++) = static_cast<std::int32_t>(r);
 }
 
 struct PairLaw {
@@ -77,8 +76,7 @@ struct PairLaw {
 template <class At>
 void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw& law,
              const NewRows<At>& rows) {
-  const Shape::Edge& edge =
-      bodies.shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
+  const Shape::Edge& edge = entry(bodies.shape_of_slot(key.slot).edges, key.edge);
   using Law = ContactLaw<At>;
   rows.pair(row, 0) = key.slot;
   rows.pair(row, 1) = key.edge;
@@ -103,7 +101,7 @@ double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, c
                       const RowKey& key) {
   const auto slot = static_cast<std::size_t>(key.slot), other = static_cast<std::size_t>(key.other);
   const Shape& shape = bodies.shape_of_slot(key.slot);
-  const double a = bulk[slot] * shape.edges[static_cast<std::size_t>(key.edge)].stiffness;
+  const double a = bulk[slot] * entry(shape.edges, key.edge).stiffness;
   const double b = bulk[other] * bodies.shape_of_slot(key.other).mean_edge_stiffness;
   return rules.stiffness * a * b / (a + b);
 }
@@ -125,7 +123,7 @@ BySlot<EdgeCandidate> with_touching_folds(const std::vector<std::int32_t>& befor
         auto n = found.begin[s];
         const auto copy_below = [&](const RowKey* key) {
           for (; n < found.begin[s + 1]; ++n) {
-            const EdgeCandidate& c = found.all[static_cast<std::size_t>(n)];
+            const EdgeCandidate& c = entry(found.all, n);
             if (key != nullptr && !(key_of(c) < *key)) return key_of(c) == *key;
             list.push_back(c);
           }
@@ -168,28 +166,25 @@ void bin_edges::operator()() const {
     const RowKey key = key_of(found.all[r]);
     const auto& slots = bodies->slots;
     const double kappa = pair_stiffness(rules, material.bulk.values(), *bodies, key);
-    const double rho = std::min(material.density.values()[static_cast<std::size_t>(key.slot)],
-                                material.density.values()[static_cast<std::size_t>(key.other)]);
-    const Shape::Edge& edge =
-        bodies->shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
-    set_row(row, *bodies, key,
-            {kappa,
-             rules.friction_between(slots[static_cast<std::size_t>(key.slot)].material,
-                                    slots[static_cast<std::size_t>(key.other)].material),
-             damping_of(rules, kappa, rho, edge)},
-            rows);
+    const double rho = std::min(entry(material.density.values(), key.slot),
+                                entry(material.density.values(), key.other));
+    const Shape::Edge& edge = entry(bodies->shape_of_slot(key.slot).edges, key.edge);
+    set_row(
+        row, *bodies, key,
+        {kappa,
+         rules.friction_between(entry(slots, key.slot).material, entry(slots, key.other).material),
+         damping_of(rules, kappa, rho, edge)},
+        rows);
     // An outline against itself is looked for anew: its closest points may have gone home along it (edge_contact).
     const bool again = found.all[r].faces && touches(row) == 0;
     const bool known = source[r] >= 0 && !again;
     // What was found to be the far side of a thin part stays that.
     if (!(known && rows.reach(row) == far_side)) rows.reach(row) = 0;
-    curves.place(row, 0) =
-        slots[static_cast<std::size_t>(key.slot)].first_control + edge.first_control;
-    curves.place(row, 1) = slots[static_cast<std::size_t>(key.other)].first_control;
+    curves.place(row, 0) = entry(slots, key.slot).first_control + edge.first_control;
+    curves.place(row, 1) = entry(slots, key.other).first_control;
     if (known) return;
-    const int start = bodies->shape_of_slot(key.other)
-                          .edges[static_cast<std::size_t>(found.all[r].start)]
-                          .first_control;
+    const int start =
+        entry(bodies->shape_of_slot(key.other).edges, found.all[r].start).first_control;
     for (int g = 0; g < edge_points; ++g) curves.closest(row, g) = start + 0.5;
   });
   list_other_rows(found, *index);
@@ -205,8 +200,8 @@ namespace {
 PieceRange near_pieces(const ToolSurface& surface, Point at, const double* points, double reach) {
   Box box = box_of(points, 4);
   for (int k = 0; k < 2; ++k) {
-    box.low[k] -= at[static_cast<std::size_t>(k)];
-    box.high[k] -= at[static_cast<std::size_t>(k)];
+    box.low[k] -= entry(at, k);
+    box.high[k] -= entry(at, k);
   }
   return pieces_near(surface, box, reach);
 }
@@ -224,13 +219,13 @@ BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const doub
                                       const ToolSurfaces& tools, double skin) {
   return list_by_slot<ToolCandidate>(
       static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ToolCandidate>& found) {
-        const Bodies::Slot& s = bodies.slots[static_cast<std::size_t>(slot)];
+        const Bodies::Slot& s = entry(bodies.slots, slot);
         if (s.number == Bodies::nobody) return;
         const auto& edges = bodies.shape_of_slot(slot).edges;
         for (std::int32_t e = 0; e < static_cast<std::int32_t>(edges.size()); ++e)
           for (int t = 0; t < tools.position.rows(); ++t) {
             const Row<Tool> tool(t);
-            const Shape::Edge& edge = edges[static_cast<std::size_t>(e)];
+            const Shape::Edge& edge = entry(edges, e);
             const double* points = control.data() + 2 * (s.first_control + edge.first_control);
             const Point at{tools.position(tool, 0), tools.position(tool, 1)};
             if (tools.is(t, ToolShapes::Kind::plane)) {
@@ -256,8 +251,7 @@ void bin_tool_edges::operator()() const {
     const Row<ToolContact> row(static_cast<std::int64_t>(r));
     const RowKey key = key_of(found.all[r]);
     const auto slot = static_cast<std::size_t>(key.slot);
-    const Shape::Edge& edge =
-        bodies->shape_of_slot(key.slot).edges[static_cast<std::size_t>(key.edge)];
+    const Shape::Edge& edge = entry(bodies->shape_of_slot(key.slot).edges, key.edge);
     const double kappa = rules.stiffness * material.bulk.values()[slot] * edge.stiffness;
     set_row(row, *bodies, key,
             {kappa, rules.friction_with_tool(key.other, bodies->slots[slot].material),

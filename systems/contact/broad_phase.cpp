@@ -1,4 +1,5 @@
 #include "systems/contact/broad_phase.hpp"
+#include "engine/entry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,9 +32,9 @@ namespace {
 class Grid {
  public:
   Grid(const std::vector<Box>& boxes, const std::vector<int>& slots, double distance) {
-    Box all = boxes[static_cast<std::size_t>(slots.front())];
+    Box all = entry(boxes, slots.front());
     for (const int s : slots) {
-      const Box& b = boxes[static_cast<std::size_t>(s)];
+      const Box& b = entry(boxes, s);
       for (int k = 0; k < 2; ++k) {
         all.low[k] = std::min(all.low[k], b.low[k]);
         all.high[k] = std::max(all.high[k], b.high[k]);
@@ -46,12 +47,11 @@ class Grid {
       count_[k] = static_cast<int>(std::clamp((all.high[k] - all.low[k]) / size_ + 1, 1.0, 4096.0));
     }
     cell_begin_.assign(static_cast<std::size_t>(count_[0] * count_[1]) + 1, 0);
-    for (const int s : slots) cell_begin_[cell(boxes[static_cast<std::size_t>(s)]) + 1] += 1;
+    for (const int s : slots) cell_begin_[cell(entry(boxes, s)) + 1] += 1;
     std::partial_sum(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin());
     members_.resize(slots.size());
     std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
-    for (const int s : slots)
-      members_[static_cast<std::size_t>(next[cell(boxes[static_cast<std::size_t>(s)])]++)] = s;
+    for (const int s : slots) entry(members_, next[cell(entry(boxes, s))]++) = s;
   }
 
   template <class Visit>
@@ -60,8 +60,7 @@ class Grid {
     for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, count_[1] - 1); ++y)
       for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, count_[0] - 1); ++x) {
         const auto c = static_cast<std::size_t>(y * count_[0] + x);
-        for (int m = cell_begin_[c]; m < cell_begin_[c + 1]; ++m)
-          visit(members_[static_cast<std::size_t>(m)]);
+        for (int m = cell_begin_[c]; m < cell_begin_[c + 1]; ++m) visit(entry(members_, m));
       }
   }
 
@@ -92,23 +91,20 @@ struct Curves {
   std::span<const double> control;
 
   int slots() const { return static_cast<int>(bodies.slots.size()); }
-  bool nobody(int slot) const {
-    return bodies.slots[static_cast<std::size_t>(slot)].number == Bodies::nobody;
-  }
+  bool nobody(int slot) const { return entry(bodies.slots, slot).number == Bodies::nobody; }
   int edges(int slot) const { return static_cast<int>(bodies.shape_of_slot(slot).edges.size()); }
   const double* points(int slot) const {
-    return control.data() + 2 * bodies.slots[static_cast<std::size_t>(slot)].first_control;
+    return control.data() + 2 * entry(bodies.slots, slot).first_control;
   }
   const double* edge_points(int slot, int e) const {
     const Shape& shape = bodies.shape_of_slot(slot);
-    return points(slot) + 2 * shape.edges[static_cast<std::size_t>(e)].first_control;
+    return points(slot) + 2 * entry(shape.edges, e).first_control;
   }
 
   std::vector<Box> particle_boxes() const {
     std::vector<Box> boxes(bodies.slots.size());
     for_slots(slots(), [&](int s) {
-      boxes[static_cast<std::size_t>(s)] =
-          box_of(points(s), bodies.shape_of_slot(s).control_points());
+      entry(boxes, s) = box_of(points(s), bodies.shape_of_slot(s).control_points());
     });
     return boxes;
   }
@@ -121,7 +117,7 @@ struct Curves {
     }
     all.edge.resize(static_cast<std::size_t>(count));
     for_slots(slots(), [&](int s) {
-      Box* box = &all.edge[static_cast<std::size_t>(all.edge_begin[static_cast<std::size_t>(s)])];
+      Box* box = &entry(all.edge, entry(all.edge_begin, s));
       for (int e = 0; e < edges(s); ++e) box[e] = box_of(edge_points(s, e), 4);
     });
     return all;
@@ -214,8 +210,7 @@ class EdgeSearch {
   enum class Of { all, faced };
 
   const Box& edge_box(int slot, int e) const {
-    return boxes_
-        .edge[static_cast<std::size_t>(boxes_.edge_begin[static_cast<std::size_t>(slot)] + e)];
+    return entry(boxes_.edge, entry(boxes_.edge_begin, slot) + e);
   }
 
   Spot middle_of(int slot, int e) const {
@@ -229,8 +224,8 @@ class EdgeSearch {
     const Box& own = boxes_.particle[s];
     std::vector<Other> others;
     for (auto k = neighbours_.begin[s]; k < neighbours_.begin[s + 1]; ++k) {
-      Other other{neighbours_.all[static_cast<std::size_t>(k)], {}};
-      if (!near(own, boxes_.particle[static_cast<std::size_t>(other.slot)], skin_)) continue;
+      Other other{entry(neighbours_.all, k), {}};
+      if (!near(own, entry(boxes_.particle, other.slot), skin_)) continue;
       for (int e = 0; e < curves_.edges(other.slot); ++e)
         if (near(own, edge_box(other.slot, e), skin_)) other.edges.push_back(e);
       if (!other.edges.empty()) others.push_back(std::move(other));
@@ -248,8 +243,7 @@ class EdgeSearch {
   // distance of chords, not of middles: beside the end of a long edge the middle of a short one around the
   // corner may be nearer, and from there no search leads back over the corner.
   int nearest_edge(const Other& other, const Sampled& own, Of of) const {
-    if (!near(own.box, boxes_.particle[static_cast<std::size_t>(other.slot)], skin_))
-      return Shape::no_edge;
+    if (!near(own.box, entry(boxes_.particle, other.slot), skin_)) return Shape::no_edge;
     int nearest = Shape::no_edge;
     double least = std::numeric_limits<double>::max();
     for (const int e : other.edges) {
@@ -290,16 +284,17 @@ BySlot<std::int32_t> particle_neighbours(const Bodies& bodies, std::span<const d
   const Curves curves{bodies, control};
   const std::vector<Box> boxes = curves.particle_boxes();
   const Grid grid(boxes, slots, distance);
-  return list_by_slot<std::int32_t>(
-      curves.slots(), [&](int slot, std::vector<std::int32_t>& found) {
-        if (curves.nobody(slot)) return;
-        const auto first = static_cast<std::ptrdiff_t>(found.size());
-        const Box& own = boxes[static_cast<std::size_t>(slot)];
-        grid.around(own, [&](int other) {
-          if (near(own, boxes[static_cast<std::size_t>(other)], distance)) found.push_back(other);
-        });
-        std::sort(found.begin() + first, found.end());
-      });
+  return list_by_slot<std::int32_t>(curves.slots(),
+                                    [&](int slot, std::vector<std::int32_t>& found) {
+                                      if (curves.nobody(slot)) return;
+                                      const auto first = static_cast<std::ptrdiff_t>(found.size());
+                                      const Box& own = entry(boxes, slot);
+                                      grid.around(own, [&](int other) {
+                                        if (near(own, entry(boxes, other), distance))
+                                          found.push_back(other);
+                                      });
+                                      std::sort(found.begin() + first, found.end());
+                                    });
 }
 
 BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,

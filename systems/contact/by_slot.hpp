@@ -9,6 +9,8 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/entry.hpp"
+
 namespace pulvis {
 
 template <class T>
@@ -40,7 +42,7 @@ BySlot<T> list_by_slot(int slots, const Find& find) {
   list.begin.assign(static_cast<std::size_t>(slots) + 1, 0);
   std::vector<std::vector<T>> found(static_cast<std::size_t>(slots / slots_of_a_block) + 1);
   for_blocks_of_slots(slots, [&](int block, int first, int last) {
-    std::vector<T>& mine = found[static_cast<std::size_t>(block)];
+    std::vector<T>& mine = entry(found, block);
     for (int slot = first; slot < last; ++slot) {
       const std::size_t before = mine.size();
       find(slot, mine);
@@ -51,8 +53,7 @@ BySlot<T> list_by_slot(int slots, const Find& find) {
   std::partial_sum(list.begin.begin(), list.begin.end(), list.begin.begin());
   list.all.resize(static_cast<std::size_t>(list.begin.back()));
   for_blocks_of_slots(slots, [&](int block, int first, int) {
-    std::ranges::copy(found[static_cast<std::size_t>(block)],
-                      list.all.begin() + list.begin[static_cast<std::size_t>(first)]);
+    std::ranges::copy(entry(found, block), list.all.begin() + entry(list.begin, first));
   });
   return list;
 }

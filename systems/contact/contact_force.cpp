@@ -3,6 +3,7 @@
 //
 // Runs     after the narrow phase, before integrate
 // Order    a particle sums its own rows in row order: the same bits for any number of threads
+#include "engine/entry.hpp"
 #include "systems/contact/contact_row.hpp"
 #include "systems/contact/systems.hpp"
 
@@ -45,7 +46,7 @@ void add_sampled(const std::array<ControlForce, edge_points>& by_point, const do
                  double* edge_force) {
   ControlForce sum = ControlForce::load(edge_force);
   for (int g = 0; g < edge_points; ++g)
-    sum = fma(by_point[static_cast<std::size_t>(g)], force_at(point_force, g), sum);
+    sum = fma(entry(by_point, g), force_at(point_force, g), sum);
   sum.store(edge_force);
 }
 
@@ -64,7 +65,7 @@ void add_other(const Polynomial& n, const double* closest, const double* f, cons
   }
   const auto subtract = [&](int e, const ControlForce& sum) {
     double* out = edge_force + CurveForce::count * e;
-    touched[static_cast<std::size_t>(e)] = 1;
+    entry(touched, e) = 1;
     (ControlForce::load(out) - sum).store(out);
   };
   // The points of an edge stand against one or two of the other's as a rule: no waiting for memory then.
@@ -94,7 +95,7 @@ void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const
   std::array<Lane, 8> sum{};  // x y of control points c ... c + 3, of the edges up to c
   int borne = 0;              // of these, how many may bear a force
   for (int c = 0; c < shape.control_points(); ++c) {
-    if (touched[static_cast<std::size_t>(c)] != 0) {
+    if (entry(touched, c) != 0) {
       std::array<const double*, lane_count> rows;
       for (std::size_t l = 0; l < lane_count; ++l)
         rows[l] = edge_force + l * numbers + static_cast<std::size_t>(c) * CurveForce::count;
@@ -106,9 +107,9 @@ void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const
     }
     if (borne == 0) continue;
     --borne;
-    for (std::int32_t t = shape.curve_begin[static_cast<std::size_t>(c)];
+    for (std::int32_t t = entry(shape.curve_begin, c);
          t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
-      const Shape::CurveTerm& term = shape.curve_terms[static_cast<std::size_t>(t)];
+      const Shape::CurveTerm& term = entry(shape.curve_terms, t);
       node_force(term.node, 0) += term.weight * sum[0];
       node_force(term.node, 1) += term.weight * sum[1];
     }
@@ -152,7 +153,7 @@ void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const
   };
 
   const auto sampled = [&](const double* force, double* own, int edge) {
-    touched[static_cast<std::size_t>(edge)] = 1;
+    entry(touched, edge) = 1;
     add_sampled(by_point, force, own + CurveForce::count * edge);
   };
   for (int lane = 0; lane < lane_count; ++lane) {
@@ -168,7 +169,7 @@ void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const
       }
       for (int k = index->other_begin[slot]; k < index->other_begin[slot + 1]; ++k) {
         fetch_other(static_cast<std::size_t>(k));
-        const Row<Contact> row(index->other_rows[static_cast<std::size_t>(k)]);
+        const Row<Contact> row(entry(index->other_rows, k));
         if (pairs->touching.rows.touches(row) != 0)
           add_other(n, &pairs->touching.closest(row), &pairs->touching.rows.force(row),
                     pairs->couple ? &(*pairs->couple)(row) : nullptr, own, touched);
@@ -178,8 +179,7 @@ void to_nodes(const Shape& shape, double* edge_force, std::size_t numbers, const
       for (int r = index->tool_begin[slot]; r < index->tool_begin[slot + 1]; ++r) {
         const Row<ToolContact> row(r);
         if (tools->touches(row) != 0)
-          sampled(&tools->force(row), own,
-                  shape.edges[static_cast<std::size_t>(tools->pair(row, 1))].first_control);
+          sampled(&tools->force(row), own, entry(shape.edges, tools->pair(row, 1)).first_control);
       }
     }
   }

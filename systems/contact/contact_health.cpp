@@ -9,6 +9,7 @@
 
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/contact/contact_row.hpp"
 #include "systems/contact/systems.hpp"
@@ -29,9 +30,8 @@ void check_rows(const Bodies& bodies, const Clock& clock, double limit, const ch
   deepest = std::max(deepest, worst.depth);
   if (worst.depth <= limit) return;  // NaN is not
   const Row<At> row(worst.deepest);
-  const Bodies::Slot& slot = bodies.slots[static_cast<std::size_t>(rows.pair(row, 0))];
-  const Shape::Edge& edge =
-      bodies.shape_of_slot(rows.pair(row, 0)).edges[static_cast<std::size_t>(rows.pair(row, 1))];
+  const Bodies::Slot& slot = entry(bodies.slots, rows.pair(row, 0));
+  const Shape::Edge& edge = entry(bodies.shape_of_slot(rows.pair(row, 0)).edges, rows.pair(row, 1));
   throw RunFailure(fmt::format(
       "{}: particle {}, edge {} against {}: penetration {:.6g} m is {:.3g} of the edge length at "
       "step {}, t = {:.6g} s; allowed {:.3g} (limits.penetration)",
@@ -47,17 +47,13 @@ void contact_health::operator()() const {
   if (pairs)
     check_rows<Contact>(
         *bodies, *clock, limit, "edge_contact",
-        [&](int slot) {
-          return fmt::format("particle {}", bodies->slots[static_cast<std::size_t>(slot)].number);
-        },
+        [&](int slot) { return fmt::format("particle {}", entry(bodies->slots, slot).number); },
         *pairs, totals->penetration);
   if (tools)
     check_rows<ToolContact>(
         *bodies, *clock, limit, "tool_contact",
-        [&](int tool) {
-          return fmt::format("tool '{}'", (*program)->names[static_cast<std::size_t>(tool)]);
-        },
-        *tools, totals->penetration);
+        [&](int tool) { return fmt::format("tool '{}'", entry((*program)->names, tool)); }, *tools,
+        totals->penetration);
   totals->worst_penetration = std::max(totals->worst_penetration, totals->penetration);
 }
 

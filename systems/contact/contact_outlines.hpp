@@ -5,6 +5,7 @@
 #include <span>
 
 #include "components/shape.hpp"
+#include "engine/entry.hpp"
 #include "systems/contact/contact_kernel.hpp"
 
 namespace pulvis {
@@ -32,15 +33,14 @@ class Outlines {
   Outlines(const Bodies& bodies, std::span<const double> control)
       : bodies_(bodies), control_(control) {}
   Curve edge(int slot, int edge) const {
-    return from(slot,
-                bodies_.shape_of_slot(slot).edges[static_cast<std::size_t>(edge)].first_control);
+    return from(slot, entry(bodies_.shape_of_slot(slot).edges, edge).first_control);
   }
   // The edge with that first control point of the outline.
   Curve from(int slot, int control) const {
-    const int first = bodies_.slots[static_cast<std::size_t>(slot)].first_control + control;
+    const int first = entry(bodies_.slots, slot).first_control + control;
     return Curve(control_.data() + 2 * static_cast<std::size_t>(first));
   }
-  int number(int slot) const { return bodies_.slots[static_cast<std::size_t>(slot)].number; }
+  int number(int slot) const { return entry(bodies_.slots, slot).number; }
 
  private:
   const Bodies& bodies_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/deal.hpp"
+#include "engine/entry.hpp"
 #include "engine/lane_memory.hpp"
 #include "engine/prefetch.hpp"
 #include "systems/contact/contact_kernel.hpp"
@@ -124,8 +125,7 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const RowPair<At>& 
       share * at_rows(*c.more, rows, More::strength), at_points(*c.lost, rows)};
   const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, over_kappa);
   for (int half = 0; half < 2; ++half)
-    if ((touching >> half & 1) != 0)
-      store_half(law.lost, half, &(*c.lost)(rows[static_cast<std::size_t>(half)]));
+    if ((touching >> half & 1) != 0) store_half(law.lost, half, &(*c.lost)(entry(rows, half)));
   return friction;
 }
 
@@ -167,7 +167,7 @@ template <class At>
   const bool deeper = any(touch & ~(depth <= sums.block.depth));
   for (int half = 0; half < 2; ++half) {
     if ((touching >> half & 1) == 0) continue;
-    const Row<At> row = rows[static_cast<std::size_t>(half)];
+    const Row<At> row = entry(rows, half);
     c.touches(row) = 1;
     c.reach(row) = 0;
     store_pairs_of_half(fx, fy, half, &c.force(row));
@@ -228,7 +228,7 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
         found[count] = found[count - 1];
         ++count;
       }
-      end[static_cast<std::size_t>(block - first)] = count;
+      entry(end, block - first) = count;
     }
     const auto ask = [&](std::size_t i) {
       if (from_memory && i < count) fetch(Row<At>(found[i]));
@@ -241,7 +241,7 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
     std::size_t i = 0;
     for (int block = first; block < last; ++block) {
       LaneSums sum;
-      const std::size_t stop = end[static_cast<std::size_t>(block - first)];
+      const std::size_t stop = entry(end, block - first);
       const auto pair = [&](std::size_t at) {
         for (std::size_t k = 0; k < 2; ++k) {
           ask(at + k + rows_before);
@@ -252,7 +252,7 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
       if constexpr (two_pairs_at_once && !std::is_null_pointer_v<LookAtTwo>)
         for (; i + 4 <= stop; i += 4) look_at_two(pair(i), pair(i + 2), sum);
       for (; i < stop; i += 2) look_at(pair(i), sum);
-      sums.blocks[static_cast<std::size_t>(block)] = sum.added_up();
+      entry(sums.blocks, block) = sum.added_up();
     }
   });
 }

@@ -4,6 +4,7 @@
 // Source   systems/contact/contact_kernel.hpp
 // Runs     after bin_edges, before contact_force
 // Active   when the scene has more than one particle, or one whose outline can fold
+#include "engine/entry.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/contact/broad_phase.hpp"
 #include "systems/contact/contact_outlines.hpp"
@@ -47,8 +48,7 @@ LaneEdges unpack(const Lane& closest) {
 }
 
 Lane pack(const LaneEdges& at) {
-  const Lane edge =
-      Lane::from([&](int l) { return static_cast<double>(at.edge[static_cast<std::size_t>(l)]); });
+  const Lane edge = Lane::from([&](int l) { return static_cast<double>(entry(at.edge, l)); });
   return edge + min(at.u, 1 - 1e-12);  // an end belongs to its own edge
 }
 
@@ -69,7 +69,7 @@ struct CurveLanes {
 }
 
 int edge_number(const Shape& shape, std::int64_t first_control) {
-  return shape.edge_from[static_cast<std::size_t>(first_control)];
+  return entry(shape.edge_from, first_control);
 }
 
 // Points that leave their edge go on in the next one, or stop at a corner. Returns the lanes that stand
@@ -83,14 +83,14 @@ unsigned cross_edges(const Bodies& bodies, const OtherCurves& other, const Lane&
   for (std::size_t l = 0; l < lanes; ++l) {
     if (u[l] >= 0 && u[l] <= 1) continue;
     const Shape& shape = bodies.shape_of_slot(other.slot[l / edge_points]);
-    const Shape::Edge& edge = shape.edges[static_cast<std::size_t>(edge_number(shape, at.edge[l]))];
+    const Shape::Edge& edge = entry(shape.edges, edge_number(shape, at.edge[l]));
     const bool forward = u[l] > 1;
     const int neighbour = forward ? edge.next : edge.previous;
     if (neighbour == Shape::no_edge) {
       u[l] = forward ? 1 : 0;
       if (u[l] == u_before[l]) stay |= 1U << l;
     } else {
-      at.edge[l] = shape.edges[static_cast<std::size_t>(neighbour)].first_control;
+      at.edge[l] = entry(shape.edges, neighbour).first_control;
       u[l] = std::clamp(u[l] + (forward ? -1 : 1), 0.0, 1.0);
     }
   }
@@ -179,11 +179,10 @@ class OwnOutline {
 
  private:
   Curve curve(int edge) const {
-    return Curve(control_ + 2 * shape_.edges[static_cast<std::size_t>(edge)].first_control);
+    return Curve(control_ + 2 * entry(shape_.edges, edge).first_control);
   }
   Point knot(int edge, int end) const {
-    const double* y =
-        control_ + 2 * (shape_.edges[static_cast<std::size_t>(edge)].first_control + end);
+    const double* y = control_ + 2 * (entry(shape_.edges, edge).first_control + end);
     return {(y[0] + 4 * y[2] + y[4]) / 6, (y[1] + 4 * y[3] + y[5]) / 6};
   }
 
@@ -200,11 +199,11 @@ constexpr double deepest_begin = 0.1;
 // far side. (A contact may get as deep as limits.penetration lets it.)
 double leave_folds(const Closest& c, int half, int edge, const OwnOutline& own, const Shape& shape,
                    unsigned touched, RowMotion& m) {
-  const double deepest = deepest_begin * shape.edges[static_cast<std::size_t>(edge)].length;
+  const double deepest = deepest_begin * entry(shape.edges, edge).length;
   double nearest = far_side;
   for (int g = 0; g < edge_points; ++g) {
     const int l = half * edge_points + g;
-    const int there = edge_number(shape, c.at.edge[static_cast<std::size_t>(l)]);
+    const int there = edge_number(shape, entry(c.at.edge, l));
     const Point n = own.normal(edge, kernels::edge_u[g]), back{-m.nx[l], -m.ny[l]};
     const double product = -(n[0] * back[0] + n[1] * back[1]);
     const bool near = edges_between(there, edge, own.edges()) < least_fold;
@@ -230,7 +229,7 @@ void set_couple(const RowMotion& m, const Lane& along, unsigned touching,
   const Lane x = size * m.nx, y = size * m.ny;
   for (int half = 0; half < 2; ++half) {
     if ((touching >> half & 1) == 0) continue;
-    store_pairs_of_half(x, y, half, &couple(rows[static_cast<std::size_t>(half)]));
+    store_pairs_of_half(x, y, half, &couple(entry(rows, half)));
   }
 }
 
@@ -257,7 +256,7 @@ void edge_contact::operator()(SmallTasks) const {
       __attribute__((always_inline)) {
     c.offset();
     const Lane found = pack(c.at);
-    for (int i = 0; i < 2; ++i) store_half(found, i, &closest(rows[static_cast<std::size_t>(i)]));
+    for (int i = 0; i < 2; ++i) store_half(found, i, &closest(entry(rows, i)));
     const PointLanes speed = rates != nullptr
                                  ? edge_points_at(rates + 2 * number(place(rows[0], 0)),
                                                   rates + 2 * number(place(rows[1], 0)))
@@ -279,7 +278,7 @@ void edge_contact::operator()(SmallTasks) const {
                        LaneSums& sum) __attribute__((always_inline)) {
     unsigned touching = 0;
     for (int i = 0; i < rows_in(rows); ++i) {
-      const Row<Contact> row = rows[static_cast<std::size_t>(i)];
+      const Row<Contact> row = entry(rows, i);
       const bool itself = columns.pair(row, 2) == columns.pair(row, 0);
       const double nearest = itself ? nearest_fold(row, i, c, motion) : 0;
       if (half_of((motion.gap > 0.0).bits(), i) != 0) {

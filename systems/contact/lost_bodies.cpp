@@ -5,6 +5,7 @@
 // Active   when the scene has tools that touch
 #include <fmt/format.h>
 
+#include "engine/entry.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/contact/systems.hpp"
 
@@ -13,12 +14,11 @@ namespace {
 
 // Mean of the contact curve's control points.
 Point middle_of(const Bodies& bodies, int slot, const Read<CurvePosition>& curve) {
-  const int first = bodies.slots[static_cast<std::size_t>(slot)].first_control;
+  const int first = entry(bodies.slots, slot).first_control;
   const int count = bodies.shape_of_slot(slot).control_points();
   Point middle{};
   for (int i = first; i < first + count; ++i)
-    for (int k = 0; k < 2; ++k)
-      middle[static_cast<std::size_t>(k)] += curve(Row<ControlPoint>(i), k) / count;
+    for (int k = 0; k < 2; ++k) entry(middle, k) += curve(Row<ControlPoint>(i), k) / count;
   return middle;
 }
 
@@ -36,8 +36,8 @@ void lost_bodies::operator()() const {
       throw RunFailure(fmt::format(
           "lost_bodies: particle {} has gone through tool '{}': its middle is {:.6g} m behind it "
           "at step {}, t = {:.6g} s; allowed: in front of it",
-          bodies->slots[static_cast<std::size_t>(slot)].number,
-          program->names[static_cast<std::size_t>(t)], -height, clock->step, clock->time));
+          entry(bodies->slots, slot).number, entry(program->names, t), -height, clock->step,
+          clock->time));
     }
   }
 }

@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/entry.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/contact/by_slot.hpp"
 #include "systems/contact/systems.hpp"
@@ -54,7 +55,7 @@ class Boundary {
     add(outline);
     outline_ = chords_.size();
     if (hollows == nullptr) return;
-    const auto which = static_cast<std::size_t>(bodies.slots[static_cast<std::size_t>(slot)].shape);
+    const auto which = static_cast<std::size_t>(entry(bodies.slots, slot).shape);
     for (const Hollows::Loop& loop : hollows->of_shape[which]) add(loop);
   }
 
@@ -94,8 +95,7 @@ class Boundary {
     Point middle{};
     for (std::size_t i = 0; i < count; ++i) {
       const std::int32_t from = loop[i], to = loop[(i + 1) % count];
-      const Point &p = shape_.nodes[static_cast<std::size_t>(from)],
-                  &q = shape_.nodes[static_cast<std::size_t>(to)];
+      const Point &p = entry(shape_.nodes, from), &q = entry(shape_.nodes, to);
       const double length =
           std::sqrt((q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]));
       chords_.push_back({at(from), at(to), length, from, first + (i + count - 1) % count});
@@ -152,7 +152,7 @@ void outline_health::operator()() const {
   const Hollows* holes = hollows ? &**hollows : nullptr;
   const auto faults = list_by_slot<Fault>(
       static_cast<int>(bodies->slots.size()), [&](int slot, std::vector<Fault>& found) {
-        if (bodies->slots[static_cast<std::size_t>(slot)].number == Bodies::nobody) return;
+        if (entry(bodies->slots, slot).number == Bodies::nobody) return;
         look_at(Boundary(*bodies, slot, position, holes), slot, limit, found);
       });
   if (faults.all.empty()) return;
@@ -160,8 +160,8 @@ void outline_health::operator()() const {
   throw RunFailure(fmt::format(
       "outline_health: particle {} has gone through itself: node {}, of its {}, is {:.6g} m inside "
       "another part of it at step {}, t = {:.6g} s; allowed {:.6g} m ({})",
-      bodies->slots[static_cast<std::size_t>(fault.slot)].number, fault.node,
-      fault.in_hole ? "hole" : "outline", fault.depth, clock->step, clock->time, fault.allowed,
+      entry(bodies->slots, fault.slot).number, fault.node, fault.in_hole ? "hole" : "outline",
+      fault.depth, clock->step, clock->time, fault.allowed,
       fault.in_hole ? "nothing touches in holes: stop before they close" : "limits.penetration"));
 }
 

@@ -16,6 +16,7 @@
 
 #include "components/contact.hpp"
 #include "components/surface.hpp"
+#include "engine/entry.hpp"
 #include "systems/contact/skin_kernel.hpp"
 #include "systems/contact/surface_search.hpp"
 #include "systems/contact/systems.hpp"
@@ -67,10 +68,10 @@ double least_of_slots(const std::vector<int>& slots, const Left& left) {
 // Particles that were no neighbours: whichever of all moved most against each other.
 double left_of_strangers(const ContactIndex& index, const std::vector<int>& slots,
                          const std::vector<OutlineMotion>& motion) {
-  Box all = motion[static_cast<std::size_t>(slots.front())].displacement;
+  Box all = entry(motion, slots.front()).displacement;
   for (const int slot : slots)
     for (int k = 0; k < 2; ++k) {
-      const Box& u = motion[static_cast<std::size_t>(slot)].displacement;
+      const Box& u = entry(motion, slot).displacement;
       all.low[k] = std::min(all.low[k], u.low[k]);
       all.high[k] = std::max(all.high[k], u.high[k]);
     }
@@ -83,7 +84,7 @@ double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMo
   if (index.neighbour_begin.empty()) return 1e300;
   double least = 1e300;
   for (auto k = index.neighbour_begin[s]; k < index.neighbour_begin[s + 1]; ++k) {
-    const auto other = static_cast<std::size_t>(index.neighbours[static_cast<std::size_t>(k)]);
+    const auto other = static_cast<std::size_t>(entry(index.neighbours, k));
     if (other < s) continue;  // seen from there
     const double allowed =
         std::max(index.skin, kernels::gap(motion[s].before, motion[other].before));
@@ -98,7 +99,7 @@ double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const
   double least = 1e300;
   for (int t = 0; t < tools.position.rows(); ++t) {
     const Row<Tool> tool(t);
-    const Point before = index.tools_before[static_cast<std::size_t>(t)];
+    const Point before = entry(index.tools_before, t);
     const Point back{-before[0], -before[1]};
     const Point moved{before[0] - tools.position(tool, 0), before[1] - tools.position(tool, 1)};
     const Box own = kernels::moved(m.before, back), u = kernels::moved(m.displacement, moved);
@@ -138,10 +139,9 @@ void skin_check::operator()() const {
                       return left_of_neighbours(*index, motion, slot);
                     }));
     if (tools)
-      left =
-          std::min(left, least_of_slots(slots, [&](int slot) {
-                     return left_of_tools(*index, *tools, motion[static_cast<std::size_t>(slot)]);
-                   }));
+      left = std::min(left, least_of_slots(slots, [&](int slot) {
+                        return left_of_tools(*index, *tools, entry(motion, slot));
+                      }));
     index->look_at = clock->travel + left;
     if (left > std::max(least_left * index->skin, ahead)) return;
   }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/entry.hpp"
 #include "systems/contact/broad_phase.hpp"
 
 namespace pulvis::kernels {
@@ -34,7 +35,7 @@ inline double closing(const Box& a, const Box& b) {
 inline double least_along(const Box& box, const std::array<double, 2>& n) {
   double least = 0;
   for (int k = 0; k < 2; ++k) {
-    const double way = n[static_cast<std::size_t>(k)];
+    const double way = entry(n, k);
     least += std::min(way * box.low[k], way * box.high[k]);
   }
   return least;
@@ -42,8 +43,8 @@ inline double least_along(const Box& box, const std::array<double, 2>& n) {
 
 inline Box moved(Box box, const std::array<double, 2>& by) {
   for (int k = 0; k < 2; ++k) {
-    box.low[k] += by[static_cast<std::size_t>(k)];
-    box.high[k] += by[static_cast<std::size_t>(k)];
+    box.low[k] += entry(by, k);
+    box.high[k] += entry(by, k);
   }
   return box;
 }

@@ -1,4 +1,5 @@
 #include "systems/contact/surface_search.hpp"
+#include "engine/entry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,7 @@ struct Branch {
 };
 
 Box fill(ToolSurface& surface, const Branch& at) {
-  const Box box = at.leaf() ? piece_box(surface.pieces[static_cast<std::size_t>(at.first)])
+  const Box box = at.leaf() ? piece_box(entry(surface.pieces, at.first))
                             : joined(fill(surface, at.left()), fill(surface, at.right()));
   if (surface.tree.size() <= at.node) surface.tree.resize(at.node + 1);
   surface.tree[at.node] = {box.low[0], box.low[1], box.high[0], box.high[1]};
@@ -71,7 +72,7 @@ int extreme(const ToolSurface& surface, const Branch& at, const Box& box, double
   const ToolSurface::Box& b = surface.tree[at.node];
   if (!near({{b[0], b[1]}, {b[2], b[3]}}, box, reach)) return none;
   if (at.leaf()) {
-    const bool found = piece_near(surface.pieces[static_cast<std::size_t>(at.first)], box, reach);
+    const bool found = piece_near(entry(surface.pieces, at.first), box, reach);
     return found ? at.first : none;
   }
   const Branch one = from_the_end ? at.right() : at.left();

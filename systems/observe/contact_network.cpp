@@ -8,6 +8,7 @@
 // Active   when the scene asks for contacts
 #include <algorithm>
 
+#include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
 #include "systems/contact/contact_outlines.hpp"
 #include "systems/observe/nearest_of_tool.hpp"
@@ -110,7 +111,7 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
           if (other > number) add_row(row, 1, partners.with(other));
         }
         for (int k = index.other_begin[s]; k < index.other_begin[s + 1]; ++k) {
-          const Row<Contact> row(index.other_rows[static_cast<std::size_t>(k)]);
+          const Row<Contact> row(entry(index.other_rows, k));
           if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 0));
           if (other > number) add_row(row, -1, partners.with(other));

@@ -10,6 +10,7 @@
 // Active   wherever there is contact
 #include <algorithm>
 
+#include "engine/entry.hpp"
 #include "systems/contact/by_slot.hpp"
 #include "systems/contact/contact_outlines.hpp"
 #include "systems/observe/nearest_of_tool.hpp"
@@ -85,7 +86,7 @@ void add_up(const Found& found, ContactQuality& quality) {
 void contact_quality::operator()() const {
   const Outlines outlines(*bodies, control.values());
   const auto edge_of = [&](int slot, int edge) -> const Shape::Edge& {
-    return bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(edge)];
+    return entry(bodies->shape_of_slot(slot).edges, edge);
   };
   const auto gap_to_curve = [&](Row<Contact> row, const Point& at, int g) {
     const int first = static_cast<int>(pairs->closest(row, g));

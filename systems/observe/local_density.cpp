@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/entry.hpp"
 #include "engine/portable_math.hpp"
 #include "systems/observe/cell_area_kernel.hpp"
 #include "systems/observe/systems.hpp"
@@ -200,12 +201,12 @@ void local_density::operator()() const {
   kernels::CellAreas particles(grid->columns, grid->rows), tools(grid->columns, grid->rows);
   for (const int slot : bodies->slot_of_number) {  // one after the other: the same bits always
     const auto x = position.chunk(Chunk{slot / lane_count});
-    const int lane = slot % lane_count, shape = bodies->slots[static_cast<std::size_t>(slot)].shape;
-    for (const auto& [a, b] : grid->outline[static_cast<std::size_t>(shape)])
+    const int lane = slot % lane_count, shape = entry(bodies->slots, slot).shape;
+    for (const auto& [a, b] : entry(grid->outline, shape))
       frame.add_edge(particles, {x(a, 0)[lane], x(a, 1)[lane]}, {x(b, 0)[lane], x(b, 1)[lane]}, 1);
   }
   for (int side = 0; side < 4; ++side)
-    if (!grid->surface[static_cast<std::size_t>(side)].empty()) frame.add_tool(tools, side);
+    if (!entry(grid->surface, side).empty()) frame.add_tool(tools, side);
   grid->filled = particles.areas();
   grid->room = tools.areas();
   for (double& area : grid->filled) area = std::max(0.0, area) * frame.cell_area();  // round-off

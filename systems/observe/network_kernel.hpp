@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "components/observed.hpp"
+#include "engine/entry.hpp"
 #include "engine/portable_math.hpp"
 
 namespace pulvis::kernels {
@@ -53,8 +54,8 @@ inline ForceSizes force_sizes(std::span<const ContactLink> links) {
 inline void count_contacts(std::span<const ContactLink> links, bool both,
                            std::vector<double>& counts) {
   for (const ContactLink& link : links) {
-    counts[static_cast<std::size_t>(link.first)] += 1;
-    if (both) counts[static_cast<std::size_t>(link.second)] += 1;
+    entry(counts, link.first) += 1;
+    if (both) entry(counts, link.second) += 1;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "systems/tools/grip_kernel.hpp"
 #include "systems/tools/systems.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 // How far the programme has taken a tool from its start.
 Point tool_travel(const ToolProgram& program, int tool, double time) {
   const Point now = tool_position_at(program, tool, time);
-  const Point& start = program.start[static_cast<std::size_t>(tool)];
+  const Point& start = entry(program.start, tool);
   return {now[0] - start[0], now[1] - start[1]};
 }
 
@@ -41,7 +42,7 @@ void hold_grips::operator()(Chunk chunk) const {
       way = tool_travel(*program, tool, clock->time + clock->dt);
     }
     const double mass = density.chunk(chunk)(Row<Particle>())[lane] * bodies->thickness *
-                        shape.nodal_area[static_cast<std::size_t>(node.value)];
+                        entry(shape.nodal_area, node.value);
     double at = 0, speed = 0, free = 0;
     for (int k = 0; k < 2; ++k) {
       const double d = grips.direction(row, k);

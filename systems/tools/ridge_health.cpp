@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/entry.hpp"
 #include "engine/portable_math.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/contact/broad_phase.hpp"
@@ -99,7 +100,7 @@ struct Scenery {
   const ToolProgram& program;
 
   const double* outline(int slot) const {
-    return control + 2 * bodies.slots[static_cast<std::size_t>(slot)].first_control;
+    return control + 2 * entry(bodies.slots, slot).first_control;
   }
   Point tool_at(int tool) const {
     return {position(Row<Tool>(tool), 0), position(Row<Tool>(tool), 1)};
@@ -107,8 +108,8 @@ struct Scenery {
   [[noreturn]] void stop(int slot, int tool, const std::string& what) const {
     throw RunFailure(
         fmt::format("ridge_health: particle {} and tool '{}': {} (step {}, t = {:.6g} s)",
-                    bodies.slots[static_cast<std::size_t>(slot)].number,
-                    program.names[static_cast<std::size_t>(tool)], what, clock.step, clock.time));
+                    entry(bodies.slots, slot).number, entry(program.names, tool), what, clock.step,
+                    clock.time));
   }
 };
 
@@ -117,10 +118,9 @@ void check_flanks(const Scenery& s, const ridge_health::Rows& rows) {
     const Row<ToolContact> row(r);
     if (rows.touches(row) == 0) continue;
     const int slot = rows.pair(row, 0), tool = rows.pair(row, 2);
-    const double thickness = s.rules.tool_thickness[static_cast<std::size_t>(tool)];
+    const double thickness = entry(s.rules.tool_thickness, tool);
     if (std::isinf(thickness)) continue;
-    const Shape::Edge& edge =
-        s.bodies.shape_of_slot(slot).edges[static_cast<std::size_t>(rows.pair(row, 1))];
+    const Shape::Edge& edge = entry(s.bodies.shape_of_slot(slot).edges, rows.pair(row, 1));
     const double depth = deepest_in(s.shapes.surface_of(tool), s.tool_at(tool),
                                     s.outline(slot) + 2 * edge.first_control, edge.length,
                                     rows.range(row, 0), rows.range(row, 1));
@@ -141,7 +141,7 @@ void check_corners(const Scenery& s, int slot, int tool) {
   const Box box = in_frame_of(box_of(s.outline(slot), shape.control_points()), at);
   const PieceRange range = pieces_near(surface, box, 0);
   for (int i = range.first; i <= range.last; ++i) {
-    const ToolSurface::Piece& piece = surface.pieces[static_cast<std::size_t>(i)];
+    const ToolSurface::Piece& piece = entry(surface.pieces, i);
     if (piece.side <= 0) continue;
     const Point tip = tip_of(piece);
     if (!near(box, {{tip[0], tip[1]}, {tip[0], tip[1]}}, 0)) continue;

@@ -11,6 +11,7 @@
 
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "engine/portable_math.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/tools/relief_kernel.hpp"
@@ -33,7 +34,7 @@ double value_now(const End& end, const StageEnds& ends, const Read<ToolPosition>
   const Row<Tool> tool(end.tool);
   if (end.kind == StageEnds::Kind::density) return relative_density(ends.cell, at);
   if (end.kind == StageEnds::Kind::displacement) {
-    const Point& from = ends.tools_at_begin[static_cast<std::size_t>(end.tool)];
+    const Point& from = entry(ends.tools_at_begin, end.tool);
     return portable::hypot(at(tool, 0) - from[0], at(tool, 1) - from[1]);
   }
   const double along = force(tool, 0) * end.direction[0] + force(tool, 1) * end.direction[1];
@@ -50,7 +51,7 @@ double time_to_rest(const ToolProgram& program, int stage) {
 }
 
 void end_early(const End& end, double time, ToolProgram& program, double& run_end) {
-  ToolProgram::Stage& stage = program.stages[static_cast<std::size_t>(end.stage)];
+  ToolProgram::Stage& stage = entry(program.stages, end.stage);
   const double saved = stage.end - (time + time_to_rest(program, end.stage));
   if (saved <= 0) return;  // its time is all but over
   stage.end -= saved;
@@ -67,7 +68,7 @@ void end_early(const End& end, double time, ToolProgram& program, double& run_en
 
 [[noreturn]] void stop(const End& end, const ToolProgram& program, const Clock& clock,
                        double value) {
-  const std::string& tool = program.names[static_cast<std::size_t>(end.tool)];
+  const std::string& tool = entry(program.names, end.tool);
   const std::string what = end.kind == StageEnds::Kind::density ? "relative density is"
                            : end.kind == StageEnds::Kind::force
                                ? fmt::format("'{}' bears", tool)
@@ -79,8 +80,8 @@ void end_early(const End& end, double time, ToolProgram& program, double& run_en
       fmt::format("stage_control: {} {:.6g}{} when the time of stage '{}' is over, step {}, t = "
                   "{:.6g} s; it was "
                   "to end at {:.6g}{} (stage.until)",
-                  what, value, unit, program.stages[static_cast<std::size_t>(end.stage)].name,
-                  clock.step, clock.time, end.value, unit));
+                  what, value, unit, entry(program.stages, end.stage).name, clock.step, clock.time,
+                  end.value, unit));
 }
 
 }  // namespace
@@ -95,8 +96,7 @@ void stage_control::operator()() const {
   if (new_stage) {
     ends->tools_at_begin.resize(static_cast<std::size_t>(position.rows()));
     for (int t = 0; t < position.rows(); ++t)
-      ends->tools_at_begin[static_cast<std::size_t>(t)] = {position(Row<Tool>(t), 0),
-                                                           position(Row<Tool>(t), 1)};
+      entry(ends->tools_at_begin, t) = {position(Row<Tool>(t), 0), position(Row<Tool>(t), 1)};
   }
   ends->stage = stage;
   ends->run_end = std::min(ends->run_end, clock->end);

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "components/surface.hpp"
+#include "engine/entry.hpp"
 #include "engine/lane.hpp"
 
 namespace pulvis::kernels {
@@ -62,7 +63,7 @@ SurfacePoint<T> nearest_on_surface(const ToolSurface& surface, int first, int la
                                    double cutoff) {
   SurfacePoint<T> nearest{T{} + cutoff, T{}, T{}};
   for (int i = first; i <= last; ++i) {
-    const ToolSurface::Piece& piece = surface.pieces[static_cast<std::size_t>(i)];
+    const ToolSurface::Piece& piece = entry(surface.pieces, i);
     look_at_straight(piece, x, y, nearest);
     look_at_corner(piece, x, y, nearest);
   }

@@ -4,6 +4,7 @@
 // Source   systems/contact/contact_kernel.hpp; one pass with the full stiffness, since a tool is not sampled
 // Runs     after bin_edges and tool_motion, before contact_force
 // Active   when the scene has tools
+#include "engine/entry.hpp"
 #include "systems/contact/contact_row.hpp"
 #include "systems/tools/surface_kernel.hpp"
 #include "systems/tools/systems.hpp"
@@ -39,9 +40,8 @@ void tool_contact::operator()(SmallTasks) const {
     std::array<std::size_t, 2> first;
     for (std::size_t i = 0; i < 2; ++i) {
       const int slot = columns.pair(rows[i], 0);
-      edge[i] =
-          &bodies->shape_of_slot(slot).edges[static_cast<std::size_t>(columns.pair(rows[i], 1))];
-      const int control = bodies->slots[static_cast<std::size_t>(slot)].first_control;
+      edge[i] = &entry(bodies->shape_of_slot(slot).edges, columns.pair(rows[i], 1));
+      const int control = entry(bodies->slots, slot).first_control;
       first[i] = 2 * static_cast<std::size_t>(control + edge[i]->first_control);
     }
     const PointLanes at = edge_points_at(points + first[0], points + first[1]);
@@ -58,7 +58,7 @@ void tool_contact::operator()(SmallTasks) const {
       if (deepest > 0)
         touching |= 1U << i;
       else
-        set_apart(columns, rows[static_cast<std::size_t>(i)], clock->travel - deepest);
+        set_apart(columns, entry(rows, i), clock->travel - deepest);
     }
     if (touching == 0) return;
     m.gap_rate = m.slip_rate = Lane{};

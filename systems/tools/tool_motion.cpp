@@ -7,13 +7,14 @@
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "systems/tools/systems.hpp"
 #include "systems/tools/tool_kernel.hpp"
 
 namespace pulvis {
 
 Point tool_position_at(const ToolProgram& program, int tool, double time) {
-  Point at = program.start[static_cast<std::size_t>(tool)];
+  Point at = entry(program.start, tool);
   for (const ToolProgram::Segment& s : program.segments) {
     if (s.tool != tool) continue;
     const double share =
@@ -30,9 +31,9 @@ void tool_motion::operator()() const {
     const Point now = tool_position_at(*program, t, clock->time);
     const Point before = tool_position_at(*program, t, clock->time - clock->dt_before);
     for (int k = 0; k < 2; ++k) {
-      const double moved = now[static_cast<std::size_t>(k)] - before[static_cast<std::size_t>(k)];
+      const double moved = entry(now, k) - entry(before, k);
       velocity(tool, k) = clock->dt_before > 0 ? moved / clock->dt_before : 0;
-      position(tool, k) = now[static_cast<std::size_t>(k)];
+      position(tool, k) = entry(now, k);
       if (!servo) continue;
       (*servo_travel)(tool, k) += (*servo)(tool, k) * clock->dt_before;
       velocity(tool, k) += (*servo)(tool, k);

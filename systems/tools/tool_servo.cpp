@@ -11,6 +11,7 @@
 #include "components/contact.hpp"
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/laws/normal_contact.hpp"
 #include "systems/tools/servo_kernel.hpp"
@@ -46,9 +47,8 @@ void check_held(const Servo& servo, const ToolProgram& program, const Clock& clo
       "tool_servo: '{}' bears {:.6g} N at the end of stage '{}', step {}, t = {:.6g} s; asked for "
       "{:.6g} N, allowed: within {:g} of it (stage.servo.tolerance); a longer stage, a higher "
       "fastest or a powder that bears more would reach it",
-      program.names[static_cast<std::size_t>(servo.tool)], force,
-      program.stages[static_cast<std::size_t>(servo.stage)].name, clock.step, clock.time,
-      servo.force, servo.tolerance));
+      entry(program.names, servo.tool), force, entry(program.stages, servo.stage).name, clock.step,
+      clock.time, servo.force, servo.tolerance));
 }
 
 // Springs and dashpots of the contact points that press on a tool now, as if all pointed its way.
