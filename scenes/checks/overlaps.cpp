@@ -106,6 +106,8 @@ class OverlapSearch {
     return sorted();
   }
 
+  std::size_t pairs() const { return pairs_; }
+
   // The tools are asked one by one: the boxes of oblique planes are infinite, which a tree cannot
   // balance.
   std::vector<Overlap> with_tools() {
@@ -150,6 +152,7 @@ class OverlapSearch {
 
   void pair(const Object& first, const Object& second) {
     const std::size_t i = number(first), j = number(second);
+    ++pairs_;
     const double overlap = depths_.between(bodies_[i], bodies_[j]);
     if (overlap > std::min(allowed(i), allowed(j)))
       found_.push_back({std::max(i, j), std::min(i, j), overlap});
@@ -190,6 +193,7 @@ class OverlapSearch {
   fcl::DynamicAABBTreeCollisionManager<double> tree_;
   std::vector<Overlap> found_;
   std::size_t tool_ = 0;
+  std::size_t pairs_ = 0;  // whose boxes meet
 };
 
 class Report {
@@ -250,13 +254,14 @@ class Report {
 
 }  // namespace
 
-void check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  if (bodies.empty()) return;
+std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  if (bodies.empty()) return 0;
   OverlapSearch search(scene, bodies);
   Report report(scene, bodies);
   report.tools(search.with_tools());
   report.particles(search.between_particles());
   report.throw_if_any();
+  return search.pairs();
 }
 
 }  // namespace pulvis
