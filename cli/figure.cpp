@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* drawn = "drawn";  // folder of the figures, until they are put in their places
+constexpr const char* drawn_folder =
+    "drawn";  // folder of the figures, until they are put in their places
 
 // A folder for the scripts, gone when the figures are drawn.
 class ScriptFolder {
@@ -31,7 +32,7 @@ class ScriptFolder {
     if (mkdtemp(name.data()) == nullptr)
       throw OutputError(name, "make the folder", std::strerror(errno));
     path = name;
-    fs::create_directory(path / drawn);
+    fs::create_directory(path / drawn_folder);
     for (const auto& script : report_assets_named("figure")) {
       std::ofstream file(path / script);
       file << report_asset(script);
@@ -51,7 +52,7 @@ class ScriptFolder {
 std::vector<std::string> arguments(const fs::path& scripts, const FigureOptions& options) {
   std::vector<std::string> all{"python3", "-B", (scripts / "figures.py").string(),
                                "--format=" + options.format,
-                               "--draw-into=" + (scripts / drawn).string()};
+                               "--draw-into=" + (scripts / drawn_folder).string()};
   if (!options.output.empty()) all.push_back("--output=" + options.output.string());
   if (!options.field.empty()) all.push_back("--field=" + options.field);
   if (options.frame) all.push_back(fmt::format("--frame={}", *options.frame));
@@ -102,7 +103,7 @@ void put_in_place(const fs::path& folder) {
 ExitCode draw_figures(const FigureOptions& options) {
   const ScriptFolder scripts;
   const int code = run_python(arguments(scripts.path, options));
-  put_in_place(scripts.path / drawn);
+  put_in_place(scripts.path / drawn_folder);
   switch (code) {
     case 0:
       return ExitCode::done;

@@ -24,14 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* list_name = ".pulvis-files";
-constexpr std::size_t head_bytes = 32;
+constexpr std::size_t marker_bytes = 32;
 
 struct Line {
   std::string state, role, name;
   std::uint64_t checksum = 0, bytes = 0;
 };
 
-[[noreturn]] void fail(const fs::path& file, const char* operation) {
+[[noreturn]] void fail_to(const fs::path& file, const char* operation) {
   throw OutputError(file, operation, std::strerror(errno));
 }
 
@@ -68,7 +68,7 @@ void add_line(const fs::path& file, const Line& line) {
       open(list.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666));
   const std::string text = text_of(line);
   if (!opened || write(opened.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-    fail(list, "write");
+    fail_to(list, "write");
 }
 
 // A regular file, not what a link leads to.
@@ -126,11 +126,11 @@ void write_beside(const fs::path& new_file, const fs::path& file, std::string_vi
   std::ofstream stream(new_file, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) fail(file, "write");
+  if (!stream) fail_to(file, "write");
 }
 
 void put_in_place(const fs::path& file) {
-  if (::rename(beside(file).c_str(), file.c_str()) != 0) fail(file, "put it in its place");
+  if (::rename(beside(file).c_str(), file.c_str()) != 0) fail_to(file, "put it in its place");
 }
 
 Line line_of(const fs::path& file, std::string_view of, std::string_view bytes, const char* state) {
@@ -149,7 +149,7 @@ bool is_own(const fs::path& file, std::string_view of) {
     return std::ranges::any_of(lines_of(file, of),
                                [&](const Line& line) { return fits(opened, bytes, line); });
   if (bytes == 0) return may_be_empty(name);
-  std::array<char, head_bytes> head{};
+  std::array<char, marker_bytes> head{};
   return pread(opened.get(), head.data(), head.size(), 0) > 0 &&
          std::string_view(head.data(), head.size()).starts_with(beginning);
 }
@@ -212,7 +212,7 @@ void write_head(const fs::path& file, std::string_view text) {
   const FileDescriptor opened(open(file.c_str(), O_WRONLY | O_CLOEXEC));
   if (!opened ||
       pwrite(opened.get(), text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
-    fail(file, "write");
+    fail_to(file, "write");
 }
 
 void remove_own(const fs::path& file, std::string_view of) {

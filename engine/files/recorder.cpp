@@ -18,7 +18,7 @@ namespace pulvis {
 namespace {
 
 // run.h5 starts with this much text, before what is HDF5: by it Pulvis knows its file.
-constexpr std::uint64_t head_bytes = 4096;
+constexpr std::uint64_t user_block_bytes = 4096;
 
 // With a frame the history is written anew, unless it is larger than this and has grown by less than an eighth.
 constexpr std::uint64_t small_history_bytes = std::uint64_t{1} << 20;
@@ -38,7 +38,7 @@ std::string new_run_id(const std::filesystem::path& folder) {
 
 // Marks the file as Pulvis's before anything else is in it.
 hdf5::File marked_file(const std::filesystem::path& path) {
-  hdf5::File file = hdf5::File::create_to_change(path, head_bytes);
+  hdf5::File file = hdf5::File::create_to_change(path, user_block_bytes);
   write_head(path, "pulvis run 1\n");
   return file;
 }

@@ -44,7 +44,7 @@ Key<ToolSpec> relief_key() {
       }};
 }
 
-Key<ToolSpec> file_key() {
+Key<ToolSpec> profile_file_key() {
   return {
       {.name = "file",
        .kind = Kind::file,
@@ -81,7 +81,7 @@ std::vector<Key<ToolSpec>> profile_keys() {
         .doc = "Share of the pitch that a trapezoid's crest takes, and its valley.",
         .fallback_doc = "0.25"},
        relief_to(&ProfileSpec::flat_share)}};
-  all.push_back(file_key());
+  all.push_back(profile_file_key());
   return all;
 }
 

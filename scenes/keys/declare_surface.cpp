@@ -17,7 +17,7 @@ Key<Spec> length_key(const char* name, Words only_for, const char* doc, double S
           to(member)};
 }
 
-std::vector<Key<TargetSpec>> shape_keys() {
+std::vector<Key<TargetSpec>> surface_shape_keys() {
   return {
       {{.name = "shape",
         .kind = Kind::choice,
@@ -147,7 +147,7 @@ const TableDeclaration<TargetSpec>& surface() {
         {"surface", false, "shape",
          "The sample under the tip: rigid, moved by the scanner. At the start it just touches.",
          afm_only, true},
-        shape_keys()};
+        surface_shape_keys()};
     for (const auto& key : law_keys()) made.keys.push_back(key);
     return made;
   }();

@@ -14,12 +14,10 @@ constexpr double most_turn = std::numbers::pi / 8;  // of an edge
 constexpr double usual_growth = 0.3, most_growth = 0.75;
 constexpr double unlimited = std::numeric_limits<double>::max();
 
-int multiple_of_4(double edges) {
+int up_to_multiple_of_4(double edges) {
   constexpr double most = 1e6;  // beyond any mesh; refused later
   return 4 * static_cast<int>(std::ceil(std::min(edges, most) / 4 - 1e-6));
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Wanted edge lengths at the samples of a smooth closed curve.
 class EdgeLengths {
@@ -175,8 +173,8 @@ BoundaryNodes boundary_nodes(const OutlineCurve& curve, int edges) {
 
 int fewest_edges(const OutlineCurve& curve) {
   if (curve.sharp())
-    return std::max(8, multiple_of_4(static_cast<double>(side_lengths(curve).size())));
-  return std::max(8, multiple_of_4(EdgeLengths(curve).count(unlimited, most_growth).back()));
+    return std::max(8, up_to_multiple_of_4(static_cast<double>(side_lengths(curve).size())));
+  return std::max(8, up_to_multiple_of_4(EdgeLengths(curve).count(unlimited, most_growth).back()));
 }
 
 int edges_of_size(const OutlineCurve& curve, double size) {
@@ -185,7 +183,7 @@ int edges_of_size(const OutlineCurve& curve, double size) {
     for (const double side : side_lengths(curve)) edges += std::max(1.0, std::round(side / size));
   else
     edges = EdgeLengths(curve).count(size, usual_growth).back();
-  return std::max(multiple_of_4(edges), fewest_edges(curve));
+  return std::max(up_to_multiple_of_4(edges), fewest_edges(curve));
 }
 
 }  // namespace pulvis

@@ -17,8 +17,6 @@ using std::numbers::pi;
 using Point = OutlineCurve::Point;
 using Piece = OutlineCurve::Piece;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 Piece flat(const Vec2& from, const Vec2& to) {
   return [=](double t) { return Point{from + t * (to - from), to - from}; };
 }

@@ -21,8 +21,6 @@ constexpr double longest_over_shortest = 8;
 // Beyond this the two sides of a corner are nearly one.
 constexpr double most_turn = 170.0 / 180 * std::numbers::pi;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 std::string text_of(const Vec2& p) { return fmt::format("({:g}, {:g}) m", p.x(), p.y()); }
 
 Faults slender(double width, double height) {

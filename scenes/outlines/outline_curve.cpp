@@ -18,8 +18,6 @@ constexpr std::array<double, 4> gauss_weight{0.17392742256872693, 0.326072577431
 // Enough for arc lengths of smooth pieces to round-off, and for the corners of a superellipse.
 constexpr std::size_t samples_wanted = 2048, fewest_a_piece = 8;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // Angle of a tangent that turns by less than half a turn.
 double turn_between(const Vec2& a, const Vec2& b) { return portable::atan2(cross(a, b), a.dot(b)); }
 

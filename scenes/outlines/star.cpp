@@ -10,8 +10,6 @@
 namespace pulvis {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // The part of a convex polygon to the left of the line from a to b.
 std::vector<Vec2> cut(const std::vector<Vec2>& convex, const Vec2& a, const Vec2& b) {
   std::vector<Vec2> rest;

@@ -17,11 +17,9 @@ namespace {
 
 using Piece = ToolSurface::Piece;
 
-constexpr double straight_on = 1e-12;  // sine of a turn that is round-off
-constexpr double round_off = 1e-12;    // of the chain's size
+constexpr double straight_on = 1e-12;      // sine of a turn that is round-off
+constexpr double chain_round_off = 1e-12;  // of the chain's size
 constexpr double endless = std::numeric_limits<double>::infinity();
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Vec2 left_of(const Vec2& t) { return {-t.y(), t.x()}; }
 
@@ -45,7 +43,7 @@ std::vector<Vec2> directions(const std::vector<Vec2>& points) {
   return result;
 }
 
-double size_of(const std::vector<Vec2>& points) {
+double chain_size(const std::vector<Vec2>& points) {
   double size = 0;
   for (const Vec2& p : points) size = std::max(size, (p - points.front()).norm());
   return size;
@@ -59,7 +57,7 @@ bool meet(const Vec2& p, const Vec2& t, double low, double high, const Vec2& q, 
   const Vec2 apart = q - p;
   if (std::abs(sine) < straight_on) {
     const double distance = std::abs(cross(t, apart));
-    if (distance > round_off * (apart.norm() + 1e-300)) return false;
+    if (distance > chain_round_off * (apart.norm() + 1e-300)) return false;
     const double way = t.dot(w) > 0 ? 1 : -1, begin = t.dot(apart);
     const double one = begin + way * from, other = begin + way * to;
     return std::min(one, other) <= high && std::max(one, other) >= low;
@@ -93,7 +91,7 @@ std::string rounding_fault(const std::vector<Vec2>& points, const std::vector<Ve
     const double begin = i == 0 ? 0 : corner_between(t[i - 1], t[i], rounding).tangent;
     const double end = i + 1 == t.size() ? 0 : corner_between(t[i], t[i + 1], rounding).tangent;
     const double length = (points[i + 1] - points[i]).norm();
-    if (begin + end <= length * (1 + round_off)) continue;
+    if (begin + end <= length * (1 + chain_round_off)) continue;
     return fmt::format(
         "the arcs at the ends take {:.6g} m of the straight part from point {} to point {}, which "
         "is "
@@ -106,9 +104,9 @@ std::string rounding_fault(const std::vector<Vec2>& points, const std::vector<Ve
 }  // namespace
 
 std::string fault_of_polyline(const std::vector<Vec2>& points, double rounding) {
-  const double size = size_of(points);
+  const double size = chain_size(points);
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
-    if ((points[i + 1] - points[i]).norm() <= round_off * size)
+    if ((points[i + 1] - points[i]).norm() <= chain_round_off * size)
       return fmt::format("points {} and {} are the same, allowed: points that differ from the next",
                          i, i + 1);
   const std::vector<Vec2> t = directions(points);
@@ -124,7 +122,7 @@ std::string fault_of_polyline(const std::vector<Vec2>& points, double rounding) 
 
 ToolSurface make_surface(const std::vector<Vec2>& points, double rounding) {
   const std::vector<Vec2> t = directions(points);
-  const double margin = round_off * size_of(points);
+  const double margin = chain_round_off * chain_size(points);
   ToolSurface surface;
   Corner before;
   for (std::size_t i = 0; i < t.size(); ++i) {

@@ -6,11 +6,8 @@ add_borrowed_tests(memory asan engine ${PULVIS_PROGRAMS_OF}/tests/test_engine
                    --gtest_filter=-RecorderTest.WritesAnXdmf*:RecorderTest.TurnsAFullDisk*)
 add_borrowed_tests(memory asan systems ${PULVIS_PROGRAMS_OF}/tests/test_systems --gtest_filter=BroadPhase.*:Contact.*)
 
-set(readers language/csv_table language/document language/document_guard language/override language/scene_text
-            language/table_reader lever/mesh/gmsh_file lever/mesh/gmsh_solid lever/mesh/meshed_lever
-            lever/mesh/meshed_tip lever/target_shape outlines/points_file packing/packing_file records/lab_record
-            records/wedge_records tools/profile_file)
-list(TRANSFORM readers REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/scenes/\\1.cpp")
+include(${CMAKE_SOURCE_DIR}/scenes/readers.cmake)
+list(TRANSFORM readers PREPEND "${CMAKE_SOURCE_DIR}/")
 # These objects come before the archive, which then gives only the rest.
 add_executable(replay_over_release fuzz/replay.cpp fuzz/targets.cpp ${readers})
 target_link_libraries(replay_over_release PRIVATE ${PULVIS_PROGRAMS_OF}/scenes/libpulvis_scenes.a pulvis_core

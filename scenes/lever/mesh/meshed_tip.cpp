@@ -9,32 +9,32 @@
 namespace pulvis {
 namespace {
 
-constexpr const char* key = "tip.file";
+constexpr const char* file_key = "tip.file";
 
 TipSolid tip_of(const std::filesystem::path& file, double unit) {
   TipSolid tip;
   tip.solid = read_gmsh_solid(file, unit,
-                              {key,
+                              {file_key,
                                {{"tip", SolidPart::tip}, {"glue", SolidPart::glue}},
                                {{"foot", false}, {"end", false}}});
   if (!tip.solid.has(SolidPart::tip))
-    refuse_mesh(file, 1, key,
+    refuse_mesh(file, 1, file_key,
                 "has no elements in a volume named tip, allowed: a physical volume \"tip\"");
   const std::set<int> foot = tip.solid.nodes_of("foot");
   if (foot.empty() || tip.solid.surfaces["end"].empty())
-    refuse_mesh(file, 1, key,
+    refuse_mesh(file, 1, file_key,
                 "a surface is missing, allowed: physical surfaces \"foot\" and \"end\"");
   tip.foot.assign(foot.begin(), foot.end());
   tip.end = tip.solid.surfaces["end"];
   const auto at = [&](int n) { return tip.solid.nodes[static_cast<std::size_t>(n)]; };
   for (const int n : tip.solid.nodes_of("end")) tip.height = std::max(tip.height, -at(n).z());
   if (!(tip.height > 0))
-    refuse_mesh(file, 1, key, "the end does not lie below z = 0, allowed: z < 0");
+    refuse_mesh(file, 1, file_key, "the end does not lie below z = 0, allowed: z < 0");
   for (const int n : tip.foot) {
     tip.reach = std::max(tip.reach, at(n).head<2>().cwiseAbs().maxCoeff());
     if (std::abs(at(n).z()) > 1e-6 * tip.height)
       refuse_mesh(
-          file, 1, key,
+          file, 1, file_key,
           fmt::format("the foot is at z = {:g} m, allowed: in z = 0, the end below it", at(n).z()));
   }
   return tip;
