@@ -30,7 +30,7 @@ class FileDescriptor {
 
 // New names in a folder survive a loss of power only after this. Some file systems refuse it: no error.
 inline void sync_folder(const std::filesystem::path& folder) {
-  const FileDescriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened) fsync(opened.get());
 }
 

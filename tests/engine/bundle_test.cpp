@@ -29,7 +29,7 @@ class BundleTest : public ::testing::Test {
   World world;
 };
 
-struct Absent : Component<Link, double, 1> {
+struct NotThere : Component<Link, double, 1> {
   static constexpr ComponentInfo info{"absent", "-", "a column that nobody added"};
 };
 
@@ -41,7 +41,7 @@ struct Warmth {
 struct Bundled {
   Warmth<Read> warmth;
   Optional<Read<Weight>> weight;
-  Optional<Read<Absent>> absent;
+  Optional<Read<NotThere>> absent;
 };
 struct warm {
   Bundled bundled;
@@ -54,14 +54,14 @@ struct warm {
 struct half_there {
   struct Half {
     Read<Force> force;
-    Read<Absent> absent;
+    Read<NotThere> absent;
   };
   Optional<Half> half;
   void operator()() const {}
 };
 struct not_there {
   struct None {
-    Read<Absent> absent;
+    Read<NotThere> absent;
     Read<Force> force;
   };
   Optional<None> none;

@@ -29,7 +29,7 @@ inline std::string text_of(const std::filesystem::path& file) {
 }
 
 inline void send_to(const std::filesystem::path& file, int descriptor) {
-  const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   dup2(opened, descriptor);
 }
 

@@ -20,14 +20,14 @@ constexpr std::size_t kinds = 6;
 const char* const names[kinds] = {"straight", "saturating", "power", "root", "measured", "fast"};
 
 // |s| sqrt(3/2) and the plastic strain of every point of a block, the only one of its class.
-struct Point {
+struct CurvePoint {
   double mises, strain;
 };
-std::vector<Point> points_of(Experiment& e, std::size_t block) {
+std::vector<CurvePoint> points_of(Experiment& e, std::size_t block) {
   auto& stress = e.simulation.world().column<DeviatoricStress<4>>();
   auto& strain = e.simulation.world().column<PlasticStrain<4>>();
   const auto& begin = stress.table.chunk_begin;
-  std::vector<Point> points;
+  std::vector<CurvePoint> points;
   for (int i = 0; i < 4 * (begin[block + 1] - begin[block]); ++i) {
     const Lane* s = stress.lanes() + 12 * begin[block] + 3 * i;
     const double xx = s[0][0], yy = s[1][0], xy = s[2][0];
@@ -49,7 +49,7 @@ TEST(FlowLaws, EveryPointIsOnTheCurveOfItsMaterial) {
   e.simulation.run_until(1e-3);
   e.simulation.observe();
   for (std::size_t block = 0; block + 1 < kinds; ++block)
-    for (const Point& point : points_of(e, block)) {
+    for (const CurvePoint& point : points_of(e, block)) {
       ASSERT_GT(point.strain, 0.1) << names[block];
       ASSERT_NEAR(point.mises / law_of(e.scene, block, point.strain), 1, 1e-11) << names[block];
     }
@@ -86,7 +86,7 @@ TEST(FlowLaws, RateRaisesTheFlowStressByItsLaw) {
     const double rate = 2 / std::numbers::sqrt3 * speed / length;
     double ratio = 0;
     const auto points = points_of(e, kinds - 1);
-    for (const Point& p : points) ratio += p.mises / law_of(e.scene, kinds - 1, p.strain);
+    for (const CurvePoint& p : points) ratio += p.mises / law_of(e.scene, kinds - 1, p.strain);
     EXPECT_NEAR(ratio / static_cast<double>(points.size()), 1 + std::pow(rate / 6500, 0.25), 0.01)
         << rate;
   }

@@ -13,7 +13,7 @@
 namespace pulvis {
 namespace {
 
-using Shape = TipSpec::Shape;
+using TipShape = TipSpec::Shape;
 
 LeverMesh::Point on_lower_face(const LeverMesh& lever, const Vec2& point) {
   auto place = lever.on_lower_face(point);
@@ -76,9 +76,9 @@ std::vector<std::vector<int>> facets(const PlanMesh& plan) {
 
 TipMesh add_solid_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
                       const TipSpec& tip) {
-  const bool round = tip.shape == Shape::cone;
+  const bool round = tip.shape == TipShape::cone;
   const PlanMesh plan = round ? unit_disc(tip.elements) : unit_square(tip.elements);
-  const double end = tip.shape == Shape::block ? tip.foot : tip.end;
+  const double end = tip.shape == TipShape::block ? tip.foot : tip.end;
   const int stacked = tip_layers(tip);
   const Vec2 axis = tip_axis(lever, tip);
   const double top = on_lower_face(mesh, axis).z;
@@ -155,7 +155,7 @@ TipMesh add_meshed_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMes
 }  // namespace
 
 double tip_height(const TipSpec& tip) {
-  return tip.shape == Shape::sphere ? tip.neck_height + 2 * tip.radius : tip.height;
+  return tip.shape == TipShape::sphere ? tip.neck_height + 2 * tip.radius : tip.height;
 }
 
 Vec2 tip_axis(const LeverSpec& lever, const TipSpec& tip) {
@@ -163,14 +163,14 @@ Vec2 tip_axis(const LeverSpec& lever, const TipSpec& tip) {
 }
 
 double foot_reach(const TipSpec& tip) {
-  if (tip.shape == Shape::none) return 0;
-  if (tip.shape == Shape::sphere) return tip.neck_radius;
+  if (tip.shape == TipShape::none) return 0;
+  if (tip.shape == TipShape::sphere) return tip.neck_radius;
   return 0.5 * tip.foot;
 }
 
 int tip_layers(const TipSpec& tip) {
   constexpr double most = 40;
-  const double end = tip.shape == Shape::block ? tip.foot : tip.end;
+  const double end = tip.shape == TipShape::block ? tip.foot : tip.end;
   const double cubes = std::round(tip.height / (0.5 * (tip.foot + end)) * tip.elements);
   return static_cast<int>(std::clamp(cubes, 2.0, most));
 }
@@ -184,9 +184,9 @@ LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip) {
 
 TipMesh add_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
                 const TipSpec& tip, const std::optional<Vec3>& out) {
-  if (tip.shape == Shape::none) return {on_lower_face(mesh, tip_axis(lever, tip)).gauge, {}, {}};
-  if (tip.shape == Shape::sphere) return add_sphere(draft, lever, mesh, tip, out);
-  if (tip.shape == Shape::mesh) return add_meshed_tip(draft, lever, mesh, tip);
+  if (tip.shape == TipShape::none) return {on_lower_face(mesh, tip_axis(lever, tip)).gauge, {}, {}};
+  if (tip.shape == TipShape::sphere) return add_sphere(draft, lever, mesh, tip, out);
+  if (tip.shape == TipShape::mesh) return add_meshed_tip(draft, lever, mesh, tip);
   return add_solid_tip(draft, lever, mesh, tip);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 Scene one_particle(const Outline& outline, const MeshSpec& mesh, double nu) {
   Scene scene;
-  scene.materials = {{"elastic", 1000, 1e6, nu, {}, 0, {}}};
+  scene.materials = {{"elastic", 1000, 1e6, nu, {}, 0, {}, {}}};
   scene.particles = {{"particle", 0, outline, mesh, false, 0, {}}};
   scene.bodies = {BodySpec{}};
   scene.stages.emplace_back().duration = 1;

@@ -12,7 +12,7 @@
 namespace pulvis {
 namespace {
 
-MaterialSpec steel() { return {"steel", 7850, 200e9, 0.3, {}, 0, {}}; }
+MaterialSpec steel() { return {"steel", 7850, 200e9, 0.3, {}, 0, {}, {}}; }
 
 Scene two_discs(double distance, double angle, double friction = 0) {
   Scene scene;
