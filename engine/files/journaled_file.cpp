@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t journal_mark = 0x32304c4e4a564c50U;  // "PLVJNL02"
 
-void require(bool done, const char* what) {
+void require_done(bool done, const char* what) {
   if (!done) throw std::system_error(errno, std::generic_category(), what);
 }
 
@@ -25,7 +25,7 @@ void write_all(int file, std::uint64_t at, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t put = pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
     if (put < 0 && errno == EINTR) continue;
-    require(put > 0, "write");
+    require_done(put > 0, "write");
     bytes = bytes.subspan(static_cast<std::size_t>(put));
     at += static_cast<std::uint64_t>(put);
   }
@@ -38,7 +38,7 @@ std::size_t read_some(int file, std::uint64_t at, std::span<std::byte> bytes) {
     const ssize_t got =
         pread(file, bytes.data() + done, bytes.size() - done, static_cast<off_t>(at + done));
     if (got < 0 && errno == EINTR) continue;
-    require(got >= 0, "read");
+    require_done(got >= 0, "read");
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
   }
@@ -47,7 +47,7 @@ std::size_t read_some(int file, std::uint64_t at, std::span<std::byte> bytes) {
 
 std::uint64_t size_on_disk(int file) {
   struct stat status {};
-  require(fstat(file, &status) == 0, "stat");
+  require_done(fstat(file, &status) == 0, "stat");
   return static_cast<std::uint64_t>(status.st_size);
 }
 
@@ -67,7 +67,7 @@ JournaledFile::JournaledFile(const std::filesystem::path& path, Open how)
                    how == Open::empty ? O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC : O_RDWR | O_CLOEXEC,
                    0666)),
       number_(file_.get()) {
-  require(static_cast<bool>(file_), "open");
+  require_done(static_cast<bool>(file_), "open");
   if (how == Open::existing)
     recover();
   else
@@ -129,10 +129,10 @@ void JournaledFile::write_journal() const {
   const std::uint64_t checksum = xxh3(bytes);
   const FileDescriptor journal(
       ::open(journal_path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  require(static_cast<bool>(journal), "open the journal");
+  require_done(static_cast<bool>(journal), "open the journal");
   write_all(journal.get(), 0, bytes);
   write_all(journal.get(), bytes.size(), std::as_bytes(std::span(&checksum, 1)));
-  require(fsync(journal.get()) == 0, "flush the journal");
+  require_done(fsync(journal.get()) == 0, "flush the journal");
 }
 
 bool JournaledFile::is_on_disk(std::uint64_t index, const Page& page) const {
@@ -144,7 +144,7 @@ bool JournaledFile::is_on_disk(std::uint64_t index, const Page& page) const {
 // The lowest one, which says what counts, last.
 void JournaledFile::put_pages_in_place(std::uint64_t end) {
   for (auto page = changed_.rbegin(); page != changed_.rend(); ++page) {
-    if (page->first == changed_.begin()->first) require(fsync(file_.get()) == 0, "flush");
+    if (page->first == changed_.begin()->first) require_done(fsync(file_.get()) == 0, "flush");
     put_in_place(page->first, page->second, end);
   }
   changed_.clear();
@@ -152,16 +152,16 @@ void JournaledFile::put_pages_in_place(std::uint64_t end) {
 
 void JournaledFile::commit() {
   if (size_on_disk(file_.get()) < size_)
-    require(ftruncate(file_.get(), static_cast<off_t>(size_)) == 0, "extend");
-  require(fsync(file_.get()) == 0, "flush");
+    require_done(ftruncate(file_.get(), static_cast<off_t>(size_)) == 0, "extend");
+  require_done(fsync(file_.get()) == 0, "flush");
   std::erase_if(changed_, [&](const auto& one) { return is_on_disk(one.first, one.second); });
   if (!changed_.empty()) {
     write_journal();
     put_pages_in_place(committed_);
   }
   if (size_on_disk(file_.get()) > size_)
-    require(ftruncate(file_.get(), static_cast<off_t>(size_)) == 0, "shorten");
-  require(fsync(file_.get()) == 0, "flush");
+    require_done(ftruncate(file_.get(), static_cast<off_t>(size_)) == 0, "shorten");
+  require_done(fsync(file_.get()) == 0, "flush");
   committed_ = size_;
 }
 
@@ -188,8 +188,8 @@ void JournaledFile::recover() {
     std::memcpy(changed_[index].data(), bytes.data() + at + sizeof index, page_bytes);
   }
   put_pages_in_place(head.end);
-  require(ftruncate(file_.get(), static_cast<off_t>(head.size)) == 0, "shorten");
-  require(fsync(file_.get()) == 0, "flush");
+  require_done(ftruncate(file_.get(), static_cast<off_t>(head.size)) == 0, "shorten");
+  require_done(fsync(file_.get()) == 0, "flush");
 }
 
 void JournaledFile::close() {
