@@ -20,10 +20,6 @@ class SystemList {
   void add(const char* name, bool asked = true) {
     if (asked) systems_.push_back(make_system<S>(world_, name, when_));
   }
-  template <class... Accesses>
-  void add(const char* name, bool asked, void (*function)(Accesses...)) {
-    if (asked) systems_.push_back(make_system(world_, name, function, when_));
-  }
   std::vector<System> taken() { return std::move(systems_); }
 
  private:
