@@ -44,7 +44,7 @@ points = [["{left} mm", "-5 mm"], ["{middle} mm", "0 mm"], ["{right} mm", "-5 mm
 rounding = "{rounding} mm"
 [[tool]]
 name = "clamp"
-shape = "grip"
+shape = "constraint"
 low = ["-5 mm", "5 mm"]
 high = ["5 mm", "5 mm"]
 holds = "both"

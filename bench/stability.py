@@ -14,7 +14,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/cli/pulvis"
 # Asked of every scene that runs to its end: they have columns of their own.
-COMMON = ("outcome", "energy_balance_error", "penetration, at the end", "least_jacobian, at the end")
+COMMON = ("outcome", "energy_balance_error", "penetration, at the end", "min_jacobian, at the end")
 
 
 def run(scene):
@@ -49,7 +49,7 @@ def outcome(summary):
 
 def row(scene, summary):
     figures = [f"{summary[key]:.2g}" if key in summary else "-"
-               for key in ("energy_balance_error", "penetration", "least_jacobian")]
+               for key in ("energy_balance_error", "penetration", "min_jacobian")]
     cells = [scene.stem, asked(summary), outcome(summary), *figures, str(summary["steps"]),
              f"{summary['wall_seconds']:.1f}"]
     return "| " + " | ".join(cell(c) for c in cells) + " |"

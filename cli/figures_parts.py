@@ -135,7 +135,7 @@ def draw_tools(run, axes, time, limits):
             along = np.array([-tool["normal"][1], tool["normal"][0]], float)
             points = np.array(tool["point"], float) + shift + np.outer([0, 1], far * along)
         else:
-            continue  # a grip touches nothing
+            continue  # a constraint touches nothing
         line = 1e3 * endless(points, far)
         axes.plot(line[:, 0], line[:, 1], color="#6b7683", linewidth=1.8, zorder=3)
 

@@ -41,7 +41,7 @@
 #include "scenes/records/lab_settings.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/study/study_read.hpp"
-#include "scenes/tools/grips.hpp"
+#include "scenes/tools/constraints.hpp"
 
 namespace pulvis {
 namespace {
@@ -74,7 +74,7 @@ void print_meshes(const Scene& scene) {
   for (const ParticleSpec& particle : scene.particles) {
     const Shape shape = make_shape(particle);
     tell("{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
-         particle.name, shape.elements(), shape.boundary_nodes, least_corner_sine(shape),
+         particle.name, shape.elements(), shape.boundary_nodes, min_corner_sine(shape),
          shortest_edge(shape));
   }
 }
@@ -95,7 +95,7 @@ ExitCode check(const Options& options) {
   if (scene.afm) return check_afm_scene(scene);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
-  if (std::ranges::any_of(scene.tools, is_grip)) build_world(scene);  // it finds their nodes
+  if (std::ranges::any_of(scene.tools, is_constraint)) build_world(scene);  // it finds their nodes
   tell("{}", packing_summary(scene));
   print_meshes(scene);
   for (const std::string& line : bending_warnings(scene)) tell("warning: {}\n", line);

@@ -38,7 +38,7 @@ std::string plan_text(const GraphPlan& plan, const World& world) {
   out += "\ncolumns\n";
   std::size_t total = 0;
   for (const ColumnBase* column : world.columns()) {
-    out += fmt::format("  {:<13} {:<20} {:>3} x {:<7} {:>12} B  {}\n", column->place,
+    out += fmt::format("  {:<13} {:<20} {:>3} x {:<7} {:>12} B  {}\n", column->entity,
                        column->info.name, column->count, column->info.unit, column->bytes(),
                        column->info.meaning);
     total += column->bytes();

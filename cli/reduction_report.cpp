@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_samples = 4000;  // of a curve
+constexpr std::size_t max_samples = 4000;  // of a curve
 
 class ReportMaker {
  public:
@@ -24,7 +24,7 @@ class ReportMaker {
     double longest = 0;
     for (const lab::ReducedRun& run : all_.runs)
       longest = std::max(longest, run.curve.distance.back());
-    step_ = std::max(analysis.distance_step, longest / most_samples);
+    step_ = std::max(analysis.distance_step, longest / max_samples);
   }
 
   ReportData made() {
@@ -106,7 +106,7 @@ class ReportMaker {
     const lab::LoadCellSpec& cell = all_.loaded.settings.load_cell;
     const double first_volts = logger.lvdt.front(),
                  sign = logger.lvdt.back() < first_volts ? -1 : 1;
-    const std::size_t stride = 1 + logger.time.size() / most_samples;
+    const std::size_t stride = 1 + logger.time.size() / max_samples;
     Columns values(5);
     for (std::size_t i = 0; i < logger.time.size(); i += stride) {
       const double on_press = run.clocks.press_time(logger.time[i]);

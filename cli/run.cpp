@@ -37,7 +37,7 @@ std::filesystem::path folder_of(const RunOptions& options) {
 
 // Where to look first when the energies say that something is wrong: the most distorted element.
 std::string worst_element(const World& world) {
-  const double* least = world.column<LeastJacobian>().values();
+  const double* least = world.column<MinJacobian>().values();
   const double* element = world.column<WorstElement>().values();
   int slot = world.resource<Bodies>().slot_of_number.front();
   for (const int s : world.resource<Bodies>().slot_of_number)

@@ -77,7 +77,7 @@ Json limits_json(const LimitSpec& limits) {
 void add_figures(Json& json, const Results& results) {
   json["energy_balance_error"] = results.energy_balance_error();
   json["kinetic_ratio"] = results.kinetic_ratio();
-  json["least_jacobian"] = results.least_jacobian();
+  json["min_jacobian"] = results.min_jacobian();
   for (const char* name :
        {"penetration", "relative_density", "stress_ratio/axial", "stress_ratio/lateral"})
     if (results.has(name)) json[name] = results.value(name);

@@ -75,7 +75,8 @@ Json loop_json(const FrictionLoop& loop) {
 }
 
 std::string unsettled_text(const FrictionLoop& loop) {
-  std::string text = "  W is not that of friction: in the half of a way that it is taken from ";
+  std::string text =
+      "  W is not that of friction: in the half of a traverse that it is taken from ";
   if (loop.slides <= 1 - 1e-3)
     text += fmt::format("the probe sticks for {:.0f}%", 100 * (1 - loop.slides));
   else if (loop.turned <= 1 - 1e-3)

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_points = 100;  // of a drawn curve
+constexpr std::size_t max_points = 100;  // of a drawn curve
 
 Json law_json(const DensityFit& fit) {
   if (!fit.not_fitted.empty()) return {{"law", fit.law}, {"not_fitted", fit.not_fitted}};
@@ -23,7 +23,7 @@ Json law_json(const DensityFit& fit) {
 
 Json thinned(const std::vector<double>& values) {
   Json kept = Json::array();
-  const std::size_t count = std::min(values.size(), most_points);
+  const std::size_t count = std::min(values.size(), max_points);
   for (std::size_t i = 0; i < count; ++i)
     kept.push_back(values[count == 1 ? 0 : i * (values.size() - 1) / (count - 1)]);
   return kept;

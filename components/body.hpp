@@ -3,8 +3,8 @@
 // or one at its centre.
 #pragma once
 
+#include "components/entities.hpp"
 #include "components/formulation.hpp"
-#include "components/places.hpp"
 
 namespace pulvis {
 
@@ -98,14 +98,13 @@ struct HardeningModulus : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"hardening_modulus", "Pa",
                                       "d sigma_y / d eps_p, of linear hardening"};
 };
-struct LeastJacobian : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"least_jacobian", "-",
+struct MinJacobian : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"min_jacobian", "-",
                                       "smallest det F of the particle this step"};
 };
-struct LeastCorner : Component<Particle, double, 1> {
+struct MinCorner : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{
-      "least_corner", "-",
-      "smallest det F at a Gauss point of its elements over that of the middle"};
+      "min_corner", "-", "smallest det F at a Gauss point of its elements over that of the middle"};
 };
 struct WorstElement : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"worst_element", "-",

@@ -42,12 +42,12 @@ struct ElementStress {
 template <template <class> class Mode>
 struct BendingModes {
   Mode<HourglassStress> stress;
-  Mode<LeastCorner> least_corner;
+  Mode<MinCorner> min_corner;
 };
 // The element of each particle that is nearest to turning inside out.
 template <template <class> class Mode>
 struct WorstJacobian {
-  Mode<LeastJacobian> value;
+  Mode<MinJacobian> value;
   Mode<WorstElement> element;
 };
 

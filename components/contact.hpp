@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "components/places.hpp"
+#include "components/entities.hpp"
 
 namespace pulvis {
 
@@ -71,11 +71,11 @@ struct ContactLaw : Component<At, double, 4 + edge_points> {
   static constexpr ComponentInfo info{
       "law", "SI", "kappa, Coulomb's mu, damping, 1/edge length; area of every point"};
   enum Number {
-    stiffness,    // Pa/m, kappa of the pair
-    friction,     // -, Coulomb coefficient of the pair; 0 where the scene has none
-    damping,      // Pa s/m, of the contact (T 5.1); 0 where the scene has none
-    over_length,  // 1/m, 1/undeformed length of the sampled edge
-    weight        // m^2, undeformed area that a Gauss point stands for: of the first of them
+    stiffness,   // Pa/m, kappa of the pair
+    friction,    // -, Coulomb coefficient of the pair; 0 where the scene has none
+    damping,     // Pa s/m, of the contact (T 5.1); 0 where the scene has none
+    inv_length,  // 1/m, 1/undeformed length of the sampled edge
+    weight       // m^2, undeformed area that a Gauss point stands for: of the first of them
   };
 };
 template <class At>
@@ -109,14 +109,14 @@ struct FrictionMore : Component<At, double, 4> {
       "friction_more", "SI",
       "static less dynamic coefficient, 1/decay length, most shear stress, nothing"};
   enum Number {
-    drop,        // -, static less dynamic coefficient
-    over_decay,  // 1/m, over the sliding way in which that fades by 1/e
-    strength     // Pa, shear stress that the surfaces do not pass
+    drop,       // -, static less dynamic coefficient
+    inv_decay,  // 1/m, over the sliding distance in which that fades by 1/e
+    strength    // Pa, shear stress that the surfaces do not pass
   };
 };
 template <class At>
-struct StaticLost : Component<At, double, edge_points> {
-  static constexpr ComponentInfo info{"static_lost", "-",
+struct SlipWeakening : Component<At, double, edge_points> {
+  static constexpr ComponentInfo info{"slip_weakening", "-",
                                       "share of the static friction lost in sliding: history"};
 };
 

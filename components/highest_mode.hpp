@@ -2,7 +2,7 @@
 // the scene takes its time step from it.
 #pragma once
 
-#include "components/places.hpp"
+#include "components/entities.hpp"
 
 namespace pulvis {
 

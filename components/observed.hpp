@@ -58,13 +58,13 @@ struct ContactNetwork {
 // other, or of a tool; of a pair each side has its own.
 struct ContactQuality {
   static constexpr const char* resource_name = "contact_quality";
-  static constexpr double least_edges = 2;  // narrower contacts are not resolved
-  double overlap = 0;                       // m^2, of the outlines with each other and with tools
-  double penetration_work = 0;              // J, normal forces times penetrations
-  double force = 0;                         // N, sum over the contacts
-  double narrow_force = 0;                  // N, of those narrower than two boundary edges
-  double narrow_width = 0;                  // N m, their widths times their forces
-  double narrow_edges = 0;                  // N, their widths in edges times their forces
+  static constexpr double min_edges = 2;  // narrower contacts are not resolved
+  double overlap = 0;                     // m^2, of the outlines with each other and with tools
+  double penetration_work = 0;            // J, normal forces times penetrations
+  double force = 0;                       // N, sum over the contacts
+  double narrow_force = 0;                // N, of those narrower than two boundary edges
+  double narrow_width = 0;                // N m, their widths times their forces
+  double narrow_edges = 0;                // N, their widths in edges times their forces
 
   template <class Bytes>
   void state(Bytes& bytes) {

@@ -41,7 +41,7 @@ struct ToolProgram {
     double ramp = 0;                 // -, share of the duration with rising (and falling) speed
     Point displacement{};            // m
     int stage = 0;
-    // s: when the speed begins to fall although the way is not done; never, unless the stage ends early.
+    // s: when the speed begins to fall although the displacement is not done; never, unless the stage ends early.
     double cut = std::numeric_limits<double>::infinity();
 
     template <class Bytes>
@@ -83,7 +83,7 @@ struct ContactRules {
   double damping = 0;              // -, share of critical
   double penetration_limit = 0.5;  // -, of the edge length
   double shortest_edge = 0;        // m
-  // m: least width of an element and of a tool's ridge. What is thinner than a step's way can be passed unseen.
+  // m: least width of an element and of a tool's ridge. What is thinner than a step's displacement can be passed unseen.
   double thinnest = std::numeric_limits<double>::infinity();
   std::vector<double> tool_thickness;  // m, [tools]: of thin ridges; infinite where there are none
   bool servos = false;                 // some tool holds a force
@@ -91,7 +91,7 @@ struct ContactRules {
   struct Friction {
     double coefficient = 0;  // -, Coulomb's; where there is a static one, the dynamic
     double drop = 0;         // -, static less dynamic coefficient
-    double over_decay = 0;   // 1/m
+    double inv_decay = 0;    // 1/m
     double strength = std::numeric_limits<double>::infinity();  // Pa, shear stress at most
     bool only_coulomb() const { return drop == 0 && std::isinf(strength); }
   };
@@ -142,13 +142,13 @@ struct Totals {
   double contact_energy = 0;     // J, stored in contact springs now
   double penetration = 0;        // -, penetration / edge length, largest of this step
   double worst_penetration = 0;  // -, the same, of the run
-  double least_jacobian = 1;     // -, smallest det F of the run
+  double min_jacobian = 1;       // -, smallest det F of the run
   std::int64_t touching = 0;     // rows with a touching point now
 
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(external_work, largest_work, friction_work, damping_work, damping_power, contact_energy,
-          penetration, worst_penetration, least_jacobian, touching);
+          penetration, worst_penetration, min_jacobian, touching);
   }
 };
 

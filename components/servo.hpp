@@ -12,7 +12,7 @@ namespace pulvis {
 
 // ---- servos ---------------------------------------------------------------------------------------
 struct ServoTravel : Component<Tool, double, 2> {
-  static constexpr ComponentInfo info{"servo_travel", "m", "way that servos have moved it so far"};
+  static constexpr ComponentInfo info{"servo_travel", "m", "displacement by servos so far"};
 };
 struct ServoVelocity : Component<Tool, double, 2> {
   static constexpr ComponentInfo info{"servo_velocity", "m/s", "of its servo, over the next step"};
@@ -42,7 +42,7 @@ struct ToolServos {
     double rate = 0;          // N/s, instead of it; 0: none
     double mass = 0;          // kg, of the tool at least
     double damping = 0;       // N s/m, of its dashpot with that mass; grows with the mass's root
-    double fastest = 0;       // m/s
+    double max_speed = 0;     // m/s
     double tolerance = 0.05;  // -, of the force, at the end of the stage
   };
   std::vector<Servo> servos;
@@ -62,7 +62,7 @@ struct StageEnds {
   struct End {
     int stage = 0;
     Kind kind = Kind::force;
-    int tool = 0;       // whose force or way it is
+    int tool = 0;       // whose force or displacement it is
     Point direction{};  // the force along it; zero: the size of the resultant
     double value = 0;   // N, m or -
     bool reached = false;

@@ -28,7 +28,7 @@ struct Shape {
   struct Hourglass {
     std::array<double, 2> natural;
     std::array<double, 2> skew;
-    std::array<double, 4> over_determinant;
+    std::array<double, 4> inv_determinant;
   };
   struct CurveTerm {  // share of a boundary node in a control point
     Row<BoundaryNode> node;
@@ -79,13 +79,13 @@ struct Shape {
 struct Bodies {
   static constexpr const char* resource_name = "bodies";
   static constexpr bool fixed = true;
-  static constexpr int nobody = -1;
+  static constexpr int empty_slot = -1;
 
   struct Slot {
-    int number = nobody;    // of the particle in the scene, from 0
-    int shape = 0;          // position in `shapes`
-    int material = 0;       // of the scene
-    int first_control = 0;  // row of its first control point
+    int number = empty_slot;  // of the particle in the scene, from 0
+    int shape = 0;            // position in `shapes`
+    int material = 0;         // of the scene
+    int first_control = 0;    // row of its first control point
   };
 
   double thickness = 0;  // m

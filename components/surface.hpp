@@ -1,11 +1,11 @@
-// Tools that are no planes: polylines, which particles touch, and grips, which hold nodes.
+// Tools that are no planes: polylines, which particles touch, and constraints, which hold nodes.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "components/places.hpp"
+#include "components/entities.hpp"
 #include "engine/entry.hpp"
 
 namespace pulvis {
@@ -31,7 +31,7 @@ struct ToolSurface {
 struct ToolShapes {  // only where a tool is no plane
   static constexpr const char* resource_name = "tool_shapes";
   static constexpr bool fixed = true;
-  enum class Kind { plane, polyline, grip };
+  enum class Kind { plane, polyline, constraint };
   std::vector<Kind> kind;            // [tools]
   std::vector<ToolSurface> surface;  // [tools]; empty unless a polyline
   bool is(int tool, Kind wanted) const { return entry(kind, tool) == wanted; }
@@ -44,32 +44,33 @@ struct SurfaceRange : Component<ToolContact, std::int32_t, 2> {
                                       "first and last piece of the polyline that can touch"};
 };
 
-// ---- grips ----------------------------------------------------------------------------------------
-struct GrippedNode {  // (node of a particle, direction in which a grip holds it)
-  static constexpr const char* name = "gripped_node";
+// ---- constraints ----------------------------------------------------------------------------------------
+struct ConstrainedNode {  // (node of a particle, direction in which a constraint holds it)
+  static constexpr const char* name = "constrained_node";
   static constexpr bool laned = false, by_chunk = true;
 };
-struct GripTarget : Component<GrippedNode, std::int32_t, 3> {
+struct ConstraintTarget : Component<ConstrainedNode, std::int32_t, 3> {
   static constexpr ComponentInfo info{"target", "-", "node and lane in the chunk, tool"};
 };
-struct GripDirection : Component<GrippedNode, double, 2> {
+struct ConstraintDirection : Component<ConstrainedNode, double, 2> {
   static constexpr ComponentInfo info{"direction", "-", "in which the node is held"};
 };
-struct GripTravel : Component<GrippedNode, double, 2> {
+struct ConstraintTravel : Component<ConstrainedNode, double, 2> {
   static constexpr ComponentInfo info{"travel", "-",
-                                      "way of the node in its direction, of the tool's x and y"};
+                                      "displacement of the node in its direction, of the tool's x and y"};
 };
-struct GripOrigin : Component<GrippedNode, double, 1> {
+struct ConstraintOrigin : Component<ConstrainedNode, double, 1> {
   static constexpr ComponentInfo info{"origin", "m", "undeformed place of the node, in direction"};
 };
-struct GripReaction : Component<GrippedNode, double, 1> {
-  static constexpr ComponentInfo info{"reaction", "N", "of the grip on the node, in direction"};
+struct ConstraintReaction : Component<ConstrainedNode, double, 1> {
+  static constexpr ComponentInfo info{"reaction", "N",
+                                      "of the constraint on the node, in direction"};
 };
 
-struct GripIndex {
-  static constexpr const char* resource_name = "grip_index";
+struct ConstraintIndex {
+  static constexpr const char* resource_name = "constraint_index";
   static constexpr bool fixed = true;
-  std::vector<std::int32_t> begin;  // [chunks + 1] into gripped nodes
+  std::vector<std::int32_t> begin;  // [chunks + 1] into constrained nodes
 };
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// A system's only door to data: Read<C>, Write<C> and Structural<Place>, as its members.
+// A system's only door to data: Read<C>, Write<C> and Structural<Entity>, as its members.
 // What a system may touch is what it declares; writing through Read does not compile.
 #pragma once
 
@@ -15,7 +15,7 @@ template <class C, class Pointer>
 class ChunkView {
  public:
   explicit ChunkView(Pointer base) : base_(base) {}
-  auto& operator()(Row<typename C::Place> row, int component = 0) const {
+  auto& operator()(Row<typename C::Entity> row, int component = 0) const {
     return base_[row.value * C::count + component];
   }
 
@@ -32,7 +32,7 @@ std::int32_t first_row(const Column<C>& column, Chunk chunk) {
 // Where the rows of a chunk begin; of a transient column the worker's, if the graph drops them.
 template <class C>
 auto* rows_of(Column<C>& column, Chunk chunk) {
-  using Number = std::conditional_t<C::Place::laned, Lane, typename C::value_type>;
+  using Number = std::conditional_t<C::Entity::laned, Lane, typename C::value_type>;
   if constexpr (C::transient)
     if (chunk.worker >= 0 && column.has_transient())
       return reinterpret_cast<Number*>(column.transient(chunk.worker));
@@ -44,10 +44,10 @@ template <class T>
 AccessInfo access_info(AccessMode mode) {
   if constexpr (IsComponent<T>)
     return {type_key<T>(),
-            type_key<typename T::Place>(),
-            std::string(T::Place::name) + "/" + T::info.name,
+            type_key<typename T::Entity>(),
+            std::string(T::Entity::name) + "/" + T::info.name,
             mode,
-            T::Place::by_chunk,
+            T::Entity::by_chunk,
             T::transient};
   else
     return {type_key<T>(), nullptr, T::resource_name, mode, false};
@@ -62,8 +62,8 @@ class Read {
   explicit Read(World& world) : column_(&world.column<T>()) {}
   static AccessInfo info() { return detail::access_info<T>(AccessMode::read); }
 
-  const auto& operator()(Row<typename T::Place> row, int component = 0) const {
-    static_assert(!T::Place::laned, "rows of a laned place are reached chunk by chunk");
+  const auto& operator()(Row<typename T::Entity> row, int component = 0) const {
+    static_assert(!T::Entity::laned, "rows of a laned kind of entity are reached chunk by chunk");
     return column_->values()[static_cast<std::size_t>(row.value) * T::count + component];
   }
   auto chunk(Chunk c) const {
@@ -87,8 +87,8 @@ class Write {
   explicit Write(World& world) : column_(&world.column<T>()) {}
   static AccessInfo info() { return detail::access_info<T>(AccessMode::write); }
 
-  auto& operator()(Row<typename T::Place> row, int component = 0) const {
-    static_assert(!T::Place::laned, "rows of a laned place are reached chunk by chunk");
+  auto& operator()(Row<typename T::Entity> row, int component = 0) const {
+    static_assert(!T::Entity::laned, "rows of a laned kind of entity are reached chunk by chunk");
     return column_->values()[static_cast<std::size_t>(row.value) * T::count + component];
   }
   auto chunk(Chunk c) const {
@@ -132,19 +132,19 @@ class Write<R> {
   R* resource_;
 };
 
-// The right to change how many rows a place has. Every column of the place follows, so this excludes
-// any other access to the place: a sync point.
-template <class Place>
+// The right to change how many rows a kind of entity has. Every column of the kind of entity follows, so this excludes
+// any other access to the kind of entity: a sync point.
+template <class Entity>
 class Structural {
  public:
-  static bool is_there(const World& world) { return world.has_table<Place>(); }
+  static bool is_there(const World& world) { return world.has_table<Entity>(); }
   explicit Structural(World& world) : world_(&world) {}
   static AccessInfo info() {
-    return {type_key<Place>(), type_key<Place>(), std::string(Place::name) + "/*",
+    return {type_key<Entity>(), type_key<Entity>(), std::string(Entity::name) + "/*",
             AccessMode::structural, false};
   }
-  int rows() const { return static_cast<int>(world_->table<Place>().rows); }
-  void rebuild(const std::vector<std::int32_t>& sources) const { world_->rebuild<Place>(sources); }
+  int rows() const { return static_cast<int>(world_->table<Entity>().rows); }
+  void rebuild(const std::vector<std::int32_t>& sources) const { world_->rebuild<Entity>(sources); }
 
  private:
   World* world_;

@@ -23,15 +23,15 @@ namespace pulvis {
 enum class AccessMode { read, write, structural };
 
 struct AccessInfo {
-  TypeKey key;       // of the component, resource, or (structural) place
-  TypeKey place;     // of the component's place; null for resources
-  std::string name;  // "node/velocity"; "clock"
+  TypeKey key;             // of the component, resource, or (structural) kind of entity
+  TypeKey entity;  // the kind that the component belongs to; null for resources
+  std::string name;        // "node/velocity"; "clock"
   AccessMode mode;
-  bool chunked;  // the place is divided by chunks, so a chunk system may write it
+  bool chunked;  // the kind of entity is divided by chunks, so a chunk system may write it
   bool transient = false;
 };
 
-// One column or resource: Read<C>, Write<C>, Structural<Place>.
+// One column or resource: Read<C>, Write<C>, Structural<Entity>.
 template <class T>
 concept IsAccess = requires {
   { T::info() } -> std::same_as<AccessInfo>;
@@ -42,7 +42,7 @@ concept IsBundle = std::is_class_v<T> && std::is_aggregate_v<T>;
 
 namespace detail {
 
-inline constexpr std::size_t most_members = 8;  // more than a reader keeps in mind: bundle them
+inline constexpr std::size_t max_members = 8;  // more than a reader keeps in mind: bundle them
 
 struct AnyMember {
   template <class T>
@@ -54,7 +54,7 @@ constexpr bool has_members(std::index_sequence<I...>) {
   return requires { Bundle{(void(I), AnyMember{})...}; };
 }
 
-template <class Bundle, std::size_t Count = most_members>
+template <class Bundle, std::size_t Count = max_members>
 constexpr std::size_t count_members() {
   if constexpr (has_members<Bundle>(std::make_index_sequence<Count>{}))
     return Count;

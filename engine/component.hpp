@@ -1,7 +1,7 @@
 // How a named array is declared, and the number types that index it.
 //
-// A place is where arrays live: nodes, elements, contacts... The places themselves are declared in
-// components/; the engine only knows that a place has rows, and that the rows of some places stand in
+// A kind of entity is what arrays have rows for: nodes, elements, contacts... The kinds themselves are declared in
+// components/; the engine only knows that a kind has rows, and that the rows of some kinds stand in
 // slots of eight lanes, chunk by chunk (AoSoA), while others are plain lists.
 #pragma once
 
@@ -14,8 +14,8 @@ namespace pulvis {
 // Particles of a chunk, worked on side by side.
 inline constexpr int lane_count = 8;
 
-// Row of a plain table, or slot (eight lanes) of a laned one. Rows of different places do not mix.
-template <class Place>
+// Row of a plain table, or slot (eight lanes) of a laned one. Rows of different kinds of entities do not mix.
+template <class Entity>
 struct Row {
   std::int32_t value = 0;
   constexpr Row() = default;
@@ -33,9 +33,9 @@ struct ComponentInfo {
 //   struct Velocity : Component<Node, double, 2> {
 //     static constexpr ComponentInfo info{"velocity", "m/s", "..."};
 //   };
-template <class PlaceTag, class Value, int Count>
+template <class EntityTag, class Value, int Count>
 struct Component {
-  using Place = PlaceTag;
+  using Entity = EntityTag;
   using value_type = Value;
   static constexpr int count = Count;
   // A declaration may set this: what one system of a pass over the chunks leaves for the next ones, and
@@ -45,7 +45,7 @@ struct Component {
 
 template <class C>
 concept IsComponent = requires {
-  typename C::Place;
+  typename C::Entity;
   typename C::value_type;
   C::count;
   C::info;
@@ -72,7 +72,7 @@ struct Chunk {
 // chunk.
 struct SmallTasks {};
 
-// Identity of a component, resource or place type at run time.
+// Identity of a component, resource or kind of entity type at run time.
 using TypeKey = const void*;
 template <class T>
 TypeKey type_key() {

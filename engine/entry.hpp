@@ -18,8 +18,8 @@ constexpr decltype(auto) entry(List&& list, Number number) {
   assert(at < std::size(list));
   return std::forward<List>(list)[at];
 }
-template <class List, class Place>
-constexpr decltype(auto) entry(List&& list, Row<Place> row) {
+template <class List, class Entity>
+constexpr decltype(auto) entry(List&& list, Row<Entity> row) {
   return entry(std::forward<List>(list), row.value);
 }
 

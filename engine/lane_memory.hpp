@@ -123,12 +123,12 @@ inline SumsOfHalves sums_of_halves(const Lane& a, const Lane& b) {
   return {{s[0], s[4]}, {s[1], s[5]}};
 }
 
-inline double least_of_half(const Lane& a, int half) {
+inline double min_of_half(const Lane& a, int half) {
   std::array<double, 4> v;
   store_half(a, half, v.data());
   return std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
 }
-inline double greatest_of_half(const Lane& a, int half) { return -least_of_half(-a, half); }
+inline double greatest_of_half(const Lane& a, int half) { return -min_of_half(-a, half); }
 
 namespace simd {
 #if defined(__AVX512F__)

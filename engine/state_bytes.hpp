@@ -131,10 +131,10 @@ class StateReader {
   requires requires(T& t, StateReader& r) { t.state(r); }
   void take(T& part) { part.state(*this); }
 
-  std::size_t take_count(std::size_t least_size) {
+  std::size_t take_count(std::size_t min_size) {
     std::size_t count = 0;
     take(count);
-    if (count > left_.size() / least_size) throw BadState("a list is longer than what is there");
+    if (count > left_.size() / min_size) throw BadState("a list is longer than what is there");
     return count;
   }
   void take_raw(void* data, std::size_t size);

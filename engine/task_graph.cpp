@@ -24,7 +24,7 @@ void check_chunk_writes(const System& system) {
 
 bool conflict(const AccessInfo& a, const AccessInfo& b) {
   if (a.mode == AccessMode::structural || b.mode == AccessMode::structural)
-    return a.place != nullptr && a.place == b.place;
+    return a.entity != nullptr && a.entity == b.entity;
   return a.key == b.key && (a.mode == AccessMode::write || b.mode == AccessMode::write);
 }
 
@@ -111,7 +111,7 @@ std::size_t next_pass(const std::vector<System>& systems, const Stages& stages, 
 
 Stages stages_of(const std::vector<System>& systems, Passes passes) {
   std::vector<bool> apart(systems.size());
-  if (passes == Passes::beside) apart = wait_for_nothing(systems);
+  if (passes == Passes::concurrent) apart = wait_for_nothing(systems);
   Stages stages = consecutive(systems, apart);
   for (std::size_t s = stages.size(); s-- > 0;) {
     if (!systems[stages[s].front()].by_chunk || apart[stages[s].front()]) continue;
@@ -204,10 +204,10 @@ bool waits_for(const GraphPlan& plan, int later, int earlier) {
 std::vector<int> stages_before_small_tasks(const GraphPlan& plan, int stage) {
   std::vector<int> found;
   for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
-    const bool beside = std::ranges::none_of(plan.edges, [&](const auto& edge) {
+    const bool alone = std::ranges::none_of(plan.edges, [&](const auto& edge) {
       return edge.second == s || (edge.first == s && !waits_for(plan, edge.second, stage));
     });
-    if (beside && plan.stages[static_cast<std::size_t>(s)].by_chunk) found.push_back(s);
+    if (alone && plan.stages[static_cast<std::size_t>(s)].by_chunk) found.push_back(s);
   }
   return found;
 }

@@ -3,7 +3,7 @@
 // Chunk systems become passes: a pass is one stage, a parallel loop over chunks that runs its systems back to
 // back while the chunk is in cache. Which ones make a pass is the graph's policy (Passes); the list says no
 // more than an order. Two stages get an edge, in list order, when they touch the same component and one of
-// them writes, or when one of them changes the length of a place that the other touches. Nobody writes edges.
+// them writes, or when one of them changes the length of a kind of entity that the other touches. Nobody writes edges.
 // Stages without an edge between them run side by side.
 #pragma once
 
@@ -43,24 +43,24 @@ enum class Transients { kept, dropped };
 
 // How chunk systems become passes. Consecutive ones are one, and a pass joins a later one where no system between
 // the two stands in its way; but
-//   beside   what waits for nothing in the step is a pass of its own: it keeps all threads busy beside the systems
+//   concurrent   what waits for nothing in the step is a pass of its own: it keeps all threads busy beside the systems
 //            that work on the whole world. For chunks that stay in the caches.
-//   fewest   nothing is. For chunks that come from memory, each time that they are passed over.
-enum class Passes { beside, fewest };
+//   fewest       nothing is. For chunks that come from memory, each time that they are passed over.
+enum class Passes { concurrent, fewest };
 
 // The stages of a list, in order: positions in it.
 std::vector<std::vector<std::size_t>> stages_of(const std::vector<System>& systems, Passes passes);
 
 // The transient components that one pass over the chunks writes first and no other system touches.
 std::vector<TypeKey> droppable_components(const std::vector<System>& systems,
-                                          Passes passes = Passes::beside);
+                                          Passes passes = Passes::concurrent);
 
 class TaskGraph {
  public:
   // `systems` in the order of the step list. Must be built and run inside the arena it will use; where
   // transients are dropped, those that the world has room for, a chunk's a worker, use it
   // (World::allocate_transient). `world`: whose columns busy systems look ahead to; null: to none.
-  TaskGraph(std::vector<System> systems, int chunks, Passes passes = Passes::beside,
+  TaskGraph(std::vector<System> systems, int chunks, Passes passes = Passes::concurrent,
             Transients transients = Transients::kept, const World* world = nullptr);
   ~TaskGraph();
   TaskGraph(TaskGraph&&) noexcept;
@@ -77,6 +77,6 @@ class TaskGraph {
 };
 
 // The part of TaskGraph that is data: what `pulvis plan` prints and the tests assert.
-GraphPlan derive_plan(const std::vector<System>& systems, Passes passes = Passes::beside);
+GraphPlan derive_plan(const std::vector<System>& systems, Passes passes = Passes::concurrent);
 
 }  // namespace pulvis

@@ -7,13 +7,13 @@
 namespace pulvis {
 namespace {
 
-constexpr std::size_t huge_page = std::size_t{2} << 20, least_in_huge_pages = huge_page / 4;
+constexpr std::size_t huge_page = std::size_t{2} << 20, min_in_huge_pages = huge_page / 4;
 
 }  // namespace
 
 Buffer::Buffer(std::size_t bytes) : bytes_(bytes) {
   // A little more than asked for, so that an empty table still has an address to point at.
-  const bool huge = bytes >= least_in_huge_pages;
+  const bool huge = bytes >= min_in_huge_pages;
   const std::size_t unit = huge ? huge_page : 64, rounded = (bytes + unit) / unit * unit;
   const std::align_val_t alignment{unit};
   data_ = decltype(data_)(static_cast<std::byte*>(::operator new[](rounded, alignment)),
@@ -39,7 +39,7 @@ void ColumnBase::allocate_transient(std::size_t rows_of_worker, int workers) {
 }
 
 void World::allocate_transient(const std::vector<TypeKey>& components, int workers) {
-  for (const auto& [place, table] : tables_) {
+  for (const auto& [entity, table] : tables_) {
     std::int32_t most = 0;
     for (std::size_t c = 0; c + 1 < table->chunk_begin.size(); ++c)
       most = std::max(most, table->chunk_begin[c + 1] - table->chunk_begin[c]);
@@ -63,7 +63,7 @@ void World::set_column(const ColumnBase& column, std::span<const std::byte> rows
   const std::size_t count = rows.size() / own.row_bytes;
   const bool fixed = !table.chunk_begin.empty();
   if (rows.size() % own.row_bytes != 0 || (fixed && count != table.rows))
-    throw BadState("the rows of " + own.place + "/" + own.info.name + " do not fit the scene");
+    throw BadState("the rows of " + own.entity + "/" + own.info.name + " do not fit the scene");
   if (own.bytes() != rows.size()) own.allocate(count);
   std::ranges::copy(rows, own.data());
   table.rows = count;
@@ -73,13 +73,13 @@ Table& World::insert_table(TypeKey key, Table table) {
   if (!table.chunk_begin.empty()) {
     const int chunks = static_cast<int>(table.chunk_begin.size()) - 1;
     if (chunks_ != 0 && chunks != chunks_)
-      throw std::logic_error("table '" + table.place +
+      throw std::logic_error("table '" + table.entity +
                              "' is divided into another number of chunks");
     chunks_ = chunks;
   }
-  auto [place, inserted] = tables_.emplace(key, std::make_unique<Table>(std::move(table)));
-  if (!inserted) throw std::logic_error("table '" + place->second->place + "' was added twice");
-  return *place->second;
+  auto [entity, inserted] = tables_.emplace(key, std::make_unique<Table>(std::move(table)));
+  if (!inserted) throw std::logic_error("table '" + entity->second->entity + "' was added twice");
+  return *entity->second;
 }
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-// The world: tables (how many rows a place has) and the columns and resources that a scene asked for.
+// The world: tables (how many rows a kind of entity has) and the columns and resources that a scene asked for.
 // Nothing is allocated that was not added by name; asking for a missing column is an error that names it.
 #pragma once
 
@@ -45,7 +45,7 @@ class ColumnBase {
   ColumnBase(ComponentInfo declared, std::string at, int numbers, std::size_t bytes_of_row,
              bool is_transient)
       : info(declared),
-        place(std::move(at)),
+        entity(std::move(at)),
         count(numbers),
         row_bytes(bytes_of_row),
         declared_transient(is_transient) {}
@@ -64,13 +64,13 @@ class ColumnBase {
   void rebuild(const std::vector<std::int32_t>& sources);
 
   std::size_t bytes() const { return buffer_.bytes(); }
-  // The rows of a chunk; empty where the place is not divided by chunks.
+  // The rows of a chunk; empty where the kind of entity is not divided by chunks.
   virtual std::span<const std::byte> of_chunk(int chunk) const = 0;
   std::byte* data() { return buffer_.data(); }
   const std::byte* data() const { return buffer_.data(); }
 
   const ComponentInfo info;
-  const std::string place;
+  const std::string entity;
   const int count;                // numbers in a row (in a lane of a slot)
   const std::size_t row_bytes;    // of a row, or of a slot with its lanes
   const bool declared_transient;  // nobody needs it after its step
@@ -80,10 +80,10 @@ class ColumnBase {
   std::size_t bytes_of_worker_ = 0;
 };
 
-// The rows of one place. `chunk_begin` (chunks + 1 entries) says which rows belong to which chunk;
-// it is empty for places that are not divided by chunks.
+// The rows of one kind of entity. `chunk_begin` (chunks + 1 entries) says which rows belong to which chunk;
+// it is empty for kinds of entities that are not divided by chunks.
 struct Table {
-  std::string place;
+  std::string entity;
   bool laned = false;
   std::size_t rows = 0;
   std::vector<std::int32_t> chunk_begin;
@@ -94,12 +94,12 @@ template <IsComponent C>
 class Column : public ColumnBase {
  public:
   using value_type = typename C::value_type;
-  static constexpr bool laned = C::Place::laned;
+  static constexpr bool laned = C::Entity::laned;
   static constexpr std::size_t bytes_a_row =
       sizeof(value_type) * C::count * (laned ? lane_count : 1);
 
   explicit Column(const Table& owner)
-      : ColumnBase(C::info, C::Place::name, C::count, bytes_a_row, C::transient), table(owner) {}
+      : ColumnBase(C::info, C::Entity::name, C::count, bytes_a_row, C::transient), table(owner) {}
 
   std::span<const std::byte> of_chunk(int chunk) const override {
     if (table.chunk_begin.empty()) return {};
@@ -127,21 +127,21 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // A place divided by chunks gets the rows (or slots) of every chunk; another just a number of rows.
-  template <class Place>
+  // A kind of entity divided by chunks gets the rows (or slots) of every chunk; another just a number of rows.
+  template <class Entity>
   void add_table(const std::vector<std::int32_t>& rows_of_chunk);
-  template <class Place>
+  template <class Entity>
   void add_table(std::size_t rows);
   template <IsComponent C>
   void add();
   template <IsResource R, class... Args>
   R& emplace(Args&&... args);
 
-  template <class Place>
+  template <class Entity>
   Table& table();
-  template <class Place>
+  template <class Entity>
   bool has_table() const {
-    return tables_.contains(type_key<Place>());
+    return tables_.contains(type_key<Entity>());
   }
   template <IsComponent C>
   Column<C>& column();
@@ -170,13 +170,13 @@ class World {
     return found == columns_.end() ? nullptr : found->second.get();
   }
 
-  // Gives every column of the place new rows; see ColumnBase::rebuild.
-  template <class Place>
+  // Gives every column of the kind of entity new rows; see ColumnBase::rebuild.
+  template <class Entity>
   void rebuild(const std::vector<std::int32_t>& sources);
 
   // In the order in which they were added.
   const std::vector<const ColumnBase*>& columns() const { return ordered_; }
-  // Takes over a checkpoint's rows of a column. A place that is not divided by chunks gets as many rows;
+  // Takes over a checkpoint's rows of a column. A kind of entity that is not divided by chunks gets as many rows;
   // all its columns must follow. Throws BadState where they do not fit.
   void set_column(const ColumnBase& column, std::span<const std::byte> rows);
   struct SavedResource {
@@ -201,24 +201,24 @@ class World {
   int chunks_ = 0;
 };
 
-template <class Place>
+template <class Entity>
 void World::add_table(const std::vector<std::int32_t>& rows_of_chunk) {
-  Table table{Place::name, Place::laned, 0, {0}, {}};
+  Table table{Entity::name, Entity::laned, 0, {0}, {}};
   for (const std::int32_t rows : rows_of_chunk)
     table.chunk_begin.push_back(table.chunk_begin.back() + rows);
   table.rows = static_cast<std::size_t>(table.chunk_begin.back());
-  insert_table(type_key<Place>(), std::move(table));
+  insert_table(type_key<Entity>(), std::move(table));
 }
 
-template <class Place>
+template <class Entity>
 void World::add_table(std::size_t rows) {
-  insert_table(type_key<Place>(), Table{Place::name, Place::laned, rows, {}, {}});
+  insert_table(type_key<Entity>(), Table{Entity::name, Entity::laned, rows, {}, {}});
 }
 
 template <IsComponent C>
 void World::add() {
   if (has<C>()) return;
-  Table& owner = table<typename C::Place>();
+  Table& owner = table<typename C::Entity>();
   auto column = std::make_unique<Column<C>>(owner);
   column->allocate(owner.rows);
   owner.columns.push_back(column.get());
@@ -243,11 +243,11 @@ R& World::emplace(Args&&... args) {
   return result;
 }
 
-template <class Place>
+template <class Entity>
 Table& World::table() {
-  const auto found = tables_.find(type_key<Place>());
+  const auto found = tables_.find(type_key<Entity>());
   if (found == tables_.end())
-    throw std::logic_error(std::string("the world has no table '") + Place::name + "'");
+    throw std::logic_error(std::string("the world has no table '") + Entity::name + "'");
   return *found->second;
 }
 
@@ -256,7 +256,7 @@ Column<C>& World::column() {
   const auto found = columns_.find(type_key<C>());
   if (found == columns_.end())
     throw std::logic_error(std::string("the world has no column '") + C::info.name + "' at '" +
-                           C::Place::name + "'");
+                           C::Entity::name + "'");
   return static_cast<Column<C>&>(*found->second);
 }
 
@@ -268,9 +268,9 @@ R& World::resource() {
   return *static_cast<R*>(found->second.get());
 }
 
-template <class Place>
+template <class Entity>
 void World::rebuild(const std::vector<std::int32_t>& sources) {
-  Table& owner = table<Place>();
+  Table& owner = table<Entity>();
   for (ColumnBase* column : owner.columns) column->rebuild(sources);
   owner.rows = sources.size();
 }

@@ -24,9 +24,9 @@
 #include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/observe.hpp"
+#include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "scenes/tools/drives.hpp"
-#include "scenes/tools/grips.hpp"
 #include "scenes/tools/surface.hpp"
 #include "systems/laws/flow_law.hpp"
 
@@ -99,7 +99,7 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
   Layout layout;
   layout.bodies.thickness = scene.thickness;
   layout.bodies.formulation = scene.element.formulation;
-  layout.bodies.slot_of_number.assign(particles, Bodies::nobody);
+  layout.bodies.slot_of_number.assign(particles, Bodies::empty_slot);
   int control = 0;
   for (std::size_t c = 0; c < classes.size(); ++c) {
     if (classes[c].empty()) continue;
@@ -108,7 +108,7 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
     const std::size_t lanes = (classes[c].size() + lane_count - 1) / lane_count * lane_count;
     for (std::size_t i = 0; i < lanes; ++i) {
       const bool there = i < classes[c].size();
-      Bodies::Slot slot{there ? classes[c][i].number : Bodies::nobody, shape,
+      Bodies::Slot slot{there ? classes[c][i].number : Bodies::empty_slot, shape,
                         scene.particles[c].material, control};
       control += layout.bodies.shapes.back().control_points();
       if (there)
@@ -135,7 +135,7 @@ void add_element_columns(World& world, const Needs& needs) {
   world.add<MeanStress<F::volumes>>();
   if (F::stabilised) {
     world.add<HourglassStress>();
-    world.add<LeastCorner>();
+    world.add<MinCorner>();
     world.add<HourglassEnergy>();
   }
   if (!needs.plastic) return;
@@ -159,7 +159,7 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add<ShearModulus>();
   world.add<BulkModulus>();
   world.add<Density>();
-  world.add<LeastJacobian>();
+  world.add<MinJacobian>();
   world.add<WorstElement>();
   world.add<StableTimeStep>();
   world.add<KineticEnergy>();
@@ -189,7 +189,7 @@ void add_row_columns(World& world, const Needs& needs) {
   if (needs.friction) world.add<ElasticSlip<At>>();
   if (needs.weakening) {
     world.add<FrictionMore<At>>();
-    world.add<StaticLost<At>>();
+    world.add<SlipWeakening<At>>();
   }
   world.emplace<ContactSums<At>>();
 }
@@ -269,10 +269,10 @@ FlowLaws flow_laws(const Scene& scene) {
   return laws;
 }
 
-// What the history calls the tool's position; a grip's is the middle of its box, or its centre.
+// What the history calls the tool's position; a constraint's is the middle of its box, or its centre.
 Vec2 start_of(const ToolSpec& tool) {
   if (tool.shape == ToolSpec::Shape::polyline) return tool.points.front();
-  if (is_grip(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
+  if (is_constraint(tool) && tool.holds != ToolSpec::Holds::radial && !tool.radius)
     return (tool.low + tool.high) / 2;
   return tool.point;
 }
@@ -281,9 +281,9 @@ ToolShapes tool_shapes(const Scene& scene) {
   ToolShapes shapes;
   for (const ToolSpec& tool : scene.tools) {
     const bool polyline = tool.shape == ToolSpec::Shape::polyline;
-    shapes.kind.push_back(polyline        ? ToolShapes::Kind::polyline
-                          : is_grip(tool) ? ToolShapes::Kind::grip
-                                          : ToolShapes::Kind::plane);
+    shapes.kind.push_back(polyline              ? ToolShapes::Kind::polyline
+                          : is_constraint(tool) ? ToolShapes::Kind::constraint
+                                                : ToolShapes::Kind::plane);
     shapes.surface.push_back(polyline ? make_surface(tool.points, tool.rounding) : ToolSurface{});
   }
   return shapes;
@@ -302,7 +302,7 @@ void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bo
       if (needs.tools) world.column<ToolNormal>().values()[2 * t + k] = scene.tools[t].normal[axis];
       world.column<ToolPosition>().values()[2 * t + k] = start_of(scene.tools[t])[axis];
     }
-  if (needs.polylines || needs.grips) world.emplace<ToolShapes>(tool_shapes(scene));
+  if (needs.polylines || needs.constraints) world.emplace<ToolShapes>(tool_shapes(scene));
   add_drives(world, scene, bodies);
 }
 
@@ -353,7 +353,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
 
   auto world = std::make_unique<World>();
   add_body_columns(*world, layout.bodies, needs);
-  if (needs.tools || needs.grips) add_tools(*world, scene, bodies, needs);
+  if (needs.tools || needs.constraints) add_tools(*world, scene, bodies, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     world->emplace<ContactQuality>();
@@ -366,14 +366,14 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
     add_highest_mode(*world, layout.bodies, needs);
-  if (needs.contact() || needs.grips) add_hollows(*world, layout.bodies);
+  if (needs.contact() || needs.constraints) add_hollows(*world, layout.bodies);
   fill_bodies(*world, layout);
   fill_materials(*world, scene, layout.bodies);
   if (needs.flow_laws) world->emplace<FlowLaws>(flow_laws(scene));
   add_clock(*world, scene);
   world->emplace<Totals>();
   world->emplace<Bodies>(std::move(layout.bodies));
-  if (needs.grips) add_grips(*world, scene);
+  if (needs.constraints) add_constraints(*world, scene);
   add_observed(*world, scene);
   return world;
 }

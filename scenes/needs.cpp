@@ -36,9 +36,9 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   };
   needs.polylines = any(ToolSpec::Shape::polyline);
   needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
-  needs.grips = any(ToolSpec::Shape::grip);
+  needs.constraints = any(ToolSpec::Shape::constraint);
   needs.pairs = particles > 1 || (needs.tools && any_outline(scene, can_fold)) ||
-                (needs.grips && any_outline(scene, has_notch));
+                (needs.constraints && any_outline(scene, has_notch));
   using Friction = ContactRules::Friction;
   const ContactRules rules = contact_rules(scene);
   needs.friction =

@@ -13,7 +13,7 @@ struct Needs {
   bool pairs = false;      // more than one particle, or one that tools can fold onto itself
   bool tools = false;      // something that particles touch
   bool polylines = false;
-  bool grips = false;
+  bool constraints = false;
   bool friction = false;      // a coefficient above zero can act
   bool weakening = false;     // and a law beyond Coulomb's
   bool damping = false;       // of contacts

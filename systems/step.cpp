@@ -36,11 +36,11 @@ StepList step_list_of(World& w) {
   const bool pairs = w.has<ContactPair<Contact>>();
   const bool tools = w.has<ContactPair<ToolContact>>();
   const bool touching = pairs || tools;
-  const bool grips = w.has<GripReaction>();
+  const bool constraints = w.has<ConstraintReaction>();
   SystemList force(w), observe(w, When::on_sample), move(w);
 
   // clang-format off
-  force.add<tool_motion>                ("tool_motion",       tools || grips);
+  force.add<tool_motion>                ("tool_motion",       tools || constraints);
   force.add<skin_check>                 ("skin_check",        touching);
   force.add<bin_edges>                  ("bin_edges",         pairs);
   force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
@@ -57,13 +57,13 @@ StepList step_list_of(World& w) {
   force.add<damping_force<F>>           ("damping_force",     w.has<DampingForce>());
   force.add<stable_time_step<F::points>>("stable_time_step");
   force.add<highest_mode<F::points>>    ("highest_mode",      w.has<HighestMode>());
-  force.add<hold_grips>                 ("hold_grips",        grips);
-  force.add<tool_reaction>              ("tool_reaction",     tools || grips);
+  force.add<apply_constraints>                 ("apply_constraints",        constraints);
+  force.add<tool_reaction>              ("tool_reaction",     tools || constraints);
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
   force.add<tool_servo>                 ("tool_servo",        w.has<ToolServos>());
 
   observe.add<lost_bodies>              ("lost_bodies",       tools);
-  observe.add<outline_health>           ("outline_health",    touching || grips);
+  observe.add<outline_health>           ("outline_health",    touching || constraints);
   observe.add<kinetic_energy>           ("kinetic_energy");
   observe.add<elastic_energy<F>>        ("elastic_energy");
   observe.add<plastic_work<F>>          ("plastic_work",      plastic);
@@ -123,7 +123,7 @@ constexpr int chunks_in_cache = 64;
 
 bool from_memory(const World& world) { return world.chunks() > chunks_in_cache; }
 Passes passes_of(const World& world) {
-  return from_memory(world) ? Passes::fewest : Passes::beside;
+  return from_memory(world) ? Passes::fewest : Passes::concurrent;
 }
 
 // Room for the transient components of every thread that may run the step.

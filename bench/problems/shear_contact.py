@@ -21,7 +21,7 @@ def theory(load, share):
 
 
 def observe(run):
-    """Forces are means over both grips: between them runs the wave that shears the discs."""
+    """Forces are means over both constraints: between them runs the wave that shears the discs."""
     shear = run.history("time") > 0.2 * run.history("time")[-1]  # a fifth of it is for pressing
     load = 0.5 * (run.history("tool/head/force_y") - run.history("tool/base/force_y"))[shear]
     force = 0.5 * (run.history("tool/base/force_x") - run.history("tool/head/force_x"))[shear]

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double thesis_rate = 0.1 / 5.6e-3;  // 1/s: a tenth of the height in 5.6 ms
 constexpr double crushing_rate = 20 * thesis_rate;
-constexpr double most_pressing = 0.2;  // of the height: enough for a hundred rounds
+constexpr double max_pressing = 0.2;  // of the height: enough for a hundred rounds
 constexpr int settling_steps = 600;
 
 void resize(Scene& scene, int rows, int columns) {
@@ -102,7 +102,7 @@ Scene scene_of(const Case& c) {
   const StageSpec press = scene.stages.at(0);
   const double height = scene.tools.at(static_cast<std::size_t>(press.moves.at(0).tool)).point.y();
   scene.stages = {stage(press, height, c.compression, crushing_rate),
-                  stage(press, height, most_pressing, thesis_rate)};
+                  stage(press, height, max_pressing, thesis_rate)};
   return scene;
 }
 

@@ -171,8 +171,8 @@ double flowing_share(State& state) {
 Memory column_bytes(const World& world) {
   Memory memory;
   for (const ColumnBase* column : world.columns()) {
-    const bool of_bodies = column->place == Node::name || column->place == Element::name ||
-                           column->place == Particle::name;
+    const bool of_bodies = column->entity == Node::name || column->entity == Element::name ||
+                           column->entity == Particle::name;
     (of_bodies ? memory.bodies : memory.contact) += static_cast<double>(column->bytes());
   }
   return memory;
@@ -181,7 +181,7 @@ Memory column_bytes(const World& world) {
 double bytes_a_step(World& world) {
   std::map<std::string, double> bytes;
   for (const ColumnBase* column : world.columns())
-    bytes[column->place + "/" + column->info.name] = static_cast<double>(column->bytes());
+    bytes[column->entity + "/" + column->info.name] = static_cast<double>(column->bytes());
   const std::vector<System> systems = all_systems(world);
   const std::vector<TypeKey> in_cache = droppable_components(systems);
   double sum = 0;

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t frame_budget = 20'000'000;  // bytes; packed and spelt in base64 about 15 MB
-constexpr std::size_t most_samples = 5000;
+constexpr std::size_t max_samples = 5000;
 
 class Reader {
  public:
@@ -78,7 +78,7 @@ class Reader {
     std::erase(names, "time");
     names.insert(names.begin(), "time");
     const std::size_t samples = file_.shape("/history/time").at(0);
-    const auto kept = thinned(samples, most_samples);
+    const auto kept = thinned(samples, max_samples);
     std::vector<float> values;
     head["samples"] = kept.size();
     head["all_samples"] = samples;

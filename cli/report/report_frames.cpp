@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_frames = 60, least_frames = 12;
+constexpr std::size_t max_frames = 60, min_frames = 12;
 constexpr std::size_t sectors = 12;  // of a particle drawn as a fan
 constexpr std::size_t fine_levels = 4094,
                       coarse_levels = 254;  // of a value between least and greatest
@@ -69,12 +69,12 @@ class Frames {
     if (names.empty()) return;
     last_ = frame_path(names.back());
     choose_fields(true);
-    fans_ = affordable() < std::min(least_frames, all_) && mesh_.cells() > 0;
+    fans_ = affordable() < std::min(min_frames, all_) && mesh_.cells() > 0;
     if (fans_) {
       drawn_ = DrawnMesh::fans(mesh_, sectors);
       choose_fields(false);
     }
-    const auto most = std::clamp<std::size_t>(affordable(), 1, most_frames);
+    const auto most = std::clamp<std::size_t>(affordable(), 1, max_frames);
     for (const auto i : thinned(all_, most)) frames_.push_back(names[i]);
   }
 

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_cells = 10'000;  // of a frame's map
+constexpr std::size_t max_cells = 10'000;  // of a frame's map
 
 std::size_t groups(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
 
@@ -47,7 +47,7 @@ class Observed {
     const std::vector<double> x = numbers("density_grid/x"), y = numbers("density_grid/y");
     const std::size_t columns = x.size() - 1, rows = y.size() - 1;
     std::size_t merged = 1;
-    while (groups(columns, merged) * groups(rows, merged) > most_cells) ++merged;
+    while (groups(columns, merged) * groups(rows, merged) > max_cells) ++merged;
     const auto profile = numbers("density_profile");
     return {{"cells", rounded(means(numbers("local_density"), columns, merged, merged))},
             {"profile", rounded(means(profile, 1, 1, merged))},

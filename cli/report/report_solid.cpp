@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Face = std::array<std::int32_t, 4>;
 
-constexpr std::size_t most_solid_frames = 60;
+constexpr std::size_t max_solid_frames = 60;
 constexpr std::array<std::array<std::size_t, 4>, 6> faces_of_cell{
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
@@ -92,7 +92,7 @@ void add_solid(const hdf5::File& file, Json& head, std::vector<ReportSection>& s
   head["solid"] = {{"nodes", reference.size() / 3}, {"cells", part.size()}};
   head["all_frames"] = names.size();
   head["frames"] = Json::array();
-  for (const auto i : thinned(names.size(), most_solid_frames)) {
+  for (const auto i : thinned(names.size(), max_solid_frames)) {
     const std::string frame = "/frames/" + names[i];
     const auto section = "frame-" + std::to_string(head["frames"].size()) + "-displacement";
     sections.push_back({section, encoded(of_surface(file.read_doubles(frame + "/position"), 1))});

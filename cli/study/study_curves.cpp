@@ -8,7 +8,7 @@
 namespace pulvis {
 namespace {
 
-constexpr std::size_t most_points = 1000;  // of a single run's curve
+constexpr std::size_t max_points = 1000;  // of a single run's curve
 constexpr std::size_t mean_points = 300;
 
 struct Curve {
@@ -19,7 +19,7 @@ Curve curve_of(const StudyResult& result, const StudyCurve& wanted) {
   const std::vector<double>& x = result.series(wanted.x);
   const std::vector<double>& y = result.series(wanted.y);
   Curve curve;
-  const std::size_t count = std::min(x.size(), y.size()), step = 1 + count / most_points;
+  const std::size_t count = std::min(x.size(), y.size()), step = 1 + count / max_points;
   for (std::size_t i = 0; i < count; ++i) {
     const bool kept = i % step == 0 || i + 1 == count;
     if (!kept || !std::isfinite(x[i]) || !std::isfinite(y[i])) continue;

@@ -92,7 +92,7 @@ hdf5::File verified(const fs::path& path) {
 }
 
 std::string column_name(const ColumnBase& column) {
-  return "/columns/" + column.place + "/" + column.info.name;
+  return "/columns/" + column.entity + "/" + column.info.name;
 }
 
 // Calls take(name, bytes) for all that a world has to keep.
@@ -132,16 +132,16 @@ template <class State>
 void write_state(const fs::path& folder, const CheckpointInfo& info, const State& world,
                  const StateParts& run) {
   const fs::path path = folder / fmt::format("checkpoint-{:012}.h5", info.step);
-  const fs::path beside = path.string() + ".new";
+  const fs::path temporary = path.string() + ".new";
   std::error_code ignored;
   require_own_or_none(path, role::run);
-  require_own_or_none(beside, role::run);
+  require_own_or_none(temporary, role::run);
   try {
-    write_content(beside, info, world, run);
-    sign(beside);
-    if (rename(beside.c_str(), path.c_str()) != 0) fail(path, "put the checkpoint in its place");
+    write_content(temporary, info, world, run);
+    sign(temporary);
+    if (rename(temporary.c_str(), path.c_str()) != 0) fail(path, "put the checkpoint in its place");
   } catch (...) {
-    fs::remove(beside, ignored);
+    fs::remove(temporary, ignored);
     throw;
   }
   sync_folder(folder);

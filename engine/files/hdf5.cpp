@@ -27,7 +27,7 @@ constexpr hid_t error_stack = H5E_DEFAULT;
 constexpr std::size_t variable_length = H5T_VARIABLE;
 #pragma GCC diagnostic pop
 
-constexpr std::uint64_t most_chunk_rows = 65536;
+constexpr std::uint64_t max_chunk_rows = 65536;
 constexpr std::uint64_t superblock_bytes = 96;  // of the default file version
 // Room for the links and attributes of "/" in its first page (2.5 kB; a run needs 0.9).
 constexpr unsigned root_links = 60;
@@ -98,7 +98,7 @@ Handle with_groups_on_the_way() {
 Handle packed_in_chunks(const Shape& shape) {
   Handle properties(H5Pcreate(H5P_DATASET_CREATE));
   std::vector<hsize_t> chunk(shape.begin(), shape.end());
-  for (auto& extent : chunk) extent = std::min<hsize_t>(extent, most_chunk_rows);
+  for (auto& extent : chunk) extent = std::min<hsize_t>(extent, max_chunk_rows);
   H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
   H5Pset_shuffle(properties.get());
   H5Pset_deflate(properties.get(), 1);
@@ -254,8 +254,8 @@ void File::write_series(const std::string& dataset, const std::string& old, std:
   const Handle made(checked(H5Dcreate2(handle_.get(), dataset.c_str(), H5T_NATIVE_DOUBLE,
                                        space.get(), links.get(), defaults, defaults),
                             "make", dataset));
-  for (std::uint64_t at = 0; at < kept; at += most_chunk_rows) {
-    const std::uint64_t count = std::min(most_chunk_rows, kept - at);
+  for (std::uint64_t at = 0; at < kept; at += max_chunk_rows) {
+    const std::uint64_t count = std::min(max_chunk_rows, kept - at);
     write_rows(made.get(), dataset, at, read_rows(old, at, count));
   }
   write_rows(made.get(), dataset, kept, values);

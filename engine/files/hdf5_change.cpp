@@ -9,7 +9,7 @@
 namespace pulvis::hdf5 {
 namespace {
 
-constexpr std::size_t least_cache_bytes = 1024;
+constexpr std::size_t min_cache_bytes = 1024;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void File::begin_change() {
   checked(H5Fget_mdc_config(handle_.get(), &usual), "prepare", "the file");
   H5AC_cache_config_t small = usual;
   small.set_initial_size = true;
-  small.initial_size = small.min_size = small.max_size = least_cache_bytes;
+  small.initial_size = small.min_size = small.max_size = min_cache_bytes;
   small.incr_mode = H5C_incr__off;
   small.flash_incr_mode = H5C_flash_incr__off;
   small.decr_mode = H5C_decr__off;

@@ -31,7 +31,7 @@ herr_t fail(const std::system_error& error) {
            std::strerror(error.code().value()));
   return -1;
 }
-constexpr haddr_t most_addresses = (haddr_t{1} << 62U) - 1;
+constexpr haddr_t max_addresses = (haddr_t{1} << 62U) - 1;
 #pragma GCC diagnostic pop
 
 template <class Action>
@@ -126,7 +126,7 @@ herr_t truncate(H5FD_t* file, hid_t, hbool_t) {
 H5FD_class_t description() {
   H5FD_class_t driver{};
   driver.name = "pulvis_journal";
-  driver.maxaddr = most_addresses;
+  driver.maxaddr = max_addresses;
   driver.fc_degree = H5F_CLOSE_WEAK;
   driver.open = open_file;
   driver.close = close_file;

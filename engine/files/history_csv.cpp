@@ -45,7 +45,7 @@ void HistoryCsv::require_name() const {
   const bool there = stat(path_.c_str(), &named) == 0;
   if (there && own.st_dev == named.st_dev && own.st_ino == named.st_ino) return;
   throw OutputError(path_, "go on with the file",
-                    there ? "another file took its place" : "it was deleted during the run");
+                    there ? "another file took its place" : "it is no longer there");
 }
 
 void HistoryCsv::close() {

@@ -44,7 +44,7 @@ std::string size_text(std::size_t bytes) {
 void require_regular_file(const std::filesystem::path& path) { opened(path); }
 
 // Sizes that file systems tell are not believed: some files of /proc have none and never end.
-std::string text_of_input(const std::filesystem::path& path, std::size_t most_bytes) {
+std::string text_of_input(const std::filesystem::path& path, std::size_t max_bytes) {
   const FileDescriptor file = opened(path);
   std::string text;
   for (std::size_t filled = 0;;) {
@@ -53,7 +53,7 @@ std::string text_of_input(const std::filesystem::path& path, std::size_t most_by
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw UnfitInput(std::string("cannot be read: ") + std::strerror(errno));
     filled += static_cast<std::size_t>(got);
-    if (filled > most_bytes) throw UnfitInput("is larger than " + size_text(most_bytes));
+    if (filled > max_bytes) throw UnfitInput("is larger than " + size_text(max_bytes));
     if (got > 0) continue;
     text.resize(filled);
     return text;

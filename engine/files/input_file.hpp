@@ -17,6 +17,6 @@ class UnfitInput : public std::runtime_error {
 
 void require_regular_file(
     const std::filesystem::path& path);  // for libraries that open it themselves
-std::string text_of_input(const std::filesystem::path& path, std::size_t most_bytes);
+std::string text_of_input(const std::filesystem::path& path, std::size_t max_bytes);
 
 }  // namespace pulvis

@@ -9,8 +9,8 @@
 namespace pulvis {
 namespace {
 
-constexpr double least_slenderness = 3;  // squat bodies hardly bend
-constexpr double most_error = 0.1;       // more is told
+constexpr double min_slenderness = 3;  // squat bodies hardly bend
+constexpr double max_error = 0.1;      // more is told
 constexpr double good_error = 0.02;
 
 struct Rows {
@@ -23,7 +23,7 @@ std::optional<Rows> rows_of(const ParticleSpec& particle) {
     const auto& mesh = std::get<RectangleMesh>(particle.mesh);
     const double length = std::max(bar->width, bar->height);
     const double height = std::min(bar->width, bar->height);
-    if (length < least_slenderness * height) return std::nullopt;
+    if (length < min_slenderness * height) return std::nullopt;
     const bool upright = bar->height > bar->width;
     const int along = upright ? mesh.rows : mesh.columns;
     const int across = upright ? mesh.columns : mesh.rows;
@@ -55,7 +55,7 @@ std::vector<std::string> bending_warnings(const Scene& scene) {
   std::vector<std::string> lines;
   for (const ParticleSpec& particle : scene.particles) {
     const double error = bending_error(scene, particle).value_or(0);
-    if (std::abs(error) <= most_error) continue;
+    if (std::abs(error) <= max_error) continue;
     lines.push_back(fmt::format(
         "the elements of particle '{}' bend with a stiffness that is off by {:+.0f}%: "
         "element.formulation = \"one-point\" is right with any number of rows, here {:.0f} times "

@@ -20,12 +20,12 @@
 namespace pulvis {
 namespace {
 
-constexpr std::int64_t most_particles = 1'000'000;
-constexpr std::int64_t most_quads_a_particle = 1'000'000;
-constexpr int most_edges_without_rings = 20;
-constexpr int least_edges_of_a_ring = 8;
-constexpr double least_sine = 0.2;                // of an element's corners: 12 degrees
-constexpr std::int64_t most_quads = 200'000'000;  // at 600 bytes each: 120 GB
+constexpr std::int64_t max_particles = 1'000'000;
+constexpr std::int64_t max_quads_a_particle = 1'000'000;
+constexpr int max_edges_without_rings = 20;
+constexpr int min_edges_of_a_ring = 8;
+constexpr double min_sine = 0.2;                 // of an element's corners: 12 degrees
+constexpr std::int64_t max_quads = 200'000'000;  // at 600 bytes each: 120 GB
 
 class Checks {
  public:
@@ -114,7 +114,7 @@ class Checks {
     if (!particle.mesh_size) return true;
     for (const char* count : {"boundary_edges", "rings", "columns", "rows"})
       if (const auto found = origins_.find(path + "mesh." + count); found != origins_.end()) {
-        refuse(found->first, "has no effect beside size, allowed: either of them");
+        refuse(found->first, "has no effect together with size, allowed: either of them");
         return false;
       }
     return true;
@@ -134,12 +134,12 @@ class Checks {
         refuse(path + "mesh.refinement", "a refined outline needs an even core, allowed: 1");
       return;
     }
-    if (mesh.rings == 0 && mesh.boundary_edges > most_edges_without_rings)
+    if (mesh.rings == 0 && mesh.boundary_edges > max_edges_without_rings)
       refuse(
           path + "mesh.rings",
           fmt::format("{} boundary edges without a ring make elements with a corner of nearly 180 "
                       "degrees, allowed: 0 with at most {} boundary edges, otherwise >= 1",
-                      mesh.boundary_edges, most_edges_without_rings));
+                      mesh.boundary_edges, max_edges_without_rings));
   }
   void check(const std::string&, const RectangleOutline&, const MeshSpec&) {}
   void check(const std::string& path, const RoundedRectangleOutline& outline,
@@ -154,7 +154,7 @@ class Checks {
              fmt::format("{:g} m is more than half of the shorter side, allowed: <= {:g} m",
                          outline.radius, most));
     } else if (mesh.boundary_edges < 4096 &&
-               share_edges(outline, mesh.boundary_edges).growth > most_edge_growth) {
+               share_edges(outline, mesh.boundary_edges).growth > max_edge_growth) {
       refuse(path + "mesh.boundary_edges",
              fmt::format("{} edges are too few for corners this sharp, neighbours would differ too "
                          "much in length, allowed: >= {}",
@@ -165,9 +165,9 @@ class Checks {
     if (outline.hole >= outline.diameter)
       refuse(path + "hole", fmt::format("{:g} m leaves no wall, allowed: < {:g} m", outline.hole,
                                         outline.diameter));
-    if (std::get<RingMesh>(spec).boundary_edges < least_edges_of_a_ring)
+    if (std::get<RingMesh>(spec).boundary_edges < min_edges_of_a_ring)
       refuse(path + "mesh.boundary_edges",
-             fmt::format("a ring needs more, allowed: >= {}", least_edges_of_a_ring));
+             fmt::format("a ring needs more, allowed: >= {}", min_edges_of_a_ring));
     if (std::get<RingMesh>(spec).rings == 0)
       refuse(path + "mesh.rings", "a ring is made of rings, allowed: >= 1");
   }
@@ -184,13 +184,13 @@ class Checks {
              fmt::format("{} edges are too few for an outline that turns this sharply, allowed: >= "
                          "{}",
                          mesh.boundary_edges, fewest));
-    } else if (quads(spec) <= most_quads_a_particle) {
-      const double sine = least_corner_sine(make_shape({"", 0, outline, mesh, false, 0, {}}));
-      if (!(sine >= least_sine))
+    } else if (quads(spec) <= max_quads_a_particle) {
+      const double sine = min_corner_sine(make_shape({"", 0, outline, mesh, false, 0, {}}));
+      if (!(sine >= min_sine))
         refuse(path + "mesh",
                fmt::format("the worst corner of the mesh has a sine of {:.2g}, allowed: >= {:g}; "
                            "more edges, more rounding or a less slender outline help",
-                           sine, least_sine));
+                           sine, min_sine));
     }
   }
 
@@ -225,10 +225,10 @@ class Checks {
 
   void counts() {
     for (std::size_t i = 0; i < scene_.particles.size(); ++i)
-      if (quads(scene_.particles[i].mesh) > most_quads_a_particle)
+      if (quads(scene_.particles[i].mesh) > max_quads_a_particle)
         refuse(fmt::format("particle[{}].mesh", i),
                fmt::format("the mesh has {} quads, allowed: at most {}",
-                           quads(scene_.particles[i].mesh), most_quads_a_particle));
+                           quads(scene_.particles[i].mesh), max_quads_a_particle));
     std::int64_t particles = static_cast<std::int64_t>(scene_.bodies.size());
     std::int64_t total = 0;
     for (const BodySpec& body : scene_.bodies) total += quads_of(body.particle);
@@ -236,17 +236,17 @@ class Checks {
       const std::string path = fmt::format("packing[{}]", i);
       if (!is_lattice(scene_.packings[i])) continue;
       particles += particle_count(scene_.packings[i]);
-      if (particles > most_particles) {
+      if (particles > max_particles) {
         refuse(path, fmt::format("the scene has {} particles up to here, allowed: at most {}",
-                                 particles, most_particles));
+                                 particles, max_particles));
         return;  // the product below could overflow
       }
       total += particle_count(scene_.packings[i]) * quads_of(scene_.packings[i].particle);
     }
-    if (total > most_quads)
+    if (total > max_quads)
       problems_.add(
           {{1, 1}, -1}, "particle",
-          fmt::format("all meshes together have {} quads, allowed: at most {}", total, most_quads));
+          fmt::format("all meshes together have {} quads, allowed: at most {}", total, max_quads));
   }
 
   void packings() {

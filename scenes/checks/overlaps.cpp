@@ -32,7 +32,7 @@ using Object = fcl::CollisionObject<double>;
 using Geometry = std::shared_ptr<fcl::CollisionGeometry<double>>;
 using Pose = fcl::Transform3<double>;
 
-constexpr std::size_t most_reports = 20;  // a packing that is too dense overlaps everywhere
+constexpr std::size_t max_reports = 20;  // a packing that is too dense overlaps everywhere
 
 struct Overlap {
   std::size_t particle;
@@ -223,9 +223,9 @@ class Report {
 
  private:
   void add(const Overlap& overlap, const std::string& message) {
-    if (problems_.size() > most_reports) return;
+    if (problems_.size() > max_reports) return;
     const BodySpec& body = bodies_[overlap.particle];
-    const bool last = problems_.size() == most_reports;
+    const bool last = problems_.size() == max_reports;
     problems_.push_back({scene_.file_of(body.mark).string(), body.mark.line, body.mark.column, "",
                          last ? "scene" : key_of(body),
                          last ? "there are more overlaps, not listed" : message});

@@ -189,10 +189,11 @@ Key<MixtureClass> size_key(const char* name, double SizeLaw::*member, Words laws
       [member](MixtureClass& mixed, const Decoded& value) { mixed.size.*member = value.number; }};
 }
 
-Key<MixtureClass> limit_key(const char* name, std::optional<double> SizeLaw::*member,
-                            const char* doc) {
+Key<MixtureClass> limit_key(const char* name, const char* formerly,
+                            std::optional<double> SizeLaw::*member, const char* doc) {
   return {
       {.name = name,
+       .formerly = formerly,
        .kind = Kind::quantity,
        .unit = "m",
        .range = within(smallest_size, largest_size),
@@ -208,13 +209,13 @@ Key<MixtureClass> distribution_key() {
       {.name = "distribution",
        .kind = Kind::choice,
        .choices = {{"mono", "all as the class says"},
-                   {"uniform", "all sizes from `least` to `largest` alike"},
-                   {"normal", "cut off at `least` and `largest`"},
-                   {"lognormal", "cut off at `least` and `largest`"},
+                   {"uniform", "all sizes from `minimum` to `maximum` alike"},
+                   {"normal", "cut off at `minimum` and `maximum`"},
+                   {"lognormal", "cut off at `minimum` and `maximum`"},
                    {"sieve", "what passes each sieve, by area, from a file"}},
        .fallback = value_of("mono"),
        .doc = "Law of the sizes: by number of particles, \"sieve\" by their area. The size of a "
-              "particle is the least width of its outline, which a sieve lets through: of a "
+              "particle is the smallest width of its outline, which a sieve lets through: of a "
               "disc its diameter, of a rectangle its shorter side. The outline of the class is "
               "scaled to it."},
       [](MixtureClass& mixed, const Decoded& value) {
@@ -228,8 +229,8 @@ std::vector<Key<MixtureClass>> size_keys() {
                    "Mean size, by number, before the law is cut off."),
           size_key("deviation", &SizeLaw::deviation, {"normal", "lognormal"},
                    "Standard deviation of the size, before the law is cut off."),
-          limit_key("least", &SizeLaw::least, "No particle is smaller."),
-          limit_key("largest", &SizeLaw::largest, "No particle is larger."),
+          limit_key("minimum", "least", &SizeLaw::minimum, "No particle is smaller."),
+          limit_key("maximum", "largest", &SizeLaw::maximum, "No particle is larger."),
           {{.name = "file",
             .kind = Kind::file,
             .required = true,

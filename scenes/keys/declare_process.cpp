@@ -86,7 +86,7 @@ const TableDeclaration<MoveSpec>& move() {
          .unit = "m",
          .range = within(-largest_size, largest_size),
          .required = true,
-         .doc = "Way travelled over the stage."},
+         .doc = "Displacement over the stage."},
         to(&MoveSpec::displacement)},
        {{.name = "ramp",
          .kind = Kind::number,
@@ -127,9 +127,9 @@ const TableDeclaration<FrictionSpec>& friction() {
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .needs = "static_coefficient",
-         .doc =
-             "Sliding way in which what the static coefficient is above the dynamic one falls to "
-             "1/e.",
+         .doc = "Sliding distance in which what the static coefficient is above the dynamic one "
+                "falls to "
+                "1/e.",
          .fallback_doc = "required with `static_coefficient`"},
         to(&FrictionSpec::decay_length)},
        {{.name = "shear_strength",

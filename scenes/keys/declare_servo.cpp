@@ -20,7 +20,7 @@ std::vector<Key<ServoSpec>> aims() {
            to(&ServoSpec::force)},
           {{.name = "direction",
             .kind = Kind::direction,
-            .doc = "The way it pushes.",
+            .doc = "The direction in which it pushes.",
             .fallback_doc = "a plane's normal; required of polylines"},
            [](ServoSpec& spec, const Decoded& value) { spec.direction = value.vector; }}};
 }
@@ -50,13 +50,14 @@ std::vector<Key<ServoSpec>> manners() {
                "powder: less holds the force more tightly, more is calmer. What touches the tool "
                "may ask for more."},
        to(&ServoSpec::response)},
-      {{.name = "fastest",
+      {{.name = "max_speed",
+        .formerly = "fastest",
         .kind = Kind::quantity,
         .unit = "m/s",
         .range = within(1e-9, 1e4),
         .fallback = value_of("10 m/s"),
         .doc = "Speed that the servo does not pass, whatever force is missing."},
-       to(&ServoSpec::fastest)},
+       to(&ServoSpec::max_speed)},
       {{.name = "tolerance",
         .kind = Kind::number,
         .range = above(0, 1e9),
@@ -72,7 +73,8 @@ const TableDeclaration<ServoSpec>& servo() {
   static const TableDeclaration<ServoSpec> declaration = [] {
     TableDeclaration<ServoSpec> made{
         {"stage.servo", true, "",
-         "A tool that holds a force during the stage above it, whatever way that takes. In the "
+         "A tool that holds a force during the stage above it, whatever displacement that takes. "
+         "In the "
          "stage after it, it stands where it was left, unless that has a servo for it too."},
         aims()};
     for (const auto& key : manners()) made.keys.push_back(key);
@@ -91,7 +93,7 @@ const TableDeclaration<UntilSpec>& until() {
       {{{.name = "tool",
          .kind = Kind::reference,
          .refers_to = "tool",
-         .doc = "Whose force or way it is.",
+         .doc = "Whose force or displacement it is.",
          .fallback_doc = "required with `force` and `displacement`"},
         [](UntilSpec& spec, const Decoded& value) { spec.tool = value.index; }},
        {{.name = "force",

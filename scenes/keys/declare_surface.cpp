@@ -55,7 +55,7 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
         .range = within(0.01, 100),
         .required = true,
         .only_for = {"bump", "step"},
-        .doc = "Of the flanks: rise over way."},
+        .doc = "Of the flanks: rise over run."},
        to(&TargetSpec::slope)},
       {{.name = "plateau",
         .kind = Kind::quantity,
@@ -194,7 +194,7 @@ const TableDeclaration<ActionSpec>& action() {
          .choices = {{"lateral", "along y, across the lever"}, {"along", "along x"}},
          .fallback = value_of("lateral"),
          .only_for = {"scan", "raster"},
-         .doc = "Of the probe's way over the surface; of a raster: of its lines."},
+         .doc = "Of the probe's path over the surface; of a raster: of its lines."},
         [](ActionSpec& a, const Decoded& value) {
           a.direction = static_cast<TargetSpec::Direction>(value.index);
         }},
@@ -217,8 +217,8 @@ const TableDeclaration<ActionSpec>& action() {
          .kind = Kind::integer,
          .range = within(1, 100000),
          .fallback = value_of(20),
-         .doc =
-             "Steps of the way (of each way of a scan that returns); pixels of a raster's line."},
+         .doc = "Steps of the scan (of each direction of one that returns); pixels of a raster's "
+                "line."},
         integer_to(&ActionSpec::increments)},
        length_key("width", "raster", "Of the area, square to its lines.", &ActionSpec::width),
        {{.name = "lines",

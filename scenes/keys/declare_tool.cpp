@@ -1,4 +1,4 @@
-// Declaration of the tools: planes and polylines that particles touch, grips that hold nodes.
+// Declaration of the tools: planes and polylines that particles touch, constraints that hold nodes.
 #include "scenes/keys/declare_profile.hpp"
 
 namespace pulvis::schema {
@@ -34,15 +34,15 @@ Key<ToolSpec> rounding_key() {
 Key<ToolSpec> holds_key() {
   return {{.name = "holds",
            .kind = Kind::choice,
-           .choices = {{"x", "nodes move with the grip in x, freely in y"},
-                       {"y", "nodes move with the grip in y, freely in x"},
-                       {"both", "nodes move with the grip"},
+           .choices = {{"x", "nodes move with the constraint in x, freely in y"},
+                       {"y", "nodes move with the constraint in y, freely in x"},
+                       {"both", "nodes move with the constraint"},
                        {"radial",
                         "nodes move away from `point` by the first component of the "
-                        "displacement, freely across; the grip's force_x is the sum of the "
+                        "displacement, freely across; the constraint's force_x is the sum of the "
                         "radial forces"}},
            .required = true,
-           .only_for = "grip",
+           .only_for = "constraint",
            .doc = "The direction in which nodes are held."},
           [](ToolSpec& spec, const Decoded& value) {
             spec.holds = static_cast<ToolSpec::Holds>(value.index);
@@ -54,7 +54,7 @@ Key<ToolSpec> corner_key(const char* name, Vec2 ToolSpec::*member, const char* d
            .kind = Kind::vector,
            .unit = "m",
            .range = within(-largest_size, largest_size),
-           .only_for = "grip",
+           .only_for = "constraint",
            .doc = doc,
            .fallback_doc = "required, unless there is a `radius`"},
           to(member)};
@@ -65,7 +65,7 @@ Key<ToolSpec> radius_key() {
            .kind = Kind::quantity,
            .unit = "m",
            .range = within(smallest_size, largest_size),
-           .only_for = "grip",
+           .only_for = "constraint",
            .doc = "Instead of the box: nodes no farther from `point` than this, before the run. "
                   "The nodes of a hole lie a little outside of its circle, as their polygon has "
                   "its area.",
@@ -78,7 +78,7 @@ Key<ToolSpec> body_key() {
            .kind = Kind::integer,
            .range = within(0, 1e6),
            .fallback = value_of(0),
-           .only_for = "grip",
+           .only_for = "constraint",
            .doc = "Number of the particle whose nodes are held, in the order of the file, from 0."},
           integer_to(&ToolSpec::body)};
 }
@@ -92,11 +92,14 @@ std::vector<Key<ToolSpec>> place_keys() {
        to(&ToolSpec::name)},
       {{.name = "shape",
         .kind = Kind::choice,
-        .choices = {{"plane", "fills the half-plane behind its surface"},
-                    {"polyline", "fills what lies to the right of a chain of points"},
-                    {"grip",
-                     "holds the nodes of one particle in a box or a circle; nothing touches it"},
-                    {"profile", "a target surface: fills what lies below a relief along x"}},
+        .choices =
+            {{"plane", "fills the half-plane behind its surface"},
+             {"polyline", "fills what lies to the right of a chain of points"},
+             {"constraint",
+              "prescribes the displacement of the nodes of one particle in a box or a circle; "
+              "nothing touches it",
+              "grip"},
+             {"profile", "a target surface: fills what lies below a relief along x"}},
         .required = true,
         .doc = "What it is."},
        [](ToolSpec& spec, const Decoded& value) {
@@ -108,7 +111,8 @@ std::vector<Key<ToolSpec>> place_keys() {
         .range = within(-largest_size, largest_size),
         .choices = {{"packing top",
                      "the height at which a punch rests on the packing; of several the highest"}},
-        .doc = "A point of a plane's surface, a crest of a profile, or the centre of a grip with "
+        .doc = "A point of a plane's surface, a crest of a profile, or the centre of a constraint "
+               "with "
                "holds = \"radial\" or a `radius`.",
         .fallback_doc = "required of those, refused elsewhere"},
        [](ToolSpec& spec, const Decoded& value) {
@@ -144,8 +148,9 @@ TableDeclaration<ToolSpec> declared() {
   table.info.repeated = true;
   table.info.selector = "shape";
   table.info.doc =
-      "A rigid punch, wall or surface, or a grip: supports, planes of symmetry and prescribed "
-      "displacements are grips. Without a move a tool stands still.";
+      "A rigid punch, wall or surface, or a constraint: supports, planes of symmetry and "
+      "prescribed "
+      "displacements are constraints. Without a move a tool stands still.";
   table.keys = keys();
   return table;
 }

@@ -119,6 +119,8 @@ int choice(const KeyInfo& key, const Value& value) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < key.choices.size(); ++i) {
     if (key.choices[i].word == given) return static_cast<int>(i);
+    if (!given.empty() && key.choices[i].formerly == given)
+      refuse(key, value, fmt::format("'{}' is called '{}' now", given, key.choices[i].word));
     words.push_back(key.choices[i].word);
   }
   refuse(key, value,

@@ -19,7 +19,7 @@ using document::Entry;
 using document::Table;
 using document::Value;
 
-constexpr std::size_t most_files = 8;  // in one chain; two or three are readable
+constexpr std::size_t max_files = 8;  // in one chain; two or three are readable
 
 void stamp(Value& value, int file);
 
@@ -170,9 +170,9 @@ class Chain {
       refuse(given.origin, "extends",
              fmt::format("{} extends itself by way of this file, allowed: a file that does not",
                          base.string()));
-    if (files_.size() >= most_files)
+    if (files_.size() >= max_files)
       refuse(given.origin, "extends",
-             fmt::format("a chain of more than {} files, allowed: at most as many", most_files));
+             fmt::format("a chain of more than {} files, allowed: at most as many", max_files));
     try {
       std::string text = text_of_input(base, document::largest_file);
       problems_.add_file(base);

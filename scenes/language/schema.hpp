@@ -51,6 +51,7 @@ struct Range {
 struct Choice {
   std::string word;
   std::string doc;
+  std::string formerly = {};  // its word in older scenes
 };
 
 // Values of a selector: one word, or several in braces.
@@ -71,6 +72,7 @@ inline const Words compaction_only{"compaction"}, afm_only{"afm"},
 
 struct KeyInfo {
   std::string name = {};
+  std::string formerly = {};  // its name in older scenes, which is refused with the new one
   Kind kind = Kind::text;
   std::string unit = {};             // SI, of quantities
   Range range = {};                  // of quantities in the SI unit, of vectors for each component

@@ -93,6 +93,12 @@ void TableReader::refuse_unknown(const document::Entry& entry, const TableView& 
     return;
   }
   if (std::find(words.begin(), words.end(), entry.key) != words.end()) return;
+  const auto renamed = std::ranges::find(view.keys, entry.key, &KeyInfo::formerly);
+  if (renamed != view.keys.end()) {
+    problems_.add(entry.origin, joined_path(path_, entry.key),
+                  fmt::format("is called '{0}' now, allowed: {0}", renamed->name));
+    return;
+  }
   const bool is_table =
       entry.value.as<document::Table>() != nullptr || document::is_array_of_tables(entry.value);
   problems_.add(entry.origin, joined_path(path_, entry.key),
@@ -104,7 +110,9 @@ std::optional<Decoded> TableReader::value_of(const KeyInfo& key) {
   const auto& keys = table_->get<document::Table>();
   const document::Entry* entry = document::find(keys, key.name);
   const bool meant = applies(key, keys, selected_);
-  if (entry == nullptr && meant && is_required(key, selected_)) missing(key);
+  if (entry == nullptr && meant && is_required(key, selected_) &&
+      (key.formerly.empty() || document::find(keys, key.formerly) == nullptr))
+    missing(key);
   if (entry != nullptr && !meant) without_effect(key, *entry);
   if (entry == nullptr || !meant) return std::nullopt;
   const std::string path = joined_path(path_, key.name);

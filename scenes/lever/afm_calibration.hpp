@@ -25,7 +25,7 @@ struct Calibration {
   double arm = 0;                              // m, h: from the middle plane to the tip's end
   double normal_stiffness = 0, lateral_stiffness = 0, longitudinal_stiffness = 0;  // N/m
   double torsional_stiffness = 0;  // N m/rad, of the foot, by the lateral force's moment about it
-  // -, of the end's lateral displacement: the lever bends, the foot twists, the tip itself gives way.
+  // -, of the end's lateral displacement: the lever bends, the foot twists, the tip itself is compliant.
   double bending_share = 0, twist_share = 0, tip_share = 0;
   double normal_invols = 0, lateral_invols = 0;  // m/V, tip displacement by detector signal
   double imbalance = 0;                          // -, |clamp force + applied| over the applied

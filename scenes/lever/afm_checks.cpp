@@ -215,16 +215,16 @@ class AfmChecks {
                                          bytes_text(static_cast<std::uint64_t>(size.bytes())));
     const std::string limit =
         fmt::format("{:g} elements and {:.3g} numbers in the factors of their stiffness",
-                    most_solid_elements, most_solid_factors);
+                    max_solid_elements, max_solid_factors);
     if (tip_size(afm).factors >= lever_size(afm).factors && tip_.shape != Shape::mesh)
       refuse("tip.elements", fmt::format("{}: {}, allowed: at most {}, which keeps within {}",
-                                         tip_.elements, what, most_tip_elements(), limit));
+                                         tip_.elements, what, max_tip_elements(), limit));
     else
       refuse(size_key(), fmt::format("{}, allowed: at most {}", what, limit));
     return false;
   }
 
-  int most_tip_elements() const {
+  int max_tip_elements() const {
     AfmScene afm = *scene_.afm;
     while (afm.tip.elements > 2 && is_too_large(afm_size(afm))) afm.tip.elements -= 2;
     return afm.tip.elements;
@@ -319,8 +319,9 @@ class AfmChecks {
     const TargetSpec& target = *scene_.afm->target;
     const std::size_t corners = profile_corners(target, reach_of(*scene_.afm));
     if (corners > most)
-      refuse("surface.wavelength", fmt::format("{:g} m: {} facets on the way, allowed: {} at most",
-                                               target.wavelength, corners, most));
+      refuse("surface.wavelength",
+             fmt::format("{:g} m: {} facets on the way, allowed: {} at most",
+                         target.wavelength, corners, most));
   }
 
   // Where the probe's end comes to on the map, its own deflection left aside.
@@ -333,12 +334,12 @@ class AfmChecks {
       if (!raster && action.kind != ActionSpec::Kind::scan) continue;
       const bool fast = action.direction == direction;
       if (!fast && !raster) continue;
-      const double way = fast ? action.distance : action.width;
-      if (std::abs(at + way) > bound)
+      const double distance = fast ? action.distance : action.width;
+      if (std::abs(at + distance) > bound)
         refuse(fmt::format("action[{}].{}", i, fast ? "distance" : "width"),
                fmt::format("the scan leaves the map: it comes to {:g} m, allowed: {:g} to {:g} m",
-                           at + way, -bound, bound));
-      if (raster ? !fast : !action.back) at += way;
+                           at + distance, -bound, bound));
+      if (raster ? !fast : !action.back) at += distance;
     }
   }
 

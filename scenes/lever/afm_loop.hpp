@@ -32,7 +32,7 @@ struct FrictionLoop {
   // -, of the touching points, how many slide where the means are taken. Below 1 the scan was too short for the
   // probe to let go: W is not that of friction, and nothing is recovered from it.
   double slides = 0;
-  // What else W rests on, in the same half of each way: friction has turned from along the lever to along the scan
+  // What else W rests on, in the same half of each traverse: friction has turned from along the lever to along the scan
   // (least of both ways), and the force stands still.
   double turned = 1;  // -, share of friction along the scan; 1 where the surface does not tell it
   double drift = 0;   // -, of the force on a plane, over W
@@ -60,7 +60,7 @@ struct AfmHistory {
 std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
                                                   const std::vector<FrictionLoop>& loops);
 
-// Of every scan that goes forth and back; means over the last half of each way.
+// Of every scan that goes forth and back; means over the last half of each traverse.
 std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& history);
 
 }  // namespace pulvis

@@ -17,8 +17,8 @@
 namespace pulvis {
 namespace {
 
-constexpr int most_halvings = 8;
-constexpr int most_iterations = 400;  // of an increment with its halves
+constexpr int max_halvings = 8;
+constexpr int max_iterations = 400;  // of an increment with its halves
 
 Vec3 on_target(const AfmModel& model, int node) {
   const double* x = model.world->column<ReferencePosition>().values() + 3 * node;
@@ -127,7 +127,7 @@ void add_probe(const Scene& scene, AfmModel& model) {
   add_probe_columns(world, ball ? model.tip.surface.size() : 1);
 }
 
-// The penalties are so stiff against what they press on that they give way by a thousandth of it.
+// The penalties are so stiff against what they press on that they give traverse by a thousandth of it.
 void place_target(const Scene& scene, AfmModel& model, double stiffness) {
   constexpr double stiffer = 1e3;
   World& world = *model.world;
@@ -222,15 +222,15 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   NewtonSettings settings;
   // Factors of a solid that flowed are far too soft for one that unloads.
   settings.reuse_factors = !model_.world->has<SolidYield>();
-  settings.may_jump = depth == most_halvings;
+  settings.may_jump = depth == max_halvings;
   const NewtonReport report = solver_.equilibrate(settings);
   iterations_ += static_cast<int>(report.residuals.size());
   if (report.converged) {
     position_.released += report.released;
-    return solver_.remember();
+    return solver_.commit();
   }
   target.travel = before;
-  if (depth == most_halvings || iterations_ > most_iterations)
+  if (depth == max_halvings || iterations_ > max_iterations)
     throw RunFailure(fmt::format(
         "{}: no equilibrium at {:.4f} of the programme, with the sample at x {:.4g}, y {:.4g}, "
         "z {:.4g} m, after {} halvings of the increment; residual {:.2g} of the forces that must "
@@ -266,7 +266,7 @@ void AfmProgramme::refuse_lock(const std::array<double, 3>& travel) const {
   }
 }
 
-bool AfmProgramme::way(const std::array<double, 3>& travel, int increments, bool servo) {
+bool AfmProgramme::traverse(const std::array<double, 3>& travel, int increments, bool servo) {
   const std::array<double, 3> step{travel[0] / increments, travel[1] / increments,
                                    travel[2] / increments};
   for (int i = 0; i < increments; ++i) {
@@ -284,7 +284,7 @@ bool AfmProgramme::way(const std::array<double, 3>& travel, int increments, bool
 
 bool AfmProgramme::press(const ActionSpec& action, double sign) {
   if (action.force) return press_to_force(action);
-  return way({0, 0, sign * action.distance}, action.increments, false);
+  return traverse({0, 0, sign * action.distance}, action.increments, false);
 }
 
 // The set point rises in even steps.
@@ -305,20 +305,20 @@ bool AfmProgramme::press_to_force(const ActionSpec& action) {
   return true;
 }
 
-// The probe's way over the sample is the sample's way under it, backwards.
+// The probe's traverse over the sample is the sample's traverse under it, backwards.
 bool AfmProgramme::scan(const ActionSpec& action) {
   const bool lateral = action.direction == TargetSpec::Direction::lateral;
   const double d = action.distance;
   const std::array<double, 3> forth{lateral ? 0 : -d, lateral ? -d : 0, 0};
   const std::array<double, 3> back{-forth[0], -forth[1], 0};
   share_ = action.back ? 0.5 : 1;
-  const bool done = way(forth, action.increments, action.servo) &&
-                    (!action.back || way(back, action.increments, action.servo));
+  const bool done = traverse(forth, action.increments, action.servo) &&
+                    (!action.back || traverse(back, action.increments, action.servo));
   share_ = 1;
   return done;
 }
 
-// A pixel is told when the probe leaves it, at its far end on the way forth, at its near end on the way
+// A pixel is told when the probe leaves it, at its far end on the traverse forth, at its near end on the traverse
 // back. Between the lines the probe is drawn along the slow axis.
 bool AfmProgramme::raster(const ActionSpec& action) {
   const bool lateral = action.direction == TargetSpec::Direction::lateral;
@@ -330,8 +330,8 @@ bool AfmProgramme::raster(const ActionSpec& action) {
   share_ = 0.5 / action.lines;
   for (int line = 0; line < action.lines; ++line) {
     if (line > 0 && to_skip_ == 0) advance(aside, action.servo, 0);
-    if (!way(forth, action.increments, action.servo)) return false;
-    if (!way(back, action.increments, action.servo)) return false;
+    if (!traverse(forth, action.increments, action.servo)) return false;
+    if (!traverse(back, action.increments, action.servo)) return false;
   }
   share_ = 1;
   return true;
@@ -370,7 +370,7 @@ bool AfmProgramme::run() {
         break;
       case Kind::hold:
         doing_ = "hold";
-        on = way({0, 0, 0}, action.increments, action.servo);
+        on = traverse({0, 0, 0}, action.increments, action.servo);
         break;
     }
     if (!on) return false;

@@ -52,10 +52,10 @@ class AfmProgramme {
   bool press_to_force(const ActionSpec& action);
   bool scan(const ActionSpec& action);
   bool raster(const ActionSpec& action);
-  bool way(const std::array<double, 3>& travel, int increments, bool servo);
+  bool traverse(const std::array<double, 3>& travel, int increments, bool servo);
   // Moves the target; where no equilibrium is found, in halves.
   void advance(const std::array<double, 3>& travel, bool servo, int depth);
-  // Friction that no force along the way overcomes, since it grows with the force: stops the run.
+  // Friction that no force along the traverse overcomes, since it grows with the force: stops the run.
   void refuse_lock(const std::array<double, 3>& travel) const;
   bool tell();
   bool skip();  // the increment has been made before

@@ -82,7 +82,7 @@ NewtonReport AfmSimulation::load_tip(const Vec3& force, const NewtonSettings& se
   NewtonReport report;
   workers_.run([&] {
     report = solver_->equilibrate(settings);
-    if (report.converged) solver_->remember();
+    if (report.converged) solver_->commit();
   });
   return report;
 }

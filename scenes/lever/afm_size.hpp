@@ -19,10 +19,10 @@ SolidSize tip_size(const AfmScene& afm);
 SolidSize afm_size(const AfmScene& afm);
 
 // What is meshed at most. The factors' numbers are counted by 32 bits.
-inline constexpr double most_solid_elements = 250'000;
-inline constexpr double most_solid_factors = 1.8e9;  // 22 GB
+inline constexpr double max_solid_elements = 250'000;
+inline constexpr double max_solid_factors = 1.8e9;  // 22 GB
 inline bool is_too_large(const SolidSize& size) {
-  return size.elements > most_solid_elements || size.factors > most_solid_factors;
+  return size.elements > max_solid_elements || size.factors > max_solid_factors;
 }
 
 // Throws OutputError where this machine has not got the memory now.

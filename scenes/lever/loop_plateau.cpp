@@ -17,16 +17,16 @@ constexpr double turned_angle = 0.04;  // rad: draws with all but 0.08%
 constexpr double longer = 1.25;        // than the least that the estimate gives
 
 struct Sample {
-  double way;                   // -, share of the way that is done
+  double progress;              // -, share of the half loop that is done
   double along;                 // N, on the probe, along the scan
   double slides;                // -
   double friction, limit;       // N, along the scan in the surface; what it may bear
   std::optional<double> angle;  // rad, between friction and the scan
 };
 
-class Way {
+class HalfLoop {
  public:
-  Way(const Scene& scene, const AfmHistory& history, std::size_t action, bool back)
+  HalfLoop(const Scene& scene, const AfmHistory& history, std::size_t action, bool back)
       : target_(*scene.afm->target),
         action_(scene.afm->actions[action]),
         adhesion_(pull_off_force(scene)),
@@ -34,8 +34,9 @@ class Way {
     constexpr double tolerance = 1e-9;
     const double start = static_cast<double>(action) + (back ? 0.5 : 0);
     for (std::size_t i = 0; i < history.rows.size(); ++i) {
-      const double way = 2 * (history.times[i] - start);
-      if (way > -tolerance && way < 1 + tolerance) samples_.push_back(sample(history, i, way));
+      const double progress = 2 * (history.times[i] - start);
+      if (progress > -tolerance && progress < 1 + tolerance)
+        samples_.push_back(sample(history, i, progress));
     }
   }
 
@@ -45,10 +46,10 @@ class Way {
     int firsts = 0, seconds = 0, angles = 0;
     double cosines = 0;
     for (const Sample& s : samples_) {
-      if (s.way < 0.5) continue;
+      if (s.progress < 0.5) continue;
       p.slides += s.slides;
       if (s.angle) cosines += std::abs(std::cos(*s.angle)), ++angles;
-      if (s.way < 0.75)
+      if (s.progress < 0.75)
         first += s.along, ++firsts;
       else
         second += s.along, ++seconds;
@@ -73,13 +74,13 @@ class Way {
                : Vec3(-std::sin(rise), 0, std::cos(rise));
   }
 
-  Sample sample(const AfmHistory& history, std::size_t i, double way) const {
+  Sample sample(const AfmHistory& history, std::size_t i, double progress) const {
     const Vec3 force(history.value(i, "probe/force_x"), history.value(i, "probe/force_y"),
                      history.value(i, "probe/force_z"));
     const Vec3 n = normal(), scan = lateral_ ? Vec3(Vec3::UnitY()) : Vec3(Vec3::UnitX());
     const Vec3 tangent = force - n.dot(force) * n;
     const Vec3 e = (scan - n.dot(scan) * n).normalized();
-    Sample s{way,
+    Sample s{progress,
              scan.dot(force),
              history.value(i, "contact/slides"),
              tangent.dot(e),
@@ -98,16 +99,16 @@ class Way {
     return s;
   }
 
-  // Share of the way, and more: where friction begins to slide. Till then it rises evenly.
+  // Share of the half loop, and more: where friction begins to slide. Till then it rises evenly.
   double until_it_slides() const {
     constexpr double all = 1 - 1e-3;
     for (const Sample& s : samples_)
-      if (s.slides >= all && s.way > 0) return s.way;
+      if (s.slides >= all && s.progress > 0) return s.progress;
     if (samples_.size() < 2) return 0;
     const Sample& first = samples_.front();
     const Sample& last = samples_.back();
-    const double rate = (last.friction - first.friction) / (last.way - first.way);
-    return rate == 0 ? 0 : last.way + std::abs((last.limit + std::abs(last.friction)) / rate);
+    const double rate = (last.friction - first.friction) / (last.progress - first.progress);
+    return rate == 0 ? 0 : last.progress + std::abs((last.limit + std::abs(last.friction)) / rate);
   }
 
   double until_turned() const {
@@ -117,12 +118,13 @@ class Way {
       if (s.slides > 0 && s.angle && *s.angle > turned_angle) slid.push_back(&s);
     if (slid.empty()) return 0;
     const Sample& last = *slid.back();
-    if (&last != &samples_.back()) return last.way;  // has turned
+    if (&last != &samples_.back()) return last.progress;  // has turned
     // Over the last half of what has slid: the load has settled by then.
     const Sample& first = *slid[slid.size() / 2];
-    const double gone = g(*first.angle) - g(*last.angle);
-    if (!(gone > 0)) return 0;
-    return last.way + (last.way - first.way) * (g(*last.angle) - g(turned_angle)) / gone;
+    const double unwound = g(*first.angle) - g(*last.angle);
+    if (!(unwound > 0)) return 0;
+    return last.progress +
+           (last.progress - first.progress) * (g(*last.angle) - g(turned_angle)) / unwound;
   }
 
   const TargetSpec& target_;
@@ -135,7 +137,7 @@ class Way {
 }  // namespace
 
 Plateau plateau_of(const Scene& scene, const AfmHistory& history, std::size_t action, bool back) {
-  return Way(scene, history, action, back).plateau();
+  return HalfLoop(scene, history, action, back).plateau();
 }
 
 }  // namespace pulvis

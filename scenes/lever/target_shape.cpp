@@ -113,12 +113,12 @@ std::shared_ptr<const TargetShape> from_map(const TargetSpec& t, const Scene& sc
   return std::make_shared<TriangleTarget>(std::move(points), std::move(triangles), t.spacing);
 }
 
-constexpr std::size_t most_heights = 4'000'000;  // 2000 x 2000, 200 MB of triangles
-constexpr std::size_t most_map_bytes = 256U << 20U;
+constexpr std::size_t max_heights = 4'000'000;  // 2000 x 2000, 200 MB of triangles
+constexpr std::size_t max_map_bytes = 256U << 20U;
 
 void refuse_too_many(std::size_t rows, std::size_t columns) {
-  if (columns > 0 && rows > most_heights / columns)
-    throw std::runtime_error(fmt::format("more than {} heights", most_heights));
+  if (columns > 0 && rows > max_heights / columns)
+    throw std::runtime_error(fmt::format("more than {} heights", max_heights));
 }
 
 std::vector<double> numbers_of(const std::string& line, std::size_t number) {
@@ -140,7 +140,7 @@ std::vector<double> numbers_of(const std::string& line, std::size_t number) {
 }
 
 std::vector<std::vector<double>> map_from_text(const std::filesystem::path& file) {
-  std::istringstream stream(text_of_input(file, most_map_bytes));
+  std::istringstream stream(text_of_input(file, max_map_bytes));
   std::vector<std::vector<double>> rows;
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
@@ -193,9 +193,9 @@ double steepest_step(const std::vector<std::vector<double>>& heights) {
 }
 
 double reach_of(const AfmScene& afm) {
-  double way = 0;
-  for (const ActionSpec& action : afm.actions) way += std::abs(action.distance);
-  return 2 * way + 0.1 * afm.lever.length;  // and what the lever may bend
+  double distance = 0;
+  for (const ActionSpec& action : afm.actions) distance += std::abs(action.distance);
+  return 2 * distance + 0.1 * afm.lever.length;  // and what the lever may bend
 }
 
 std::size_t profile_corners(const TargetSpec& t, double reach) {

@@ -25,7 +25,7 @@ std::vector<std::vector<double>> read_height_map(const std::filesystem::path& fi
 std::pair<double, double> height_range(const std::vector<std::vector<double>>& heights);
 double steepest_step(const std::vector<std::vector<double>>& heights);
 
-// Of the profile that make_target() draws: a short wave on a long way has many.
+// Of the profile that make_target() draws: a short wave on a long scan has many.
 std::size_t profile_corners(const TargetSpec& target, double reach);
 
 }  // namespace pulvis

@@ -8,10 +8,10 @@
 namespace pulvis {
 namespace {
 
-constexpr double most_turn = std::numbers::pi / 8;  // of an edge
+constexpr double max_turn = std::numbers::pi / 8;  // of an edge
 // How fast edge lengths grow along the outline: neighbours by 1.35, where there are too few edges for that up
 // to 2.2, as on a rounded rectangle.
-constexpr double usual_growth = 0.3, most_growth = 0.75;
+constexpr double usual_growth = 0.3, max_growth = 0.75;
 constexpr double unlimited = std::numeric_limits<double>::max();
 
 int up_to_multiple_of_4(double edges) {
@@ -61,7 +61,7 @@ class EdgeLengths {
     double low = 0, high = samples_.back().s;
     for (int i = 0; i < 40; ++i) {
       const double h = 0.5 * (low + high);
-      (turned(s + 0.5 * h) - turned(s - 0.5 * h) <= most_turn ? low : high) = h;
+      (turned(s + 0.5 * h) - turned(s - 0.5 * h) <= max_turn ? low : high) = h;
     }
     return low;
   }
@@ -89,7 +89,7 @@ class EdgeLengths {
 std::vector<double> counts_for(const EdgeLengths& lengths, double perimeter, int edges) {
   const bool by_size = lengths.count(unlimited, usual_growth).back() <= edges;
   double fine = by_size ? perimeter / edges : usual_growth;
-  double coarse = by_size ? perimeter : most_growth;
+  double coarse = by_size ? perimeter : max_growth;
   const auto count = [&](double value) {
     return by_size ? lengths.count(value, usual_growth) : lengths.count(unlimited, value);
   };
@@ -174,7 +174,7 @@ BoundaryNodes boundary_nodes(const OutlineCurve& curve, int edges) {
 int fewest_edges(const OutlineCurve& curve) {
   if (curve.sharp())
     return std::max(8, up_to_multiple_of_4(static_cast<double>(side_lengths(curve).size())));
-  return std::max(8, up_to_multiple_of_4(EdgeLengths(curve).count(unlimited, most_growth).back()));
+  return std::max(8, up_to_multiple_of_4(EdgeLengths(curve).count(unlimited, max_growth).back()));
 }
 
 int edges_of_size(const OutlineCurve& curve, double size) {

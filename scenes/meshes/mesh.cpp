@@ -77,7 +77,7 @@ Shape make_shape(const ParticleSpec& particle, double phase) {
   return shape;
 }
 
-double least_corner_sine(const Shape& shape) {
+double min_corner_sine(const Shape& shape) {
   double least = 1;
   for (const auto& q : shape.quads)
     for (std::size_t k = 0; k < 4; ++k) {

@@ -11,7 +11,7 @@ namespace pulvis {
 Shape make_shape(const ParticleSpec& particle, double phase = 0);
 
 // How good the worst element is: least sine of its corner angles, 1 for a rectangle.
-double least_corner_sine(const Shape& shape);
+double min_corner_sine(const Shape& shape);
 
 double shortest_edge(const Shape& shape);  // m, of all elements, undeformed
 

@@ -16,7 +16,7 @@
 namespace pulvis {
 namespace {
 
-constexpr int least_arc_edges = 4;
+constexpr int min_arc_edges = 4;
 
 // Lengths first * ratio, first * ratio^2, ... to the middle, and back.
 std::vector<double> growing(int edges, double first, double ratio) {
@@ -73,7 +73,7 @@ RoundedSides share_edges(const RoundedRectangleOutline& rectangle, int boundary_
                           rectangle.height - 2 * rectangle.radius};
   const double arc = std::numbers::pi / 2 * rectangle.radius;
   const double mean = (2 * flat[0] + 2 * flat[1] + 4 * arc) / boundary_edges;
-  const int on_arc = std::max(least_arc_edges, 2 * static_cast<int>(0.5 * arc / mean));
+  const int on_arc = std::max(min_arc_edges, 2 * static_cast<int>(0.5 * arc / mean));
   RoundedSides best{{}, {}, std::numeric_limits<double>::max()};
   for (int columns = 1; columns < boundary_edges / 2; ++columns) {
     RoundedSides sides{side(flat[0], columns, on_arc, arc / on_arc),
@@ -86,8 +86,8 @@ RoundedSides share_edges(const RoundedRectangleOutline& rectangle, int boundary_
 }
 
 int fewest_edges(const RoundedRectangleOutline& rectangle) {
-  int edges = 4 * least_arc_edges;
-  while (share_edges(rectangle, edges).growth > most_edge_growth) edges += 4;
+  int edges = 4 * min_arc_edges;
+  while (share_edges(rectangle, edges).growth > max_edge_growth) edges += 4;
   return edges;
 }
 

@@ -17,7 +17,7 @@ struct RoundedSides {
 RoundedSides share_edges(const RoundedRectangleOutline& rectangle, int boundary_edges);
 
 // Beyond this growth the curve is no good: a uniform pressure loads a node wrong by some 4%.
-inline constexpr double most_edge_growth = 2.2;
+inline constexpr double max_edge_growth = 2.2;
 
 // The fewest boundary edges whose growth is allowed.
 int fewest_edges(const RoundedRectangleOutline& rectangle);

@@ -13,10 +13,10 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double most_count = 1e6;  // beyond any mesh; refused later
+constexpr double max_count = 1e6;  // beyond any mesh; refused later
 
 int count_of(double ratio) {
-  return static_cast<int>(std::clamp(std::round(ratio), 1.0, most_count));
+  return static_cast<int>(std::clamp(std::round(ratio), 1.0, max_count));
 }
 
 int multiple_of_4(double edges) { return 4 * count_of(edges / 4); }

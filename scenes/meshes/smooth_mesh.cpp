@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t memory = 8;   // pairs of L-BFGS
 constexpr double converged = 1e-9;  // relative change of the mean over an iteration
-constexpr int least_iterations_between_bounds = 30;
+constexpr int min_iterations_between_bounds = 30;
 
 class Quality {
  public:
@@ -35,7 +35,7 @@ class Quality {
   const Eigen::VectorXd& start() const { return x_; }
   double scale() const { return scale_; }
 
-  double least_determinant(const Eigen::VectorXd& x) const {
+  double min_determinant(const Eigen::VectorXd& x) const {
     double least = std::numeric_limits<double>::max();
     for (const Quad& quad : quads_)
       for (std::size_t k = 0; k < 4; ++k) least = std::min(least, determinant(x, quad, k));
@@ -121,10 +121,9 @@ class Lbfgs {
 
 // Nothing to regularise where all corners are well open; at a flat corner (the core's, in the middle of a
 // straight side) the measure is a wall too steep to leave, so that 1/determinant is made gentle there.
-constexpr double open_corner = 1e-3, least_bound = 1e-6;
-double bound_for(double least_determinant) {
-  return least_determinant > open_corner ? least_bound
-                                         : portable::hypot(0.1, 0.2 * least_determinant);
+constexpr double open_corner = 1e-3, min_bound = 1e-6;
+double bound_for(double min_determinant) {
+  return min_determinant > open_corner ? min_bound : portable::hypot(0.1, 0.2 * min_determinant);
 }
 
 struct State {
@@ -151,21 +150,21 @@ bool advance(const Quality& quality, double bound, const Eigen::VectorXd& direct
 }  // namespace
 
 double smooth_mesh(std::vector<Point>& nodes, const std::vector<Quad>& quads, std::size_t fixed,
-                   double size_share, int most_iterations) {
+                   double size_share, int max_iterations) {
   const Quality quality(nodes, quads, fixed, size_share);
   State state{quality.start(), {}, 0};
-  double bound = bound_for(quality.least_determinant(state.x));
+  double bound = bound_for(quality.min_determinant(state.x));
   state.value = quality.value(state.x, bound, state.gradient);
   Lbfgs memory_of;
-  for (int i = 1; i <= most_iterations; ++i) {
+  for (int i = 1; i <= max_iterations; ++i) {
     const State before = state;
     if (!advance(quality, bound, memory_of.direction(state.gradient), state)) break;
     memory_of.learn(state.x - before.x, state.gradient - before.gradient);
     const bool still = before.value - state.value < converged * state.value;
-    const bool folded = bound > least_bound;
+    const bool folded = bound > min_bound;
     if (still && !folded) break;
-    if (!folded || !(still || i % least_iterations_between_bounds == 0)) continue;
-    const double next = bound_for(quality.least_determinant(state.x));
+    if (!folded || !(still || i % min_iterations_between_bounds == 0)) continue;
+    const double next = bound_for(quality.min_determinant(state.x));
     if (still && next == bound) break;  // it cannot be unfolded
     bound = next;
     state.value = quality.value(state.x, bound, state.gradient);

@@ -15,6 +15,6 @@ namespace pulvis {
 //
 // `size_share` of the measure is size, the rest shape.
 double smooth_mesh(std::vector<Point>& nodes, const std::vector<Quad>& quads, std::size_t fixed,
-                   double size_share, int most_iterations);
+                   double size_share, int max_iterations);
 
 }  // namespace pulvis

@@ -23,7 +23,7 @@ std::size_t wrapped(int i, std::size_t n) {
 
 StarGrid grid_of(const std::vector<Point>& boundary, const Point& centre, int rings,
                  const Split& split) {
-  constexpr double core = 0.6;  // of the way outwards, before smoothing
+  constexpr double core = 0.6;  // of the distance outwards, before smoothing
   const int n = static_cast<int>(boundary.size());
   const OGrid grid{split.columns, n / 2 - split.columns, rings};
   std::vector<Point> outline, rim;
@@ -123,8 +123,8 @@ class Search {
       if (line.along_axis) score *= worth_of_an_axis;
     }
     score *= worth[std::min<std::size_t>(kept, 4)];
-    if (score >= least_ * (1 - worth_of_a_change)) return;
-    least_ = score;
+    if (score >= min_ * (1 - worth_of_a_change)) return;
+    min_ = score;
     best_ = split;
   }
   Split best() const { return best_; }
@@ -135,7 +135,7 @@ class Search {
   int rings_, iterations_;
   double share_;
   std::vector<MirrorLine> lines_;
-  double least_ = std::numeric_limits<double>::max();
+  double min_ = std::numeric_limits<double>::max();
   Split best_{0, 1};
 };
 
@@ -175,9 +175,9 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
 }  // namespace
 
 StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings) {
-  constexpr int most_iterations = 2000;
+  constexpr int max_iterations = 2000;
   StarGrid grid = grid_of(boundary, centre, rings, best_split(boundary, centre, rings));
-  smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary), most_iterations);
+  smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary), max_iterations);
   return grid;
 }
 

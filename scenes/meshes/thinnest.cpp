@@ -9,8 +9,8 @@ namespace pulvis {
 namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-constexpr int most_samples = 20000;  // of a chain
-constexpr std::size_t block = 16;    // segments that share a box
+constexpr int max_samples = 20000;  // of a chain
+constexpr std::size_t block = 16;   // segments that share a box
 
 // A convex quad lies between two lines that are at least its area over its diameter apart.
 double width_of(const std::array<Vec2, 4>& corner) {
@@ -22,8 +22,8 @@ double width_of(const std::array<Vec2, 4>& corner) {
 }
 
 struct Segment {
-  Vec2 begin, way, normal;  // out of the tool
-  double at, length;        // m: from the begin of the chain
+  Vec2 begin, direction, normal;  // out of the tool
+  double at, length;              // m: from the begin of the chain
 };
 
 // Where the search for the other flank starts from.
@@ -40,8 +40,8 @@ class Chain {
       const Vec2 d = points[i + 1] - points[i];
       const double length = d.norm();
       if (length == 0) continue;
-      const Vec2 way = d / length;
-      segments_.push_back({points[i], way, {-way.y(), way.x()}, at, length});
+      const Vec2 direction = d / length;
+      segments_.push_back({points[i], direction, {-direction.y(), direction.x()}, at, length});
       at += length;
     }
     length_ = at;
@@ -50,12 +50,12 @@ class Chain {
 
   double thinnest(double most) const {
     double least = most;
-    const double apart = std::max(0.5 * resolution_, length_ / most_samples);
+    const double apart = std::max(0.5 * resolution_, length_ / max_samples);
     for (const Segment& s : segments_) {
       const int count = static_cast<int>(std::ceil(s.length / apart));
       for (int k = 0; k < count; ++k) {
         const double along = s.length * (k + 0.5) / count;
-        look_from({s.begin + along * s.way, s.normal, s.at + along}, least);
+        look_from({s.begin + along * s.direction, s.normal, s.at + along}, least);
       }
     }
     return least < most ? least : endless;
@@ -77,7 +77,7 @@ class Chain {
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       if (i % block == 0) boxes_.emplace_back();
       boxes_.back().add(segments_[i].begin);
-      boxes_.back().add(segments_[i].begin + segments_[i].length * segments_[i].way);
+      boxes_.back().add(segments_[i].begin + segments_[i].length * segments_[i].direction);
     }
   }
 
@@ -98,8 +98,8 @@ class Chain {
     else
       high = std::min(high, from.at - 2 * resolution_ - s.at);
     if (low > high) return;
-    const double along = std::clamp((from.point - s.begin).dot(s.way), low, high);
-    const Vec2 through = s.begin + along * s.way - from.point;
+    const double along = std::clamp((from.point - s.begin).dot(s.direction), low, high);
+    const Vec2 through = s.begin + along * s.direction - from.point;
     if (through.dot(from.normal) < 0 && through.dot(s.normal) > 0)
       least = std::min(least, through.norm());
   }

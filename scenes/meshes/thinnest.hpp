@@ -8,10 +8,10 @@
 
 namespace pulvis {
 
-// m: least width of an element. A way through the particle crosses one at least (but at a tip).
+// m: smallest width of an element. A path through the particle crosses one at least (but at a tip).
 double thinnest_part(const Shape& shape);
 
-// m: least way through the body of a polyline tool, from one flank to another, where that is below `most`;
+// m: shortest path through the body of a polyline tool, from one flank to another, where that is below `most`;
 // infinite otherwise. `chain`: its points, the powder to the left. What stands out by less than `resolution`
 // does not count: a tip has no thickness, and outlines of such edges do not feel it.
 double thinnest_part(const std::vector<Vec2>& chain, double resolution, double most);

@@ -19,7 +19,7 @@ using Faults = std::vector<OutlineFault>;
 // An O-grid in what is much longer than wide has elements as flat; 8 is already beyond any powder.
 constexpr double longest_over_shortest = 8;
 // Beyond this the two sides of a corner are nearly one.
-constexpr double most_turn = 170.0 / 180 * std::numbers::pi;
+constexpr double max_turn = 170.0 / 180 * std::numbers::pi;
 
 std::string text_of(const Vec2& p) { return fmt::format("({:g}, {:g}) m", p.x(), p.y()); }
 
@@ -64,7 +64,7 @@ Faults bad_corners(const PolygonOutline& polygon) {
       return {{"corners", fmt::format("corners {} and {} are one point, {}, allowed: each once",
                                       i + 1, (i + 1) % n + 1, text_of(given[i]))}};
   for (std::size_t i = 0; i < n; ++i)
-    if (std::abs(turn_at(given[(i + n - 1) % n], given[i], given[(i + 1) % n])) > most_turn)
+    if (std::abs(turn_at(given[(i + n - 1) % n], given[i], given[(i + 1) % n])) > max_turn)
       return {{"corners", fmt::format("at corner {} the outline turns back on itself, allowed: "
                                       "corners of at least 10 degrees",
                                       i + 1)}};
@@ -72,7 +72,7 @@ Faults bad_corners(const PolygonOutline& polygon) {
 }
 
 // The largest rounding whose arcs leave room for each other on every side.
-double most_rounding(const std::vector<Vec2>& corners) {
+double max_rounding(const std::vector<Vec2>& corners) {
   const std::size_t n = corners.size();
   double most = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < n; ++i) {
@@ -87,7 +87,7 @@ double most_rounding(const std::vector<Vec2>& corners) {
 Faults bad_rounding(const PolygonOutline& polygon) {
   const std::vector<Vec2> corners = corners_of(polygon);
   const std::size_t n = corners.size();
-  const double most = most_rounding(corners);
+  const double most = max_rounding(corners);
   if (polygon.rounding > most * (1 + 1e-12))
     return {
         {"rounding", fmt::format("{:g} m is more than the sides have room for, allowed: <= {:g} m",
@@ -116,7 +116,7 @@ Faults faults_of(const PolygonOutline& outline) {
                                 : "required key is missing, allowed: either sides and diameter, or "
                                   "corners"}};
   if (!regular && outline.diameter > 0)
-    return {{"diameter", "has no effect beside corners, allowed: only together with sides"}};
+    return {{"diameter", "has no effect together with corners, allowed: only together with sides"}};
   Faults faults = regular ? Faults{} : bad_corners(outline);
   if (faults.empty()) faults = bad_rounding(outline);
   if (faults.empty()) faults = unseen(curve_of(outline), "corners", "");

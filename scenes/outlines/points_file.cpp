@@ -17,10 +17,10 @@
 namespace pulvis {
 namespace {
 
-constexpr std::size_t fewest_points = 8, most_points = 20'000;
+constexpr std::size_t fewest_points = 8, max_points = 20'000;
 constexpr std::size_t largest_file = 4U << 20U;  // bytes
 constexpr double closest = 1e-9;                 // of the diagonal, from point to point
-constexpr double most_smoothing = 0.05;          // of the root of the area
+constexpr double max_smoothing = 0.05;           // of the root of the area
 
 struct BadFile {
   int line;  // 0: all of it
@@ -111,9 +111,9 @@ class PointsReader {
     const Vec2 point = factor_ * Vec2(*x, *y);
     if (!points_.empty() && points_.back() == point)
       throw BadFile{line_, "the same point as before, allowed: each once"};
-    if (points_.size() == most_points)
+    if (points_.size() == max_points)
       throw BadFile{
-          line_, fmt::format("more than {} points, allowed: at most {}", most_points, most_points)};
+          line_, fmt::format("more than {} points, allowed: at most {}", max_points, max_points)};
     if (point.cwiseAbs().maxCoeff() > csv::largest_number)
       throw BadFile{line_, fmt::format("a point {:g} m away, allowed: up to {:g} m",
                                        point.cwiseAbs().maxCoeff(), csv::largest_number)};
@@ -175,7 +175,7 @@ std::vector<OutlineFault> read_points(const std::filesystem::path& folder, Point
     return {{"file", bad.line > 0 ? fmt::format("{}:{}: {}", path.string(), bad.line, bad.message)
                                   : fmt::format("{}: {}", path.string(), bad.message)}};
   }
-  const double most = most_smoothing * size_of(outline.points);
+  const double most = max_smoothing * size_of(outline.points);
   if (outline.smoothing > most)
     return {{"smoothing", fmt::format("{:g} m would melt the outline, allowed: <= {:g} m",
                                       outline.smoothing, most)}};

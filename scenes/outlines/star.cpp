@@ -59,7 +59,7 @@ bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 }  // namespace
 
 std::optional<Vec2> star_centre(const std::vector<Vec2>& polygon) {
-  constexpr double least_share = 1e-4;  // of the area: less is hardly meshable
+  constexpr double min_share = 1e-4;  // of the area: less is hardly meshable
   Vec2 low = polygon[0], high = low;
   for (const Vec2& p : polygon) {
     low = low.cwiseMin(p);
@@ -68,7 +68,7 @@ std::optional<Vec2> star_centre(const std::vector<Vec2>& polygon) {
   std::vector<Vec2> kernel{low, {high.x(), low.y()}, high, {low.x(), high.y()}};
   for (std::size_t i = 0; i < polygon.size() && kernel.size() > 2; ++i)
     kernel = cut(kernel, polygon[i], polygon[(i + 1) % polygon.size()]);
-  if (kernel.size() < 3 || area_of(kernel) < least_share * std::abs(area_of(polygon))) return {};
+  if (kernel.size() < 3 || area_of(kernel) < min_share * std::abs(area_of(polygon))) return {};
   const Vec2 centre = centroid(kernel);
   if (std::abs(windings(polygon, centre) - 1) > 0.5) return {};
   return centre;

@@ -16,9 +16,9 @@ constexpr double last_step = 3e-4;    // a punch that cannot go so far rests
 constexpr double quick_step = 0.005;  // after shaking
 constexpr double faster = 1.3;        // next step after an easy one
 constexpr int easy_sweeps = 60;
-constexpr int most_sweeps = 300;    // of one step
-constexpr double vibration = 0.02;  // way of a particle in one step
-constexpr double mixing = 0.15;     // way of a particle in one shaking of the loose powder
+constexpr int max_sweeps = 300;     // of one step
+constexpr double vibration = 0.02;  // displacement of a particle in one step
+constexpr double mixing = 0.15;     // displacement of a particle in one shaking of the loose powder
 constexpr int mixings = 30;
 constexpr double hard_vibration = 0.05;  // of one between pressings
 constexpr int vibrations = 10;
@@ -37,7 +37,7 @@ class Press {
         powder_(order.shapes, order.shape_of, order.width, margin * smallest(order)) {
     for (const int s : order.shape_of) area_ += order.shapes[static_cast<std::size_t>(s)].area;
     const double hundreds = std::max(1.0, static_cast<double>(order.shape_of.size()) / 100);
-    most_work_ = static_cast<std::int64_t>(sweeps_of_hundred / std::sqrt(std::sqrt(hundreds)));
+    max_work_ = static_cast<std::int64_t>(sweeps_of_hundred / std::sqrt(std::sqrt(hundreds)));
   }
 
   FilledDie run() {
@@ -58,15 +58,15 @@ class Press {
   void throw_in() {
     double density = loosest;
     do {
-      powder_.scatter(std::max(area_ / (density * order_.width), order_.least_height), random_);
+      powder_.scatter(std::max(area_ / (density * order_.width), order_.min_height), random_);
       density *= 0.7;
-    } while (!powder_.relax(10 * most_sweeps) && density > 1e-3);
+    } while (!powder_.relax(10 * max_sweeps) && density > 1e-3);
   }
 
   // Where particles were thrown chance has left holes and heaps, which shaking evens out while there is room.
   void mix() { vibrate(mixing, mixings); }
 
-  bool at_rest_on_stop() const { return powder_.height() <= order_.least_height; }
+  bool at_rest_on_stop() const { return powder_.height() <= order_.min_height; }
 
   // The punch goes down as far as it can.
   void press(double step) {
@@ -74,9 +74,9 @@ class Press {
       const std::vector<RigidPose> poses = powder_.poses();
       const double height = powder_.height();
       const std::int64_t before = powder_.sweeps();
-      powder_.squeeze(std::max(height * (1 - step), order_.least_height));
+      powder_.squeeze(std::max(height * (1 - step), order_.min_height));
       powder_.shake(vibration * std::min(1.0, step / first_step), random_);
-      if (!powder_.relax(most_sweeps)) {
+      if (!powder_.relax(max_sweeps)) {
         powder_.restore(poses, height);
         step /= 2;
       } else if (powder_.sweeps() - before < easy_sweeps) {
@@ -90,7 +90,7 @@ class Press {
     std::vector<RigidPose> best = powder_.poses();
     double least = powder_.height(), mark = least;
     const auto most =
-        static_cast<std::int64_t>(order_.time_to_shake * static_cast<double>(most_work_));
+        static_cast<std::int64_t>(order_.time_to_shake * static_cast<double>(max_work_));
     for (int idle = 0; idle < patience && !at_rest_on_stop() && powder_.sweeps() < most; ++idle) {
       powder_.squeeze(powder_.height() * (1 + lift));
       vibrate(hard_vibration, vibrations);
@@ -106,16 +106,16 @@ class Press {
     powder_.restore(best, least);
   }
 
-  void vibrate(double way, int times) {
+  void vibrate(double displacement, int times) {
     for (int i = 0; i < times; ++i) {
       const std::vector<RigidPose> poses = powder_.poses();
-      powder_.shake(way, random_);
-      if (!powder_.relax(most_sweeps)) powder_.restore(poses, powder_.height());
+      powder_.shake(displacement, random_);
+      if (!powder_.relax(max_sweeps)) powder_.restore(poses, powder_.height());
     }
   }
 
   FilledDie result() {
-    FilledDie die{powder_.poses(), powder_.height(), 0, powder_.least_gap(), 0};
+    FilledDie die{powder_.poses(), powder_.height(), 0, powder_.min_gap(), 0};
     const auto gaps = powder_.near_gaps(touching, die.touches);
     for (const auto& own : gaps)
       die.mean_gap += (own[0] + own[1] + own[2]) / (3 * static_cast<double>(gaps.size()));
@@ -126,7 +126,7 @@ class Press {
   portable::Random random_;
   RigidPowder powder_;
   double area_ = 0;
-  std::int64_t most_work_ = 0;  // sweeps
+  std::int64_t max_work_ = 0;  // sweeps
 };
 
 }  // namespace

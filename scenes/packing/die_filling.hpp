@@ -14,7 +14,7 @@ struct DieFilling {
   std::vector<RigidShape> shapes;  // in units of the powder's mean diameter
   std::vector<int> shape_of;       // [particles]
   double width = 0;
-  double least_height = 0;  // the punch goes no farther
+  double min_height = 0;  // the punch goes no farther
   double time_to_shake =
       1;  // on after nothing moves any more: 0 not at all, 1 as long as it may pay
   std::uint64_t seed = 1;
@@ -23,9 +23,9 @@ struct DieFilling {
 struct FilledDie {
   std::vector<RigidPose> poses;
   double height = 0;
-  double mean_gap = 0;   // to the three nearest neighbours, in diameters
-  double least_gap = 0;  // largest that is known to lie between any two
-  int touches = 0;       // pairs with a gap below a thousandth of a diameter
+  double mean_gap = 0;  // to the three nearest neighbours, in diameters
+  double min_gap = 0;   // largest that is known to lie between any two
+  int touches = 0;      // pairs with a gap below a thousandth of a diameter
 };
 
 FilledDie fill_die(const DieFilling& order);

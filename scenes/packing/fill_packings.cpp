@@ -59,14 +59,14 @@ class RandomPacking {
     order_.width = packing_.width / unit_;
     if (!everything_fits()) return;
     const double full = mixture.area / packing_.width;  // height at a density of 1
-    if (packing_.density) order_.least_height = full / *packing_.density / unit_;
-    if (packing_.height) order_.least_height = *packing_.height / unit_;
+    if (packing_.density) order_.min_height = full / *packing_.density / unit_;
+    if (packing_.height) order_.min_height = *packing_.height / unit_;
     order_.time_to_shake = packing_.dense == PackingSpec::Dense::touching ? 0 : 1;
     const FilledDie die = fill_die(order_);
-    if (order_.least_height > 0 && die.height > order_.least_height)
-      return refuse_density(full / (order_.least_height * unit_), full / (die.height * unit_));
+    if (order_.min_height > 0 && die.height > order_.min_height)
+      return refuse_density(full / (order_.min_height * unit_), full / (die.height * unit_));
     place(die);
-    packing_.reached = {full / (die.height * unit_), die.mean_gap, die.least_gap * unit_,
+    packing_.reached = {full / (die.height * unit_), die.mean_gap, die.min_gap * unit_,
                         die.touches};
     packing_.top = packing_.corner.y() + die.height * unit_;
   }
@@ -89,7 +89,7 @@ class RandomPacking {
 
   bool everything_fits() {
     for (std::size_t s = 0; s < order_.shapes.size(); ++s) {
-      const double width = order_.shapes[s].least_width;
+      const double width = order_.shapes[s].min_width;
       const bool wide = width >= order_.width;
       if (!wide && (!packing_.height || width * unit_ < *packing_.height)) continue;
       const std::string key = wide ? ".width" : ".height";

@@ -75,7 +75,8 @@ class Mixer {
     if (by_number == all) add_up(&MixtureClass::number_fraction, "number_fraction");
     if (by_area == all) add_up(&MixtureClass::area_fraction, "area_fraction");
     if (numbers > 0 && packing_.count)
-      refuse(".count", "has no effect beside the numbers of the classes, allowed: one of the two");
+      refuse(".count",
+             "has no effect together with the numbers of the classes, allowed: one of the two");
     return !wrong_;
   }
 
@@ -104,23 +105,23 @@ class Mixer {
   void laws_are_right(std::size_t c) {
     const SizeLaw& law = packing_.classes[c].size;
     if (law.kind == SizeLaw::Kind::uniform)
-      for (const auto& [key, there] : {std::pair("least", law.least.has_value()),
-                                       std::pair("largest", law.largest.has_value())})
+      for (const auto& [key, there] : {std::pair("minimum", law.minimum.has_value()),
+                                       std::pair("maximum", law.maximum.has_value())})
         if (!there) refuse(class_key(c, key), "required key is missing, allowed: a quantity in m");
-    if (law.least && law.largest && *law.least >= *law.largest)
-      refuse(class_key(c, "largest"),
-             fmt::format("{:g} m leaves no sizes, allowed: > {:g} m", *law.largest, *law.least));
+    if (law.minimum && law.maximum && *law.minimum >= *law.maximum)
+      refuse(class_key(c, "maximum"),
+             fmt::format("{:g} m leaves no sizes, allowed: > {:g} m", *law.maximum, *law.minimum));
     const bool normal = law.kind == SizeLaw::Kind::normal;
-    if (normal && !law.least && 3 * law.deviation >= law.mean)
+    if (normal && !law.minimum && 3 * law.deviation >= law.mean)
       refuse(class_key(c, "deviation"),
              fmt::format("{:g} m makes sizes of nothing, allowed: < {:g} m, a third of the mean, "
                          "or a least size",
                          law.deviation, law.mean / 3));
     if (!normal && law.kind != SizeLaw::Kind::lognormal) return;
     const double far = 6 * law.deviation;
-    if ((law.least && *law.least > law.mean + far) ||
-        (law.largest && *law.largest < law.mean - far))
-      refuse(class_key(c, law.least && *law.least > law.mean ? "least" : "largest"),
+    if ((law.minimum && *law.minimum > law.mean + far) ||
+        (law.maximum && *law.maximum < law.mean - far))
+      refuse(class_key(c, law.minimum && *law.minimum > law.mean ? "minimum" : "maximum"),
              "leaves nothing of the law, allowed: within six deviations of the mean");
   }
 
@@ -132,7 +133,7 @@ class Mixer {
       law.sizes = {{1, 1}};
     } else {
       const double length = std::sqrt(law.own_area);
-      law.own_size = length * rigid_shape(outline, length, length / 1000).least_width;
+      law.own_size = length * rigid_shape(outline, length, length / 1000).min_width;
       SieveCurve curve;
       if (mixed.size.kind == SizeLaw::Kind::sieve)
         curve = read_sieve_curve(scene_.file.parent_path() / mixed.size.file);

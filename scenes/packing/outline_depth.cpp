@@ -44,7 +44,7 @@ struct TurnedBox {
   }
 };
 
-// Distance of two boxes: apart, a corner of one is closest; overlapping, minus the way out (separating
+// Distance of two boxes: apart, a corner of one is closest; overlapping, minus the distance out (separating
 // axes, Gottschalk 1996).
 double box_distance(const TurnedBox& a, const TurnedBox& b) {
   const auto of_a = a.corners(), of_b = b.corners();

@@ -18,7 +18,7 @@ struct RigidTouch {
 
 // The touches of two particles whose gap is below `range`: two where straight sides face each other, one
 // otherwise, for each pair of pieces. The least gap of them is the particles' distance; where pieces
-// overlap, minus the way out of it (separating axes, Gottschalk 1996).
+// overlap, minus the distance out of it (separating axes, Gottschalk 1996).
 class RigidContacts {
  public:
   const std::vector<RigidTouch>& between(const RigidShape& a, const RigidPose& at_a,

@@ -18,11 +18,11 @@ using portable::V2;
 
 constexpr double list_range = 0.25;  // of a mean diameter: pairs this near are listed
 constexpr V2 tool_normals[4] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-constexpr double joint_share = 1.2;  // of the overlaps of two particles' touches, dealt out
-constexpr double longest_way = 0.2;  // that one correction may move a particle
-constexpr double gap_range = 0.5;    // of a diameter: neighbours farther than this are none
-constexpr double kept_speed = 0.95;  // of the last sweep; without it pushes spread like heat
-constexpr double kept_margin = 0.1;  // of two margins, which a relaxed touch keeps
+constexpr double joint_share = 1.2;       // of the overlaps of two particles' touches, dealt out
+constexpr double max_displacement = 0.2;  // that one correction may move a particle
+constexpr double gap_range = 0.5;         // of a diameter: neighbours farther than this are none
+constexpr double kept_speed = 0.95;       // of the last sweep; without it pushes spread like heat
+constexpr double kept_margin = 0.1;       // of two margins, which a relaxed touch keeps
 
 }  // namespace
 
@@ -49,10 +49,11 @@ void RigidPowder::squeeze(double height) {
   height_ = height;
 }
 
-void RigidPowder::shake(double way, portable::Random& random) {
+void RigidPowder::shake(double displacement, portable::Random& random) {
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    const double x = random.between(-way, way), y = random.between(-way, way);
-    const double turn = random.between(-way, way) / shape(i).diameter;
+    const double x = random.between(-displacement, displacement),
+                 y = random.between(-displacement, displacement);
+    const double turn = random.between(-displacement, displacement) / shape(i).diameter;
     poses_[i].at = poses_[i].at + shape(i).diameter * V2{x, y};
     poses_[i].turn = portable::turned(poses_[i].turn, turn);
   }
@@ -64,14 +65,14 @@ void RigidPowder::restore(const std::vector<RigidPose>& poses, double height) {
   listed_.clear();
 }
 
-bool RigidPowder::relax(int most_sweeps) {
+bool RigidPowder::relax(int max_sweeps) {
   const double allowed = 2 * margin_ * (1 - kept_margin);
   before_ = poses_;
-  for (int i = 0; i < most_sweeps; ++i) {
+  for (int i = 0; i < max_sweeps; ++i) {
     const std::vector<RigidPose> start = poses_;
     if (i > 0) drift();
     before_ = start;
-    if (sweep() < allowed && least_gap() >= 2 * margin_ * kept_margin) return true;
+    if (sweep() < allowed && min_gap() >= 2 * margin_ * kept_margin) return true;
   }
   return false;
 }
@@ -87,10 +88,10 @@ void RigidPowder::drift() {
 
 bool RigidPowder::lists_hold() const {
   if (listed_.empty()) return false;
-  constexpr double way = list_range / 2;
+  constexpr double displacement = list_range / 2;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const V2 moved = poses_[i].at - listed_[i].at;
-    if (dot(moved, moved) > way * way) return false;
+    if (dot(moved, moved) > displacement * displacement) return false;
   }
   return true;
 }
@@ -146,12 +147,12 @@ double RigidPowder::sweep() {
   return worst;
 }
 
-// Moves particle i as a push along `way` at `arm` from its centroid does, whose strength is the length of
-// `way` in units of area.
-void RigidPowder::correct(std::size_t i, V2 arm, V2 way) {
+// Moves particle i as a push along `correction` at `arm` from its centroid does, whose strength is the length of
+// `correction` in units of area.
+void RigidPowder::correct(std::size_t i, V2 arm, V2 correction) {
   const RigidShape& s = shape(i);
-  poses_[i].at = poses_[i].at + (1 / s.area) * way;
-  const double turn = cross(arm, way) / (s.area * s.gyration);
+  poses_[i].at = poses_[i].at + (1 / s.area) * correction;
+  const double turn = cross(arm, correction) / (s.area * s.gyration);
   if (turn != 0) poses_[i].turn = portable::turned(poses_[i].turn, std::clamp(turn, -0.5, 0.5) / 2);
 }
 
@@ -172,7 +173,7 @@ double RigidPowder::push(const Pair& pair) {
     const double turn_a = cross(arm_a, touch.normal), turn_b = cross(arm_b, touch.normal);
     const double mobility = (1 + turn_a * turn_a / of_a.gyration) / of_a.area +
                             (1 + turn_b * turn_b / of_b.gyration) / of_b.area;
-    const double strength = share * std::min(overlap, longest_way) / mobility;
+    const double strength = share * std::min(overlap, max_displacement) / mobility;
     correct(a, arm_a, -strength * touch.normal);
     correct(b, arm_b, strength * touch.normal);
   }
@@ -224,7 +225,7 @@ double RigidPowder::push_from_tools(std::size_t i) {
   return worst;
 }
 
-double RigidPowder::least_gap() {
+double RigidPowder::min_gap() {
   if (!lists_hold()) find_pairs(list_range + 2 * margin_);
   double least = std::numeric_limits<double>::max();
   for (const Pair& pair : pairs_) {

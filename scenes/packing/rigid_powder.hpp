@@ -18,11 +18,11 @@ class RigidPowder {
               double margin);
 
   void scatter(double height, portable::Random& random);  // anywhere, overlaps and all
-  void squeeze(double height);                       // every particle's place is scaled with it
-  void shake(double way, portable::Random& random);  // every particle by up to so much
+  void squeeze(double height);  // every particle's place is scaled with it
+  void shake(double displacement, portable::Random& random);  // every particle by up to so much
 
   // Pushes particles apart until no two overlap; false where that takes more than so many sweeps.
-  bool relax(int most_sweeps);
+  bool relax(int max_sweeps);
 
   double height() const { return height_; }
   double width() const { return width_; }
@@ -30,8 +30,7 @@ class RigidPowder {
   void restore(const std::vector<RigidPose>& poses, double height);
   std::int64_t sweeps() const { return sweeps_; }
 
-  double
-  least_gap();  // of all particles to each other and to the tools; negative where they overlap
+  double min_gap();  // of all particles to each other and to the tools; negative where they overlap
   // Gaps of every particle to its three nearest neighbours, tools being neighbours, in its diameters; a
   // particle without one within half a diameter counts half a diameter. `touches`: pairs of particles
   // whose gap is below `touching` diameters of the smaller one.
@@ -50,7 +49,7 @@ class RigidPowder {
   double sweep();  // largest overlap it met
   double push(const Pair& pair);
   double push_from_tools(std::size_t i);
-  void correct(std::size_t i, portable::V2 arm, portable::V2 way);
+  void correct(std::size_t i, portable::V2 arm, portable::V2 correction);
   void touches_with_tools(std::size_t i, double range, std::vector<RigidTouch>& touches) const;
 
   std::vector<RigidShape> shapes_;

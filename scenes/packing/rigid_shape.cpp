@@ -12,7 +12,7 @@ namespace {
 
 using portable::V2;
 
-constexpr std::size_t most_corners = 240;
+constexpr std::size_t max_corners = 240;
 
 // Corners that came from a library's sine may differ in their last bits: on this grid they do not.
 V2 on_grid(V2 p) {
@@ -80,7 +80,7 @@ double width_along(const RigidShape& shape, V2 n) {
 
 // The least one is square to a side of the convex hull; the sides of the pieces and a fan of directions
 // come near enough to it for what this is asked: whether a particle fits into its die.
-double least_width(const RigidShape& shape) {
+double min_width(const RigidShape& shape) {
   constexpr int fan = 64;
   double least = std::numeric_limits<double>::max();
   portable::Turn direction;
@@ -105,14 +105,14 @@ void measure(RigidShape& shape, const Moments& moments) {
     }
     piece.centre = piece.centre - shape.centroid;
   }
-  shape.least_width = least_width(shape);
+  shape.min_width = min_width(shape);
 }
 
 }  // namespace
 
 RigidShape rigid_shape(const Outline& outline, double unit, double deviation, Fit fit) {
   std::vector<Vec2> points = outline_polygon(outline, deviation);
-  for (; points.size() > most_corners; points = outline_polygon(outline, deviation)) deviation *= 2;
+  for (; points.size() > max_corners; points = outline_polygon(outline, deviation)) deviation *= 2;
   std::vector<V2> polygon;
   for (const Vec2& p : points) polygon.push_back(on_grid({p.x() / unit, p.y() / unit}));
   RigidShape shape;

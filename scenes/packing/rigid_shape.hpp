@@ -20,12 +20,12 @@ struct RigidPiece {
 
 struct RigidShape {
   std::vector<RigidPiece> pieces;
-  portable::V2 centroid;   // of the outline, in the outline's own frame; the pieces count from it
-  double reach = 0;        // farthest point from the centroid
-  double area = 0;         // of the outline without holes: what no other particle can enter
-  double gyration = 0;     // square of the radius of gyration about the centroid
-  double diameter = 0;     // of the disc of the same area
-  double least_width = 0;  // between two parallel lines
+  portable::V2 centroid;  // of the outline, in the outline's own frame; the pieces count from it
+  double reach = 0;       // farthest point from the centroid
+  double area = 0;        // of the outline without holes: what no other particle can enter
+  double gyration = 0;    // square of the radius of gyration about the centroid
+  double diameter = 0;    // of the disc of the same area
+  double min_width = 0;   // between two parallel lines
 };
 
 // Of an outline that is no rounded box itself the pieces either contain it, reaching beyond it by at most

@@ -16,12 +16,12 @@ namespace {
 constexpr int samples = 256;         // of every part of a law, by the midpoint rule
 constexpr double normal_limits = 3;  // deviations from the mean, where nothing else is said
 
-constexpr double least_size = 1e-12;  // m, of a sieve: less is no powder
+constexpr double min_size = 1e-12;  // m, of a sieve: less is no powder
 
 using Quantile = std::function<double(double)>;  // size by the share that is smaller
 
 Quantile uniform(const SizeLaw& law) {
-  return [a = *law.least, b = *law.largest](double p) { return a + (b - a) * p; };
+  return [a = *law.minimum, b = *law.maximum](double p) { return a + (b - a) * p; };
 }
 
 // The part of the standard normal law between two limits.
@@ -36,7 +36,7 @@ Quantile normal(const SizeLaw& law) {
     return size ? (*size - law.mean) / law.deviation : otherwise;
   };
   const Quantile z =
-      cut_normal(standard(law.least, -normal_limits), standard(law.largest, normal_limits));
+      cut_normal(standard(law.minimum, -normal_limits), standard(law.maximum, normal_limits));
   return [=, m = law.mean, d = law.deviation](double p) { return m + d * z(p); };
 }
 
@@ -48,7 +48,7 @@ Quantile lognormal(const SizeLaw& law) {
     return size ? (portable::log(*size / law.mean) + variance / 2) / sigma : otherwise;
   };
   constexpr double far = 8;  // where the law ends in double precision
-  const Quantile z = cut_normal(standard(law.least, -far), standard(law.largest, far));
+  const Quantile z = cut_normal(standard(law.minimum, -far), standard(law.maximum, far));
   return [=, m = law.mean](double p) { return m * portable::exp(sigma * z(p) - variance / 2); };
 }
 
@@ -79,8 +79,8 @@ void check_point(const csv::Table& table, std::size_t i, const SieveCurve& curve
   const auto refuse = [&](const char* column, const std::string& message) {
     csv::refuse(table, i, csv::column_at(table, column), message);
   };
-  if (p.size < least_size)
-    refuse("size", fmt::format("size {:g} m, allowed: >= {:g} m", p.size, least_size));
+  if (p.size < min_size)
+    refuse("size", fmt::format("size {:g} m, allowed: >= {:g} m", p.size, min_size));
   if (p.passing < 0 || p.passing > 1)
     refuse("passing", fmt::format("passing {:g}, allowed: from 0 to 1", p.passing));
   if (i == 0 && p.passing != 0)

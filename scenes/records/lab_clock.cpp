@@ -10,9 +10,9 @@
 namespace pulvis::lab {
 namespace {
 
-constexpr std::size_t most_places = 300;  // tried for the start of sliding
-constexpr double sure_drift = 3;          // standard uncertainties: a smaller drift is not applied
-constexpr std::size_t most_samples = 1500;  // of the press's record that each try looks at
+constexpr std::size_t max_places = 300;    // tried for the start of sliding
+constexpr double sure_drift = 3;           // standard uncertainties: a smaller drift is not applied
+constexpr std::size_t max_samples = 1500;  // of the press's record that each try looks at
 
 struct Hold {
   std::vector<double> time, displacement;
@@ -29,7 +29,7 @@ Hold hold_of(const PressRecord& press, const Samples& s) {
 // Sum of squares that remains of the punch displacement when the plate starts at `start`.
 double unexplained(const Hold& hold, const LoggerRecord& logger, const Sliding& sliding,
                    double start) {
-  const std::size_t stride = 1 + hold.time.size() / most_samples;
+  const std::size_t stride = 1 + hold.time.size() / max_samples;
   const auto count = static_cast<Eigen::Index>((hold.time.size() + stride - 1) / stride);
   Eigen::MatrixXd causes(count, 4);
   Eigen::VectorXd effect(count);
@@ -50,7 +50,7 @@ double unexplained(const Hold& hold, const LoggerRecord& logger, const Sliding& 
 double rough_start(const Hold& hold, const LoggerRecord& logger, const Sliding& sliding,
                    double latest) {
   const Samples places = between(hold.time, hold.time.front(), latest);
-  const std::size_t stride = 1 + places.count() / most_places;
+  const std::size_t stride = 1 + places.count() / max_places;
   double best = hold.time.front(), least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < places.count(); i += stride) {
     const double rest = unexplained(hold, logger, sliding, hold.time[i]);

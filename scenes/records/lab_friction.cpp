@@ -18,10 +18,10 @@ double largest_ratio(double exponent) {
 // no step goes too far, and the steps end when rounding turns one back. Near k r = 1/e, where two
 // solutions meet, each step halves the distance: 60 of them reach round-off.
 std::optional<double> friction_coefficient(double ratio, double exponent) {
-  constexpr int most_steps = 100;
+  constexpr int max_steps = 100;
   if (ratio > largest_ratio(exponent)) return std::nullopt;
   double mu = ratio;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const double slope = 1 - exponent * mu;  // of mu exp(-k mu), over exp(-k mu)
     if (!(slope > 0)) break;
     const double next = mu - (mu - ratio * std::exp(exponent * mu)) / slope;

@@ -10,21 +10,23 @@ namespace {
 
 constexpr double standing_still = 0.1;  // of the sliding speed: a slower plate counts as at rest
 
-// Where the straight line through 5 and 20 % of the way meets its beginning.
-double rough_start(const std::vector<double>& t, const std::vector<double>& way, double whole) {
+// Where the straight line through 5 and 20 % of the distance meets its beginning.
+double rough_start(const std::vector<double>& t, const std::vector<double>& distance,
+                   double whole) {
   const auto reaches = [&](double share) {
-    const auto at =
-        std::find_if(way.begin(), way.end(), [&](double w) { return w >= share * whole; });
-    return t[static_cast<std::size_t>(at - way.begin())];
+    const auto at = std::find_if(distance.begin(), distance.end(),
+                                 [&](double w) { return w >= share * whole; });
+    return t[static_cast<std::size_t>(at - distance.begin())];
   };
   const double t5 = reaches(0.05), t20 = reaches(0.2);
   return t5 - (t20 - t5) / 3;
 }
 
-// The plate leaves rest; `way` is counted from there.
-std::optional<BendEvent> departure(const std::vector<double>& t, const std::vector<double>& way,
-                                   double whole, double window) {
-  const auto found = event_near(t, way, rough_start(t, way, whole), window);
+// The plate leaves rest; `distance` is counted from there.
+std::optional<BendEvent> departure(const std::vector<double>& t,
+                                   const std::vector<double>& distance, double whole,
+                                   double window) {
+  const auto found = event_near(t, distance, rough_start(t, distance, whole), window);
   if (!found) return std::nullopt;
   const Bend& bend = found->bend;
   const bool departs = std::abs(bend.before.slope) < standing_still * std::abs(bend.after.slope);
@@ -33,26 +35,27 @@ std::optional<BendEvent> departure(const std::vector<double>& t, const std::vect
 
 std::optional<Event> find_end(const LoggerRecord& logger, const Sliding& sliding, double whole,
                               double window) {
-  // The way back to where the plate ends up, as if time ran backwards.
-  std::vector<double> t = logger.time, way = sliding.distance;
+  // The distance back to where the plate ends up, as if time ran backwards.
+  std::vector<double> t = logger.time, distance = sliding.distance;
   std::reverse(t.begin(), t.end());
-  std::reverse(way.begin(), way.end());
+  std::reverse(distance.begin(), distance.end());
   for (double& time : t) time = -time;
-  for (double& w : way) w = whole - w;
-  const auto found = departure(t, way, whole, window);
+  for (double& w : distance) w = whole - w;
+  const auto found = departure(t, distance, whole, window);
   if (!found) return std::nullopt;
   return Event{-found->event.time, found->event.uncertainty};
 }
 
 // The last sample at which the plate is known to go on, since the next one is further: in the sample with which it
-// arrives at the end the load cell may have let go. `way` ends at `whole`, but for noise.
-std::size_t last_moving(const std::vector<double>& t, const std::vector<double>& way, double start,
-                        double whole) {
-  const double sample_way =
+// arrives at the end the load cell may have let go. `distance` ends at `whole`, but for noise.
+std::size_t last_moving(const std::vector<double>& t, const std::vector<double>& distance,
+                        double start, double whole) {
+  const double sample_distance =
       whole * (t.back() - t.front()) / (static_cast<double>(t.size() - 1) * (t.back() - start));
-  const auto arrived = std::find_if(
-      way.begin(), way.end(), [&](double w) { return w >= whole - standing_still * sample_way; });
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(arrived - way.begin() - 1, 0));
+  const auto arrived = std::find_if(distance.begin(), distance.end(), [&](double w) {
+    return w >= whole - standing_still * sample_distance;
+  });
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(arrived - distance.begin() - 1, 0));
 }
 
 }  // namespace
@@ -62,17 +65,17 @@ Sliding find_sliding(const LoggerRecord& logger, const Settings& settings) {
   Sliding sliding;
   const double first = logger.lvdt.front();
   for (const double volts : logger.lvdt) sliding.distance.push_back((volts - first) / sensitivity);
-  std::vector<double>& way = sliding.distance;
-  const auto [low, high] = std::minmax_element(way.begin(), way.end());
+  std::vector<double>& distance = sliding.distance;
+  const auto [low, high] = std::minmax_element(distance.begin(), distance.end());
   if (-*low > *high)
-    for (double& w : way) w = -w;
-  const double whole = *std::max_element(way.begin(), way.end());
+    for (double& w : distance) w = -w;
+  const double whole = *std::max_element(distance.begin(), distance.end());
   if (!(whole >= settings.analysis.shortest_sliding))
     refuse(logger, settings.logger.lvdt,
            fmt::format("the plate slides {:.4g} mm, allowed: at least {:.4g} mm "
                        "(analysis.shortest_sliding)",
                        whole * 1e3, settings.analysis.shortest_sliding * 1e3));
-  const auto found = departure(logger.time, way, whole, window);
+  const auto found = departure(logger.time, distance, whole, window);
   if (!found)
     refuse(logger, settings.logger.lvdt,
            fmt::format("no start of sliding is found, allowed: at least 5 samples at rest and as "
@@ -80,11 +83,11 @@ Sliding find_sliding(const LoggerRecord& logger, const Settings& settings) {
                        window));
   sliding.start = found->event;
   sliding.end = find_end(logger, sliding, whole, window);
-  const std::size_t last = last_moving(logger.time, way, sliding.start.time, whole);
+  const std::size_t last = last_moving(logger.time, distance, sliding.start.time, whole);
   sliding.last_time =
       std::min(sliding.end ? sliding.end->time : logger.time.back(), logger.time[last]);
   const double rest = found->bend.before.at(found->event.time);
-  for (double& w : way) w -= rest;
+  for (double& w : distance) w -= rest;
   return sliding;
 }
 

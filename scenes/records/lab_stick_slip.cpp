@@ -12,7 +12,7 @@ namespace {
 constexpr double noise_multiple = 6;
 constexpr double smallest_share = 0.005;  // of the mean coefficient
 constexpr std::size_t fewest_slips = 3;
-constexpr double most_scatter = 0.5;     // of the period
+constexpr double max_scatter = 0.5;      // of the period
 constexpr double spectral_match = 0.25;  // of the period
 
 // Power of one frequency, with the sums of sine and cosine made orthogonal by the shift tau.
@@ -121,7 +121,7 @@ std::optional<StickSlip> find_stick_slip(const FrictionCurve& curve, double nois
     return std::nullopt;
   const Sample falls = sample_of(slips.falls), distances = sample_of(slips.distances);
   const double spectral = spectral_period(curve.distance, rest);
-  const bool is_regular = distances.deviation < most_scatter * distances.mean &&
+  const bool is_regular = distances.deviation < max_scatter * distances.mean &&
                           std::abs(spectral - distances.mean) < spectral_match * distances.mean;
   if (!is_regular) return std::nullopt;
   return StickSlip{slips.falls.size(),

@@ -9,7 +9,7 @@ namespace pulvis {
 namespace {
 
 constexpr int pieces = 8;  // of the loading, of equal change of density
-constexpr double least_force_share =
+constexpr double min_force_share =
     0.01;  // of the largest: before that the punch touches nothing yet
 
 struct Walls {
@@ -64,7 +64,7 @@ std::vector<std::vector<CompactionSample>> loading(const std::vector<CompactionS
   double most = 0;
   for (auto s = samples.begin(); s != last + 1; ++s) most = std::max(most, s->top);
   const auto first = std::find_if(samples.begin(), last, [&](const CompactionSample& s) {
-    return s.top >= least_force_share * most;
+    return s.top >= min_force_share * most;
   });
   std::vector<std::vector<CompactionSample>> found(pieces);
   const double low = first->density, width = (last->density - low) / pieces;

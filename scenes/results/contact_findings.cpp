@@ -10,9 +10,9 @@
 namespace pulvis {
 namespace {
 
-constexpr double stiff = 10;          // contact.stiffness that leaves 1% to metals
-constexpr double stiffest = 100;      // that a scene may have
-constexpr double least_force = 1e-3;  // of the largest: below it a way has no meaning
+constexpr double stiff = 10;        // contact.stiffness that leaves 1% to metals
+constexpr double stiffest = 100;    // that a scene may have
+constexpr double min_force = 1e-3;  // of the largest: below it an approach has no meaning
 
 double largest_tool_force(const World& world) {
   double largest = 0;
@@ -64,14 +64,14 @@ std::optional<double> ContactLoading::force_error() const {
   if (force_.empty()) return std::nullopt;
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(force_) - force_.begin());
   if (!(force_[peak] > 0) || peak == 0) return std::nullopt;
-  std::vector<double> ways, forces;
+  std::vector<double> approaches, forces;
   for (std::size_t i = 0; i <= peak; ++i) {
-    if (force_[i] < least_force * force_[peak]) continue;
-    if (!ways.empty() && approach_[i] <= ways.back()) continue;
-    ways.push_back(approach_[i]);
+    if (force_[i] < min_force * force_[peak]) continue;
+    if (!approaches.empty() && approach_[i] <= approaches.back()) continue;
+    approaches.push_back(approach_[i]);
     forces.push_back(force_[i]);
   }
-  return value_at(ways, forces, approach_[peak] - sunk_[peak]) / force_[peak] - 1;
+  return value_at(approaches, forces, approach_[peak] - sunk_[peak]) / force_[peak] - 1;
 }
 
 ContactFindings ContactLoading::findings() const {
@@ -81,7 +81,7 @@ ContactFindings ContactLoading::findings() const {
   if (!(heaviest_.narrow_force > 0)) return found;
   found.narrow_share = heaviest_.narrow_force / heaviest_.force;
   found.narrow_edges = heaviest_.narrow_edges / heaviest_.narrow_force;
-  found.edge_to_do = heaviest_.narrow_width / heaviest_.narrow_force / ContactQuality::least_edges;
+  found.edge_to_do = heaviest_.narrow_width / heaviest_.narrow_force / ContactQuality::min_edges;
   return found;
 }
 

@@ -1,6 +1,6 @@
 // What a run's contacts tell about its mesh and its contact stiffness, from the first loading.
 //
-// Penetration  Surfaces that sink into each other cost the tools a way. By virtual work that is
+// Penetration  Surfaces that sink into each other cost the tools displacement. By virtual work that is
 //              u = sum(f g)/F, normal forces f and penetrations g of all contact points, F the force of the
 //              tool that bears most. Hard contacts would have given F at the approach a - u, with
 //              a = integral of dW/F, W the work of the tools. So what the run shows at a - u is too little
@@ -21,8 +21,8 @@ namespace pulvis {
 
 struct ContactFindings {
   // More is told. On a coarse mesh the estimate of the force is good to 0.03.
-  static constexpr double most_narrow = 0.1;        // -, of the force
-  static constexpr double most_force_error = 0.05;  // -
+  static constexpr double most_narrow = 0.1;       // -, of the force
+  static constexpr double max_force_error = 0.05;  // -
 
   double narrow_share = 0;            // -, of the contact force, when that was largest
   double narrow_edges = 0;            // -, mean width of those contacts in boundary edges
@@ -31,7 +31,7 @@ struct ContactFindings {
   double stiffness = 0;               // -, the scene's contact.stiffness
 
   bool too_narrow() const { return narrow_share > most_narrow; }
-  bool too_soft() const { return force_error && *force_error < -most_force_error; }
+  bool too_soft() const { return force_error && *force_error < -max_force_error; }
   double stiffness_to_do() const;
   std::vector<std::string> warnings() const;  // one line each
 };

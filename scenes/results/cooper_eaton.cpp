@@ -13,11 +13,11 @@ using Vector = Eigen::VectorXd;
 
 constexpr double closest_ratio = 1.05;  // of k2 to k1; nearer than that the two terms are one
 
-constexpr double least_k =
+constexpr double min_k =
     1e-4;  // as shares of the largest pressure: beyond these a term is a constant,
-constexpr double most_k = 1e2;  // or nothing, within the pressures that were measured
+constexpr double max_k = 1e2;  // or nothing, within the pressures that were measured
 
-double k_of(double log_k) { return std::clamp(std::exp(log_k), least_k, most_k); }
+double k_of(double log_k) { return std::clamp(std::exp(log_k), min_k, max_k); }
 
 // exp(-k/P) of every sample. P is a share of the largest pressure here, k too.
 Vector shape_of(const Vector& p, double k) { return (-k / p.array()).exp(); }
@@ -65,13 +65,13 @@ struct Candidate {
 std::vector<Candidate> grid(const Remainder& remainder) {
   constexpr double coarsest = 10;  // k
   constexpr int steps = 15;
-  const double step = std::log(coarsest / least_k) / (steps - 1);
+  const double step = std::log(coarsest / min_k) / (steps - 1);
   std::vector<Candidate> all;
   Vector left;
   for (int i = 0; i < steps; ++i)
     for (int j = i + 1; j < steps; ++j) {
       Candidate candidate{Vector(2), 0};
-      candidate.log_k << std::log(least_k) + i * step, std::log(least_k) + j * step;
+      candidate.log_k << std::log(min_k) + i * step, std::log(min_k) + j * step;
       remainder(candidate.log_k, left);
       candidate.error = left.squaredNorm();
       all.push_back(std::move(candidate));

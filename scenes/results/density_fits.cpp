@@ -11,7 +11,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double least_pressure_share = 0.01;
+constexpr double min_pressure_share = 0.01;
 constexpr double allowed_fall =
     1e-6;  // of the density between samples: round-off of tool positions
 
@@ -73,9 +73,9 @@ std::string falls(std::span<const double> density, std::size_t last) {
 }
 
 std::string too_little(double change) {
-  if (change >= least_density_change) return "";
+  if (change >= min_density_change) return "";
   return fmt::format("the relative density changes by {:.3g}, at least {:g} is needed", change,
-                     least_density_change);
+                     min_density_change);
 }
 
 std::string unusable(const FitRange& range) {
@@ -109,7 +109,7 @@ FitRange fit_range(std::span<const double> density, std::span<const double> pres
   if (!range.unusable.empty()) return range;
   const double most = std::ranges::max(pressure.first(last + 1));
   for (std::size_t i = 0; i <= last; ++i) {
-    if (!(most > 0) || pressure[i] < least_pressure_share * most || density[i] >= 1) continue;
+    if (!(most > 0) || pressure[i] < min_pressure_share * most || density[i] >= 1) continue;
     range.density.push_back(density[i]);
     range.pressure.push_back(pressure[i]);
   }

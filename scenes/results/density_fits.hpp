@@ -42,7 +42,7 @@ struct FitRange {
 };
 
 inline constexpr std::size_t fewest_fit_samples = 8;
-inline constexpr double least_density_change = 1e-3;
+inline constexpr double min_density_change = 1e-3;
 
 // Of a whole history; pressure in Pa, compression > 0.
 FitRange fit_range(std::span<const double> density, std::span<const double> pressure);

@@ -54,11 +54,11 @@ void check_output(const Scene& scene, const schema::Origins& origins, Problems& 
            "the tools do not enclose a grid, allowed: with one tool on each of the four sides, "
            "planes whose normals look along an axis or polylines");
   const bool touchable = std::ranges::any_of(
-      scene.tools, [](const ToolSpec& t) { return t.shape != ToolSpec::Shape::grip; });
+      scene.tools, [](const ToolSpec& t) { return t.shape != ToolSpec::Shape::constraint; });
   if (scene.output.contacts && !touchable && scene.packings.empty() && scene.bodies.size() < 2)
     refuse("contacts",
            "has no effect, nothing can touch the only particle, allowed: with two particles or a "
-           "tool that is no grip");
+           "tool that is no constraint");
 }
 
 void add_observed(World& world, const Scene& scene) {

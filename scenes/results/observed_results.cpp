@@ -219,8 +219,8 @@ std::vector<SeriesInfo> observed_series(const Scene& scene) {
     all.insert(
         all.end(),
         {{"density/compact", "-", "deformed particle area / area between the tools' surfaces"},
-         {"density/least", "-", "of the cells"},
-         {"density/greatest", "-", "of the cells"},
+         {"density/minimum", "-", "of the cells"},
+         {"density/maximum", "-", "of the cells"},
          {"density/deviation", "-", "standard deviation over the cells, by their areas"}});
   return all;
 }

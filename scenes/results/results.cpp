@@ -39,11 +39,11 @@ double total(const World& world) {
   return sum;
 }
 
-// Calls visit(slot row offset in `Place` rows, lane, shape) for every particle by number.
-template <class Place, class Visit>
+// Calls visit(slot row offset in `Entity` rows, lane, shape) for every particle by number.
+template <class Entity, class Visit>
 void for_each_particle(const World& world, const Visit& visit) {
   const Bodies& bodies = world.resource<Bodies>();
-  const Table& table = const_cast<World&>(world).table<Place>();
+  const Table& table = const_cast<World&>(world).table<Entity>();
   for (const int slot : bodies.slot_of_number)
     visit(static_cast<std::size_t>(table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]),
           slot % lane_count, bodies.shape_of_slot(slot));
@@ -129,19 +129,20 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   };
   for (const ToolSpec& tool : scene.tools) {
     const std::string name = "tool/" + tool.name + "/";
-    const bool grip = tool.shape == ToolSpec::Shape::grip;
-    const bool radial = grip && tool.holds == ToolSpec::Holds::radial;
-    const char* place = radial        ? "x: its centre's, and the way outwards of its nodes"
-                        : tool.radius ? "of the middle of its circle, moved with its nodes"
-                        : grip        ? "of the middle of its box, moved with its nodes"
-                                      : "a point of the tool's surface";
-    add_series(name + "position_x", "m", place);
-    add_series(name + "position_y", "m", place);
+    const bool constraint = tool.shape == ToolSpec::Shape::constraint;
+    const bool radial = constraint && tool.holds == ToolSpec::Holds::radial;
+    const char* middle = radial        ? "x: its centre's, and the radial displacement of its nodes"
+                         : tool.radius ? "of the middle of its circle, moved with its nodes"
+                         : constraint  ? "of the middle of its box, moved with its nodes"
+                                       : "a point of the tool's surface";
+    add_series(name + "position_x", "m", middle);
+    add_series(name + "position_y", "m", middle);
     add_series(name + "force_x", "N",
                radial ? "radial, of the particles, on the tool" : "of the particles, on the tool");
     add_series(name + "force_y", "N", "of the particles, on the tool");
     if (has_servo(scene, tool))
-      add_series(name + "force_asked", "N", "that its servo is to hold now, the way it pushes");
+      add_series(name + "force_asked", "N",
+                 "that its servo is to hold now, in the direction it pushes");
   }
   if (die_cell(scene)) {
     add_series("relative_density", "-", "undeformed particle area / area between the tools");
@@ -176,7 +177,7 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   add_series("contact_overlap", "-", "area in which outlines overlap / area of the particles");
   add_series("narrow_contacts", "-",
              "share of the contact force on contacts narrower than two boundary edges");
-  add_series("least_jacobian", "-", "smallest det F so far");
+  add_series("min_jacobian", "-", "smallest det F so far");
   add_series("dt", "s", "time step");
   for (const SeriesInfo& observed : observed_series(scene)) series.push_back(observed);
   for (const SeriesInfo& of_shear : ShearResults::series(scene)) series.push_back(of_shear);
@@ -361,7 +362,7 @@ std::vector<double> Results::sample() {
   row.push_back(static_cast<double>(totals.touching));
   row.push_back(totals.worst_penetration);
   append_contacts(row);
-  row.push_back(least_jacobian());
+  row.push_back(min_jacobian());
   row.push_back(world_.resource<Clock>().dt);
   append_observed_sample(world_, cell_ ? die_area(world_, *cell_) : 0, row);
   shear_.append_sample(row);
@@ -414,11 +415,10 @@ std::array<double, 3> Results::momentum() const {
 }
 
 // The state that was just observed is the next step's to look at, if there is one.
-double Results::least_jacobian() const {
-  double least = world_.resource<Totals>().least_jacobian;
+double Results::min_jacobian() const {
+  double least = world_.resource<Totals>().min_jacobian;
   for (const int slot : world_.resource<Bodies>().slot_of_number)
-    least =
-        std::min(least, world_.column<LeastJacobian>().values()[static_cast<std::size_t>(slot)]);
+    least = std::min(least, world_.column<MinJacobian>().values()[static_cast<std::size_t>(slot)]);
   return least;
 }
 

@@ -61,7 +61,7 @@ class Results {
   // touch), while the internal one is above 1% of its largest so far. Reported and judged as well.
   double kinetic_ratio() const;
   // Smallest det F of any element at any step so far.
-  double least_jacobian() const;
+  double min_jacobian() const;
   std::int64_t elements() const { return elements_; }
   const ShearResults& shear() const { return shear_; }
   double end_time() const { return world_.resource<Clock>().end; }

@@ -16,15 +16,16 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double straight = 1 - 1e-9;  // cosine between directions that are taken for one
 constexpr double goes_along = 0.1;     // share of the target's speed that a locked particle may lag
-constexpr double static_share = 0.25;  // of the way, from its beginning
-constexpr double dynamic_share = 0.5;  // of the way, to its end
+constexpr double static_share = 0.25;  // of the sliding distance, from its beginning
+constexpr double dynamic_share = 0.5;  // of the sliding distance, to its end
 
 Vec2 vector_of(const double* values, int row) { return {values[2 * row], values[2 * row + 1]}; }
 
-// The plane whose normal looks this way; -1: none.
-int plane_facing(const Scene& scene, const Vec2& way) {
+// The plane whose normal points in this direction; -1: none.
+int plane_facing(const Scene& scene, const Vec2& direction) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
-    if (scene.tools[t].shape == ToolSpec::Shape::plane && scene.tools[t].normal.dot(way) > straight)
+    if (scene.tools[t].shape == ToolSpec::Shape::plane &&
+        scene.tools[t].normal.dot(direction) > straight)
       return static_cast<int>(t);
   return -1;
 }
@@ -52,7 +53,7 @@ std::optional<ShearSetup> shear_setup(const Scene& scene) {
   const MoveSpec& move = *std::ranges::max_element(
       stage->moves, {}, [](const MoveSpec& m) { return m.displacement.norm(); });
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(move.tool)];
-  if (tool.shape == ToolSpec::Shape::grip) return std::nullopt;
+  if (tool.shape == ToolSpec::Shape::constraint) return std::nullopt;
   ShearSetup setup;
   setup.stage = static_cast<int>(stage - scene.stages.begin());
   setup.target = move.tool;
@@ -74,19 +75,21 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
   const auto setup = shear_setup(scene);
   if (!setup) return {};
   std::vector<SeriesInfo> all{
-      {"shear/distance", "m", "way of the target along itself since the shear stage began"},
+      {"shear/distance", "m",
+       "displacement of the target along itself since the shear stage began"},
       {"shear/friction", "-", "lateral over normal force on the target; NaN where it bears none"},
       {"shear/work", "J", "of the target against friction and grooves"},
       {"shear/locked", "-", "particles that touch the target and go along with it, within 10%"}};
   if (setup->width > 0) {
     all.push_back({"shear/normal_stress", "Pa", "on the target: normal force / width x thickness"});
-    all.push_back({"shear/lateral_stress", "Pa", "on the target, against its way"});
+    all.push_back({"shear/lateral_stress", "Pa", "on the target, against its motion"});
     if (setup->punch >= 0)
-      all.push_back({"shear/punch_lateral_stress", "Pa", "on the punch, along the target's way"});
+      all.push_back(
+          {"shear/punch_lateral_stress", "Pa", "on the punch, along the target's motion"});
   }
   if (setup->punch >= 0)
     all.push_back({"shear/dilation", "m",
-                   "way of the punch away from the target since the shear stage began"});
+                   "displacement of the punch away from the target since the shear stage began"});
   if (setup->wall >= 0)
     all.push_back({"shear/wall_share", "-",
                    "force on the wall that the powder is drawn against / lateral force on the "
@@ -97,7 +100,8 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
 std::vector<FieldInfo> ShearResults::fields(const Scene& scene) {
   if (!shear_setup(scene)) return {};
   return {{"target_slip", "m",
-           "way of the target past the particle while they touch, since the shear stage began, "
+           "displacement of the target past the particle while they touch, since the shear stage "
+           "began, "
            "summed up over samples",
            FieldPlace::particle, 1}};
 }
@@ -179,13 +183,13 @@ void ShearResults::append_frame(std::vector<std::vector<double>>& fields) const 
   if (setup_) fields.push_back(slip_);
 }
 
-// Means are over the way, not over time.
+// Means are over the distance, not over time.
 std::optional<ShearFigures> ShearResults::figures() const {
   if (samples_.empty()) return std::nullopt;
   ShearFigures f;
   f.distance = samples_.back().distance;
   f.dilation = dilation_;
-  double way = 0, sum = 0, square = 0, stress = 0;
+  double distance = 0, sum = 0, square = 0, stress = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& s = samples_[i];
     if (std::isnan(s.friction)) continue;
@@ -193,16 +197,16 @@ std::optional<ShearFigures> ShearResults::figures() const {
       f.static_friction = std::max(f.static_friction, s.friction);
     if (i == 0 || s.distance < (1 - dynamic_share) * f.distance) continue;
     const double step = s.distance - samples_[i - 1].distance;
-    way += step;
+    distance += step;
     sum += step * s.friction;
     square += step * s.friction * s.friction;
     stress += step * s.normal_stress;
   }
-  if (way > 0) {
-    f.dynamic_friction = sum / way;
+  if (distance > 0) {
+    f.dynamic_friction = sum / distance;
     f.dynamic_deviation =
-        std::sqrt(std::max(square / way - f.dynamic_friction * f.dynamic_friction, 0.0));
-    f.normal_stress = stress / way;
+        std::sqrt(std::max(square / distance - f.dynamic_friction * f.dynamic_friction, 0.0));
+    f.normal_stress = stress / distance;
   }
   return f;
 }

@@ -16,7 +16,7 @@ struct ShearSetup {
   int stage = 0, target = 0;
   int punch = -1;              // the plane on the other side of the powder; -1: none
   int wall = -1;               // the plane that the target draws the powder against; -1: none
-  Vec2 along = Vec2::UnitX();  // the way the target goes
+  Vec2 along = Vec2::UnitX();  // the direction in which the target moves
   Vec2 up = Vec2::UnitY();     // out of the target
   double width = 0;            // m, between the walls; 0: there are no two
 };
@@ -24,8 +24,8 @@ std::optional<ShearSetup> shear_setup(const Scene& scene);
 
 // Static and dynamic friction of the whole stage, and how much went into them.
 struct ShearFigures {
-  double static_friction = 0;    // largest in the first quarter of the way
-  double dynamic_friction = 0;   // mean over the second half of the way
+  double static_friction = 0;    // largest in the first quarter of the distance
+  double dynamic_friction = 0;   // mean over the second half of the distance
   double dynamic_deviation = 0;  // its standard deviation there
   double normal_stress = 0;      // Pa, mean over the second half; 0 where there is no width
   double distance = 0;           // m

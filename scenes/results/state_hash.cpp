@@ -76,9 +76,9 @@ class StateHash {
       if (world_.has<ElasticSlip<At>>())
         for (int g = 0; g < edge_points; ++g)
           add(world_.column<ElasticSlip<At>>().values()[edge_points * row + g]);
-      if (world_.has<StaticLost<At>>())
+      if (world_.has<SlipWeakening<At>>())
         for (int g = 0; g < edge_points; ++g)
-          add(world_.column<StaticLost<At>>().values()[edge_points * row + g]);
+          add(world_.column<SlipWeakening<At>>().values()[edge_points * row + g]);
     }
   }
 

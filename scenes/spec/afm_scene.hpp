@@ -94,7 +94,7 @@ struct TargetSpec {
   double work = 0;      // J/m^2, JKR
 };
 
-// One part of the programme, in `increments` steps at most as long as the way.
+// One part of the programme, in `increments` steps at most as long as the path.
 struct ActionSpec {
   enum class Kind { press, scan, retract, hold, raster } kind = Kind::press;
   std::string name;
@@ -104,13 +104,13 @@ struct ActionSpec {
   bool back = true;                                                  // scan: and back again
   bool servo = false;  // scan, hold: the height follows so that the force stays
   int increments = 20;
-  double width = 0;  // m, raster: way along the slow axis, square to the fast one
+  double width = 0;  // m, raster: extent along the slow axis, square to the fast one
   int lines = 0;     // raster
   SourceMark mark;
 
   std::size_t samples() const {  // of the history
-    const int ways = kind == Kind::raster ? 2 * lines : kind == Kind::scan && back ? 2 : 1;
-    return static_cast<std::size_t>(increments) * static_cast<std::size_t>(ways);
+    const int lines_scanned = kind == Kind::raster ? 2 * lines : kind == Kind::scan && back ? 2 : 1;
+    return static_cast<std::size_t>(increments) * static_cast<std::size_t>(lines_scanned);
   }
 };
 

@@ -142,15 +142,15 @@ struct BodySpec {                // one particle, placed by hand
   SourceMark mark;
 };
 
-// By number: uniform, normal, log-normal; by area: sieve. The size of a particle is the least width of its
+// By number: uniform, normal, log-normal; by area: sieve. The size of a particle is the smallest width of its
 // outline, which is what passes a sieve.
 struct SizeLaw {
   enum class Kind { mono, uniform, normal, lognormal, sieve } kind = Kind::mono;
-  double mean = 0;                       // m, of the whole law, before it is cut off
-  double deviation = 0;                  // m, standard, of the size itself
-  std::optional<double> least, largest;  // m, nothing lies beyond
-  std::string file;                      // sieve curve, relative to the scene's folder
-  int sizes = 8;                         // that stand for the law
+  double mean = 0;                         // m, of the whole law, before it is cut off
+  double deviation = 0;                    // m, standard, of the size itself
+  std::optional<double> minimum, maximum;  // m, nothing lies beyond
+  std::string file;                        // sieve curve, relative to the scene's folder
+  int sizes = 8;                           // that stand for the law
 };
 
 // Of a random packing: particles of one class and their sizes.
@@ -166,7 +166,7 @@ struct MixtureClass {
 struct PackingReached {  // what came out of a random packing
   double density = 0;    // -, area of the particles over that of the die up to its top
   double mean_gap = 0;   // -, to the three nearest neighbours, in diameters
-  double least_gap = 0;  // m, between any two particles, or a particle and the die
+  double min_gap = 0;    // m, between any two particles, or a particle and the die
   int touches = 0;       // pairs of particles with a gap below a thousandth of a diameter
 };
 
@@ -210,13 +210,13 @@ struct ProfileSpec {
 };
 
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
-// the right of its points, a profile below its relief; a grip touches nothing and holds the nodes of one body that lie in a box, or
+// the right of its points, a profile below its relief; a constraint touches nothing and holds the nodes of one body that lie in a box, or
 // within a radius of `point`.
 struct ToolSpec {
-  enum class Shape { plane, polyline, grip, profile };
+  enum class Shape { plane, polyline, constraint, profile };
   enum class Holds { x, y, both, radial };
   std::string name;
-  Vec2 point = Vec2::Zero();    // m; of a radial grip, and of one with a radius: its centre
+  Vec2 point = Vec2::Zero();    // m; of a radial constraint, and of one with a radius: its centre
   bool on_packing = false;      // point.y is the top of the highest packing
   Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
   SourceMark mark;
@@ -224,8 +224,8 @@ struct ToolSpec {
   std::vector<Vec2> points = {};  // m, polyline; of a profile made from `relief`
   ProfileSpec relief = {};        // of a profile, whose crests are at the height of `point`
   double rounding = 0;            // m, radius of a polyline's convex corners
-  int body = 0;                   // of a grip, in the order of placement
-  Vec2 low = Vec2::Zero();        // m, corners of a grip's box
+  int body = 0;                   // of a constraint, in the order of placement
+  Vec2 low = Vec2::Zero();        // m, corners of a constraint's box
   Vec2 high = Vec2::Zero();
   std::optional<double> radius = {};  // m, about `point`, instead of the box
   Holds holds = Holds::both;
@@ -241,12 +241,12 @@ struct MoveSpec {
 
 struct ServoSpec {                // a tool that holds a force, through one stage
   int tool = 0;                   // position in Scene::tools
-  std::optional<Vec2> direction;  // unit vector, the way it pushes; absent: a plane's normal
+  std::optional<Vec2> direction;  // unit vector, in which it pushes; absent: a plane's normal
   double force = 0;               // N
   double rise = 0.2;              // -, share of the stage until the force is asked for in full
   std::optional<double> rate;     // N/s, instead of `rise`
   double response = 0.1;          // -, mass of the servo over that of the powder
-  double fastest = 10;            // m/s
+  double max_speed = 10;          // m/s
   double tolerance = 0.05;        // -, of the force, at the end of the stage
   SourceMark mark;
 };
@@ -274,8 +274,8 @@ struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names 
   std::string first, second;
   double coefficient = 0;                    // -, dynamic where there is a static one
   std::optional<double> static_coefficient;  // -, before sliding
-  std::optional<double> decay_length;        // m, sliding way in which the difference fades by 1/e
-  std::optional<double> shear_strength;      // Pa
+  std::optional<double> decay_length;    // m, sliding distance in which the difference fades by 1/e
+  std::optional<double> shear_strength;  // Pa
   SourceMark mark;
 };
 

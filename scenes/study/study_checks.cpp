@@ -182,12 +182,14 @@ class StudyChecks {
   }
 
   void units(StudyExpect& expect, const std::vector<SeriesInfo>& all) {
-    if (expect.at && expect.when) refuse("when", "has no effect beside `at`, allowed: one of them");
+    if (expect.at && expect.when)
+      refuse("when", "has no effect together with `at`, allowed: one of them");
     if (!expect.against.empty() && !expect.at && !expect.from && !expect.until)
       refuse("against",
-             "has no effect without `at`, `from` or `until`, allowed: beside one of them");
+             "has no effect without `at`, `from` or `until`, allowed: together with one of them");
     if (expect.at && (expect.from || expect.until))
-      refuse(expect.from ? "from" : "until", "has no effect beside `at`, allowed: with `when`");
+      refuse(expect.from ? "from" : "until",
+             "has no effect together with `at`, allowed: with `when`");
     expect.against = abscissa(expect);
     const std::string place = unit_in(all, expect.against);
     convert(expect.at, "at", place);

@@ -21,7 +21,7 @@ using document::Origin;
 using document::Table;
 using document::Value;
 
-constexpr std::size_t most_runs = 10'000;
+constexpr std::size_t max_runs = 10'000;
 
 const char* const introduction = R"(# The study file
 
@@ -48,7 +48,7 @@ order: `[set]`, the variation's own `set`, the grid, the seed, and `--set` of th
 that is wrong, in the study or in a scene it makes, is refused before the first run as
 `file:line:col: key: what is wrong, allowed: what is allowed`.
 
-**Series** are those of `history.csv` and `time`; for every tool `travel/<tool>`, its way since the start
+**Series** are those of `history.csv` and `time`; for every tool `travel/<tool>`, its displacement since the start
 [m]; and in a die of four plane tools `pressure/<tool>`, the force towards the tool over its face [Pa], and
 `transmission`, the bottom punch's force over the top punch's.
 )";
@@ -209,9 +209,9 @@ class StudyReader {
     std::size_t points = 1;
     for (const StudyAxis& axis : study_.spec.grid) points *= axis.settings.size();
     const std::size_t seeds = std::max<std::size_t>(1, study_.spec.seeds.size());
-    if (points > most_runs || list.size() * points * seeds > most_runs) {
+    if (points > max_runs || list.size() * points * seeds > max_runs) {
       problems_.add(scene_origin_, "grid",
-                    fmt::format("makes more than {} runs, allowed: at most as many", most_runs));
+                    fmt::format("makes more than {} runs, allowed: at most as many", max_runs));
       return;
     }
     for (const VariationSpec& one : list)

@@ -9,7 +9,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double least_force_share = 0.01;
+constexpr double min_force_share = 0.01;
 
 struct Face {  // of a tool of the die
   std::string along;
@@ -59,8 +59,8 @@ std::vector<double> share_below(const Scene& scene, const History& history) {
   const std::vector<double> top = history(tool_series(scene, cell.top, "force_y"));
   const double most = top.empty() ? 0 : std::ranges::max(top);
   for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = top[i] > least_force_share * most ? -values[i] / top[i]
-                                                  : std::numeric_limits<double>::quiet_NaN();
+    values[i] = top[i] > min_force_share * most ? -values[i] / top[i]
+                                                : std::numeric_limits<double>::quiet_NaN();
   return values;
 }
 
@@ -70,7 +70,7 @@ std::vector<SeriesInfo> study_series(const Scene& scene) {
   std::vector<SeriesInfo> all{{"time", "s", "of the sample"}};
   for (const SeriesInfo& series : history_series(scene)) all.push_back(series);
   for (const ToolSpec& tool : scene.tools)
-    all.push_back({"travel/" + tool.name, "m", "way since the first sample"});
+    all.push_back({"travel/" + tool.name, "m", "displacement since the first sample"});
   const std::optional<DieCell> cell = die_cell(scene);
   if (!cell) return all;
   for (std::size_t t = 0; t < scene.tools.size(); ++t)

@@ -11,7 +11,7 @@
 namespace pulvis {
 
 // `time`, the history, and where the scene has them:
-//   travel/<tool>        m, way of the tool since the first sample
+//   travel/<tool>        m, displacement of the tool since the first sample
 //   pressure/<tool>      Pa, of the four tools of a die: force towards the tool over its face
 //   transmission         -, F_bottom / F_top; no number while F_top is below 1% of its largest value
 std::vector<SeriesInfo> study_series(const Scene& scene);

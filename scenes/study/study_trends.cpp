@@ -15,7 +15,7 @@ namespace {
 using When = StudyExpect::When;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t least_neighbours = 5;
+constexpr std::size_t min_neighbours = 5;
 constexpr std::size_t share_of_neighbours = 20;
 
 double passing(std::span<const double> against, std::span<const double> series, double at) {
@@ -218,7 +218,7 @@ class Judge {
 
 double roughness(std::span<const double> values) {
   const std::size_t count = values.size();
-  const std::size_t near = std::max(least_neighbours, count / share_of_neighbours);
+  const std::size_t near = std::max(min_neighbours, count / share_of_neighbours);
   if (count < near) return no_number;
   const auto [low, high] = std::ranges::minmax(values);
   double sum = 0;

@@ -1,6 +1,6 @@
 #include "scenes/tools/contact_rules.hpp"
 
-#include "scenes/tools/grips.hpp"
+#include "scenes/tools/constraints.hpp"
 
 namespace pulvis {
 
@@ -10,7 +10,7 @@ ContactRules::Friction friction_of(const Scene& scene, const std::string& a, con
     ContactRules::Friction friction{.coefficient = f.coefficient};
     if (f.static_coefficient) {
       friction.drop = *f.static_coefficient - f.coefficient;
-      friction.over_decay = 1 / *f.decay_length;
+      friction.inv_decay = 1 / *f.decay_length;
     }
     if (f.shear_strength) friction.strength = *f.shear_strength;
     return friction;
@@ -29,8 +29,8 @@ ContactRules contact_rules(const Scene& scene) {
       rules.friction.push_back(friction_of(scene, a.name, b.name));
   for (const ToolSpec& tool : scene.tools)
     for (const MaterialSpec& m : scene.materials)
-      rules.tool_friction.push_back(is_grip(tool) ? ContactRules::Friction{}
-                                                  : friction_of(scene, tool.name, m.name));
+      rules.tool_friction.push_back(is_constraint(tool) ? ContactRules::Friction{}
+                                                        : friction_of(scene, tool.name, m.name));
   return rules;
 }
 

@@ -22,7 +22,7 @@ std::optional<DieCell> die_cell(const Scene& scene) {
   DieCell cell{-1, -1, -1, -1};
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];
-    if (tool.shape == ToolSpec::Shape::grip) continue;
+    if (tool.shape == ToolSpec::Shape::constraint) continue;
     if (tool.shape != ToolSpec::Shape::plane && !is_ground(tool))
       return std::nullopt;  // takes space of its own
     const Vec2 n = face_normal(tool);

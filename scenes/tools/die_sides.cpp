@@ -12,26 +12,26 @@ constexpr double straight = 1 - 1e-12;  // cosine between a plane's normal and a
 Vec2 face_normal(const ToolSpec& tool) {
   if (tool.shape == ToolSpec::Shape::plane) return tool.normal;
   if (tool.points.empty()) return Vec2::UnitY();  // a profile that is not made yet
-  const Vec2 way = tool.points.back() - tool.points.front();
-  return std::abs(way.x()) >= std::abs(way.y()) ? Vec2(0, way.x() > 0 ? 1 : -1)
-                                                : Vec2(way.y() > 0 ? -1 : 1, 0);
+  const Vec2 along = tool.points.back() - tool.points.front();
+  return std::abs(along.x()) >= std::abs(along.y()) ? Vec2(0, along.x() > 0 ? 1 : -1)
+                                                    : Vec2(along.y() > 0 ? -1 : 1, 0);
 }
 
 std::optional<DieSides> die_sides(const Scene& scene) {
-  constexpr int nobody = -1;
-  DieSides sides{nobody, nobody, nobody, nobody};
+  constexpr int none = -1;
+  DieSides sides{none, none, none, none};
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    if (scene.tools[t].shape == ToolSpec::Shape::grip) continue;
+    if (scene.tools[t].shape == ToolSpec::Shape::constraint) continue;
     const Vec2 n = face_normal(scene.tools[t]);
     const std::array<double, 4> along{n.x(), -n.x(), n.y(), -n.y()};
-    int side = nobody;
+    int side = none;
     for (int s = 0; s < 4; ++s)
       if (along[static_cast<std::size_t>(s)] > straight) side = s;
-    if (side == nobody || sides[static_cast<std::size_t>(side)] != nobody) return std::nullopt;
+    if (side == none || sides[static_cast<std::size_t>(side)] != none) return std::nullopt;
     sides[static_cast<std::size_t>(side)] = static_cast<int>(t);
   }
   for (const int tool : sides)
-    if (tool == nobody) return std::nullopt;
+    if (tool == none) return std::nullopt;
   return sides;
 }
 

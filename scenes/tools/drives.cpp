@@ -93,7 +93,7 @@ ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) 
                                .rate = spec.rate.value_or(0),
                                .mass = tool * powder.mass,
                                .damping = 0.5 * std::sqrt(kernels::dragged_mass * tool) * wave,
-                               .fastest = spec.fastest,
+                               .max_speed = spec.max_speed,
                                .tolerance = spec.tolerance});
     }
   return servos;

@@ -21,7 +21,7 @@ using std::numbers::pi;
 
 constexpr int chords_of_a_sine = 32;
 constexpr double pitches_beyond = 2;  // what the powder can press aside stays on the relief
-constexpr int most_stations = 20'000;
+constexpr int max_stations = 20'000;
 constexpr double upright = 1 - 1e-9;  // of a wall's normal along x
 
 double depth_of(const ProfileSpec& relief) {
@@ -94,7 +94,7 @@ std::vector<Vec2> between_flats(const std::vector<Vec2>& relief, double height) 
 
 int period_of(double length, double correlation_length) {
   double lengths = lengths_a_period;
-  while (lengths * correlation_length < length && lengths * stations_a_length <= most_stations)
+  while (lengths * correlation_length < length && lengths * stations_a_length <= max_stations)
     lengths *= 2;
   return static_cast<int>(lengths);
 }
@@ -106,7 +106,7 @@ std::vector<Vec2> rough(const ToolSpec& tool, std::uint64_t seed, Extent extent)
   const int lengths = period_of(extent.high - extent.low, relief.correlation_length);
   const double first = std::floor((extent.low - tool.point.x()) / step) - stations_a_length;
   const double last = std::ceil((extent.high - tool.point.x()) / step) + stations_a_length;
-  if (last - first > most_stations) return {};
+  if (last - first > max_stations) return {};
   const std::vector<double> heights = rough_heights(*relief.ra, seed, lengths);
   const auto count = static_cast<std::int64_t>(heights.size());
   std::vector<Vec2> points;
@@ -163,7 +163,7 @@ class ProfileChecks {
     if (measured) wanted("file", "the name of a CSV file");
     if (repeats && given("depth") == given("ra"))
       refuse(given("ra") ? "ra" : "depth",
-             given("ra") ? "has no effect beside depth, allowed: one of the two"
+             given("ra") ? "has no effect together with depth, allowed: one of the two"
                          : "required key is missing, allowed: a quantity in m, or ra instead");
   }
 
@@ -225,7 +225,7 @@ class ProfileMaker {
       refuse(
           "correlation_length",
           fmt::format("too short for the {:.6g} m that the powder comes over, allowed: >= {:.6g} m",
-                      length(), 1.01 * length() * stations_a_length / most_stations));
+                      length(), 1.01 * length() * stations_a_length / max_stations));
     return points;
   }
 

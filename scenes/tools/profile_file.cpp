@@ -7,13 +7,13 @@
 namespace pulvis {
 namespace {
 
-constexpr std::size_t fewest_points = 3, most_points = 20'000;
+constexpr std::size_t fewest_points = 3, max_points = 20'000;
 constexpr double shortest = 1e-12;  // m, of a profile: squares of lengths below it vanish
 
 void check(const csv::Table& table, const std::vector<double>& x) {
-  if (x.size() < fewest_points || x.size() > most_points)
+  if (x.size() < fewest_points || x.size() > max_points)
     csv::refuse(table, "x",
-                fmt::format("{} points, allowed: {} to {}", x.size(), fewest_points, most_points));
+                fmt::format("{} points, allowed: {} to {}", x.size(), fewest_points, max_points));
   for (std::size_t i = 1; i < x.size(); ++i)
     if (!(x[i] > x[i - 1]))
       csv::refuse(

@@ -29,7 +29,7 @@ class ServoChecks {
                  fmt::format("'{}' has two servos in this stage, allowed: one for each tool",
                              tool(stage_.servos[i]).name));
       if (stage_.servos[i].rate && given(path + ".rise"))
-        refuse(path, "rise", "has no effect beside rate, allowed: one of the two");
+        refuse(path, "rise", "has no effect together with rate, allowed: one of the two");
     }
     if (stage_.until) until(*stage_.until);
   }
@@ -45,11 +45,12 @@ class ServoChecks {
   }
 
   void servo(const ServoSpec& servo, const std::string& path) {
-    if (tool(servo).shape == ToolSpec::Shape::grip)
-      return refuse(path, "tool",
-                    fmt::format("'{}' is a grip, allowed: a plane or a polyline, which bear what "
-                                "touches them",
-                                tool(servo).name));
+    if (tool(servo).shape == ToolSpec::Shape::constraint)
+      return refuse(
+          path, "tool",
+          fmt::format("'{}' is a constraint, allowed: a plane or a polyline, which bear what "
+                      "touches them",
+                      tool(servo).name));
     const Vec2 direction = direction_of(servo, scene_);
     if (direction.isZero(0))
       return refuse(path, "direction",
@@ -76,7 +77,7 @@ class ServoChecks {
                       "one",
                       aims));
     if (until.relative_density && until.tool)
-      refuse(path, "tool", "has no effect beside relative_density, allowed: without it");
+      refuse(path, "tool", "has no effect together with relative_density, allowed: without it");
     if (until.relative_density && !die_cell(scene_))
       refuse(path, "relative_density",
              "there is no die that it refers to, allowed: in a scene whose tools are four planes "

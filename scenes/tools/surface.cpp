@@ -58,8 +58,8 @@ bool meet(const Vec2& p, const Vec2& t, double low, double high, const Vec2& q, 
   if (std::abs(sine) < straight_on) {
     const double distance = std::abs(cross(t, apart));
     if (distance > chain_round_off * (apart.norm() + 1e-300)) return false;
-    const double way = t.dot(w) > 0 ? 1 : -1, begin = t.dot(apart);
-    const double one = begin + way * from, other = begin + way * to;
+    const double sign = t.dot(w) > 0 ? 1 : -1, begin = t.dot(apart);
+    const double one = begin + sign * from, other = begin + sign * to;
     return std::min(one, other) <= high && std::max(one, other) >= low;
   }
   const double s = cross(apart, w) / sine, u = cross(apart, t) / sine;

@@ -21,7 +21,7 @@ class ToolChecks {
       if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::profile)
         check_profile(scene_.tools[t], path, origins_, problems_);
-      if (scene_.tools[t].shape == ToolSpec::Shape::grip) region(scene_.tools[t], path);
+      if (scene_.tools[t].shape == ToolSpec::Shape::constraint) region(scene_.tools[t], path);
     }
     for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
       const StageSpec& stage = scene_.stages[s];
@@ -43,7 +43,7 @@ class ToolChecks {
   void point(const ToolSpec& tool, const std::string& path) {
     const bool plane = tool.shape == ToolSpec::Shape::plane;
     const bool radial =
-        tool.shape == ToolSpec::Shape::grip && tool.holds == ToolSpec::Holds::radial;
+        tool.shape == ToolSpec::Shape::constraint && tool.holds == ToolSpec::Holds::radial;
     const bool profile = tool.shape == ToolSpec::Shape::profile;
     const bool wanted = plane || profile || radial || tool.radius;
     if (wanted && !given(path + ".point"))
@@ -56,7 +56,7 @@ class ToolChecks {
     if (!wanted && given(path + ".point"))
       refuse(path, "point",
              "has no effect, allowed: only with shape = \"plane\" or \"profile\", or shape = "
-             "\"grip\" and holds = "
+             "\"constraint\" and holds = "
              "\"radial\" or a radius");
   }
 
@@ -69,12 +69,13 @@ class ToolChecks {
       refuse(path, "rounding", rounded);
   }
 
-  // A grip says in one of two ways which nodes it holds.
+  // A constraint says in one of two ways which nodes it holds.
   void region(const ToolSpec& tool, const std::string& path) {
     for (const char* corner : {"low", "high"}) {
       const bool there = given(path + "." + corner);
       if (tool.radius && there)
-        refuse(path, corner, "has no effect beside radius, allowed: low and high, or radius alone");
+        refuse(path, corner,
+               "has no effect together with radius, allowed: low and high, or radius alone");
       if (!tool.radius && !there)
         refuse(path, corner,
                "required key is missing, allowed: two quantities [x, y] in m, or radius instead of "
@@ -85,28 +86,30 @@ class ToolChecks {
     refuse(path, "high", "the box is empty, allowed: not below and not left of low");
   }
 
-  // Where a grip leaves a node free it has nothing to move.
+  // Where a constraint leaves a node free it has nothing to move.
   void move(const MoveSpec& move, const std::string& path) {
     const ToolSpec& tool = scene_.tools[static_cast<std::size_t>(move.tool)];
-    if (tool.shape != ToolSpec::Shape::grip) return;
+    if (tool.shape != ToolSpec::Shape::constraint) return;
     using Holds = ToolSpec::Holds;
     const bool x_free = tool.holds == Holds::y;
     const bool y_free = tool.holds == Holds::x || tool.holds == Holds::radial;
     if ((x_free && move.displacement.x() != 0) || (y_free && move.displacement.y() != 0))
       refuse(path, "displacement",
-             fmt::format(
-                 "'{}' does not hold its nodes in {}, allowed: 0 m there{}", tool.name,
-                 x_free ? "x" : "y",
-                 tool.holds == Holds::radial ? ", the way outwards as the first component" : ""));
+             fmt::format("'{}' does not hold its nodes in {}, allowed: 0 m there{}", tool.name,
+                         x_free ? "x" : "y",
+                         tool.holds == Holds::radial
+                             ? ", the radial displacement as the first component"
+                             : ""));
   }
 
   void friction(const FrictionSpec& friction, std::size_t number) {
     for (const ToolSpec& tool : scene_.tools)
-      if (tool.shape == ToolSpec::Shape::grip &&
+      if (tool.shape == ToolSpec::Shape::constraint &&
           (tool.name == friction.first || tool.name == friction.second))
         refuse(fmt::format("friction[{}]", number), "between",
-               fmt::format("nothing touches the grip '{}', allowed: tools that are no grips",
-                           tool.name));
+               fmt::format(
+                   "nothing touches the constraint '{}', allowed: tools that are no constraints",
+                   tool.name));
   }
 
   const Scene& scene_;

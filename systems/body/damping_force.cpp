@@ -1,11 +1,11 @@
 // damping_force: bulk damping of the particles, proportional to mass and to stiffness:
 //   f = -alpha M v - beta K v
 //
-// Source   systems/body/damping_kernel.hpp. The force is added to the internal one, as a grip's reaction is, so
+// Source   systems/body/damping_kernel.hpp. The force is added to the internal one, as a constraint's reaction is, so
 //          that whoever reads the force on a node sees it. Velocities are those half a step back, which the
 //          stable time step allows for. Work by the trapezoidal rule over each step, from the forces at
 //          both of its ends: what the leapfrog takes out of its kinetic energy (systems/body/energies.cpp)
-// Runs     after internal_force, before hold_grips and integrate
+// Runs     after internal_force, before apply_constraints and integrate
 // Active   when a material of the scene has [material.damping]
 #include "components/run_state.hpp"
 #include "engine/access.hpp"

@@ -15,7 +15,7 @@ namespace pulvis {
 void element_health::operator()() const {
   const auto values = worst.value.values();
   for (std::size_t slot = 0; slot < values.size(); ++slot) {
-    totals->least_jacobian = std::min(totals->least_jacobian, values[slot]);
+    totals->min_jacobian = std::min(totals->min_jacobian, values[slot]);
     if (values[slot] > 0) continue;  // NaN is not
     throw RunFailure(fmt::format(
         "trial_stress: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the "

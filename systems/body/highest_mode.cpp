@@ -43,14 +43,14 @@ void elastic_forces(const Body<Points>& body, const ChunkView<HighestMode, Lane*
                             : Lane{};
     for (int k = 0; k < 2; ++k) mode(n, 2 + k) = -(spring * mode(n, k));
   }
-  const Lane over_shear = 1.0 / body.shear;
+  const Lane inv_shear = 1.0 / body.shear;
   for (int i = 0; i < shape.elements(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const Quad& q = shape.quads[at];
     const auto map = quad_map<4>(body.x, q);
     const double area = shape.centre[at][0].determinant;
     const Lane theta = determinant(map_gradient<1>(map, 0)) * (4 / area);
-    const Lane distortion = theta * over_shear * largest_norm<Points>(body.stress, Row<Element>(i));
+    const Lane distortion = theta * inv_shear * largest_norm<Points>(body.stress, Row<Element>(i));
     const auto flux =
         kernels::tangent_flux(map, quad_map<4>(mode, q),
                               kernels::tangent_moduli(body.bulk, body.shear, theta, distortion),

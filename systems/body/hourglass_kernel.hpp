@@ -28,10 +28,10 @@ struct Hourglass {  // of the fibres along xi, along eta
   T one, two;
 };
 
-// w = A^-1 h; over_det = 1 / det A.
+// w = A^-1 h; inv_det = 1 / det A.
 template <class T>
-Hourglass<T> natural_hourglass(const QuadMap<T>& m, T over_det) {
-  return {over_det * fma(m.hx, m.by, -(m.hy * m.bx)), over_det * fma(m.ax, m.hy, -(m.ay * m.hx))};
+Hourglass<T> natural_hourglass(const QuadMap<T>& m, T inv_det) {
+  return {inv_det * fma(m.hx, m.by, -(m.hy * m.bx)), inv_det * fma(m.ax, m.hy, -(m.ay * m.hx))};
 }
 
 template <class T, class Reference>  // Shape::Hourglass
@@ -52,32 +52,35 @@ std::array<T, 4> corner_determinants(const Hourglass<T>& w) {
 template <class T, class Reference>
 std::array<T, 4> corner_ratios(const Hourglass<T>& w, const Reference& reference) {
   auto ratio = corner_determinants(w);
-  for (std::size_t k = 0; k < 4; ++k) ratio[k] *= reference.over_determinant[k];
+  for (std::size_t k = 0; k < 4; ++k) ratio[k] *= reference.inv_determinant[k];
   return ratio;
 }
 template <class T>
-T least_ratio(const std::array<T, 4>& ratio) {
+T min_ratio(const std::array<T, 4>& ratio) {
   return min(min(ratio[0], ratio[1]), min(ratio[2], ratio[3]));
 }
 
 // Bending that flows does not keep a corner from folding, as the four points of the other elements do,
-// whose isochoric stretch grows without bound there. So a corner with a ratio r below `folding` stores
-// mu/8 (r + folding^2/r - 2 folding) per undeformed area, which grows without bound too.
-inline constexpr double folding = 0.3;
+// whose isochoric stretch grows without bound there. So a corner with a ratio r below `barrier_ratio` stores
+// mu/8 (r + barrier_ratio^2/r - 2 barrier_ratio) per undeformed area, which grows without bound too.
+inline constexpr double barrier_ratio = 0.3;
 
 template <class T>
-T folding_energy(const std::array<T, 4>& ratio, T mu) {
+T inversion_barrier_energy(const std::array<T, 4>& ratio, T mu) {
   T sum{};
-  for (const T& r : ratio) sum += select(r < folding, r + folding * folding / r - 2 * folding, T{});
+  for (const T& r : ratio)
+    sum +=
+        select(r < barrier_ratio, r + barrier_ratio * barrier_ratio / r - 2 * barrier_ratio, T{});
   return (1.0 / 8.0) * mu * sum;
 }
 // Its derivative by w.
 template <class T, class Reference>
-Hourglass<T> folding_moment(const std::array<T, 4>& ratio, const Reference& reference, T mu) {
+Hourglass<T> inversion_barrier_moment(const std::array<T, 4>& ratio, const Reference& reference,
+                                      T mu) {
   std::array<T, 4> slope;
   for (std::size_t k = 0; k < 4; ++k)
-    slope[k] =
-        reference.over_determinant[k] * min(1.0 - folding * folding / (ratio[k] * ratio[k]), T{});
+    slope[k] = reference.inv_determinant[k] *
+               min(1.0 - barrier_ratio * barrier_ratio / (ratio[k] * ratio[k]), T{});
   const T scale = (1.0 / 8.0 * gauss) * mu, even = slope[2] - slope[0], odd = slope[3] - slope[1];
   return {scale * (even + odd), scale * (even - odd)};
 }
@@ -102,9 +105,9 @@ Hourglass<T> bending_moment(const Hourglass<T>& stress, const Reference& referen
           third * fma(reference.skew[0], stress.one, stress.two)};
 }
 template <class T>
-void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<T>& w, T over_det,
+void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<T>& w, T inv_det,
                         const Hourglass<T>& moment) {
-  const T one = over_det * moment.one, two = over_det * moment.two;
+  const T one = inv_det * moment.one, two = inv_det * moment.two;
   const T qx = fma(m.by, one, -(m.ay * two)), qy = fma(m.ax, two, -(m.bx * one));
   flux.h_x += qx;
   flux.h_y += qy;

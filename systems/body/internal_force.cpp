@@ -19,7 +19,7 @@ using Flux = kernels::QuadFlux<Lane>;
 struct Bending {
   ChunkView<HourglassStress, const Lane*> stress;
   Lane mu;
-  bool folding;  // some corner of the chunk's elements is about to fold
+  bool near_inversion;  // some corner of the chunk's elements is about to fold
 };
 
 template <class F>
@@ -67,19 +67,19 @@ Flux stress_flux(const Views<OnePoint>& v, const Map& map, const Shape& shape, R
   const Lane mean = v.p(e);
   // Of four times the map, which stands for the four quarters of (xi, eta).
   auto flux = kernels::central_flux(a, d.xx + mean, d.yy + mean, d.xy);
-  const Lane over_det = 1.0 / determinant(a);
+  const Lane inv_det = 1.0 / determinant(a);
   const auto& reference = entry(shape.hourglass, e.value);
-  const double area = 4 * points_of<1>(shape, e.value)[0].determinant;  // by scale / over_det
-  const auto w = kernels::natural_hourglass(map, over_det);
+  const double area = 4 * points_of<1>(shape, e.value)[0].determinant;  // by scale / inv_det
+  const auto w = kernels::natural_hourglass(map, inv_det);
   auto moment = kernels::bending_moment<Lane>({v.bending->stress(e, 0), v.bending->stress(e, 1)},
                                               reference, (1.0 / 3.0) * area);
-  if (v.bending->folding) {
-    const auto more = kernels::folding_moment(kernels::corner_ratios(w, reference), reference,
-                                              area * v.bending->mu);
+  if (v.bending->near_inversion) {
+    const auto more = kernels::inversion_barrier_moment(kernels::corner_ratios(w, reference),
+                                                        reference, area * v.bending->mu);
     moment.one += more.one;
     moment.two += more.two;
   }
-  kernels::add_hourglass_flux(flux, map, w, over_det, moment);
+  kernels::add_hourglass_flux(flux, map, w, inv_det, moment);
   return flux;
 }
 
@@ -109,7 +109,7 @@ template <class F>
   if constexpr (F::stabilised) {
     const Row<Particle> particle;
     const Bending modes{bending->stress.chunk(chunk), shear.chunk(chunk)(particle),
-                        any(bending->least_corner.chunk(chunk)(particle) < kernels::folding)};
+                        any(bending->min_corner.chunk(chunk)(particle) < kernels::barrier_ratio)};
     views.bending = &modes;
     chunk_force(chunk, views, position.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
   } else {

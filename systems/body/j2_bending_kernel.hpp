@@ -14,7 +14,7 @@ namespace pulvis::kernels {
 // none. With less, the return of stresses that hardly leave the surface amplifies round-off: two runs of
 // 7,000 steps that differ by 1e-14 part to 9e-6 with 0.1, 1e-8 with 0.3, 2e-11 with 0.5. The force of the
 // unit cell (140 quads) falls by 0.6% from 0.1 to 0.5 (docs/accuracy.md).
-inline constexpr double least_width = 0.5;
+inline constexpr double min_width = 0.5;
 
 // Squared part of a deviator that stretches the fibres (and shortens what lies across them), as numerator
 // and denominator: s:N with N = (e e - e' e')/sqrt 2. e: the direction of a, which in a rectangle is that
@@ -40,7 +40,7 @@ T inverse_width(const QuadMap<T>& m, const Deviator<T>& s, T limit2) {
   const T full = stretching.denominator * max(norm2, limit2);
   const T room = fma((-4.0 / 3.0), stretching.numerator,
                      fma((1.0 / 3.0) * norm2, stretching.denominator, full));
-  return full / max(room, least_width * full);
+  return full / max(room, min_width * full);
 }
 
 // The bending stress coupled with a deviator under the joint yield surface
@@ -52,41 +52,41 @@ T inverse_width(const QuadMap<T>& m, const Deviator<T>& s, T limit2) {
 template <class T>
 struct CoupledBending {
   Hourglass<T> stress;  // trial
-  T softness;           // 2/3 E' / (2 mu): how much faster than s it gives way
+  T softness;           // 2/3 E' / (2 mu): how much faster than s it yields
   T stiffness;          // 1 / softness
-  T over_width;
-  T left;  // share of the stress that the return leaves
+  T inv_width;
+  T retained;  // share of the stress that the return retains
 
   T squared_norm() const {
     return (2.0 / 9.0) * fma(stress.one, stress.one, stress.two * stress.two);
   }
-  T joint_norm(T norm2) const { return fma(over_width, squared_norm(), norm2); }
+  T joint_norm(T norm2) const { return fma(inv_width, squared_norm(), norm2); }
   // Slope of the consistency condition and the excess, both times |S|^2.
   T slope(T norm2, T joint2, T, T modulus, T two_mu) const {
-    const T flow = over_width * over_width * squared_norm();
+    const T flow = inv_width * inv_width * squared_norm();
     return fma((2.0 / 3.0) * joint2, modulus, two_mu * fma(softness, flow, norm2));
   }
   T push(T excess, T norm) const { return excess * norm; }
 
   // For laws that are no line the return is iterated on the joint surface itself.
-  T farthest(T two_mu) const { return max(stiffness / over_width, T{} + 1.0) / two_mu; }
+  T farthest(T two_mu) const { return max(stiffness / inv_width, T{} + 1.0) / two_mu; }
   Remaining<T> keep(T beta, const Trial<T>& t) {
     const T kept = max(beta, T{}), t2 = squared_norm();
-    left = max(fma(softness * over_width, beta - 1.0, 1.0), T{});
-    const T size = sqrt(fma(kept * kept, t.norm2, over_width * (left * left * t2)));
-    const T flow = softness * over_width * over_width * (left * t2);
+    retained = max(fma(softness * inv_width, beta - 1.0, 1.0), T{});
+    const T size = sqrt(fma(kept * kept, t.norm2, inv_width * (retained * retained * t2)));
+    const T flow = softness * inv_width * inv_width * (retained * t2);
     return {size, -(t.two_mu_bar / size) * fma(kept, t.norm2, flow)};
   }
 
   // The linear step leaves stresses outside the surface where the stretching is large against the elastic
   // strain: where it is by more than a ten-thousandth (of the squares), both are pulled straight in. The
-  // work that is spent then is that of the stresses left.
+  // work that is spent then is that of the stresses retained.
   template <class Mask, class Hardening>
   void settle(const Mask& flows, T& beta, T& dgamma, T norm2, T two_mu, T eps,
               const Hardening& law) {
     const T t2 = squared_norm();
-    left = max(fma(softness * over_width, beta - 1.0, 1.0), T{});
-    const T outside = fma(beta * beta, norm2, over_width * (left * left * t2));
+    retained = max(fma(softness * inv_width, beta - 1.0, 1.0), T{});
+    const T outside = fma(beta * beta, norm2, inv_width * (retained * retained * t2));
     const T limit = sqrt_2_3 * law.flow_stress(fma(sqrt_2_3, dgamma, eps));
     const auto beyond = flows & (outside > (1 + 1e-4) * (limit * limit));
     if (!any(beyond)) return;
@@ -94,8 +94,8 @@ struct CoupledBending {
     const T over = 1.0 / (root * cost);  // one division for two
     const T in = select(beyond, limit * cost * over, T{} + 1.0);
     beta *= in;
-    left *= in;
-    const T spent = fma(beta * (1.0 - beta), norm2, left * (1.0 - left) * (t2 * stiffness));
+    retained *= in;
+    const T spent = fma(beta * (1.0 - beta), norm2, retained * (1.0 - retained) * (t2 * stiffness));
     dgamma = select(beyond, spent * (root * over), dgamma);
   }
 };
@@ -103,9 +103,9 @@ struct CoupledBending {
 // Whether s and t can yield at all, whatever the width: it is never below 1 - |n|^2.
 template <class T>
 auto may_yield(const Deviator<T>& s, const Hourglass<T>& m, T limit2) {
-  const T left = limit2 - squared_norm(s);
+  const T room = limit2 - squared_norm(s);
   const T bending2 = (2.0 / 9.0) * fma(m.one, m.one, m.two * m.two);
-  return (left < T{}) | (left * left < bending2 * limit2);
+  return (room < T{}) | (room * room < bending2 * limit2);
 }
 
 }  // namespace pulvis::kernels

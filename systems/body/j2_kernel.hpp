@@ -171,7 +171,7 @@ Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const LinearHarde
 // The condition is met within this of the flow stress and round-off of the trial stress; or where the bracket is no
 // wider than round-off of the plastic strain, on curves that are next to upright.
 inline constexpr double consistency = 1e-12, consistency_of_trial = 1e-15, round_off = 4e-16;
-inline constexpr int most_iterations = 200;
+inline constexpr int max_iterations = 200;
 
 // A residual that is no number meets nothing.
 template <class T>
@@ -191,7 +191,7 @@ Multiplier<T> consistent(const Mask& flows, const Trial<T>& t, const Hardening& 
   T low{}, high = coupled.farthest(t.two_mu_bar), residual{};
   T x = select(flows, min(excess / -remaining(low).slope, high), T{});
   Mask open = flows;
-  for (int i = 0; i < most_iterations; ++i) {
+  for (int i = 0; i < max_iterations; ++i) {
     const Remaining<T> left = remaining(x);
     const T to_strain = sqrt_2_3 * t.norm, grown = to_strain * x;
     const Flow<T> flow = flow_after(law, t.eps, grown);

@@ -1,4 +1,4 @@
-// j2_return_map: brings trial stresses that left the von Mises yield surface back onto it; in elements
+// j2_return_map: brings trial stresses that retained the von Mises yield surface back onto it; in elements
 // with one point together with the stress of the hourglass modes.
 //
 // Source   systems/body/j2_kernel.hpp (Simo & Hughes 1998, box 9.1); systems/body/j2_bending_kernel.hpp; laws:
@@ -27,7 +27,7 @@ struct Views {
   ChunkView<DeviatoricStress<F::points>, Lane*> stress;
   ChunkView<PlasticMetric<F::points>, Lane*> metric;
   ChunkView<PlasticStrain<F::points>, Lane*> strain;
-  Lane mu, over_mu;
+  Lane mu, inv_mu;
   Law law;
 };
 
@@ -44,7 +44,7 @@ void return_point(const Views<F, Law>& v, Row<Element> e, int g, const kernels::
   const Lane r = v.scale(e, g), before = v.strain(e, g);
   const auto next = kernels::radial_return<Lane>(
       {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), before}, f, r * r, mu_over_theta,
-      theta * v.over_mu, v.law, coupled);
+      theta * v.inv_mu, v.law, coupled);
   store(v.stress, e, g, next.s);
   v.metric(e, 4 * g) = next.c.xx;
   v.metric(e, 4 * g + 1) = next.c.yy;
@@ -87,19 +87,19 @@ void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, 
 struct Bending {
   ChunkView<HourglassStress, Lane*> stress;
   ChunkView<PlasticHourglass, Lane*> plastic;
-  Lane softness, stiffness, over_modulus;
+  Lane softness, stiffness, inv_modulus;
 };
 
-// Keeps the share `left` of the bending stress; the rest has become plastic. Returns the work spent in
+// Keeps the share `retained` of the bending stress; the rest has become plastic. Returns the work spent in
 // the hourglass modes, J/m.
 Lane keep_bending(const Bending& bending, Row<Element> e, const kernels::Hourglass<Lane>& stress,
-                  Lane left, double area) {
-  const Lane gone = fma(-left, bending.over_modulus, bending.over_modulus);
-  bending.plastic(e, 0) = fma(gone, stress.one, bending.plastic(e, 0));
-  bending.plastic(e, 1) = fma(gone, stress.two, bending.plastic(e, 1));
-  bending.stress(e, 0) = left * stress.one;
-  bending.stress(e, 1) = left * stress.two;
-  return ((1.0 / 3.0) * area) * (left * gone) *
+                  Lane retained, double area) {
+  const Lane plastic_share = fma(-retained, bending.inv_modulus, bending.inv_modulus);
+  bending.plastic(e, 0) = fma(plastic_share, stress.one, bending.plastic(e, 0));
+  bending.plastic(e, 1) = fma(plastic_share, stress.two, bending.plastic(e, 1));
+  bending.stress(e, 0) = retained * stress.one;
+  bending.stress(e, 1) = retained * stress.two;
+  return ((1.0 / 3.0) * area) * (retained * plastic_share) *
          fma(stress.one, stress.one, stress.two * stress.two);
 }
 
@@ -118,7 +118,7 @@ void return_element(const Views<OnePoint, Law>& v, const Bending& bending, const
   const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
   const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
   return_point(v, e, 0, f, v.mu * (r * r * r), determinant(f), point.determinant, sums, coupled);
-  sums.hourglass_work += keep_bending(bending, e, m, coupled.left, point.determinant);
+  sums.hourglass_work += keep_bending(bending, e, m, coupled.retained, point.determinant);
 }
 
 }  // namespace

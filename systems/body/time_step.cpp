@@ -46,7 +46,7 @@ template <int Points>
   const auto stress = deviator.chunk(chunk);
   const Lane k = material.elastic.bulk.chunk(chunk)(particle),
              rho = material.density.chunk(chunk)(particle);
-  const Lane shear = material.elastic.shear.chunk(chunk)(particle), over_shear = 1.0 / shear;
+  const Lane shear = material.elastic.shear.chunk(chunk)(particle), inv_shear = 1.0 / shear;
   // Enough for little damping, within what `safety` leaves; with more, `late` says what it takes.
   const double contact =
       rules ? (*rules)->stiffness * (clock->stiffening + 2 * (*rules)->damping) : 0;
@@ -58,7 +58,7 @@ template <int Points>
     const Lane theta = determinant(map_gradient<1>(map, 0)) * (4 / shape.centre[at][0].determinant);
     const auto spread =
         kernels::mode_spread(kernels::map_gradient(map, 0, 0), shape.corner_moment[at]);
-    const Lane distortion = theta * over_shear * largest_norm<Points>(stress, Row<Element>(i));
+    const Lane distortion = theta * inv_shear * largest_norm<Points>(stress, Row<Element>(i));
     const Lane element = kernels::frequency_bound(spread, k, shear, theta, distortion);
     const Lane solid = element * corner_factor(map);
     highest = max(highest, solid + contact * shape.contact_frequency[at] * k);

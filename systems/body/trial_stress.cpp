@@ -31,28 +31,28 @@ Views<F> views_of(const Read<Position>& position, const ElementStress<Write, F>&
           elastic.shear.chunk(chunk)(particle), elastic.bulk.chunk(chunk)(particle)};
 }
 
-// Elements with one point: the trial stress of their hourglass modes, over the plastic part `gone`.
+// Elements with one point: the trial stress of their hourglass modes, over the plastic part `plastic_bending`.
 struct HourglassViews {
   ChunkView<HourglassStress, Lane*> stress;
-  const ChunkView<PlasticHourglass, const Lane*>* gone;  // null: elastic
+  const ChunkView<PlasticHourglass, const Lane*>* plastic_bending;  // null: elastic
   Lane modulus;
-  Lane least_corner;  // of the chunk's elements so far
+  Lane min_corner;  // of the chunk's elements so far
 };
 
 // Returns the least det F of where the Gauss points of a four-point element would be, over theta: it tells
 // a folded element.
-Lane hourglass_stress(HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane over_det,
+Lane hourglass_stress(HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane inv_det,
                       const Shape::Hourglass& reference, Row<Element> e) {
-  const auto w = kernels::natural_hourglass(map, over_det);
+  const auto w = kernels::natural_hourglass(map, inv_det);
   auto strain = kernels::bending_strain(w, reference);
-  if (v.gone != nullptr) {
-    strain.one -= (*v.gone)(e, 0);
-    strain.two -= (*v.gone)(e, 1);
+  if (v.plastic_bending != nullptr) {
+    strain.one -= (*v.plastic_bending)(e, 0);
+    strain.two -= (*v.plastic_bending)(e, 1);
   }
   v.stress(e, 0) = v.modulus * strain.one;
   v.stress(e, 1) = v.modulus * strain.two;
-  const Lane corner = kernels::least_ratio(kernels::corner_ratios(w, reference));
-  v.least_corner = min(corner, v.least_corner);
+  const Lane corner = kernels::min_ratio(kernels::corner_ratios(w, reference));
+  v.min_corner = min(corner, v.min_corner);
   return corner;
 }
 
@@ -62,11 +62,11 @@ Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& s
                     Row<Element> e, const LeftCauchyGreen& left) {
   const auto map = quad_map<F::points>(v.x, entry(shape.quads, e.value));
   const auto& points = points_of<F::points>(shape, e.value);
-  Lane theta{}, over_theta{}, least = 1e300;
+  Lane theta{}, inv_theta{}, least = 1e300;
   if constexpr (F::volumes < F::points) {
     theta = least = mean_dilatation(map, points);
-    over_theta = 1.0 / theta;
-    v.p(e) = 0.5 * v.bulk * (theta - over_theta);
+    inv_theta = 1.0 / theta;
+    v.p(e) = 0.5 * v.bulk * (theta - inv_theta);
   }
   for (int g = 0; g < F::points; ++g) {
     const auto& point = entry(points, g);
@@ -76,14 +76,14 @@ Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& s
     const Lane r = kernels::inverse_cube_root(j);
     const Lane r2 = r * r;
     if constexpr (F::volumes == F::points) {
-      over_theta = r2 * r;
-      v.p(e, g) = 0.5 * v.bulk * (j - over_theta);
+      inv_theta = r2 * r;
+      v.p(e, g) = 0.5 * v.bulk * (j - inv_theta);
     }
-    store(v.s, e, g, kernels::scaled_deviator(left(f, r, e, g), v.mu * over_theta * r2));
+    store(v.s, e, g, kernels::scaled_deviator(left(f, r, e, g), v.mu * inv_theta * r2));
     least = min(j, least);
   }
   if constexpr (F::stabilised)
-    least *= hourglass_stress(*hourglass, map, over_theta * (0.25 / points[0].determinant),
+    least *= hourglass_stress(*hourglass, map, inv_theta * (0.25 / points[0].determinant),
                               entry(shape.hourglass, e.value), e);
   return least;
 }
@@ -95,16 +95,16 @@ void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
   worst = select(lower, least, worst);
 }
 
-// `gone`: null for elastic material.
+// `plastic_bending`: null for elastic material.
 template <class F, class LeftCauchyGreen>
 void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
                   const Optional<BendingModes<Write>>& bending,
-                  const Optional<Read<PlasticHourglass>>* gone,
+                  const Optional<Read<PlasticHourglass>>* plastic_bending,
                   const WorstJacobian<Write>& worst_jacobian, const LeftCauchyGreen& left) {
   std::optional<ChunkView<PlasticHourglass, const Lane*>> plastic;
   std::optional<HourglassViews> hourglass;
   if constexpr (F::stabilised) {
-    if (gone != nullptr) plastic = (*gone)->chunk(chunk);
+    if (plastic_bending != nullptr) plastic = (*plastic_bending)->chunk(chunk);
     hourglass = {bending->stress.chunk(chunk), plastic ? &*plastic : nullptr,
                  kernels::plane_strain_modulus(v.mu, v.bulk), 1e300};
   }
@@ -115,7 +115,7 @@ void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
         element_stress<F>(v, hourglass ? &*hourglass : nullptr, shape, Row<Element>(i), left),
         Row<Element>(i), worst, which);
   if constexpr (F::stabilised)
-    bending->least_corner.chunk(chunk)(Row<Particle>()) = hourglass->least_corner;
+    bending->min_corner.chunk(chunk)(Row<Particle>()) = hourglass->min_corner;
   worst_jacobian.value.chunk(chunk)(Row<Particle>()) = worst;
   worst_jacobian.element.chunk(chunk)(Row<Particle>()) = which;
 }

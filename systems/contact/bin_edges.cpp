@@ -86,11 +86,11 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
   if (rows.more) {
     using More = FrictionMore<At>;
     (*rows.more)(row, More::drop) = law.friction.drop;
-    (*rows.more)(row, More::over_decay) = law.friction.over_decay;
+    (*rows.more)(row, More::inv_decay) = law.friction.inv_decay;
     (*rows.more)(row, More::strength) = law.friction.strength;
   }
   rows.law(row, Law::damping) = law.damping;
-  rows.law(row, Law::over_length) = 1 / edge.length;
+  rows.law(row, Law::inv_length) = 1 / edge.length;
   for (std::size_t g = 0; g < edge_points; ++g)
     rows.law(row, Law::weight + static_cast<int>(g)) = edge.weight[g] * bodies.thickness;
 }
@@ -178,8 +178,8 @@ void bin_edges::operator()() const {
     // An outline against itself is looked for anew: its closest points may have gone home along it (edge_contact).
     const bool again = found.all[r].faces && touches(row) == 0;
     const bool known = source[r] >= 0 && !again;
-    // What was found to be the far side of a thin part stays that.
-    if (!(known && rows.reach(row) == far_side)) rows.reach(row) = 0;
+    // What was found to be the back face of a thin part stays that.
+    if (!(known && rows.reach(row) == back_face)) rows.reach(row) = 0;
     curves.place(row, 0) = entry(slots, key.slot).first_control + edge.first_control;
     curves.place(row, 1) = entry(slots, key.other).first_control;
     if (known) return;
@@ -206,7 +206,7 @@ PieceRange near_pieces(const ToolSurface& surface, Point at, const double* point
   return pieces_near(surface, box, reach);
 }
 
-double least_distance(const double* points, Point at, Point normal) {
+double min_distance(const double* points, Point at, Point normal) {
   double least = std::numeric_limits<double>::max();
   for (int a = 0; a < 4; ++a)
     least = std::min(least,
@@ -220,7 +220,7 @@ BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const doub
   return list_by_slot<ToolCandidate>(
       static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ToolCandidate>& found) {
         const Bodies::Slot& s = entry(bodies.slots, slot);
-        if (s.number == Bodies::nobody) return;
+        if (s.number == Bodies::empty_slot) return;
         const auto& edges = bodies.shape_of_slot(slot).edges;
         for (std::int32_t e = 0; e < static_cast<std::int32_t>(edges.size()); ++e)
           for (int t = 0; t < tools.position.rows(); ++t) {
@@ -229,7 +229,7 @@ BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const doub
             const double* points = control.data() + 2 * (s.first_control + edge.first_control);
             const Point at{tools.position(tool, 0), tools.position(tool, 1)};
             if (tools.is(t, ToolShapes::Kind::plane)) {
-              if (least_distance(points, at, {tools.normal(tool, 0), tools.normal(tool, 1)}) < skin)
+              if (min_distance(points, at, {tools.normal(tool, 0), tools.normal(tool, 1)}) < skin)
                 found.push_back({slot, e, t, {}});
             } else if (tools.is(t, ToolShapes::Kind::polyline)) {
               const PieceRange range =

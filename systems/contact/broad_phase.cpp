@@ -81,7 +81,7 @@ class Grid {
 
 // Of one outline after the other: boxes of the whole, and of its edges.
 struct Boxes {
-  std::vector<Box> particle;             // [slots]; undefined where nobody is
+  std::vector<Box> particle;             // [slots]; undefined where is_empty is
   std::vector<std::int32_t> edge_begin;  // [slots] into edge
   std::vector<Box> edge;
 };
@@ -91,7 +91,7 @@ struct Curves {
   std::span<const double> control;
 
   int slots() const { return static_cast<int>(bodies.slots.size()); }
-  bool nobody(int slot) const { return entry(bodies.slots, slot).number == Bodies::nobody; }
+  bool is_empty(int slot) const { return entry(bodies.slots, slot).number == Bodies::empty_slot; }
   int edges(int slot) const { return static_cast<int>(bodies.shape_of_slot(slot).edges.size()); }
   const double* points(int slot) const {
     return control.data() + 2 * entry(bodies.slots, slot).first_control;
@@ -142,11 +142,11 @@ double squared_distance_to_chord(const Spot& p, const double* control) {
   return d[0] * d[0] + d[1] * d[1];
 }
 
-// How far `way` goes out of the edge with these control points, of its length: 1 straight out, -1 straight in.
-double outwards(const Spot& way, const double* control) {
+// How far `direction` goes out of the edge with these control points, of its length: 1 straight out, -1 straight in.
+double outwards(const Spot& direction, const double* control) {
   const Spot a = knot(control), b = knot(control + 2);
-  const double out = way[0] * (b[1] - a[1]) - way[1] * (b[0] - a[0]);
-  const double size = (way[0] * way[0] + way[1] * way[1]) *
+  const double out = direction[0] * (b[1] - a[1]) - direction[1] * (b[0] - a[0]);
+  const double size = (direction[0] * direction[0] + direction[1] * direction[1]) *
                       ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]));
   return size > 0 ? out / std::sqrt(size) : 0;
 }
@@ -159,17 +159,19 @@ double product_of_normals(const double* one, const double* other) {
 // Whether some part of an edge sees another one in front of it, and is seen by it. Close by, beside each other counts,
 // too: an edge that slides along a flank comes near it from there.
 bool faces(const double* own, const double* other) {
-  constexpr double opposite = -0.1, close = 0.25, least_close = -0.5;
+  constexpr double opposite = -0.1, close = 0.25, min_close = -0.5;
   if (product_of_normals(own, other) >= opposite) return false;
   const Spot begin = knot(own), end = knot(own + 2);
   const Spot chord{end[0] - begin[0], end[1] - begin[1]};
   const double length = chord[0] * chord[0] + chord[1] * chord[1];
   for (const double share : {0.0, 0.5, 1.0}) {
-    const Spot way =
+    const Spot direction =
         way_from_chord({begin[0] + share * chord[0], begin[1] + share * chord[1]}, other);
-    const bool near = way[0] * way[0] + way[1] * way[1] < close * close * length;
-    const double least = near ? least_close : 0;
-    if (outwards(way, other) > least && outwards({-way[0], -way[1]}, own) > least) return true;
+    const bool near =
+        direction[0] * direction[0] + direction[1] * direction[1] < close * close * length;
+    const double least = near ? min_close : 0;
+    if (outwards(direction, other) > least && outwards({-direction[0], -direction[1]}, own) > least)
+      return true;
   }
   return false;
 }
@@ -249,7 +251,7 @@ class EdgeSearch {
     for (const int e : other.edges) {
       if (!near(own.box, edge_box(other.slot, e), skin_)) continue;
       if (other.slot == own.slot && (of == Of::all || !folded(own, e)) &&
-          edges_between(own.edge, e, curves_.edges(own.slot)) < least_fold)
+          edges_between(own.edge, e, curves_.edges(own.slot)) < min_fold)
         continue;
       const double distance =
           squared_distance_to_chord(own.middle, curves_.edge_points(other.slot, e));
@@ -286,7 +288,7 @@ BySlot<std::int32_t> particle_neighbours(const Bodies& bodies, std::span<const d
   const Grid grid(boxes, slots, distance);
   return list_by_slot<std::int32_t>(curves.slots(),
                                     [&](int slot, std::vector<std::int32_t>& found) {
-                                      if (curves.nobody(slot)) return;
+                                      if (curves.is_empty(slot)) return;
                                       const auto first = static_cast<std::ptrdiff_t>(found.size());
                                       const Box& own = entry(boxes, slot);
                                       grid.around(own, [&](int other) {

@@ -17,14 +17,14 @@ struct Box {
 
 // Edges of one outline that are nearer than this along it touch each other only where it has turned by two thirds of
 // a half turn between them, in the root of a notch: their normals' product is below that.
-inline constexpr int least_fold = 4;
+inline constexpr int min_fold = 4;
 inline constexpr double sharp_fold = -0.5;
 // Along a closed outline of `edges`.
 int edges_between(int a, int b, int edges);
 
 // One candidate: an edge of the particle in `slot` within `skin` of the particle in `other`, whose edge
 // `start` is the nearest to it. `other` = `slot`: the outline comes near itself; `start` is then the nearest
-// that it faces from outside (`faces`), or of all where it faces none: the far side of a thin part is often nearer
+// that it faces from outside (`faces`), or of all where it faces none: the back face of a thin part is often nearer
 // than the flank across a gap.
 struct EdgeCandidate {
   std::int32_t slot, edge, other, start;

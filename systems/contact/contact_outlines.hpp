@@ -23,8 +23,8 @@ struct Curve {
   Point slope(double u) const { return {x.slope(u), y.slope(u)}; }
   Point normal(double u) const {  // outward
     const Point s = slope(u);
-    const double over_length = 1 / length_of(s);
-    return {s[1] * over_length, -s[0] * over_length};
+    const double inv_length = 1 / length_of(s);
+    return {s[1] * inv_length, -s[0] * inv_length};
   }
 };
 

@@ -58,8 +58,8 @@ struct RowMotion {
   Lane over_slope;  // 1/m, 1/|x'| of the other curve; where it has one
 };
 
-// Reach of a row of an outline against itself that sees its own neighbourhood or the far side of a thin part.
-inline constexpr double far_side = std::numeric_limits<double>::infinity();
+// Reach of a row of an outline against itself that sees its own neighbourhood or the back face of a thin part.
+inline constexpr double back_face = std::numeric_limits<double>::infinity();
 
 // A row whose points are all apart: nothing acts, and nothing can until `clearance` has been travelled.
 template <class At>
@@ -112,18 +112,18 @@ void book_depth(Row<At> row, double depth, BlockSums& sums) {
 template <class At>
 kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const RowPair<At>& rows,
                                     unsigned touching, const Lane& slip, const Lane& pressure,
-                                    const Lane& kappa, const Lane& over_kappa, double share) {
+                                    const Lane& kappa, const Lane& inv_kappa, double share) {
   const Lane before = at_points(*c.elastic_slip, rows);
   const Lane mu = at_rows(c.law, rows, ContactLaw<At>::friction);
   if (!c.more) {
     kernels::Coulomb<Lane> law{mu};
-    return kernels::friction_return(before, slip, pressure, law, kappa, over_kappa);
+    return kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
   }
   using More = FrictionMore<At>;
   kernels::Weakening<Lane> law{
-      mu, at_rows(*c.more, rows, More::drop), at_rows(*c.more, rows, More::over_decay),
+      mu, at_rows(*c.more, rows, More::drop), at_rows(*c.more, rows, More::inv_decay),
       share * at_rows(*c.more, rows, More::strength), at_points(*c.lost, rows)};
-  const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, over_kappa);
+  const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0) store_half(law.lost, half, &(*c.lost)(entry(rows, half)));
   return friction;
@@ -143,9 +143,9 @@ template <class At>
   const std::array<double, 2> stiffness{share * c.law(rows[0], Law::stiffness),
                                         share * c.law(rows[1], Law::stiffness)};
   const Lane kappa = halves(stiffness[0], stiffness[1]);
-  const Lane over_length = at_rows(c.law, rows, Law::over_length);
+  const Lane inv_length = at_rows(c.law, rows, Law::inv_length);
   const auto normal = kernels::normal_traction(
-      m.gap, m.gap_rate, kappa, share * at_rows(c.law, rows, Law::damping), over_length);
+      m.gap, m.gap_rate, kappa, share * at_rows(c.law, rows, Law::damping), inv_length);
   Lane along{}, spring{}, friction_work{}, energy = normal.spring_energy;
   if (c.elastic_slip) {
     const auto friction = friction_of(c, rows, touching, m.slip_rate * dt, normal.pressure, kappa,
@@ -163,7 +163,7 @@ template <class At>
   sums.energy += select(touch, energy, Lane{});
   sums.friction_work += select(touch, friction_work, Lane{});
   sums.damping_work += select(touch, damping_work, Lane{});
-  const Lane depth = m.gap * over_length;
+  const Lane depth = m.gap * inv_length;
   const bool deeper = any(touch & ~(depth <= sums.block.depth));
   for (int half = 0; half < 2; ++half) {
     if ((touching >> half & 1) == 0) continue;
@@ -188,8 +188,8 @@ void fetch(const RowColumns<At>& c, Row<At> row) {
 
 // As many stay in the caches from step to step; asking ahead for what is there already would only cost.
 inline constexpr int rows_in_cache = 16384;
-inline constexpr int least_tasks = 64, most_blocks = 16;  // of a task
-inline constexpr std::size_t most_rows_of_a_task = most_blocks * (rows_of_a_block + 1);
+inline constexpr int min_tasks = 64, max_blocks = 16;  // of a task
+inline constexpr std::size_t max_rows_of_a_task = max_blocks * (rows_of_a_block + 1);
 
 // What a pair computes waits for itself, step by step, and no processor looks ahead as far as the next pair: where
 // a register holds all points of a pair, two pairs go side by side. With more registers they fill the time alone.
@@ -208,14 +208,14 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Active& active, con
   constexpr std::size_t rows_before = 24, rows_before_other = 12;
   const bool from_memory = rows > rows_in_cache;
   const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
-  const int blocks_of_a_task = std::clamp(blocks / least_tasks, 1, most_blocks);
+  const int blocks_of_a_task = std::clamp(blocks / min_tasks, 1, max_blocks);
   sums.blocks.resize(static_cast<std::size_t>(blocks));
   Deal tasks((blocks + blocks_of_a_task - 1) / blocks_of_a_task,
              tbb::this_task_arena::max_concurrency());
   for_pieces(tasks, [&](int task) {
     const int first = task * blocks_of_a_task, last = std::min(blocks, first + blocks_of_a_task);
-    std::array<std::int32_t, most_rows_of_a_task> found;
-    std::array<std::size_t, most_blocks> end;
+    std::array<std::int32_t, max_rows_of_a_task> found;
+    std::array<std::size_t, max_blocks> end;
     std::size_t count = 0;
     for (int block = first; block < last; ++block) {
       // No branch: which rows are active follows no pattern.

@@ -24,7 +24,7 @@ BlockSums sum_of(const std::vector<BlockSums>& blocks) {
 
 }  // namespace
 
-// Damping by the trapezoidal rule, like the work of the tools: the forces at both ends of the step times its way, so
+// Damping by the trapezoidal rule, like the work of the tools: the forces at both ends of the step times its displacement, so
 // that none is booked before the first touch. The force before times the rate now is, of a linear damper, the
 // geometric mean of both powers.
 void contact_totals::operator()() const {

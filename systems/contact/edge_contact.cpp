@@ -98,7 +98,7 @@ unsigned cross_edges(const Bodies& bodies, const OtherCurves& other, const Lane&
   return stay;
 }
 
-constexpr int most_steps = 41;
+constexpr int max_steps = 41;
 // Of an edge. A Newton step that short leaves about its square, and the gap is exact to the square of that. (With 1e-5
 // the normals carry so much round-off on that micrometres and metres part by more than 1e-9; docs/performance.md.)
 constexpr double step_tolerance = 2e-6;
@@ -120,15 +120,16 @@ struct Closest {
   // Every lane stops by itself, so that no point depends on the others.
   [[gnu::always_inline]] void step(const Bodies& bodies) {
     offset();
-    const Lane way = kernels::closest_point_step(rx, ry, curve.x.slope(at.u), curve.y.slope(at.u),
-                                                 curve.x.curvature(at.u), curve.y.curvature(at.u));
-    const Lane du = min(max(way, -1.0), 1.0);
+    const Lane full_step =
+        kernels::closest_point_step(rx, ry, curve.x.slope(at.u), curve.y.slope(at.u),
+                                    curve.x.curvature(at.u), curve.y.curvature(at.u));
+    const Lane du = min(max(full_step, -1.0), 1.0);
     const Lane before = at.u;
     at.u = select(LaneMask::of(done), before, before + du);
     done |= (abs(du) < step_tolerance).bits();
     if (any((at.u < 0.0) | (at.u > 1.0))) cross(bodies, before);
   }
-  // Seldom: out of the way of the steps.
+  // Seldom: outside the loop of Newton steps.
   [[gnu::noinline]] void cross(const Bodies& bodies, const Lane& before) {
     beyond |= cross_edges(bodies, other, before, at);
     done |= beyond;
@@ -140,16 +141,16 @@ struct Closest {
 [[gnu::always_inline, gnu::flatten]] inline RowMotion row_motion(const Closest& c,
                                                                  const PointLanes& velocity) {
   const Lane sx = c.curve.x.slope(c.at.u), sy = c.curve.y.slope(c.at.u);
-  const Lane over_length = 1.0 / sqrt(fma(sx, sx, sy * sy));
+  const Lane inv_length = 1.0 / sqrt(fma(sx, sx, sy * sy));
   RowMotion m;
-  m.over_slope = over_length;
-  m.nx = sy * over_length;
-  m.ny = -sx * over_length;
+  m.over_slope = inv_length;
+  m.nx = sy * inv_length;
+  m.ny = -sx * inv_length;
   m.gap = -fma(c.rx, m.nx, c.ry * m.ny);
   if (c.other.velocity != nullptr) {
     const CurveLanes v = gather(c.other, c.other.velocity, c.at.edge);
     const Lane wx = velocity.x - v.x.value(c.at.u), wy = velocity.y - v.y.value(c.at.u);
-    const Lane turn = fma(v.x.slope(c.at.u), m.nx, v.y.slope(c.at.u) * m.ny) * over_length;
+    const Lane turn = fma(v.x.slope(c.at.u), m.nx, v.y.slope(c.at.u) * m.ny) * inv_length;
     m.gap_rate = -fma(wx, m.nx, wy * m.ny);
     m.slip_rate = fma(wy, m.nx, -(wx * m.ny)) - m.gap * turn;
   } else {
@@ -159,7 +160,7 @@ struct Closest {
 }
 
 // An outline against itself: two parts of it that meet from outside, where it folds. Seen from inside, each point
-// is at some depth below the far side of its own body, too. What tells them apart: half way to the closest point the
+// is at some depth below the back face of its own body, too. What tells them apart: half way to the closest point the
 // outline is gone round once there, and twice where it overlaps itself.
 class OwnOutline {
  public:
@@ -196,17 +197,17 @@ constexpr double deepest_begin = 0.1;
 
 // Of a row against its own outline: takes out the points that do not touch, those that touched in the step before
 // (`touched`) apart, and returns how near the others are, m: endless where all see their own neighbourhood or the
-// far side. (A contact may get as deep as limits.penetration lets it.)
+// back face. (A contact may get as deep as limits.penetration lets it.)
 double leave_folds(const Closest& c, int half, int edge, const OwnOutline& own, const Shape& shape,
                    unsigned touched, RowMotion& m) {
   const double deepest = deepest_begin * entry(shape.edges, edge).length;
-  double nearest = far_side;
+  double nearest = back_face;
   for (int g = 0; g < edge_points; ++g) {
     const int l = half * edge_points + g;
     const int there = edge_number(shape, entry(c.at.edge, l));
     const Point n = own.normal(edge, kernels::edge_u[g]), back{-m.nx[l], -m.ny[l]};
     const double product = -(n[0] * back[0] + n[1] * back[1]);
-    const bool near = edges_between(there, edge, own.edges()) < least_fold;
+    const bool near = edges_between(there, edge, own.edges()) < min_fold;
     if (there == edge || (near && product > sharp_fold)) {
       m.gap[l] = -1;
     } else if (!(m.gap[l] > 0)) {
@@ -286,7 +287,7 @@ void edge_contact::operator()(SmallTasks) const {
       } else {
         const Lane square = c.rx * c.rx + c.ry * c.ry;
         set_apart(columns, row,
-                  clock->travel + (itself ? nearest : std::sqrt(least_of_half(square, i))));
+                  clock->travel + (itself ? nearest : std::sqrt(min_of_half(square, i))));
       }
     }
     if (touching == 0) return;
@@ -295,14 +296,14 @@ void edge_contact::operator()(SmallTasks) const {
   };
   const auto look_at = [&](const RowPair<Contact>& rows, LaneSums& sum) {
     Closest c = begin(rows);
-    for (int step = 0; c.done != all_lanes && step < most_steps; ++step) c.step(*bodies);
+    for (int step = 0; c.done != all_lanes && step < max_steps; ++step) c.step(*bodies);
     RowMotion motion = motion_at(rows, c);
     act(rows, c, motion, sum);
   };
   const auto look_at_two = [&](const RowPair<Contact>& a, const RowPair<Contact>& b,
                                LaneSums& sum) {
     Closest to_a = begin(a), to_b = begin(b);
-    for (int step = 0; (to_a.done & to_b.done) != all_lanes && step < most_steps; ++step) {
+    for (int step = 0; (to_a.done & to_b.done) != all_lanes && step < max_steps; ++step) {
       to_a.step(*bodies);
       to_b.step(*bodies);
     }

@@ -37,9 +37,9 @@ struct Chord {
 double product(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 double distance(const Point& p, const Chord& c) {
-  const Point way{c.b[0] - c.a[0], c.b[1] - c.a[1]}, r{p[0] - c.a[0], p[1] - c.a[1]};
-  const double share = std::clamp(product(r, way) / product(way, way), 0.0, 1.0);
-  const double x = r[0] - share * way[0], y = r[1] - share * way[1];
+  const Point chord{c.b[0] - c.a[0], c.b[1] - c.a[1]}, r{p[0] - c.a[0], p[1] - c.a[1]};
+  const double share = std::clamp(product(r, chord) / product(chord, chord), 0.0, 1.0);
+  const double x = r[0] - share * chord[0], y = r[1] - share * chord[1];
   return std::sqrt(x * x + y * y);
 }
 
@@ -105,15 +105,15 @@ class Boundary {
     seen_ = seen_ && all_seen(middle, first);
   }
 
-  // From `middle` all chords of the loop turn one way, and once round.
+  // From `middle` all chords of the loop turn in one direction, and once round.
   bool all_seen(const Point& middle, std::size_t first) const {
-    const double way = first == 0 ? 1 : -1;
+    const double sense = first == 0 ? 1 : -1;
     int times = 0;
     for (std::size_t i = first; i < chords_.size(); ++i) {
       const Point &a = chords_[i].a, &b = chords_[i].b;
       const double turn =
           (a[0] - middle[0]) * (b[1] - middle[1]) - (a[1] - middle[1]) * (b[0] - middle[0]);
-      if (!(way * turn > 0)) return false;
+      if (!(sense * turn > 0)) return false;
       times += kernels::crossing(middle, {1, 0}, a, b);
     }
     return times == (first == 0 ? 1 : -1);
@@ -152,7 +152,7 @@ void outline_health::operator()() const {
   const Hollows* holes = hollows ? &**hollows : nullptr;
   const auto faults = list_by_slot<Fault>(
       static_cast<int>(bodies->slots.size()), [&](int slot, std::vector<Fault>& found) {
-        if (entry(bodies->slots, slot).number == Bodies::nobody) return;
+        if (entry(bodies->slots, slot).number == Bodies::empty_slot) return;
         look_at(Boundary(*bodies, slot, position, holes), slot, limit, found);
       });
   if (faults.all.empty()) return;

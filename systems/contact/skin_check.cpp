@@ -24,14 +24,14 @@
 namespace pulvis {
 namespace {
 
-constexpr double least_left = 0.2;  // of the skin: with less, looking costs more than new rows
+constexpr double min_left = 0.2;  // of the skin: with less, looking costs more than new rows
 
 // What the next step may use up, where steps are long beside the skin: surfaces are to be found before they
-// meet. (A fold of an outline that is first seen when its sides are through each other looks like the far side
+// meet. (A fold of an outline that is first seen when its sides are through each other looks like the back face
 // of a thin part.)
 double look_ahead(const ContactIndex& index, double travel) {
   const double step = travel - index.travel_seen;
-  return step > least_left * index.skin ? step : 0;
+  return step > min_left * index.skin ? step : 0;
 }
 
 struct OutlineMotion {  // of the outline in a slot since the rows were made
@@ -53,7 +53,7 @@ OutlineMotion motion_of(const double* before, const double* now, int points) {
 
 // Of a minimum: the same bits in whatever order the threads take the slots.
 template <class Left>
-double least_of_slots(const std::vector<int>& slots, const Left& left) {
+double min_of_slots(const std::vector<int>& slots, const Left& left) {
   using Range = tbb::blocked_range<std::size_t>;
   return tbb::parallel_reduce(
       Range(0, slots.size()), 1e300,
@@ -66,8 +66,8 @@ double least_of_slots(const std::vector<int>& slots, const Left& left) {
 }
 
 // Particles that were no neighbours: whichever of all moved most against each other.
-double left_of_strangers(const ContactIndex& index, const std::vector<int>& slots,
-                         const std::vector<OutlineMotion>& motion) {
+double remaining_of_non_neighbours(const ContactIndex& index, const std::vector<int>& slots,
+                                   const std::vector<OutlineMotion>& motion) {
   Box all = entry(motion, slots.front()).displacement;
   for (const int slot : slots)
     for (int k = 0; k < 2; ++k) {
@@ -112,8 +112,8 @@ double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const
       continue;
     }
     const Point normal{tools.normal(tool, 0), tools.normal(tool, 1)};
-    least = std::min(least, std::max(index.skin, kernels::least_along(own, normal)) +
-                                kernels::least_along(u, normal));
+    least = std::min(least, std::max(index.skin, kernels::min_along(own, normal)) +
+                                kernels::min_along(u, normal));
   }
   return least;
 }
@@ -134,16 +134,16 @@ void skin_check::operator()() const {
       motion[s] = motion_of(before.values().data() + first, control.values().data() + first,
                             bodies->shape_of_slot(slots[i]).control_points());
     });
-    double left = left_of_strangers(*index, slots, motion);
-    left = std::min(left, least_of_slots(slots, [&](int slot) {
+    double left = remaining_of_non_neighbours(*index, slots, motion);
+    left = std::min(left, min_of_slots(slots, [&](int slot) {
                       return left_of_neighbours(*index, motion, slot);
                     }));
     if (tools)
-      left = std::min(left, least_of_slots(slots, [&](int slot) {
+      left = std::min(left, min_of_slots(slots, [&](int slot) {
                         return left_of_tools(*index, *tools, entry(motion, slot));
                       }));
     index->look_at = clock->travel + left;
-    if (left > std::max(least_left * index->skin, ahead)) return;
+    if (left > std::max(min_left * index->skin, ahead)) return;
   }
   index->due = true;
   index->travel_at_bin = clock->travel;

@@ -32,11 +32,11 @@ inline double closing(const Box& a, const Box& b) {
 }
 
 // Least x . n of a box, and the most by which displacements from a box can go against n.
-inline double least_along(const Box& box, const std::array<double, 2>& n) {
+inline double min_along(const Box& box, const std::array<double, 2>& n) {
   double least = 0;
   for (int k = 0; k < 2; ++k) {
-    const double way = entry(n, k);
-    least += std::min(way * box.low[k], way * box.high[k]);
+    const double component = entry(n, k);
+    least += std::min(component * box.low[k], component * box.high[k]);
   }
   return least;
 }

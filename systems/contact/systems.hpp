@@ -72,7 +72,7 @@ struct RowColumns {
   Write<PointForce<At>> force;
   Optional<Write<ElasticSlip<At>>> elastic_slip;
   Optional<Read<FrictionMore<At>>> more;
-  Optional<Write<StaticLost<At>>> lost;
+  Optional<Write<SlipWeakening<At>>> lost;
 };
 
 struct edge_contact {

@@ -19,7 +19,7 @@ struct Friction {
 
 // ---- friction laws ------------------------------------------------------------------------------------
 // A law says what shear stress the surfaces bear at a pressure, and what sliding does to that: a struct with
-// strength(pressure) [Pa] and slide(way) [m, >= 0].
+// strength(pressure) [Pa] and slide(distance) [m, >= 0].
 template <class T>
 struct Coulomb {
   T mu;
@@ -27,25 +27,25 @@ struct Coulomb {
   void slide(T) {}
 };
 
-// Static and dynamic friction: the static part fades as e^(-way/decay) (backward Euler), and comes back when
+// Static and dynamic friction: the static part fades as e^(-distance/decay) (backward Euler), and comes back when
 // the surfaces part. No more than the shear strength of the softer surface.
 template <class T>
 struct Weakening {
-  T mu;          // dynamic
-  T drop;        // static less dynamic
-  T over_decay;  // 1/m
-  T most;        // Pa; of one pass
-  T lost;        // share of the static part that is gone
+  T mu;         // dynamic
+  T drop;       // static less dynamic
+  T inv_decay;  // 1/m
+  T most;       // Pa; of one pass
+  T lost;       // share of the static part that has faded
   T strength(T pressure) const { return min(fma(drop, 1.0 - lost, mu) * pressure, most); }
-  void slide(T way) { lost = 1.0 - (1.0 - lost) / fma(way, over_decay, T{} + 1.0); }
+  void slide(T distance) { lost = 1.0 - (1.0 - lost) / fma(distance, inv_decay, T{} + 1.0); }
 };
 
-// `slip` m: how far the sampled body slid along t in the last step; `over_kappa` = 1 / kappa. The traction is
+// `slip` m: how far the sampled body slid along t in the last step; `inv_kappa` = 1 / kappa. The traction is
 // returned to what the law allows.
 template <class T, class Law>
-Friction<T> friction_return(T elastic_slip, T slip, T pressure, Law& law, T kappa, T over_kappa) {
+Friction<T> friction_return(T elastic_slip, T slip, T pressure, Law& law, T kappa, T inv_kappa) {
   const T trial = elastic_slip + slip;
-  const T limit = law.strength(pressure) * over_kappa;
+  const T limit = law.strength(pressure) * inv_kappa;
   const T held = max(min(trial, limit), -limit);
   // Mean traction of the step times what slipped: what the spring does not keep. (A reversal over the
   // whole limit within one step would make it negative.)

@@ -26,13 +26,13 @@ inline double stiffening(double depth) {
   return 1 + 3 * x * x;
 }
 
-// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `over_edge` 1/m, over the length of
+// g > 0 in penetration, g_rate its growth [m/s]; kappa and c of one pass; `inv_edge` 1/m, over the length of
 // the edge.
 template <class T>
-Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T over_edge) {
+Traction<T> normal_traction(T g, T g_rate, T kappa, T c, T inv_edge) {
   const T zero{};
   const T touching = max(g, zero);
-  const T depth = touching * ((1 / stiffening_depth) * over_edge);
+  const T depth = touching * ((1 / stiffening_depth) * inv_edge);
   const T more = depth * depth;
   const T spring = kappa * touching * (1.0 + more);
   const T total = select(g > 0.0, max(spring + c * g_rate, zero), zero);

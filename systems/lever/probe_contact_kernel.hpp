@@ -1,7 +1,7 @@
 // One point of a probe against a rigid target: what its force must fulfil, and how that changes.
 //
 // Source   Alart & Curnier (1991): the unilateral condition and Coulomb's law as equations that are
-//          differentiable but for their kinks, solved by Newton's method together with equilibrium.
+//          differentiable but for their non-smooth points, solved by Newton's method together with equilibrium.
 //          Curnier & Alart's penalties are free numbers: near the stiffness of what is behind the point
 //          (rho) the method settles; the penalties of the law (k), a thousand times as stiff, throw it
 //          from one direction of sliding to the other and back for ever.
@@ -9,10 +9,10 @@
 //          outside as 1/(1 + g/r)^2.
 // Symbols  f force on the point, N; g gap, m, < 0 inside; n normal out of the target, H = dn/dx, 1/m;
 //          A(g) adhesion, N; N = n.f + A pressing force >= 0, N; t = f - (n.f) n; P = 1 - n n^T
-//          x - x_old way since the last equilibrium, m; t_old its tangential force, N
+//          x - x_old displacement since the last equilibrium, m; t_old its tangential force, N
 //            apart   f = -A n                                         where N^ <= 0
 //          A point that touched before keeps the adhesion of contact, A(0), for as long as it may touch:
-//          it leaves when the force draws with A(0), not when an increment's way has opened a gap.
+//          it leaves when the force draws with A(0), not when an increment's displacement has opened a gap.
 //            touches g + N/k = 0,   N^ = N - rho (g + N/k)            where N^ > 0, and then
 //            sticks  w = P (x - x_old) + (t - P t_old)/k_t = 0        where |t^| <= mu N^
 //            slides  t = mu N^ t^/|t^|,   t^ = t - rho_t w
@@ -20,7 +20,7 @@
 //          or g <= 0, as long as the spring rho finds a stable equilibrium with it:
 //            touches n.f = F*,   F* + rho delta* = n.f - rho g,   F* = F_JKR(delta*),   N = F* + 3/2 pi w R
 //            apart   f = 0
-// Valid    any smooth surface; the derivatives are those of the equations, kinks apart
+// Valid    any smooth surface; the derivatives are those of the equations, non-smooth points apart
 #pragma once
 
 #include <Eigen/Core>

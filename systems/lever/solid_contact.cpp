@@ -1,5 +1,5 @@
 // probe_contact: where the points of the probe are on the target, and how well their forces fulfil the law
-// of contact there. remember_contact: what they carry on to the next increment.
+// of contact there. commit_contact: what they carry on to the next increment.
 //
 // Source   systems/lever/probe_contact_kernel.hpp; distances and normals come from the target's shape
 // Runs     before residual, in every evaluation of an equilibrium iteration; after an increment
@@ -30,9 +30,9 @@ void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displac
   }
 }
 
-void remember_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
-                      Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
-                      Read<ProbeState> state, Write<ProbeMemory> memory) {
+void commit_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
+                    Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
+                    Read<ProbeState> state, Write<ProbeMemory> memory) {
   for (int i = 0; i < node.rows(); ++i) {
     const Row<ProbePoint> row(i);
     const Eigen::Vector3d place = probe_place(row, reference, displacement, *target, node);

@@ -1,4 +1,4 @@
-// contact_direction: solves the contact, its kinks and all, with the solid as it answers to first order,
+// contact_direction: solves the contact, its non-smooth points included, with the solid as it answers to first order,
 // and brings what its forces change into Newton's direction.
 //
 // Source   The solid's tangent K is symmetric and positive definite, so it is factorised as L D L^T
@@ -25,7 +25,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int most_rounds = 20;
+constexpr int max_rounds = 20;
 
 struct Contact {
   const SolidMesh& mesh;
@@ -102,7 +102,7 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
            contact.moved(p, direction);
   };
   equations->contact_change = 1;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     ContactProblem problem{target->shape.get(), target->end_radius, {}, {}, {}, target->may_jump};
     if (target->servo) problem.set_point = target->set_point;
     for (const int p : points) {
@@ -128,7 +128,7 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
       equations->direction += contact.answer(points[i]) * change;
     }
     const double most = equations->force_step.lpNorm<Eigen::Infinity>();
-    double moved = 0, way = Vector3d(target->travel.data()).norm();
+    double moved = 0, travel = Vector3d(target->travel.data()).norm();
     for (const int p : points) {
       const Vector3d step =
           contact.moved(p, equations->direction) - answer.height * Vector3d::UnitZ();
@@ -137,7 +137,7 @@ void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<Reference
     // A probe that slides steadily moves on under forces that stay.
     equations->contact_change =
         std::max(most == 0 ? 0 : most / std::max(most, equations->largest_force),
-                 moved == 0 ? 0 : moved / std::max(moved, way));
+                 moved == 0 ? 0 : moved / std::max(moved, travel));
     // Points that come to touch by that are asked as well.
     std::vector<int> more;
     for (int p = 0; p < node.rows(); ++p) {

@@ -13,9 +13,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int most_iterations = 60;
-constexpr int most_cuts = 12;        // halvings of a step of the line search
-constexpr int most_steps = 400;      // of the flow through a jump
+constexpr int max_iterations = 60;
+constexpr int max_cuts = 12;         // halvings of a step of the line search
+constexpr int max_steps = 400;       // of the flow through a jump
 constexpr double tolerance = 1e-11;  // -, of the largest force
 
 struct Linearised {
@@ -38,7 +38,7 @@ class ContactNewton {
   // throw the probe from side to side, and a line search on the residual does not.
   ContactAnswer solve(bool line_search) {
     int i = 0;
-    for (; i < most_iterations; ++i) {
+    for (; i < max_iterations; ++i) {
       Linearised now = linearise();
       if (problem_.set_point && !now.touches) {
         press_nearest();
@@ -55,7 +55,7 @@ class ContactNewton {
       move(step, 1);
       double share = 1;
       const double before = now.missing.norm();
-      for (int cut = 0; line_search && cut < most_cuts; ++cut) {
+      for (int cut = 0; line_search && cut < max_cuts; ++cut) {
         if (linearise().missing.norm() < (1 - 1e-4 * share) * before) break;
         share /= 2;
         move(step, -share);
@@ -78,7 +78,7 @@ class ContactNewton {
                     point(p).place + moved - height_ * Vector3d::UnitZ());
   }
 
-  // The target follows the point that pressed hardest: an increment's way along a slope shall not tear the
+  // The target follows the point that pressed hardest: an increment's displacement along a slope shall not tear the
   // probe off before the law has been asked.
   void follow() {
     Index hardest = -1;
@@ -168,7 +168,7 @@ ContactAnswer jump(const ContactProblem& problem) {
   };
   const double softest = 1 / s.diagonal().maxCoeff();
   double c = 10 * std::max(steepest, softest), eaten = 0;
-  for (int i = 0; i < most_steps && c > 1e-5 * softest; ++i) {
+  for (int i = 0; i < max_steps && c > 1e-5 * softest; ++i) {
     const Eigen::PartialPivLU<MatrixXd> damped(one + c * s);
     ContactProblem step = problem;
     step.compliance = damped.solve(s);

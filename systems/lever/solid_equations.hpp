@@ -41,7 +41,7 @@ struct SolidEquations {
   // Of the contact, together with the direction:
   bool contact_solved = true;  // an answer was found
   double contact_error = 0;    // -, by how much the forces break the law, over the largest
-  // By how much forces, over the largest, or places, over the scanner's way, change in the step that fulfils the law.
+  // By how much forces, over the largest, or places, over the scanner's displacement, change in the step that fulfils the law.
   double contact_change = 0;
   double largest_force = 0;    // N, of the probe's points
   Eigen::VectorXd force_step;  // [3 points] N, of the probe

@@ -231,7 +231,7 @@ struct HexKernel {
                                                    : ModeMatrix(ModeMatrix::Zero());
   }
 
-  static Real least_volume(const std::array<Point, 8>& points) {
+  static Real min_volume(const std::array<Point, 8>& points) {
     Real least = points[0].volume;
     for (const Point& p : points) least = std::min(least, p.volume);
     return least;
@@ -259,7 +259,7 @@ struct HexKernel {
     NodalVector force = NodalVector::Zero();    // N, what holds the element in place
     NodalMatrix tangent = NodalMatrix::Zero();  // N/m
     Real energy = 0;                            // J
-    Real least_determinant = 0;                 // of J, m^3; <= 0: the element is inside out
+    Real min_determinant = 0;                   // of J, m^3; <= 0: the element is inside out
   };
 
   static Response response(const Corners& X, const Corners& u, Real lambda, Real mu,
@@ -269,7 +269,7 @@ struct HexKernel {
     const Voigt6 c = elasticity(lambda, mu);
     Response r;
     const std::array<Point, 8> points = points_of(X, u, formulation, shear);
-    r.least_determinant = least_volume(points);
+    r.min_determinant = min_volume(points);
 
     ModeMatrix h = no_modes_yet(formulation);
     ModeCoupling l = ModeCoupling::Zero();

@@ -14,7 +14,7 @@
 
 namespace pulvis::kernels {
 
-// What a Gauss point remembers.
+// What a Gauss point commits.
 struct PlasticMemory {
   Voigt strain = Voigt::Zero();  // E_p, shear doubled
   double accumulated = 0;        // -, equivalent plastic strain
@@ -165,7 +165,7 @@ inline ModeBalance balance_modes(const std::array<HexPoint, 8>& points, const Pl
   return b;
 }
 
-// The response, and what the points would remember if this displacement were kept. Where the modes find no
+// The response, and what the points would store if this displacement were kept. Where the modes find no
 // balance the force is not a number: the increment is then cut.
 inline HexResponse plastic_response(const Corners& X, const Corners& u, const PlasticMaterial& m,
                                     HexFormulation formulation, const HexMemory& before,
@@ -176,7 +176,7 @@ inline HexResponse plastic_response(const Corners& X, const Corners& u, const Pl
   const std::array<HexPoint, 8> points = Hex::points_of(X, u, formulation, shear);
   const ModeBalance b = balance_modes(points, m, elastic, formulation, before);
   HexResponse r;
-  r.least_determinant = Hex::least_volume(points);
+  r.min_determinant = Hex::min_volume(points);
   if (!b.found) r.force.setConstant(std::nan(""));
   ModeCoupling coupling = ModeCoupling::Zero();
   GeometricMatrix geometric = GeometricMatrix::Zero();

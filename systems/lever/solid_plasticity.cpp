@@ -1,4 +1,4 @@
-// remember_plasticity: the plastic strains of an equilibrium become those that the next increment starts from.
+// commit_plasticity: the plastic strains of an equilibrium become those that the next increment starts from.
 //
 // Source   systems/lever/solid_plastic_kernel.hpp
 // Runs     after an increment has found its equilibrium, never within an iteration
@@ -8,10 +8,10 @@
 
 namespace pulvis {
 
-void remember_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                         Read<Displacement> displacement, Read<LameConstants> elastic,
-                         Read<SolidYield> yield, Optional<Read<FlowLaws>> laws,
-                         Write<SolidMemory> memory) {
+void commit_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
+                       Read<Displacement> displacement, Read<LameConstants> elastic,
+                       Read<SolidYield> yield, Optional<Read<FlowLaws>> laws,
+                       Write<SolidMemory> memory) {
   const SolidReader reader{*mesh, reference, displacement, elastic, laws_of(laws)};
   for_elements(chunk, *mesh, [&](Row<SolidElement> row) {
     if (!(yield(row, 0) > 0)) return;

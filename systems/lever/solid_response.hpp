@@ -1,5 +1,5 @@
 // One element's response from the columns of the solid: what solid_element, element_force,
-// remember_plasticity, the tetrahedra's systems and factorise_extended share.
+// commit_plasticity, the tetrahedra's systems and factorise_extended share.
 #pragma once
 
 #include "components/solid.hpp"

@@ -27,10 +27,10 @@ void solid_tetrahedron(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition
 void tetrahedron_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
                        Read<Displacement> displacement, Read<TetrahedronLame> elastic,
                        Write<TetrahedronForce> force, Write<TetrahedronEnergy> energy);
-void remember_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                         Read<Displacement> displacement, Read<LameConstants> elastic,
-                         Read<SolidYield> yield, Optional<Read<FlowLaws>> laws,
-                         Write<SolidMemory> memory);
+void commit_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
+                       Read<Displacement> displacement, Read<LameConstants> elastic,
+                       Read<SolidYield> yield, Optional<Read<FlowLaws>> laws,
+                       Write<SolidMemory> memory);
 void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element,
                  Optional<Read<TetrahedronForce>> tetrahedron, Write<SolidForce> force);
 void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
@@ -39,9 +39,9 @@ void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displac
                    Read<Target> target, Read<ProbeNode> node, Read<ProbeStiffness> stiffness,
                    Read<ProbeShare> share, Read<ProbeMemory> memory, Read<ProbeForce> force,
                    Write<ProbeState> state);
-void remember_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
-                      Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
-                      Read<ProbeState> state, Write<ProbeMemory> memory);
+void commit_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
+                    Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
+                    Read<ProbeState> state, Write<ProbeMemory> memory);
 void residual(Read<SolidMesh> mesh, Read<ElementForce> element,
               Optional<Read<TetrahedronForce>> tetrahedron, Read<SolidForce> force,
               Read<AppliedForce> applied, Optional<Read<Target>> target,

@@ -46,9 +46,8 @@ std::vector<System> iteration(World& w, bool new_factors) {
 // What an equilibrium leaves behind for the next increment.
 std::vector<System> memory(World& w) {
   std::vector<System> list;
-  if (w.has<ProbeNode>()) list.push_back(make_system(w, "remember_contact", remember_contact));
-  if (w.has<SolidYield>())
-    list.push_back(make_system(w, "remember_plasticity", remember_plasticity));
+  if (w.has<ProbeNode>()) list.push_back(make_system(w, "commit_contact", commit_contact));
+  if (w.has<SolidYield>()) list.push_back(make_system(w, "commit_plasticity", commit_plasticity));
   return list;
 }
 
@@ -105,7 +104,7 @@ StaticSolver::StaticSolver(World& world)
       look_(evaluation(world, false), world.chunks()) {
   make_graphs();
   if (auto list = memory(world); !list.empty())
-    remember_ = std::make_unique<TaskGraph>(std::move(list), world.chunks());
+    commit_ = std::make_unique<TaskGraph>(std::move(list), world.chunks());
 }
 
 StaticSolver::~StaticSolver() = default;
@@ -115,8 +114,8 @@ void StaticSolver::make_graphs() {
   iterate_ = std::make_unique<TaskGraph>(iteration(world_, true), world_.chunks());
 }
 
-void StaticSolver::remember() {
-  if (remember_) remember_->run();
+void StaticSolver::commit() {
+  if (commit_) commit_->run();
 }
 
 void StaticSolver::linearise() { linearise_->run(); }
@@ -183,7 +182,7 @@ double StaticSolver::error() const {
 // that no longer falls is as good as it gets, where Newton's method itself would hardly move on. (A lever 10,000 times
 // longer than thick answers the last digit of its displacements with more than its load.) Then the law of contact
 // holds where its forces fit the places, or where both have stopped changing: the places of a ball a
-// thousand times stiffer than its lever are good to 1e-13 of its way, which is 1e-5 of its forces.
+// thousand times stiffer than its lever are good to 1e-13 of its displacement, which is 1e-5 of its forces.
 bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& settings) const {
   const auto& equations = world_.resource<SolidEquations>();
   const bool stays = r.size() > 1 && r.back() > 0.1 * r[r.size() - 2];
@@ -197,15 +196,15 @@ bool StaticSolver::settled(const std::vector<double>& r, const NewtonSettings& s
   return r.back() <= settings.tolerance || floor;
 }
 
-// Of Newton's direction, over the displacements or the scanner's way.
+// Of Newton's direction, over the displacements or the scanner's displacement.
 double StaticSolver::step_size() const {
   const auto& u = world_.column<Displacement>();
   double largest = 0;
   for (std::size_t i = 0; i < u.bytes() / sizeof(double); ++i)
     largest = std::max(largest, std::abs(u.values()[i]));
   if (world_.has<Target>())
-    for (const double way : world_.resource<Target>().travel)
-      largest = std::max(largest, std::abs(way));
+    for (const double displacement : world_.resource<Target>().travel)
+      largest = std::max(largest, std::abs(displacement));
   const double step = world_.resource<SolidEquations>().direction.lpNorm<Eigen::Infinity>();
   return step == 0 ? 0 : step / std::max(step, largest);
 }

@@ -60,7 +60,7 @@ class StaticSolver {
   // Evaluates the forces, no tangent.
   void look() { look_.run(); }
   // What contact and plasticity carry on to the next increment, from the present equilibrium.
-  void remember();
+  void commit();
 
   // From now on with factors in long double: for a lever so thin or soft that those in double do not answer.
   void extend_precision();
@@ -86,7 +86,7 @@ class StaticSolver {
 
   World& world_;
   TaskGraph reuse_, look_;
-  std::unique_ptr<TaskGraph> linearise_, iterate_, remember_;
+  std::unique_ptr<TaskGraph> linearise_, iterate_, commit_;
 };
 
 }  // namespace pulvis

@@ -101,7 +101,7 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
   auto links = list_by_slot<ContactLink>(
       static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ContactLink>& found) {
         const int number = outlines.number(slot);
-        if (number == Bodies::nobody) return;
+        if (number == Bodies::empty_slot) return;
         const auto s = static_cast<std::size_t>(slot);
         Partners partners(number);
         for (int r = index.sampled_begin[s]; r < index.sampled_begin[s + 1]; ++r) {

@@ -2,7 +2,7 @@
 //
 // Law      overlap = sum over the touching points of gap times the length they stand for; of a pair both
 //          half passes see all of it, hence half of each. Penetration work = sum of normal force times
-//          gap: what a penetration costs the tools in way, by virtual work (scenes/results/contact_findings.hpp).
+//          gap: what a penetration costs the tools in displacement, by virtual work (scenes/results/contact_findings.hpp).
 //          Width of a contact in edges: the shares of its edges that its touching points stand for. A face
 //          of one edge between two corners counts as wide enough: what presses on the whole of it is no
 //          contact of curved outlines
@@ -74,7 +74,7 @@ void add_up(const Found& found, ContactQuality& quality) {
   for (const Side& side : found.sides) {
     const double force = length_of(side.force);
     quality.force += force;
-    if (side.edges >= ContactQuality::least_edges || side.face) continue;
+    if (side.edges >= ContactQuality::min_edges || side.face) continue;
     quality.narrow_force += force;
     quality.narrow_width += force * side.width;
     quality.narrow_edges += force * side.edges;
@@ -126,7 +126,7 @@ void contact_quality::operator()() const {
   const auto found = list_by_slot<Found>(static_cast<int>(bodies->slots.size()),
                                          [&](int slot, std::vector<Found>& list) {
                                            Found mine;
-                                           if (outlines.number(slot) == Bodies::nobody) return;
+                                           if (outlines.number(slot) == Bodies::empty_slot) return;
                                            if (pairs) add_pairs(slot, mine);
                                            if (tools) add_tools(slot, mine);
                                            if (!mine.sides.empty()) list.push_back(std::move(mine));

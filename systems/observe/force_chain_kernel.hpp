@@ -38,7 +38,7 @@ inline MajorCompression major_compression(const PlaneStress& s) {
   return {portable::hypot(half, s.xy) - middle, {portable::cos(angle), portable::sin(angle)}};
 }
 
-inline constexpr int least_of_a_chain = 3;
+inline constexpr int min_of_a_chain = 3;
 
 // By particle: its chain, numbered from 1 in the order of their first particles; 0 where it is in none.
 inline std::vector<std::int32_t> force_chains(
@@ -56,16 +56,16 @@ inline std::vector<std::int32_t> force_chains(
     while (leader[p] != p) p = leader[p] = leader[leader[p]];
     return p;
   };
-  const auto leads_on = [&](std::size_t from, const Point& way, double length) {
+  const auto leads_on = [&](std::size_t from, const Point& direction, double length) {
     if (!(load[from].size > mean) || !(load[from].size > 0)) return false;
     const Point& d = load[from].direction;
-    return std::abs(way[0] * d[0] + way[1] * d[1]) >= std::sqrt(0.5) * length;
+    return std::abs(direction[0] * d[0] + direction[1] * d[1]) >= std::sqrt(0.5) * length;
   };
   for (const auto& [a, b] : touching) {
     const auto p = static_cast<std::size_t>(a), q = static_cast<std::size_t>(b);
-    const Point way{centre[q][0] - centre[p][0], centre[q][1] - centre[p][1]};
-    const double length = portable::hypot(way[0], way[1]);
-    if (!leads_on(p, way, length) || !leads_on(q, way, length)) continue;
+    const Point direction{centre[q][0] - centre[p][0], centre[q][1] - centre[p][1]};
+    const double length = portable::hypot(direction[0], direction[1]);
+    if (!leads_on(p, direction, length) || !leads_on(q, direction, length)) continue;
     const std::size_t one = leader_of(p), other = leader_of(q);
     leader[std::max(one, other)] = std::min(one, other);
   }
@@ -75,7 +75,7 @@ inline std::vector<std::int32_t> force_chains(
   std::vector<std::int32_t> chain(count, 0);
   for (std::size_t p = 0; p < count; ++p) {
     const std::size_t first = leader_of(p);
-    if (members[first] < least_of_a_chain) continue;
+    if (members[first] < min_of_a_chain) continue;
     chain[p] = number.emplace(first, static_cast<std::int32_t>(number.size()) + 1).first->second;
   }
   return chain;

@@ -23,23 +23,23 @@ namespace pulvis {
 namespace {
 
 // Geometry changes little in a step; where it does, at impact, the stable step is looked at more often.
-constexpr std::int64_t most_steps_between_looks = 8;
-constexpr double most_strain_between_looks = 0.01;
+constexpr std::int64_t max_steps_between_looks = 8;
+constexpr double max_strain_between_looks = 0.01;
 // Of the thinnest part, that surfaces may move against each other in a step: what they pass into is seen while
 // its near side is the nearer one by far, also where speeds grow within the step.
-constexpr double most_way = 0.25;
+constexpr double max_share_of_thickness = 0.25;
 
 // Of all tools, from `time` on.
-double farthest_way(const ToolProgram& program, const Optional<Read<ServoVelocity>>& servo,
-                    double time, double dt) {
+double farthest_displacement(const ToolProgram& program, const Optional<Read<ServoVelocity>>& servo,
+                             double time, double dt) {
   double farthest = 0;
   for (int t = 0; t < static_cast<int>(program.names.size()); ++t) {
     const Point now = tool_position_at(program, t, time);
     const Point next = tool_position_at(program, t, time + dt);
-    double way = portable::hypot(next[0] - now[0], next[1] - now[1]);
+    double displacement = portable::hypot(next[0] - now[0], next[1] - now[1]);
     const Row<Tool> tool(t);
-    if (servo) way += portable::hypot((*servo)(tool, 0), (*servo)(tool, 1)) * dt;
-    farthest = std::max(farthest, way);
+    if (servo) displacement += portable::hypot((*servo)(tool, 0), (*servo)(tool, 1)) * dt;
+    farthest = std::max(farthest, displacement);
   }
   return farthest;
 }
@@ -52,11 +52,12 @@ class Approach {
     for (const double v : speeds.outlines->values()) fastest_ = std::max(fastest_, v);
   }
   bool anything() const { return static_cast<bool>(speeds_.outlines); }  // that can touch
-  double way(double time, double dt) const {
+  double displacement(double time, double dt) const {
     const double fastest = fastest_ * dt;
-    return fastest + std::max(fastest, speeds_.program ? farthest_way(**speeds_.program,
-                                                                      speeds_.servo, time, dt)
-                                                       : 0.0);
+    return fastest +
+           std::max(fastest, speeds_.program
+                                 ? farthest_displacement(**speeds_.program, speeds_.servo, time, dt)
+                                 : 0.0);
   }
 
  private:
@@ -66,19 +67,20 @@ class Approach {
 
 // No surface may be on one side of a part before a step and on its other side after it, or nearer to that.
 double without_passing(const Approach& approach, const Clock& clock, double thinnest, double dt) {
-  const double most = most_way * thinnest;
-  for (double way = approach.way(clock.time, dt); way > most && std::isfinite(way);
-       way = approach.way(clock.time, dt))
-    dt *= 0.99 * most / way;
+  const double most = max_share_of_thickness * thinnest;
+  for (double displacement = approach.displacement(clock.time, dt);
+       displacement > most && std::isfinite(displacement);
+       displacement = approach.displacement(clock.time, dt))
+    dt *= 0.99 * most / displacement;
   return dt;
 }
 
 void choose_time_step(std::span<const double> stable, const Approach& approach,
                       const Optional<Read<ContactRules>>& rules, Clock& clock) {
-  double least_step = 1e300;
-  for (const double dt : stable) least_step = std::min(least_step, dt);
+  double min_step = 1e300;
+  for (const double dt : stable) min_step = std::min(min_step, dt);
   // Never grow fast: the accelerations that follow from a sudden change belong to the old step.
-  const double wanted = clock.safety * least_step;
+  const double wanted = clock.safety * min_step;
   clock.dt = clock.dt_before > 0 ? std::min(wanted, 1.02 * clock.dt_before) : wanted;
   if (approach.anything())
     clock.dt = without_passing(approach, clock, (*rules)->thinnest, clock.dt);
@@ -93,13 +95,13 @@ void choose_time_step(std::span<const double> stable, const Approach& approach,
 }
 
 // Where speeds grow manifold within a step, the bound on the next one is no help.
-void require_in_sight(double way, const ContactRules& rules, const Clock& clock) {
-  if (way <= rules.thinnest || std::isnan(way)) return;
+void require_in_sight(double displacement, const ContactRules& rules, const Clock& clock) {
+  if (displacement <= rules.thinnest || std::isnan(displacement)) return;
   throw RunFailure(fmt::format(
       "advance_clock: surfaces moved up to {:.6g} m against each other in step {}, t = {:.6g} s: "
       "contacts may have been passed unseen; allowed {:.6g} m, the thinnest part of an outline or "
       "a tool (is the load too sudden?)",
-      way, clock.step, clock.time, rules.thinnest));
+      displacement, clock.step, clock.time, rules.thinnest));
 }
 
 }  // namespace
@@ -111,16 +113,16 @@ void first_time_step::operator()() const {
 void advance_clock::operator()() const {
   const Approach approach(speeds);
   const bool looked = clock->step >= clock->next_look;
-  std::int64_t interval = most_steps_between_looks;
+  std::int64_t interval = max_steps_between_looks;
   if (approach.anything()) {
-    const double way = approach.way(clock->time, clock->dt);
-    require_in_sight(way, **rules, *clock);
-    clock->travel += way;
-    const double strain = way / (*rules)->shortest_edge;  // of an edge in a step, at most
+    const double displacement = approach.displacement(clock->time, clock->dt);
+    require_in_sight(displacement, **rules, *clock);
+    clock->travel += displacement;
+    const double strain = displacement / (*rules)->shortest_edge;  // of an edge in a step, at most
     if (looked) {
       interval = std::clamp<std::int64_t>(
-          static_cast<std::int64_t>(most_strain_between_looks / std::max(strain, 1e-6)), 1,
-          most_steps_between_looks);
+          static_cast<std::int64_t>(max_strain_between_looks / std::max(strain, 1e-6)), 1,
+          max_steps_between_looks);
     }
     // As deep as the surfaces are, or can be at the next look.
     clock->stiffening =

@@ -43,7 +43,7 @@ inline double tangent_at(double pressure, double kappa, double g_s) {
 }
 
 // See above; `safety` in (0, 1).
-inline double least_tool_mass(const TouchSums& touching, double dt, double safety) {
+inline double min_tool_mass(const TouchSums& touching, double dt, double safety) {
   return dt * dt / (4 * (1 - safety * safety)) * touching.stiffness +
          dt / (2 * (1 - safety)) * touching.damping;
 }
@@ -67,14 +67,14 @@ inline ServoState with_mass(const ServoState& s, double least) {
   return {least, kept * s.speed, kept * s.dragged};
 }
 
-// `missing`: F_set - F, N. No faster than `fastest`.
-inline ServoState servo_step(const ServoState& s, double missing, double damping, double fastest,
+// `missing`: F_set - F, N. No faster than `max_speed`.
+inline ServoState servo_step(const ServoState& s, double missing, double damping, double max_speed,
                              double h) {
   const double m = dragged_mass * s.mass;
   const double through = damping * m / (m + damping * h);  // force on W over V+ - W
   const double speed =
       (s.mass * s.speed + h * (missing + through * s.dragged)) / (s.mass + through * h);
-  const double next = std::clamp(speed, -fastest, fastest);
+  const double next = std::clamp(speed, -max_speed, max_speed);
   return {s.mass, next, s.dragged + through * h / m * (next - s.dragged)};
 }
 

@@ -60,33 +60,33 @@ struct tool_contact {
   void operator()(SmallTasks) const;
 };
 
-struct hold_grips {
+struct apply_constraints {
   Read<Bodies> bodies;
   Read<Clock> clock;
   Read<ToolProgram> program;
-  struct Grips {
-    Read<GripIndex> index;
-    Read<GripTarget> target;
-    Read<GripDirection> direction;
-    Read<GripTravel> travel;
-    Read<GripOrigin> origin;
-  } grips;
+  struct Constraints {
+    Read<ConstraintIndex> index;
+    Read<ConstraintTarget> target;
+    Read<ConstraintDirection> direction;
+    Read<ConstraintTravel> travel;
+    Read<ConstraintOrigin> origin;
+  } constraints;
   Read<Density> density;
   Motion motion;
   NodalForces<Write> forces;
-  Write<GripReaction> reaction;
+  Write<ConstraintReaction> reaction;
   void operator()(Chunk chunk) const;
 };
 
 struct tool_reaction {
   Read<Clock> clock;
   Optional<TouchingRows<ToolContact>> contacts;
-  struct Grips {
-    Read<GripTarget> target;
-    Read<GripTravel> travel;
-    Read<GripReaction> reaction;
+  struct Constraints {
+    Read<ConstraintTarget> target;
+    Read<ConstraintTravel> travel;
+    Read<ConstraintReaction> reaction;
   };
-  Optional<Grips> grips;
+  Optional<Constraints> constraints;
   Read<ToolVelocity> velocity;
   Write<ToolForce> tool_force;
   Write<Totals> totals;

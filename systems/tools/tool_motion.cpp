@@ -54,13 +54,15 @@ void add_contacts(const TouchingRows<ToolContact>& rows, const Write<ToolForce>&
   }
 }
 
-// A radial grip moves by x alone and has the sum of the radial forces as x: work is force times way
-// for every grip alike.
-void add_grips(const tool_reaction::Grips& grips, const Write<ToolForce>& tool_force) {
-  for (int r = 0; r < grips.target.rows(); ++r) {
-    const Row<GrippedNode> row(r);
+// A radial constraint moves by x alone and has the sum of the radial forces as x: work is force times displacement
+// for every constraint alike.
+void add_constraints(const tool_reaction::Constraints& constraints,
+                     const Write<ToolForce>& tool_force) {
+  for (int r = 0; r < constraints.target.rows(); ++r) {
+    const Row<ConstrainedNode> row(r);
     for (int k = 0; k < 2; ++k)
-      tool_force(Row<Tool>(grips.target(row, 2)), k) -= grips.travel(row, k) * grips.reaction(row);
+      tool_force(Row<Tool>(constraints.target(row, 2)), k) -=
+          constraints.travel(row, k) * constraints.reaction(row);
   }
 }
 
@@ -79,7 +81,7 @@ void tool_reaction::operator()() const {
   for (int t = 0; t < tool_force.rows(); ++t)
     tool_force(Row<Tool>(t), 0) = tool_force(Row<Tool>(t), 1) = 0;
   if (contacts) add_contacts(*contacts, tool_force);
-  if (grips) add_grips(*grips, tool_force);
+  if (constraints) add_constraints(*constraints, tool_force);
   const double work = 0.5 * (power_before + power()) * clock->dt_before;
   totals->external_work += work;
   totals->largest_work = std::max(totals->largest_work, std::abs(work));

@@ -1,7 +1,7 @@
 // tool_servo: how fast tools that hold a force move in the next step, from the force that they bear now.
 //
 // Source   systems/tools/servo_kernel.hpp
-// Runs     after tool_reaction; tool_motion adds the way in the next step
+// Runs     after tool_reaction; tool_motion adds the displacement in the next step
 // Active   when a stage of the scene has a servo
 // Watches  that the force is held when its stage ends
 #include <fmt/format.h>
@@ -46,12 +46,12 @@ void check_held(const Servo& servo, const ToolProgram& program, const Clock& clo
   throw RunFailure(fmt::format(
       "tool_servo: '{}' bears {:.6g} N at the end of stage '{}', step {}, t = {:.6g} s; asked for "
       "{:.6g} N, allowed: within {:g} of it (stage.servo.tolerance); a longer stage, a higher "
-      "fastest or a powder that bears more would reach it",
+      "max_speed or a powder that bears more would reach it",
       entry(program.names, servo.tool), force, entry(program.stages, servo.stage).name, clock.step,
       clock.time, servo.force, servo.tolerance));
 }
 
-// Springs and dashpots of the contact points that press on a tool now, as if all pointed its way.
+// Springs and dashpots of the contact points that press on a tool now, as if all pointed in its direction.
 kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
                             const Read<ContactLaw<ToolContact>>& law) {
   using Law = ContactLaw<ToolContact>;
@@ -60,7 +60,7 @@ kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
     const Row<ToolContact> row(r);
     if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
     const double kappa = law(row, Law::stiffness);
-    const double g_s = kernels::stiffening_depth / law(row, Law::over_length);
+    const double g_s = kernels::stiffening_depth / law(row, Law::inv_length);
     for (int g = 0; g < edge_points; ++g) {
       const double weight = law(row, Law::weight + g);
       const double x = rows.force(row, 2 * g), y = rows.force(row, 2 * g + 1);
@@ -100,14 +100,14 @@ void tool_servo::operator()() const {
     drive.asked(tool, 0) =
         asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
 
-    const double least = kernels::least_tool_mass(touching(t, rows, law), clock->dt, clock->safety);
+    const double least = kernels::min_tool_mass(touching(t, rows, law), clock->dt, clock->safety);
     const kernels::ServoState now =
         kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
                             along(drive.dragged, tool, servo->direction)},
                            std::max(servo->mass, least));
     const kernels::ServoState next = kernels::servo_step(
         now, drive.asked(tool, 0) - bears, servo->damping * std::sqrt(now.mass / servo->mass),
-        servo->fastest, 0.5 * (clock->dt_before + clock->dt));
+        servo->max_speed, 0.5 * (clock->dt_before + clock->dt));
     drive.mass(tool) = next.mass;
     set_along(drive.velocity, tool, servo->direction, next.speed);
     set_along(drive.dragged, tool, servo->direction, next.dragged);

@@ -25,7 +25,7 @@ const std::vector<std::string> fast_punch{
 Bits bits_of(const World& world) {
   Bits bits;
   for (const ColumnBase* c : world.columns())
-    bits[c->place + "/" + c->info.name] = {c->data(), c->data() + c->bytes()};
+    bits[c->entity + "/" + c->info.name] = {c->data(), c->data() + c->bytes()};
   const Totals& t = world.resource<Totals>();
   const std::array sums{t.external_work,  t.friction_work,     t.damping_work,
                         t.contact_energy, t.worst_penetration, world.resource<Clock>().time};

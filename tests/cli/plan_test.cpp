@@ -25,7 +25,7 @@ struct Asked {
   explicit Asked(const std::string& scene_file, const std::vector<std::string>& overrides = {})
       : experiment(scene_file, overrides), list(step_list(experiment.simulation.world())) {
     for (const ColumnBase* c : experiment.simulation.world().columns())
-      columns.insert(c->place + "/" + c->info.name);
+      columns.insert(c->entity + "/" + c->info.name);
     for (const auto* part : {&list.forces, &list.observe, &list.motion})
       for (const System& system : *part) {
         names.insert(system.name);
@@ -196,7 +196,7 @@ TEST(Plan, EdgesOfACompactionStep) {
                   "contact_health -> tool_reaction",   // totals
                   "tool_reaction -> element_health",   // totals
                   "trial_stress -> contact_force",     // internal_force
-                  "trial_stress -> element_health",    // least_jacobian
+                  "trial_stress -> element_health",    // min_jacobian
                   "contact_force -> advance_clock",    // stable_dt
                   "element_health -> advance_clock",   // clock
               }));
@@ -275,10 +275,10 @@ TEST_P(NoIdleColumn, EveryColumnIsWrittenBySomebodyOrByTheScene) {
                            "particle/hardening_modulus",
                            "particle/mass_damping",
                            "particle/stiffness_damping",
-                           "gripped_node/direction",
-                           "gripped_node/origin",
-                           "gripped_node/target",
-                           "gripped_node/travel"};
+                           "constrained_node/direction",
+                           "constrained_node/origin",
+                           "constrained_node/target",
+                           "constrained_node/travel"};
   const Asked asked(GetParam());
   Names written;
   for (const System* system : asked.systems)

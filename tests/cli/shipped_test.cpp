@@ -25,14 +25,14 @@ std::vector<std::string> shipped() {
 }
 
 // A large one takes many minutes: here it only begins, with the first touches and waves.
-constexpr std::int64_t most_elements = 100'000;
+constexpr std::int64_t max_elements = 100'000;
 constexpr double share_of_a_large_one = 0.004;
 
 class Shipped : public testing::TestWithParam<std::string> {};
 
 TEST_P(Shipped, KeepsItsEnergyBalance) {
   Experiment e(GetParam());
-  if (e.results.elements() > most_elements)
+  if (e.results.elements() > max_elements)
     e.simulation.world().resource<Clock>().end *= share_of_a_large_one;
   Energies before;
   e.run(200, [&] {

@@ -107,7 +107,7 @@ TEST_F(StateHashOf, DoesNotSeeWhatIsMadeAnewNorEmptyLanes) {
   EXPECT_EQ(sees_ends<DeviatoricStress<1>>(bodies.slot_of_number[0]), neither);
   EXPECT_FALSE(sees(slip<Contact>(false)));
   const int last = static_cast<int>(bodies.slots.size()) - 1;
-  ASSERT_EQ(bodies.slots.back().number, Bodies::nobody);
+  ASSERT_EQ(bodies.slots.back().number, Bodies::empty_slot);
   EXPECT_EQ(sees_ends<Position>(last), neither);
 }
 

@@ -13,8 +13,8 @@
 namespace pulvis::engine_test {
 namespace {
 
-template <class Handle, class Place>
-using RowValue = decltype(std::declval<Handle>()(Row<Place>{}));
+template <class Handle, class Entity>
+using RowValue = decltype(std::declval<Handle>()(Row<Entity>{}));
 template <class Handle>
 using ChunkOf = decltype(std::declval<Handle>().chunk(Chunk{}));
 
@@ -73,14 +73,14 @@ TEST(Access, TellsWhatItTouchesAndHow) {
   EXPECT_EQ(read.name, "cell/heat");
   EXPECT_EQ(read.mode, AccessMode::read);
   EXPECT_EQ(read.key, type_key<Heat>());
-  EXPECT_EQ(read.place, type_key<Cell>());
+  EXPECT_EQ(read.entity, type_key<Cell>());
   EXPECT_TRUE(read.chunked);
   EXPECT_EQ(write.mode, AccessMode::write);
   EXPECT_FALSE(write.chunked);
   EXPECT_EQ(Read<Clockwork>::info().name, "clockwork");
-  EXPECT_EQ(Read<Clockwork>::info().place, nullptr);
+  EXPECT_EQ(Read<Clockwork>::info().entity, nullptr);
   EXPECT_EQ(Structural<Link>::info().mode, AccessMode::structural);
-  EXPECT_EQ(Structural<Link>::info().place, type_key<Link>());
+  EXPECT_EQ(Structural<Link>::info().entity, type_key<Link>());
 }
 
 TEST(Access, WritesAreSeenByReads) {

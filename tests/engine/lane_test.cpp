@@ -149,8 +149,8 @@ TEST(LaneMemory, LeastAndGreatestLookAtAllLanesOfTheirHalf) {
   for (int l = 0; l < lane_count; ++l) {
     Lane a = 1.0;
     a[l] = -5;
-    EXPECT_EQ(least_of_half(a, l / 4), -5) << l;
-    EXPECT_EQ(least_of_half(a, 1 - l / 4), 1) << l;
+    EXPECT_EQ(min_of_half(a, l / 4), -5) << l;
+    EXPECT_EQ(min_of_half(a, 1 - l / 4), 1) << l;
     EXPECT_EQ(greatest_of_half(-a, l / 4), 5) << l;
     EXPECT_EQ(greatest_of_half(a, l / 4), 1) << l;
   }

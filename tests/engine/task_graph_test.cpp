@@ -168,7 +168,7 @@ TEST_F(TaskGraphTest, PassesAreThePolicyOfTheGraph) {
                                     world_system<Read<Force>, Write<Ends>>("aside"),
                                     chunk_system<Read<Heat>, Read<Flux>, Write<Weight>>("move")};
   using Stage = std::vector<std::size_t>;
-  EXPECT_THAT(stages_of(systems, Passes::beside),
+  EXPECT_THAT(stages_of(systems, Passes::concurrent),
               ElementsAre(Stage{0}, Stage{2}, Stage{3}, Stage{1, 4}));
   EXPECT_THAT(stages_of(systems, Passes::fewest), ElementsAre(Stage{0}, Stage{3}, Stage{1, 2, 4}));
 }
@@ -178,7 +178,7 @@ TEST_F(TaskGraphTest, APassDoesNotJoinAnotherPastWhoWaitsForIt) {
   const std::vector<System> systems{chunk_system<Write<Heat>>("first"),
                                     world_system<Read<Heat>, Write<Ends>>("aside"),
                                     chunk_system<Read<Ends>, Write<Flux>>("second")};
-  for (const Passes passes : {Passes::beside, Passes::fewest})
+  for (const Passes passes : {Passes::concurrent, Passes::fewest})
     EXPECT_EQ(stages_of(systems, passes).size(), 3U);
 }
 
@@ -337,7 +337,7 @@ TEST(Transients, ReachTheNextSystemOfThePassAndLeaveTheColumnAlone) {
   };
   workers.run([&] {
     world.allocate_transient(droppable_components(systems), 3);
-    TaskGraph dropping(systems, chunks, Passes::beside, Transients::dropped);
+    TaskGraph dropping(systems, chunks, Passes::concurrent, Transients::dropped);
     for (int i = 0; i < 20; ++i) dropping.run();
   });
   for (int c = 0; c < chunks; ++c) {
@@ -366,7 +366,8 @@ TEST_F(TaskGraphTest, BusySystemLooksAheadToWhatOthersOfItsPassTouch) {
   const std::vector<System> systems{chunk_system<Read<Heat>>("before"), busy,
                                     chunk_system<Read<Heat>, Write<Flux>>("after"),
                                     world_system<Read<Force>>("in_no_pass")};
-  workers.run([&] { TaskGraph(systems, chunks, Passes::beside, Transients::kept, &world).run(); });
+  workers.run(
+      [&] { TaskGraph(systems, chunks, Passes::concurrent, Transients::kept, &world).run(); });
   const int of_next = lines_of(type_key<Heat>()) + lines_of(type_key<Weight>());
   const int of_this = lines_of(type_key<Flux>());
   EXPECT_GT(of_next, 0);

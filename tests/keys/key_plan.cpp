@@ -18,7 +18,7 @@ using document::Value;
 using schema::KeyInfo;
 using schema::TableView;
 
-constexpr int most_rounds = 12;  // cases of one base
+constexpr int max_rounds = 12;  // cases of one base
 
 std::string text_of(const fs::path& file) {
   std::ostringstream text;
@@ -190,7 +190,7 @@ Plan plan_for(const schema::Language& language, const fs::path& folder, const Fa
     for (const Use& use : uses_in(bases.back().second, language)) plan.missing.erase(use);
   }
   for (const auto& [base, root] : bases)
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
       Making making(language, base, root, round, fault, plan.missing);
       if (round == 0) plan.cases.push_back(making.made(""));  // with all its defaults
       const bool is_new = making.make();

@@ -30,9 +30,9 @@ Scene scene_of(const Cantilever& c) {
       "width = \"20 mm\"\nheight = \"1 mm\"\n[particle.mesh]\ncolumns = " +
       number(c.columns) + "\nrows = " + number(c.rows) +
       "\n[[body]]\nparticle = \"bar\"\nposition = [\"10 mm\", \"0 mm\"]\n"
-      "[[tool]]\nname = \"clamp\"\nshape = \"grip\"\nholds = \"both\"\n"
+      "[[tool]]\nname = \"clamp\"\nshape = \"constraint\"\nholds = \"both\"\n"
       "low = [\"-0.01 mm\", \"-1 mm\"]\nhigh = [\"0.01 mm\", \"1 mm\"]\n"
-      "[[tool]]\nname = \"tip\"\nshape = \"grip\"\nholds = \"y\"\n"
+      "[[tool]]\nname = \"tip\"\nshape = \"constraint\"\nholds = \"y\"\n"
       "low = [\"19.99 mm\", \"-1 mm\"]\nhigh = [\"20.01 mm\", \"1 mm\"]\n"
       "[[stage]]\nname = \"bend\"\nkind = \"compact\"\nduration = \"0.3 ms\"\n"
       "[[stage.move]]\ntool = \"tip\"\ndisplacement = [\"0 mm\", \"0.02 mm\"]\nramp = 0.4\n"

@@ -22,9 +22,9 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 // What the failing run says; the step at which it stopped stays in the clock.
-std::string failure_of(Simulation& simulation, std::int64_t most_steps) {
+std::string failure_of(Simulation& simulation, std::int64_t max_steps) {
   try {
-    simulation.run_steps(most_steps);
+    simulation.run_steps(max_steps);
   } catch (const RunFailure& failure) {
     return failure.what();
   }
@@ -67,14 +67,14 @@ TEST(Health, ElementTurnedInsideOutIsNamed) {
 // ---- not a number ---------------------------------------------------------------------------------
 // Puts a NaN into node `node` of particle `number` and steps on.
 template <class C>
-std::string failure_with_nan(Experiment& e, int number, int node, std::int64_t most_steps) {
+std::string failure_with_nan(Experiment& e, int number, int node, std::int64_t max_steps) {
   World& world = e.simulation.world();
   const int slot = world.resource<Bodies>().slot_of_number[static_cast<std::size_t>(number)];
   Column<C>& column = world.column<C>();
   const auto first = column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)];
   column.lanes()[static_cast<std::size_t>(first + node) * C::count][slot % lane_count] =
       std::numeric_limits<double>::quiet_NaN();
-  return failure_of(e.simulation, most_steps);
+  return failure_of(e.simulation, max_steps);
 }
 
 bool element_has_node(Experiment& e, const std::string& failure, int node) {

@@ -171,7 +171,7 @@ TEST(LocalDensity, IsNoneWhereThePunchesStandBeyondTheDie) {
   }
   EXPECT_EQ(sum(grid.room), 0);
   e.results.sample();
-  for (const char* series : {"compact", "least", "greatest", "deviation"})
+  for (const char* series : {"compact", "minimum", "maximum", "deviation"})
     EXPECT_TRUE(std::isnan(e.value(std::string("density/") + series))) << series;
   const auto frame = e.results.frame();
   for (const double value : frame.at(frame.size() - 4)) EXPECT_TRUE(std::isnan(value));
@@ -196,7 +196,7 @@ TEST(LocalDensity, IsOneAtMostAllTheWayOutOfADie) {
     EXPECT_LE(side[1], 51e-3);
     EXPECT_GE(side[2], 0);
     EXPECT_LE(side[3], 51e-3);
-    const double greatest = e.value("density/greatest");
+    const double greatest = e.value("density/maximum");
     if (std::isnan(greatest))
       ++empty;
     else
@@ -212,7 +212,7 @@ TEST(DieSides, NeedOneToolOnEachSide) {
   Scene twice = scene;
   twice.tools.push_back(twice.tools.front());
   EXPECT_FALSE(die_sides(twice));
-  twice.tools.back().shape = ToolSpec::Shape::grip;
+  twice.tools.back().shape = ToolSpec::Shape::constraint;
   EXPECT_EQ(die_sides(twice), die_sides(scene));
   Scene turned = scene;
   turned.tools[0].normal = Vec2(1, 0.1).normalized();

@@ -106,7 +106,7 @@ TEST(Servo, HoldsItsForceWhileTheTargetSlides) {
 TEST(Servo, StopsWithTheForceReachedWhereItCannotReachMore) {
   Experiment e("shear/flat-16.toml",
                joined(one_sheared, {"stage.load.servo.top.force=1 MN", "stage.load.duration=0.1 ms",
-                                    "stage.load.servo.top.fastest=0.5 m/s"}));
+                                    "stage.load.servo.top.max_speed=0.5 m/s"}));
   try {
     e.run(10);
     FAIL() << "it ran to its end";
@@ -316,11 +316,12 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"FileOfASine",
               PROFILE "relief = \"sine\"\npitch = \"1 mm\"\nra = \"1 um\"\nfile = \"a.csv\"\n",
               "file", "only with relief = \"file\""},
-        Wrong{"ServoOfAGrip",
-              "[[tool]]\nname = \"hand\"\nshape = \"grip\"\nlow = [\"0 mm\", \"0 mm\"]\nhigh = "
-              "[\"1 mm\", \"1 "
-              "mm\"]\nholds = \"x\"\n" STAGE "[[stage.servo]]\ntool = \"hand\"\nforce = \"1 N\"\n",
-              "servo[0].tool", "is a grip"},
+        Wrong{
+            "ServoOfAConstraint",
+            "[[tool]]\nname = \"hand\"\nshape = \"constraint\"\nlow = [\"0 mm\", \"0 mm\"]\nhigh = "
+            "[\"1 mm\", \"1 "
+            "mm\"]\nholds = \"x\"\n" STAGE "[[stage.servo]]\ntool = \"hand\"\nforce = \"1 N\"\n",
+            "servo[0].tool", "is a constraint"},
         Wrong{"ServoAgainstAMove",
               STAGE "[[stage.servo]]\ntool = \"top\"\nforce = \"1 N\"\n[[stage.move]]\ntool = "
                     "\"top\"\ndisplacement = [\"0 mm\", \"-1 mm\"]\n",

@@ -57,10 +57,10 @@ double limit_of(std::vector<std::string> overrides) {
   return sum / samples;
 }
 
-// Only the nodes of the bore are held, and go outwards by as much as the grip.
-TEST(ThickCylinder, GripHoldsTheBoreAlone) {
+// Only the nodes of the bore are held, and go outwards by as much as the constraint.
+TEST(ThickCylinder, ConstraintHoldsTheBoreAlone) {
   Experiment e(scene_file);
-  EXPECT_EQ(e.column<GripTarget>().table.rows, 48U);
+  EXPECT_EQ(e.column<ConstraintTarget>().table.rows, 48U);
   const auto& x = e.column<Position>();
   const auto radius = [&](std::size_t n) {
     return std::hypot(x.lanes()[2 * n][0], x.lanes()[2 * n + 1][0]);

@@ -1,4 +1,4 @@
-// Polyline tools and grips: against planes, balances of forces and closed forms.
+// Polyline tools and constraints: against planes, balances of forces and closed forms.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -206,7 +206,7 @@ points = [["-20 mm", "0 mm"], ["0 mm", "0 mm"], ["40 mm", "8 mm"], ["60 mm", "8 
 rounding = "1 mm"
 [[tool]]
 name = "clamp"
-shape = "grip"
+shape = "constraint"
 low = ["10 mm", "5.8 mm"]
 high = ["30 mm", "20 mm"]
 holds = "both"
@@ -276,14 +276,14 @@ TEST(Polyline, HasNoRelativeDensity) {
   Scene die = read_scene(paths::source_dir() + "/scenes/compaction/unit-cell.toml");
   ASSERT_TRUE(die_cell(die));
   die.tools.push_back(die.tools.front());
-  die.tools.back().shape = ToolSpec::Shape::grip;
+  die.tools.back().shape = ToolSpec::Shape::constraint;
   EXPECT_TRUE(die_cell(die));  // takes no space
   die.tools.back().shape = ToolSpec::Shape::polyline;
   EXPECT_FALSE(die_cell(die));
 }
 
-// ---- grips ----------------------------------------------------------------------------------------
-TEST(Grip, BarStretchesAsPlaneStrainSays) {
+// ---- constraints ----------------------------------------------------------------------------------------
+TEST(Constraint, BarStretchesAsPlaneStrainSays) {
   Experiment e("basic/tension.toml");
   const double area = 5e-3 * e.scene.thickness, strain = 0.002e-3 / 20e-3;
   const double wanted = youngs / (1 - poisson * poisson) * area * strain;
@@ -298,12 +298,12 @@ TEST(Grip, BarStretchesAsPlaneStrainSays) {
   });
   ASSERT_GT(resting, 5);
   EXPECT_LT(e.results.energy_balance_error(), 1e-3);
-  // The work of the grip is the elastic energy.
+  // The work of the constraint is the elastic energy.
   EXPECT_NEAR(e.results.energies().external / (0.5 * wanted * 0.002e-3), 1, 1e-3);
 }
 
 // Nodes stand where the programme puts them, to round-off, at the end as in between.
-TEST(Grip, NodesFollowTheProgramWithoutDrift) {
+TEST(Constraint, NodesFollowTheProgramWithoutDrift) {
   Experiment e("basic/tension.toml");
   const auto& x = e.column<Position>();
   const std::size_t rows = x.table.rows;
@@ -319,7 +319,7 @@ TEST(Grip, NodesFollowTheProgramWithoutDrift) {
 }
 
 // The node in the middle of an end by a circle instead of a box: the same run.
-TEST(Grip, HoldsWithinARadius) {
+TEST(Constraint, HoldsWithinARadius) {
   Experiment box("basic/tension.toml");
   Scene scene = box.scene;
   ToolSpec& middle = scene.tools[2];
@@ -327,17 +327,18 @@ TEST(Grip, HoldsWithinARadius) {
   Experiment circle(scene);
   box.run(10);
   circle.run(10);
-  EXPECT_EQ(box.column<GripTarget>().table.rows, circle.column<GripTarget>().table.rows);
+  EXPECT_EQ(box.column<ConstraintTarget>().table.rows,
+            circle.column<ConstraintTarget>().table.rows);
   EXPECT_EQ(box.value("tool/right/force_x"), circle.value("tool/right/force_x"));
   EXPECT_EQ(circle.value("tool/middle/position_x"), middle.point.x());
   middle.radius = 1.25e-3;  // and now it holds the next to the right, above and below
-  EXPECT_EQ(Experiment(scene).column<GripTarget>().table.rows,
-            box.column<GripTarget>().table.rows + 3);
+  EXPECT_EQ(Experiment(scene).column<ConstraintTarget>().table.rows,
+            box.column<ConstraintTarget>().table.rows + 3);
 }
 
 // A square of one element whose corners move outwards: uniform strain e in x and y, U = K e^2 A t with
 // K = E / ((1 + nu) (1 - 2 nu)); the radial forces together are dU/du, u = e r.
-TEST(Grip, RadialStretchOfASquare) {
+TEST(Constraint, RadialStretchOfASquare) {
   Experiment e(scene_of(R"([[particle]]
 name = "square"
 material = "steel"
@@ -352,7 +353,7 @@ particle = "square"
 position = ["3 mm", "1 mm"]
 [[tool]]
 name = "spread"
-shape = "grip"
+shape = "constraint"
 low = ["2 mm", "0 mm"]
 high = ["4 mm", "2 mm"]
 holds = "radial"
@@ -378,9 +379,9 @@ ramp = 0.5)"));
                 radius + 1e-7, 1e-15);
 }
 
-// Grips stop the ends of a bar that flew: the shock stays in it, and no energy is made or lost. (The last
+// Constraints stop the ends of a bar that flew: the shock stays in it, and no energy is made or lost. (The last
 // step of a run is shorter, which the kinetic energy of the leapfrog shows: not asked here.)
-TEST(Grip, StopsAFlyingBar) {
+TEST(Constraint, StopsAFlyingBar) {
   Experiment e("basic/tension.toml", {"body[0].velocity=[\"1 m/s\", \"0 m/s\"]"});
   for (int i = 0; i <= 50; ++i) {
     e.simulation.run_until(1e-5 * i);
@@ -392,12 +393,12 @@ TEST(Grip, StopsAFlyingBar) {
   EXPECT_LT(e.results.energy_balance_error(), 1e-3);
 }
 
-TEST(Grip, ExistsOnlyWhereAsked) {
+TEST(Constraint, ExistsOnlyWhereAsked) {
   Experiment with("basic/tension.toml"), without("basic/groove-wedge.toml");
-  EXPECT_TRUE(with.simulation.world().has<GripReaction>());
+  EXPECT_TRUE(with.simulation.world().has<ConstraintReaction>());
   EXPECT_FALSE(with.simulation.world().has<ContactPair<ToolContact>>());
   EXPECT_FALSE(with.simulation.world().has<SurfaceRange>());
-  EXPECT_FALSE(without.simulation.world().has<GripReaction>());
+  EXPECT_FALSE(without.simulation.world().has<ConstraintReaction>());
   EXPECT_TRUE(without.simulation.world().has<SurfaceRange>());
   Experiment planes("compaction/unit-cell.toml");
   EXPECT_FALSE(planes.simulation.world().has<ToolShapes>());

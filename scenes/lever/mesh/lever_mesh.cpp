@@ -90,9 +90,9 @@ PlanMesh v_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
 }
 
 // More elements than that along a thin lever cost time and hardly add accuracy.
-constexpr double most_along = 150;
+constexpr double max_along = 150;
 double edge_of(const LeverSpec& lever) {
-  return std::max(lever.aspect * lever.thickness, lever.length / most_along);
+  return std::max(lever.aspect * lever.thickness, lever.length / max_along);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ Vec2 tip_axis(const LeverSpec& lever, const TipSpec& tip);
 // Radius of the circle around the foot: what must lie on the lever.
 double foot_reach(const TipSpec& tip);
 
-// The foot's size decides how the lever gives way around it; below a third of the thickness it is the
+// The foot's size decides how compliant the lever is around it; below a third of the thickness it is the
 // thickness that does. Without a tip: nothing in particular happens there.
 LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip);
 

@@ -43,7 +43,7 @@ TEST(Newton, ConvergesQuadraticallyOnALeverThatBendsFar) {
   expect_squares(report.residuals);
 }
 
-// Up an incline with friction, by 4% of the lever's length at once: the contact's kinks are settled within each
+// Up an incline with friction, by 4% of the lever's length at once: the contact's non-smooth points are settled within each
 // iteration, the solid sees a smooth answer.
 TEST(Newton, ConvergesQuadraticallyInAStepOfContact) {
   std::vector<std::string> overrides(std::begin(thick), std::end(thick));
@@ -61,7 +61,7 @@ TEST(Newton, ConvergesQuadraticallyInAStepOfContact) {
       const NewtonReport report = solver.equilibrate({.tolerance = 1e-13, .round_off = 1e-10});
       ASSERT_TRUE(report.converged);
       if (rise > 1e-6) expect_squares(report.residuals);
-      solver.remember();
+      solver.commit();
     }
   });
 }

@@ -59,13 +59,13 @@ std::string name_of(const DiscCase& c) {
 }
 
 TEST(Mesh, EveryGaussPointHasAPositiveJacobian) {
-  for (const DiscCase& c : disc_cases()) EXPECT_GT(least_determinant(disc(c)), 0) << name_of(c);
-  for (const Shape& shape : plates()) EXPECT_GT(least_determinant(shape), 0);
+  for (const DiscCase& c : disc_cases()) EXPECT_GT(min_determinant(disc(c)), 0) << name_of(c);
+  for (const Shape& shape : plates()) EXPECT_GT(min_determinant(shape), 0);
 }
 
 TEST(Mesh, EveryCornerIsConvex) {  // stricter than the Jacobians at the Gauss points
-  for (const DiscCase& c : disc_cases()) EXPECT_GT(least_corner_sine(disc(c)), 0.1) << name_of(c);
-  for (const Shape& shape : plates()) EXPECT_DOUBLE_EQ(least_corner_sine(shape), 1);
+  for (const DiscCase& c : disc_cases()) EXPECT_GT(min_corner_sine(disc(c)), 0.1) << name_of(c);
+  for (const Shape& shape : plates()) EXPECT_DOUBLE_EQ(min_corner_sine(shape), 1);
 }
 
 TEST(Mesh, ACoarseCoreHasOneEdgeForThreeOfTheOutline) {
@@ -73,7 +73,7 @@ TEST(Mesh, ACoarseCoreHasOneEdgeForThreeOfTheOutline) {
   EXPECT_EQ(shape.boundary_nodes, 60);
   EXPECT_EQ(shape.elements(), 5 * 5 + 4 * 20 + 60);
   EXPECT_EQ(shape.nodes.size(), 2U * 60 + 2 * 20 + 20 + 4 * 4);
-  EXPECT_GT(least_corner_sine(shape), 0.29);  // 163 degrees, at the waist
+  EXPECT_GT(min_corner_sine(shape), 0.29);  // 163 degrees, at the waist
 }
 
 TEST(Mesh, AreasOfPolygonNodesAndGaussPointsAreOne) {

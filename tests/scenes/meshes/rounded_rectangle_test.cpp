@@ -54,9 +54,9 @@ const std::vector<Case>& all() {
 TEST(RoundedRectangle, EveryCornerOfAnElementIsWellShaped) {
   double worst = 1;
   for (const Case& c : all()) {
-    EXPECT_GT(least_determinant(c.shape), 0) << c.name;
-    EXPECT_GT(least_corner_sine(c.shape), 0.5) << c.name;
-    worst = std::min(worst, least_corner_sine(c.shape));
+    EXPECT_GT(min_determinant(c.shape), 0) << c.name;
+    EXPECT_GT(min_corner_sine(c.shape), 0.5) << c.name;
+    worst = std::min(worst, min_corner_sine(c.shape));
   }
   RecordProperty("least_corner_sine", std::to_string(worst));
 }
@@ -107,8 +107,7 @@ TEST(RoundedRectangle, EveryArcHasFourEdgesAndNeighboursDifferLittle) {
       least = std::min(least, edge.length);
       most = std::max(most, edge.length);
     }
-    EXPECT_LT(growth, 1.02 * most_edge_growth)
-        << c.name;  // lengths of the curve, not of its chords
+    EXPECT_LT(growth, 1.02 * max_edge_growth) << c.name;  // lengths of the curve, not of its chords
     const double arc = pi / 2 * c.outline.radius;
     EXPECT_LT(least, 1.1 * arc / 4)
         << c.name;  // four edges an arc, with the rest of a short flat ...
@@ -230,8 +229,8 @@ TEST(Ring, ElementsHaveTheAreaOfTheAnnulusForAnyEdges) {
         const double area = pi / 4 * (1e-4 - hole * hole);
         EXPECT_DOUBLE_EQ(shape.area, area);
         EXPECT_NEAR(mesh_area(shape) / area, 1, 1e-12);
-        EXPECT_GT(least_determinant(shape), 0);
-        EXPECT_GT(least_corner_sine(shape), 0.7);  // 8 edges: angles of 67.5 degrees
+        EXPECT_GT(min_determinant(shape), 0);
+        EXPECT_GT(min_corner_sine(shape), 0.7);  // 8 edges: angles of 67.5 degrees
         EXPECT_EQ(shape.elements(), edges * rings);
       }
 }

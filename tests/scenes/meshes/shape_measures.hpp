@@ -26,7 +26,7 @@ inline double polygon_area(const Shape& shape) {
   return 0.5 * twice;
 }
 
-inline double least_determinant(const Shape& shape) {
+inline double min_determinant(const Shape& shape) {
   double least = 1e300;
   for (const auto& element : shape.gauss)
     for (const Shape::GaussPoint& point : element) least = std::min(least, point.determinant);

@@ -90,9 +90,9 @@ TEST(StarMesh, EveryElementIsWellShaped) {
   for (const MeshedCase& c : meshed_cases()) {
     const Shape& shape = c.shape;
     EXPECT_EQ(shape.boundary_nodes, c.edges) << c.name;
-    EXPECT_GT(least_determinant(shape), 0) << c.name;
-    EXPECT_GT(least_corner_sine(shape), 0.35) << c.name;
-    worst = std::min(worst, least_corner_sine(shape));
+    EXPECT_GT(min_determinant(shape), 0) << c.name;
+    EXPECT_GT(min_corner_sine(shape), 0.35) << c.name;
+    worst = std::min(worst, min_corner_sine(shape));
   }
   RecordProperty("least_corner_sine", std::to_string(worst));
 }
@@ -274,7 +274,7 @@ TEST(StarMesh, AMirroredOutlineHasTheMirroredMesh) {
     const auto polygon = outline_polygon(mirrored[i], 1e-9);
     for (const Vec2& p : outline_polygon(straight[i], 1e-6))
       EXPECT_LT(distance_to(polygon, {-p.x(), p.y()}), 2e-9);
-    EXPECT_NEAR(least_corner_sine(a), least_corner_sine(b), 0.1);
+    EXPECT_NEAR(min_corner_sine(a), min_corner_sine(b), 0.1);
   }
 }
 
@@ -302,7 +302,7 @@ TEST(MeshSize, GivesEdgesOfThatLengthForEveryOutline) {
     EXPECT_NEAR(perimeter / static_cast<double>(shape.edges.size()) / size, 1, 0.08) << shape.name;
     const double mean = std::sqrt(shape.area / shape.elements());
     EXPECT_NEAR(mean / size, 1, 0.25) << shape.name;
-    EXPECT_GT(least_corner_sine(shape), 0.5) << shape.name;
+    EXPECT_GT(min_corner_sine(shape), 0.5) << shape.name;
   }
 }
 

@@ -54,11 +54,11 @@ SizeLaw law_of(SizeLaw::Kind kind, double mean, double deviation) {
 // Mean area is the law's own with any number of sizes; mean and spread converge to it.
 TEST(SizeLaw, MomentsAreTheLaws) {
   SizeLaw uniform = law_of(SizeLaw::Kind::uniform, 0, 0);
-  uniform.least = 2e-3;
-  uniform.largest = 6e-3;
+  uniform.minimum = 2e-3;
+  uniform.maximum = 6e-3;
   SizeLaw normal = law_of(SizeLaw::Kind::normal, 10e-3, 1e-3);
-  normal.least = 2e-3;  // eight deviations: all of the law
-  normal.largest = 18e-3;
+  normal.minimum = 2e-3;  // eight deviations: all of the law
+  normal.maximum = 18e-3;
   const SizeLaw lognormal = law_of(SizeLaw::Kind::lognormal, 10e-3, 3e-3);
   const struct {
     SizeLaw law;
@@ -79,8 +79,8 @@ TEST(SizeLaw, MomentsAreTheLaws) {
 
 TEST(SizeLaw, CutOffIsKept) {
   SizeLaw law = law_of(SizeLaw::Kind::lognormal, 10e-3, 6e-3);
-  law.least = 8e-3;
-  law.largest = 12e-3;
+  law.minimum = 8e-3;
+  law.maximum = 12e-3;
   for (const SizeShare& s : sizes_of(law, {}, 16)) {
     EXPECT_GT(s.size, 8e-3);
     EXPECT_LT(s.size, 12e-3);
@@ -282,8 +282,8 @@ TEST(WrongMixture, IsRefusedWithItsBound) {
        "packing[0].density",
        "\"touching\""},
       {"width = \"60 mm\"\ndensity = 0.7",
-       {{"large", "number = 5\ndistribution = \"uniform\"\nleast = \"3 mm\""}},
-       "packing[0].class[0].largest",
+       {{"large", "number = 5\ndistribution = \"uniform\"\nminimum = \"3 mm\""}},
+       "packing[0].class[0].maximum",
        "required key is missing"},
       {"width = \"60 mm\"\ndensity = 0.7",
        {{"large", "number = 5\ndistribution = \"normal\"\nmean = \"3 mm\"\ndeviation = \"2 mm\""}},

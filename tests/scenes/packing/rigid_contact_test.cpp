@@ -56,7 +56,7 @@ TEST(RigidShape, HasTheMomentsOfItsOutline) {
   const RigidShape r = rigid_shape(RectangleOutline{4, 2}, 2, 1e-4);
   EXPECT_NEAR(r.area, 2, 1e-9);
   EXPECT_NEAR(r.gyration, (4.0 + 1.0) / 12, 1e-9);
-  EXPECT_NEAR(r.least_width, 1, 1e-12);
+  EXPECT_NEAR(r.min_width, 1, 1e-12);
   EXPECT_NEAR(r.reach, std::sqrt(1.25), 1e-9);
 }
 

@@ -324,7 +324,7 @@ TEST_F(Limits, AHistoryThatIsDeletedMeanwhileIsToldOf) {
   fs::remove(place / "run" / "history.csv");
   const Outcome end = end_or_hang(child);
   EXPECT_EQ(end.code, 4) << end.err;
-  EXPECT_THAT(end.err, HasSubstr("history.csv: cannot go on with the file: it was deleted"));
+  EXPECT_THAT(end.err, HasSubstr("history.csv: cannot go on with the file: it is no longer there"));
 }
 
 TEST_F(Limits, WhatCannotBeToldIsAnError) {

@@ -80,7 +80,7 @@ TEST(WrongOutline, ExponentSlendernessAndMeshAreRefusedWithTheirBounds) {
   expect_refused(ellipse + "\"6 mm\"\n\n[particle.mesh]\nrings = 0", ".mesh.rings", "needs a ring",
                  ">= 1");
   expect_refused(ellipse + "\"6 mm\"\n\n[particle.mesh]\nsize = \"1 mm\"\nrings = 1", ".mesh.rings",
-                 "no effect beside size", "either of them");
+                 "no effect together with size", "either of them");
   expect_refused(ellipse + "\"6 mm\"\n\n[particle.mesh]\nsize = \"1 um\"", ".mesh", "quads",
                  "at most 1000000");
   expect_refused("outline = \"disc\"\ndiameter = \"9 mm\"\nmirrored = true", ".mirrored",

@@ -1,4 +1,4 @@
-// Wrong polylines and grips are refused at their place, with the reason and what is allowed.
+// Wrong polylines and constraints are refused at their place, with the reason and what is allowed.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -24,11 +24,12 @@ std::string scene_with(const std::string& tool) {
   return std::string(right_scene) + "[[tool]]\nname = \"third\"\n" + tool + "\n";
 }
 
-const std::string grip_in_block =
-    "shape = \"grip\"\npoint = [\"10 mm\", \"25 mm\"]\nradius = \"6 mm\"\nholds = \"both\"\n";
+const std::string constraint_in_block =
+    "shape = \"constraint\"\npoint = [\"10 mm\", \"25 mm\"]\nradius = \"6 mm\"\nholds = \"both\"\n";
 
-const std::string grip_on_block =
-    "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = \"x\"\n";
+const std::string constraint_on_block =
+    "shape = \"constraint\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = "
+    "\"x\"\n";
 
 // While it is read, or, where only the placed nodes can tell, while it is built.
 std::vector<SceneProblem> problems_with(const std::string& tool) {
@@ -44,7 +45,7 @@ TEST(RightTools, AreAccepted) {
   for (const std::string& tool :
        {std::string("shape = \"polyline\"\npoints = [[\"0 mm\", \"-1 mm\"], [\"9 mm\", \"-2 mm\"], "
                     "[\"20 mm\", \"-1 mm\"]]\nrounding = \"1 mm\""),
-        grip_on_block, grip_in_block})
+        constraint_on_block, constraint_in_block})
     for (const SceneProblem& problem : problems_with(tool)) ADD_FAILURE() << problem.text();
 }
 
@@ -116,7 +117,7 @@ const WrongTool cases[] = {
      "tool[2].point",
      {"required key is missing"}},
     {"RadialWithoutCentre",
-     "shape = \"grip\"\nlow = [\"0 mm\", \"0 mm\"]\nhigh = [\"9 mm\", \"9 mm\"]\nholds = "
+     "shape = \"constraint\"\nlow = [\"0 mm\", \"0 mm\"]\nhigh = [\"9 mm\", \"9 mm\"]\nholds = "
      "\"radial\"",
      "tool[2].point",
      {"required key is missing"}},
@@ -127,37 +128,40 @@ const WrongTool cases[] = {
      "packing[0]",
      {"behind tool 'third'"}},
     {"HighBelowLow",
-     "shape = \"grip\"\nlow = [\"0 mm\", \"9 mm\"]\nhigh = [\"9 mm\", \"0 mm\"]\nholds = \"x\"",
+     "shape = \"constraint\"\nlow = [\"0 mm\", \"9 mm\"]\nhigh = [\"9 mm\", \"0 mm\"]\nholds = "
+     "\"x\"",
      "tool[2].high",
      {"the box is empty"}},
     {"NoNodeInTheBox",
-     "shape = \"grip\"\nlow = [\"50 mm\", \"0 mm\"]\nhigh = [\"60 mm\", \"9 mm\"]\nholds = \"x\"",
+     "shape = \"constraint\"\nlow = [\"50 mm\", \"0 mm\"]\nhigh = [\"60 mm\", \"9 mm\"]\nholds = "
+     "\"x\"",
      "tool[2].low",
      {"no node of particle 0 lies in the box"}},
     {"NoNodeWithinTheRadius",
-     "shape = \"grip\"\npoint = [\"-1 mm\", \"20 mm\"]\nradius = \"0.9 mm\"\nholds = \"x\"",
+     "shape = \"constraint\"\npoint = [\"-1 mm\", \"20 mm\"]\nradius = \"0.9 mm\"\nholds = \"x\"",
      "tool[2].radius",
      {"no node of particle 0 lies within it", "allowed: at least 0.001 m"}},
     {"RadiusBesideABox",
-     "shape = \"grip\"\npoint = [\"0 mm\", \"20 mm\"]\nradius = \"9 mm\"\nlow = [\"0 mm\", \"20 "
+     "shape = \"constraint\"\npoint = [\"0 mm\", \"20 mm\"]\nradius = \"9 mm\"\nlow = [\"0 mm\", "
+     "\"20 "
      "mm\"]\n"
      "holds = \"x\"",
      "tool[2].low",
-     {"has no effect beside radius", "low and high, or radius alone"}},
+     {"has no effect together with radius", "low and high, or radius alone"}},
     {"NeitherBoxNorRadius",
-     "shape = \"grip\"\nholds = \"x\"",
+     "shape = \"constraint\"\nholds = \"x\"",
      "tool[2].low",
      {"required key is missing", "or radius instead of low and high"}},
     {"HalfABox",
-     "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nholds = \"x\"",
+     "shape = \"constraint\"\nlow = [\"0 mm\", \"20 mm\"]\nholds = \"x\"",
      "tool[2].high",
      {"required key is missing"}},
     {"RadiusWithoutCentre",
-     "shape = \"grip\"\nradius = \"9 mm\"\nholds = \"x\"",
+     "shape = \"constraint\"\nradius = \"9 mm\"\nholds = \"x\"",
      "tool[2].point",
      {"required key is missing: it is the centre of the radius"}},
     {"RadiusOfZero",
-     "shape = \"grip\"\npoint = [\"0 mm\", \"20 mm\"]\nradius = \"0 mm\"\nholds = \"x\"",
+     "shape = \"constraint\"\npoint = [\"0 mm\", \"20 mm\"]\nradius = \"0 mm\"\nholds = \"x\"",
      "tool[2].radius",
      {}},
     {"RadiusOfAPlane",
@@ -165,46 +169,54 @@ const WrongTool cases[] = {
      "tool[2].radius",
      {"has no effect with shape = \"plane\""}},
     {"PointOfABoxThatHoldsX",
-     "shape = \"grip\"\npoint = [\"0 mm\", \"20 mm\"]\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 "
+     "shape = \"constraint\"\npoint = [\"0 mm\", \"20 mm\"]\nlow = [\"0 mm\", \"20 mm\"]\nhigh = "
+     "[\"0 "
      "mm\", "
      "\"30 mm\"]\nholds = \"x\"",
      "tool[2].point",
      {"has no effect", "or a radius"}},
     {"NodeAtTheCentreOfTheRadius",
-     "shape = \"grip\"\npoint = [\"10 mm\", \"25 mm\"]\nradius = \"6 mm\"\nholds = \"radial\"",
+     "shape = \"constraint\"\npoint = [\"10 mm\", \"25 mm\"]\nradius = \"6 mm\"\nholds = "
+     "\"radial\"",
      "tool[2].point",
      {"lies at the centre"}},
     {"NoSuchBody",
-     "shape = \"grip\"\nbody = 5\nlow = [\"0 mm\", \"0 mm\"]\nhigh = [\"60 mm\", \"9 mm\"]\nholds "
+     "shape = \"constraint\"\nbody = 5\nlow = [\"0 mm\", \"0 mm\"]\nhigh = [\"60 mm\", \"9 "
+     "mm\"]\nholds "
      "= "
      "\"x\"",
      "tool[2].body",
      {"there is no particle 5", "<= 4"}},
     {"NodeAtTheCentre",
-     "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"20 mm\", \"30 mm\"]\nholds = "
+     "shape = \"constraint\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"20 mm\", \"30 mm\"]\nholds = "
      "\"radial\"\npoint = [\"10 mm\", \"25 mm\"]",
      "tool[2].point",
      {"lies at the centre"}},
     {"HeldTwice",
-     "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = \"x\"\n"
-     "[[tool]]\nname = \"fourth\"\nshape = \"grip\"\nlow = [\"0 mm\", \"30 mm\"]\nhigh = [\"20 "
+     "shape = \"constraint\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = "
+     "\"x\"\n"
+     "[[tool]]\nname = \"fourth\"\nshape = \"constraint\"\nlow = [\"0 mm\", \"30 mm\"]\nhigh = "
+     "[\"20 "
      "mm\", "
      "\"30 mm\"]\nholds = \"both\"",
      "tool[3].holds",
      {"is held by 'third' and 'fourth' in the same direction"}},
     {"MoveOfAFreeDirection",
-     "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = \"x\"\n"
+     "shape = \"constraint\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = "
+     "\"x\"\n"
      "[[stage]]\nname = \"pull\"\nkind = \"eject\"\nduration = \"1 ms\"\n[[stage.move]]\ntool = "
      "\"third\"\ndisplacement = [\"1 mm\", \"1 mm\"]",
      "stage[1].move[0].displacement",
      {"'third' does not hold its nodes in y"}},
-    {"GripThatRubs",
-     "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = \"x\"\n"
+    {"ConstraintThatRubs",
+     "shape = \"constraint\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = "
+     "\"x\"\n"
      "[[friction]]\nbetween = [\"316L\", \"third\"]\ncoefficient = 0.1",
      "friction[1].between",
-     {"nothing touches the grip 'third'"}},
+     {"nothing touches the constraint 'third'"}},
     {"ShearWithoutMove",
-     "shape = \"grip\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = \"x\"\n"
+     "shape = \"constraint\"\nlow = [\"0 mm\", \"20 mm\"]\nhigh = [\"0 mm\", \"30 mm\"]\nholds = "
+     "\"x\"\n"
      "[[stage]]\nname = \"draw\"\nkind = \"shear\"\nduration = \"1 ms\"",
      "stage[1].kind",
      {"no tool moves in this stage"}},

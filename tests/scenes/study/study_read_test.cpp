@@ -220,7 +220,7 @@ TEST_F(StudyRead, ExpectationsThatSayNothingOrTooMuchAreRefused) {
               HasSubstr("no unit"));
   EXPECT_THAT(refusal(with_expect(series + "of = \"friction=0.1\"\nat = 0.8\nwhen = \"max\"\n"
                                            "above = 1\n")),
-              HasSubstr("no effect beside `at`"));
+              HasSubstr("no effect together with `at`"));
   EXPECT_THAT(refusal(with_expect("series = \"force\"\nof = \"friction=0.1\"\nabove = 1\n")),
               HasSubstr("5:10: expect[0].series: a run of 'friction=0.1' has no series 'force'"));
 }

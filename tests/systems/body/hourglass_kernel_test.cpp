@@ -15,7 +15,7 @@ namespace {
 
 struct Reference {
   double natural[2], skew[2];
-  std::array<double, 4> over_determinant;
+  std::array<double, 4> inv_determinant;
 };
 
 double central_determinant(const QuadMap<double>& m) { return m.ax * m.by - m.ay * m.bx; }
@@ -47,7 +47,7 @@ double energy(const Coordinates& undeformed, const Coordinates& now) {
   const auto e = strain(undeformed, now);
   return 4 * central_determinant(map_of(undeformed)) *
          (hourglass_energy<double>({modulus * e.one, modulus * e.two}, modulus) +
-          folding_energy(ratios(undeformed, now), shear_modulus));
+          inversion_barrier_energy(ratios(undeformed, now), shear_modulus));
 }
 
 Coordinates forces(const Coordinates& undeformed, const Coordinates& now) {
@@ -58,7 +58,8 @@ Coordinates forces(const Coordinates& undeformed, const Coordinates& now) {
   const auto reference = reference_of(undeformed);
   auto moment =
       bending_moment<double>({modulus * e.one, modulus * e.two}, reference, 1.0 / 3.0 * area);
-  const auto folded = folding_moment(ratios(undeformed, now), reference, area * shear_modulus);
+  const auto folded =
+      inversion_barrier_moment(ratios(undeformed, now), reference, area * shear_modulus);
   moment.one += folded.one;
   moment.two += folded.two;
   QuadFlux<double> flux;
@@ -118,7 +119,7 @@ TEST(Hourglass, ForceIsTheDerivativeOfTheEnergy) {
 }
 
 // The ratio of a corner is det F of the bilinear map there, over that of the middle.
-TEST(Folding, RatioIsThatOfTheMap) {
+TEST(InversionBarrier, RatioIsThatOfTheMap) {
   for (const Case& c : random_cases()) {
     const auto ratio = ratios(c.undeformed, c.now);
     const auto det = [](const Coordinates& x, double xi, double eta) {
@@ -135,7 +136,7 @@ TEST(Folding, RatioIsThatOfTheMap) {
 
 // A corner pushed in, until its Gauss point has lost 90% of its share of the area: nothing is felt
 // before it has lost 70%, and from there the force is the derivative of an energy without jumps.
-TEST(Folding, CornerThatFoldsIsPushedBack) {
+TEST(InversionBarrier, CornerThatInvertsIsPushedBack) {
   const Coordinates square{-1, -1, 1, -1, 1, 1, -1, 1};
   constexpr double h = 1e-6;
   double least = 1;
@@ -146,11 +147,11 @@ TEST(Folding, CornerThatFoldsIsPushedBack) {
       now[n] *= 1 - in;
       now[n + 1] *= 1 - in;
       const auto ratio = ratios(square, now);
-      const double r = least_ratio(ratio);
+      const double r = min_ratio(ratio);
       if (r < 0.05) break;
       least = std::min(least, r);
-      const double stored = folding_energy(ratio, shear_modulus);
-      if (r >= folding)
+      const double stored = inversion_barrier_energy(ratio, shear_modulus);
+      if (r >= barrier_ratio)
         ASSERT_EQ(stored, 0);
       else
         ASSERT_GT(stored, 0);
@@ -317,7 +318,7 @@ double limit_moment(int elements, double far) {
                                      inverse_width(map, state.s, limit2),
                                      1};
       state = radial_return(state, f, 1.0, mu, 1 / mu, law, coupled);
-      m *= coupled.left;
+      m *= coupled.retained;
     }
     moment += part * centre * (state.s.xx - state.s.yy) + part * part / 6 * m;
   }
@@ -343,9 +344,9 @@ TEST(BendingLimit, ReturnEndsOnTheSurfaceAndSpendsEnergy) {
     CoupledBending<double> coupled{m, fibre / (3 * mu), 3 * mu / fibre, 1.0, 1.0};
     const auto next =
         radial_return(trial, f, 1.0, mu, 1 / mu, LinearHardening<double>{yield, 440e6}, coupled);
-    ASSERT_LE(coupled.left, 1);
-    ASSERT_GE(coupled.left, 0);
-    coupled.stress = {coupled.left * m.one, coupled.left * m.two};
+    ASSERT_LE(coupled.retained, 1);
+    ASSERT_GE(coupled.retained, 0);
+    coupled.stress = {coupled.retained * m.one, coupled.retained * m.two};
     const double limit = yield + 440e6 * next.eps;
     const double norm = std::sqrt(1.5 * coupled.joint_norm(squared_norm(next.s)));
     // First order in the step where the moduli of s and t differ: softness 0.99.

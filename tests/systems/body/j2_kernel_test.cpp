@@ -98,7 +98,7 @@ TEST(RadialReturn, PerfectlyPlasticStaysAtYield) {
 TEST(RadialReturn, PlasticFlowKeepsVolumeOverManySteps) {
   // The mean of b_e is iterated until det b_e = 1 up to the eighth order of the trial strain (2e-2 with
   // the step on top), and an error left in C_p^-1 is multiplied by beta < 1 in the next return: what
-  // stays is round-off, 1e-16 a step, over the few steps that beta remembers.
+  // stays is round-off, 1e-16 a step, over the few steps that beta commits.
   Wander path(11);
   J2State<double> state{};
   for (int i = 0; i < 20000; ++i) {

@@ -136,9 +136,9 @@ TEST(IteratedReturn, KeepsBendingOnTheJointSurface) {
     CoupledBending<double> coupled{m, fibre / (3 * mu), 3 * mu / fibre, random.in(1, 2), 1.0};
     const auto next = radial_return(before, f, 1.0, mu, 1 / mu, ludwik, coupled);
     ASSERT_EQ(next.residual, 0);
-    ASSERT_GE(coupled.left, 0);
-    ASSERT_LE(coupled.left, 1);
-    coupled.stress = {coupled.left * m.one, coupled.left * m.two};
+    ASSERT_GE(coupled.retained, 0);
+    ASSERT_LE(coupled.retained, 1);
+    coupled.stress = {coupled.retained * m.one, coupled.retained * m.two};
     const double joint = std::sqrt(1.5 * coupled.joint_norm(squared_norm(next.s)));
     if (next.eps == 0) {
       ASSERT_LE(joint, 240e6 * (1 + 1e-12));

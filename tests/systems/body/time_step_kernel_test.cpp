@@ -63,7 +63,7 @@ struct Element {
     for (int g = 0; g < 4; ++g) sum += determinant(at(x, g));
     return sum;
   }
-  double least_area(const Coordinates& x) const {
+  double min_area(const Coordinates& x) const {
     double least = 1e300;
     for (int g = 0; g < 4; ++g) least = std::min(least, determinant(at(x, g)));
     return least;
@@ -142,7 +142,7 @@ TEST(FrequencyBound, HoldsForStrainedElements) {
                               });
     Coordinates x;
     for (int n = 0; n < 4; ++n) x.segment<2>(2 * n) = f * e.undeformed.segment<2>(2 * n);
-    if (e.least_area(e.undeformed) < 0.02 || e.least_area(x) < 0.02) continue;
+    if (e.min_area(e.undeformed) < 0.02 || e.min_area(x) < 0.02) continue;
     const double ratio = e.highest(x) / e.bound(x);
     EXPECT_LT(ratio, 1.01) << "nu " << nu << ", strain " << strain << ", aspect " << aspect;
     closest = std::max(closest, ratio);

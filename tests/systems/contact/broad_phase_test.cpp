@@ -54,7 +54,8 @@ Heap random_heap(std::uint64_t seed, int chunks, double width) {
     const int kind = slot / 4 % 3;
     const Shape& shape = heap.bodies.shapes[static_cast<std::size_t>(kind)];
     const bool there = random() % 5 != 0;
-    const int number = there ? static_cast<int>(heap.bodies.slot_of_number.size()) : Bodies::nobody;
+    const int number =
+        there ? static_cast<int>(heap.bodies.slot_of_number.size()) : Bodies::empty_slot;
     heap.bodies.slots.push_back({number, kind, 0, static_cast<int>(heap.control.size()) / 2});
     if (there) heap.bodies.slot_of_number.push_back(slot);
     const double x = in(0, width), y = in(0, width), angle = in(0, 2 * std::numbers::pi);
@@ -87,7 +88,7 @@ std::set<Key> brute_force(const Heap& heap, double skin) {
     for (const int other : heap.bodies.slot_of_number)
       for (int e = 0; e < edges_of(heap, slot); ++e)
         for (int f = 0; f < edges_of(heap, other); ++f)
-          if ((slot != other || edges_between(e, f, edges_of(heap, slot)) >= least_fold) &&
+          if ((slot != other || edges_between(e, f, edges_of(heap, slot)) >= min_fold) &&
               near(edge_box(heap, slot, e), edge_box(heap, other, f), skin))
             found.insert({slot, e, other});
   return found;
@@ -156,7 +157,7 @@ TEST(BroadPhase, StartsAtTheNearestOfTheOthersEdges) {
     EXPECT_TRUE(near(own, start, skin));
     const double nearest = distance(c, c.start);
     for (int f = 0; f < edges_of(heap, c.other); ++f)
-      if ((c.slot != c.other || edges_between(c.edge, f, edges_of(heap, c.slot)) >= least_fold) &&
+      if ((c.slot != c.other || edges_between(c.edge, f, edges_of(heap, c.slot)) >= min_fold) &&
           near(own, edge_box(heap, c.other, f), skin)) {
         EXPECT_LE(nearest, distance(c, f) + 4e-3 / samples);  // half a step of the longest edges
       }
@@ -192,8 +193,8 @@ TEST(BroadPhase, EmptySlotsTouchNobody) {
   const Heap heap = random_heap(9, 12, 15e-3);
   EXPECT_LT(heap.bodies.slot_of_number.size(), heap.bodies.slots.size());
   for (const EdgeCandidate& c : candidates(heap, 5e-3)) {
-    EXPECT_NE(heap.bodies.slots[static_cast<std::size_t>(c.slot)].number, Bodies::nobody);
-    EXPECT_NE(heap.bodies.slots[static_cast<std::size_t>(c.other)].number, Bodies::nobody);
+    EXPECT_NE(heap.bodies.slots[static_cast<std::size_t>(c.slot)].number, Bodies::empty_slot);
+    EXPECT_NE(heap.bodies.slots[static_cast<std::size_t>(c.other)].number, Bodies::empty_slot);
   }
   EXPECT_TRUE(particle_neighbours(Bodies{}, {}, 1e-3).all.empty());
   EXPECT_TRUE(edge_candidates(Bodies{}, {}, {{0}, {}}, 1e-3).all.empty());

@@ -168,9 +168,9 @@ TEST(NormalTraction, DampingAddsItsShareOfTheRate) {
 }
 
 template <class T>
-Friction<T> coulomb_return(T elastic_slip, T slip, T pressure, T mu, T kappa, T over_kappa) {
+Friction<T> coulomb_return(T elastic_slip, T slip, T pressure, T mu, T kappa, T inv_kappa) {
   Coulomb<T> law{mu};
-  return friction_return(elastic_slip, slip, pressure, law, kappa, over_kappa);
+  return friction_return(elastic_slip, slip, pressure, law, kappa, inv_kappa);
 }
 
 TEST(CoulombReturn, TractionStaysInTheConeAndWorkIsNeverGiven) {

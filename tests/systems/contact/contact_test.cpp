@@ -170,7 +170,7 @@ TEST(SelfContact, EndsOfABentBarPushEachOtherApart) {
   EXPECT_GT(contacts.energy(), less);
 }
 
-// A thin strip bent to a drop, whose legs lie beside each other: a leg's own far side is nearer to it than the other
+// A thin strip bent to a drop, whose legs lie beside each other: a leg's own back face is nearer to it than the other
 // leg until they meet.
 class Drop {
  public:

@@ -62,9 +62,9 @@ TEST(SkinKernel, CommonMotionIsNone) {
 
 TEST(SkinKernel, LeastAlongANormalIsACorner) {
   const Box box{{-1, 2}, {3, 5}};
-  EXPECT_DOUBLE_EQ(kernels::least_along(box, {0, 1}), 2);
-  EXPECT_DOUBLE_EQ(kernels::least_along(box, {0, -1}), -5);
-  EXPECT_DOUBLE_EQ(kernels::least_along(box, {0.6, -0.8}), -0.6 - 4);
+  EXPECT_DOUBLE_EQ(kernels::min_along(box, {0, 1}), 2);
+  EXPECT_DOUBLE_EQ(kernels::min_along(box, {0, -1}), -5);
+  EXPECT_DOUBLE_EQ(kernels::min_along(box, {0.6, -0.8}), -0.6 - 4);
 }
 
 // ---- against rows that are made anew in every step ----------------------------------------------------

@@ -72,7 +72,7 @@ PatchForces forces_of(const Patch& patch, HexFormulation formulation,
       u.col(a) = field(x.col(a));
     }
     const HexResponse r = hex_response(x, u, lambda, mu, formulation);
-    EXPECT_GT(r.least_determinant, 0);
+    EXPECT_GT(r.min_determinant, 0);
     result.energy += r.energy;
     for (int a = 0; a < 8; ++a) {
       const Vector3d f = r.force.segment<3>(3 * a);

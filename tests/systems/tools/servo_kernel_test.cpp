@@ -67,7 +67,7 @@ class Pressed {
       : chain_(chain), damping_(damping) {
     const auto n = static_cast<std::size_t>(chain.size());
     x_.resize(n), v_.resize(n);
-    servo_.mass = mass_over_least * least_tool_mass(chain.contact, chain.dt, chain.safety);
+    servo_.mass = mass_over_least * min_tool_mass(chain.contact, chain.dt, chain.safety);
   }
 
   void shake(std::mt19937_64& random) {

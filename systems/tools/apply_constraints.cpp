@@ -1,15 +1,15 @@
-// hold_grips: replaces the force on every gripped node, in the direction in which it is held, by the one
+// apply_constraints: replaces the force on every constrained node, in the direction in which it is held, by the one
 // that lets the leapfrog meet the prescribed position at t_(n+1), and keeps the difference as reaction.
 //
-// Source   systems/tools/grip_kernel.hpp. The reaction is added to the internal force, so that the kinetic
+// Source   systems/tools/constraint_kernel.hpp. The reaction is added to the internal force, so that the kinetic
 //          energy of the step (systems/body/energies.cpp) sees the force that acted.
 // Runs     after every force of the step, before integrate
-// Active   when the scene has grips
+// Active   when the scene has constraints
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
-#include "systems/tools/grip_kernel.hpp"
+#include "systems/tools/constraint_kernel.hpp"
 #include "systems/tools/systems.hpp"
 
 namespace pulvis {
@@ -24,7 +24,7 @@ Point tool_travel(const ToolProgram& program, int tool, double time) {
 
 }  // namespace
 
-void hold_grips::operator()(Chunk chunk) const {
+void apply_constraints::operator()(Chunk chunk) const {
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const auto x = motion.position.chunk(chunk);
   const auto v = motion.velocity.chunk(chunk);
@@ -32,31 +32,31 @@ void hold_grips::operator()(Chunk chunk) const {
   const auto c = static_cast<std::size_t>(chunk.index);
   const double kick = 0.5 * (clock->dt_before + clock->dt);
   int tool = -1;
-  Point way{};
-  for (int r = grips.index->begin[c]; r < grips.index->begin[c + 1]; ++r) {
-    const Row<GrippedNode> row(r);
-    const Row<Node> node(grips.target(row, 0));
-    const int lane = grips.target(row, 1);
-    if (grips.target(row, 2) != tool) {
-      tool = grips.target(row, 2);
-      way = tool_travel(*program, tool, clock->time + clock->dt);
+  Point displacement{};
+  for (int r = constraints.index->begin[c]; r < constraints.index->begin[c + 1]; ++r) {
+    const Row<ConstrainedNode> row(r);
+    const Row<Node> node(constraints.target(row, 0));
+    const int lane = constraints.target(row, 1);
+    if (constraints.target(row, 2) != tool) {
+      tool = constraints.target(row, 2);
+      displacement = tool_travel(*program, tool, clock->time + clock->dt);
     }
     const double mass = density.chunk(chunk)(Row<Particle>())[lane] * bodies->thickness *
                         entry(shape.nodal_area, node.value);
     double at = 0, speed = 0, free = 0;
     for (int k = 0; k < 2; ++k) {
-      const double d = grips.direction(row, k);
+      const double d = constraints.direction(row, k);
       at += d * x(node, k)[lane];
       speed += d * v(node, k)[lane];
       free += d * f(node, k)[lane];
       if (forces.contact && node.value < shape.boundary_nodes)
         free += d * forces.contact->chunk(chunk)(Row<BoundaryNode>(node.value), k)[lane];
     }
-    const double place =
-        grips.origin(row) + grips.travel(row, 0) * way[0] + grips.travel(row, 1) * way[1];
-    const double held = kernels::grip_force(place, at, speed, free, mass, kick, clock->dt);
-    for (int k = 0; k < 2; ++k) f(node, k)[lane] += held * grips.direction(row, k);
-    reaction.chunk(chunk)(Row<GrippedNode>(r - grips.index->begin[c])) = held;
+    const double place = constraints.origin(row) + constraints.travel(row, 0) * displacement[0] +
+                         constraints.travel(row, 1) * displacement[1];
+    const double held = kernels::constraint_force(place, at, speed, free, mass, kick, clock->dt);
+    for (int k = 0; k < 2; ++k) f(node, k)[lane] += held * constraints.direction(row, k);
+    reaction.chunk(chunk)(Row<ConstrainedNode>(r - constraints.index->begin[c])) = held;
   }
 }
 

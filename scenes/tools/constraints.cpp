@@ -1,4 +1,4 @@
-#include "scenes/tools/grips.hpp"
+#include "scenes/tools/constraints.hpp"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ void hold_node(const Scene& scene, const Held& node, double size, std::vector<He
   if (arm.norm() <= round_off * size)
     refuse(scene, node.tool, "point",
            fmt::format("node {} of particle {} lies at the centre, where no direction is radial, "
-                       "allowed: a point where the grip holds no node",
+                       "allowed: a point where the constraint holds no node",
                        node.node, tool.body));
   add(arm.normalized(), Vec2::UnitX());
 }
@@ -112,7 +112,7 @@ std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
   return held;
 }
 
-// Two grips may hold a node only at right angles: otherwise neither could give way to the other.
+// Two constraints may hold a node only at right angles: otherwise neither could give way to the other.
 void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
   for (std::size_t i = 0; i < sorted.size(); ++i)
     for (std::size_t j = i + 1; j < sorted.size(); ++j) {
@@ -121,7 +121,7 @@ void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
       if (std::abs(a.direction.dot(b.direction)) < round_off) continue;
       refuse(scene, std::max(a.tool, b.tool), "holds",
              fmt::format("node {} of particle {} at ({:.6g}, {:.6g}) m is held by '{}' and '{}' in "
-                         "the same direction, allowed: one grip, or two at right angles",
+                         "the same direction, allowed: one constraint, or two at right angles",
                          a.node, scene.tools[static_cast<std::size_t>(a.tool)].body, a.place.x(),
                          a.place.y(), scene.tools[static_cast<std::size_t>(a.tool)].name,
                          scene.tools[static_cast<std::size_t>(b.tool)].name));
@@ -131,23 +131,23 @@ void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
 void fill(World& world, const std::vector<Held>& held) {
   for (std::size_t r = 0; r < held.size(); ++r) {
     const Held& h = held[r];
-    std::int32_t* target = world.column<GripTarget>().values() + 3 * r;
+    std::int32_t* target = world.column<ConstraintTarget>().values() + 3 * r;
     std::tie(target[0], target[1], target[2]) = std::tie(h.node, h.lane, h.tool);
     for (std::size_t k = 0; k < 2; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      world.column<GripDirection>().values()[2 * r + k] = h.direction[axis];
-      world.column<GripTravel>().values()[2 * r + k] = h.travel[axis];
+      world.column<ConstraintDirection>().values()[2 * r + k] = h.direction[axis];
+      world.column<ConstraintTravel>().values()[2 * r + k] = h.travel[axis];
     }
-    world.column<GripOrigin>().values()[r] = h.direction.dot(h.place);
+    world.column<ConstraintOrigin>().values()[r] = h.direction.dot(h.place);
   }
 }
 
 }  // namespace
 
-void add_grips(World& world, const Scene& scene) {
+void add_constraints(World& world, const Scene& scene) {
   std::vector<Held> held;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    if (!is_grip(scene.tools[t])) continue;
+    if (!is_constraint(scene.tools[t])) continue;
     const std::vector<Held> own = held_by(scene, world, static_cast<int>(t));
     held.insert(held.end(), own.begin(), own.end());
   }
@@ -159,13 +159,13 @@ void add_grips(World& world, const Scene& scene) {
 
   std::vector<std::int32_t> rows(static_cast<std::size_t>(world.resource<Bodies>().chunks()), 0);
   for (const Held& h : held) rows[static_cast<std::size_t>(h.chunk)] += 1;
-  world.add_table<GrippedNode>(rows);
-  world.add<GripTarget>();
-  world.add<GripDirection>();
-  world.add<GripTravel>();
-  world.add<GripOrigin>();
-  world.add<GripReaction>();
-  world.emplace<GripIndex>().begin = world.table<GrippedNode>().chunk_begin;
+  world.add_table<ConstrainedNode>(rows);
+  world.add<ConstraintTarget>();
+  world.add<ConstraintDirection>();
+  world.add<ConstraintTravel>();
+  world.add<ConstraintOrigin>();
+  world.add<ConstraintReaction>();
+  world.emplace<ConstraintIndex>().begin = world.table<ConstrainedNode>().chunk_begin;
   fill(world, held);
 }
 

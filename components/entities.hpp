@@ -1,4 +1,4 @@
-// The places where arrays live. `laned`: rows stand in slots of eight particles of one chunk.
+// The kinds of entities that arrays have rows for. `laned`: rows stand in slots of eight particles of one chunk.
 // `by_chunk`: the rows of a chunk are contiguous, so a chunk system may write its own.
 #pragma once
 
