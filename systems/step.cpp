@@ -57,7 +57,7 @@ StepList step_list_of(World& w) {
   force.add<damping_force<F>>           ("damping_force",     w.has<DampingForce>());
   force.add<stable_time_step<F::points>>("stable_time_step");
   force.add<highest_mode<F::points>>    ("highest_mode",      w.has<HighestMode>());
-  force.add<apply_constraints>                 ("apply_constraints",        constraints);
+  force.add<apply_constraints>          ("apply_constraints", constraints);
   force.add<tool_reaction>              ("tool_reaction",     tools || constraints);
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
   force.add<tool_servo>                 ("tool_servo",        w.has<ToolServos>());
