@@ -1,4 +1,4 @@
-"""Error of the compaction scenes against run time, mesh and mesh phase; prints docs/accuracy.md's tables.
+"""Error of the compaction scenes against run time, mesh and mesh phase; prints the tables of bench/results/unit-cell.md.
 
   /usr/bin/python3 bench/accuracy.py [cells] [phases] [matrix] [formulations]      (all: some six minutes)
 
