@@ -1,4 +1,5 @@
-"""Levers: stiffness against mesh, element, thickness and run time; prints the tables of docs/accuracy.md and of bench/results/levers.md.
+"""Levers: stiffness against mesh, element, thickness and run time; prints the tables of docs/accuracy.md and of
+bench/results/levers.md.
 
   /usr/bin/python3 bench/levers.py [table-4.2] [table-4.3] [thickness] [fronts]      (all: a quarter of an hour)
 
