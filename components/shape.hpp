@@ -53,8 +53,8 @@ struct Shape {
   std::vector<Point> nodes;                      // m; outline first
   std::vector<std::array<Row<Node>, 4>> quads;   // counter-clockwise
   std::vector<std::array<GaussPoint, 4>> gauss;  // [elements]
-  // [elements]: one point for the whole element; its inverse_jacobian belongs to four times the map
-  // (kernels::fourfold_map), which is what elements with one point work with.
+  // [elements]: one point for the whole element; its inverse_jacobian belongs to the fourfold map
+  // (kernels::FourfoldMap), which is what elements with one point work with.
   std::vector<std::array<GaussPoint, 1>> centre;
   std::vector<Hourglass> hourglass;  // [elements]
   std::vector<double> nodal_area;    // m^2: a quarter of every element around

@@ -20,17 +20,22 @@ const ElementPoints<Points>& points_of(const Shape& shape, int element) {
     return entry(shape.gauss, element);
 }
 
-// Of an element with one point: four times the map.
+// Elements with one point work with the fourfold map.
 template <int Points, class Nodes>
-kernels::QuadMap<Lane> quad_map(const Nodes& x, const Quad& q) {
-  constexpr auto map = Points == 1 ? kernels::fourfold_map<Lane> : kernels::quad_map<Lane>;
-  return map(x(q[0], 0), x(q[0], 1), x(q[1], 0), x(q[1], 1), x(q[2], 0), x(q[2], 1), x(q[3], 0),
-             x(q[3], 1));
+auto quad_map(const Nodes& x, const Quad& q) {
+  const auto of_corners = [&](auto map) {
+    return map(x(q[0], 0), x(q[0], 1), x(q[1], 0), x(q[1], 1), x(q[2], 0), x(q[2], 1), x(q[3], 0),
+               x(q[3], 1));
+  };
+  if constexpr (Points == 1)
+    return of_corners(kernels::fourfold_map<Lane>);
+  else
+    return of_corners(kernels::quad_map<Lane>);
 }
 
 // At point g of an element with `Points`.
-template <int Points>
-kernels::Matrix2<Lane> map_gradient(const kernels::QuadMap<Lane>& map, int g) {
+template <int Points, int Scale>
+kernels::Matrix2<Lane> map_gradient(const kernels::QuadMap<Lane, Scale>& map, int g) {
   if constexpr (Points == 1)
     return {map.ax, map.bx, map.ay, map.by};
   else
@@ -48,7 +53,7 @@ inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoin
   return now * (1 / before);
 }
 // A quad's area is that of its centre's parallelogram: 1/4 det of the fourfold map.
-inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoints<1>& points) {
+inline Lane mean_dilatation(const kernels::FourfoldMap<Lane>& map, const ElementPoints<1>& points) {
   return determinant(map_gradient<1>(map, 0)) * (0.25 / points[0].determinant);
 }
 

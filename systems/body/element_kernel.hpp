@@ -28,15 +28,17 @@ T determinant(const Matrix2<T>& m) {
   return fma(m.xx, m.yy, -(m.xy * m.yx));
 }
 
-// x(xi, eta) = centre + a xi + b eta + h xi eta: the isoparametric map without its constant.
-template <class T>
+// x(xi, eta) = centre + a xi + b eta + h xi eta: the isoparametric map without its constant, times Scale.
+template <class T, int Scale = 1>
 struct QuadMap {
   T ax, ay, bx, by, hx, hy;
 };
-
-// Four times that: sums alone. What does not depend on the scale of a, b and h needs no more.
+// Four times the map: sums of coordinates alone. Functions of any scale do not depend on it.
 template <class T>
-QuadMap<T> fourfold_map(T x0, T y0, T x1, T y1, T x2, T y2, T x3, T y3) {
+using FourfoldMap = QuadMap<T, 4>;
+
+template <class T>
+FourfoldMap<T> fourfold_map(T x0, T y0, T x1, T y1, T x2, T y2, T x3, T y3) {
   const T sx = x2 - x0, dx = x1 - x3, sy = y2 - y0, dy = y1 - y3;
   return {sx + dx, sy + dy, sx - dx, sy - dy, (x0 - x1) + (x2 - x3), (y0 - y1) + (y2 - y3)};
 }
@@ -47,8 +49,8 @@ QuadMap<T> quad_map(T x0, T y0, T x1, T y1, T x2, T y2, T x3, T y3) {
 }
 
 // A = [dx/dxi dx/deta; dy/dxi dy/deta]
-template <class T>
-Matrix2<T> map_gradient(const QuadMap<T>& m, double xi, double eta) {
+template <class T, int Scale>
+Matrix2<T> map_gradient(const QuadMap<T, Scale>& m, double xi, double eta) {
   return {fma(eta, m.hx, m.ax), fma(xi, m.hx, m.bx), fma(eta, m.hy, m.ay), fma(xi, m.hy, m.by)};
 }
 

@@ -29,8 +29,8 @@ struct Hourglass {  // of the fibres along xi, along eta
 };
 
 // w = A^-1 h; inv_det = 1 / det A.
-template <class T>
-Hourglass<T> natural_hourglass(const QuadMap<T>& m, T inv_det) {
+template <class T, int Scale>
+Hourglass<T> natural_hourglass(const QuadMap<T, Scale>& m, T inv_det) {
   return {inv_det * fma(m.hx, m.by, -(m.hy * m.bx)), inv_det * fma(m.ax, m.hy, -(m.ay * m.hx))};
 }
 
@@ -104,9 +104,9 @@ Hourglass<T> bending_moment(const Hourglass<T>& stress, const Reference& referen
   return {third * fma(reference.skew[1], stress.two, stress.one),
           third * fma(reference.skew[0], stress.one, stress.two)};
 }
-template <class T>
-void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T>& m, const Hourglass<T>& w, T inv_det,
-                        const Hourglass<T>& moment) {
+template <class T, int Scale>
+void add_hourglass_flux(QuadFlux<T>& flux, const QuadMap<T, Scale>& m, const Hourglass<T>& w,
+                        T inv_det, const Hourglass<T>& moment) {
   const T one = inv_det * moment.one, two = inv_det * moment.two;
   const T qx = fma(m.by, one, -(m.ay * two)), qy = fma(m.ax, two, -(m.bx * one));
   flux.h_x += qx;

@@ -61,11 +61,12 @@ Flux stress_flux(const Views<Standard>& v, const Map& map, const Shape&, Row<Ele
   return flux;
 }
 
-Flux stress_flux(const Views<OnePoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
+Flux stress_flux(const Views<OnePoint>& v, const kernels::FourfoldMap<Lane>& map,
+                 const Shape& shape, Row<Element> e) {
   const auto a = map_gradient<1>(map, 0);
   const auto d = deviator(v.s, e, 0);
   const Lane mean = v.p(e);
-  // Of four times the map, which stands for the four quarters of (xi, eta).
+  // The fourfold map stands for the four quarters of (xi, eta).
   auto flux = kernels::central_flux(a, d.xx + mean, d.yy + mean, d.xy);
   const Lane inv_det = 1.0 / determinant(a);
   const auto& reference = entry(shape.hourglass, e.value);

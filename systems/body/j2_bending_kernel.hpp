@@ -23,8 +23,8 @@ template <class T>
 struct Ratio {
   T numerator, denominator;
 };
-template <class T>
-Ratio<T> squared_stretching(const QuadMap<T>& m, const Deviator<T>& s) {
+template <class T, int Scale>
+Ratio<T> squared_stretching(const QuadMap<T, Scale>& m, const Deviator<T>& s) {
   const T x = m.ax + m.by, y = m.ay - m.bx;
   const T xx = x * x, yy = y * y, length2 = xx + yy;
   // e with its angle doubled is (x^2 - y^2, 2 x y) / length2.
@@ -33,8 +33,8 @@ Ratio<T> squared_stretching(const QuadMap<T>& m, const Deviator<T>& s) {
 }
 
 // 1/width: see CoupledBending; with s where it has come back to the surface. `limit2`: 2/3 sigma_y^2.
-template <class T>
-T inverse_width(const QuadMap<T>& m, const Deviator<T>& s, T limit2) {
+template <class T, int Scale>
+T inverse_width(const QuadMap<T, Scale>& m, const Deviator<T>& s, T limit2) {
   const auto stretching = squared_stretching(m, s);
   const T norm2 = squared_norm(s);
   const T full = stretching.denominator * max(norm2, limit2);

@@ -17,9 +17,8 @@ struct Sums {
 };
 
 // What a point of the element stands for now: for the deviator, and for the mean stress.
-template <class F>
-Lane area_of_point(const kernels::QuadMap<Lane>& map, const ElementPoints<F::points>& points,
-                   std::size_t g) {
+template <class F, class Map>
+Lane area_of_point(const Map& map, const ElementPoints<F::points>& points, std::size_t g) {
   if constexpr (F::volumes == 4)
     return determinant(map_gradient<4>(map, static_cast<int>(g)));
   else

@@ -41,7 +41,7 @@ struct HourglassViews {
 
 // Returns the least det F of where the Gauss points of a four-point element would be, over theta: it tells
 // a folded element.
-Lane hourglass_stress(HourglassViews& v, const kernels::QuadMap<Lane>& map, Lane inv_det,
+Lane hourglass_stress(HourglassViews& v, const kernels::FourfoldMap<Lane>& map, Lane inv_det,
                       const Shape::Hourglass& reference, Row<Element> e) {
   const auto w = kernels::natural_hourglass(map, inv_det);
   auto strain = kernels::bending_strain(w, reference);
