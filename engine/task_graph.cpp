@@ -123,9 +123,33 @@ Stages stages_of(const std::vector<System>& systems, Passes passes) {
   return stages;
 }
 
+namespace {
+
+bool waits_for(const GraphPlan& plan, int later, int earlier) {
+  return std::ranges::any_of(plan.edges, [&](const auto& edge) {
+    return edge.second == later && (edge.first == earlier || waits_for(plan, edge.first, earlier));
+  });
+}
+
+// The stages whose chunks are taken before `stage` begins, which may then be computing still: they can start
+// with the step, and nothing waits for them that does not wait for `stage` too.
+std::vector<int> stages_taken_before(const GraphPlan& plan, int stage) {
+  std::vector<int> found;
+  for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
+    const bool alone = std::ranges::none_of(plan.edges, [&](const auto& edge) {
+      return edge.second == s || (edge.first == s && !waits_for(plan, edge.second, stage));
+    });
+    if (alone && plan.stages[static_cast<std::size_t>(s)].by_chunk) found.push_back(s);
+  }
+  return found;
+}
+
+}  // namespace
+
 GraphPlan derive_plan(const std::vector<System>& systems, Passes passes) {
   GraphPlan plan;
-  for (const auto& members : stages_of(systems, passes)) {
+  const Stages stages = stages_of(systems, passes);
+  for (const auto& members : stages) {
     StagePlan stage;
     stage.by_chunk = systems[members.front()].by_chunk;
     for (const std::size_t i : members) {
@@ -135,6 +159,9 @@ GraphPlan derive_plan(const std::vector<System>& systems, Passes passes) {
     plan.stages.push_back(std::move(stage));
   }
   plan.edges = reduced_edges(plan.stages);
+  for (std::size_t s = 0; s < stages.size(); ++s)
+    if (systems[stages[s].front()].small_tasks)
+      plan.stages[s].taken_before = stages_taken_before(plan, static_cast<int>(s));
   return plan;
 }
 
@@ -191,25 +218,6 @@ ColumnsAhead columns_ahead(const std::vector<const System*>& members, const Worl
       (member > busy ? ahead.of_this : ahead.of_next).push_back(column);
     }
   return ahead;
-}
-
-bool waits_for(const GraphPlan& plan, int later, int earlier) {
-  return std::ranges::any_of(plan.edges, [&](const auto& edge) {
-    return edge.second == later && (edge.first == earlier || waits_for(plan, edge.first, earlier));
-  });
-}
-
-// The stages whose chunks are taken before `stage` begins, which may then be computing still: they can start
-// with the step, and nothing waits for them that does not wait for `stage` too.
-std::vector<int> stages_before_small_tasks(const GraphPlan& plan, int stage) {
-  std::vector<int> found;
-  for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
-    const bool alone = std::ranges::none_of(plan.edges, [&](const auto& edge) {
-      return edge.second == s || (edge.first == s && !waits_for(plan, edge.second, stage));
-    });
-    if (alone && plan.stages[static_cast<std::size_t>(s)].by_chunk) found.push_back(s);
-  }
-  return found;
 }
 
 }  // namespace
@@ -288,9 +296,8 @@ TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Passes passes, Tra
                           tbb::flow::continue_msg) { flow->run_stage(*stage); }));
   }
   for (std::size_t s = 0; s < stages.size(); ++s)
-    if (flow_->systems[stages[s].front()].small_tasks)
-      for (const int other : stages_before_small_tasks(plan_, static_cast<int>(s)))
-        flow_->stages[s]->first.push_back(flow_->stages[static_cast<std::size_t>(other)].get());
+    for (const int other : plan_.stages[s].taken_before)
+      flow_->stages[s]->first.push_back(flow_->stages[static_cast<std::size_t>(other)].get());
   flow_->start.emplace(flow_->graph);
   std::vector<bool> has_predecessor(stages.size());
   for (const auto& [earlier, later] : plan_.edges) {

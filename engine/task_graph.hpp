@@ -20,6 +20,8 @@ struct StagePlan {
   std::vector<std::string> systems;
   bool by_chunk = false;
   std::vector<AccessInfo> accesses;  // union over its systems; write wins over read
+  std::vector<int>
+      taken_before;  // of small tasks: stages none of whose chunks is left to take when this one begins
 };
 
 // What a system has taken of all workers together. Only every 64th run is timed: looking at the clock costs

@@ -1,9 +1,23 @@
 // Places, components and a resource of the engine's own tests: the engine knows no particles.
 #pragma once
 
+#include <exception>
+#include <string>
+
 #include "engine/access.hpp"
 
 namespace pulvis::engine_test {
+
+// What an action throws, as its message; "" when it throws nothing.
+template <class Action>
+std::string refusal_of(const Action& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
 
 struct Cell {  // laned, by chunk
   static constexpr const char* name = "cell";

@@ -12,16 +12,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const std::logic_error& error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
-
 TEST(World, MissingTableNamesItself) {
   World world;
   EXPECT_THAT(refusal_of([&] { world.table<Link>(); }), HasSubstr("link"));
