@@ -147,6 +147,7 @@ struct Run {
     samples.pass(clock().time);
     check_limits(loaded.scene, results, simulation->world());
     if (!frames.due(clock().time) && !simulation->finished()) return;
+    require_saved_scene(folder);
     recorder->frame(clock().time, clock().step, results.frame());
     frames.pass(clock().time);
   }

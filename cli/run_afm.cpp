@@ -110,6 +110,7 @@ struct ProgrammeEnd {
 // The actions being run, their history, and some twelve frames of the solid, the last one included.
 struct ProgrammeRun {
   const LoadedScene& loaded;
+  std::filesystem::path folder;
   AfmSimulation& simulation;
   AfmHistory& history;
   RunMesh mesh;
@@ -121,12 +122,13 @@ struct ProgrammeRun {
   AfmPosition kept_position;
 
   ProgrammeRun(const LoadedScene& scene, const RunOptions& options,
-               const std::filesystem::path& folder, AfmSimulation& afm, AfmHistory& rows)
+               const std::filesystem::path& where, AfmSimulation& afm, AfmHistory& rows)
       : loaded(scene),
+        folder(where),
         simulation(afm),
         history(rows),
         mesh(mesh_of(afm)),
-        checkpoints(scene, folder, options.checkpoints) {
+        checkpoints(scene, where, options.checkpoints) {
     std::size_t total = 1;
     for (const ActionSpec& action : loaded.scene.afm->actions) total += action.samples();
     every = std::max<std::size_t>(1, total / 12);
@@ -140,6 +142,7 @@ struct ProgrammeRun {
   }
 
   void frame(double time) {
+    require_saved_scene(folder);
     std::vector<std::vector<double>> values{positions(simulation, mesh)};
     if (yields()) values.push_back(plastic_strain(simulation, mesh));
     recorder->frame(time, static_cast<std::int64_t>(history.rows.size()), values);

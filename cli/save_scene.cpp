@@ -51,6 +51,11 @@ void save_scene(const fs::path& folder, const LoadedScene& loaded) {
   write_own(folder / "scene.toml", role::run, loaded.text);
 }
 
+void require_saved_scene(const fs::path& folder) {
+  if (!fs::exists(folder / "scene.toml"))
+    throw OutputError(folder / "scene.toml", "go on without the file", "it is no longer there");
+}
+
 LoadedScene as_saved(const fs::path& folder, LoadedScene loaded) {
   const document::Table root = document::parse(loaded.text);
   const document::Entry* expects = document::find(root, "expect");

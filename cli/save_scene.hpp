@@ -9,6 +9,9 @@ namespace pulvis {
 
 void save_scene(const std::filesystem::path& folder, const LoadedScene& loaded);
 
+// OutputError where somebody has taken scene.toml away: without it nobody knows what was run, and nothing goes on.
+void require_saved_scene(const std::filesystem::path& folder);
+
 // The scene as a resumed run has it: it is compared with the copies of other scenes, whatever has become of
 // the originals when it ends.
 LoadedScene as_saved(const std::filesystem::path& folder, LoadedScene loaded);

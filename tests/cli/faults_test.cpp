@@ -143,6 +143,21 @@ TEST_F(Faults, TooLittleMemoryIsRefusedBeforeTheFolderIsMade) {
   EXPECT_FALSE(fs::exists(place / "run"));
 }
 
+// A run of so many frames that it is at work whenever the file goes.
+TEST_F(Faults, ASceneThatVanishesIsNamedAndTheRunGoesOnOnceItIsBack) {
+  const pid_t child = start({"run", scene("compaction/regular-25.toml"), "-o", "run", "--threads",
+                             "1", "--set", "output.frames=50000", "--checkpoint-every", "0.01"});
+  wait_for_frames(3);
+  fs::rename(place / "run" / "scene.toml", place / "kept.toml");
+  const Outcome end = end_of(child);
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err,
+              HasSubstr("run/scene.toml: cannot go on without the file: it is no longer there"));
+  fs::rename(place / "kept.toml", place / "run" / "scene.toml");
+  const Outcome rest = pulvis({"resume", "run", "--stop-after", "1"});
+  EXPECT_EQ(rest.code, 130) << rest.err;
+}
+
 // What is promised before is what the world then takes.
 TEST(MemoryNeed, ColumnsAreThoseOfTheWorld) {
   for (const char* name : {"compaction/regular-100.toml", "basic/oblique-impact.toml",
