@@ -11,6 +11,7 @@
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/read.hpp"
 #include "scenes/results/timetable.hpp"
+#include "scenes/scene_files.hpp"
 #include "scenes/simulation.hpp"
 
 namespace pulvis {
@@ -48,9 +49,10 @@ std::string what_of(const ExpectSpec& expect) {
 
 std::string allowed_of(const ExpectSpec& expect, const std::string& unit) {
   const double within = expect.within.value_or(0);
-  if (!expect.like.empty() && expect.scale != 1)
-    return fmt::format("within {:g} of {:g} times that of {}", within, expect.scale, expect.like);
-  if (!expect.like.empty()) return fmt::format("within {:g} of that of {}", within, expect.like);
+  const std::string other = name_before_copying(expect.like);
+  if (!other.empty() && expect.scale != 1)
+    return fmt::format("within {:g} of {:g} times that of {}", within, expect.scale, other);
+  if (!other.empty()) return fmt::format("within {:g} of that of {}", within, other);
   if (expect.equals && expect.equals->number == 0) return "0 within " + with_unit(within, unit);
   if (expect.equals)
     return fmt::format("{} within {:g} of it", with_unit(expect.equals->number, unit), within);

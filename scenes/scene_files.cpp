@@ -85,6 +85,15 @@ std::vector<InputFile> keep_inputs(Table& root, const fs::path& folder, const Ot
   return keeper.inputs;
 }
 
+std::string name_before_copying(const fs::path& path) {
+  const std::string folder = path.parent_path().filename().string();
+  const std::size_t end =
+      folder.size() < 9 ? 0 : folder.size() - 9;  // of the name, before -5f0c2a91
+  const bool is_copy = end > 0 && folder[end] == '-' && path.filename() == "scene.toml" &&
+                       path.parent_path().parent_path() == "inputs";
+  return is_copy ? folder.substr(0, end) + ".toml" : path.string();
+}
+
 std::uint64_t file_hash(const fs::path& file) {
   Xxh3 hash;
   if (!fs::is_regular_file(file)) return hash.value();

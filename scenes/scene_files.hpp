@@ -31,6 +31,10 @@ struct InputFile {
 std::vector<InputFile> keep_inputs(document::Table& root, const std::filesystem::path& folder,
                                    const OtherScenes& others, const schema::Language& language);
 
+// What the user called the scene that `path` leads to: "disc.toml" of inputs/disc-5f0c2a91/scene.toml; a path that
+// leads to no copy as it is.
+std::string name_before_copying(const std::filesystem::path& path);
+
 std::uint64_t file_hash(const std::filesystem::path& file);
 
 // Goes on from `hash`: a scene whose tables have changed is another one.
