@@ -33,16 +33,8 @@ class CommandLine : public ProgramTest {
     run = place / "results";
   }
 
-  // 25 particles for 245 steps, into `run`.
   Outcome short_run(const Words& more = {}) const {
-    Words arguments{"run", scene("compaction/regular-25.toml"), "-o", run.string()};
-    for (const char* change :
-         {"stage.press.duration=20 us", "stage.press.move[0].displacement=[\"0 mm\", \"-0.4 mm\"]",
-          "output.frames=4", "output.samples=20"}) {
-      arguments.insert(arguments.end(), {"--set", change});
-    }
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return pulvis(arguments);
+    return pulvis(ProgramTest::short_run(run.string(), more));
   }
 
   // A scene that is refused, in `place`.

@@ -15,15 +15,7 @@ using ::testing::HasSubstr;
 class LeftBehind : public ProgramTest {
  protected:
   Outcome run(const Words& more = {}) const {
-    Words words{"run",       scene("compaction/regular-25.toml"),
-                "-o",        "run",
-                "--threads", "1",
-                "--set",     "stage.press.duration=20 us",
-                "--set",     "stage.press.move[0].displacement=[\"0 mm\", \"-0.4 mm\"]",
-                "--set",     "output.frames=2",
-                "--set",     "output.samples=4"};
-    words.insert(words.end(), more.begin(), more.end());
-    return pulvis(words);
+    return pulvis(with(short_run("run", {"--threads", "1"}), more));
   }
   void keep_only_checkpoints() const {
     for (const auto& entry : fs::directory_iterator(place / "run"))

@@ -13,21 +13,8 @@ using ::testing::HasSubstr;
 
 class OwnFilesOfCommands : public ProgramTest {
  protected:
-  // Some 25 particles for 250 steps.
-  static Words quick() {
-    return {"--set", "stage.press.duration=20 us",
-            "--set", "stage.press.move[0].displacement=[\"0 mm\", \"-0.4 mm\"]",
-            "--set", "output.frames=2",
-            "--set", "output.samples=4"};
-  }
-  static Words with(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
   Outcome run(const std::string& folder, const Words& more = {}) const {
-    return pulvis(with(
-        with({"run", scene("compaction/regular-25.toml"), "-o", folder, "--threads", "1"}, quick()),
-        more));
+    return pulvis(with(short_run(folder, {"--threads", "1"}), more));
   }
   void put(const std::string& name, const std::string& text = "mine\n") const {
     fs::create_directories((place / name).parent_path());
@@ -59,9 +46,7 @@ TEST_F(OwnFilesOfCommands, ARunLeavesEveryFileThatIsNotItsOwn) {
     const std::string folder = std::string("with-") + name;
     put(folder + "/" + name);
     for (const Words& more : {Words{}, Words{"--overwrite"}})
-      expect_refused(
-          with(with({"run", scene("compaction/regular-25.toml"), "-o", folder}, quick()), more),
-          folder + "/" + name);
+      expect_refused(short_run(folder, more), folder + "/" + name);
   }
 }
 

@@ -15,6 +15,11 @@
 
 namespace pulvis {
 
+// A scene of a test's own, which may extend those of scenes/.
+inline Scene own_scene(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return load_scene_text(text, paths::source_dir() + "/scenes/of-a-test.toml", overrides).scene;
+}
+
 class Experiment {
  public:
   explicit Experiment(const std::string& scene_file, const std::vector<std::string>& overrides = {},

@@ -79,6 +79,22 @@ class ProgramTest : public ::testing::Test {
     return paths::source_dir() + "/scenes/" + name;
   }
 
+  static Words with(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  // What makes a matrix of 25 discs a run of some 250 steps.
+  static Words quick() {
+    return {"--set", "stage.press.duration=20 us",
+            "--set", "stage.press.move[0].displacement=[\"0 mm\", \"-0.4 mm\"]",
+            "--set", "output.frames=4",
+            "--set", "output.samples=20"};
+  }
+  static Words short_run(const std::string& folder, const Words& more = {}) {
+    return with(with({"run", scene("compaction/regular-25.toml"), "-o", folder}, quick()), more);
+  }
+
   std::filesystem::path place;
 };
 

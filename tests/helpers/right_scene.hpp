@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenes/read.hpp"
+#include "tests/helpers/wrong.hpp"
 
 #include <gtest/gtest.h>
 
@@ -77,14 +78,9 @@ safety = 0.5
 
 inline std::vector<SceneProblem> problems_of(const std::string& text,
                                              const std::vector<std::string>& overrides = {}) {
-  try {
-    load_scene_text(text, "wrong.toml", overrides);
-  } catch (const SceneError& error) {
-    EXPECT_FALSE(error.errors().empty());
-    return error.errors();
-  }
-  ADD_FAILURE() << "the scene was accepted";
-  return {};
+  auto problems = problems_in([&] { load_scene_text(text, "wrong.toml", overrides); });
+  EXPECT_FALSE(problems.empty()) << "the scene was accepted";
+  return problems;
 }
 
 }  // namespace pulvis

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "key_plan.hpp"
+#include "plan_checks.hpp"
 #include "scenes/build.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/keys/tables.hpp"
@@ -25,38 +25,21 @@ const fs::path bases = fs::path(paths::source_dir()) / "tests" / "keys" / "scene
 
 // What `pulvis check` says of a scene of this text among the bases.
 std::string fault_of_scene(const std::string& text, const fs::path& folder) {
-  try {
+  return fault_in([&] {
     const Scene scene = load_scene_text(text, folder / "case.toml").scene;
     if (scene.afm)
       build_afm(scene);
     else
       check_overlaps(scene, place_bodies(scene));
-    return "";
-  } catch (const std::exception& error) {
-    return error.what();
-  }
+  });
 }
 
-// A fault of the plan's own is told by a test, too.
 const Plan& plan() {
-  static const Plan made = [] {
-    try {
-      return plan_for(schema::scene_language(), bases, fault_of_scene);
-    } catch (const std::exception& error) {
-      return Plan{{}, {}, {error.what()}};
-    }
-  }();
+  static const Plan made = plan_or_fault(schema::scene_language(), bases, fault_of_scene);
   return made;
 }
 
-TEST(KeysOfScenes, AreAllUsed) {
-  for (const std::string& fault : plan().faults) ADD_FAILURE() << fault;
-  for (const Use& use : plan().missing)
-    ADD_FAILURE() << use.text()
-                  << " stands in no scene, and none of tests/keys/scenes takes a value "
-                  << "made from its declaration: give it one in a scene there in which it has a "
-                     "meaning, or add such a scene";
-}
+TEST(KeysOfScenes, AreAllUsed) { expect_all_used(plan(), "scene", "tests/keys/scenes"); }
 
 std::string kind_of(const Scene& scene) {
   if (!scene.afm) return "powder";

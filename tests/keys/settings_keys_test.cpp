@@ -1,6 +1,6 @@
 // Every key of the settings of `reduce`: what it keeps of them does the same again.
 #include "cli/wedge_files.hpp"
-#include "key_plan.hpp"
+#include "plan_checks.hpp"
 #include "scenes/records/lab_reduction.hpp"
 #include "scenes/records/lab_settings.hpp"
 #include "tests/helpers/paths.hpp"
@@ -15,7 +15,7 @@ const fs::path bases = fs::path(paths::source_dir()) / "tests" / "keys" / "setti
 const fs::path records = fs::path(paths::source_dir()) / "scenes" / "lab";
 
 std::string fault_of_settings(const std::string& text, const fs::path&) {
-  try {
+  return fault_in([&] {
     const auto loaded = lab::load_settings_text(text, records / "case.toml", {});
     const lab::Settings& settings = loaded.settings;
     if (!settings.wedge.loops.empty()) wedge_reduction(loaded);
@@ -23,29 +23,16 @@ std::string fault_of_settings(const std::string& text, const fs::path&) {
       lab::reduce(lab::read_press(records / run.press, settings),
                   lab::read_logger(records / run.logger, settings), settings,
                   {run.name, run.press, run.logger, run.offset});
-    return "";
-  } catch (const std::exception& error) {
-    return error.what();
-  }
+  });
 }
 
 const Plan& plan() {
-  static const Plan made = [] {
-    try {
-      return plan_for(lab::language(), bases, fault_of_settings);
-    } catch (const std::exception& error) {
-      return Plan{{}, {}, {error.what()}};
-    }
-  }();
+  static const Plan made = plan_or_fault(lab::language(), bases, fault_of_settings);
   return made;
 }
 
 TEST(KeysOfSettings, AreAllUsed) {
-  for (const std::string& fault : plan().faults) ADD_FAILURE() << fault;
-  for (const Use& use : plan().missing)
-    ADD_FAILURE() << use.text()
-                  << " stands in no settings, and none of tests/keys/settings takes a "
-                  << "value made from its declaration: give it one in settings there";
+  expect_all_used(plan(), "file of settings", "tests/keys/settings");
 }
 
 class SettingsKeys : public ProgramTest, public ::testing::WithParamInterface<Case> {

@@ -1,7 +1,7 @@
 // Every key of the study language is read and checked as a study's.
 #include <unistd.h>
 
-#include "key_plan.hpp"
+#include "plan_checks.hpp"
 #include "scenes/study/declare_study.hpp"
 #include "scenes/study/study_read.hpp"
 #include "tests/helpers/paths.hpp"
@@ -17,35 +17,20 @@ const fs::path all_bases = fs::path(paths::source_dir()) / "tests" / "keys";
 // A study is read from a file: in a folder of this process, with the scenes beside it.
 std::string fault_of_study(const std::string& text, const fs::path&) {
   const fs::path place = fs::temp_directory_path() / ("pulvis-study-" + std::to_string(getpid()));
-  std::string fault;
   fs::copy(all_bases, place, fs::copy_options::recursive | fs::copy_options::update_existing);
   std::ofstream(place / "studies" / "case.toml") << text;
-  try {
-    load_study(place / "studies" / "case.toml", {});
-  } catch (const std::exception& error) {
-    fault = error.what();
-  }
+  std::string fault = fault_in([&] { load_study(place / "studies" / "case.toml", {}); });
   fs::remove_all(place);
   return fault;
 }
 
 const Plan& plan() {
-  static const Plan made = [] {
-    try {
-      return plan_for(schema::study_language(), all_bases / "studies", fault_of_study);
-    } catch (const std::exception& error) {
-      return Plan{{}, {}, {error.what()}};
-    }
-  }();
+  static const Plan made =
+      plan_or_fault(schema::study_language(), all_bases / "studies", fault_of_study);
   return made;
 }
 
-TEST(KeysOfStudies, AreAllUsed) {
-  for (const std::string& fault : plan().faults) ADD_FAILURE() << fault;
-  for (const Use& use : plan().missing)
-    ADD_FAILURE() << use.text() << " stands in no study, and none of tests/keys/studies takes a "
-                  << "value made from its declaration: give it one in a study there";
-}
+TEST(KeysOfStudies, AreAllUsed) { expect_all_used(plan(), "study", "tests/keys/studies"); }
 
 class StudyKeys : public ProgramTest, public ::testing::WithParamInterface<Case> {};
 

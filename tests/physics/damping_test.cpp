@@ -7,6 +7,7 @@
 
 #include "components/body.hpp"
 #include "tests/helpers/experiment.hpp"
+#include "tests/helpers/free_bar.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/wrong.hpp"
 
@@ -27,27 +28,12 @@ std::string table_of(const Damping& d) {
 }
 
 std::string bar_text(const std::string& formulation, const Damping& damping, int rows) {
-  return "family = \"compaction\"\n[element]\nformulation = \"" + formulation +
-         "\"\n[[material]]\nname = \"steel\"\ndensity = \"7850 kg/m^3\"\n"
-         "youngs_modulus = \"200 GPa\"\npoissons_ratio = 0.3\n" +
-         table_of(damping) +
-         "[[particle]]\nname = \"bar\"\nmaterial = \"steel\"\noutline = \"rectangle\"\n"
-         "width = \"20 mm\"\nheight = \"1 mm\"\n[particle.mesh]\ncolumns = 20\nrows = " +
-         std::to_string(rows) +
-         "\n[[body]]\nparticle = \"bar\"\nposition = [\"0 mm\", \"0 mm\"]\n"
-         "[[stage]]\nname = \"free\"\nkind = \"settle\"\nduration = \"2 ms\"\n";
+  return FreeBar{formulation, 20, rows, 0.3, table_of(damping), "2 ms"}.text();
 }
 
 constexpr double pi = std::numbers::pi, length = 20e-3;
 
 double along(double x) { return -std::sin(pi * x); }  // free-free, x in [-1/2, 1/2]
-double across(double x) {
-  constexpr double root = 4.730040744862704;
-  const double k = (std::cosh(root) - std::cos(root)) / (std::sinh(root) - std::sin(root));
-  const double s = root * (x + 0.5);
-  return std::cosh(s) + std::cos(s) - k * (std::sinh(s) + std::sin(s));
-}
-
 // The first mode of a free bar, set off by its velocity: angular frequency and damping ratio from the
 // displacement, its crossings of zero and its extremes over five periods.
 struct Oscillation {
@@ -66,7 +52,7 @@ Oscillation oscillate(const std::string& formulation, const Damping& damping, bo
   std::vector<double> mode, start;
   for (std::size_t n = 0; n < area.size(); ++n) {
     const double at = x.lanes()[2 * n][0] / length;
-    mode.push_back(bends ? across(at) : along(at));
+    mode.push_back(bends ? bending_mode(at) : along(at));
     start.push_back(x.lanes()[2 * n + axis][0]);
     v.lanes()[2 * n + axis][0] = 0.05 * mode.back();
   }

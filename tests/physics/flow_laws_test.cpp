@@ -11,6 +11,7 @@
 #include "scenes/results/state_hash.hpp"
 #include "systems/laws/flow_law.hpp"
 #include "tests/helpers/experiment.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -104,46 +105,16 @@ TEST(FlowLaws, SameBitsOnAnyNumberOfThreads) {
 
 // A line is a line, however it is written.
 TEST(FlowLaws, LinearHardeningKeepsItsColumnsAndItsBits) {
-  const std::string text = R"(family = "compaction"
+  const std::string text = R"(extends = "compaction/unit-cell.toml"
+remove = ["tool.left", "tool.right"]
+stage = [{ name = "press", duration = "0.1 ms", move = [{ tool = "top", displacement = ["0 mm", "-0.5 mm"] }] }]
 [[material]]
-name = "m"
-density = "7990 kg/m^3"
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-yield_stress = "240 MPa"
-HARDENING
-[[particle]]
-name = "p"
-material = "m"
-outline = "disc"
-diameter = "10 mm"
-[[body]]
-particle = "p"
-position = ["0 mm", "5 mm"]
-[[tool]]
-name = "bottom"
-shape = "plane"
-point = ["0 mm", "0 mm"]
-normal = [0, 1]
-[[tool]]
-name = "top"
-shape = "plane"
-point = ["0 mm", "10 mm"]
-normal = [0, -1]
-[[stage]]
-name = "press"
-kind = "compact"
-duration = "0.1 ms"
-[[stage.move]]
-tool = "top"
-displacement = ["0 mm", "-0.5 mm"]
+name = "316L"
 )";
   std::vector<std::uint64_t> hashes;
   for (const char* way : {"hardening_modulus = \"440 MPa\"",
                           "[material.hardening]\nlaw = \"linear\"\nmodulus = \"440 MPa\""}) {
-    std::string scene = text;
-    scene.replace(scene.find("HARDENING"), 9, way);
-    Experiment e(load_scene_text(scene, "line.toml").scene);
+    Experiment e(own_scene(text + way));
     World& w = e.simulation.world();
     EXPECT_FALSE(w.has<FlowLaws>());
     EXPECT_FALSE(w.has<ReturnResidual>());
@@ -159,13 +130,7 @@ TEST(FlowLaws, AReturnThatFindsNoStressStopsTheRun) {
   auto& law = e.simulation.world().resource<FlowLaws>().of_material[4].hardening;
   law = kernels::TabulatedHardening(
       {0, 0.01, 0.02, 1}, {240e6, 250e6, std::numeric_limits<double>::quiet_NaN(), 400e6});
-  std::string said;
-  try {
-    e.simulation.run_steps(100000);
-  } catch (const RunFailure& failure) {
-    said = failure.what();
-  }
-  EXPECT_THAT(said,
+  EXPECT_THAT(message_of<RunFailure>([&] { e.simulation.run_steps(100000); }),
               testing::ContainsRegex("j2_return_map: particle 4, element [0-9]+: the stress "
                                      "is beside the flow stress by nan of it at step [0-9]+"));
 }

@@ -8,6 +8,8 @@
 
 #include "components/body.hpp"
 #include "tests/helpers/experiment.hpp"
+#include "tests/helpers/free_bar.hpp"
+#include "tests/helpers/unit_cell.hpp"
 
 namespace pulvis {
 namespace {
@@ -64,26 +66,11 @@ struct Beam {
   double drift = 0;      // momentum across, over its absolute sum
 };
 
-constexpr double beam_length = 30e-3, beam_height = 1e-3, root = 4.730040744862704;
-
-double mode(double x) {  // free-free, x in [0, 1]
-  const double k = (std::cosh(root) - std::cos(root)) / (std::sinh(root) - std::sin(root));
-  return std::cosh(root * x) + std::cos(root * x) - k * (std::sinh(root * x) + std::sin(root * x));
-}
-
-std::string beam_text(const std::string& formulation, double nu) {
-  return "family = \"compaction\"\n[element]\nformulation = \"" + formulation +
-         "\"\n[[material]]\nname = \"steel\"\ndensity = \"7850 kg/m^3\"\n"
-         "youngs_modulus = \"200 GPa\"\npoissons_ratio = " +
-         std::to_string(nu) +
-         "\n[[particle]]\nname = \"beam\"\nmaterial = \"steel\"\noutline = \"rectangle\"\n"
-         "width = \"30 mm\"\nheight = \"1 mm\"\n[particle.mesh]\ncolumns = 30\nrows = 1\n"
-         "[[body]]\nparticle = \"beam\"\nposition = [\"0 mm\", \"0 mm\"]\n"
-         "[[stage]]\nname = \"free\"\nkind = \"settle\"\nduration = \"500 us\"\n";
-}
+constexpr double beam_length = 30e-3, beam_height = 1e-3;
 
 Beam vibrate(const std::string& formulation, double nu) {
-  const Scene scene = load_scene_text(beam_text(formulation, nu), "beam.toml").scene;
+  const Scene scene =
+      load_scene_text(FreeBar{formulation, 30, 1, nu, "", "500 us"}.text(), "beam.toml").scene;
   Simulation simulation(scene);
   World& w = simulation.world();
   Results results(scene, w);
@@ -99,12 +86,13 @@ Beam vibrate(const std::string& formulation, double nu) {
     return sum;
   };
   for (std::size_t n = 0; n < area.size(); ++n)
-    v.lanes()[2 * n + 1][0] = 0.1 * mode(x.lanes()[2 * n][0] / beam_length + 0.5);
+    v.lanes()[2 * n + 1][0] = 0.1 * bending_mode(x.lanes()[2 * n][0] / beam_length);
   const double start = momentum()[0], size = momentum()[1];
 
   Beam beam;
   const double rigidity = 200e9 / (1 - nu * nu) * beam_height * beam_height / 12;
-  beam.exact = root * root / (beam_length * beam_length) * std::sqrt(rigidity / 7850);
+  beam.exact =
+      bending_root * bending_root / (beam_length * beam_length) * std::sqrt(rigidity / 7850);
   double before = 0, first = 0, when = 0;
   std::vector<double> crossings;
   while (crossings.size() < 5 && !simulation.finished()) {
@@ -146,45 +134,18 @@ TEST(Standard, BeamOfNearlyIncompressibleElementsLocks) {
 }
 
 // ---- compaction ---------------------------------------------------------------------------------------
-struct Curve {
-  std::vector<double> density, axial, lateral;
-  double hourglass = 0;  // over internal energy, at the end
-};
-
-Curve compact(const std::string& scene, const std::vector<std::string>& overrides) {
-  Experiment e(scene, overrides);
-  Curve c;
-  e.run(200, [&] {
-    c.density.push_back(e.value("relative_density"));
-    c.axial.push_back(e.value("stress_ratio/axial"));
-    c.lateral.push_back(e.value("stress_ratio/lateral"));
-  });
-  EXPECT_LT(e.results.energy_balance_error(), 0.01);
-  c.hourglass = e.results.energies().hourglass / e.results.energies().internal();
-  return c;
-}
-
-// The exact unit cell (tests/physics/compaction_test.cpp).
-void expect_unit_cell(const Curve& curve, double axial, double lateral) {
-  constexpr double reference[][3] = {
-      {0.82, 0.62, 0.30}, {0.85, 0.78, 0.47}, {0.90, 1.10, 0.73}, {0.95, 1.44, 1.00}};
-  for (const auto& r : reference) {
-    EXPECT_NEAR(at(curve.density, curve.axial, r[0]) / r[1], 1, axial) << r[0];
-    EXPECT_NEAR(at(curve.density, curve.lateral, r[0]) / r[2], 1, lateral) << r[0];
-  }
-}
-
 TEST(OnePoint, UnitCellStoresAndSpendsLittleInHourglassModes) {
   for (const auto& [scene, share] :
        {std::pair{"compaction/unit-cell.toml", 0.05}, {"compaction/unit-cell-fine.toml", 0.03}}) {
-    const Curve curve = compact(scene, {one_point});
+    const CompactionRun curve = compact(scene, {one_point});
     expect_unit_cell(curve, 0.05, 0.12);
     EXPECT_LT(curve.hourglass, share) << scene;
   }
 }
 
 TEST(FourPoint, UnitCellWith140Quads) {
-  const Curve curve = compact("compaction/unit-cell.toml", {"element.formulation=four-point"});
+  const CompactionRun curve =
+      compact("compaction/unit-cell.toml", {"element.formulation=four-point"});
   expect_unit_cell(curve, 0.05, 0.12);
   EXPECT_EQ(curve.hourglass, 0);
 }
@@ -195,7 +156,8 @@ TEST(FourPoint, UnitCellWith560Quads) {
 }
 
 TEST(Standard, UnitCellLocks) {
-  const Curve curve = compact("compaction/unit-cell.toml", {"element.formulation=standard"});
+  const CompactionRun curve =
+      compact("compaction/unit-cell.toml", {"element.formulation=standard"});
   EXPECT_GT(at(curve.density, curve.axial, 0.95) / 1.44, 1.25);
 }
 

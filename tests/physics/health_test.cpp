@@ -13,6 +13,7 @@
 #include "engine/run_failure.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/paths.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -23,12 +24,7 @@ using ::testing::StartsWith;
 
 // What the failing run says; the step at which it stopped stays in the clock.
 std::string failure_of(Simulation& simulation, std::int64_t max_steps) {
-  try {
-    simulation.run_steps(max_steps);
-  } catch (const RunFailure& failure) {
-    return failure.what();
-  }
-  return "did not fail";
+  return message_of<RunFailure>([&] { simulation.run_steps(max_steps); });
 }
 
 std::string step_now(const Simulation& simulation) {
@@ -157,12 +153,7 @@ TEST(Health, BodyLostThroughAWallIsNamed) {
   Experiment e("compaction/regular-25.toml", {"limits.penetration=1e6"}, 2);
   e.simulation.run_steps(10);
   shift(e, 12, 0.2, 0);  // 200 mm to the right: the die is 50 mm wide
-  std::string failure = "none";
-  try {
-    e.simulation.observe();
-  } catch (const RunFailure& found) {
-    failure = found.what();
-  }
+  const std::string failure = message_of<RunFailure>([&] { e.simulation.observe(); });
   EXPECT_THAT(failure, StartsWith("lost_bodies: particle 12 has gone through tool 'right': "));
   EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
   EXPECT_THAT(failure, ContainsRegex("is 0\\.17[0-9]* m behind it"));

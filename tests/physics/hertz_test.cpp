@@ -3,36 +3,17 @@
 
 #include <numbers>
 
-#include "systems/contact/contact_kernel.hpp"
-#include "tests/helpers/experiment.hpp"
+#include "tests/helpers/contact_points.hpp"
 
 namespace pulvis {
 namespace {
 
-// Half-width from the second moment of the contact pressure, 1/4 a^2 for Hertz' ellipse: unlike the
-// outermost touching point it does not come in steps of the mesh.
 double half_width(const Experiment& e, int tool) {
-  const auto& pair = e.column<ContactPair<ToolContact>>();
-  const auto& touches = e.column<ContactTouches<ToolContact>>();
-  const auto& force = e.column<PointForce<ToolContact>>();
-  const auto& curve = e.column<CurvePosition>();
-  const Bodies& bodies = const_cast<Experiment&>(e).simulation.world().resource<Bodies>();
-  double sum = 0, moment = 0;
-  for (std::size_t r = 0; r < pair.table.rows; ++r) {
-    const std::int32_t* key = pair.values() + 3 * r;
-    if (key[2] != tool || touches.values()[r] == 0) continue;
-    const auto& slot = bodies.slots[static_cast<std::size_t>(key[0])];
-    const auto& edge = bodies.shape_of_slot(key[0]).edges[static_cast<std::size_t>(key[1])];
-    const double* y = curve.values() + 2 * (slot.first_control + edge.first_control);
-    for (std::size_t g = 0; g < 4; ++g) {
-      const auto n = kernels::basis(kernels::edge_u[g]);
-      const double x = n[0] * y[0] + n[1] * y[2] + n[2] * y[4] + n[3] * y[6];
-      const double f = std::abs(force.values()[8 * r + 2 * g + 1]);
-      sum += f;
-      moment += f * x * x;
-    }
-  }
-  return 2 * std::sqrt(moment / sum);
+  Moments pressure;
+  for_each_contact_point<ToolContact>(
+      e, [&](const std::int32_t* key) { return key[2] == tool; },
+      [&](const ContactPoint& point) { pressure.add(point.normal, point.x); });
+  return pressure.half_width();
 }
 
 TEST(Hertz, LoadAndHalfWidthOfADiscBetweenPlatens) {

@@ -1,25 +1,10 @@
 // Cattaneo (1938), Mindlin (1949): a pressed contact under a tangential force sticks in the middle.
 #include <gtest/gtest.h>
 
-#include "systems/contact/contact_kernel.hpp"
-#include "tests/helpers/experiment.hpp"
+#include "tests/helpers/contact_points.hpp"
 
 namespace pulvis {
 namespace {
-
-// Half-width of a strip from the second moment of what acts on it: 1/4 a^2 for an ellipse.
-struct Moments {
-  double sum = 0, first = 0, second = 0;
-  void add(double weight, double x) {
-    sum += weight;
-    first += weight * x;
-    second += weight * x * x;
-  }
-  double half_width() const {
-    const double mean = first / sum;
-    return 2 * std::sqrt(second / sum - mean * mean);
-  }
-};
 
 struct Strip {
   Moments pressure;  // mu p
@@ -28,28 +13,17 @@ struct Strip {
 
 // The contact as the lower disc samples it (half of every force: the other half is the upper one's).
 Strip contact_of(const Experiment& e, double mu) {
-  const auto& pair = e.column<ContactPair<Contact>>();
-  const auto& touches = e.column<ContactTouches<Contact>>();
-  const auto& force = e.column<PointForce<Contact>>();
-  const auto& curve = e.column<CurvePosition>();
-  const Bodies& bodies = const_cast<Experiment&>(e).simulation.world().resource<Bodies>();
+  const int lower =
+      const_cast<Experiment&>(e).simulation.world().resource<Bodies>().slot_of_number[0];
   Strip strip;
-  for (std::size_t r = 0; r < pair.table.rows; ++r) {
-    const std::int32_t* key = pair.values() + 3 * r;
-    if (key[0] != bodies.slot_of_number[0] || touches.values()[r] == 0) continue;
-    const auto& slot = bodies.slots[static_cast<std::size_t>(key[0])];
-    const auto& edge = bodies.shape_of_slot(key[0]).edges[static_cast<std::size_t>(key[1])];
-    const double* y = curve.values() + 2 * (slot.first_control + edge.first_control);
-    for (std::size_t g = 0; g < 4; ++g) {
-      const auto n = kernels::basis(kernels::edge_u[g]);
-      const double x = n[0] * y[0] + n[1] * y[2] + n[2] * y[4] + n[3] * y[6];
-      const double q = force.values()[8 * r + 2 * g];  // the contact is level to 0.04 rad
-      const double p = mu * std::abs(force.values()[8 * r + 2 * g + 1]);
-      if (p <= 0) continue;
-      strip.pressure.add(p, x);
-      strip.deficit.add(p - q, x);
-    }
-  }
+  for_each_contact_point<Contact>(
+      e, [&](const std::int32_t* key) { return key[0] == lower; },
+      [&](const ContactPoint& point) {  // the contact is level to 0.04 rad
+        const double p = mu * point.normal;
+        if (p <= 0) return;
+        strip.pressure.add(p, point.x);
+        strip.deficit.add(p - point.shear, point.x);
+      });
   return strip;
 }
 

@@ -7,6 +7,7 @@
 #include "components/hollow.hpp"
 #include "engine/run_failure.hpp"
 #include "tests/helpers/experiment.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -61,12 +62,7 @@ mesh = {boundary_edges = 80, rings = 2}
 
 // What stopped the run; nothing where it reached its end.
 std::string run(Experiment& e) {
-  try {
-    e.run(20);
-  } catch (const RunFailure& failure) {
-    return failure.what();
-  }
-  return "";
+  return message_of<RunFailure>([&] { e.run(20); });
 }
 
 std::vector<Point> outline(Experiment& e) {

@@ -61,7 +61,6 @@ std::string contact(double stiffness, double damping) {
   return fmt::format("[contact]\nfriction = 0.1\nstiffness = {}\ndamping = {}\n", stiffness,
                      damping);
 }
-Scene scene_of(const std::string& text) { return load_scene_text(text, "servo.toml").scene; }
 
 // ---- what once swung up -----------------------------------------------------------------------------------
 struct Case {
@@ -81,9 +80,9 @@ class ServoOver : public ::testing::TestWithParam<Case> {};
 TEST_P(ServoOver, HoldsItsForceAndKeepsItsEnergy) {
   const Case& c = GetParam();
   const double hold = 0.5 * c.load;
-  Experiment e(scene_of(c.powder + die(c.width, c.height) + stage("load", "compact", c.load) +
-                        servo("top", c.force, 0.8) + stage("hold", "hold", hold) +
-                        servo("top", c.force, 0.2) + contact(c.stiffness, c.damping)));
+  Experiment e(own_scene(c.powder + die(c.width, c.height) + stage("load", "compact", c.load) +
+                         servo("top", c.force, 0.8) + stage("hold", "hold", hold) +
+                         servo("top", c.force, 0.2) + contact(c.stiffness, c.damping)));
   double most = 0, off = 0;
   e.run(300, [&] {
     const double force = e.value("tool/top/force_y");
@@ -116,12 +115,12 @@ TEST(Servo, KeepsTheLateralForceOfABiaxialTestOnABlock) {
   const std::string block =
       "[[particle]]\nname = \"p\"\nmaterial = \"m\"\noutline = \"rectangle\"\nwidth = \"10 mm\"\n"
       "height = \"10 mm\"\n[particle.mesh]\ncolumns = 8\nrows = 8\n";
-  Experiment e(scene_of(metal + "yield_stress = \"240 MPa\"\n" + block + body(5, 5) + die(10, 10) +
-                        stage("confine", "compact", 0.1) + servo("right", 1000, 0.5) +
-                        servo("top", 1000, 0.5) + stage("press", "compact", 1) +
-                        "[[stage.move]]\ntool = \"top\"\ndisplacement = [\"0 mm\", \"-0.5 mm\"]\n"
-                        "ramp = 0.3\n" +
-                        servo("right", 1000, 0.2) + "[contact]\nfriction = 0\ndamping = 0.1\n"));
+  Experiment e(own_scene(metal + "yield_stress = \"240 MPa\"\n" + block + body(5, 5) + die(10, 10) +
+                         stage("confine", "compact", 0.1) + servo("right", 1000, 0.5) +
+                         servo("top", 1000, 0.5) + stage("press", "compact", 1) +
+                         "[[stage.move]]\ntool = \"top\"\ndisplacement = [\"0 mm\", \"-0.5 mm\"]\n"
+                         "ramp = 0.3\n" +
+                         servo("right", 1000, 0.2) + "[contact]\nfriction = 0\ndamping = 0.1\n"));
   double off = 0, off_at_yield = 0;
   e.run(400, [&] {
     const double time = e.simulation.clock().time * 1e3;
@@ -141,7 +140,7 @@ TEST(Servo, KeepsTheLateralForceOfABiaxialTestOnABlock) {
 // is pressed by a punch on its way with up to 80 times the work of the punch.
 class Damped : public ::testing::TestWithParam<double> {};
 TEST_P(Damped, ContactsTakeEnergyAway) {
-  Experiment e(scene_of(
+  Experiment e(own_scene(
       metal + flat + body(10, 2.5) + body(10, 7.5) + die(20, 10) + stage("press", "compact", 0.05) +
       "[[stage.move]]\ntool = \"top\"\ndisplacement = [\"0 mm\", \"-0.05 mm\"]\n" +
       stage("hold", "hold", 0.05) + contact(GetParam(), 1)));

@@ -8,6 +8,7 @@
 #include "engine/run_failure.hpp"
 #include "scenes/meshes/thinnest.hpp"
 #include "tests/helpers/experiment.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -74,12 +75,7 @@ Experiment experiment(const std::string& text) {
 
 // What stopped the run; nothing where it reached its end.
 std::string run(Experiment& e) {
-  try {
-    e.run(20);
-  } catch (const RunFailure& failure) {
-    return failure.what();
-  }
-  return "";
+  return message_of<RunFailure>([&] { e.run(20); });
 }
 
 Vec2 middle(Experiment& e, int number) {

@@ -8,6 +8,7 @@
 #include "scenes/lever/adhesion.hpp"
 #include "systems/lever/probe_contact_kernel.hpp"
 #include "tests/helpers/afm_run.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -220,12 +221,7 @@ TEST(Jkr, FrictionSeesTheLoadAndThePullOffForce) {
 
 TEST(Jkr, WhatItDoesNotHoldForIsRefused) {
   const auto refusal = [](const std::vector<std::string>& overrides) -> std::string {
-    try {
-      shipped_afm("jkr-force-curve.toml", overrides);
-    } catch (const SceneError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return message_of([&] { shipped_afm("jkr-force-curve.toml", overrides); });
   };
   const auto refused = [&](const std::vector<std::string>& overrides, const char* why) {
     EXPECT_NE(refusal(overrides).find(why), std::string::npos) << refusal(overrides);

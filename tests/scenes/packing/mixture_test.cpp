@@ -14,6 +14,7 @@
 #include "scenes/packing/size_law.hpp"
 #include "tests/helpers/random_scene.hpp"
 #include "tests/helpers/right_scene.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -128,13 +129,10 @@ class InFolder : public testing::Test {
     return load_scene_text(text, folder / "s.toml").scene;
   }
   std::vector<SceneProblem> problems(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const SceneError& error) {
-      return error.errors();
-    }
-    ADD_FAILURE() << "accepted";
-    return {SceneProblem{}};
+    auto found = problems_in([&] { read(text); });
+    EXPECT_FALSE(found.empty()) << "accepted";
+    if (found.empty()) found.emplace_back();
+    return found;
   }
   fs::path folder;
 };

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "tests/helpers/shipped_scenes.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -79,12 +80,7 @@ Scene scene_of(std::vector<BodySpec> bodies) {
 }
 
 std::vector<SceneProblem> problems_of(const Scene& scene) {
-  try {
-    check_overlaps(scene, place_bodies(scene));
-  } catch (const SceneError& error) {
-    return error.errors();
-  }
-  return {};
+  return problems_in([&] { check_overlaps(scene, place_bodies(scene)); });
 }
 
 Scene die(int rows, int columns, Vec2 corner) {

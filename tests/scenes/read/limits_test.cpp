@@ -59,17 +59,6 @@ class Limits : public ProgramTest {
     EXPECT_EQ(mkfifo((place / name).c_str(), 0600), 0);
     return (place / name).string();
   }
-
-  Words short_run(const std::string& folder, const Words& more = {}) const {
-    Words words{"run",   scene("compaction/regular-25.toml"),
-                "-o",    folder,
-                "--set", "stage.press.duration=20 us",
-                "--set", "stage.press.move[0].displacement=[\"0 mm\", \"-0.4 mm\"]",
-                "--set", "output.frames=4",
-                "--set", "output.samples=20"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
 };
 
 // ---- signals ----------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 
 #include "scenes/build.hpp"
 #include "tests/helpers/right_scene.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -33,12 +34,7 @@ const std::string constraint_on_block =
 
 // While it is read, or, where only the placed nodes can tell, while it is built.
 std::vector<SceneProblem> problems_with(const std::string& tool) {
-  try {
-    build_world(load_scene_text(scene_with(tool), "wrong.toml").scene);
-  } catch (const SceneError& error) {
-    return error.errors();
-  }
-  return {};
+  return problems_in([&] { build_world(load_scene_text(scene_with(tool), "wrong.toml").scene); });
 }
 
 TEST(RightTools, AreAccepted) {

@@ -15,6 +15,7 @@
 
 #include "scenes/lever/afm_loop.hpp"
 #include "scenes/records/wedge_records.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis::wedge {
 namespace {
@@ -96,12 +97,7 @@ TEST(WedgeCalibration, StatedUncertaintiesAreThoseThatAreSeen) {
 
 TEST(WedgeCalibration, WhatFitsNoFrictionIsRefused) {
   const auto message = [](const std::vector<Loop>& loops) -> std::string {
-    try {
-      calibrate(loops, {});
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "accepted";
+    return message_of<std::runtime_error>([&] { calibrate(loops, {}); });
   };
   EXPECT_THAT(message({{14 * degree, 1e-7, 0.1, 0.01, {}, {}}}), HasSubstr("allowed: >= 2"));
   EXPECT_THAT(message({{0, 1e-7, 0.1, 0.01, {}, {}}}), HasSubstr("no facet with a slope"));

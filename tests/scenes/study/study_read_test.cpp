@@ -11,6 +11,7 @@
 
 #include "scenes/language/problem.hpp"
 #include "tests/helpers/paths.hpp"
+#include "tests/helpers/wrong.hpp"
 
 namespace pulvis {
 namespace {
@@ -36,16 +37,7 @@ class StudyRead : public ::testing::Test {
 
   // The message without the file's name: "3:1: grid.x: ...".
   std::string refusal(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const SceneError& error) {
-      std::string message = error.what();
-      for (auto at = message.find(file.string() + ":"); at != std::string::npos;
-           at = message.find(file.string() + ":"))
-        message.erase(at, file.string().size() + 1);
-      return message;
-    }
-    return "nothing is refused";
+    return without(file.string() + ":", message_of([&] { read(text); }));
   }
 
   fs::path file;
