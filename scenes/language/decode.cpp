@@ -127,15 +127,11 @@ int choice(const KeyInfo& key, const Value& value) {
          fmt::format("{} is unknown{}", document::value_text(value), suggestion(given, words)));
 }
 
-const std::vector<std::string>& names_of(const Names& names, const std::string& table) {
-  static const std::vector<std::string> no_names;
-  const auto found = names.find(table);
-  return found == names.end() ? no_names : found->second;
-}
-
 int reference(const KeyInfo& key, const Value& value, const Names& names) {
   const std::string& given = word(key, value);
-  const std::vector<std::string>& known = names_of(names, key.refers_to);
+  const auto table = names.find(key.refers_to);
+  if (table == names.end()) return 0;  // it is no list
+  const std::vector<std::string>& known = table->second;
   const auto found = std::find(known.begin(), known.end(), given);
   if (found != known.end() && !given.empty()) return static_cast<int>(found - known.begin());
   throw Refusal(value.origin,
@@ -197,10 +193,13 @@ Vec2 direction(const KeyInfo& key, const Value& value) {
 }
 
 std::array<std::string, 2> name_pair(const KeyInfo& key, const Value& value, const Names& names) {
-  std::vector<std::string> known = names_of(names, "material");
-  const std::vector<std::string>& tools = names_of(names, "tool");
-  known.insert(known.end(), tools.begin(), tools.end());
   const document::Array& parts = pair(key, value);
+  std::vector<std::string> known;
+  for (const char* table : {"material", "tool"}) {
+    const auto found = names.find(table);
+    if (found == names.end()) return {word(key, parts[0]), word(key, parts[1])};
+    known.insert(known.end(), found->second.begin(), found->second.end());
+  }
   for (const Value& part : parts) {
     const std::string& given = word(key, part);
     if (given.empty() || std::find(known.begin(), known.end(), given) == known.end())

@@ -9,6 +9,7 @@
 namespace pulvis::schema {
 
 // The names each repeated table declares, by position; "" where an element has no usable name.
+// A table that is no list has no entry: it is refused itself, and no reference to it besides.
 using Names = std::map<std::string, std::vector<std::string>>;
 
 struct Refusal : std::runtime_error {

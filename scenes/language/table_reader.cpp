@@ -17,7 +17,9 @@ void TableReader::collect_names(const document::Table& root) {
   for (const TableView& view : language_) {
     if (!view.info.repeated || find_key(view, "name") == nullptr) continue;
     const document::Entry* entry = document::find(root, view.info.path);
-    if (entry == nullptr || !document::is_array_of_tables(entry->value)) continue;
+    if (entry != nullptr && !document::is_array_of_tables(entry->value)) continue;  // refused later
+    names_[view.info.path];
+    if (entry == nullptr) continue;
     const auto& array = entry->value.get<document::Array>();
     for (std::size_t i = 0; i < array.size(); ++i)
       collect_name(view.info.path, array[i], fmt::format("{}[{}].name", view.info.path, i));
@@ -35,8 +37,8 @@ void TableReader::collect_name(const std::string& table, const document::Value& 
     return;
   }
   const auto taken = [&](const std::string& other) {
-    const auto& names = names_[other];
-    return std::find(names.begin(), names.end(), *name) != names.end();
+    const auto names = names_.find(other);
+    return names != names_.end() && std::ranges::find(names->second, *name) != names->second.end();
   };
   const document::Origin origin = document::find(keys, "name")->value.origin;
   if (taken(table))

@@ -54,6 +54,16 @@ TEST(WrongScenes, NothingDeclaredIsRefusedForEveryPart) {
   EXPECT_THAT(problems[2].message, HasSubstr("[[body]] or [[packing]]"));
 }
 
+// [material.hardening] without its [[material]]: what names materials elsewhere is not to blame.
+TEST(WrongScenes, ATableThatIsNoListIsToldOnceAndNotByEveryReferenceToIt) {
+  std::string text = right_scene;
+  const std::size_t begin = text.find("[[material]]"), end = text.find("[[particle]]");
+  text.replace(begin, end - begin, "[material.hardening]\nlaw = \"linear\"\nmodulus = \"1 GPa\"\n");
+  const auto problems = problems_of(text);
+  ASSERT_EQ(problems.size(), 1U) << problems.back().text();
+  EXPECT_THAT(problems[0].message, HasSubstr("a table is given, allowed: [[material]]"));
+}
+
 TEST(WrongScenes, IndependentProblemsAreAllReportedInTheOrderOfTheFile) {
   const auto problems = problems_of("title = 5\nfamily = \"shear\"\n[time]\nsafety = 2\n");
   ASSERT_EQ(problems.size(), 3U);
@@ -62,20 +72,14 @@ TEST(WrongScenes, IndependentProblemsAreAllReportedInTheOrderOfTheFile) {
   EXPECT_EQ(problems[2].key, "time.safety");
 }
 
-std::string refusal_of(const std::filesystem::path& file) {
-  try {
-    read_scene(file);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(WrongScenes, FilesThatAreNoScenes) {
   const std::filesystem::path folder = testing::TempDir();
-  EXPECT_THAT(refusal_of(folder / "missing.toml"), HasSubstr("there is no such file"));
-  EXPECT_THAT(refusal_of(folder), HasSubstr("is a folder"));
-  EXPECT_THAT(refusal_of("/dev/zero"), HasSubstr("is a device"));
+  const auto refused = [](const std::filesystem::path& file) {
+    return message_of([&] { read_scene(file); });
+  };
+  EXPECT_THAT(refused(folder / "missing.toml"), HasSubstr("there is no such file"));
+  EXPECT_THAT(refused(folder), HasSubstr("is a folder"));
+  EXPECT_THAT(refused("/dev/zero"), HasSubstr("is a device"));
 }
 
 TEST(WrongScenes, AnOverrideIsNamedInsteadOfAPlace) {
