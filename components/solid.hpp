@@ -1,6 +1,6 @@
-// Columns and resources of a deformable solid in space that is solved quasi-statically: eight-node
-// hexahedra, ten-node tetrahedra, nodes, and the blocks of the stiffness matrix. Nothing of it is there unless the scene has a
-// lever (family = "afm").
+// Columns and resources of a deformable solid in space that is solved quasi-statically: eight-node hexahedra, ten-node
+// tetrahedra, nodes, and the blocks of the stiffness matrix. Nothing of it is there unless the scene has a lever
+// (family = "afm").
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/component.hpp"
+#include "engine/entry.hpp"
 
 namespace pulvis {
 
@@ -119,11 +120,11 @@ struct SolidMesh {
   std::vector<std::int32_t> chunk_begin;  // [chunks + 1] into hexahedra
   std::vector<std::int32_t> tetrahedron_begin;  // [chunks + 1] into tetrahedra
 
-  std::span<const Support> supports_of(int n) const {
-    const auto first = static_cast<std::size_t>(support_begin[static_cast<std::size_t>(n)]);
-    const auto last = static_cast<std::size_t>(support_begin[static_cast<std::size_t>(n) + 1]);
-    return {supports.data() + first, last - first};
+  std::span<const Support> supports_of(int node) const {
+    return entries(supports, support_begin, node);
   }
+  // Of the three equations of a free node.
+  int first_equation(int node) const { return 3 * entry(unknown, node); }
 };
 
 // Where the numbers of the elements go: lists made once, added up in their order, whatever the threads.
@@ -143,6 +144,14 @@ struct SolidAssembly {
   std::vector<std::int32_t>
       column_begin;  // [unknowns + 1] into block_row: lower triangle by columns
   std::vector<std::int32_t> block_row;
+
+  std::span<const Share> forces_of(int node) const { return entries(forces, force_begin, node); }
+  std::span<const Share> shares_of(int block) const { return entries(shares, block_begin, block); }
+  int columns() const { return static_cast<int>(column_begin.size()) - 1; }
+  // The rows of a column's blocks, in rising order; the first is the diagonal's.
+  std::span<const std::int32_t> rows_of(int column) const {
+    return entries(block_row, column_begin, column);
+  }
 };
 
 }  // namespace pulvis

@@ -5,8 +5,11 @@
 #include <cassert>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "engine/component.hpp"
 
@@ -21,6 +24,16 @@ constexpr decltype(auto) entry(List&& list, Number number) {
 template <class List, class Entity>
 constexpr decltype(auto) entry(List&& list, Row<Entity> row) {
   return entry(std::forward<List>(list), row.value);
+}
+
+// The entries of one group, in a list where the groups lie one behind the other: group g from begin[g] to begin[g + 1].
+template <class T, std::integral Number>
+constexpr std::span<const T> entries(const std::vector<T>& list,
+                                     const std::vector<std::int32_t>& begin, Number group) {
+  const auto first = static_cast<std::size_t>(entry(begin, group));
+  const auto last = static_cast<std::size_t>(entry(begin, group + 1));
+  assert(first <= last && last <= list.size());
+  return std::span(list).subspan(first, last - first);
 }
 
 }  // namespace pulvis

@@ -9,19 +9,16 @@
 
 namespace pulvis {
 
-void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
-                   Read<Target> target, Read<ProbeNode> node, Read<ProbeStiffness> stiffness,
-                   Read<ProbeShare> share, Read<ProbeMemory> memory, Read<ProbeForce> force,
-                   Write<ProbeState> state) {
+void probe_contact::operator()() const {
   // Against a thousandth of the penalties round-off in a place weighs as little as it does in the solid.
   constexpr double rho = 1e-3;
-  for (int i = 0; i < node.rows(); ++i) {
+  for (int i = 0; i < probe.node.rows(); ++i) {
     const Row<ProbePoint> row(i);
-    const Eigen::Vector3d place = probe_place(row, reference, displacement, *target, node);
-    const ContactPoint point = contact_point(row, place, *target, stiffness, share, memory, force);
+    const Eigen::Vector3d place = probe_place(probe.node(row), configuration, *target);
+    const ContactPoint point = contact_point(row, place, *target, probe);
     const auto at = place_on(*target->shape, point, target->end_radius, place);
-    const auto r = kernels::probe_equation(point.law, at, point.force, rho * stiffness(row, 0),
-                                           rho * stiffness(row, 1));
+    const auto r = kernels::probe_equation(
+        point.law, at, point.force, rho * probe.stiffness(row, 0), rho * probe.stiffness(row, 1));
     state(row, 0) = at.gap;
     state(row, 1) = r.pressing;
     state(row, 2) = r.limit;
@@ -30,12 +27,10 @@ void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displac
   }
 }
 
-void commit_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
-                    Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
-                    Read<ProbeState> state, Write<ProbeMemory> memory) {
+void commit_contact::operator()() const {
   for (int i = 0; i < node.rows(); ++i) {
     const Row<ProbePoint> row(i);
-    const Eigen::Vector3d place = probe_place(row, reference, displacement, *target, node);
+    const Eigen::Vector3d place = probe_place(node(row), configuration, *target);
     const Eigen::Vector3d f(force(row, 0), force(row, 1), force(row, 2));
     const auto normal =
         target->shape->nearest({place.x(), place.y(), place.z() + target->end_radius}).normal;

@@ -11,8 +11,8 @@
 // Runs     after newton_direction, whose answer is y
 // Active   when the scene has a surface
 #include <algorithm>
-#include <numeric>
 
+#include "engine/entry.hpp"
 #include "engine/interruption.hpp"
 #include "systems/lever/solid_contact_problem.hpp"
 #include "systems/lever/solid_systems.hpp"
@@ -27,128 +27,158 @@ using Eigen::VectorXd;
 
 constexpr int max_rounds = 20;
 
-struct Contact {
-  const SolidMesh& mesh;
-  const Read<ProbeNode>& node;
-  SolidEquations& equations;
+// The points of the probe that are asked, on a solid that answers to their forces.
+class ProbeContact {
+ public:
+  explicit ProbeContact(const contact_direction& system)
+      : mesh_(*system.mesh),
+        configuration_(system.configuration),
+        target_(*system.target),
+        probe_(system.probe),
+        state_(system.state),
+        equations_(*system.equations),
+        free_(equations_.direction),
+        points_(first_points()) {}
 
-  auto supports(int p) const { return mesh.supports_of(node(Row<ProbePoint>(p))); }
+  // The law of contact at the points, from where they would come to lie at unchanged forces.
+  ContactProblem problem() const {
+    ContactProblem problem{target_.shape.get(), target_.end_radius, {}, {}, {}, target_.may_jump};
+    if (target_.servo) problem.set_point = target_.set_point;
+    for (const int p : points_) {
+      const Row<ProbePoint> row(p);
+      problem.points.push_back(contact_point(row, place(p, free_), target_, probe_));
+      // What has snapped off in an earlier iteration is not held by the adhesion of contact any more.
+      if (equations_.jumped && state_(row, 3) == 0) problem.points.back().touched = false;
+    }
+    problem.compliance = compliance();
+    return problem;
+  }
+
+  // The steps of the forces, the target's height and the solid.
+  void take(const ContactAnswer& answer, const ContactProblem& problem) {
+    equations_.height_step = answer.height;
+    equations_.force_step.setZero(3 * probe_.node.rows());
+    equations_.direction = free_;
+    for (Index i = 0; i < count(); ++i) {
+      const int p = entry(points_, i);
+      const Vector3d change = answer.force.segment<3>(3 * i) - entry(problem.points, i).force;
+      equations_.force_step.segment<3>(3 * p) = change;
+      equations_.direction += response(p) * change;
+    }
+    equations_.contact_change = change();
+  }
+
+  // Points that come to touch by that are asked as well. False: there are none.
+  bool ask_more() {
+    std::vector<int> more;
+    for (int p = 0; p < probe_.node.rows(); ++p)
+      if (!std::ranges::binary_search(points_, p) && comes_to_touch(p)) more.push_back(p);
+    points_.insert(points_.end(), more.begin(), more.end());
+    std::ranges::sort(points_);
+    return !more.empty();
+  }
+
+ private:
+  Index count() const { return static_cast<Index>(points_.size()); }
+  int node(int p) const { return probe_.node(Row<ProbePoint>(p)); }
+
+  // Those that carry a force, touch or are drawn, and the nearest one.
+  std::vector<int> first_points() const {
+    std::vector<int> points;
+    int nearest = 0;
+    for (int i = 0; i < state_.rows(); ++i)
+      if (state_(Row<ProbePoint>(i), 0) < state_(Row<ProbePoint>(nearest), 0)) nearest = i;
+    const auto& force = probe_.force;
+    for (int i = 0; i < state_.rows(); ++i) {
+      const Row<ProbePoint> row(i);
+      const bool pushed = force(row, 0) != 0 || force(row, 1) != 0 || force(row, 2) != 0;
+      const bool drawn = target_.pull_off * probe_.share(row) > 0;
+      if (pushed || drawn || state_(row, 0) <= 0 || i == nearest) points.push_back(i);
+    }
+    return points;
+  }
 
   // B_p^T of a direction: how the point moves.
   Vector3d moved(int p, const VectorXd& direction) const {
     Vector3d sum = Vector3d::Zero();
-    for (const auto& s : supports(p))
-      sum += s.weight * direction.segment<3>(3 * mesh.unknown[static_cast<std::size_t>(s.node)]);
+    for (const auto& s : mesh_.supports_of(node(p)))
+      sum += s.weight * direction.segment<3>(mesh_.first_equation(s.node));
     return sum;
   }
 
+  Vector3d place(int p, const VectorXd& direction) const {
+    return probe_place(node(p), configuration_, target_) + moved(p, direction);
+  }
+
   // K^-1 B_p, asked of the factors once.
-  const MatrixXd& answer(int p) const {
-    auto& answers = equations.answers;
-    answers.resize(static_cast<std::size_t>(node.rows()));
-    MatrixXd& mine = answers[static_cast<std::size_t>(p)];
+  const MatrixXd& response(int p) const {
+    auto& answers = equations_.answers;
+    answers.resize(static_cast<std::size_t>(probe_.node.rows()));
+    MatrixXd& mine = entry(answers, p);
     if (mine.size() > 0) return mine;
     stop_if_asked();
-    MatrixXd unit = MatrixXd::Zero(3 * mesh.unknowns, 3);
-    for (const auto& s : supports(p))
-      for (int k = 0; k < 3; ++k)
-        unit(3 * mesh.unknown[static_cast<std::size_t>(s.node)] + k, k) += s.weight;
-    mine = equations.solve(unit);
+    MatrixXd unit = MatrixXd::Zero(3 * mesh_.unknowns, 3);
+    for (const auto& s : mesh_.supports_of(node(p)))
+      for (int k = 0; k < 3; ++k) unit(mesh_.first_equation(s.node) + k, k) += s.weight;
+    mine = equations_.solve(unit);
     return mine;
   }
 
-  MatrixXd compliance(const std::vector<int>& points) const {
-    const auto size = 3 * static_cast<Index>(points.size());
-    MatrixXd s(size, size);
-    for (std::size_t b = 0; b < points.size(); ++b)
+  MatrixXd compliance() const {
+    MatrixXd s(3 * count(), 3 * count());
+    for (Index b = 0; b < count(); ++b)
       for (int k = 0; k < 3; ++k) {
-        const VectorXd column = answer(points[b]).col(k);
-        for (std::size_t a = 0; a < points.size(); ++a)
-          s.block<3, 1>(3 * static_cast<Index>(a), 3 * static_cast<Index>(b) + k) =
-              moved(points[a], column);
+        const VectorXd column = response(entry(points_, b)).col(k);
+        for (Index a = 0; a < count(); ++a)
+          s.block<3, 1>(3 * a, 3 * b + k) = moved(entry(points_, a), column);
       }
     return s;
   }
-};
 
-// Those that carry a force, touch or are drawn, and the nearest one.
-std::vector<int> first_points(const Read<ProbeForce>& force, const Read<ProbeState>& state,
-                              const Read<ProbeShare>& share, const Target& target) {
-  std::vector<int> points;
-  int nearest = 0;
-  for (int i = 0; i < state.rows(); ++i)
-    if (state(Row<ProbePoint>(i), 0) < state(Row<ProbePoint>(nearest), 0)) nearest = i;
-  for (int i = 0; i < state.rows(); ++i) {
-    const Row<ProbePoint> row(i);
-    const bool pushed = force(row, 0) != 0 || force(row, 1) != 0 || force(row, 2) != 0;
-    const bool drawn = target.pull_off * share(row) > 0;
-    if (pushed || drawn || state(row, 0) <= 0 || i == nearest) points.push_back(i);
+  // By how much forces, over the largest, or places, over the scanner's displacement, still change.
+  double change() const {
+    const double most = equations_.force_step.lpNorm<Eigen::Infinity>();
+    double moved_by = 0, travel = Vector3d(target_.travel.data()).norm();
+    for (const int p : points_) {
+      const Vector3d step =
+          moved(p, equations_.direction) - equations_.height_step * Vector3d::UnitZ();
+      moved_by = std::max(moved_by, step.norm());
+    }
+    // A probe that slides steadily moves on under forces that stay.
+    return std::max(most == 0 ? 0 : most / std::max(most, equations_.largest_force),
+                    moved_by == 0 ? 0 : moved_by / std::max(moved_by, travel));
   }
-  return points;
-}
+
+  bool comes_to_touch(int p) const {
+    const Vector3d x = place(p, equations_.direction) - equations_.height_step * Vector3d::UnitZ();
+    const auto nearest = target_.shape->nearest({x.x(), x.y(), x.z() + target_.end_radius});
+    return nearest.distance - target_.end_radius <= 0;
+  }
+
+  const SolidMesh& mesh_;
+  const Configuration& configuration_;
+  const Target& target_;
+  const Probe& probe_;
+  const Read<ProbeState>& state_;
+  SolidEquations& equations_;
+  VectorXd free_;            // m, the direction at unchanged forces
+  std::vector<int> points_;  // in rising order
+};
 
 }  // namespace
 
-void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<ReferencePosition> reference,
-                       Read<Displacement> displacement, Read<ProbeNode> node,
-                       Read<ProbeStiffness> stiffness, Read<ProbeShare> share,
-                       Read<ProbeMemory> memory, Read<ProbeForce> force, Read<ProbeState> state,
-                       Write<SolidEquations> equations) {
-  const Contact contact{*mesh, node, *equations};
-  const VectorXd free = equations->direction;
-  std::vector<int> points = first_points(force, state, share, *target);
-  const auto place = [&](int p, const VectorXd& direction) -> Vector3d {
-    return probe_place(Row<ProbePoint>(p), reference, displacement, *target, node) +
-           contact.moved(p, direction);
-  };
+void contact_direction::operator()() const {
+  ProbeContact contact(*this);
   equations->contact_change = 1;
   for (int round = 0; round < max_rounds; ++round) {
-    ContactProblem problem{target->shape.get(), target->end_radius, {}, {}, {}, target->may_jump};
-    if (target->servo) problem.set_point = target->set_point;
-    for (const int p : points) {
-      const Row<ProbePoint> row(p);
-      problem.points.push_back(
-          contact_point(row, place(p, free), *target, stiffness, share, memory, force));
-      // What has snapped off in an earlier iteration is not held by the adhesion of contact any more.
-      if (equations->jumped && state(row, 3) == 0) problem.points.back().touched = false;
-    }
-    problem.compliance = contact.compliance(points);
+    const ContactProblem problem = contact.problem();
     const ContactAnswer answer = solve_contact(problem);
     equations->contact_solved = answer.converged;
     equations->released = answer.released;
     equations->jumped = equations->jumped || answer.released > 0;
     if (!answer.converged) return;
-    equations->height_step = answer.height;
-    equations->force_step.setZero(3 * node.rows());
-    equations->direction = free;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vector3d change =
-          answer.force.segment<3>(3 * static_cast<Index>(i)) - problem.points[i].force;
-      equations->force_step.segment<3>(3 * points[i]) = change;
-      equations->direction += contact.answer(points[i]) * change;
-    }
-    const double most = equations->force_step.lpNorm<Eigen::Infinity>();
-    double moved = 0, travel = Vector3d(target->travel.data()).norm();
-    for (const int p : points) {
-      const Vector3d step =
-          contact.moved(p, equations->direction) - answer.height * Vector3d::UnitZ();
-      moved = std::max(moved, step.norm());
-    }
-    // A probe that slides steadily moves on under forces that stay.
-    equations->contact_change =
-        std::max(most == 0 ? 0 : most / std::max(most, equations->largest_force),
-                 moved == 0 ? 0 : moved / std::max(moved, travel));
-    // Points that come to touch by that are asked as well.
-    std::vector<int> more;
-    for (int p = 0; p < node.rows(); ++p) {
-      if (std::ranges::binary_search(points, p)) continue;
-      Vector3d x = place(p, equations->direction) - answer.height * Vector3d::UnitZ();
-      const auto nearest = target->shape->nearest({x.x(), x.y(), x.z() + target->end_radius});
-      if (nearest.distance - target->end_radius <= 0) more.push_back(p);
-    }
-    if (more.empty()) return;
-    points.insert(points.end(), more.begin(), more.end());
-    std::ranges::sort(points);
+    contact.take(answer, problem);
+    if (!contact.ask_more()) return;
   }
 }
 

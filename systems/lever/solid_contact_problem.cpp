@@ -65,7 +65,7 @@ class ContactNewton {
   }
 
  private:
-  const ContactPoint& point(Index p) const { return problem_.points[static_cast<std::size_t>(p)]; }
+  const ContactPoint& point(Index p) const { return entry(problem_.points, p); }
 
   void move(const VectorXd& step, double share) {
     force_ += share * step.head(size_);
@@ -155,14 +155,14 @@ ContactAnswer jump(const ContactProblem& problem) {
   VectorXd x(size), force(size);
   double steepest = 0;
   for (Index p = 0; p < size / 3; ++p) {
-    const ContactPoint& point = problem.points[static_cast<std::size_t>(p)];
+    const ContactPoint& point = entry(problem.points, p);
     x.segment<3>(3 * p) = point.place;
     force.segment<3>(3 * p) = point.force;
     steepest = std::max(steepest, 2 * point.law.pull_off / point.law.range);
   }
   const VectorXd unpressed = x - s * force;
   const auto in_touch = [&](Index p, const VectorXd& places) {
-    const ContactPoint& point = problem.points[static_cast<std::size_t>(p)];
+    const ContactPoint& point = entry(problem.points, p);
     const Vector3d at = places.segment<3>(3 * p);
     return point.touched && place_on(*problem.shape, point, problem.end_radius, at).gap <= 0;
   };
@@ -174,9 +174,9 @@ ContactAnswer jump(const ContactProblem& problem) {
     step.compliance = damped.solve(s);
     const VectorXd place = damped.solve(unpressed + c * (s * x)) + step.compliance * force;
     for (Index p = 0; p < size / 3; ++p) {
-      step.points[static_cast<std::size_t>(p)].place = place.segment<3>(3 * p);
-      step.points[static_cast<std::size_t>(p)].force = force.segment<3>(3 * p);
-      step.points[static_cast<std::size_t>(p)].touched = in_touch(p, x);
+      entry(step.points, p).place = place.segment<3>(3 * p);
+      entry(step.points, p).force = force.segment<3>(3 * p);
+      entry(step.points, p).touched = in_touch(p, x);
     }
     const ContactAnswer answer = settle(step);
     if (!answer.converged) {
@@ -192,9 +192,9 @@ ContactAnswer jump(const ContactProblem& problem) {
   ContactProblem end = problem;
   const VectorXd place = unpressed + s * force;
   for (Index p = 0; p < size / 3; ++p) {
-    end.points[static_cast<std::size_t>(p)].place = place.segment<3>(3 * p);
-    end.points[static_cast<std::size_t>(p)].force = force.segment<3>(3 * p);
-    end.points[static_cast<std::size_t>(p)].touched = in_touch(p, x);
+    entry(end.points, p).place = place.segment<3>(3 * p);
+    entry(end.points, p).force = force.segment<3>(3 * p);
+    entry(end.points, p).touched = in_touch(p, x);
   }
   ContactAnswer answer = settle(end);
   answer.released = eaten;
@@ -223,12 +223,13 @@ kernels::ProbePlace place_on(const TargetShape& shape, const ContactPoint& point
           point.touched};
 }
 
-Vector3d probe_place(Row<ProbePoint> row, const Read<ReferencePosition>& reference,
-                     const Read<Displacement>& displacement, const Target& target,
-                     const Read<ProbeNode>& node) {
-  const Row<SolidNode> at(node(row));
+Vector3d probe_place(int node, const Configuration& configuration, const Target& target) {
+  const Row<SolidNode> row(node);
   Vector3d x, u;
-  for (int k = 0; k < 3; ++k) x[k] = reference(at, k), u[k] = displacement(at, k);
+  for (int k = 0; k < 3; ++k) {
+    x[k] = configuration.reference(row, k);
+    u[k] = configuration.displacement(row, k);
+  }
   return place_from(target, x, u);
 }
 
@@ -238,18 +239,21 @@ Vector3d place_from(const Target& target, const Vector3d& reference, const Vecto
 }
 
 ContactPoint contact_point(Row<ProbePoint> row, const Vector3d& place, const Target& target,
-                           const Read<ProbeStiffness>& stiffness, const Read<ProbeShare>& share,
-                           const Read<ProbeMemory>& memory, const Read<ProbeForce>& force) {
+                           const Probe& probe) {
   ContactPoint point;
-  point.law = {stiffness(row, 0), stiffness(row, 1), target.friction, target.pull_off * share(row),
-               target.range,      target.ball};
+  point.law = {probe.stiffness(row, 0),
+               probe.stiffness(row, 1),
+               target.friction,
+               target.pull_off * probe.share(row),
+               target.range,
+               target.ball};
   point.place = place;
   for (int k = 0; k < 3; ++k) {
-    point.force[k] = force(row, k);
-    point.old_tangential[k] = memory(row, k);
-    point.before[k] = memory(row, 3 + k);
+    point.force[k] = probe.force(row, k);
+    point.old_tangential[k] = probe.memory(row, k);
+    point.before[k] = probe.memory(row, 3 + k);
   }
-  point.touched = memory(row, 6) != 0;
+  point.touched = probe.memory(row, 6) != 0;
   return point;
 }
 

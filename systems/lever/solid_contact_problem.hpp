@@ -11,10 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "components/probe.hpp"
-#include "components/solid.hpp"
-#include "engine/access.hpp"
 #include "systems/lever/probe_contact_kernel.hpp"
+#include "systems/lever/solid_bundles.hpp"
 
 namespace pulvis {
 
@@ -53,12 +51,10 @@ kernels::ProbePlace place_on(const TargetShape& shape, const ContactPoint& point
 Eigen::Vector3d place_from(const Target& target, const Eigen::Vector3d& reference,
                            const Eigen::Vector3d& displacement);
 
-Eigen::Vector3d probe_place(Row<ProbePoint> row, const Read<ReferencePosition>& reference,
-                            const Read<Displacement>& displacement, const Target& target,
-                            const Read<ProbeNode>& node);
+// Of the node that a point is.
+Eigen::Vector3d probe_place(int node, const Configuration& configuration, const Target& target);
 
 ContactPoint contact_point(Row<ProbePoint> row, const Eigen::Vector3d& place, const Target& target,
-                           const Read<ProbeStiffness>& stiffness, const Read<ProbeShare>& share,
-                           const Read<ProbeMemory>& memory, const Read<ProbeForce>& force);
+                           const Probe& probe);
 
 }  // namespace pulvis

@@ -5,7 +5,6 @@
 // Runs     first in every evaluation of an equilibrium iteration
 // Active   when the scene has a lever
 #include "systems/lever/solid_response.hpp"
-#include "systems/lever/solid_systems.hpp"
 
 namespace pulvis {
 namespace {
@@ -17,22 +16,19 @@ void store(Row<SolidElement> row, const kernels::HexResponse& r, const Write<Ele
 }
 
 kernels::HexResponse response(const SolidReader& reader, Row<SolidElement> row,
-                              const Optional<Read<SolidYield>>& yield,
-                              const Optional<Read<SolidMemory>>& memory, bool with_tangent) {
-  if (yield && (*yield)(row, 0) > 0) return reader.plastic(row, *yield, *memory, with_tangent);
+                              const Optional<SolidPlasticity<Read>>& plasticity,
+                              bool with_tangent) {
+  if (plasticity && plasticity->yield(row, 0) > 0)
+    return reader.plastic(row, *plasticity, with_tangent);
   return reader.elastic(row, with_tangent);
 }
 
 }  // namespace
 
-void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                   Read<Displacement> displacement, Read<LameConstants> elastic,
-                   Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
-                   Optional<Read<SolidMemory>> memory, Write<ElementForce> force,
-                   Write<ElementTangent> tangent, Write<ElementEnergy> energy) {
-  const SolidReader reader{*mesh, reference, displacement, elastic, laws_of(laws)};
+void solid_element::operator()(Chunk chunk) const {
+  const SolidReader reader{*mesh, configuration, elastic};
   for_elements(chunk, *mesh, [&](Row<SolidElement> row) {
-    const kernels::HexResponse r = response(reader, row, yield, memory, true);
+    const kernels::HexResponse r = response(reader, row, plasticity, true);
     store(row, r, force, energy);
     int at = 0;
     for (int i = 0; i < 24; ++i)
@@ -40,14 +36,10 @@ void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> re
   });
 }
 
-void element_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                   Read<Displacement> displacement, Read<LameConstants> elastic,
-                   Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
-                   Optional<Read<SolidMemory>> memory, Write<ElementForce> force,
-                   Write<ElementEnergy> energy) {
-  const SolidReader reader{*mesh, reference, displacement, elastic, laws_of(laws)};
+void element_force::operator()(Chunk chunk) const {
+  const SolidReader reader{*mesh, configuration, elastic};
   for_elements(chunk, *mesh, [&](Row<SolidElement> row) {
-    store(row, response(reader, row, yield, memory, false), force, energy);
+    store(row, response(reader, row, plasticity, false), force, energy);
   });
 }
 

@@ -24,38 +24,36 @@ namespace {
 // The pattern of the scalar matrix from that of its blocks.
 template <class Matrix>
 void make_pattern(const SolidAssembly& assembly, Matrix& k) {
-  const auto blocks = static_cast<int>(assembly.column_begin.size()) - 1;
+  const int blocks = assembly.columns();
   k.resize(3 * blocks, 3 * blocks);
-  std::vector<int> sizes(static_cast<std::size_t>(3 * blocks));
-  for (int c = 0; c < blocks; ++c) {
-    const int below = assembly.column_begin[static_cast<std::size_t>(c) + 1] -
-                      assembly.column_begin[static_cast<std::size_t>(c)];
-    for (int j = 0; j < 3; ++j) sizes[static_cast<std::size_t>(3 * c + j)] = 3 * below - j;
-  }
+  std::vector<int> sizes;
+  for (int c = 0; c < blocks; ++c)
+    for (int j = 0; j < 3; ++j)
+      sizes.push_back(3 * static_cast<int>(assembly.rows_of(c).size()) - j);
   k.reserve(sizes);
   for (int c = 0; c < blocks; ++c)
     for (int j = 0; j < 3; ++j)
-      for (int b = assembly.column_begin[static_cast<std::size_t>(c)];
-           b < assembly.column_begin[static_cast<std::size_t>(c) + 1]; ++b) {
-        const int r = assembly.block_row[static_cast<std::size_t>(b)];
+      for (const int r : assembly.rows_of(c))
         for (int i = r == c ? j : 0; i < 3; ++i) k.insert(3 * r + i, 3 * c + j) = 0;
-      }
   k.makeCompressed();
 }
 
 // Blocks of a column lie in rising order of rows, the diagonal one first: so do its numbers.
 template <class Matrix, class Real>
-void fill_values(const SolidAssembly& assembly, std::span<const Real> block, Matrix& k) {
+void fill_values(const SolidAssembly& assembly, std::span<const Real> blocks, Matrix& k) {
   auto* value = k.valuePtr();
-  const auto blocks = static_cast<int>(assembly.column_begin.size()) - 1;
-  for (int c = 0; c < blocks; ++c)
-    for (int j = 0; j < 3; ++j)
-      for (int b = assembly.column_begin[static_cast<std::size_t>(c)];
-           b < assembly.column_begin[static_cast<std::size_t>(c) + 1]; ++b) {
-        const bool diagonal = assembly.block_row[static_cast<std::size_t>(b)] == c;
-        for (int i = diagonal ? j : 0; i < 3; ++i)
-          *value++ = block[static_cast<std::size_t>(9 * b + 3 * i + j)];
+  const Real* column = blocks.data();  // [blocks of the column, 3, 3]
+  for (int c = 0; c < assembly.columns(); ++c) {
+    const auto rows = assembly.rows_of(c);
+    for (int j = 0; j < 3; ++j) {
+      const Real* block = column;
+      for (const int r : rows) {
+        for (int i = r == c ? j : 0; i < 3; ++i) *value++ = block[3 * i + j];
+        block += 9;
       }
+    }
+    column += 9 * rows.size();
+  }
 }
 
 // That of a large solid takes minutes. Interrupted, the solid is left without factors.
@@ -84,6 +82,53 @@ void refactorise(SolidFactors<Real>& solid, const std::vector<double>& values) {
   }
   factorise_stiffness(solid, false);
 }
+
+// The sum of the forces on every free node, and the sizes that it is compared with.
+struct Balance {
+  const SolidMesh& mesh;
+  Eigen::VectorXd& sum;
+  double squares = 0;  // N^2, of all forces that must balance
+  // Of the probe:
+  double pushed = 0;   // N, upwards
+  double largest = 0;  // N, in any direction
+  double broken = 0;   // N, by which the forces break the law of contact at most
+
+  void add(int node, int k, double force) {
+    for (const auto& support : mesh.supports_of(node))
+      sum[mesh.first_equation(support.node) + k] += support.weight * force;
+  }
+
+  void add_loads(const Read<AppliedForce>& applied, const Read<SolidForce>& stresses) {
+    for (int n = 0; n < stresses.rows(); ++n)
+      for (int k = 0; k < 3; ++k) {
+        const Row<SolidNode> row(n);
+        add(n, k, applied(row, k) - stresses(row, k));
+        squares += applied(row, k) * applied(row, k);
+      }
+  }
+
+  void add_contact(const residual::Contact& contact) {
+    for (int i = 0; i < contact.force.rows(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Row<ProbePoint> row(i);
+        const double f = contact.force(row, k);
+        add(contact.node(row), k, f);
+        squares += f * f;
+        if (k == 2) pushed += f;
+        largest = std::max(largest, std::abs(f));
+      }
+    for (int i = 0; i < contact.state.rows(); ++i)
+      broken = std::max(broken, contact.state(Row<ProbePoint>(i), 4));
+  }
+
+  // Where a lever bends, the forces in its elements are far larger than those on it: they set the digits
+  // that the balance can have.
+  void count_elements(const ElementForces& elements) {
+    for (const double f : elements.hexahedra.values()) squares += f * f;
+    if (elements.tetrahedra)
+      for (const double f : elements.tetrahedra->values()) squares += f * f;
+  }
+};
 
 }  // namespace
 
@@ -124,56 +169,32 @@ void SolidEquations::factorise_again(std::vector<double> values) {
   answers.clear();
 }
 
-void residual(Read<SolidMesh> mesh, Read<ElementForce> element,
-              Optional<Read<TetrahedronForce>> tetrahedron, Read<SolidForce> force,
-              Read<AppliedForce> applied, Optional<Read<Target>> target,
-              Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
-              Optional<Read<ProbeState>> state, Write<SolidEquations> equations) {
-  auto& r = equations->residual;
-  r.setZero(3 * mesh->unknowns);
-  const auto add = [&](int n, int k, double f) {
-    for (const auto& support : mesh->supports_of(n))
-      r[3 * mesh->unknown[static_cast<std::size_t>(support.node)] + k] += support.weight * f;
-  };
+void residual::operator()() const {
+  Balance balance{*mesh, equations->residual};
+  balance.sum.setZero(3 * mesh->unknowns);
   // Where adhesion and pressure balance, no force is left to compare with but the adhesion.
-  const double pull_off = target ? (*target)->pull_off : 0;
-  double squares = pull_off * pull_off, pushed = 0, largest = pull_off, broken = 0;
-  for (int n = 0; n < force.rows(); ++n)
-    for (int k = 0; k < 3; ++k) {
-      const Row<SolidNode> row(n);
-      add(n, k, applied(row, k) - force(row, k));
-      squares += applied(row, k) * applied(row, k);
-    }
-  for (int i = 0; probe && i < probe->rows(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const double f = (*probe)(Row<ProbePoint>(i), k);
-      add((*node)(Row<ProbePoint>(i)), k, f);
-      squares += f * f;
-      if (k == 2) pushed += f;
-      largest = std::max(largest, std::abs(f));
-    }
-  for (int i = 0; state && i < state->rows(); ++i)
-    broken = std::max(broken, (*state)(Row<ProbePoint>(i), 4));
+  const double pull_off = contact ? contact->target->pull_off : 0;
+  balance.squares = pull_off * pull_off;
+  balance.largest = pull_off;
+  balance.add_loads(applied, force);
+  if (contact) balance.add_contact(*contact);
+  const double largest = balance.largest, broken = balance.broken;
   equations->largest_force = largest;
   equations->contact_error = broken == 0 ? 0 : broken / std::max(largest, broken);
-  // Where a lever bends, the forces in its elements are far larger than those on it: they set the digits
-  // that the balance can have.
-  for (const double f : element.values()) squares += f * f;
-  if (tetrahedron)
-    for (const double f : tetrahedron->values()) squares += f * f;
-  equations->scale = std::sqrt(squares);
-  const bool servo = target && (*target)->servo;
+  balance.count_elements(elements);
+  equations->scale = std::sqrt(balance.squares);
   equations->set_point_error =
-      servo ? ((*target)->set_point - pushed) / std::abs((*target)->set_point) : 0;
+      contact && contact->target->servo
+          ? (contact->target->set_point - balance.pushed) / std::abs(contact->target->set_point)
+          : 0;
 }
 
-void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
-               Write<SolidEquations> equations) {
+void factorise::operator()() const {
   equations->answers.clear();
   equations->plain.factorise(*assembly, block.values());
 }
 
-void newton_direction(Write<SolidEquations> equations) {
+void newton_direction::operator()() const {
   equations->direction = equations->solve(equations->residual);
 }
 

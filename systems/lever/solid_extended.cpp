@@ -8,24 +8,29 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "systems/lever/solid_response.hpp"
-#include "systems/lever/solid_systems.hpp"
 
 namespace pulvis {
 namespace {
 
 using Wide = long double;
 
-// [elements] lower triangles, row by row
+// The lower triangles of all elements, row by row.
 struct WideTangents {
-  static constexpr std::size_t of_hexahedron = 300, of_tetrahedron = 465;
+  static constexpr std::int64_t of_hexahedron = 300, of_tetrahedron = 465;
   std::vector<Wide> hexahedra, tetrahedra;
+
+  explicit WideTangents(const SolidMesh& mesh)
+      : hexahedra(of_hexahedron * mesh.hexahedra.size()),
+        tetrahedra(of_tetrahedron * mesh.tetrahedra.size()) {}
+
+  Wide* of(Row<SolidElement> row) { return &entry(hexahedra, of_hexahedron * row.value); }
+  Wide* of(Row<SolidTetrahedron> row) { return &entry(tetrahedra, of_tetrahedron * row.value); }
 
   Wide at(const SolidAssembly::Share& share, int i, int j) const {
     const int r = 3 * share.row + i, c = 3 * share.column + j;
-    const auto place = static_cast<std::size_t>(r >= c ? r * (r + 1) / 2 + c : c * (c + 1) / 2 + r);
-    const auto element = static_cast<std::size_t>(share.element);
-    return share.tetrahedron ? tetrahedra[of_tetrahedron * element + place]
-                             : hexahedra[of_hexahedron * element + place];
+    const int place = r >= c ? r * (r + 1) / 2 + c : c * (c + 1) / 2 + r;
+    return share.tetrahedron ? entry(tetrahedra, of_tetrahedron * share.element + place)
+                             : entry(hexahedra, of_hexahedron * share.element + place);
   }
 };
 
@@ -37,49 +42,50 @@ void pack(const Matrix& tangent, Wide* to) {
 
 // Where an element flows, its tangent is the plastic one, in double.
 void wide_tangent(const SolidReader& reader, Row<SolidElement> row,
-                  const Optional<Read<SolidYield>>& yield,
-                  const Optional<Read<SolidMemory>>& memory, Wide* to) {
-  if (yield && (*yield)(row, 0) > 0) {
+                  const Optional<SolidPlasticity<Read>>& plasticity, Wide* to) {
+  if (plasticity && plasticity->yield(row, 0) > 0) {
     kernels::HexMemory after;
-    const auto r = reader.plastic(row, *yield, *memory, true, &after);
+    const auto r = reader.plastic(row, *plasticity, true, &after);
     const auto flowed = [](const kernels::PlasticMemory& m) { return m.accumulated > 0; };
     if (std::ranges::any_of(after, flowed)) return pack(r.tangent, to);
   }
   pack(reader.elastic_tangent<Wide>(row), to);
 }
 
+WideTangents tangents_of(const factorise_extended& system) {
+  const SolidMesh& mesh = *system.mesh;
+  const SolidReader reader{mesh, system.configuration, system.elastic};
+  WideTangents tangents(mesh);
+  tbb::parallel_for(0, static_cast<int>(mesh.hexahedra.size()), [&](int e) {
+    const Row<SolidElement> row(e);
+    wide_tangent(reader, row, system.plasticity, tangents.of(row));
+  });
+  tbb::parallel_for(0, static_cast<int>(mesh.tetrahedra.size()), [&](int e) {
+    const Row<SolidTetrahedron> row(e);
+    const auto& lame = *system.tetrahedron;
+    const auto r = kernels::TetrahedronKernel<Wide>::response(
+        nodes_of(mesh, row, system.configuration.reference).cast<Wide>(),
+        nodes_of(mesh, row, system.configuration.displacement).cast<Wide>(), lame(row, 0),
+        lame(row, 1));
+    pack(r.tangent, tangents.of(row));
+  });
+  return tangents;
+}
+
+std::vector<Wide> blocks_of(const SolidAssembly& assembly, const WideTangents& tangents) {
+  std::vector<Wide> blocks(9 * assembly.block_row.size());
+  tbb::parallel_for(0, static_cast<int>(assembly.block_row.size()), [&](int b) {
+    for (const auto& share : assembly.shares_of(b))
+      for (int i = 0; i < 9; ++i)
+        entry(blocks, 9 * b + i) += share.weight * tangents.at(share, i / 3, i % 3);
+  });
+  return blocks;
+}
+
 }  // namespace
 
-void factorise_extended(Read<SolidAssembly> assembly, Read<SolidMesh> mesh,
-                        Read<ReferencePosition> reference, Read<Displacement> displacement,
-                        Read<LameConstants> elastic, Optional<Read<TetrahedronLame>> tetrahedron,
-                        Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
-                        Optional<Read<SolidMemory>> memory, Write<SolidEquations> equations) {
-  const SolidReader reader{*mesh, reference, displacement, elastic, laws_of(laws)};
-  WideTangents tangents;
-  tangents.hexahedra.resize(WideTangents::of_hexahedron * mesh->hexahedra.size());
-  tangents.tetrahedra.resize(WideTangents::of_tetrahedron * mesh->tetrahedra.size());
-  tbb::parallel_for(std::size_t{0}, mesh->hexahedra.size(), [&](std::size_t e) {
-    wide_tangent(reader, Row<SolidElement>(static_cast<int>(e)), yield, memory,
-                 &tangents.hexahedra[WideTangents::of_hexahedron * e]);
-  });
-  tbb::parallel_for(std::size_t{0}, mesh->tetrahedra.size(), [&](std::size_t e) {
-    const Row<SolidTetrahedron> row(static_cast<int>(e));
-    const auto r =
-        kernels::TetrahedronKernel<Wide>::response(nodes_of(*mesh, row, reference).cast<Wide>(),
-                                                   nodes_of(*mesh, row, displacement).cast<Wide>(),
-                                                   (*tetrahedron)(row, 0), (*tetrahedron)(row, 1));
-    pack(r.tangent, &tangents.tetrahedra[WideTangents::of_tetrahedron * e]);
-  });
-  std::vector<Wide> blocks(9 * assembly->block_row.size());
-  tbb::parallel_for(std::size_t{0}, assembly->block_row.size(), [&](std::size_t b) {
-    const auto first = static_cast<std::size_t>(assembly->block_begin[b]);
-    const auto last = static_cast<std::size_t>(assembly->block_begin[b + 1]);
-    for (std::size_t s = first; s < last; ++s)
-      for (int i = 0; i < 9; ++i)
-        blocks[9 * b + static_cast<std::size_t>(i)] +=
-            assembly->shares[s].weight * tangents.at(assembly->shares[s], i / 3, i % 3);
-  });
+void factorise_extended::operator()() const {
+  const std::vector<Wide> blocks = blocks_of(*assembly, tangents_of(*this));
   equations->answers.clear();
   equations->extended.factorise(*assembly, std::span<const Wide>(blocks));
 }

@@ -24,44 +24,33 @@ int packed(int i, int j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2
 
 }  // namespace
 
-void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element,
-                 Optional<Read<TetrahedronForce>> tetrahedron, Write<SolidForce> force) {
+void solid_force::operator()() const {
   for_rows(force.rows(), [&](int n) {
     double sum[3] = {};
-    const auto first = static_cast<std::size_t>(assembly->force_begin[static_cast<std::size_t>(n)]);
-    const auto last =
-        static_cast<std::size_t>(assembly->force_begin[static_cast<std::size_t>(n) + 1]);
-    for (std::size_t s = first; s < last; ++s) {
-      const auto& share = assembly->forces[s];
+    for (const auto& share : assembly->forces_of(n))
       for (int k = 0; k < 3; ++k) {
         const int at = 3 * share.row + k;
-        sum[k] += share.weight * (share.tetrahedron
-                                      ? (*tetrahedron)(Row<SolidTetrahedron>(share.element), at)
-                                      : element(Row<SolidElement>(share.element), at));
+        sum[k] +=
+            share.weight * (share.tetrahedron
+                                ? (*elements.tetrahedra)(Row<SolidTetrahedron>(share.element), at)
+                                : elements.hexahedra(Row<SolidElement>(share.element), at));
       }
-    }
     for (int k = 0; k < 3; ++k) force(Row<SolidNode>(n), k) = sum[k];
   });
 }
 
-void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
-                   Optional<Read<TetrahedronTangent>> tetrahedron, Write<BlockTangent> block) {
+void block_tangent::operator()() const {
   for_rows(block.rows(), [&](int b) {
     double sum[9] = {};
-    const auto first = static_cast<std::size_t>(assembly->block_begin[static_cast<std::size_t>(b)]);
-    const auto last =
-        static_cast<std::size_t>(assembly->block_begin[static_cast<std::size_t>(b) + 1]);
-    for (std::size_t s = first; s < last; ++s) {
-      const auto& share = assembly->shares[s];
+    for (const auto& share : assembly->shares_of(b))
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
           const int at = packed(3 * share.row + i, 3 * share.column + j);
           sum[3 * i + j] +=
               share.weight * (share.tetrahedron
-                                  ? (*tetrahedron)(Row<SolidTetrahedron>(share.element), at)
-                                  : element(Row<SolidElement>(share.element), at));
+                                  ? (*elements.tetrahedra)(Row<SolidTetrahedron>(share.element), at)
+                                  : elements.hexahedra(Row<SolidElement>(share.element), at));
         }
-    }
     for (int i = 0; i < 9; ++i) block(Row<StiffnessBlock>(b), i) = sum[i];
   });
 }

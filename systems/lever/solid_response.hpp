@@ -2,10 +2,9 @@
 // commit_plasticity, the tetrahedra's systems and factorise_extended share.
 #pragma once
 
-#include "components/solid.hpp"
-#include "engine/access.hpp"
-#include "systems/laws/flow_law.hpp"
+#include "engine/entry.hpp"
 #include "systems/lever/solid_plastic_kernel.hpp"
+#include "systems/lever/solid_systems.hpp"
 #include "systems/lever/solid_tetrahedron_kernel.hpp"
 
 namespace pulvis {
@@ -13,72 +12,70 @@ namespace pulvis {
 // Calls `each(row)` for the elements of a chunk.
 template <class Each>
 void for_elements(Chunk chunk, const SolidMesh& mesh, const Each& each) {
-  const auto at = static_cast<std::size_t>(chunk.index);
-  for (int e = mesh.chunk_begin[at]; e < mesh.chunk_begin[at + 1]; ++e) each(Row<SolidElement>(e));
-}
-
-inline const FlowLaws* laws_of(const Optional<Read<FlowLaws>>& laws) {
-  return laws ? &**laws : nullptr;
+  const auto& begin = mesh.chunk_begin;
+  for (int e = entry(begin, chunk.index); e < entry(begin, chunk.index + 1); ++e)
+    each(Row<SolidElement>(e));
 }
 
 struct SolidReader {
   const SolidMesh& mesh;
-  const Read<ReferencePosition>& reference;
-  const Read<Displacement>& displacement;
+  const Configuration& configuration;
   const Read<LameConstants>& lame;
-  const FlowLaws* laws = nullptr;  // of the parts; null: all harden linearly
 
   kernels::HexResponse elastic(Row<SolidElement> row, bool with_tangent) const {
-    return kernels::hex_response(corners(row, reference), corners(row, displacement), lame(row, 0),
-                                 lame(row, 1), formulation(row), with_tangent);
+    return kernels::hex_response(reference(row), displacement(row), lame(row, 0), lame(row, 1),
+                                 formulation(row), with_tangent);
   }
 
   template <class Real>
   typename kernels::HexKernel<Real>::NodalMatrix elastic_tangent(Row<SolidElement> row) const {
-    return kernels::HexKernel<Real>::response(corners(row, reference).template cast<Real>(),
-                                              corners(row, displacement).template cast<Real>(),
-                                              lame(row, 0), lame(row, 1), formulation(row))
+    return kernels::HexKernel<Real>::response(reference(row).template cast<Real>(),
+                                              displacement(row).template cast<Real>(), lame(row, 0),
+                                              lame(row, 1), formulation(row))
         .tangent;
   }
 
-  template <class Memory>
-  kernels::HexResponse plastic(Row<SolidElement> row, const Read<SolidYield>& yield,
-                               const Memory& memory, bool with_tangent,
-                               kernels::HexMemory* after = nullptr) const {
+  template <template <class> class Mode>
+  kernels::HexResponse plastic(Row<SolidElement> row, const SolidPlasticity<Mode>& plasticity,
+                               bool with_tangent, kernels::HexMemory* after = nullptr) const {
+    const auto& yield = plasticity.yield;
     const kernels::PlasticMaterial material{
-        lame(row, 0), lame(row, 1), {yield(row, 0), yield(row, 1)}, curve(row)};
-    return kernels::plastic_response(corners(row, reference), corners(row, displacement), material,
-                                     formulation(row), remembered(row, memory), with_tangent,
-                                     after);
+        lame(row, 0), lame(row, 1), {yield(row, 0), yield(row, 1)}, curve(row, plasticity.laws)};
+    return kernels::plastic_response(reference(row), displacement(row), material, formulation(row),
+                                     committed(row, plasticity.memory), with_tangent, after);
   }
 
  private:
-  const kernels::HardeningLaw* curve(Row<SolidElement> row) const {
-    if (laws == nullptr) return nullptr;
-    const auto part = mesh.part[static_cast<std::size_t>(row.value)];
-    const FlowLaw& law = laws->of_material[part];
+  const kernels::HardeningLaw* curve(Row<SolidElement> row,
+                                     const Optional<Read<FlowLaws>>& laws) const {
+    if (!laws) return nullptr;
+    const FlowLaw& law = entry((*laws)->of_material, entry(mesh.part, row));
     return law.is_linear() ? nullptr : &law.hardening;
   }
 
-  HexFormulation formulation(Row<SolidElement> row) const {
-    return mesh.formulation[static_cast<std::size_t>(row.value)];
+  HexFormulation formulation(Row<SolidElement> row) const { return entry(mesh.formulation, row); }
+
+  kernels::Corners reference(Row<SolidElement> row) const {
+    return corners(row, configuration.reference);
+  }
+  kernels::Corners displacement(Row<SolidElement> row) const {
+    return corners(row, configuration.displacement);
   }
 
   template <class Access>
   kernels::Corners corners(Row<SolidElement> row, const Access& values) const {
-    const auto& hexahedron = mesh.hexahedra[static_cast<std::size_t>(row.value)];
+    const auto& hexahedron = entry(mesh.hexahedra, row);
     kernels::Corners x;
     for (int a = 0; a < 8; ++a)
-      for (int k = 0; k < 3; ++k)
-        x(k, a) = values(Row<SolidNode>(hexahedron[static_cast<std::size_t>(a)]), k);
+      for (int k = 0; k < 3; ++k) x(k, a) = values(Row<SolidNode>(entry(hexahedron, a)), k);
     return x;
   }
 
   template <class Memory>
-  static kernels::HexMemory remembered(Row<SolidElement> row, const Memory& memory) {
+  static kernels::HexMemory committed(Row<SolidElement> row, const Memory& memory) {
     kernels::HexMemory m;
     for (int g = 0; g < 8; ++g) {
-      auto& point = m[static_cast<std::size_t>(g)];
+      auto& point = entry(m, g);
       for (int k = 0; k < 6; ++k) point.strain[k] = memory(row, 7 * g + k);
       point.accumulated = memory(row, 7 * g + 6);
     }
@@ -89,11 +86,10 @@ struct SolidReader {
 template <class Access>
 kernels::TetrahedronNodes nodes_of(const SolidMesh& mesh, Row<SolidTetrahedron> row,
                                    const Access& values) {
-  const auto& tetrahedron = mesh.tetrahedra[static_cast<std::size_t>(row.value)];
+  const auto& tetrahedron = entry(mesh.tetrahedra, row);
   kernels::TetrahedronNodes x;
   for (int a = 0; a < 10; ++a)
-    for (int k = 0; k < 3; ++k)
-      x(k, a) = values(Row<SolidNode>(tetrahedron[static_cast<std::size_t>(a)]), k);
+    for (int k = 0; k < 3; ++k) x(k, a) = values(Row<SolidNode>(entry(tetrahedron, a)), k);
   return x;
 }
 

@@ -1,64 +1,153 @@
-// The systems of the quasi-static solver; each is described at the top of its own file.
+// The systems of the quasi-static solver. What a system reads and writes is what it declares here, once;
+// systems/lever/static_solver.cpp puts them in order, and each is described at the top of its own file.
 #pragma once
 
-#include "components/probe.hpp"
-#include "components/solid.hpp"
-#include "engine/access.hpp"
+#include "engine/system.hpp"
+#include "systems/laws/flow_law.hpp"
+#include "systems/lever/solid_bundles.hpp"
 #include "systems/lever/solid_equations.hpp"
 
 namespace pulvis {
 
-struct FlowLaws;  // systems/laws/flow_law.hpp
+// Only where a material of the solid yields. Mode: of the plastic strains of the last equilibrium.
+template <template <class> class Mode>
+struct SolidPlasticity {
+  Read<SolidYield> yield;
+  Optional<Read<FlowLaws>> laws;  // of the parts; without them all harden linearly
+  Mode<SolidMemory> memory;
+};
 
-void solid_element(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                   Read<Displacement> displacement, Read<LameConstants> elastic,
-                   Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
-                   Optional<Read<SolidMemory>> memory, Write<ElementForce> force,
-                   Write<ElementTangent> tangent, Write<ElementEnergy> energy);
-void element_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                   Read<Displacement> displacement, Read<LameConstants> elastic,
-                   Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
-                   Optional<Read<SolidMemory>> memory, Write<ElementForce> force,
-                   Write<ElementEnergy> energy);
-void solid_tetrahedron(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                       Read<Displacement> displacement, Read<TetrahedronLame> elastic,
-                       Write<TetrahedronForce> force, Write<TetrahedronTangent> tangent,
-                       Write<TetrahedronEnergy> energy);
-void tetrahedron_force(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                       Read<Displacement> displacement, Read<TetrahedronLame> elastic,
-                       Write<TetrahedronForce> force, Write<TetrahedronEnergy> energy);
-void commit_plasticity(Chunk chunk, Read<SolidMesh> mesh, Read<ReferencePosition> reference,
-                       Read<Displacement> displacement, Read<LameConstants> elastic,
-                       Read<SolidYield> yield, Optional<Read<FlowLaws>> laws,
-                       Write<SolidMemory> memory);
-void solid_force(Read<SolidAssembly> assembly, Read<ElementForce> element,
-                 Optional<Read<TetrahedronForce>> tetrahedron, Write<SolidForce> force);
-void block_tangent(Read<SolidAssembly> assembly, Read<ElementTangent> element,
-                   Optional<Read<TetrahedronTangent>> tetrahedron, Write<BlockTangent> block);
-void probe_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
-                   Read<Target> target, Read<ProbeNode> node, Read<ProbeStiffness> stiffness,
-                   Read<ProbeShare> share, Read<ProbeMemory> memory, Read<ProbeForce> force,
-                   Write<ProbeState> state);
-void commit_contact(Read<ReferencePosition> reference, Read<Displacement> displacement,
-                    Read<Target> target, Read<ProbeNode> node, Read<ProbeForce> force,
-                    Read<ProbeState> state, Write<ProbeMemory> memory);
-void residual(Read<SolidMesh> mesh, Read<ElementForce> element,
-              Optional<Read<TetrahedronForce>> tetrahedron, Read<SolidForce> force,
-              Read<AppliedForce> applied, Optional<Read<Target>> target,
-              Optional<Read<ProbeNode>> node, Optional<Read<ProbeForce>> probe,
-              Optional<Read<ProbeState>> state, Write<SolidEquations> equations);
-void factorise(Read<SolidAssembly> assembly, Read<BlockTangent> block,
-               Write<SolidEquations> equations);
-void factorise_extended(Read<SolidAssembly> assembly, Read<SolidMesh> mesh,
-                        Read<ReferencePosition> reference, Read<Displacement> displacement,
-                        Read<LameConstants> elastic, Optional<Read<TetrahedronLame>> tetrahedron,
-                        Optional<Read<SolidYield>> yield, Optional<Read<FlowLaws>> laws,
-                        Optional<Read<SolidMemory>> memory, Write<SolidEquations> equations);
-void newton_direction(Write<SolidEquations> equations);
-void contact_direction(Read<SolidMesh> mesh, Read<Target> target, Read<ReferencePosition> reference,
-                       Read<Displacement> displacement, Read<ProbeNode> node,
-                       Read<ProbeStiffness> stiffness, Read<ProbeShare> share,
-                       Read<ProbeMemory> memory, Read<ProbeForce> force, Read<ProbeState> state,
-                       Write<SolidEquations> equations);
+// ---- elements -------------------------------------------------------------------------------------
+struct solid_element {
+  Read<SolidMesh> mesh;
+  Configuration configuration;
+  Read<LameConstants> elastic;
+  Optional<SolidPlasticity<Read>> plasticity;
+  Write<ElementForce> force;
+  Write<ElementTangent> tangent;
+  Write<ElementEnergy> energy;
+  void operator()(Chunk chunk) const;
+};
+
+struct element_force {
+  Read<SolidMesh> mesh;
+  Configuration configuration;
+  Read<LameConstants> elastic;
+  Optional<SolidPlasticity<Read>> plasticity;
+  Write<ElementForce> force;
+  Write<ElementEnergy> energy;
+  void operator()(Chunk chunk) const;
+};
+
+struct solid_tetrahedron {
+  Read<SolidMesh> mesh;
+  Configuration configuration;
+  Read<TetrahedronLame> elastic;
+  Write<TetrahedronForce> force;
+  Write<TetrahedronTangent> tangent;
+  Write<TetrahedronEnergy> energy;
+  void operator()(Chunk chunk) const;
+};
+
+struct tetrahedron_force {
+  Read<SolidMesh> mesh;
+  Configuration configuration;
+  Read<TetrahedronLame> elastic;
+  Write<TetrahedronForce> force;
+  Write<TetrahedronEnergy> energy;
+  void operator()(Chunk chunk) const;
+};
+
+// ---- equations ------------------------------------------------------------------------------------
+struct solid_force {
+  Read<SolidAssembly> assembly;
+  ElementForces elements;
+  Write<SolidForce> force;
+  void operator()() const;
+};
+
+struct block_tangent {
+  Read<SolidAssembly> assembly;
+  ElementTangents elements;
+  Write<BlockTangent> block;
+  void operator()() const;
+};
+
+struct residual {
+  Read<SolidMesh> mesh;
+  ElementForces elements;
+  Read<SolidForce> force;
+  Read<AppliedForce> applied;
+  struct Contact {
+    Read<Target> target;
+    Read<ProbeNode> node;
+    Read<ProbeForce> force;
+    Read<ProbeState> state;
+  };
+  Optional<Contact> contact;
+  Write<SolidEquations> equations;
+  void operator()() const;
+};
+
+struct factorise {
+  Read<SolidAssembly> assembly;
+  Read<BlockTangent> block;
+  Write<SolidEquations> equations;
+  void operator()() const;
+};
+
+struct factorise_extended {
+  Read<SolidAssembly> assembly;
+  Read<SolidMesh> mesh;
+  Configuration configuration;
+  Read<LameConstants> elastic;
+  Optional<Read<TetrahedronLame>> tetrahedron;
+  Optional<SolidPlasticity<Read>> plasticity;
+  Write<SolidEquations> equations;
+  void operator()() const;
+};
+
+struct newton_direction {
+  Write<SolidEquations> equations;
+  void operator()() const;
+};
+
+// ---- contact --------------------------------------------------------------------------------------
+struct probe_contact {
+  Configuration configuration;
+  Read<Target> target;
+  Probe probe;
+  Write<ProbeState> state;
+  void operator()() const;
+};
+
+struct contact_direction {
+  Read<SolidMesh> mesh;
+  Configuration configuration;
+  Read<Target> target;
+  Probe probe;
+  Read<ProbeState> state;
+  Write<SolidEquations> equations;
+  void operator()() const;
+};
+
+// ---- what an equilibrium leaves -------------------------------------------------------------------
+struct commit_contact {
+  Configuration configuration;
+  Read<Target> target;
+  Read<ProbeNode> node;
+  Read<ProbeForce> force;
+  Read<ProbeState> state;
+  Write<ProbeMemory> memory;
+  void operator()() const;
+};
+
+struct commit_plasticity {
+  Read<SolidMesh> mesh;
+  Configuration configuration;
+  Read<LameConstants> elastic;
+  SolidPlasticity<Write> plasticity;
+  void operator()(Chunk chunk) const;
+};
 
 }  // namespace pulvis

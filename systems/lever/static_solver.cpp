@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/interruption.hpp"
-#include "systems/laws/flow_law.hpp"
 #include "systems/lever/solid_systems.hpp"
 
 namespace pulvis {
@@ -12,42 +11,42 @@ namespace {
 
 // ---- the order of an equilibrium iteration: a newcomer's first page ---------------------------
 std::vector<System> evaluation(World& w, bool with_tangent) {
-  std::vector<System> list{with_tangent ? make_system(w, "solid_element", solid_element)
-                                        : make_system(w, "element_force", element_force)};
+  std::vector<System> list{with_tangent ? make_system<solid_element>(w, "solid_element")
+                                        : make_system<element_force>(w, "element_force")};
   if (w.has<TetrahedronForce>())
-    list.push_back(with_tangent ? make_system(w, "solid_tetrahedron", solid_tetrahedron)
-                                : make_system(w, "tetrahedron_force", tetrahedron_force));
-  list.push_back(make_system(w, "solid_force", solid_force));
-  if (w.has<ProbeNode>()) list.push_back(make_system(w, "probe_contact", probe_contact));
-  list.push_back(make_system(w, "residual", residual));
+    list.push_back(with_tangent ? make_system<solid_tetrahedron>(w, "solid_tetrahedron")
+                                : make_system<tetrahedron_force>(w, "tetrahedron_force"));
+  list.push_back(make_system<solid_force>(w, "solid_force"));
+  if (w.has<ProbeNode>()) list.push_back(make_system<probe_contact>(w, "probe_contact"));
+  list.push_back(make_system<residual>(w, "residual"));
   return list;
 }
 
 std::vector<System> linearisation(World& w) {
   if (w.resource<SolidEquations>().in_extended) {
     std::vector<System> list = evaluation(w, false);
-    list.push_back(make_system(w, "factorise_extended", factorise_extended));
+    list.push_back(make_system<factorise_extended>(w, "factorise_extended"));
     return list;
   }
   std::vector<System> list = evaluation(w, true);
-  list.push_back(make_system(w, "block_tangent", block_tangent));
-  list.push_back(make_system(w, "factorise", factorise));
+  list.push_back(make_system<block_tangent>(w, "block_tangent"));
+  list.push_back(make_system<factorise>(w, "factorise"));
   return list;
 }
 
 // With the solid's factors of an earlier iteration, or new ones. The contact is always solved anew.
 std::vector<System> iteration(World& w, bool new_factors) {
   std::vector<System> list = new_factors ? linearisation(w) : evaluation(w, false);
-  list.push_back(make_system(w, "newton_direction", newton_direction));
-  if (w.has<ProbeNode>()) list.push_back(make_system(w, "contact_direction", contact_direction));
+  list.push_back(make_system<newton_direction>(w, "newton_direction"));
+  if (w.has<ProbeNode>()) list.push_back(make_system<contact_direction>(w, "contact_direction"));
   return list;
 }
 
 // What an equilibrium leaves behind for the next increment.
 std::vector<System> memory(World& w) {
   std::vector<System> list;
-  if (w.has<ProbeNode>()) list.push_back(make_system(w, "commit_contact", commit_contact));
-  if (w.has<SolidYield>()) list.push_back(make_system(w, "commit_plasticity", commit_plasticity));
+  if (w.has<ProbeNode>()) list.push_back(make_system<commit_contact>(w, "commit_contact"));
+  if (w.has<SolidYield>()) list.push_back(make_system<commit_plasticity>(w, "commit_plasticity"));
   return list;
 }
 
@@ -58,7 +57,7 @@ void expand(const SolidMesh& mesh, const double* free, double* all) {
     for (int k = 0; k < 3; ++k) {
       double sum = 0;
       for (const auto& support : mesh.supports_of(n))
-        sum += support.weight * free[3 * mesh.unknown[static_cast<std::size_t>(support.node)] + k];
+        sum += support.weight * free[mesh.first_equation(support.node) + k];
       all[3 * n + k] = sum;
     }
 }
@@ -137,11 +136,10 @@ std::vector<double> StaticSolver::respond(std::span<const double> forces) const 
   const auto& mesh = world_.resource<SolidMesh>();
   const auto& equations = world_.resource<SolidEquations>();
   Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.unknowns);
-  for (std::size_t n = 0; n < mesh.unknown.size(); ++n)
-    for (const auto& support : mesh.supports_of(static_cast<int>(n)))
-      for (std::size_t k = 0; k < 3; ++k)
-        f[3 * mesh.unknown[static_cast<std::size_t>(support.node)] + static_cast<int>(k)] +=
-            support.weight * forces[3 * n + k];
+  for (int n = 0; n < static_cast<int>(mesh.unknown.size()); ++n)
+    for (const auto& support : mesh.supports_of(n))
+      for (int k = 0; k < 3; ++k)
+        f[mesh.first_equation(support.node) + k] += support.weight * entry(forces, 3 * n + k);
   const Eigen::VectorXd u = equations.solve(f);
   std::vector<double> all(forces.size());
   expand(mesh, u.data(), all.data());
