@@ -210,6 +210,25 @@ std::array<std::string, 2> name_pair(const KeyInfo& key, const Value& value, con
   return {word(key, parts[0]), word(key, parts[1])};
 }
 
+std::string text_of(const KeyInfo& key, const Value& value) {
+  if (key.kind == Kind::name) return name(key, value);
+  return line_of_text(key, value, key.kind == Kind::text ? 200 : 1000);
+}
+
+void phase_or_quantity(const KeyInfo& key, const Value& value, Decoded& result) {
+  const auto* text = value.as<std::string>();
+  result.is_word = text != nullptr && *text == key.word;
+  if (!result.is_word) result.number = quantity(key, value);
+}
+
+// A quantity is converted where its unit is known.
+void number_or_text(const KeyInfo& key, const Value& value, Decoded& result) {
+  if (value.as<std::string>() != nullptr)
+    result.text = line_of_text(key, value);
+  else
+    result.number = bare_number(key, value);
+}
+
 // The elements of a list; a list of nothing is refused.
 const document::Array& list(const KeyInfo& key, const Value& value) {
   const auto* array = value.as<document::Array>();
@@ -233,8 +252,7 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       result.points = points(key, value);
       break;
     case Kind::phase:
-      result.is_word = value.as<std::string>() != nullptr && *value.as<std::string>() == key.word;
-      if (!result.is_word) result.number = quantity(key, value);
+      phase_or_quantity(key, value, result);
       break;
     case Kind::number:
       number_or_word(key, value, result);
@@ -252,14 +270,10 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       result.vector = direction(key, value);
       break;
     case Kind::text:
-      result.text = line_of_text(key, value);
-      break;
     case Kind::file:
     case Kind::scene:
-      result.text = line_of_text(key, value, 1000);
-      break;
     case Kind::name:
-      result.text = name(key, value);
+      result.text = text_of(key, value);
       break;
     case Kind::choice:
       result.index = choice(key, value);
@@ -270,11 +284,8 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
     case Kind::name_pair:
       result.names = name_pair(key, value, names);
       break;
-    case Kind::bound:  // a quantity is converted where its unit is known
-      if (value.as<std::string>() != nullptr)
-        result.text = line_of_text(key, value);
-      else
-        result.number = bare_number(key, value);
+    case Kind::bound:
+      number_or_text(key, value, result);
       break;
     case Kind::texts:
       for (const Value& one : list(key, value)) result.texts.push_back(line_of_text(key, one));

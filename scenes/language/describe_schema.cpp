@@ -30,7 +30,7 @@ void add_range(Json& json, const schema::Range& range) {
     json[range.without_high ? "exclusiveMaximum" : "maximum"] = range.high;
 }
 
-Json quantity() {
+Json quantity_type() {
   return {{"type", "string"},
           {"pattern", "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*[^0-9\\s].*$"}};
 }
@@ -45,80 +45,78 @@ Json words(const std::vector<schema::Choice>& choices) {
   return {{"enum", list}};
 }
 
+Json text_type(int max_length) { return {{"type", "string"}, {"maxLength", max_length}}; }
+
+Json list_type(const char* type) {
+  return {{"type", "array"}, {"items", {{"type", type}}}, {"minItems", 1}};
+}
+
+Json in_range(const char* type, const schema::Range& range) {
+  Json json{{"type", type}};
+  add_range(json, range);
+  return json;
+}
+
+Json vector_type(const schema::KeyInfo& key) {
+  Json json = pair_of(quantity_type());
+  if (!key.choices.empty())
+    json["items"] = {{"anyOf", Json::array({words(key.choices), quantity_type()})}};
+  return json;
+}
+
+Json number_type(const schema::KeyInfo& key) {
+  Json number = in_range("number", key.range);
+  if (key.choices.empty()) return number;
+  return {{"anyOf", Json::array({words(key.choices), number})}};
+}
+
 Json type_of(const schema::KeyInfo& key) {
   using schema::Kind;
-  Json json;
   switch (key.kind) {
     case Kind::quantity:
-      json = quantity();
-      break;
+      return quantity_type();
     case Kind::vector:
-      json = pair_of(quantity());
-      if (!key.choices.empty())
-        json["items"] = {{"anyOf", Json::array({words(key.choices), quantity()})}};
-      break;
+      return vector_type(key);
     case Kind::points:
-      json = {{"type", "array"}, {"items", pair_of(quantity())}, {"minItems", 2}};
-      break;
+      return {{"type", "array"}, {"items", pair_of(quantity_type())}, {"minItems", 2}};
     case Kind::phase:
-      json["anyOf"] = Json::array({Json{{"const", key.word}}, quantity()});
-      break;
+      return {{"anyOf", Json::array({Json{{"const", key.word}}, quantity_type()})}};
     case Kind::number:
-      json["type"] = "number";
-      add_range(json, key.range);
-      if (!key.choices.empty()) json = {{"anyOf", Json::array({words(key.choices), json})}};
-      break;
+      return number_type(key);
     case Kind::integer:
-      json["type"] = "integer";
-      add_range(json, key.range);
-      break;
-    case Kind::counts: {
-      Json count{{"type", "integer"}};
-      add_range(count, key.range);
-      json = pair_of(count);
-      break;
-    }
+      return in_range("integer", key.range);
+    case Kind::counts:
+      return pair_of(in_range("integer", key.range));
     case Kind::flag:
-      json["type"] = "boolean";
-      break;
+      return {{"type", "boolean"}};
     case Kind::direction:
-      json = pair_of({{"type", "number"}});
-      break;
+      return pair_of({{"type", "number"}});
     case Kind::text:
-      json = {{"type", "string"}, {"maxLength", 200}};
-      break;
+      return text_type(200);
     case Kind::file:
     case Kind::scene:
-      json = {{"type", "string"}, {"maxLength", 1000}};
-      break;
+      return text_type(1000);
     case Kind::name:
-      json = {{"type", "string"}, {"pattern", "^[A-Za-z0-9_.+-]{1,64}$"}};
-      break;
+      return {{"type", "string"}, {"pattern", "^[A-Za-z0-9_.+-]{1,64}$"}};
     case Kind::choice:
-      json = words(key.choices);
-      break;
+      return words(key.choices);
     case Kind::reference:
-      json["type"] = "string";
-      break;
+      return {{"type", "string"}};
     case Kind::name_pair:
-      json = pair_of({{"type", "string"}});
-      break;
+      return pair_of({{"type", "string"}});
     case Kind::texts:
-      json = {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}};
-      break;
+      return list_type("string");
     case Kind::integers:
-      json = {{"type", "array"}, {"items", {{"type", "integer"}}}, {"minItems", 1}};
-      break;
+      return list_type("integer");
     case Kind::bound:
-      json["anyOf"] = Json::array({Json{{"type", "number"}}, quantity()});
-      break;
+      return {{"anyOf", Json::array({Json{{"type", "number"}}, quantity_type()})}};
   }
-  if (key.multiple_of > 1) json["multipleOf"] = key.multiple_of;
-  return json;
+  return {};
 }
 
 Json property(const schema::KeyInfo& key) {
   Json json = type_of(key);
+  if (key.multiple_of > 1) json["multipleOf"] = key.multiple_of;
   json["description"] = fmt::format("{} Allowed: {}.", key.doc, schema::allowed(key));
   if (key.fallback) json["default"] = json_of(*key.fallback);
   return json;
@@ -135,7 +133,7 @@ std::vector<const schema::TableView*> children(const std::string& path,
   return result;
 }
 
-std::string last_word(const schema::TableView& view) {
+std::string name_of(const schema::TableView& view) {
   return view.info.path.substr(view.info.path.rfind('.') + 1);
 }
 
@@ -160,10 +158,10 @@ Json branch(const schema::TableView& view, const std::string& selected,
   }
   for (const schema::TableView* child : children(view.info.path, language))
     if (child->info.selector == view.info.selector)
-      properties[last_word(*child)] = branch(*child, selected, language, extent);
+      properties[name_of(*child)] = branch(*child, selected, language, extent);
   if (view.info.path.empty()) {
     for (const schema::TableView* child : children("", language))
-      if (!schema::belongs(child->info, selected)) properties[last_word(*child)] = false;
+      if (!schema::belongs(child->info, selected)) properties[name_of(*child)] = false;
     for (const char* table : tables_required(selected)) required.push_back(table);
   }
   Json json{{"properties", properties}};
@@ -194,7 +192,7 @@ Json table(const schema::TableView& view, const schema::Language& language, Exte
   for (const schema::TableView* child : children(view.info.path, language)) {
     Json inner = table(*child, language, extent);
     if (child->info.repeated) inner = {{"type", "array"}, {"minItems", 1}, {"items", inner}};
-    json["properties"][last_word(*child)] = inner;
+    json["properties"][name_of(*child)] = inner;
   }
   if (!required.empty() && extent == Extent::whole) json["required"] = required;
   add_branches(json, view, language, extent);

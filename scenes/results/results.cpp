@@ -18,17 +18,6 @@ namespace pulvis {
 
 namespace {
 
-// Every material of a scene is one of its particles: the reader refuses others.
-std::optional<double> common_yield_stress(const Scene& scene) {
-  std::optional<double> common;
-  for (const MaterialSpec& material : scene.materials) {
-    if (!material.yield_stress || (common && *common != *material.yield_stress))
-      return std::nullopt;
-    common = material.yield_stress;
-  }
-  return common;
-}
-
 // Sum over the particles in the order of their numbers; empty lanes do not count.
 template <class C>
 double total(const World& world) {
@@ -112,83 +101,7 @@ CellStress cell_stress(const ElementColumns& columns, std::size_t e, int lane) {
   return c;
 }
 
-bool has_servo(const Scene& scene, const ToolSpec& tool) {
-  return std::ranges::any_of(scene.stages, [&](const StageSpec& stage) {
-    return std::ranges::any_of(stage.servos, [&](const ServoSpec& servo) {
-      return &scene.tools[static_cast<std::size_t>(servo.tool)] == &tool;
-    });
-  });
-}
-
 }  // namespace
-
-std::vector<SeriesInfo> history_series(const Scene& scene) {
-  std::vector<SeriesInfo> series;
-  const auto add_series = [&](const std::string& name, const char* unit, const char* meaning) {
-    series.push_back({name, unit, meaning});
-  };
-  for (const ToolSpec& tool : scene.tools) {
-    const std::string name = "tool/" + tool.name + "/";
-    const bool constraint = tool.shape == ToolSpec::Shape::constraint;
-    const bool radial = constraint && tool.holds == ToolSpec::Holds::radial;
-    const char* middle = radial        ? "x: its centre's, and the radial displacement of its nodes"
-                         : tool.radius ? "of the middle of its circle, moved with its nodes"
-                         : constraint  ? "of the middle of its box, moved with its nodes"
-                                       : "a point of the tool's surface";
-    add_series(name + "position_x", "m", middle);
-    add_series(name + "position_y", "m", middle);
-    add_series(name + "force_x", "N",
-               radial ? "radial, of the particles, on the tool" : "of the particles, on the tool");
-    add_series(name + "force_y", "N", "of the particles, on the tool");
-    if (has_servo(scene, tool))
-      add_series(name + "force_asked", "N",
-                 "that its servo is to hold now, in the direction it pushes");
-  }
-  if (die_cell(scene)) {
-    add_series("relative_density", "-", "undeformed particle area / area between the tools");
-    if (common_yield_stress(scene)) {
-      add_series("stress_ratio/axial", "-", "mean of top and bottom stress / yield stress");
-      add_series("stress_ratio/lateral", "-", "mean of left and right stress / yield stress");
-    }
-    add_series("stress/axial_top", "Pa",
-               "on the top tool: force / width of the die times thickness; compression > 0");
-    add_series("stress/axial_bottom", "Pa", "the same of the bottom tool");
-    add_series("stress/radial_left", "Pa",
-               "on the left tool: force / height between the punches times thickness");
-    add_series("stress/radial_right", "Pa", "the same of the right tool");
-    add_series("stress/transmission", "-",
-               "axial force on the bottom tool / on the top tool; NaN where the top bears none");
-  }
-  add_series("energy/kinetic", "J", "of all nodes");
-  add_series("energy/elastic", "J", "stored in the elements");
-  add_series("energy/plastic", "J", "spent in plastic flow");
-  add_series("energy/hourglass", "J",
-             "stored in hourglass modes and spent in them; none with four points");
-  add_series("energy/contact", "J", "stored in the contact springs");
-  add_series("energy/friction", "J", "dissipated by friction");
-  add_series("energy/damping", "J", "dissipated by contact damping");
-  if (std::ranges::any_of(scene.materials, &MaterialSpec::damped))
-    add_series("energy/bulk_damping", "J", "dissipated by the materials' damping");
-  add_series("energy/external", "J", "work of the tools");
-  add_series("energy/balance", "J",
-             "all energies less the work of the tools and the energy at the start");
-  add_series("contacts", "-", "boundary edges that touch another particle or a tool");
-  add_series("penetration", "-", "deepest so far, of the boundary edge length");
-  add_series("contact_overlap", "-", "area in which outlines overlap / area of the particles");
-  add_series("narrow_contacts", "-",
-             "share of the contact force on contacts narrower than two boundary edges");
-  add_series("min_jacobian", "-", "smallest det F so far");
-  add_series("dt", "s", "time step");
-  for (const SeriesInfo& observed : observed_series(scene)) series.push_back(observed);
-  for (const SeriesInfo& of_shear : ShearResults::series(scene)) series.push_back(of_shear);
-  return series;
-}
-
-std::vector<SeriesInfo> momentum_series() {
-  return {{"momentum/x", "kg m/s", "of all nodes"},
-          {"momentum/y", "kg m/s", "of all nodes"},
-          {"momentum/angular", "kg m^2/s", "of all nodes, about the origin"}};
-}
 
 Results::Results(const Scene& scene, const World& world)
     : world_(world),

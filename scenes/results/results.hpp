@@ -10,6 +10,7 @@
 #include "components/run_state.hpp"
 #include "engine/files/record.hpp"
 #include "engine/world.hpp"
+#include "scenes/results/history_series.hpp"
 #include "scenes/results/shear_results.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/tools/die_cell.hpp"
@@ -27,11 +28,6 @@ struct Energies {
   }
   double internal() const { return elastic + plastic + hourglass; }
 };
-
-// The series that a run of the scene keeps, in the order of Results::sample().
-std::vector<SeriesInfo> history_series(const Scene& scene);
-// Of Results::momentum(), which the history leaves out: it costs a walk over all nodes.
-std::vector<SeriesInfo> momentum_series();
 
 class Results {
  public:

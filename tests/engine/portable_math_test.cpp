@@ -48,6 +48,19 @@ Arguments one(const std::function<double()>& x) {
   return [x] { return std::array{x(), 0.0}; };
 }
 
+constexpr auto sine = [](double x, double) { return portable::sin(x); };
+constexpr auto cosine = [](double x, double) { return portable::cos(x); };
+constexpr auto tangent = [](double x, double) { return portable::tan(x); };
+constexpr auto exponential = [](double x, double) { return portable::exp(x); };
+constexpr auto logarithm = [](double x, double) { return portable::log(x); };
+constexpr auto power = [](double x, double y) { return portable::pow(x, y); };
+constexpr auto exact_sine = [](long double x, long double) { return std::sin(x); };
+constexpr auto exact_cosine = [](long double x, long double) { return std::cos(x); };
+constexpr auto exact_tangent = [](long double x, long double) { return std::tan(x); };
+constexpr auto exact_exponential = [](long double x, long double) { return std::exp(x); };
+constexpr auto exact_logarithm = [](long double x, long double) { return std::log(x); };
+constexpr auto exact_power = [](long double x, long double y) { return std::pow(x, y); };
+
 std::vector<Case> cases() {
   const auto small = one([] { return uniform(-7, 7); });
   const auto wide = one([] { return signed_magnitude(-40, 50); });
@@ -57,18 +70,6 @@ std::vector<Case> cases() {
   const Arguments far = [] {
     return std::array{signed_magnitude(-60, 60), signed_magnitude(-60, 60)};
   };
-  const auto sine = [](double x, double) { return portable::sin(x); };
-  const auto cosine = [](double x, double) { return portable::cos(x); };
-  const auto tangent = [](double x, double) { return portable::tan(x); };
-  const auto exponential = [](double x, double) { return portable::exp(x); };
-  const auto logarithm = [](double x, double) { return portable::log(x); };
-  const auto power = [](double x, double y) { return portable::pow(x, y); };
-  const auto exact_sine = [](long double x, long double) { return std::sin(x); };
-  const auto exact_cosine = [](long double x, long double) { return std::cos(x); };
-  const auto exact_tangent = [](long double x, long double) { return std::tan(x); };
-  const auto exact_exponential = [](long double x, long double) { return std::exp(x); };
-  const auto exact_logarithm = [](long double x, long double) { return std::log(x); };
-  const auto exact_power = [](long double x, long double y) { return std::pow(x, y); };
   return {
       {"Sine", small, sine, exact_sine, 1, 0xf672cdd798de4fccU},
       {"SineOfAny", wide, sine, exact_sine, 1, 0xb096389ae159ef23U},

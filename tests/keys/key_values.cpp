@@ -49,6 +49,14 @@ std::vector<double> numbers_for(const KeyInfo& key, const schema::TableView& vie
   return numbers;
 }
 
+std::vector<Value> quantities_for(const KeyInfo& key, const schema::TableView& view,
+                                  const Table& around) {
+  std::vector<Value> values;
+  for (const double number : numbers_for(key, view, around))
+    values.push_back({fmt::format("{:.6g} {}", number, key.unit), {}});
+  return values;
+}
+
 std::vector<std::int64_t> integers_for(const KeyInfo& key) {
   const std::int64_t step = key.multiple_of;
   const auto* fallback = key.fallback ? key.fallback->as<std::int64_t>() : nullptr;
@@ -88,12 +96,7 @@ std::vector<Value> names_of(const std::string& table, const Table& root) {
 
 std::vector<Value> values_for(const KeyInfo& key, const schema::TableView& view,
                               const Table& around, const Table& root) {
-  const auto quantities = [&] {
-    std::vector<Value> values;
-    for (const double number : numbers_for(key, view, around))
-      values.push_back({fmt::format("{:.6g} {}", number, key.unit), {}});
-    return values;
-  };
+  const auto quantities = [&] { return quantities_for(key, view, around); };
   std::vector<Value> values;
   switch (key.kind) {
     case Kind::quantity:

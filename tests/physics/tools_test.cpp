@@ -182,11 +182,7 @@ normal = [0, -1])"));
   EXPECT_LT(e.results.energy_balance_error(), 0.002);
 }
 
-// F_l / F_n = (s + mu) / (1 - mu s) on a flank of slope s, for a block that is drawn up the flank. It is held
-// down to a quarter of its height: one that can bend sticks and slips, as a sliding block does.
-TEST(Groove, BlockSlidesUpAFlankAsCoulombSays) {
-  const double s = 0.2, mu = 0.3, wanted = (s + mu) / (1 - mu * s);
-  Experiment e(scene_of(R"([[particle]]
+const char* const block_on_a_flank = R"([[particle]]
 name = "block"
 material = "steel"
 outline = "rectangle"
@@ -228,7 +224,13 @@ displacement = ["0.05 mm", "0.01 mm"]
 ramp = 0.2
 [contact]
 friction = 0.3
-damping = 0.5)"));
+damping = 0.5)";
+
+// F_l / F_n = (s + mu) / (1 - mu s) on a flank of slope s, for a block that is drawn up the flank. It is held
+// down to a quarter of its height: one that can bend sticks and slips, as a sliding block does.
+TEST(Groove, BlockSlidesUpAFlankAsCoulombSays) {
+  const double s = 0.2, mu = 0.3, wanted = (s + mu) / (1 - mu * s);
+  Experiment e(scene_of(block_on_a_flank));
   double ahead = 0, down = 0;
   int sliding = 0;
   e.run(300, [&] {

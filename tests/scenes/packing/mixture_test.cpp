@@ -232,65 +232,65 @@ TEST_F(PackingFile, IsRefusedAtItsLine) {
   EXPECT_NEAR(scene.packings[0].placed[0].angle, std::numbers::pi / 2, 1e-15);
 }
 
+struct WrongMixtureCase {
+  const char* die;
+  std::vector<RandomClass> classes;
+  const char *key, *says;
+};
+const WrongMixtureCase wrong_mixtures[] = {
+    {"width = \"60 mm\"\ndensity = 0.7",
+     {},
+     "packing[0]",
+     "allowed: at least one [[packing.class]]"},
+    {"width = \"60 mm\"\ndensity = 0.7\ncount = 9",
+     {{"large", "number_fraction = 0.5"}, {"small", "number_fraction = 0.4"}},
+     "packing[0].class[1].number_fraction",
+     "add up to 0.9, allowed: 1"},
+    {"width = \"60 mm\"\ndensity = 0.7\ncount = 9",
+     {{"large", "number = 5"}, {"small", "number_fraction = 1"}},
+     "packing[0]",
+     "do not say alike how much they are"},
+    {"width = \"60 mm\"\ndensity = 0.7\ncount = 3",
+     {{"large", "number_fraction = 0.95"}, {"small", "number_fraction = 0.05"}},
+     "packing[0].class[1].number_fraction",
+     "no whole particle of this class remains"},
+    {"width = \"9 mm\"\ndensity = 0.7",
+     {{"large", "number = 5"}},
+     "packing[0].width",
+     "is 0.01 m wide and does not fit into the die, allowed: > 0.01 m"},
+    {"width = \"60 mm\"",
+     {{"large", "number = 5"}},
+     "packing[0]",
+     "the size of the packing is left open, allowed: two of count"},
+    {"width = \"60 mm\"\nheight = \"60 mm\"\ndensity = 0.7",
+     {{"large", "number = 5"}},
+     "packing[0].height",
+     "follows from count and density"},
+    {"width = \"60 mm\"\nheight = \"60 mm\"\ndensity = \"touching\"",
+     {{"large", ""}},
+     "packing[0].density",
+     "leaves the count open"},
+    {"width = \"60 mm\"\ndensity = 1.2",
+     {{"large", "number = 5"}},
+     "packing[0].density",
+     "1.2 is out of range"},
+    {"width = \"60 mm\"\ndensity = \"dense\"",
+     {{"large", "number = 5"}},
+     "packing[0].density",
+     "\"touching\""},
+    {"width = \"60 mm\"\ndensity = 0.7",
+     {{"large", "number = 5\ndistribution = \"uniform\"\nminimum = \"3 mm\""}},
+     "packing[0].class[0].maximum",
+     "required key is missing"},
+    {"width = \"60 mm\"\ndensity = 0.7",
+     {{"large", "number = 5\ndistribution = \"normal\"\nmean = \"3 mm\"\ndeviation = \"2 mm\""}},
+     "packing[0].class[0].deviation",
+     "allowed: < 0.001 m"}};
+
 TEST(WrongMixture, IsRefusedWithItsBound) {
-  using Classes = std::vector<RandomClass>;
-  const struct {
-    const char* die;
-    Classes classes;
-    const char *key, *says;
-  } cases[] = {
-      {"width = \"60 mm\"\ndensity = 0.7",
-       {},
-       "packing[0]",
-       "allowed: at least one [[packing.class]]"},
-      {"width = \"60 mm\"\ndensity = 0.7\ncount = 9",
-       {{"large", "number_fraction = 0.5"}, {"small", "number_fraction = 0.4"}},
-       "packing[0].class[1].number_fraction",
-       "add up to 0.9, allowed: 1"},
-      {"width = \"60 mm\"\ndensity = 0.7\ncount = 9",
-       {{"large", "number = 5"}, {"small", "number_fraction = 1"}},
-       "packing[0]",
-       "do not say alike how much they are"},
-      {"width = \"60 mm\"\ndensity = 0.7\ncount = 3",
-       {{"large", "number_fraction = 0.95"}, {"small", "number_fraction = 0.05"}},
-       "packing[0].class[1].number_fraction",
-       "no whole particle of this class remains"},
-      {"width = \"9 mm\"\ndensity = 0.7",
-       {{"large", "number = 5"}},
-       "packing[0].width",
-       "is 0.01 m wide and does not fit into the die, allowed: > 0.01 m"},
-      {"width = \"60 mm\"",
-       {{"large", "number = 5"}},
-       "packing[0]",
-       "the size of the packing is left open, allowed: two of count"},
-      {"width = \"60 mm\"\nheight = \"60 mm\"\ndensity = 0.7",
-       {{"large", "number = 5"}},
-       "packing[0].height",
-       "follows from count and density"},
-      {"width = \"60 mm\"\nheight = \"60 mm\"\ndensity = \"touching\"",
-       {{"large", ""}},
-       "packing[0].density",
-       "leaves the count open"},
-      {"width = \"60 mm\"\ndensity = 1.2",
-       {{"large", "number = 5"}},
-       "packing[0].density",
-       "1.2 is out of range"},
-      {"width = \"60 mm\"\ndensity = \"dense\"",
-       {{"large", "number = 5"}},
-       "packing[0].density",
-       "\"touching\""},
-      {"width = \"60 mm\"\ndensity = 0.7",
-       {{"large", "number = 5\ndistribution = \"uniform\"\nminimum = \"3 mm\""}},
-       "packing[0].class[0].maximum",
-       "required key is missing"},
-      {"width = \"60 mm\"\ndensity = 0.7",
-       {{"large", "number = 5\ndistribution = \"normal\"\nmean = \"3 mm\"\ndeviation = \"2 mm\""}},
-       "packing[0].class[0].deviation",
-       "allowed: < 0.001 m"}};
-  for (const auto& c : cases) {
-    Classes classes = c.classes;
-    std::string text = random_scene(c.die, classes, "60 mm");
-    if (classes.empty())
+  for (const auto& c : wrong_mixtures) {
+    std::string text = random_scene(c.die, c.classes, "60 mm");
+    if (c.classes.empty())
       text.insert(text.find("[[packing]]"),
                   random_particle("large") +
                       "[[body]]\nparticle = \"large\"\nposition = [\"9 mm\", \"9 mm\"]\n\n");

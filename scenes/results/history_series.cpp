@@ -1,0 +1,131 @@
+#include "scenes/results/history_series.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "scenes/results/observed_results.hpp"
+#include "scenes/results/shear_results.hpp"
+#include "scenes/tools/die_cell.hpp"
+
+namespace pulvis {
+namespace {
+
+bool is_servo_driven(const Scene& scene, const ToolSpec& tool) {
+  return std::ranges::any_of(scene.stages, [&](const StageSpec& stage) {
+    return std::ranges::any_of(stage.servos, [&](const ServoSpec& servo) {
+      return &scene.tools[static_cast<std::size_t>(servo.tool)] == &tool;
+    });
+  });
+}
+
+// Series and what they are, in the order of the history's columns.
+class SeriesList {
+ public:
+  explicit SeriesList(const Scene& scene) : scene_(scene) {}
+
+  void add_tool(const ToolSpec& tool) {
+    const std::string name = "tool/" + tool.name + "/";
+    const bool constraint = tool.shape == ToolSpec::Shape::constraint;
+    const bool radial = constraint && tool.holds == ToolSpec::Holds::radial;
+    const char* middle = radial        ? "x: its centre's, and the radial displacement of its nodes"
+                         : tool.radius ? "of the middle of its circle, moved with its nodes"
+                         : constraint  ? "of the middle of its box, moved with its nodes"
+                                       : "a point of the tool's surface";
+    add(name + "position_x", "m", middle);
+    add(name + "position_y", "m", middle);
+    add(name + "force_x", "N",
+        radial ? "radial, of the particles, on the tool" : "of the particles, on the tool");
+    add(name + "force_y", "N", "of the particles, on the tool");
+    if (is_servo_driven(scene_, tool))
+      add(name + "force_asked", "N", "that its servo is to hold now, in the direction it pushes");
+  }
+
+  void add_die() {
+    add("relative_density", "-", "undeformed particle area / area between the tools");
+    if (common_yield_stress(scene_)) {
+      add("stress_ratio/axial", "-", "mean of top and bottom stress / yield stress");
+      add("stress_ratio/lateral", "-", "mean of left and right stress / yield stress");
+    }
+    add("stress/axial_top", "Pa",
+        "on the top tool: force / width of the die times thickness; compression > 0");
+    add("stress/axial_bottom", "Pa", "the same of the bottom tool");
+    add("stress/radial_left", "Pa",
+        "on the left tool: force / height between the punches times thickness");
+    add("stress/radial_right", "Pa", "the same of the right tool");
+    add("stress/transmission", "-",
+        "axial force on the bottom tool / on the top tool; NaN where the top bears none");
+  }
+
+  void add_energies() {
+    add("energy/kinetic", "J", "of all nodes");
+    add("energy/elastic", "J", "stored in the elements");
+    add("energy/plastic", "J", "spent in plastic flow");
+    add("energy/hourglass", "J",
+        "stored in hourglass modes and spent in them; none with four points");
+    add("energy/contact", "J", "stored in the contact springs");
+    add("energy/friction", "J", "dissipated by friction");
+    add("energy/damping", "J", "dissipated by contact damping");
+    if (std::ranges::any_of(scene_.materials, &MaterialSpec::damped))
+      add("energy/bulk_damping", "J", "dissipated by the materials' damping");
+    add("energy/external", "J", "work of the tools");
+    add("energy/balance", "J",
+        "all energies less the work of the tools and the energy at the start");
+  }
+
+  void add_quality() {
+    add("contacts", "-", "boundary edges that touch another particle or a tool");
+    add("penetration", "-", "deepest so far, of the boundary edge length");
+    add("contact_overlap", "-", "area in which outlines overlap / area of the particles");
+    add("narrow_contacts", "-",
+        "share of the contact force on contacts narrower than two boundary edges");
+    add("min_jacobian", "-", "smallest det F so far");
+    add("dt", "s", "time step");
+  }
+
+  void add(const std::vector<SeriesInfo>& others) {
+    series_.insert(series_.end(), others.begin(), others.end());
+  }
+
+  std::vector<SeriesInfo> taken() { return std::move(series_); }
+
+ private:
+  void add(const std::string& name, const char* unit, const char* meaning) {
+    series_.push_back({name, unit, meaning});
+  }
+
+  const Scene& scene_;
+  std::vector<SeriesInfo> series_;
+};
+
+}  // namespace
+
+std::vector<SeriesInfo> history_series(const Scene& scene) {
+  SeriesList list(scene);
+  for (const ToolSpec& tool : scene.tools) list.add_tool(tool);
+  if (die_cell(scene)) list.add_die();
+  list.add_energies();
+  list.add_quality();
+  list.add(observed_series(scene));
+  list.add(ShearResults::series(scene));
+  return list.taken();
+}
+
+std::vector<SeriesInfo> momentum_series() {
+  return {{"momentum/x", "kg m/s", "of all nodes"},
+          {"momentum/y", "kg m/s", "of all nodes"},
+          {"momentum/angular", "kg m^2/s", "of all nodes, about the origin"}};
+}
+
+// Every material of a scene is one of its particles: the reader refuses others.
+std::optional<double> common_yield_stress(const Scene& scene) {
+  std::optional<double> common;
+  for (const MaterialSpec& material : scene.materials) {
+    if (!material.yield_stress || (common && *common != *material.yield_stress))
+      return std::nullopt;
+    common = material.yield_stress;
+  }
+  return common;
+}
+
+}  // namespace pulvis
