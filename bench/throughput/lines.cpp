@@ -96,12 +96,15 @@ class TimedSystems {
   std::vector<double> seconds_;
 };
 
-std::span<const double> plastic_strains(const World& world) {
-  const auto of = [](const auto& column) {
-    return std::span(column.values(), column.bytes() / sizeof(double));
-  };
-  return world.has<PlasticStrain<1>>() ? of(world.column<PlasticStrain<1>>())
-                                       : of(world.column<PlasticStrain<4>>());
+struct PlasticPoints {
+  std::span<const double> strains;
+  int of_element = 0;
+};
+PlasticPoints plastic_points(const World& world) {
+  return with_formulation(world.resource<Bodies>().formulation, [&]<class F>(F) {
+    const auto& column = world.column<PlasticStrain<F::points>>();
+    return PlasticPoints{{column.values(), column.bytes() / sizeof(double)}, F::points};
+  });
 }
 
 }  // namespace
@@ -159,12 +162,11 @@ std::vector<std::string> system_names(World& world) {
 }
 
 double flowing_share(State& state) {
-  const auto strains = plastic_strains(state.world());
+  const auto [strains, points] = plastic_points(state.world());
   const std::vector<double> before(strains.begin(), strains.end());
   Workers(1).run([&] { Step(state.world()).run(); });
   double flowing = 0;
   for (std::size_t i = 0; i < before.size(); ++i) flowing += strains[i] > before[i] ? 1 : 0;
-  const double points = state.world().has<PlasticStrain<1>>() ? 1 : 4;
   return flowing / (points * static_cast<double>(state.elements()));
 }
 

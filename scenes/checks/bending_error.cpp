@@ -42,13 +42,14 @@ std::optional<Rows> rows_of(const ParticleSpec& particle) {
 std::optional<double> bending_error(const Scene& scene, const ParticleSpec& particle) {
   const auto rows = rows_of(particle);
   if (!rows) return std::nullopt;
-  if (scene.element.formulation == Formulation::one_point) return 0.0;
   const double nu = scene.materials[static_cast<std::size_t>(particle.material)].poissons_ratio;
-  const double shear = rows->aspect * rows->aspect * (1 - nu) / 2;
-  const double stretch = scene.element.formulation == Formulation::four_point
-                             ? 2.0 / 3 * (1 - nu)
-                             : (1 - nu) * (1 - nu) / (1 - 2 * nu);
-  return (stretch - 1 + shear) / (rows->across * rows->across);
+  return with_formulation(scene.element.formulation, [&]<class F>(F) {
+    if (F::stabilised) return 0.0;
+    const double shear = rows->aspect * rows->aspect * (1 - nu) / 2;
+    const double stretch =
+        F::volumes == 1 ? 2.0 / 3 * (1 - nu) : (1 - nu) * (1 - nu) / (1 - 2 * nu);
+    return (stretch - 1 + shear) / (rows->across * rows->across);
+  });
 }
 
 std::vector<std::string> bending_warnings(const Scene& scene) {
