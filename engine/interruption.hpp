@@ -1,7 +1,7 @@
 // Asking long work to end. A signal leaves the wish here; work that takes long looks at it wherever it can stop.
 #pragma once
 
-#include <immintrin.h>
+#include <xmmintrin.h>
 
 #include <chrono>
 #include <exception>

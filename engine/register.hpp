@@ -4,7 +4,9 @@
 // operations are named here.
 #pragma once
 
+#ifdef __AVX2__
 #include <immintrin.h>
+#endif
 
 #include <bit>
 #include <cmath>
