@@ -106,13 +106,12 @@ void hourglass_energy::operator()(Chunk chunk) const {
   Lane total{};
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
-    const auto at = static_cast<std::size_t>(i);
-    const auto map = quad_map<1>(nodes, shape.quads[at]);
+    const auto map = quad_map<1>(nodes, entry(shape.quads, e));
     const auto w = kernels::natural_hourglass(map, 1.0 / determinant(map_gradient<1>(map, 0)));
-    total +=
-        shape.centre[at][0].determinant *
-        (kernels::hourglass_energy<Lane>({m(e, 0), m(e, 1)}, modulus) +
-         kernels::inversion_barrier_energy(kernels::corner_ratios(w, shape.hourglass[at]), shear));
+    total += entry(shape.centre, e)[0].determinant *
+             (kernels::hourglass_energy<Lane>({m(e, 0), m(e, 1)}, modulus) +
+              kernels::inversion_barrier_energy(
+                  kernels::corner_ratios(w, entry(shape.hourglass, e)), shear));
   }
   total *= bodies->thickness;
   if (spent) total += spent->chunk(chunk)(particle);

@@ -45,12 +45,12 @@ void elastic_forces(const Body<Points>& body, const ChunkView<HighestMode, Lane*
   }
   const Lane inv_shear = 1.0 / body.shear;
   for (int i = 0; i < shape.elements(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const Quad& q = shape.quads[at];
+    const Row<Element> e(i);
+    const Quad& q = entry(shape.quads, e);
     const auto map = quad_map<4>(body.x, q);
-    const double area = shape.centre[at][0].determinant;
+    const double area = entry(shape.centre, e)[0].determinant;
     const Lane theta = determinant(map_gradient<1>(map, 0)) * (4 / area);
-    const Lane distortion = theta * inv_shear * largest_norm<Points>(body.stress, Row<Element>(i));
+    const Lane distortion = theta * inv_shear * largest_norm<Points>(body.stress, e);
     const auto flux =
         kernels::tangent_flux(map, quad_map<4>(mode, q),
                               kernels::tangent_moduli(body.bulk, body.shear, theta, distortion),

@@ -12,6 +12,7 @@
 
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "systems/body/element_bound.hpp"
 #include "systems/body/systems.hpp"
 #include "systems/body/time_step_kernel.hpp"
@@ -26,11 +27,11 @@ constexpr double too_strict = 1.25;
 // rho omega^2 of the undamped element whose stable step is that of an element on the outline with dashpots:
 // gamma/2 + sqrt(gamma^2/4 + omega^2) for omega.
 Lane late_frequency(const ContactRules& rules, double stiffening, const Shape& shape,
-                    std::size_t element, const Lane& bulk, const Lane& solid) {
-  const double geometry = shape.contact_frequency[element];
+                    Row<Element> element, const Lane& bulk, const Lane& solid) {
+  const double geometry = entry(shape.contact_frequency, element);
   const Lane springs = rules.stiffness * stiffening * geometry * bulk;
   const Lane half = 0.5 * dashpot_ratio(rules) * geometry /
-                    softest_edge(shape, shape.quads[element]) * sqrt(rules.stiffness * bulk);
+                    softest_edge(shape, entry(shape.quads, element)) * sqrt(rules.stiffness * bulk);
   const Lane omega = half + sqrt(half * half + solid + springs);
   return omega * omega;
 }
@@ -53,17 +54,18 @@ template <int Points>
   const bool damped = rules && (*rules)->damping > 0;
   Lane highest{}, late{};
   for (int i = 0; i < shape.elements(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const auto map = quad_map<4>(nodes, shape.quads[at]);
-    const Lane theta = determinant(map_gradient<1>(map, 0)) * (4 / shape.centre[at][0].determinant);
+    const Row<Element> e(i);
+    const auto map = quad_map<4>(nodes, entry(shape.quads, e));
+    const Lane theta =
+        determinant(map_gradient<1>(map, 0)) * (4 / entry(shape.centre, e)[0].determinant);
     const auto spread =
-        kernels::mode_spread(kernels::map_gradient(map, 0, 0), shape.corner_moment[at]);
-    const Lane distortion = theta * inv_shear * largest_norm<Points>(stress, Row<Element>(i));
+        kernels::mode_spread(kernels::map_gradient(map, 0, 0), entry(shape.corner_moment, e));
+    const Lane distortion = theta * inv_shear * largest_norm<Points>(stress, e);
     const Lane element = kernels::frequency_bound(spread, k, shear, theta, distortion);
     const Lane solid = element * corner_factor(map);
-    highest = max(highest, solid + contact * shape.contact_frequency[at] * k);
-    if (damped && shape.contact_frequency[at] > 0)
-      late = max(late, late_frequency(**rules, clock->stiffening, shape, at, k, solid));
+    highest = max(highest, solid + contact * entry(shape.contact_frequency, e) * k);
+    if (damped && entry(shape.contact_frequency, e) > 0)
+      late = max(late, late_frequency(**rules, clock->stiffening, shape, e, k, solid));
   }
   Lane& step = stable.chunk(chunk)(particle);
   step = stable_step(chunk, rho, highest, damping);

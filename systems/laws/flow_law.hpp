@@ -37,8 +37,7 @@ struct FlowLaws {
 
   // A chunk's particles are of one class, and so of one material.
   const FlowLaw& of_chunk(const Bodies& bodies, Chunk chunk) const {
-    const auto first = static_cast<std::size_t>(chunk.index) * lane_count;
-    return of_material[static_cast<std::size_t>(bodies.slots[first].material)];
+    return entry(of_material, entry(bodies.slots, chunk.index * lane_count).material);
   }
 };
 

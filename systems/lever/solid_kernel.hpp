@@ -88,7 +88,7 @@ struct HexKernel {
   // u, not in the deformed places, so that tiny displacements keep all their digits.
   static void covariant_strain(const Corners& X, const Corners& u, const ShapeGradient& d, int row,
                                Voigt& e, StrainRows& b) {
-    const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
+    const auto [i, j] = entry(voigt_pair, row);
     const Vector3 Gi = gradient_of(X, d, i), Gj = gradient_of(X, d, j);
     const Vector3 Ui = gradient_of(u, d, i), Uj = gradient_of(u, d, j);
     const Real twice = Gi.dot(Uj) + Gj.dot(Ui) + Ui.dot(Uj);
@@ -103,10 +103,10 @@ struct HexKernel {
   static Voigt6 strain_transformation(const Matrix3& inverse) {
     Voigt6 t;
     for (int r = 0; r < 6; ++r) {
-      const auto [a, b] = voigt_pair[static_cast<std::size_t>(r)];
+      const auto [a, b] = entry(voigt_pair, r);
       const Real twice = a == b ? 1 : 2;
       for (int c = 0; c < 6; ++c) {
-        const auto [i, j] = voigt_pair[static_cast<std::size_t>(c)];
+        const auto [i, j] = entry(voigt_pair, c);
         t(r, c) =
             i == j ? twice * inverse(i, a) * inverse(i, b)
                    : 0.5 * twice * (inverse(i, a) * inverse(j, b) + inverse(j, a) * inverse(i, b));
@@ -203,7 +203,7 @@ struct HexKernel {
   static void add_geometric(const Point& p, const Voigt& s, const ThinShear* shear,
                             GeometricMatrix& g) {
     const auto add = [&](const ShapeGradient& d, int row, Real stress) {
-      const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
+      const auto [i, j] = entry(voigt_pair, row);
       const Real share = i == j ? 0.5 : 1.0;
       g += (share * stress) * (d.col(i) * d.col(j).transpose() + d.col(j) * d.col(i).transpose());
     };

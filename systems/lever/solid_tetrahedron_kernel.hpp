@@ -76,7 +76,7 @@ struct TetrahedronKernel {
       Eigen::Matrix<Real, 6, 30> b;
       for (int a = 0; a < 10; ++a)
         for (int row = 0; row < 6; ++row) {
-          const auto [i, j] = voigt_pair[static_cast<std::size_t>(row)];
+          const auto [i, j] = entry(voigt_pair, row);
           const Real share = i == j ? 0.5 : 1.0;
           b.template block<1, 3>(row, 3 * a) =
               share * (d(a, i) * f.col(j) + d(a, j) * f.col(i)).transpose();

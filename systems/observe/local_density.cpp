@@ -108,15 +108,15 @@ class Grid {
   Grid(DensityGrid& grid, const Read<ToolPosition>& position) : grid_(grid) {
     Point low{endless, endless}, high{-endless, -endless};
     for (int s = 0; s < 4; ++s) {
-      const Row<Tool> tool(grid.tool[at(s)]);
-      tool_[at(s)] = {position(tool, 0), position(tool, 1)};
+      const Row<Tool> tool(entry(grid.tool, s));
+      entry(tool_, s) = {position(tool, 0), position(tool, 1)};
       const auto reach = [&](double x, double y) {
         low = {std::min(low[0], x), std::min(low[1], y)};
         high = {std::max(high[0], x), std::max(high[1], y)};
       };
-      reach(tool_[at(s)][0], tool_[at(s)][1]);
-      for (const Point& p : grid.surface[at(s)])
-        reach(tool_[at(s)][0] + p[0], tool_[at(s)][1] + p[1]);
+      reach(entry(tool_, s)[0], entry(tool_, s)[1]);
+      for (const Point& p : entry(grid.surface, s))
+        reach(entry(tool_, s)[0] + p[0], entry(tool_, s)[1] + p[1]);
     }
     far_ = 4 * (high[0] - low[0] + high[1] - low[1]);
     set_sides();
@@ -148,25 +148,24 @@ class Grid {
   }
 
  private:
-  static std::size_t at(int side) { return static_cast<std::size_t>(side); }
-  bool is_plane(int side) const { return grid_.surface[at(side)].empty(); }
+  bool is_plane(int side) const { return entry(grid_.surface, side).empty(); }
 
   // As far as planes and faces go: no side of the grid is where the tools beside it have ended.
   void set_sides() {
     std::array<Face, 4> face;
     for (int s = 0; s < 4; ++s) {
       const std::size_t out = 1 - across(s);
-      grid_.side[at(s)] = tool_[at(s)][out];
+      entry(grid_.side, s) = entry(tool_, s)[out];
       if (is_plane(s)) continue;
-      face[at(s)] = face_of(grid_.surface[at(s)], s, tool_[at(s)], far_);
-      grid_.side[at(s)] = face[at(s)].farthest;
+      entry(face, s) = face_of(entry(grid_.surface, s), s, entry(tool_, s), far_);
+      entry(grid_.side, s) = entry(face, s).farthest;
     }
     stay_beside(face);
     const std::array<double, 4> rough = grid_.side;
     for (int s = 0; s < 4; ++s) {
       if (is_plane(s)) continue;
       const std::size_t low = along_x(s) ? Side::bottom : Side::left;
-      grid_.side[at(s)] = farthest(face[at(s)].chain, s, rough[low], rough[low + 1]);
+      entry(grid_.side, s) = farthest(entry(face, s).chain, s, rough[low], rough[low + 1]);
     }
     stay_beside(face);
   }
@@ -174,13 +173,13 @@ class Grid {
     for (int s = 0; s < 4; ++s) {
       const std::size_t beside = along_x(s) ? Side::bottom : Side::left;
       for (const std::size_t b : {beside, beside + 1})
-        grid_.side[at(s)] = std::clamp(grid_.side[at(s)], face[b].low, face[b].high);
+        entry(grid_.side, s) = std::clamp(entry(grid_.side, s), face[b].low, face[b].high);
     }
     for (const Side low : {Side::left, Side::bottom})
       grid_.side[low + 1] = std::max(grid_.side[low], grid_.side[low + 1]);
   }
   std::vector<Point> chain(int side) const {
-    return chain_of(grid_.surface[at(side)], tool_[at(side)], far_);
+    return chain_of(entry(grid_.surface, side), entry(tool_, side), far_);
   }
 
   DensityGrid& grid_;
