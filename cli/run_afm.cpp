@@ -246,7 +246,7 @@ std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
       end, failure.empty() ? std::nullopt : std::optional(failure), threads);
 }
 
-void print_end(const AfmReport& report, const std::filesystem::path& folder) {
+void print_afm_end(const AfmReport& report, const std::filesystem::path& folder) {
   tell("{}", calibration_text(*report.calibration));
   for (const FrictionLoop& loop : report.loops) tell("{}", loop_text(loop));
   if (report.wedge && report.loops.size() > 1) tell("{}", wedge_summary(*report.wedge));
@@ -293,9 +293,9 @@ struct Calibrated {
   }
 };
 
-ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
-                  const std::filesystem::path& folder, int threads, const Checkpoint* from,
-                  Calibrated& calibrated) {
+ExitCode complete_programme(const LoadedScene& loaded, const RunOptions& options,
+                            const std::filesystem::path& folder, int threads,
+                            const Checkpoint* from, Calibrated& calibrated) {
   AfmSimulation& simulation = calibrated.simulation;
   AfmReport report;
   AfmHistory history;
@@ -328,7 +328,7 @@ ExitCode complete(const LoadedScene& loaded, const RunOptions& options,
   write_own(folder / "summary.json", role::run, afm_summary(loaded, report));
   write_report(folder);
   if (options.json) print_summary(folder);
-  if (options.talks()) print_end(report, folder);
+  if (options.talks()) print_afm_end(report, folder);
   const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);
   if (!expected) tell(stderr, "pulvis: the run went bad: {}\n", end.failure);
   if (!end.done && end.failure.empty()) {
@@ -349,7 +349,7 @@ ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
   take_interrupts();
   const FolderLock lock = open_run_folder(folder, options.overwrite);
   save_scene(folder, loaded);
-  return complete(loaded, options, folder, threads, nullptr, calibrated);
+  return complete_programme(loaded, options, folder, threads, nullptr, calibrated);
 }
 
 ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
@@ -358,7 +358,7 @@ ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
   require_afm_memory(loaded.scene);
   Calibrated calibrated(loaded.scene, threads);
   take_interrupts();
-  return complete(loaded, options, options.folder, threads, &checkpoint, calibrated);
+  return complete_programme(loaded, options, options.folder, threads, &checkpoint, calibrated);
 }
 
 ExitCode check_afm_scene(const Scene& scene) {

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json loop_json(const wedge::Loop& loop) {
+Json wedge_loop_json(const wedge::Loop& loop) {
   Json json{{"slope", loop.slope},
             {"load", loop.load},
             {"half_width", loop.half_width},
@@ -30,7 +30,7 @@ void write_wedge_report(const std::filesystem::path& folder, const WedgeReductio
             {"loops", Json::array()},
             {"file", reduction.file.filename().string()},
             {"settings", reduction.loaded.text}};
-  for (const wedge::Loop& loop : reduction.loops) head["loops"].push_back(loop_json(loop));
+  for (const wedge::Loop& loop : reduction.loops) head["loops"].push_back(wedge_loop_json(loop));
   write_page(folder / "report.html", "wedge.html",
              {"units.js", "payload.js", "save.js", "chart.js", "tables.js", "wedge.js"},
              {title, head.dump(-1, ' ', false, Json::error_handler_t::replace), {}},

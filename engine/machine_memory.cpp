@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-std::uint64_t difference(std::uint64_t most, std::uint64_t used) {
+std::uint64_t remainder(std::uint64_t most, std::uint64_t used) {
   return most > used ? most - used : 0;
 }
 
@@ -57,7 +57,7 @@ std::uint64_t left_in(const fs::path& folder, const Version& version) {
   const std::uint64_t most = number_in(folder / version.most);
   const std::uint64_t used = number_in(folder / version.used);
   if (most == unlimited || used == unlimited) return most;
-  return difference(most, difference(used, reclaimable_in(folder, version.reclaimable)));
+  return remainder(most, remainder(used, reclaimable_in(folder, version.reclaimable)));
 }
 
 // Of a group and of all that it is in. In a container its path may be that of the machine, and only the
@@ -82,7 +82,7 @@ std::uint64_t of_shell() {
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
-  return difference(limit.rlim_cur, pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)));
+  return remainder(limit.rlim_cur, pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)));
 }
 
 }  // namespace

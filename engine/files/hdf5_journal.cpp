@@ -25,7 +25,7 @@ const Driven& driven(const H5FD_t* file) { return *static_cast<const Driven*>(fi
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 // In the form in which HDF5's own driver tells what the system said.
-herr_t fail(const std::system_error& error) {
+herr_t failure_told(const std::system_error& error) {
   H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_VFL, H5E_WRITEERROR,
            "journaled file: %s: error message = '%s'", error.what(),
            std::strerror(error.code().value()));
@@ -40,9 +40,9 @@ herr_t attempt(const Action& action) {
     action();
     return 0;
   } catch (const std::system_error& error) {
-    return fail(error);
+    return failure_told(error);
   } catch (const std::bad_alloc&) {
-    return fail(std::system_error(ENOMEM, std::generic_category(), "memory"));
+    return failure_told(std::system_error(ENOMEM, std::generic_category(), "memory"));
   }
 }
 

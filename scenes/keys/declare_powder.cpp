@@ -8,7 +8,7 @@ namespace pulvis::schema {
 namespace {
 
 template <class O>
-void choose(ParticleSpec& particle) {
+void emplace_outline(ParticleSpec& particle) {
   particle.outline = O{};
   particle.mesh = typename O::Mesh{};
 }
@@ -16,10 +16,14 @@ void choose(ParticleSpec& particle) {
 // The first key of a particle, its words in this order: the keys after it find the outline and mesh they
 // belong to.
 void choose_outline(ParticleSpec& particle, const Decoded& value) {
-  constexpr void (*choices[])(ParticleSpec&) = {
-      choose<DiscOutline>,    choose<RectangleOutline>, choose<RoundedRectangleOutline>,
-      choose<RingOutline>,    choose<EllipseOutline>,   choose<SuperellipseOutline>,
-      choose<PolygonOutline>, choose<PointsOutline>};
+  constexpr void (*choices[])(ParticleSpec&) = {emplace_outline<DiscOutline>,
+                                                emplace_outline<RectangleOutline>,
+                                                emplace_outline<RoundedRectangleOutline>,
+                                                emplace_outline<RingOutline>,
+                                                emplace_outline<EllipseOutline>,
+                                                emplace_outline<SuperellipseOutline>,
+                                                emplace_outline<PolygonOutline>,
+                                                emplace_outline<PointsOutline>};
   choices[value.index](particle);
 }
 

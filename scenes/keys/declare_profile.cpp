@@ -9,8 +9,8 @@ auto relief_to(Member ProfileSpec::*member) {
   return [member](ToolSpec& spec, const Decoded& value) { spec.relief.*member = value.number; };
 }
 
-Key<ToolSpec> length_key(const char* name, double least, auto member, const char* doc,
-                         const char* fallback_doc) {
+Key<ToolSpec> relief_length_key(const char* name, double least, auto member, const char* doc,
+                                const char* fallback_doc) {
   return {{.name = name,
            .kind = Kind::quantity,
            .unit = "m",
@@ -62,18 +62,19 @@ Key<ToolSpec> profile_file_key() {
 std::vector<Key<ToolSpec>> profile_keys() {
   std::vector<Key<ToolSpec>> all{
       relief_key(),
-      length_key("pitch", smallest_size, &ProfileSpec::pitch, "From crest to crest.",
-                 "required of those that repeat"),
-      length_key("depth", smallest_size, &ProfileSpec::depth, "From crest to valley.",
-                 "by `ra`; of those that repeat one of the two is required"),
-      length_key("ra", smallest_size, &ProfileSpec::ra,
-                 "Arithmetic mean roughness: mean distance from the mean line.",
-                 "by `depth`; required of a rough one"),
-      length_key("correlation_length", smallest_size, &ProfileSpec::correlation_length,
-                 "Of a rough surface: distance in which the autocorrelation of the heights, "
-                 "exp(-(x/length)^2), falls to 1/e. The surface repeats after 64 of them, or "
-                 "that doubled until it need not.",
-                 "required of a rough one"),
+      relief_length_key("pitch", smallest_size, &ProfileSpec::pitch, "From crest to crest.",
+                        "required of those that repeat"),
+      relief_length_key("depth", smallest_size, &ProfileSpec::depth, "From crest to valley.",
+                        "by `ra`; of those that repeat one of the two is required"),
+      relief_length_key("ra", smallest_size, &ProfileSpec::ra,
+                        "Arithmetic mean roughness: mean distance from the mean line.",
+                        "by `depth`; required of a rough one"),
+      relief_length_key(
+          "correlation_length", smallest_size, &ProfileSpec::correlation_length,
+          "Of a rough surface: distance in which the autocorrelation of the heights, "
+          "exp(-(x/length)^2), falls to 1/e. The surface repeats after 64 of them, or "
+          "that doubled until it need not.",
+          "required of a rough one"),
       {{.name = "flat_share",
         .kind = Kind::number,
         .range = between(0, 0.5),

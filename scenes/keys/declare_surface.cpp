@@ -6,7 +6,8 @@ namespace pulvis::schema {
 namespace {
 
 template <class Spec>
-Key<Spec> length_key(const char* name, Words only_for, const char* doc, double Spec::*member) {
+Key<Spec> surface_length_key(const char* name, Words only_for, const char* doc,
+                             double Spec::*member) {
   return {{.name = name,
            .kind = Kind::quantity,
            .unit = "m",
@@ -48,8 +49,9 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
         .only_for = "plane",
         .doc = "Angle by which it rises."},
        to(&TargetSpec::incline)},
-      length_key("height", {"bump", "step", "sinusoid"},
-                 "Of the bump or step; of a wave from valley to crest.", &TargetSpec::height),
+      surface_length_key("height", {"bump", "step", "sinusoid"},
+                         "Of the bump or step; of a wave from valley to crest.",
+                         &TargetSpec::height),
       {{.name = "slope",
         .kind = Kind::number,
         .range = within(0.01, 100),
@@ -74,7 +76,7 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
         .doc = "Where the first flank begins (a wave rises through its mean height), from the "
                "place under the tip at the start."},
        to(&TargetSpec::position)},
-      length_key("wavelength", "sinusoid", "Of the wave.", &TargetSpec::wavelength),
+      surface_length_key("wavelength", "sinusoid", "Of the wave.", &TargetSpec::wavelength),
       {{.name = "file",
         .kind = Kind::file,
         .required = true,
@@ -89,7 +91,7 @@ std::vector<Key<TargetSpec>> surface_shape_keys() {
         .only_for = "map",
         .doc = "Of an HDF5 file: where the heights are in it, [y, x]."},
        to(&TargetSpec::dataset)},
-      length_key("spacing", "map", "Of the points along x and y.", &TargetSpec::spacing),
+      surface_length_key("spacing", "map", "Of the points along x and y.", &TargetSpec::spacing),
   };
 }
 
@@ -220,7 +222,8 @@ const TableDeclaration<ActionSpec>& action() {
          .doc = "Steps of the scan (of each direction of one that returns); pixels of a raster's "
                 "line."},
         integer_to(&ActionSpec::increments)},
-       length_key("width", "raster", "Of the area, square to its lines.", &ActionSpec::width),
+       surface_length_key("width", "raster", "Of the area, square to its lines.",
+                          &ActionSpec::width),
        {{.name = "lines",
          .kind = Kind::integer,
          .range = within(1, 10000),

@@ -22,7 +22,7 @@ std::vector<Vec2> cut(const std::vector<Vec2>& convex, const Vec2& a, const Vec2
   return rest;
 }
 
-double area_of(const std::vector<Vec2>& polygon) {
+double polygon_area(const std::vector<Vec2>& polygon) {
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i)
     twice += cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
@@ -35,7 +35,7 @@ Vec2 centroid(const std::vector<Vec2>& polygon) {
     const Vec2 a = polygon[i] - polygon[0], b = polygon[i + 1] - polygon[0];
     moment += cross(a, b) / 6 * (a + b);
   }
-  return polygon[0] + moment / area_of(polygon);
+  return polygon[0] + moment / polygon_area(polygon);
 }
 
 // Times that the polygon goes round a point.
@@ -68,7 +68,8 @@ std::optional<Vec2> star_centre(const std::vector<Vec2>& polygon) {
   std::vector<Vec2> kernel{low, {high.x(), low.y()}, high, {low.x(), high.y()}};
   for (std::size_t i = 0; i < polygon.size() && kernel.size() > 2; ++i)
     kernel = cut(kernel, polygon[i], polygon[(i + 1) % polygon.size()]);
-  if (kernel.size() < 3 || area_of(kernel) < min_share * std::abs(area_of(polygon))) return {};
+  if (kernel.size() < 3 || polygon_area(kernel) < min_share * std::abs(polygon_area(polygon)))
+    return {};
   const Vec2 centre = centroid(kernel);
   if (std::abs(windings(polygon, centre) - 1) > 0.5) return {};
   return centre;

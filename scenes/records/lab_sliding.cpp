@@ -11,8 +11,8 @@ namespace {
 constexpr double standing_still = 0.1;  // of the sliding speed: a slower plate counts as at rest
 
 // Where the straight line through 5 and 20 % of the distance meets its beginning.
-double rough_start(const std::vector<double>& t, const std::vector<double>& distance,
-                   double whole) {
+double start_by_chord(const std::vector<double>& t, const std::vector<double>& distance,
+                      double whole) {
   const auto reaches = [&](double share) {
     const auto at = std::find_if(distance.begin(), distance.end(),
                                  [&](double w) { return w >= share * whole; });
@@ -26,7 +26,7 @@ double rough_start(const std::vector<double>& t, const std::vector<double>& dist
 std::optional<BendEvent> departure(const std::vector<double>& t,
                                    const std::vector<double>& distance, double whole,
                                    double window) {
-  const auto found = event_near(t, distance, rough_start(t, distance, whole), window);
+  const auto found = event_near(t, distance, start_by_chord(t, distance, whole), window);
   if (!found) return std::nullopt;
   const Bend& bend = found->bend;
   const bool departs = std::abs(bend.before.slope) < standing_still * std::abs(bend.after.slope);

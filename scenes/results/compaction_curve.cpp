@@ -34,7 +34,7 @@ Walls walls_of(const Scene& scene, const DieCell& cell) {
   return walls;
 }
 
-TransmissionShare mean_of(const std::vector<CompactionSample>& samples) {
+TransmissionShare mean_transmission(const std::vector<CompactionSample>& samples) {
   TransmissionShare share;
   const double count = static_cast<double>(samples.size());
   double top = 0, bottom = 0, lateral_stress = 0, axial_stress = 0;
@@ -132,7 +132,7 @@ Transmission transmission(const Scene& scene, const CompactionCurve& curve) {
     result.not_compared =
         "the bottom punch moves: the powder does not slide from one end to the other";
   for (const auto& piece : pieces_of_loading) {
-    result.shares.push_back(mean_of(piece));
+    result.shares.push_back(mean_transmission(piece));
     if (result.not_compared.empty())
       lay_beside(result.shares.back(), walls.friction, walls.poissons_ratio);
   }

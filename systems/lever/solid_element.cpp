@@ -15,9 +15,9 @@ void store(Row<SolidElement> row, const kernels::HexResponse& r, const Write<Ele
   for (int i = 0; i < 24; ++i) force(row, i) = r.force[i];
 }
 
-kernels::HexResponse response(const SolidReader& reader, Row<SolidElement> row,
-                              const Optional<SolidPlasticity<Read>>& plasticity,
-                              bool with_tangent) {
+kernels::HexResponse hexahedron_response(const SolidReader& reader, Row<SolidElement> row,
+                                         const Optional<SolidPlasticity<Read>>& plasticity,
+                                         bool with_tangent) {
   if (plasticity && plasticity->yield(row, 0) > 0)
     return reader.plastic(row, *plasticity, with_tangent);
   return reader.elastic(row, with_tangent);
@@ -28,7 +28,7 @@ kernels::HexResponse response(const SolidReader& reader, Row<SolidElement> row,
 void solid_element::operator()(Chunk chunk) const {
   const SolidReader reader{*mesh, configuration, elastic};
   for_elements(chunk, *mesh, [&](Row<SolidElement> row) {
-    const kernels::HexResponse r = response(reader, row, plasticity, true);
+    const kernels::HexResponse r = hexahedron_response(reader, row, plasticity, true);
     store(row, r, force, energy);
     int at = 0;
     for (int i = 0; i < 24; ++i)
@@ -39,7 +39,7 @@ void solid_element::operator()(Chunk chunk) const {
 void element_force::operator()(Chunk chunk) const {
   const SolidReader reader{*mesh, configuration, elastic};
   for_elements(chunk, *mesh, [&](Row<SolidElement> row) {
-    store(row, response(reader, row, plasticity, false), force, energy);
+    store(row, hexahedron_response(reader, row, plasticity, false), force, energy);
   });
 }
 

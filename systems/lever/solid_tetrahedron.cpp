@@ -18,8 +18,8 @@ void for_tetrahedra(Chunk chunk, const SolidMesh& mesh, const Each& each) {
 
 // Of solid_tetrahedron or tetrahedron_force: stores forces and energy, and gives all.
 template <class System>
-kernels::TetrahedronResponse response(const System& system, Row<SolidTetrahedron> row,
-                                      bool with_tangent) {
+kernels::TetrahedronResponse stored_response(const System& system, Row<SolidTetrahedron> row,
+                                             bool with_tangent) {
   const auto& [reference, displacement] = system.configuration;
   auto r = kernels::tetrahedron_response(
       nodes_of(*system.mesh, row, reference), nodes_of(*system.mesh, row, displacement),
@@ -33,7 +33,7 @@ kernels::TetrahedronResponse response(const System& system, Row<SolidTetrahedron
 
 void solid_tetrahedron::operator()(Chunk chunk) const {
   for_tetrahedra(chunk, *mesh, [&](Row<SolidTetrahedron> row) {
-    const auto r = response(*this, row, true);
+    const auto r = stored_response(*this, row, true);
     int at = 0;
     for (int i = 0; i < 30; ++i)
       for (int j = 0; j <= i; ++j) tangent(row, at++) = r.tangent(i, j);
@@ -41,7 +41,8 @@ void solid_tetrahedron::operator()(Chunk chunk) const {
 }
 
 void tetrahedron_force::operator()(Chunk chunk) const {
-  for_tetrahedra(chunk, *mesh, [&](Row<SolidTetrahedron> row) { response(*this, row, false); });
+  for_tetrahedra(chunk, *mesh,
+                 [&](Row<SolidTetrahedron> row) { stored_response(*this, row, false); });
 }
 
 }  // namespace pulvis

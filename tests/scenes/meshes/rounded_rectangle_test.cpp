@@ -125,7 +125,7 @@ double outside(const RoundedRectangleOutline& o, const Point& p) {
   return std::hypot(std::max(x, 0.0), std::max(y, 0.0)) + std::min(std::max(x, y), 0.0) - o.radius;
 }
 
-double curve_error(const Case& c) {
+double corner_error(const Case& c) {
   double most = 0;
   for (const Shape::Edge& edge : c.shape.edges)
     for (int i = 0; i <= 16; ++i)
@@ -136,7 +136,7 @@ double curve_error(const Case& c) {
 TEST(RoundedRectangleCurve, FollowsTheOutlineToOnePercentOfTheRadius) {
   double worst = 0;
   for (const Case& c : all()) {
-    const double error = curve_error(c) / c.outline.radius;
+    const double error = corner_error(c) / c.outline.radius;
     EXPECT_LT(error, 0.01) << c.name;
     worst = std::max(worst, error);
   }
@@ -145,8 +145,8 @@ TEST(RoundedRectangleCurve, FollowsTheOutlineToOnePercentOfTheRadius) {
 
 TEST(RoundedRectangleCurve, ConvergesToTheOutline) {
   // Curvature jumps where an arc ends, so that a C2 curve is off by the square of the edge length.
-  const double coarse = curve_error(rounded(1e-2, 1e-2, 2e-3, 48));
-  const double fine = curve_error(rounded(1e-2, 1e-2, 2e-3, 192));
+  const double coarse = corner_error(rounded(1e-2, 1e-2, 2e-3, 48));
+  const double fine = corner_error(rounded(1e-2, 1e-2, 2e-3, 192));
   EXPECT_GT(coarse / fine, 8);
 }
 

@@ -13,14 +13,14 @@ namespace {
 constexpr double mu = 80e9;
 
 template <class T>
-J2State<T> trial(const Matrix2<T>& f, const J2State<T>& old) {
+J2State<T> law_trial(const Matrix2<T>& f, const J2State<T>& old) {
   const T theta = determinant(f), r = inverse_cube_root(theta);
   return {scaled_deviator(left_cauchy_green(f, old.c), mu / theta * (r * r)), old.c, old.eps};
 }
 template <class T, class Law>
-Returned<T> step(const Matrix2<T>& f, const J2State<T>& old, const Law& law) {
+Returned<T> law_step(const Matrix2<T>& f, const J2State<T>& old, const Law& law) {
   const T theta = determinant(f), r = inverse_cube_root(theta);
-  return radial_return<T>(trial(f, old), f, r * r, mu / theta, theta / mu, law);
+  return radial_return<T>(law_trial(f, old), f, r * r, mu / theta, theta / mu, law);
 }
 template <class T>
 T mises(const J2State<T>& s) {
@@ -44,7 +44,7 @@ void along_paths(const Law& law, const Look& look) {
     for (int i = 0; i < 200; ++i) {
       const double size = std::pow(10, random.in(-7, -1.7));
       for (double* v : {&f.xx, &f.xy, &f.yx, &f.yy}) *v += size * random.in(-1, 1);
-      const Returned<double> next = step(f, J2State<double>(state), law);
+      const Returned<double> next = law_step(f, J2State<double>(state), law);
       look(J2State<double>(state), next);
       if (testing::Test::HasFatalFailure()) return;
       flowed += next.eps > state.eps;
@@ -85,7 +85,7 @@ TEST(IteratedReturn, OfALineIsTheClosedForm) {
   for (int i = 0; i < 2000; ++i) {
     const Matrix2<double> f{1 + random.in(-0.02, 0.02), random.in(-0.02, 0.02),
                             random.in(-0.02, 0.02), 1 + random.in(-0.02, 0.02)};
-    const auto a = step(f, J2State<double>{}, linear), b = step(f, J2State<double>{}, line);
+    const auto a = law_step(f, J2State<double>{}, linear), b = law_step(f, J2State<double>{}, line);
     ASSERT_NEAR(a.eps, b.eps, 1e-14);
     ASSERT_NEAR(a.s.xx, b.s.xx, 1e-12 * mu * 0.02);
     ASSERT_NEAR(a.c.xy, b.c.xy, 1e-14);
@@ -99,7 +99,7 @@ TEST(IteratedReturn, EndsWithinAJump) {
   double most = 0;
   int within = 0;
   for (double gamma = 0; gamma < 0.2; gamma += 1e-4) {
-    const Returned<double> next = step(Matrix2<double>{1, gamma, 0, 1}, state, jump);
+    const Returned<double> next = law_step(Matrix2<double>{1, gamma, 0, 1}, state, jump);
     ASSERT_EQ(next.residual, 0) << gamma;
     most = std::max(most, mises(next) / jump.flow_stress(next.eps) - 1);
     within += next.eps >= 0.05 && next.eps < 0.05 + 1e-12;
@@ -115,7 +115,7 @@ TEST(IteratedReturn, BearsWhatTheRateOfTheStepSays) {
   for (const double dt : {1e-9, 1e-6, 1e-3, 1.0}) {
     const RatedHardening law{voce, rate, 1 / dt};
     for (double gamma = 5.3e-3; gamma < 0.1; gamma *= 1.3) {
-      const auto next = step(Matrix2<double>{1, gamma, 0, 1}, J2State<double>{}, law);
+      const auto next = law_step(Matrix2<double>{1, gamma, 0, 1}, J2State<double>{}, law);
       ASSERT_EQ(next.residual, 0);
       ASSERT_GT(next.eps, 0);
       const double flow = voce.flow_stress(next.eps) * rate.factor(next.eps / dt);
@@ -131,7 +131,7 @@ TEST(IteratedReturn, KeepsBendingOnTheJointSurface) {
   int bent = 0;
   for (int i = 0; i < 2000; ++i) {
     const Matrix2<double> f{1, random.in(-6e-3, 6e-3), 0, 1};
-    const J2State<double> before = trial(f, J2State<double>{});
+    const J2State<double> before = law_trial(f, J2State<double>{});
     const Hourglass<double> m{random.in(-1.2e9, 1.2e9), random.in(-1.2e9, 1.2e9)};
     CoupledBending<double> coupled{m, fibre / (3 * mu), 3 * mu / fibre, random.in(1, 2), 1.0};
     const auto next = radial_return(before, f, 1.0, mu, 1 / mu, ludwik, coupled);
@@ -161,10 +161,10 @@ TEST(IteratedReturn, LanesGiveTheBitsOfTheScalar) {
       old.eps[l] = l % 2 == 0 ? 0 : random.in(0, 0.3);
     }
     const RatedHardening law{ludwik, rate, 1e7};
-    const auto lanes = step(f, old, law);
+    const auto lanes = law_step(f, old, law);
     for (int l = 0; l < lane_count; ++l) {
       const J2State<double> before{{}, {}, old.eps[l]};
-      const auto one = step(Matrix2<double>{f.xx[l], f.xy[l], 0, 1}, before, law);
+      const auto one = law_step(Matrix2<double>{f.xx[l], f.xy[l], 0, 1}, before, law);
       ASSERT_EQ(bits(lanes.eps[l]), bits(one.eps));
       ASSERT_EQ(bits(lanes.s.xy[l]), bits(one.s.xy));
       ASSERT_EQ(bits(lanes.c.zz[l]), bits(one.c.zz));
@@ -176,9 +176,9 @@ TEST(IteratedReturn, SaysWhereThereIsNoStress) {
   // A curve that is no number just behind where flow begins.
   const TabulatedHardening gap{{0, 0.001, 0.002, 1},
                                {240e6, 241e6, std::numeric_limits<double>::quiet_NaN(), 300e6}};
-  const auto next = step(Matrix2<double>{1, 0.02, 0, 1}, J2State<double>{{}, {}, 0.0}, gap);
+  const auto next = law_step(Matrix2<double>{1, 0.02, 0, 1}, J2State<double>{{}, {}, 0.0}, gap);
   EXPECT_TRUE(std::isnan(next.residual));
-  EXPECT_EQ(step(Matrix2<double>{1, 0.02, 0, 1}, J2State<double>{}, voce).residual, 0);
+  EXPECT_EQ(law_step(Matrix2<double>{1, 0.02, 0, 1}, J2State<double>{}, voce).residual, 0);
 }
 
 }  // namespace
