@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """The house: which folder, and which room in it, may look at which; how full a room may be.
 
-usage: layers.py [ROOT]
+usage: layers.py [ROOT] [--tree]
 
 Reads every #include of the product folders, resolves it as the compiler does (beside the including file, then from the
 root), and refuses each one that points against an arrow: from a floor to one above it, or from a room to one that ROOMS
 does not list for it. Refuses headers that include each other in a circle, a folder of more than 40 files of code, and a
 source file of a room that is neither declared in a header of its own name nor a system, nor a part of another (PARTS).
-Exit code 1 then.
+Exit code 1 then. --tree prints the rooms with their files and lines.
 """
 import os
 import re
@@ -130,8 +130,21 @@ def names_of_systems(root):
     return set(re.findall(r"^(?:void|struct) ([a-z]\w+)[( ]", text, re.M))
 
 
+def print_tree(root, folders):
+    print(f"{'room':24} files  lines")
+    for floor in FLOORS:
+        rooms = [folder for folder in folders if folder.parts[0] == floor]
+        lines = {room: sum(len((root / f).read_text(encoding="utf-8").splitlines()) for f in folders[room])
+                 for room in rooms}
+        print(f"{floor + '/':24} {sum(len(folders[room]) for room in rooms):5} {sum(lines.values()):6}")
+        for room in sorted(rooms, key=lambda room: (len(room.parts) > 1, room)):
+            name = "/".join(room.parts[1:]) or "(its own)"
+            print(f"  {name:22} {len(folders[room]):5} {lines[room]:6}")
+
+
 def main():
-    root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parents[2]).resolve()
+    words = [word for word in sys.argv[1:] if word != "--tree"]
+    root = Path(words[0] if words else Path(__file__).parents[2]).resolve()
     files = [f for floor in FLOORS for f in sorted((root / floor).rglob("*")) if f.suffix in SUFFIXES]
     if not files:
         sys.exit(f"layers: no source under {root}: is this the root?")
@@ -156,6 +169,8 @@ def main():
     wrong += [f"headers include each other: {circle}" for circle in circles(arrows)]
     wrong += [f"{folder}: {len(inside)} files of code, at most {MOST_FILES}" for folder, inside in
               sorted(folders.items()) if len(inside) > MOST_FILES]
+    if "--tree" in sys.argv:
+        print_tree(root, folders)
     print(*wrong, sep="\n", end="\n" if wrong else "")
     print(f"layers: {len(files)} files in {len(folders)} folders, {len(wrong)} against the plan")
     return 1 if wrong else 0
