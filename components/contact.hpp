@@ -89,8 +89,26 @@ struct ContactPlace : Component<Contact, std::int32_t, 2> {
   static constexpr ComponentInfo info{
       "place", "-", "control points: first of the sampled edge, first of the other outline"};
 };
+// A point of an outline's curve: an edge, by its first control point counted in the outline, and where on it.
+struct CurvePoint;
+// The same as one number, edge + parameter: what a candidate keeps of its closest points fits beside the rest of it.
+struct PackedCurvePoint {
+  double number = 0;
+  constexpr CurvePoint unpacked() const;
+};
+struct CurvePoint {
+  static constexpr double last_u = 1 - 1e-12;  // an end belongs to its own edge
+  int edge;
+  double u;  // 0 ... 1
+  constexpr PackedCurvePoint packed() const { return {edge + (u < last_u ? u : last_u)}; }
+};
+constexpr CurvePoint PackedCurvePoint::unpacked() const {
+  const int edge = static_cast<int>(number);
+  return {edge, number - edge};
+}
+
 // Closest point of each Gauss point on the other particle's curve.
-struct ClosestPoint : Component<Contact, double, edge_points> {
+struct ClosestPoint : Component<Contact, PackedCurvePoint, edge_points> {
   static constexpr ComponentInfo info{"closest_point", "-",
                                       "first control point of an edge of the other outline, from "
                                       "that outline's first, + parameter"};

@@ -9,6 +9,7 @@
 
 #include "components/shape.hpp"
 #include "engine/entry.hpp"
+#include "engine/row_range.hpp"
 
 namespace pulvis {
 
@@ -123,6 +124,13 @@ struct ContactIndex {
       other_begin;  // [slots + 1] into other_rows: particle is sampled against
   std::vector<std::int32_t> other_rows;
   std::vector<std::int32_t> tool_begin;  // [slots + 1] into tool contact rows
+
+  RowRange<Contact> sampled_by(int slot) const {
+    return RowRange<Contact>::of(sampled_begin, slot);
+  }
+  RowRange<ToolContact> with_tools(int slot) const {
+    return RowRange<ToolContact>::of(tool_begin, slot);
+  }
 
   template <class Bytes>
   void state(Bytes& bytes) {

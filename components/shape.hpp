@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "components/body.hpp"
+#include "engine/chunk_lane.hpp"
 #include "engine/entry.hpp"
 
 namespace pulvis {
@@ -72,9 +74,13 @@ struct Shape {
 
   int control_points() const { return static_cast<int>(curve_begin.size()) - 1; }
   int elements() const { return static_cast<int>(quads.size()); }
+  // What control point c is made of.
+  std::span<const CurveTerm> terms_of(int c) const {
+    return {&curve_terms[0] + entry(curve_begin, c), &curve_terms[0] + entry(curve_begin, c + 1)};
+  }
 };
 
-// Particles by slot: slot = lane_count * chunk + lane. A slot without a particle has number -1; it is computed
+// Particles by slot (engine/chunk_lane.hpp). A slot without a particle has number -1; it is computed
 // like the others (at rest, undeformed) and seen by no contact, no energy and no result.
 struct Bodies {
   static constexpr const char* resource_name = "bodies";
@@ -94,9 +100,7 @@ struct Bodies {
   std::vector<Slot> slots;          // [lane_count * chunks]
   std::vector<int> slot_of_number;  // [particles]
 
-  const Shape& shape_of_chunk(Chunk c) const {
-    return entry(shapes, slots[static_cast<std::size_t>(c.index) * lane_count].shape);
-  }
+  const Shape& shape_of_chunk(Chunk c) const { return shape_of_slot(ChunkLane(c, 0).slot()); }
   const Shape& shape_of_slot(int slot) const { return entry(shapes, entry(slots, slot).shape); }
   int chunks() const { return static_cast<int>(slots.size()) / lane_count; }
   int particles() const { return static_cast<int>(slot_of_number.size()); }

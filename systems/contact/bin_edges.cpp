@@ -11,7 +11,6 @@
 
 #include "engine/entry.hpp"
 #include "systems/contact/broad_phase.hpp"
-#include "systems/contact/contact_row.hpp"
 #include "systems/contact/surface_search.hpp"
 #include "systems/contact/systems.hpp"
 
@@ -185,7 +184,7 @@ void bin_edges::operator()() const {
     if (known) return;
     const int start =
         entry(bodies->shape_of_slot(key.other).edges, found.all[r].start).first_control;
-    for (int g = 0; g < edge_points; ++g) curves.closest(row, g) = start + 0.5;
+    for (int g = 0; g < edge_points; ++g) curves.closest(row, g) = CurvePoint{start, 0.5}.packed();
   });
   list_other_rows(found, *index);
   index->sampled_begin = std::move(found.begin);

@@ -11,7 +11,7 @@
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
 #include "engine/run_failure.hpp"
-#include "systems/contact/contact_row.hpp"
+#include "systems/contact/contact_sums.hpp"
 #include "systems/contact/systems.hpp"
 
 namespace pulvis {

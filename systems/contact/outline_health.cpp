@@ -48,8 +48,8 @@ class Boundary {
  public:
   Boundary(const Bodies& bodies, int slot, const Read<Position>& x, const Hollows* hollows)
       : shape_(bodies.shape_of_slot(slot)),
-        nodes_(x.chunk(Chunk{slot / lane_count})),
-        lane_(slot % lane_count) {
+        nodes_(x.chunk(ChunkLane(slot).chunk)),
+        lane_(ChunkLane(slot).lane) {
     Hollows::Loop outline(static_cast<std::size_t>(shape_.boundary_nodes));
     std::iota(outline.begin(), outline.end(), 0);
     add(outline);

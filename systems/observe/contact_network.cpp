@@ -92,8 +92,8 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
   const Read<ClosestPoint>& closest = pairs.closest;
   const auto add_row = [&](Row<Contact> row, double side, Gathered& contact) {
     const auto normal_at = [&](const Point&, int g) {
-      const int control = static_cast<int>(closest(row, g));
-      return outlines.from(pair(row, 2), control).normal(closest(row, g) - control);
+      const CurvePoint there = closest(row, g).unpacked();
+      return outlines.from(pair(row, 2), there.edge).normal(there.u);
     };
     add_points(outlines.edge(pair(row, 0), pair(row, 1)), force, row, side, normal_at, contact);
   };

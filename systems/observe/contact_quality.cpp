@@ -89,10 +89,9 @@ void contact_quality::operator()() const {
     return entry(bodies->shape_of_slot(slot).edges, edge);
   };
   const auto gap_to_curve = [&](Row<Contact> row, const Point& at, int g) {
-    const int first = static_cast<int>(pairs->closest(row, g));
-    const double u = pairs->closest(row, g) - first;
-    const Curve curve = outlines.from(pairs->rows.pair(row, 2), first);
-    const Point m = curve.value(u), n = curve.normal(u);
+    const CurvePoint there = pairs->closest(row, g).unpacked();
+    const Curve curve = outlines.from(pairs->rows.pair(row, 2), there.edge);
+    const Point m = curve.value(there.u), n = curve.normal(there.u);
     return Gap{(m[0] - at[0]) * n[0] + (m[1] - at[1]) * n[1], n};
   };
   const auto gap_to_tool = [&](Row<ToolContact> row, const Point& at) {

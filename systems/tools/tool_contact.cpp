@@ -1,81 +1,102 @@
 // tool_contact: narrow phase between particles and rigid tools: the Gauss points of every candidate
 // edge against the tool's surface, a plane or a polyline.
 //
-// Source   systems/contact/contact_kernel.hpp; one pass with the full stiffness, since a tool is not sampled
+// Stages   active_pairs -> tool_projection -> contact_law -> contact_sums (systems/contact/two_candidates.hpp); one
+//          pass with the full stiffness, since a tool is not sampled
 // Runs     after bin_edges and tool_motion, before contact_force
 // Active   when the scene has tools
 #include "engine/entry.hpp"
-#include "systems/contact/contact_row.hpp"
-#include "systems/tools/surface_kernel.hpp"
+#include "systems/contact/active_pairs.hpp"
+#include "systems/contact/contact_law.hpp"
 #include "systems/tools/systems.hpp"
+#include "systems/tools/tool_projection.hpp"
 
 namespace pulvis {
+namespace {
 
-void tool_contact::operator()(SmallTasks) const {
-  const double* points = curves.position.values().data();
-  const double* rates = curves.velocity ? curves.velocity->values().data() : nullptr;
+using Two = TwoCandidates<ToolContact>;
 
-  // Of both rows, as if `tool` were that of both.
-  const auto gap_to = [&](Row<ToolContact> row, const PointLanes& at, double farthest) {
-    const Row<Tool> tool(columns.pair(row, 2));
-    const Lane rx = at.x - tools.position(tool, 0), ry = at.y - tools.position(tool, 1);
-    RowMotion m;
-    if (range && (*tools.shapes)->is(tool.value, ToolShapes::Kind::polyline)) {
-      // Farther than an edge the range of pieces tells nothing; see bin_tool_edges.
-      const auto nearest =
-          kernels::nearest_on_surface((*tools.shapes)->surface_of(tool.value), (*range)(row, 0),
-                                      (*range)(row, 1), rx, ry, farthest);
-      m.nx = nearest.nx;
-      m.ny = nearest.ny;
-      m.gap = -nearest.distance;
-    } else {
-      m.nx = tools.normal(tool, 0);
-      m.ny = tools.normal(tool, 1);
-      m.gap = -(rx * m.nx + ry * m.ny);
+// The sampled edges of two candidates.
+struct SampledEdges {
+  std::array<double, 2> length;               // m
+  std::array<std::int32_t, 2> first_control;  // of all
+
+  PointLanes points(const double* list) const {
+    return edge_points_at(list + 2 * first_control[0], list + 2 * first_control[1]);
+  }
+};
+
+// One pass over the active pairs.
+struct ToolPass {
+  static constexpr double share = 1;  // of the stiffness
+  const tool_contact& s;
+  const double* points = s.curves.position.values().data();
+  const double* rates = s.curves.velocity ? s.curves.velocity->values().data() : nullptr;
+
+  // ---- active pairs
+  [[gnu::always_inline]] bool active(Row<ToolContact> row) const {
+    return s.clock->travel >= s.columns.reach(row);
+  }
+  [[gnu::always_inline]] void fetch(Row<ToolContact> row) const { pulvis::fetch(s.columns, row); }
+  void fetch_other(Row<ToolContact>) const {}
+  void operator()(const Two& two, LaneSums& sums) const {
+    const SampledEdges edges = sampled_edges(two);
+    const PointLanes at = edges.points(points);
+    PointMotion motion =
+        halves_of(project(two[0], at, edges.length[0]), project(two[1], at, edges.length[1]));
+    const unsigned touching = find_touching(two, motion);
+    if (touching == 0) return;
+    motion.gap_rate = motion.slip_rate = Lane{};
+    if (rates != nullptr) {
+      const Row<Tool> a(s.columns.pair(two[0], 2)), b(s.columns.pair(two[1], 2));
+      set_rates(edges.points(rates), halves(s.tool_velocity(a, 0), s.tool_velocity(b, 0)),
+                halves(s.tool_velocity(a, 1), s.tool_velocity(b, 1)), motion);
     }
-    return m;
-  };
-  const auto look_at = [&](const RowPair<ToolContact>& rows, LaneSums& sum) {
-    std::array<const Shape::Edge*, 2> edge;
-    std::array<std::size_t, 2> first;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const int slot = columns.pair(rows[i], 0);
-      edge[i] = &entry(bodies->shape_of_slot(slot).edges, columns.pair(rows[i], 1));
-      const int control = entry(bodies->slots, slot).first_control;
-      first[i] = 2 * static_cast<std::size_t>(control + edge[i]->first_control);
-    }
-    const PointLanes at = edge_points_at(points + first[0], points + first[1]);
-    RowMotion m = gap_to(rows[0], at, edge[0]->length);
-    const RowMotion other = gap_to(rows[1], at, edge[1]->length);
-    const LaneMask low = LaneMask::of(15);
-    m.nx = select(low, m.nx, other.nx);
-    m.ny = select(low, m.ny, other.ny);
-    m.gap = select(low, m.gap, other.gap);
+    act(s.columns, two, touching, motion, share, s.clock->dt_before, sums);
+  }
 
+  // ---- projection
+  SampledEdges sampled_edges(const Two& two) const {
+    SampledEdges edges;
+    for (int i = 0; i < 2; ++i) {
+      const int slot = s.columns.pair(entry(two, i), 0);
+      const Shape::Edge& edge =
+          entry(s.bodies->shape_of_slot(slot).edges, s.columns.pair(entry(two, i), 1));
+      entry(edges.length, i) = edge.length;
+      entry(edges.first_control, i) =
+          entry(s.bodies->slots, slot).first_control + edge.first_control;
+    }
+    return edges;
+  }
+  // Of all points, as if the candidate's tool were that of both.
+  PointMotion project(Row<ToolContact> row, const PointLanes& at, double farthest) const {
+    const Row<Tool> tool(s.columns.pair(row, 2));
+    const Point stands{s.tools.position(tool, 0), s.tools.position(tool, 1)};
+    // Farther than an edge the range of pieces tells nothing; see bin_tool_edges.
+    if (s.range && (*s.tools.shapes)->is(tool.value, ToolShapes::Kind::polyline))
+      return project_on_polyline(stands, (*s.tools.shapes)->surface_of(tool.value),
+                                 (*s.range)(row, 0), (*s.range)(row, 1), at, farthest);
+    return project_on_plane(stands, {s.tools.normal(tool, 0), s.tools.normal(tool, 1)}, at);
+  }
+
+  // The candidates of the two that touch (bit 0, bit 1); the others are set apart.
+  unsigned find_touching(const Two& two, const PointMotion& m) const {
     unsigned touching = 0;
-    for (int i = 0; i < rows_in(rows); ++i) {
+    for (int i = 0; i < count_of(two); ++i) {
       const double deepest = greatest_of_half(m.gap, i);
       if (deepest > 0)
         touching |= 1U << i;
       else
-        set_apart(columns, entry(rows, i), clock->travel - deepest);
+        set_apart(s.columns, entry(two, i), s.clock->travel - deepest);
     }
-    if (touching == 0) return;
-    m.gap_rate = m.slip_rate = Lane{};
-    if (rates != nullptr) {
-      const PointLanes speed = edge_points_at(rates + first[0], rates + first[1]);
-      const Row<Tool> a(columns.pair(rows[0], 2)), b(columns.pair(rows[1], 2));
-      const Lane wx = speed.x - halves(tool_velocity(a, 0), tool_velocity(b, 0));
-      const Lane wy = speed.y - halves(tool_velocity(a, 1), tool_velocity(b, 1));
-      m.gap_rate = -(wx * m.nx + wy * m.ny);
-      m.slip_rate = wy * m.nx - wx * m.ny;
-    }
-    set_touching(columns, rows, touching, m, 1.0, clock->dt_before, sum);
-  };
-  for_active_pairs<ToolContact>(
-      columns.pair.rows(), *sums,
-      [&](Row<ToolContact> row) { return clock->travel >= columns.reach(row); },
-      [&](Row<ToolContact> row) { fetch(columns, row); }, [](Row<ToolContact>) {}, look_at);
+    return touching;
+  }
+};
+
+}  // namespace
+
+void tool_contact::operator()(SmallTasks) const {
+  for_active_pairs(columns.pair.rows(), *sums, ToolPass{*this});
 }
 
 }  // namespace pulvis

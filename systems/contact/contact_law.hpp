@@ -1,0 +1,131 @@
+// Contact law: what the points of two candidates bear that touch, and what their columns keep of it. Alike for pairs of
+// particles and for tools.
+//
+// Laws     systems/laws/normal_contact.hpp (pressure, damping), systems/laws/friction.hpp
+// Sign     force on the sampled edge: pressure along n, friction traction along t = (-n_y, n_x)
+#pragma once
+
+#include "systems/contact/contact_sums.hpp"
+#include "systems/contact/systems.hpp"
+#include "systems/laws/friction.hpp"
+#include "systems/laws/normal_contact.hpp"
+
+namespace pulvis {
+
+// ---- the law of a point -----------------------------------------------------------------------------
+struct PointLaw {
+  Lane weight;      // m^2, undeformed area that the point stands for
+  Lane kappa;       // Pa/m, of this pass
+  Lane damping;     // Pa s/m, of this pass
+  Lane inv_length;  // 1/m, of the edge
+};
+
+struct Frictionless {};
+
+// `friction(slip, pressure)`: what the law of friction answers to the slip [m] of the step, or Frictionless.
+template <class Friction>
+[[gnu::always_inline]] inline PointForces forces_of(const PointLaw& law, const PointMotion& m,
+                                                    double dt, const Friction& friction) {
+  const auto normal =
+      kernels::normal_traction(m.gap, m.gap_rate, law.kappa, law.damping, law.inv_length);
+  PointForces f{};
+  f.energy = normal.spring_energy;
+  if constexpr (!std::is_same_v<Friction, Frictionless>) {
+    const kernels::Friction<Lane> tangential = friction(m.slip_rate * dt, normal.pressure);
+    f.elastic_slip = tangential.elastic_slip;
+    f.along = tangential.traction * law.weight;
+    f.friction_work = tangential.work * law.weight;
+    f.energy = fma(0.5 * law.kappa * f.elastic_slip, f.elastic_slip, f.energy);
+  }
+  f.energy *= law.weight;
+  const Lane push = normal.pressure * law.weight;
+  f.x = fma(push, m.nx, -(f.along * m.ny));
+  f.y = fma(push, m.ny, f.along * m.nx);
+  f.damping_work = normal.damping_power * law.weight * dt;
+  return f;
+}
+
+// ---- from and to the columns --------------------------------------------------------------------------
+// A candidate whose points are all apart: nothing acts, and nothing can before `reach` has been travelled.
+template <class At>
+void set_apart(const RowColumns<At>& c, Row<At> row, double reach) {
+  c.touches(row) = 0;
+  c.reach(row) = reach;
+  for (int k = 0; k < 2 * edge_points; ++k) c.force(row, k) = 0;
+  if (c.elastic_slip)
+    for (int k = 0; k < edge_points; ++k) (*c.elastic_slip)(row, k) = 0;
+  if (c.lost)
+    for (int k = 0; k < edge_points; ++k) (*c.lost)(row, k) = 0;
+}
+
+// Answers of the friction law of two candidates; keeps what sliding has done to those that touch (bits 0 and 1).
+// `share` of kappa: one half where the other particle samples back.
+template <class At>
+kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates<At>& two,
+                                    unsigned touching, double share, const Lane& slip,
+                                    const Lane& pressure, const Lane& kappa,
+                                    const Lane& inv_kappa) {
+  const Lane before = at_points(*c.elastic_slip, two);
+  const Lane mu = at_candidates(c.law, two, ContactLaw<At>::friction);
+  if (!c.more) {
+    kernels::Coulomb<Lane> law{mu};
+    return kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
+  }
+  using More = FrictionMore<At>;
+  kernels::Weakening<Lane> law{
+      mu, at_candidates(*c.more, two, More::drop), at_candidates(*c.more, two, More::inv_decay),
+      share * at_candidates(*c.more, two, More::strength), at_points(*c.lost, two)};
+  const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
+  for (int half = 0; half < 2; ++half)
+    if ((touching >> half & 1) != 0) store_half(law.lost, half, &(*c.lost)(entry(two, half)));
+  return friction;
+}
+
+template <class At>
+[[gnu::always_inline]] inline PointForces forces_of(const RowColumns<At>& c,
+                                                    const TwoCandidates<At>& two, unsigned touching,
+                                                    const PointMotion& m, double share, double dt) {
+  using Law = ContactLaw<At>;
+  const std::array<double, 2> stiffness{share * c.law(two[0], Law::stiffness),
+                                        share * c.law(two[1], Law::stiffness)};
+  const PointLaw law{at_points(c.law, two, Law::weight), halves(stiffness[0], stiffness[1]),
+                     share * at_candidates(c.law, two, Law::damping),
+                     at_candidates(c.law, two, Law::inv_length)};
+  if (!c.elastic_slip) return forces_of(law, m, dt, Frictionless{});
+  return forces_of(law, m, dt, [&](const Lane& slip, const Lane& pressure) {
+    return friction_of(c, two, touching, share, slip, pressure, law.kappa,
+                       halves(1 / stiffness[0], 1 / stiffness[1]));
+  });
+}
+
+template <class At>
+[[gnu::always_inline]] inline void keep(const RowColumns<At>& c, Row<At> row, int half,
+                                        const PointForces& f) {
+  c.touches(row) = 1;
+  c.reach(row) = 0;
+  store_pairs_of_half(f.x, f.y, half, &c.force(row));
+  if (c.elastic_slip) store_half(f.elastic_slip, half, &(*c.elastic_slip)(row));
+}
+
+// Law, columns and books of the candidates of two that touch (bit 0, bit 1). Returns their friction traction times weight
+// [N] (the couple of the other body needs it).
+template <class At>
+[[gnu::flatten]] Lane act(const RowColumns<At>& c, const TwoCandidates<At>& two, unsigned touching,
+                          const PointMotion& m, double share, double dt, LaneSums& sums) {
+  const PointForces f = forces_of(c, two, touching, m, share, dt);
+  sums.add(f, touching);
+  sums.add_depth(two, touching, m.gap * at_candidates(c.law, two, ContactLaw<At>::inv_length));
+  for (int half = 0; half < 2; ++half)
+    if ((touching >> half & 1) != 0) keep(c, entry(two, half), half, f);
+  return f.along;
+}
+
+// Asks for a candidate's numbers before they are needed: in a large powder they come from memory, a line a column.
+template <class At>
+void fetch(const RowColumns<At>& c, Row<At> row) {
+  const auto line = [row](const auto& column) { prefetch(&column(row)); };
+  line(c.pair), line(c.law), line(c.force);
+  if (c.elastic_slip) line(*c.elastic_slip);
+}
+
+}  // namespace pulvis

@@ -1,0 +1,52 @@
+// Books of a narrow phase: what the candidates of a block store, spend and count.
+#pragma once
+
+#include <cmath>
+
+#include "systems/contact/two_candidates.hpp"
+
+namespace pulvis {
+
+// Books the depth of a candidate: the first NaN, or the deepest.
+template <class At>
+void book_depth(Row<At> row, double depth, BlockSums& sums) {
+  if (depth <= sums.depth || std::isnan(sums.depth)) return;
+  sums.depth = depth;
+  sums.deepest = row.value;
+}
+
+// The sums of a block while it is looked at: lane by lane, and added up at its end.
+struct LaneSums {
+  Lane energy{}, friction_work{}, damping_work{};
+  BlockSums block;  // the other numbers
+
+  // Of the candidates of two that touch (bit 0, bit 1).
+  [[gnu::always_inline]] void add(const PointForces& f, unsigned touching) {
+    const LaneMask touch = LaneMask::of(entry(lanes_of_halves, touching));
+    energy += select(touch, f.energy, Lane{});
+    friction_work += select(touch, f.friction_work, Lane{});
+    damping_work += select(touch, f.damping_work, Lane{});
+  }
+  template <class At>
+  [[gnu::always_inline]] void add_depth(const TwoCandidates<At>& two, unsigned touching,
+                                        const Lane& depth) {
+    const LaneMask touch = LaneMask::of(entry(lanes_of_halves, touching));
+    const bool deeper = any(touch & ~(depth <= block.depth));
+    for (int half = 0; half < 2; ++half) {
+      if ((touching >> half & 1) == 0) continue;
+      block.touching += 1;
+      if (deeper) book_depth(entry(two, half), greatest_of_half(depth, half), block);
+    }
+  }
+  BlockSums added_up() const {
+    BlockSums sums = block;
+    const SumsOfHalves ab = sums_of_halves(energy, friction_work);
+    const SumsOfHalves c = sums_of_halves(damping_work, Lane{});
+    sums.energy = ab.a[0] + ab.a[1];
+    sums.friction_work = ab.b[0] + ab.b[1];
+    sums.damping_work = c.a[0] + c.a[1];
+    return sums;
+  }
+};
+
+}  // namespace pulvis

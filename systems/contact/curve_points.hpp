@@ -1,0 +1,42 @@
+// Points on contact curves, lane by lane (CurvePoint, components/contact.hpp, is one of them).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/entry.hpp"
+#include "systems/contact/two_candidates.hpp"
+
+namespace pulvis {
+
+struct CurvePoints {
+  // By their first control point, counted in their outline. As wide as what they are added to: addresses.
+  std::array<std::int64_t, lane_count> edge;
+  Lane u;
+
+  // The closest points that two candidates keep.
+  template <class Access, class At>
+  static CurvePoints of(const Access& closest, const TwoCandidates<At>& two) {
+    std::array<double, lane_count> number, u;
+    load_halves(&closest(two[0]).number, &closest(two[1]).number).store(number.data());
+    CurvePoints at;
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      at.edge[l] = static_cast<std::int64_t>(number[l]);
+      u[l] = number[l] - static_cast<double>(at.edge[l]);
+    }
+    at.u = Lane::load(u.data());
+    return at;
+  }
+  template <class Access, class At>
+  void keep(const Access& closest, const TwoCandidates<At>& two) const {
+    const Lane first = Lane::from([&](int l) { return static_cast<double>(entry(edge, l)); });
+    const Lane number = first + min(u, CurvePoint::last_u);
+    for (int half = 0; half < 2; ++half)
+      store_half(number, half, &closest(entry(two, half)).number);
+  }
+};
+
+static_assert(sizeof(PackedCurvePoint) ==
+              sizeof(double));  // four of a candidate lie like four doubles
+
+}  // namespace pulvis

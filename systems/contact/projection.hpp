@@ -1,0 +1,143 @@
+// Projection: where the Gauss points of two candidates stand and how they move against the curves of other outlines.
+//
+// Method   Newton's for (x_s - x_m) . x_m' = 0, from where the point was closest before; a step goes over one edge at
+//          most, on to the next edge or to a corner
+// Lanes    every point stops by itself, so that none depends on the others
+#pragma once
+
+#include <algorithm>
+
+#include "components/shape.hpp"
+#include "systems/contact/curve_points.hpp"
+#include "systems/contact/two_candidates.hpp"
+
+namespace pulvis {
+
+// The curves of the other outlines as the search walks them, of both candidates.
+struct OtherCurves {
+  std::array<int, 2> slot;
+  std::array<std::int32_t, 2> first;  // control point of the outline
+  const double* position;             // of all control points
+  const double* velocity;             // null where the scene needs none
+};
+
+struct CurveLanes {
+  kernels::Cubic<Lane> x, y;
+};
+
+// Functions of two candidates that are inline in the loop over all: what they pass stays in registers then.
+[[gnu::always_inline, gnu::flatten]] inline CurveLanes gather(const OtherCurves& other,
+                                                              const double* points,
+                                                              const CurvePoints& at) {
+  const std::array<const double*, 2> outline{points + 2 * other.first[0],
+                                             points + 2 * other.first[1]};
+  std::array<const double*, lane_count> control;
+  for (std::size_t l = 0; l < lane_count; ++l)
+    control[l] = outline[l / edge_points] + 2 * at.edge[l];
+  const auto y = columns_of(control);
+  return {kernels::cubic(y[0], y[2], y[4], y[6]), kernels::cubic(y[1], y[3], y[5], y[7])};
+}
+
+inline int edge_number(const Shape& shape, std::int64_t first_control) {
+  return entry(shape.edge_from, first_control);
+}
+
+// Points that leave their edge go on in the next one, or stop at a corner. Returns the lanes that stand
+// where they stood, at a corner.
+inline unsigned cross_edges(const Bodies& bodies, const OtherCurves& other, const Lane& before,
+                            CurvePoints& at) {
+  std::array<double, lane_count> u, u_before;
+  at.u.store(u.data());
+  before.store(u_before.data());
+  unsigned stay = 0;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    if (u[l] >= 0 && u[l] <= 1) continue;
+    const Shape& shape = bodies.shape_of_slot(other.slot[l / edge_points]);
+    const Shape::Edge& edge = entry(shape.edges, edge_number(shape, at.edge[l]));
+    const bool forward = u[l] > 1;
+    const int neighbour = forward ? edge.next : edge.previous;
+    if (neighbour == Shape::no_edge) {
+      u[l] = forward ? 1 : 0;
+      if (u[l] == u_before[l]) stay |= 1U << l;
+    } else {
+      at.edge[l] = entry(shape.edges, neighbour).first_control;
+      u[l] = std::clamp(u[l] + (forward ? -1 : 1), 0.0, 1.0);
+    }
+  }
+  at.u = Lane::load(u.data());
+  return stay;
+}
+
+struct Projection {
+  static constexpr int max_steps = 41;
+  // Of an edge. A Newton step that short leaves about its square, and the gap is exact to the square of that. (With
+  // 1e-5 the normals carry so much round-off on that micrometres and metres part by more than 1e-9;
+  // docs/performance.md.)
+  static constexpr double step_tolerance = 2e-6;
+
+  OtherCurves other;
+  PointLanes points;
+  CurvePoints at;
+  CurveLanes curve;
+  Lane rx, ry;          // from the curve to the point, m
+  unsigned beyond = 0;  // lanes closest to a corner, from outside its edge
+  unsigned done = 0;    // lanes that stand
+
+  unsigned unconverged() const { return ~done & all_lanes; }
+
+  [[gnu::always_inline]] void offset() {
+    rx = points.x - curve.x.value(at.u);
+    ry = points.y - curve.y.value(at.u);
+  }
+  [[gnu::always_inline]] void step(const Bodies& bodies) {
+    offset();
+    const Lane full_step =
+        kernels::closest_point_step(rx, ry, curve.x.slope(at.u), curve.y.slope(at.u),
+                                    curve.x.curvature(at.u), curve.y.curvature(at.u));
+    const Lane du = min(max(full_step, -1.0), 1.0);
+    const Lane before = at.u;
+    at.u = select(LaneMask::of(done), before, before + du);
+    done |= (abs(du) < step_tolerance).bits();
+    if (any((at.u < 0.0) | (at.u > 1.0))) cross(bodies, before);
+  }
+  // Seldom: outside the loop of Newton steps.
+  [[gnu::noinline]] void cross(const Bodies& bodies, const Lane& before) {
+    beyond |= cross_edges(bodies, other, before, at);
+    done |= beyond;
+    curve = gather(other, other.position, at);
+  }
+};
+
+// All of them to the end, side by side.
+template <class... Projections>
+[[gnu::always_inline]] inline void project(const Bodies& bodies, Projections&... all) {
+  for (int step = 0; (all.done & ...) != all_lanes && step < Projection::max_steps; ++step)
+    (all.step(bodies), ...);
+  (all.offset(), ...);
+}
+
+// How the points move against the curves; both rates vanish in a common rigid motion. Past a corner a point is outside
+// the other body.
+[[gnu::always_inline, gnu::flatten]] inline PointMotion motion_of(const Projection& p,
+                                                                  const PointLanes& velocity) {
+  const Lane sx = p.curve.x.slope(p.at.u), sy = p.curve.y.slope(p.at.u);
+  const Lane inv_length = 1.0 / sqrt(fma(sx, sx, sy * sy));
+  PointMotion m;
+  m.inv_slope = inv_length;
+  m.nx = sy * inv_length;
+  m.ny = -sx * inv_length;
+  m.gap = -fma(p.rx, m.nx, p.ry * m.ny);
+  if (p.other.velocity != nullptr) {
+    const CurveLanes v = gather(p.other, p.other.velocity, p.at);
+    const Lane wx = velocity.x - v.x.value(p.at.u), wy = velocity.y - v.y.value(p.at.u);
+    const Lane turn = fma(v.x.slope(p.at.u), m.nx, v.y.slope(p.at.u) * m.ny) * inv_length;
+    m.gap_rate = -fma(wx, m.nx, wy * m.ny);
+    m.slip_rate = fma(wy, m.nx, -(wx * m.ny)) - m.gap * turn;
+  } else {
+    m.gap_rate = m.slip_rate = Lane{};
+  }
+  m.gap = select(LaneMask::of(p.beyond), -1.0, m.gap);
+  return m;
+}
+
+}  // namespace pulvis

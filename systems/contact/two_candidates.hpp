@@ -1,0 +1,86 @@
+// Two candidates worked on at once, four Gauss points each: what the stages of a narrow phase hand on.
+//
+//   active_pairs.hpp   which candidates may touch in this step
+//   projection.hpp     where their points stand against the other surface (tools: tools/tool_projection.hpp)
+//   own_outline.hpp    which of them see their own body
+//   contact_law.hpp    what they bear: pressure, damping, friction
+//   contact_sums.hpp   the books of a block
+//   assembly.hpp       from the points to the nodes (contact_force)
+#pragma once
+
+#include <array>
+
+#include "components/contact.hpp"
+#include "engine/lane_memory.hpp"
+#include "systems/contact/contact_kernel.hpp"
+
+namespace pulvis {
+
+// The lanes of the one, then those of the other. The same candidate twice where one is left over.
+template <class At>
+using TwoCandidates = std::array<Row<At>, 2>;
+template <class At>
+int count_of(const TwoCandidates<At>& two) {
+  return two[0] == two[1] ? 1 : 2;
+}
+
+inline constexpr unsigned all_lanes = (1U << lane_count) - 1;
+// Bits of the points of one candidate, of the lanes of both.
+constexpr unsigned half_of(unsigned bits, int half) { return bits >> (half * edge_points) & 15; }
+inline constexpr std::array<unsigned, 4> lanes_of_halves{0x00, 0x0f, 0xf0, 0xff};
+
+// The numbers of a candidate at its four points, of both.
+template <class Access, class At>
+Lane at_points(const Access& column, const TwoCandidates<At>& two, int first = 0) {
+  return load_halves(&column(two[0], first), &column(two[1], first));
+}
+// A number of a candidate, of both.
+template <class Access, class At>
+Lane at_candidates(const Access& column, const TwoCandidates<At>& two, int number) {
+  return halves(column(two[0], number), column(two[1], number));
+}
+
+struct PointLanes {
+  Lane x, y;
+};
+
+inline constexpr auto basis_at_points = [] {
+  std::array<std::array<double, lane_count>, 4> n{};  // [control point][Gauss point of both]
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const auto all = kernels::basis(kernels::edge_u[l % edge_points]);
+    for (std::size_t a = 0; a < 4; ++a) n[a][l] = all[a];
+  }
+  return n;
+}();
+
+// The Gauss points of two edges from their four control points each, which lie one after the other.
+inline PointLanes edge_points_at(const double* low, const double* high) {
+  PointLanes p{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    const Lane n = Lane::load(basis_at_points[a].data());
+    p.x = fma(n, halves(low[2 * a], high[2 * a]), p.x);
+    p.y = fma(n, halves(low[2 * a + 1], high[2 * a + 1]), p.y);
+  }
+  return p;
+}
+
+// What a projection finds: how the points stand and move against the other surface.
+struct PointMotion {
+  Lane gap;        // m, > 0 in penetration
+  Lane nx, ny;     // outward normal of the other surface
+  Lane gap_rate;   // m/s
+  Lane slip_rate;  // m/s, along t = (-ny, nx)
+  Lane inv_slope;  // 1/m, 1/|x'| of the other curve; where it has one
+};
+
+// What the law answers.
+struct PointForces {
+  Lane x, y;           // N, on the sampled edge
+  Lane along;          // N, of it friction, along t
+  Lane elastic_slip;   // m, new
+  Lane energy;         // J, stored
+  Lane friction_work;  // J, spent in this step
+  Lane damping_work;   // J, spent in this step
+};
+
+}  // namespace pulvis
