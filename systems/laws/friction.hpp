@@ -14,7 +14,7 @@ template <class T>
 struct Friction {
   T traction;      // Pa, on the sampled body along t
   T elastic_slip;  // m, new
-  T work;          // J/m^2, dissipated in this step, >= 0
+  T work;          // J/m^2, of this step: what the spring does not keep of the mean traction's
 };
 
 // ---- friction laws ------------------------------------------------------------------------------------
@@ -47,11 +47,11 @@ Friction<T> friction_return(T elastic_slip, T slip, T pressure, Law& law, T kapp
   const T trial = elastic_slip + slip;
   const T limit = law.strength(pressure) * inv_kappa;
   const T held = max(min(trial, limit), -limit);
-  // Mean traction of the step times what slipped: what the spring does not keep. (A reversal over the
-  // whole limit within one step would make it negative.)
+  // Mean traction of the step times what slipped: with the spring's energy it is all of the mean traction's work on the
+  // slip. It is negative where the pressure falls while the slip reverses over the whole limit in one step.
   const T work = 0.5 * kappa * (elastic_slip + held) * (trial - held);
   law.slide(abs(trial - held));
-  return {-(kappa * held), held, max(work, T{})};
+  return {-(kappa * held), held, work};
 }
 
 }  // namespace pulvis::kernels

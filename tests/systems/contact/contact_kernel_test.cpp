@@ -173,19 +173,37 @@ Friction<T> coulomb_return(T elastic_slip, T slip, T pressure, T mu, T kappa, T 
   return friction_return(elastic_slip, slip, pressure, law, kappa, inv_kappa);
 }
 
-TEST(CoulombReturn, TractionStaysInTheConeAndWorkIsNeverGiven) {
+// What the mean traction does is stored or spent, whatever the pressure does meanwhile; nothing is given back while
+// that does not fall.
+TEST(CoulombReturn, TractionStaysInTheConeAndItsWorkIsBookedWhole) {
   Random random(4);
   const double mu = 0.3, kappa = 3e15;
-  double slip = 0, spent = 0;
+  double stretch = 0, spent = 0, before = 0;
+  int given = 0;
   for (int i = 0; i < 10000; ++i) {
-    const double pressure = std::max(random.in(-1e8, 1e9), 0.0);
-    const auto f = coulomb_return(slip, random.in(-2e-7, 2e-7), pressure, mu, kappa, 1 / kappa);
+    const double pressure = std::max(random.in(-1e8, 1e9), 0.0), slip = random.in(-2e-7, 2e-7);
+    const auto f = coulomb_return(stretch, slip, pressure, mu, kappa, 1 / kappa);
     ASSERT_LE(std::abs(f.traction), mu * pressure * (1 + round_off));
-    ASSERT_GE(f.work, 0);
-    slip = f.elastic_slip;
+    const double stored = 0.5 * kappa * (f.elastic_slip * f.elastic_slip - stretch * stretch);
+    const double done = 0.5 * kappa * (stretch + f.elastic_slip) * slip;
+    ASSERT_NEAR(stored + f.work, done, 1e-14 * kappa * 4e-14);  // of the largest slip's square
+    if (pressure >= before) {
+      ASSERT_GE(f.work, 0);
+    }
+    if (f.work < 0) ++given;
+    stretch = f.elastic_slip, before = pressure;
     spent += f.work;
   }
   EXPECT_GT(spent, 0);
+  EXPECT_GT(given, 0);
+}
+
+TEST(CoulombReturn, BooksWhatAReversalUnderFallingPressureGives) {
+  const double mu = 0.3, kappa = 3e15, p = 1e9, limit = mu * p / kappa;
+  // From one limit over the other, which has fallen to a half: mean stretch limit/4 on the way, 3/2 limit back.
+  const auto f = coulomb_return(limit, -3 * limit, 0.5 * p, mu, kappa, 1 / kappa);
+  EXPECT_DOUBLE_EQ(f.elastic_slip, -0.5 * limit);
+  EXPECT_DOUBLE_EQ(f.work, -0.375 * kappa * limit * limit);
 }
 
 TEST(CoulombReturn, PullsAgainstTheSlip) {
