@@ -69,7 +69,9 @@ std::int64_t peak_memory() {
 }
 
 Json limits_json(const LimitSpec& limits) {
-  Json json{{"energy_balance", limits.energy_balance}, {"penetration", limits.penetration}};
+  Json json{{"energy_balance", limits.energy_balance},
+            {"penetration", limits.penetration},
+            {"unconverged_projections", limits.unconverged_projections}};
   if (limits.kinetic_energy) json["kinetic_energy"] = *limits.kinetic_energy;
   return json;
 }
@@ -83,7 +85,7 @@ void add_figures(Json& json, const Results& results) {
     if (results.has(name)) json[name] = results.value(name);
 }
 
-void add_quality(Json& json, const RunQuality& quality) {
+void add_quality(Json& json, const World& world, const RunQuality& quality) {
   const ContactFindings& found = quality.contacts;
   Json contacts{{"narrow_share", found.narrow_share}};
   if (found.narrow_share > 0) {
@@ -91,6 +93,10 @@ void add_quality(Json& json, const RunQuality& quality) {
     contacts["edge_to_do"] = found.edge_to_do;
   }
   if (found.force_error) contacts["force_error"] = *found.force_error;
+  const Totals& totals = world.resource<Totals>();
+  contacts["projections"] = totals.projections;
+  contacts["unconverged_projections"] = totals.unconverged;
+  contacts["unconverged_share"] = totals.unconverged_share();
   json["contact_quality"] = contacts;
   for (const std::string& line : quality.warnings) json["warnings"].push_back(line);
 }
@@ -155,7 +161,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"peak_memory_bytes", peak_memory()},
             {"thickness", scene.thickness}};
   add_figures(json, results);
-  add_quality(json, quality);
+  add_quality(json, world, quality);
   json["limits"] = limits_json(scene.limits);
   json["tools"] = tools_json(scene, world);
   json["materials"] = materials_json(scene);

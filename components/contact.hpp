@@ -150,16 +150,20 @@ struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
 inline constexpr int rows_of_a_block = 128;
 
 struct alignas(64) BlockSums {
-  double energy = 0;          // J, stored in the contact springs
-  double friction_work = 0;   // J, spent in sliding in the last step
-  double damping_work = 0;    // J, spent by contact damping in the last step
-  double depth = 0;           // -, largest penetration over edge length; NaN where one is
-  std::int32_t deepest = -1;  // its row; none where nothing touches
-  std::int32_t touching = 0;  // rows with a touching point
+  double energy = 0;                    // J, stored in the contact springs
+  double friction_work = 0;             // J, spent in sliding in the last step
+  double damping_work = 0;              // J, spent by contact damping in the last step
+  double depth = 0;                     // -, largest penetration over edge length; NaN where one is
+  std::int32_t deepest = -1;            // its row; none where nothing touches
+  std::int32_t touching = 0;            // rows with a touching point
+  std::int32_t projections = 0;         // closest points looked for
+  std::int32_t unconverged = 0;         // of them, not found
+  std::int32_t first_unconverged = -1;  // the row of the first of them
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(energy, friction_work, damping_work, depth, deepest, touching);
+    bytes(energy, friction_work, damping_work, depth, deepest, touching, projections, unconverged,
+          first_unconverged);
   }
 };
 

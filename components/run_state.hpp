@@ -1,6 +1,7 @@
 // Resources that change over a run, and the rules of contact and tools that the scene set.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -80,10 +81,11 @@ struct ToolProgram {
 struct ContactRules {
   static constexpr const char* resource_name = "contact_rules";
   static constexpr bool fixed = true;
-  double stiffness = 1;            // -, k of kappa = k K L/A
-  double damping = 0;              // -, share of critical
-  double penetration_limit = 0.5;  // -, of the edge length
-  double shortest_edge = 0;        // m
+  double stiffness = 1;             // -, k of kappa = k K L/A
+  double damping = 0;               // -, share of critical
+  double penetration_limit = 0.5;   // -, of the edge length
+  double unconverged_limit = 1e-3;  // -, share of the closest points
+  double shortest_edge = 0;         // m
   // m: least width of an element and of a tool's ridge. What is thinner than a step's displacement can be passed unseen.
   double thinnest = std::numeric_limits<double>::infinity();
   std::vector<double> tool_thickness;  // m, [tools]: of thin ridges; infinite where there are none
@@ -152,11 +154,20 @@ struct Totals {
   double worst_penetration = 0;  // -, the same, of the run
   double min_jacobian = 1;       // -, smallest det F of the run
   std::int64_t touching = 0;     // rows with a touching point now
+  std::int64_t projections = 0;  // closest points looked for in the run
+  std::int64_t unconverged = 0;  // of them, not found
+
+  // Share of the closest points that were not found: of the run, or of ten thousand where it has had fewer, so that
+  // one of the first few is no tenth of them.
+  double unconverged_share() const {
+    return static_cast<double>(unconverged) /
+           static_cast<double>(std::max<std::int64_t>(projections, 10000));
+  }
 
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(external_work, largest_work, friction_work, damping_work, damping_power, contact_energy,
-          penetration, worst_penetration, min_jacobian, touching);
+          penetration, worst_penetration, min_jacobian, touching, projections, unconverged);
   }
 };
 

@@ -154,6 +154,8 @@ function qualityFigures(run) {
      meaning: "largest energy of bending inside the elements, plastic work included, of the largest internal energy"},
     {name: "Penetration", value: most("penetration"), limit: limits.penetration,
      meaning: "deepest overlap of two surfaces, of the length of a boundary edge"},
+    {name: "Unconverged projections", value: contacts.unconverged_share, limit: limits.unconverged_projections,
+     meaning: "share of the closest points of contacting outlines that were not found"},
     {name: "Force lost to penetration", value: -contacts.force_error, limit: 0.05,
      meaning: "by how much the largest force is too low because surfaces sink into each other"},
     {name: "Narrow contacts", value: contacts.narrow_share, limit: 0.1,

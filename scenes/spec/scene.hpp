@@ -311,9 +311,10 @@ struct OutputSpec {
   bool stresses() const { return particle_stress || contacts; }  // force chains need them
 };
 
-struct LimitSpec {               // health: a run that passes one of these stops
-  double energy_balance = 0.05;  // -, |balance| / largest energy of the run
-  double penetration = 0.5;      // -, penetration / boundary edge length
+struct LimitSpec {                        // health: a run that passes one of these stops
+  double energy_balance = 0.05;           // -, |balance| / largest energy of the run
+  double penetration = 0.5;               // -, penetration / boundary edge length
+  double unconverged_projections = 1e-3;  // -, share of the closest points of contact
   std::optional<double>
       kinetic_energy;  // -, kinetic / internal energy, where the scene asks for quasi-statics
 };

@@ -23,6 +23,7 @@ ContactRules contact_rules(const Scene& scene) {
   rules.stiffness = scene.contact.stiffness;
   rules.damping = scene.contact.damping;
   rules.penetration_limit = scene.limits.penetration;
+  rules.unconverged_limit = scene.limits.unconverged_projections;
   rules.materials = static_cast<int>(scene.materials.size());
   for (const MaterialSpec& a : scene.materials)
     for (const MaterialSpec& b : scene.materials)

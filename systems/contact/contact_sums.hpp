@@ -1,6 +1,7 @@
 // Books of a narrow phase: what the candidates of a block store, spend and count.
 #pragma once
 
+#include <bit>
 #include <cmath>
 
 #include "systems/contact/two_candidates.hpp"
@@ -13,6 +14,23 @@ void book_depth(Row<At> row, double depth, BlockSums& sums) {
   if (depth <= sums.depth || std::isnan(sums.depth)) return;
   sums.depth = depth;
   sums.deepest = row.value;
+}
+
+// Books the projection of two candidates: `unconverged`, the lanes whose closest point was not found.
+template <class At>
+[[gnu::noinline, gnu::cold]] void book_unconverged(const TwoCandidates<At>& two,
+                                                   unsigned unconverged, BlockSums& sums) {
+  for (int half = 0; half < count_of(two); ++half) {
+    const int points = std::popcount(half_of(unconverged, half));
+    if (points > 0 && sums.unconverged == 0) sums.first_unconverged = entry(two, half).value;
+    sums.unconverged += points;
+  }
+}
+template <class At>
+[[gnu::always_inline]] inline void book_projection(const TwoCandidates<At>& two,
+                                                   unsigned unconverged, BlockSums& sums) {
+  sums.projections += edge_points * count_of(two);
+  if (unconverged != 0) book_unconverged(two, unconverged, sums);
 }
 
 // The sums of a block while it is looked at: lane by lane, and added up at its end.

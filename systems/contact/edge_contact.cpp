@@ -87,6 +87,7 @@ struct EdgePass {
   // ---- law and books
   [[gnu::always_inline]] void resolve(const Two& two, const Projection& p, LaneSums& sums) const {
     p.at.keep(s.closest, two);
+    book_projection(two, p.unconverged(), sums.block);
     PointMotion motion = motion_of(p, rates != nullptr ? sampled_edges(rates, two) : PointLanes{});
     const unsigned touching = find_touching(two, p, motion);
     if (touching == 0) return;

@@ -21,6 +21,7 @@ struct Press {
   double duration = 20;  // ms
   double friction = 0;
   double stiffness = 10;
+  double unconverged = 1e-3;  // limits.unconverged_projections
 };
 
 std::string number(double value) { return std::to_string(value); }
@@ -41,7 +42,8 @@ Experiment pressed(const Press& press) {
       "\nfriction = " + number(press.friction) +
       "\n\n[[stage]]\nname = \"press\"\nkind = \"compact\"\nduration = \"" +
       number(press.duration) + " ms\"\n[[stage.move]]\ntool = \"right\"\ndisplacement = [\"-" +
-      number(press.way) + " mm\", \"0 mm\"]\nramp = 0.3\n";
+      number(press.way) + " mm\", \"0 mm\"]\nramp = 0.3\n\n[limits]\nunconverged_projections = " +
+      number(press.unconverged) + "\n";
   return Experiment(load_scene_text(text, "pressed.toml").scene);
 }
 
@@ -155,6 +157,15 @@ TEST(SelfContact, ArmsOfAStarPressOnEachOther) {
                           .duration = 8});
   e.run(20, [&] { EXPECT_LT(deepest_swap(outline(e)), 0.15e-3); });
   EXPECT_LT(e.results.energy_balance_error(), 1e-3);
+}
+
+// As the notch begins to close, one point in a million swings between two that are as near to it.
+TEST(SelfContact, StopsWhereNoClosestPointMayBeMissed) {
+  Experiment e = pressed({.particle = notched(120), .friction = 0.3, .unconverged = 0});
+  EXPECT_THAT(run(e),
+              ContainsRegex("^edge_contact: particle 0, edge [0-9]+ against particle 0: the "
+                            "closest point was not found in 41 steps .* as for 1 of [0-9]+ "
+                            "points so far.*allowed 0 .limits.unconverged_projections"));
 }
 
 // Nothing touches in the hole: its faces would go through each other.

@@ -1,9 +1,11 @@
 // Contact between two deformable particles: forces from an energy, momentum, patch test.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
+#include "engine/run_failure.hpp"
 #include "scenes/build.hpp"
 #include "systems/body/systems.hpp"
 #include "systems/contact/systems.hpp"
@@ -69,6 +71,71 @@ TEST(Contact, EveryTouchingRowIsCountedOnce) {
     if (rows % 2 != 0 && touches.values()[rows - 1] != 0) ++left_over_and_touching;
   }
   EXPECT_GT(left_over_and_touching, 0);
+}
+
+// Closest points that are put on the far side of an outline of 200 edges are farther away than the search goes.
+class LostPoints {
+ public:
+  explicit LostPoints(double limit) {
+    Scene scene = two_discs(10e-3, 0);
+    scene.particles[0].mesh = DiscMesh{200, 1, 1};
+    scene.limits.unconverged_projections = limit;
+    scene.limits.penetration = 1e6;  // what is not found may look deep
+    world = build_world(scene);
+    Contacts(*world).update();
+    auto& closest = world->column<ClosestPoint>();
+    for (std::size_t r = 0; r < closest.table.rows; ++r)
+      for (std::size_t g = 0; g < edge_points; ++g) {
+        PackedCurvePoint& point = closest.values()[edge_points * r + g];
+        point = CurvePoint{(point.unpacked().edge + 100) % 200, 0.5}.packed();
+      }
+    for (System& system : step_list(*world).forces)
+      if (system.name == "edge_contact" || system.name == "contact_totals" ||
+          system.name == "contact_health")
+        step_.push_back(std::move(system));
+  }
+  const Totals& look() {
+    std::fill_n(world->column<ContactReach<Contact>>().values(),
+                world->column<ContactReach<Contact>>().table.rows, 0.0);
+    TaskGraph(step_, world->chunks()).run();
+    return world->resource<Totals>();
+  }
+  std::unique_ptr<World> world;
+
+ private:
+  std::vector<System> step_;
+};
+
+TEST(Contact, CountsTheClosestPointsThatItDoesNotFind) {
+  LostPoints lost(1);
+  const auto points = static_cast<std::int64_t>(4 * lost.world->column<ClosestPoint>().table.rows);
+  const Totals before = lost.world->resource<Totals>();
+  EXPECT_EQ(before.projections, points);
+  EXPECT_EQ(before.unconverged, 0);
+  const Totals first = lost.look();
+  EXPECT_EQ(first.projections, 2 * points);
+  EXPECT_GT(first.unconverged, points / 2);
+  EXPECT_EQ(first.unconverged_share(), static_cast<double>(first.unconverged) / 10000);
+  // The search goes on from where it stopped, and comes round in the third step.
+  lost.look();
+  const std::int64_t second = lost.look().unconverged;
+  EXPECT_EQ(lost.look().unconverged, second);
+}
+
+TEST(Contact, StopsWhereTooManyClosestPointsAreNotFound) {
+  LostPoints lost(1e-3);
+  try {
+    lost.look();
+    FAIL() << "went on";
+  } catch (const RunFailure& failure) {
+    EXPECT_THAT(
+        failure.what(),
+        ::testing::MatchesRegex(
+            "edge_contact: particle [01], edge [0-9]+ against particle [01]: the closest "
+            "point was not found in 41 steps of Newton's method, at step 0, t = 0 s, as for "
+            "[0-9]+ of [0-9]+ points so far, a share of 0.0[0-9]+; allowed 0.001 "
+            "\\(limits.unconverged_projections; a finer mesh may help\\)"));
+  }
 }
 
 TEST(Contact, ForceIsMinusTheGradientOfTheEnergy) {
