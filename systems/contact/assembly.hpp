@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "components/contact.hpp"
 #include "components/shape.hpp"
 #include "engine/lane_memory.hpp"
 #include "systems/contact/contact_kernel.hpp"

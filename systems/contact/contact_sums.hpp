@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/entry.hpp"
 #include "systems/contact/two_candidates.hpp"
 
 namespace pulvis {
