@@ -39,16 +39,16 @@ std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin,
   std::vector<std::int32_t> source(now.all.size(), -1);
   if (before_begin.empty()) return source;
   for_slots(static_cast<int>(now.begin.size()) - 1, [&](int slot) {
-    const auto s = static_cast<std::size_t>(slot);
-    std::int32_t b = before_begin[s];
+    std::int32_t b = entry(before_begin, slot);
+    const std::int32_t end = entry(before_begin, slot + 1);
     const auto old_key = [&] {
       const Row<At> row(b);
       return RowKey{before(row, 0), before(row, 1), before(row, 2)};
     };
-    for (auto n = now.begin[s]; n < now.begin[s + 1]; ++n) {
+    for (auto n = entry(now.begin, slot); n < entry(now.begin, slot + 1); ++n) {
       const RowKey key = key_of(entry(now.all, n));
-      while (b < before_begin[s + 1] && old_key() < key) ++b;
-      if (b < before_begin[s + 1] && old_key() == key) entry(source, n) = b;
+      while (b < end && old_key() < key) ++b;
+      if (b < end && old_key() == key) entry(source, n) = b;
     }
   });
   return source;
@@ -58,7 +58,7 @@ std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin,
 void list_other_rows(const BySlot<EdgeCandidate>& rows, ContactIndex& index) {
   std::vector<std::int32_t>& begin = index.other_begin;
   begin.assign(rows.begin.size(), 0);
-  for (const EdgeCandidate& c : rows.all) begin[static_cast<std::size_t>(c.other) + 1] += 1;
+  for (const EdgeCandidate& c : rows.all) entry(begin, c.other + 1) += 1;
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<std::int32_t> next = begin;
   index.other_rows.resize(rows.all.size());
@@ -98,10 +98,9 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
 // on its mirror image feels what it feels on a rigid plane. Not with the edge that happens to be nearest: a kappa that changed while two bodies slide would make or eat energy.
 double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, const Bodies& bodies,
                       const RowKey& key) {
-  const auto slot = static_cast<std::size_t>(key.slot), other = static_cast<std::size_t>(key.other);
   const Shape& shape = bodies.shape_of_slot(key.slot);
-  const double a = bulk[slot] * entry(shape.edges, key.edge).stiffness;
-  const double b = bulk[other] * bodies.shape_of_slot(key.other).mean_edge_stiffness;
+  const double a = entry(bulk, key.slot) * entry(shape.edges, key.edge).stiffness;
+  const double b = entry(bulk, key.other) * bodies.shape_of_slot(key.other).mean_edge_stiffness;
   return rules.stiffness * a * b / (a + b);
 }
 
@@ -118,18 +117,16 @@ BySlot<EdgeCandidate> with_touching_folds(const std::vector<std::int32_t>& befor
                                           const BySlot<EdgeCandidate>& found) {
   return list_by_slot<EdgeCandidate>(
       static_cast<int>(found.begin.size()) - 1, [&](int slot, std::vector<EdgeCandidate>& list) {
-        const auto s = static_cast<std::size_t>(slot);
-        auto n = found.begin[s];
+        auto n = entry(found.begin, slot);
         const auto copy_below = [&](const RowKey* key) {
-          for (; n < found.begin[s + 1]; ++n) {
+          for (; n < entry(found.begin, slot + 1); ++n) {
             const EdgeCandidate& c = entry(found.all, n);
             if (key != nullptr && !(key_of(c) < *key)) return key_of(c) == *key;
             list.push_back(c);
           }
           return false;
         };
-        for (auto b = before_begin[s]; b < before_begin[s + 1]; ++b) {
-          const Row<Contact> row(b);
+        for (const Row<Contact> row : RowRange<Contact>::of(before_begin, slot)) {
           const RowKey key{before(row, 0), before(row, 1), before(row, 2)};
           if (key.slot != key.other || touches(row) == 0) continue;
           if (!copy_below(&key)) list.push_back({key.slot, key.edge, key.other, key.edge, false});
@@ -249,12 +246,11 @@ void bin_tool_edges::operator()() const {
   for (std::size_t r = 0; r < found.all.size(); ++r) {
     const Row<ToolContact> row(static_cast<std::int64_t>(r));
     const RowKey key = key_of(found.all[r]);
-    const auto slot = static_cast<std::size_t>(key.slot);
     const Shape::Edge& edge = entry(bodies->shape_of_slot(key.slot).edges, key.edge);
-    const double kappa = rules.stiffness * material.bulk.values()[slot] * edge.stiffness;
+    const double kappa = rules.stiffness * entry(material.bulk.values(), key.slot) * edge.stiffness;
     set_row(row, *bodies, key,
-            {kappa, rules.friction_with_tool(key.other, bodies->slots[slot].material),
-             damping_of(rules, kappa, material.density.values()[slot], edge)},
+            {kappa, rules.friction_with_tool(key.other, entry(bodies->slots, key.slot).material),
+             damping_of(rules, kappa, entry(material.density.values(), key.slot), edge)},
             rows);
     rows.reach(row) = 0;
     if (!range) continue;

@@ -47,11 +47,11 @@ class Grid {
       count_[k] = static_cast<int>(std::clamp((all.high[k] - all.low[k]) / size_ + 1, 1.0, 4096.0));
     }
     cell_begin_.assign(static_cast<std::size_t>(count_[0] * count_[1]) + 1, 0);
-    for (const int s : slots) cell_begin_[cell(entry(boxes, s)) + 1] += 1;
+    for (const int s : slots) entry(cell_begin_, cell(entry(boxes, s)) + 1) += 1;
     std::partial_sum(cell_begin_.begin(), cell_begin_.end(), cell_begin_.begin());
     members_.resize(slots.size());
     std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
-    for (const int s : slots) entry(members_, next[cell(entry(boxes, s))]++) = s;
+    for (const int s : slots) entry(members_, entry(next, cell(entry(boxes, s)))++) = s;
   }
 
   template <class Visit>
@@ -59,8 +59,9 @@ class Grid {
     const int cx = index(box, 0), cy = index(box, 1);
     for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, count_[1] - 1); ++y)
       for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, count_[0] - 1); ++x) {
-        const auto c = static_cast<std::size_t>(y * count_[0] + x);
-        for (int m = cell_begin_[c]; m < cell_begin_[c + 1]; ++m) visit(entry(members_, m));
+        const int c = y * count_[0] + x;
+        for (int m = entry(cell_begin_, c); m < entry(cell_begin_, c + 1); ++m)
+          visit(entry(members_, m));
       }
   }
 
@@ -69,9 +70,7 @@ class Grid {
     const double middle = 0.5 * (box.low[k] + box.high[k]);
     return static_cast<int>(std::clamp((middle - low_[k]) / size_, 0.0, count_[k] - 1.0));
   }
-  std::size_t cell(const Box& box) const {
-    return static_cast<std::size_t>(index(box, 1) * count_[0] + index(box, 0));
-  }
+  int cell(const Box& box) const { return index(box, 1) * count_[0] + index(box, 0); }
 
   double size_ = 0;
   double low_[2] = {0, 0};
@@ -222,11 +221,10 @@ class EdgeSearch {
   }
 
   std::vector<Other> others_of(int slot) const {
-    const auto s = static_cast<std::size_t>(slot);
-    const Box& own = boxes_.particle[s];
+    const Box& own = entry(boxes_.particle, slot);
     std::vector<Other> others;
-    for (auto k = neighbours_.begin[s]; k < neighbours_.begin[s + 1]; ++k) {
-      Other other{entry(neighbours_.all, k), {}};
+    for (const std::int32_t neighbour : neighbours_.of(slot)) {
+      Other other{neighbour, {}};
       if (!near(own, entry(boxes_.particle, other.slot), skin_)) continue;
       for (int e = 0; e < curves_.edges(other.slot); ++e)
         if (near(own, edge_box(other.slot, e), skin_)) other.edges.push_back(e);

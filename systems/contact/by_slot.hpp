@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "engine/entry.hpp"
@@ -17,6 +18,12 @@ template <class T>
 struct BySlot {
   std::vector<std::int32_t> begin;  // [slots + 1] into all
   std::vector<T> all;
+
+  std::span<const T> of(int slot) const {
+    return std::span(all).subspan(static_cast<std::size_t>(entry(begin, slot)),
+                                  static_cast<std::size_t>(count(slot)));
+  }
+  int count(int slot) const { return entry(begin, slot + 1) - entry(begin, slot); }
 };
 
 inline constexpr int slots_of_a_block = 32;  // a task each
@@ -46,8 +53,7 @@ BySlot<T> list_by_slot(int slots, const Find& find) {
     for (int slot = first; slot < last; ++slot) {
       const std::size_t before = mine.size();
       find(slot, mine);
-      list.begin[static_cast<std::size_t>(slot) + 1] =
-          static_cast<std::int32_t>(mine.size() - before);
+      entry(list.begin, slot + 1) = static_cast<std::int32_t>(mine.size() - before);
     }
   });
   std::partial_sum(list.begin.begin(), list.begin.end(), list.begin.begin());

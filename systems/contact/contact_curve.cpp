@@ -24,9 +24,7 @@ template <class... Nodes>
 std::array<ControlLanes, sizeof...(Nodes)> control_points(const Shape& shape, int c,
                                                           const Nodes&... nodes) {
   std::array<ControlLanes, sizeof...(Nodes)> y{};
-  for (std::int32_t t = entry(shape.curve_begin, c);
-       t < shape.curve_begin[static_cast<std::size_t>(c) + 1]; ++t) {
-    const Shape::CurveTerm& term = entry(shape.curve_terms, t);
+  for (const Shape::CurveTerm& term : shape.terms_of(c)) {
     const Row<Node> node(term.node.value);  // boundary nodes come first among the nodes
     std::size_t list = 0;
     ((y[list].x += term.weight * nodes(node, 0), y[list].y += term.weight * nodes(node, 1), ++list),

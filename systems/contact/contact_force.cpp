@@ -42,16 +42,15 @@ struct Ahead {
 };
 
 void add_as_sampled(const contact_force::Pairs& pairs, const ContactIndex& index, int slot,
-                    int first_control, const EdgeForces& own) {
+                    const BasisByPoint& by_point, int first_control, const EdgeForces& own) {
   for (const Row<Contact> row : index.sampled_by(slot))
     if (pairs.touching.rows.touches(row) != 0)
-      add_sampled(basis_by_point(), &pairs.touching.rows.force(row),
+      add_sampled(by_point, &pairs.touching.rows.force(row),
                   own.on(pairs.place(row, 0) - first_control));
 }
 
 void add_as_other(const contact_force::Pairs& pairs, const ContactIndex& index, int slot,
-                  const Ahead& ahead, const EdgeForces& own) {
-  const EdgeBasis& n = edge_basis();
+                  const EdgeBasis& n, const Ahead& ahead, const EdgeForces& own) {
   for (int k = entry(index.other_begin, slot); k < entry(index.other_begin, slot + 1); ++k) {
     ahead.others_after(k);
     const Row<Contact> row(entry(index.other_rows, k));
@@ -62,16 +61,18 @@ void add_as_other(const contact_force::Pairs& pairs, const ContactIndex& index, 
 }
 
 void add_of_tools(const TouchingRows<ToolContact>& tools, const ContactIndex& index, int slot,
-                  const Shape& shape, const EdgeForces& own) {
+                  const BasisByPoint& by_point, const Shape& shape, const EdgeForces& own) {
   for (const Row<ToolContact> row : index.with_tools(slot))
     if (tools.touches(row) != 0)
-      add_sampled(basis_by_point(), &tools.force(row),
+      add_sampled(by_point, &tools.force(row),
                   own.on(entry(shape.edges, tools.pair(row, 1)).first_control));
 }
 
 }  // namespace
 
 [[gnu::flatten]] void contact_force::operator()(Chunk chunk) const {
+  const BasisByPoint& by_point = basis_by_point();
+  const EdgeBasis& n = edge_basis();
   const Shape& shape = bodies->shape_of_chunk(chunk);
   double* all = &curve_force.chunk(chunk)(Row<ControlPoint>(0));
   const std::ptrdiff_t numbers = CurveForce::count * shape.control_points();  // of a particle
@@ -82,10 +83,10 @@ void add_of_tools(const TouchingRows<ToolContact>& tools, const ContactIndex& in
     if (pairs) {
       const Ahead ahead{*index, *pairs, index->other_rows.size() > rows_in_cache};
       ahead.sampled_by(slot + 1);
-      add_as_sampled(*pairs, *index, slot, entry(bodies->slots, slot).first_control, own);
-      add_as_other(*pairs, *index, slot, ahead, own);
+      add_as_sampled(*pairs, *index, slot, by_point, entry(bodies->slots, slot).first_control, own);
+      add_as_other(*pairs, *index, slot, n, ahead, own);
     }
-    if (tools) add_of_tools(*tools, *index, slot, shape, own);
+    if (tools) add_of_tools(*tools, *index, slot, by_point, shape, own);
   }
   to_nodes(shape, all, numbers, borne, node_force.chunk(chunk));
 }

@@ -55,8 +55,8 @@ class Boundary {
     add(outline);
     outline_ = chords_.size();
     if (hollows == nullptr) return;
-    const auto which = static_cast<std::size_t>(entry(bodies.slots, slot).shape);
-    for (const Hollows::Loop& loop : hollows->of_shape[which]) add(loop);
+    for (const Hollows::Loop& loop : entry(hollows->of_shape, entry(bodies.slots, slot).shape))
+      add(loop);
   }
 
   bool is_seen_from_middle() const { return seen_; }

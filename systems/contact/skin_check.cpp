@@ -80,16 +80,16 @@ double remaining_of_non_neighbours(const ContactIndex& index, const std::vector<
 
 double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMotion>& motion,
                           int slot) {
-  const auto s = static_cast<std::size_t>(slot);
   if (index.neighbour_begin.empty()) return 1e300;
+  const OutlineMotion& own = entry(motion, slot);
   double least = 1e300;
-  for (auto k = index.neighbour_begin[s]; k < index.neighbour_begin[s + 1]; ++k) {
-    const auto other = static_cast<std::size_t>(entry(index.neighbours, k));
-    if (other < s) continue;  // seen from there
-    const double allowed =
-        std::max(index.skin, kernels::gap(motion[s].before, motion[other].before));
-    least = std::min(
-        least, allowed - kernels::closing(motion[s].displacement, motion[other].displacement));
+  for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
+       ++k) {
+    const int other = entry(index.neighbours, k);
+    if (other < slot) continue;  // seen from there
+    const OutlineMotion& its = entry(motion, other);
+    const double allowed = std::max(index.skin, kernels::gap(own.before, its.before));
+    least = std::min(least, allowed - kernels::closing(own.displacement, its.displacement));
   }
   return least;
 }
@@ -129,10 +129,10 @@ void skin_check::operator()() const {
     std::vector<OutlineMotion> motion(bodies->slots.size());
     const auto& slots = bodies->slot_of_number;
     tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
-      const auto s = static_cast<std::size_t>(slots[i]);
-      const std::size_t first = 2 * static_cast<std::size_t>(bodies->slots[s].first_control);
-      motion[s] = motion_of(before.values().data() + first, control.values().data() + first,
-                            bodies->shape_of_slot(slots[i]).control_points());
+      const int first = 2 * entry(bodies->slots, slots[i]).first_control;
+      entry(motion, slots[i]) =
+          motion_of(before.values().data() + first, control.values().data() + first,
+                    bodies->shape_of_slot(slots[i]).control_points());
     });
     double left = remaining_of_non_neighbours(*index, slots, motion);
     left = std::min(left, min_of_slots(slots, [&](int slot) {
