@@ -37,14 +37,14 @@ std::filesystem::path folder_of(const RunOptions& options) {
 
 // Where to look first when the energies say that something is wrong: the most distorted element.
 std::string worst_element(const World& world) {
-  const double* least = world.column<MinJacobian>().values();
+  const double* minimum = world.column<MinJacobian>().values();
   const double* element = world.column<WorstElement>().values();
   int slot = world.resource<Bodies>().slot_of_number.front();
   for (const int s : world.resource<Bodies>().slot_of_number)
-    if (!(least[s] >= least[slot])) slot = s;
+    if (!(minimum[s] >= minimum[slot])) slot = s;
   return fmt::format("most distorted: particle {}, element {}, det F = {:.4g}",
                      world.resource<Bodies>().slots[static_cast<std::size_t>(slot)].number,
-                     static_cast<int>(element[slot]), least[slot]);
+                     static_cast<int>(element[slot]), minimum[slot]);
 }
 
 // Quality that the scene set limits for, looked at on every sample, the last one too: the figures of the summary.

@@ -1,5 +1,5 @@
-// Columns of contact: the smooth curves of the outlines, tools, and the rows where they may touch.
-// A contact row is one boundary edge of a particle (the sampled side, four Gauss points) against one
+// Columns of contact: the smooth curves of the outlines, tools, and the candidates, where they may touch.
+// A candidate is one boundary edge of a particle (the sampled side, four Gauss points) against one
 // other particle or tool. Both particles of a pair sample each other: the contact is unbiased.
 #pragma once
 
@@ -24,8 +24,7 @@ struct CurveVelocity : Component<ControlPoint, double, 2> {
 };
 
 struct CurveBefore : Component<ControlPoint, double, 2> {
-  static constexpr ComponentInfo info{"before", "m",
-                                      "where it was when the contact rows were made"};
+  static constexpr ComponentInfo info{"before", "m", "where it was when the candidates were made"};
 };
 
 struct CurveForce : Component<ControlPoint, double, 8> {
@@ -49,23 +48,24 @@ struct ToolForce : Component<Tool, double, 2> {
   static constexpr ComponentInfo info{"force", "N", "of the particles, on the tool"};
 };
 
-// ---- contact rows: the same columns for both kinds of contact ------------------------------------
+// ---- candidates: the same columns for both kinds of contact ------------------------------------
 template <class At>
 struct ContactPair : Component<At, std::int32_t, 3> {
   static constexpr ComponentInfo info{"pair", "-",
                                       "stable key: particle slot, its edge, other slot or tool"};
 };
-// A byte a row: those who look for the few rows that touch pass over many.
+// A byte each: those who look for the few that touch pass over many.
 template <class At>
 struct ContactTouches : Component<At, std::uint8_t, 1> {
-  static constexpr ComponentInfo info{"touches", "-", "1 where a point of the row touches, or 0"};
+  static constexpr ComponentInfo info{"touches", "-",
+                                      "1 where a point of the candidate touches, or 0"};
 };
 template <class At>
-struct ContactReach : Component<At, double, 1> {
-  static constexpr ComponentInfo info{"reach", "m",
-                                      "travel at which the row must be looked at again"};
+struct ActivationTravel : Component<At, double, 1> {
+  static constexpr ComponentInfo info{
+      "activation", "m", "travel of the surfaces from which on the candidate is active again"};
 };
-// What the broad phase sets and the narrow phase reads, all of it at once: one cache line of a row.
+// What the broad phase sets and the narrow phase reads, all of it at once: one cache line of a candidate.
 template <class At>
 struct ContactLaw : Component<At, double, 4 + edge_points> {
   static constexpr ComponentInfo info{

@@ -56,8 +56,8 @@ struct ConstraintDirection : Component<ConstrainedNode, double, 2> {
   static constexpr ComponentInfo info{"direction", "-", "in which the node is held"};
 };
 struct ConstraintTravel : Component<ConstrainedNode, double, 2> {
-  static constexpr ComponentInfo info{"travel", "-",
-                                      "displacement of the node in its direction, of the tool's x and y"};
+  static constexpr ComponentInfo info{
+      "travel", "-", "displacement of the node in its direction, of the tool's x and y"};
 };
 struct ConstraintOrigin : Component<ConstrainedNode, double, 1> {
   static constexpr ComponentInfo info{"origin", "m", "undeformed place of the node, in direction"};

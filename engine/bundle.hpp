@@ -23,9 +23,9 @@ namespace pulvis {
 enum class AccessMode { read, write, structural };
 
 struct AccessInfo {
-  TypeKey key;             // of the component, resource, or (structural) kind of entity
-  TypeKey entity;  // the kind that the component belongs to; null for resources
-  std::string name;        // "node/velocity"; "clock"
+  TypeKey key;       // of the component, resource, or (structural) kind of entity
+  TypeKey entity;    // the kind that the component belongs to; null for resources
+  std::string name;  // "node/velocity"; "clock"
   AccessMode mode;
   bool chunked;  // the kind of entity is divided by chunks, so a chunk system may write it
   bool transient = false;

@@ -16,7 +16,7 @@ namespace pulvis {
 class LookAhead {
  public:
   void add(std::span<const std::byte> memory) {
-    if (!memory.empty() && count_ < most) parts_[count_++] = memory;
+    if (!memory.empty() && count_ < maximum) parts_[count_++] = memory;
   }
   bool empty() const { return count_ == 0; }
   // Returns how many lines it asked for.
@@ -34,8 +34,8 @@ class LookAhead {
  private:
   // Two systems that call it once an element are enough for all columns of a plastic body.
   static constexpr int lines_of_a_call = 8;
-  static constexpr std::size_t most = 24, line_bytes = 64;
-  std::array<std::span<const std::byte>, most> parts_;
+  static constexpr std::size_t maximum = 24, line_bytes = 64;
+  std::array<std::span<const std::byte>, maximum> parts_;
   std::size_t count_ = 0, at_ = 0;
 };
 

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-std::uint64_t remainder(std::uint64_t most, std::uint64_t used) {
-  return most > used ? most - used : 0;
+std::uint64_t remainder(std::uint64_t maximum, std::uint64_t used) {
+  return maximum > used ? maximum - used : 0;
 }
 
 std::uint64_t of_machine() {
@@ -47,29 +47,29 @@ std::uint64_t reclaimable_in(const fs::path& folder, const std::string& key) {
 }
 
 struct Version {
-  const char *most, *used, *reclaimable;
+  const char *maximum, *used, *reclaimable;
 };
 constexpr Version version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
                             "total_inactive_file"};
 constexpr Version version_2{"memory.max", "memory.current", "inactive_file"};
 
 std::uint64_t left_in(const fs::path& folder, const Version& version) {
-  const std::uint64_t most = number_in(folder / version.most);
+  const std::uint64_t maximum = number_in(folder / version.maximum);
   const std::uint64_t used = number_in(folder / version.used);
-  if (most == unlimited || used == unlimited) return most;
-  return remainder(most, remainder(used, reclaimable_in(folder, version.reclaimable)));
+  if (maximum == unlimited || used == unlimited) return maximum;
+  return remainder(maximum, remainder(used, reclaimable_in(folder, version.reclaimable)));
 }
 
 // Of a group and of all that it is in. In a container its path may be that of the machine, and only the
 // mount's own folder be there.
 std::uint64_t left_in_all(const fs::path& mount, const fs::path& group, const Version& version) {
-  std::uint64_t least = left_in(mount, version);
+  std::uint64_t minimum = left_in(mount, version);
   fs::path folder = mount;
   for (const fs::path& part : group.relative_path()) {
     folder /= part;
-    least = std::min(least, left_in(folder, version));
+    minimum = std::min(minimum, left_in(folder, version));
   }
-  return least;
+  return minimum;
 }
 
 bool has_memory(std::string controllers) {
@@ -89,7 +89,7 @@ std::uint64_t of_shell() {
 
 // A line is "4:memory:/group" in version 1, "0::/group" in version 2; both may be there.
 std::uint64_t left_by_control_groups(const fs::path& table, const fs::path& root) {
-  std::uint64_t least = unlimited;
+  std::uint64_t minimum = unlimited;
   std::ifstream file(table);
   for (std::string line; std::getline(file, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
@@ -97,12 +97,12 @@ std::uint64_t left_by_control_groups(const fs::path& table, const fs::path& root
     const std::string controllers = line.substr(first + 1, second - first - 1);
     const fs::path group = line.substr(second + 1);
     if (has_memory(controllers))
-      least = std::min(least, left_in_all(root / "memory", group, version_1));
+      minimum = std::min(minimum, left_in_all(root / "memory", group, version_1));
     if (!controllers.empty()) continue;
-    least = std::min(least, left_in_all(root, group, version_2));
-    least = std::min(least, left_in_all(root / "unified", group, version_2));
+    minimum = std::min(minimum, left_in_all(root, group, version_2));
+    minimum = std::min(minimum, left_in_all(root / "unified", group, version_2));
   }
-  return least;
+  return minimum;
 }
 
 std::uint64_t available_memory() {

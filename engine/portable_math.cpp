@@ -213,10 +213,10 @@ double atan(double x) { return atan2(x, 1); }
 
 double atan2(double y, double x) {
   if (std::isnan(x) || std::isnan(y)) return nan;
-  const double most = std::max(std::abs(x), std::abs(y));
-  if (most == 0) return std::copysign(std::signbit(x) ? std::numbers::pi : 0, y);
+  const double maximum = std::max(std::abs(x), std::abs(y));
+  if (maximum == 0) return std::copysign(std::signbit(x) ? std::numbers::pi : 0, y);
   int k = 0;
-  std::frexp(most, &k);
+  std::frexp(maximum, &k);
   const double u = std::ldexp(std::abs(x), -k), v = std::ldexp(std::abs(y), -k);
   Pair angle = v <= u ? acute_angle(u, v) : difference(half_pi, acute_angle(v, u));
   if (std::signbit(x)) angle = difference({2 * half_pi.high, 2 * half_pi.low}, angle);

@@ -40,15 +40,15 @@ void ColumnBase::allocate_transient(std::size_t rows_of_worker, int workers) {
 
 void World::allocate_transient(const std::vector<TypeKey>& components, int workers) {
   for (const auto& [entity, table] : tables_) {
-    std::int32_t most = 0;
+    std::int32_t maximum = 0;
     for (std::size_t c = 0; c + 1 < table->chunk_begin.size(); ++c)
-      most = std::max(most, table->chunk_begin[c + 1] - table->chunk_begin[c]);
+      maximum = std::max(maximum, table->chunk_begin[c + 1] - table->chunk_begin[c]);
     for (const TypeKey key : components) {
       const auto column = columns_.find(key);
       if (column == columns_.end() ||
           std::ranges::find(table->columns, column->second.get()) == table->columns.end())
         continue;
-      column->second->allocate_transient(static_cast<std::size_t>(most), workers);
+      column->second->allocate_transient(static_cast<std::size_t>(maximum), workers);
     }
   }
 }

@@ -183,7 +183,7 @@ void add_row_columns(World& world, const Needs& needs) {
   world.add_table<At>(std::size_t{0});
   world.add<ContactPair<At>>();
   world.add<ContactTouches<At>>();
-  world.add<ContactReach<At>>();
+  world.add<ActivationTravel<At>>();
   world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();
   if (needs.friction) world.add<ElasticSlip<At>>();
@@ -307,10 +307,10 @@ void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bo
 }
 
 double shortest_edge(const Bodies& bodies) {
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (const Shape& shape : bodies.shapes)
-    for (const Shape::Edge& edge : shape.edges) least = std::min(least, edge.length);
-  return least;
+    for (const Shape::Edge& edge : shape.edges) minimum = std::min(minimum, edge.length);
+  return minimum;
 }
 
 // What surfaces could pass through: elements, and ridges of tools that are thinner than those.
@@ -319,11 +319,12 @@ void find_thinnest(const Scene& scene, const Bodies& bodies, ContactRules& rules
   rules.thinnest = rules.shortest_edge;
   for (const Shape& shape : bodies.shapes)
     rules.thinnest = std::min(rules.thinnest, thinnest_part(shape));
-  const double most = rules.shortest_edge;
+  const double maximum = rules.shortest_edge;
   for (const ToolSpec& tool : scene.tools) {
     rules.tool_thickness.push_back(
         tool.shape == ToolSpec::Shape::polyline
-            ? thinnest_part(drawn_points(make_surface(tool.points, tool.rounding)), most, most)
+            ? thinnest_part(drawn_points(make_surface(tool.points, tool.rounding)), maximum,
+                            maximum)
             : std::numeric_limits<double>::infinity());
     rules.thinnest = std::min(rules.thinnest, rules.tool_thickness.back());
   }

@@ -47,7 +47,7 @@ std::uint64_t element_bytes(const Needs& needs) {
 
 std::uint64_t row_bytes(const Needs& needs) {
   using At = Contact;
-  std::uint64_t bytes = bytes_of<ContactPair<At>, ContactTouches<At>, ContactReach<At>,
+  std::uint64_t bytes = bytes_of<ContactPair<At>, ContactTouches<At>, ActivationTravel<At>,
                                  ContactLaw<At>, PointForce<At>, ContactPlace, ClosestPoint>();
   if (needs.friction) bytes += bytes_of<ElasticSlip<At>, FrictionCouple>();
   if (needs.weakening) bytes += bytes_of<FrictionMore<At>, SlipWeakening<At>>();

@@ -39,9 +39,9 @@ class Reader {
 
   // A file beside run.h5 that is missing or broken costs no report.
   std::string text_of(const char* name) const {
-    constexpr std::size_t most = 64U << 20U;  // bytes
+    constexpr std::size_t maximum = 64U << 20U;  // bytes
     try {
-      return text_of_input(folder_ / name, most);
+      return text_of_input(folder_ / name, maximum);
     } catch (const UnfitInput&) {
       return {};
     }

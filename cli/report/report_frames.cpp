@@ -74,8 +74,8 @@ class Frames {
       drawn_ = DrawnMesh::fans(mesh_, sectors);
       choose_fields(false);
     }
-    const auto most = std::clamp<std::size_t>(affordable(), 1, max_frames);
-    for (const auto i : thinned(all_, most)) frames_.push_back(names[i]);
+    const auto maximum = std::clamp<std::size_t>(affordable(), 1, max_frames);
+    for (const auto i : thinned(all_, maximum)) frames_.push_back(names[i]);
   }
 
   std::size_t affordable() const {
@@ -209,9 +209,9 @@ std::vector<std::string> complete_frames(const hdf5::File& file) {
   return names;
 }
 
-std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
+std::vector<std::size_t> thinned(std::size_t count, std::size_t maximum) {
   std::vector<std::size_t> kept;
-  const std::size_t keep = std::min(count, most);
+  const std::size_t keep = std::min(count, maximum);
   for (std::size_t i = 0; i < keep; ++i)
     kept.push_back(keep == 1 ? count - 1 : i * (count - 1) / (keep - 1));
   return kept;

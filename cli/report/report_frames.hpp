@@ -22,7 +22,7 @@ void add_frames(const hdf5::File& file, std::size_t budget, nlohmann::ordered_js
 // Names of the frames that are whole.
 std::vector<std::string> complete_frames(const hdf5::File& file);
 
-// At most `most` of `count` positions, evenly, the last one among them.
-std::vector<std::size_t> thinned(std::size_t count, std::size_t most);
+// At most `maximum` of `count` positions, evenly, the last one among them.
+std::vector<std::size_t> thinned(std::size_t count, std::size_t maximum);
 
 }  // namespace pulvis

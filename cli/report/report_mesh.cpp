@@ -58,7 +58,7 @@ std::vector<std::int32_t> outline_of(const PlaneMesh& mesh, std::span<const std:
       if (seen[std::minmax({a, b})] == 1) next[a] = b;
     }
   std::vector<std::int32_t> longest;
-  double most = -1;
+  double maximum = -1;
   while (!next.empty()) {
     std::vector<std::int32_t> loop;
     for (auto at = next.begin(); at != next.end();) {
@@ -67,8 +67,8 @@ std::vector<std::int32_t> outline_of(const PlaneMesh& mesh, std::span<const std:
       next.erase(at);
       at = next.find(to);
     }
-    if (const double length = length_of(mesh, loop); length > most) {
-      most = length;
+    if (const double length = length_of(mesh, loop); length > maximum) {
+      maximum = length;
       longest = loop;
     }
   }

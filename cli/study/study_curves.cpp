@@ -56,17 +56,17 @@ void add_mean(StudyLine& line, const std::vector<Curve>& curves) {
   if (!(high > low)) return;
   for (std::size_t i = 0; i < mean_points; ++i) {
     const double x = low + (high - low) * static_cast<double>(i) / (mean_points - 1);
-    double sum = 0, least = INFINITY, most = -INFINITY;
+    double sum = 0, minimum = INFINITY, maximum = -INFINITY;
     for (const Curve& curve : curves) {
       const double y = at(curve, x);
       sum += y;
-      least = std::min(least, y);
-      most = std::max(most, y);
+      minimum = std::min(minimum, y);
+      maximum = std::max(maximum, y);
     }
     line.x.push_back(x);
     line.y.push_back(sum / static_cast<double>(curves.size()));
-    line.low.push_back(least);
-    line.high.push_back(most);
+    line.low.push_back(minimum);
+    line.high.push_back(maximum);
   }
 }
 

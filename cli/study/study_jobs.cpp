@@ -84,7 +84,7 @@ struct Children {
 
 }  // namespace
 
-void run_jobs(const std::vector<Job>& jobs, int most, const JobEvents& events) {
+void run_jobs(const std::vector<Job>& jobs, int maximum, const JobEvents& events) {
   Children children;
   std::size_t next = 0;
   bool told = false;
@@ -94,7 +94,7 @@ void run_jobs(const std::vector<Job>& jobs, int most, const JobEvents& events) {
       for (const Running& child : children.running) kill(child.process, SIGINT);
     told = stopping;
     if (stopping) next = jobs.size();
-    while (next < jobs.size() && children.running.size() < static_cast<std::size_t>(most)) {
+    while (next < jobs.size() && children.running.size() < static_cast<std::size_t>(maximum)) {
       events.starting(next);
       children.running.push_back({next, start(jobs[next]), Time::now()});
       ++next;

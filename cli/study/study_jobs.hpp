@@ -33,8 +33,8 @@ struct JobEvents {
       stopping;  // true: nothing new is started, and what runs is asked to end (SIGINT)
 };
 
-// At most `most` at once, in the order of the list. Returns when all have ended or, once asked to stop,
+// At most `maximum` at once, in the order of the list. Returns when all have ended or, once asked to stop,
 // all that were started. Throws OutputError where a process cannot be made.
-void run_jobs(const std::vector<Job>& jobs, int most, const JobEvents& events);
+void run_jobs(const std::vector<Job>& jobs, int maximum, const JobEvents& events);
 
 }  // namespace pulvis

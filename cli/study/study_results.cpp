@@ -58,10 +58,10 @@ bool any_unmet(const Json& summary) {
 }
 
 Json largest(const std::vector<double>& values) {
-  double most = -std::numeric_limits<double>::infinity();
+  double maximum = -std::numeric_limits<double>::infinity();
   for (const double value : values)
-    if (value > most) most = value;
-  return std::isfinite(most) ? Json(most) : Json();
+    if (value > maximum) maximum = value;
+  return std::isfinite(maximum) ? Json(maximum) : Json();
 }
 
 Json last(const std::vector<double>& values) {

@@ -148,11 +148,11 @@ class Checks {
     if (mesh.rings == 0)
       refuse(path + "mesh.rings",
              "a rounded rectangle needs a ring around its core, allowed: >= 1");
-    const double most = std::min(outline.width, outline.height) / 2;
-    if (outline.radius > most) {
+    const double maximum = std::min(outline.width, outline.height) / 2;
+    if (outline.radius > maximum) {
       refuse(path + "radius",
              fmt::format("{:g} m is more than half of the shorter side, allowed: <= {:g} m",
-                         outline.radius, most));
+                         outline.radius, maximum));
     } else if (mesh.boundary_edges < 4096 &&
                share_edges(outline, mesh.boundary_edges).growth > max_edge_growth) {
       refuse(path + "mesh.boundary_edges",

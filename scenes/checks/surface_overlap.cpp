@@ -37,17 +37,17 @@ double piercing_depth(const Vec2& a, const Vec2& t, double low, double high, con
 
 // Of a point from a simple polygon: < 0 inside.
 double distance_to_polygon(const Vec2& at, const std::vector<Vec2>& polygon) {
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()], along = b - a;
     const double share = std::clamp((at - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (a + share * along - at).norm());
+    minimum = std::min(minimum, (a + share * along - at).norm());
     if ((a.y() > at.y()) != (b.y() > at.y()) &&
         at.x() < a.x() + (at.y() - a.y()) / along.y() * along.x())
       inside = !inside;
   }
-  return inside ? -least : least;
+  return inside ? -minimum : minimum;
 }
 
 }  // namespace

@@ -238,9 +238,10 @@ const TableDeclaration<OutputSpec>& output() {
        {{.name = "density_cells",
          .kind = Kind::counts,
          .range = within(1, 1000),
-         .doc = "Columns and rows of a grid between the tools whose cells' relative densities are "
-                "kept: in every frame, and their minimum, maximum and standard deviation over time. "
-                "Needs a tool on each of the four sides.",
+         .doc =
+             "Columns and rows of a grid between the tools whose cells' relative densities are "
+             "kept: in every frame, and their minimum, maximum and standard deviation over time. "
+             "Needs a tool on each of the four sides.",
          .fallback_doc = "no local densities"},
         [](OutputSpec& spec, const Decoded& value) { spec.density_cells = value.counts; }},
        {{.name = "contacts",

@@ -9,12 +9,12 @@ auto relief_to(Member ProfileSpec::*member) {
   return [member](ToolSpec& spec, const Decoded& value) { spec.relief.*member = value.number; };
 }
 
-Key<ToolSpec> relief_length_key(const char* name, double least, auto member, const char* doc,
+Key<ToolSpec> relief_length_key(const char* name, double minimum, auto member, const char* doc,
                                 const char* fallback_doc) {
   return {{.name = name,
            .kind = Kind::quantity,
            .unit = "m",
-           .range = within(least, largest_size),
+           .range = within(minimum, largest_size),
            .only_for = "profile",
            .doc = doc,
            .fallback_doc = fallback_doc},

@@ -86,11 +86,11 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 }
 
 std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t most = 20;  // a message is no catalogue
-  const auto end = words.begin() + static_cast<std::ptrdiff_t>(std::min(words.size(), most));
+  constexpr std::size_t maximum = 20;  // a message is no catalogue
+  const auto end = words.begin() + static_cast<std::ptrdiff_t>(std::min(words.size(), maximum));
   if (words.empty()) return "none";
   return fmt::format("{}{}", fmt::join(words.begin(), end, ", "),
-                     words.size() > most ? ", ..." : "");
+                     words.size() > maximum ? ", ..." : "");
 }
 
 }  // namespace pulvis

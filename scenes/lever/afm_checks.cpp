@@ -84,11 +84,11 @@ class AfmChecks {
              fmt::format("{:g} m: the arms of this V grow together at the clamp, "
                          "allowed: < {:g} m",
                          lever_.arm_width, widest));
-    const double least = (v.apex - lever_.length) * portable::sin(v.half_angle);
+    const double minimum = (v.apex - lever_.length) * portable::sin(v.half_angle);
     if (v.inner >= lever_.length)
       refuse("lever.arm_width", fmt::format("{:g} m: the arms of this V do not meet before its "
                                             "end, allowed: > {:g} m",
-                                            lever_.arm_width, least));
+                                            lever_.arm_width, minimum));
     return good_;
   }
 
@@ -132,17 +132,17 @@ class AfmChecks {
   bool contact_mesh() {
     if (!tip_.contact_edge) return true;
     const double edge = *tip_.contact_edge;
-    const double least = tip_.radius / 1000, coarse = tip_.radius / 4;
-    if (edge < least || edge > coarse)
+    const double minimum = tip_.radius / 1000, coarse = tip_.radius / 4;
+    if (edge < minimum || edge > coarse)
       refuse("tip.contact_edge",
              fmt::format("{:g} m is too {} for this ball, allowed: {:g} to {:g} m", edge,
-                         edge < least ? "small" : "large", least, coarse));
-    const double most = std::min(24 * edge, 0.5 * tip_.radius);
-    if (tip_.contact_reach && *tip_.contact_reach > most)
+                         edge < minimum ? "small" : "large", minimum, coarse));
+    const double maximum = std::min(24 * edge, 0.5 * tip_.radius);
+    if (tip_.contact_reach && *tip_.contact_reach > maximum)
       refuse("tip.contact_reach",
              fmt::format("{:g} m: the fine mesh is too large, allowed: <= {:g} m (24 times "
                          "contact_edge, half the radius)",
-                         *tip_.contact_reach, most));
+                         *tip_.contact_reach, maximum));
     return good_;
   }
 
@@ -315,13 +315,12 @@ class AfmChecks {
 
   // A wave is drawn as far as the probe may come.
   void wave() {
-    constexpr std::size_t most = 1'000'000;
+    constexpr std::size_t maximum = 1'000'000;
     const TargetSpec& target = *scene_.afm->target;
     const std::size_t corners = profile_corners(target, reach_of(*scene_.afm));
-    if (corners > most)
-      refuse("surface.wavelength",
-             fmt::format("{:g} m: {} facets on the way, allowed: {} at most",
-                         target.wavelength, corners, most));
+    if (corners > maximum)
+      refuse("surface.wavelength", fmt::format("{:g} m: {} facets on the way, allowed: {} at most",
+                                               target.wavelength, corners, maximum));
   }
 
   // Where the probe's end comes to on the map, its own deflection left aside.

@@ -56,8 +56,8 @@ Means means(const AfmHistory& history, const std::string& force, const std::stri
 void judge(FrictionLoop& loop, const Plateau& forth, const Plateau& back) {
   loop.slides = std::min(forth.slides, back.slides);
   loop.turned = std::min(forth.turned, back.turned);
-  const double most = std::max(std::abs(forth.drift), std::abs(back.drift));
-  loop.drift = most == 0 ? 0 : most / std::max(most, std::abs(loop.half_width));
+  const double maximum = std::max(std::abs(forth.drift), std::abs(back.drift));
+  loop.drift = maximum == 0 ? 0 : maximum / std::max(maximum, std::abs(loop.half_width));
   if (loop.slides <= 1 - 1e-3 || loop.turned <= 1 - 1e-3)
     loop.needed = std::max(forth.needed, back.needed);
 }

@@ -63,15 +63,15 @@ bool Bend::is_significant() const {
 
 std::optional<Bend> find_bend(std::span<const double> t, std::span<const double> y) {
   std::optional<Bend> best;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (std::size_t split = fewest_on_a_side; split + fewest_on_a_side <= t.size(); ++split) {
     const Line before = fit_line(t.first(split), y.first(split));
     const Line after = fit_line(t.subspan(split), y.subspan(split));
     const double residual = before.residual + after.residual;
-    if (!(residual < least) || before.slope == after.slope) continue;
+    if (!(residual < minimum) || before.slope == after.slope) continue;
     const Bend bend = bend_at(before, after);
     if (bend.time < t.front() || bend.time > t.back()) continue;
-    least = residual;
+    minimum = residual;
     best = bend;
   }
   return best;

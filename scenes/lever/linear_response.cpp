@@ -29,14 +29,14 @@ double energy_of(const World& world) {
 LinearResponse linear_response(World& world, StaticSolver& solver, std::span<const double> forces) {
   constexpr double small = 1e-30;  // m: squares of strains are nothing beside them
   constexpr double enough = 1e-13;
-  const int most = solver.in_extended_precision() ? 30 : 10;
+  const int maximum = solver.in_extended_precision() ? 30 : 10;
   double* const u = world.column<Displacement>().values();
   LinearResponse r{solver.respond(forces), std::vector<double>(forces.size())};
   const double largest = largest_of(r.displacements);
   if (largest == 0) return r;
   const double scale = small / largest;
   r.correction = 1;
-  for (r.corrections = 1; r.corrections <= most; ++r.corrections) {
+  for (r.corrections = 1; r.corrections <= maximum; ++r.corrections) {
     for (std::size_t k = 0; k < forces.size(); ++k) u[k] = scale * r.displacements[k];
     solver.look();
     const double* held = world.column<SolidForce>().values();

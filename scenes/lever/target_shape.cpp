@@ -176,8 +176,8 @@ std::vector<std::vector<double>> map_from_hdf5(const std::filesystem::path& path
 std::pair<double, double> height_range(const std::vector<std::vector<double>>& heights) {
   double low = heights.front().front(), high = low;
   for (const auto& row : heights) {
-    const auto [least, most] = std::ranges::minmax(row);
-    low = std::min(low, least), high = std::max(high, most);
+    const auto [minimum, maximum] = std::ranges::minmax(row);
+    low = std::min(low, minimum), high = std::max(high, maximum);
   }
   return {low, high};
 }

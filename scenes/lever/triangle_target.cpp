@@ -97,19 +97,19 @@ TriangleTarget::Side TriangleTarget::towards(const Vec3& p, std::size_t triangle
   const Vec3 foot = p - height * n;
   Vec3 best = foot;
   bool inside = true;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   Vec3 along = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
     const Vec3 &a = points_[t[k]], &b = points_[t[(k + 1) % 3]];
     inside = inside && n.dot((b - a).cross(foot - a)) >= 0;
     const Vec3 q = on_segment(p, a, b);
-    if ((q - p).squaredNorm() >= least) continue;
-    least = (q - p).squaredNorm();
+    if ((q - p).squaredNorm() >= minimum) continue;
+    minimum = (q - p).squaredNorm();
     best = q;
     const bool corner = q == a || q == b;
     along = corner ? Vec3(Vec3::Zero()) : Vec3((b - a).normalized());
   }
-  const double distance = std::sqrt(least);
+  const double distance = std::sqrt(minimum);
   if (inside || distance == 0) return {height, n, Eigen::Matrix3d::Zero()};
   const double side = height < 0 ? -1 : 1;
   const Vec3 out = side * (p - best) / distance;
@@ -133,13 +133,13 @@ bool TriangleTarget::faces(const Vec3& p, std::size_t triangle) const {
 }
 
 TargetShape::Nearest TriangleTarget::blended(const std::vector<Side>& sides) const {
-  double least = sides.front().distance;
-  for (const Side& side : sides) least = std::min(least, side.distance);
+  double minimum = sides.front().distance;
+  for (const Side& side : sides) minimum = std::min(minimum, side.distance);
   double sum = 0;
   Vec3 mean = Vec3::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Side& side : sides) {
-    const double weight = portable::exp((least - side.distance) / delta_);
+    const double weight = portable::exp((minimum - side.distance) / delta_);
     sum += weight;
     mean += weight * side.normal;
     spread += weight * (side.turn - side.normal * side.normal.transpose() / delta_);
@@ -149,7 +149,7 @@ TargetShape::Nearest TriangleTarget::blended(const std::vector<Side>& sides) con
   const double length = mean.norm();
   const Vec3 n = mean / length;
   const Eigen::Matrix3d turn = (Eigen::Matrix3d::Identity() - n * n.transpose()) * spread / length;
-  Nearest result{least - delta_ * portable::log(sum), {n.x(), n.y(), n.z()}, {}};
+  Nearest result{minimum - delta_ * portable::log(sum), {n.x(), n.y(), n.z()}, {}};
   for (int i = 0; i < 9; ++i) result.turn[static_cast<std::size_t>(i)] = turn(i / 3, i % 3);
   return result;
 }

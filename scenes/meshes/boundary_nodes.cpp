@@ -15,8 +15,8 @@ constexpr double usual_growth = 0.3, max_growth = 0.75;
 constexpr double unlimited = std::numeric_limits<double>::max();
 
 int up_to_multiple_of_4(double edges) {
-  constexpr double most = 1e6;  // beyond any mesh; refused later
-  return 4 * static_cast<int>(std::ceil(std::min(edges, most) / 4 - 1e-6));
+  constexpr double maximum = 1e6;  // beyond any mesh; refused later
+  return 4 * static_cast<int>(std::ceil(std::min(edges, maximum) / 4 - 1e-6));
 }
 
 // Wanted edge lengths at the samples of a smooth closed curve.

@@ -78,28 +78,28 @@ Shape make_shape(const ParticleSpec& particle, double phase) {
 }
 
 double min_corner_sine(const Shape& shape) {
-  double least = 1;
+  double minimum = 1;
   for (const auto& q : shape.quads)
     for (std::size_t k = 0; k < 4; ++k) {
       const Point& p = shape.nodes[static_cast<std::size_t>(q[k].value)];
       const Point& a = shape.nodes[static_cast<std::size_t>(q[(k + 1) % 4].value)];
       const Point& b = shape.nodes[static_cast<std::size_t>(q[(k + 3) % 4].value)];
       const double ax = a[0] - p[0], ay = a[1] - p[1], bx = b[0] - p[0], by = b[1] - p[1];
-      least = std::min(least,
-                       (ax * by - ay * bx) / (portable::hypot(ax, ay) * portable::hypot(bx, by)));
+      minimum = std::min(minimum,
+                         (ax * by - ay * bx) / (portable::hypot(ax, ay) * portable::hypot(bx, by)));
     }
-  return least;
+  return minimum;
 }
 
 double shortest_edge(const Shape& shape) {
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (const auto& q : shape.quads)
     for (std::size_t k = 0; k < 4; ++k) {
       const Point& p = shape.nodes[static_cast<std::size_t>(q[k].value)];
       const Point& r = shape.nodes[static_cast<std::size_t>(q[(k + 1) % 4].value)];
-      least = std::min(least, portable::hypot(r[0] - p[0], r[1] - p[1]));
+      minimum = std::min(minimum, portable::hypot(r[0] - p[0], r[1] - p[1]));
     }
-  return least;
+  return minimum;
 }
 
 }  // namespace pulvis

@@ -27,13 +27,13 @@ std::vector<double> pole_edges(int edges, double refinement) {
 // How many of the edges of half the outline face the pole; two are left for the flank, where there are.
 int pole_share(int edges, double refinement) {
   int best = edges / 2;
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (int pole = edges / 2; pole <= std::max(edges / 2, edges - 2); ++pole) {
     const std::vector<double> length = pole_edges(pole, refinement);
     const double total = std::accumulate(length.begin(), length.end(), 0.0);
     const double jump = std::abs(portable::log((edges - pole) / total));
-    if (jump >= least) continue;
-    least = jump;
+    if (jump >= minimum) continue;
+    minimum = jump;
     best = pole;
   }
   return best;

@@ -112,13 +112,13 @@ std::vector<Point> best_nodes(const RoundGrid& round, const OGrid& grid,
   if (round.rings == 0) return nodes_of(grid, outline, outline, shares, round.columns, round.rows);
   const std::vector<Quad> quads = quads_of(grid);
   std::vector<Point> best;
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (const double inset : insets()) {
     std::vector<Point> nodes =
         nodes_of(grid, outline, core_rim(round, points, inset), shares, round.columns, round.rows);
     const double bound = frequency_bound(nodes, quads, outline.size());
-    if (bound >= least) continue;
-    least = bound;
+    if (bound >= minimum) continue;
+    minimum = bound;
     best = std::move(nodes);
   }
   return best;

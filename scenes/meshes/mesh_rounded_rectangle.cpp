@@ -58,12 +58,12 @@ std::vector<double> side(double flat, int edges, int on_arc, double arc_edge) {
 }
 
 double growth_of(const std::vector<double>& columns, const std::vector<double>& rows) {
-  double most = 1;
-  const auto look = [&](double a, double b) { most = std::max({most, a / b, b / a}); };
+  double maximum = 1;
+  const auto look = [&](double a, double b) { maximum = std::max({maximum, a / b, b / a}); };
   for (const auto* lengths : {&columns, &rows})
     for (std::size_t i = 1; i < lengths->size(); ++i) look((*lengths)[i - 1], (*lengths)[i]);
   look(columns.back(), rows.front());
-  return most;
+  return maximum;
 }
 
 }  // namespace

@@ -36,10 +36,10 @@ class Quality {
   double scale() const { return scale_; }
 
   double min_determinant(const Eigen::VectorXd& x) const {
-    double least = std::numeric_limits<double>::max();
+    double minimum = std::numeric_limits<double>::max();
     for (const Quad& quad : quads_)
-      for (std::size_t k = 0; k < 4; ++k) least = std::min(least, determinant(x, quad, k));
-    return least;
+      for (std::size_t k = 0; k < 4; ++k) minimum = std::min(minimum, determinant(x, quad, k));
+    return minimum;
   }
 
   // The mean and its gradient; `bound` regularises 1/determinant (0: folded elements are infinitely bad).

@@ -85,14 +85,14 @@ bool keeps(const Split& split, int line, int n) {
 // Equal sizes are wanted as far as the boundary edges are equal: the least time step of a round outline is then
 // that of the disc's own mesh, and slender ends keep well-shaped elements.
 double size_share(const std::vector<Point>& boundary) {
-  double least = std::numeric_limits<double>::max(), most = 0;
+  double minimum = std::numeric_limits<double>::max(), maximum = 0;
   for (std::size_t i = 0; i < boundary.size(); ++i) {
     const Point &a = boundary[i], &b = boundary[(i + 1) % boundary.size()];
     const double length = portable::hypot(b[0] - a[0], b[1] - a[1]);
-    least = std::min(least, length);
-    most = std::max(most, length);
+    minimum = std::min(minimum, length);
+    maximum = std::max(maximum, length);
   }
-  return 0.6 * least / most;
+  return 0.6 * minimum / maximum;
 }
 
 class Search {

@@ -48,17 +48,17 @@ class Chain {
     make_boxes();
   }
 
-  double thinnest(double most) const {
-    double least = most;
+  double thinnest(double maximum) const {
+    double minimum = maximum;
     const double apart = std::max(0.5 * resolution_, length_ / max_samples);
     for (const Segment& s : segments_) {
       const int count = static_cast<int>(std::ceil(s.length / apart));
       for (int k = 0; k < count; ++k) {
         const double along = s.length * (k + 0.5) / count;
-        look_from({s.begin + along * s.direction, s.normal, s.at + along}, least);
+        look_from({s.begin + along * s.direction, s.normal, s.at + along}, minimum);
       }
     }
-    return least < most ? least : endless;
+    return minimum < maximum ? minimum : endless;
   }
 
  private:
@@ -81,17 +81,17 @@ class Chain {
     }
   }
 
-  void look_from(const Sample& from, double& least) const {
+  void look_from(const Sample& from, double& minimum) const {
     for (std::size_t b = 0; b < boxes_.size(); ++b) {
-      if (!boxes_[b].near(from.point, least)) continue;
+      if (!boxes_[b].near(from.point, minimum)) continue;
       const std::size_t end = std::min(segments_.size(), (b + 1) * block);
-      for (std::size_t i = b * block; i < end; ++i) look_at(segments_[i], from, least);
+      for (std::size_t i = b * block; i < end; ++i) look_at(segments_[i], from, minimum);
     }
   }
 
   // The nearest point of the segment, of those that lie so far along the chain that a ridge of more than the
   // resolution is between; and only through the tool's body.
-  void look_at(const Segment& s, const Sample& from, double& least) const {
+  void look_at(const Segment& s, const Sample& from, double& minimum) const {
     double low = 0, high = s.length;
     if (s.at >= from.at)
       low = std::max(low, from.at + 2 * resolution_ - s.at);
@@ -101,7 +101,7 @@ class Chain {
     const double along = std::clamp((from.point - s.begin).dot(s.direction), low, high);
     const Vec2 through = s.begin + along * s.direction - from.point;
     if (through.dot(from.normal) < 0 && through.dot(s.normal) > 0)
-      least = std::min(least, through.norm());
+      minimum = std::min(minimum, through.norm());
   }
 
   double resolution_, length_ = 0;
@@ -112,20 +112,20 @@ class Chain {
 }  // namespace
 
 double thinnest_part(const Shape& shape) {
-  double least = endless;
+  double minimum = endless;
   for (const auto& quad : shape.quads) {
     std::array<Vec2, 4> corner;
     for (std::size_t k = 0; k < 4; ++k) {
       const Point& p = shape.nodes[static_cast<std::size_t>(quad[k].value)];
       corner[k] = {p[0], p[1]};
     }
-    least = std::min(least, width_of(corner));
+    minimum = std::min(minimum, width_of(corner));
   }
-  return least;
+  return minimum;
 }
 
-double thinnest_part(const std::vector<Vec2>& chain, double resolution, double most) {
-  return Chain(chain, resolution).thinnest(most);
+double thinnest_part(const std::vector<Vec2>& chain, double resolution, double maximum) {
+  return Chain(chain, resolution).thinnest(maximum);
 }
 
 }  // namespace pulvis

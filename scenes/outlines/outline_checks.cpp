@@ -74,29 +74,29 @@ Faults bad_corners(const PolygonOutline& polygon) {
 // The largest rounding whose arcs leave room for each other on every side.
 double max_rounding(const std::vector<Vec2>& corners) {
   const std::size_t n = corners.size();
-  double most = std::numeric_limits<double>::max();
+  double maximum = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 &a = corners[(i + n - 1) % n], &b = corners[i], &c = corners[(i + 1) % n],
                &d = corners[(i + 2) % n];
     const double cut = cut_by_rounding(a, b, c, 1) + cut_by_rounding(b, c, d, 1);
-    if (cut > 0) most = std::min(most, (c - b).norm() / cut);
+    if (cut > 0) maximum = std::min(maximum, (c - b).norm() / cut);
   }
-  return most;
+  return maximum;
 }
 
 Faults bad_rounding(const PolygonOutline& polygon) {
   const std::vector<Vec2> corners = corners_of(polygon);
   const std::size_t n = corners.size();
-  const double most = max_rounding(corners);
-  if (polygon.rounding > most * (1 + 1e-12))
+  const double maximum = max_rounding(corners);
+  if (polygon.rounding > maximum * (1 + 1e-12))
     return {
         {"rounding", fmt::format("{:g} m is more than the sides have room for, allowed: <= {:g} m",
-                                 polygon.rounding, most)}};
+                                 polygon.rounding, maximum)}};
   for (std::size_t i = 0; polygon.rounding == 0 && i < n; ++i)
     if (turn_at(corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n]) < 0)
       return {{"rounding", fmt::format("the corner at {} points inwards and is sharp, allowed: > 0 "
                                        "and <= {:g} m where a corner points inwards",
-                                       text_of(corners[i]), most)}};
+                                       text_of(corners[i]), maximum)}};
   return {};
 }
 

@@ -107,11 +107,11 @@ std::vector<Vec2> OutlineCurve::polygon(double deviation) const {
   const auto leaves = [&](std::size_t piece, double from, double to) {
     const Vec2 a = point(piece, from).at, b = point(piece, to).at;
     const Vec2 along = (b - a).normalized();
-    double most = 0;
+    double maximum = 0;
     for (const double share : {0.25, 0.4, 0.5, 0.6, 0.75})
-      most =
-          std::max(most, std::abs(cross(along, point(piece, from + share * (to - from)).at - a)));
-    return most > 0.95 * deviation;
+      maximum = std::max(maximum,
+                         std::abs(cross(along, point(piece, from + share * (to - from)).at - a)));
+    return maximum > 0.95 * deviation;
   };
   std::vector<Vec2> points;
   const std::function<void(std::size_t, double, double, int)> divide =

@@ -90,13 +90,13 @@ class PointsReader {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    const double least = std::max(closest * (high - low).norm(), 1e-18);  // m
+    const double minimum = std::max(closest * (high - low).norm(), 1e-18);  // m
     for (std::size_t i = 0; i < points_.size(); ++i)
-      if ((points_[(i + 1) % points_.size()] - points_[i]).norm() <= least)
+      if ((points_[(i + 1) % points_.size()] - points_[i]).norm() <= minimum)
         throw BadFile{lines_[i],
                       fmt::format("the next point is nearer than {:g} m, allowed: at least {:g} "
                                   "of the outline's diagonal",
-                                  least, closest)};
+                                  minimum, closest)};
   }
 
   void take(const std::vector<std::string>& cells) {
@@ -175,10 +175,10 @@ std::vector<OutlineFault> read_points(const std::filesystem::path& folder, Point
     return {{"file", bad.line > 0 ? fmt::format("{}:{}: {}", path.string(), bad.line, bad.message)
                                   : fmt::format("{}: {}", path.string(), bad.message)}};
   }
-  const double most = max_smoothing * size_of(outline.points);
-  if (outline.smoothing > most)
+  const double maximum = max_smoothing * size_of(outline.points);
+  if (outline.smoothing > maximum)
     return {{"smoothing", fmt::format("{:g} m would melt the outline, allowed: <= {:g} m",
-                                      outline.smoothing, most)}};
+                                      outline.smoothing, maximum)}};
   if (outline.smoothing > 0) outline.points = smoothed_points(outline.points, outline.smoothing);
   return {};
 }

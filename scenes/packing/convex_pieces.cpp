@@ -71,10 +71,10 @@ class Cutter {
 
   std::size_t best_ear(const Corners& left) const {
     std::size_t best = 0;
-    double most = -2;
+    double maximum = -2;
     for (std::size_t i = 0; i < left.size(); ++i)
-      if (const double q = quality(left, i); q > most) {
-        most = q;
+      if (const double q = quality(left, i); q > maximum) {
+        maximum = q;
         best = i;
       }
     return best;

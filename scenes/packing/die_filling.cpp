@@ -50,9 +50,9 @@ class Press {
 
  private:
   static double smallest(const DieFilling& order) {
-    double least = std::numeric_limits<double>::max();
-    for (const RigidShape& shape : order.shapes) least = std::min(least, shape.diameter);
-    return least;
+    double minimum = std::numeric_limits<double>::max();
+    for (const RigidShape& shape : order.shapes) minimum = std::min(minimum, shape.diameter);
+    return minimum;
   }
 
   void throw_in() {
@@ -88,22 +88,23 @@ class Press {
   // Lifted a little, shaken, pressed again; the densest state is kept.
   void shake_on() {
     std::vector<RigidPose> best = powder_.poses();
-    double least = powder_.height(), mark = least;
-    const auto most =
+    double minimum = powder_.height(), mark = minimum;
+    const auto maximum =
         static_cast<std::int64_t>(order_.time_to_shake * static_cast<double>(max_work_));
-    for (int idle = 0; idle < patience && !at_rest_on_stop() && powder_.sweeps() < most; ++idle) {
+    for (int idle = 0; idle < patience && !at_rest_on_stop() && powder_.sweeps() < maximum;
+         ++idle) {
       powder_.squeeze(powder_.height() * (1 + lift));
       vibrate(hard_vibration, vibrations);
       press(quick_step);
-      if (powder_.height() < least) {
-        least = powder_.height();
+      if (powder_.height() < minimum) {
+        minimum = powder_.height();
         best = powder_.poses();
       }
-      if (least > mark * (1 - gain)) continue;
-      mark = least;
+      if (minimum > mark * (1 - gain)) continue;
+      mark = minimum;
       idle = -1;
     }
-    powder_.restore(best, least);
+    powder_.restore(best, minimum);
   }
 
   void vibrate(double displacement, int times) {

@@ -50,10 +50,10 @@ double box_distance(const TurnedBox& a, const TurnedBox& b) {
   const auto of_a = a.corners(), of_b = b.corners();
   const double gap = std::max(a.gap(of_b), b.gap(of_a));
   if (gap <= 0) return gap;
-  double least = std::numeric_limits<double>::max();
-  for (const Vec2& corner : of_a) least = std::min(least, b.distance(corner));
-  for (const Vec2& corner : of_b) least = std::min(least, a.distance(corner));
-  return least;
+  double minimum = std::numeric_limits<double>::max();
+  for (const Vec2& corner : of_a) minimum = std::min(minimum, b.distance(corner));
+  for (const Vec2& corner : of_b) minimum = std::min(minimum, a.distance(corner));
+  return minimum;
 }
 
 }  // namespace

@@ -25,14 +25,14 @@ Widest widest_gap(const RigidPiece& piece, const RigidPiece& other, double enoug
   Widest best;
   for (std::size_t s = 0; s < piece.normals.size() && best.gap <= enough; ++s) {
     const V2 n = piece.normals[s], from = piece.corners[s];
-    double least = std::numeric_limits<double>::max();
+    double minimum = std::numeric_limits<double>::max();
     std::size_t deepest = 0;
     for (std::size_t c = 0; c < other.corners.size(); ++c)
-      if (const double gap = dot(n, other.corners[c] - from); gap < least) {
-        least = gap;
+      if (const double gap = dot(n, other.corners[c] - from); gap < minimum) {
+        minimum = gap;
         deepest = c;
       }
-    if (least > best.gap) best = {least, s, deepest};
+    if (minimum > best.gap) best = {minimum, s, deepest};
   }
   return best;
 }
@@ -135,17 +135,17 @@ void RigidContacts::sides(const RigidPiece& leader, const RigidPiece& other, std
 
 // `out`: the normal where the two have a point in common.
 void RigidContacts::nearest(const RigidPiece& a, const RigidPiece& b, V2 out, double range) {
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   V2 on_a, on_b;
   // A corner this far from the circle around the other's corners cannot be nearest.
   const auto too_far = [&](V2 corner, const RigidPiece& piece) {
     const double reach = piece.reach - piece.radius, apart = length(corner - piece.centre) - reach;
-    return apart > 0 && apart * apart > least;
+    return apart > 0 && apart * apart > minimum;
   };
   const auto compare = [&](V2 p, V2 q) {
     const V2 apart = q - p;
-    if (dot(apart, apart) >= least) return;
-    least = dot(apart, apart);
+    if (dot(apart, apart) >= minimum) return;
+    minimum = dot(apart, apart);
     on_a = p;
     on_b = q;
   };
@@ -155,7 +155,7 @@ void RigidContacts::nearest(const RigidPiece& a, const RigidPiece& b, V2 out, do
   for (const V2 corner : b.corners)
     for (std::size_t s = 0; s < a.corners.size() && !too_far(corner, a); ++s)
       compare(nearest_on_side(a, s, corner), corner);
-  const double distance = std::sqrt(least), gap = distance - a.radius - b.radius;
+  const double distance = std::sqrt(minimum), gap = distance - a.radius - b.radius;
   if (gap >= range) return;
   normals_sign_ = 1;
   add(on_b, distance > hair ? (1 / distance) * (on_b - on_a) : out, gap);

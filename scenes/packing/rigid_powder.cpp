@@ -227,18 +227,18 @@ double RigidPowder::push_from_tools(std::size_t i) {
 
 double RigidPowder::min_gap() {
   if (!lists_hold()) find_pairs(list_range + 2 * margin_);
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (const Pair& pair : pairs_) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
     for (const RigidTouch& touch :
          contacts_.between(shape(a), poses_[a], shape(b), poses_[b], 2 * margin_))
-      least = std::min(least, touch.gap);
+      minimum = std::min(minimum, touch.gap);
   }
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     touches_with_tools(i, margin_, tool_touches_);
-    for (const RigidTouch& touch : tool_touches_) least = std::min(least, 2 * touch.gap);
+    for (const RigidTouch& touch : tool_touches_) minimum = std::min(minimum, 2 * touch.gap);
   }
-  return least;
+  return minimum;
 }
 
 std::vector<std::array<double, 3>> RigidPowder::near_gaps(double touching, int& touches) {
@@ -255,21 +255,21 @@ std::vector<std::array<double, 3>> RigidPowder::near_gaps(double touching, int& 
   };
   for (const Pair& pair : pairs_) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
-    double least = std::numeric_limits<double>::max();
+    double minimum = std::numeric_limits<double>::max();
     for (const RigidTouch& touch :
          contacts_.between(shape(a), poses_[a], shape(b), poses_[b], gap_range * widest))
-      least = std::min(least, touch.gap);
-    note(a, least);
-    note(b, least);
-    if (least < touching * std::min(shape(a).diameter, shape(b).diameter)) ++touches;
+      minimum = std::min(minimum, touch.gap);
+    note(a, minimum);
+    note(b, minimum);
+    if (minimum < touching * std::min(shape(a).diameter, shape(b).diameter)) ++touches;
   }
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     touches_with_tools(i, gap_range * widest, tool_touches_);
     for (const V2 n : tool_normals) {
-      double least = std::numeric_limits<double>::max();
+      double minimum = std::numeric_limits<double>::max();
       for (const RigidTouch& touch : tool_touches_)
-        if (touch.normal.x == n.x && touch.normal.y == n.y) least = std::min(least, touch.gap);
-      note(i, least);
+        if (touch.normal.x == n.x && touch.normal.y == n.y) minimum = std::min(minimum, touch.gap);
+      note(i, minimum);
     }
   }
   listed_.clear();  // these lists are too long to work with

@@ -82,15 +82,15 @@ double width_along(const RigidShape& shape, V2 n) {
 // come near enough to it for what this is asked: whether a particle fits into its die.
 double min_width(const RigidShape& shape) {
   constexpr int fan = 64;
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   portable::Turn direction;
   for (int i = 0; i < fan; ++i) {
-    least = std::min(least, width_along(shape, {direction.c, direction.s}));
+    minimum = std::min(minimum, width_along(shape, {direction.c, direction.s}));
     direction = portable::turned(direction, std::numbers::pi / fan / 2);
   }
   for (const RigidPiece& piece : shape.pieces)
-    for (const V2 normal : piece.normals) least = std::min(least, width_along(shape, normal));
-  return least;
+    for (const V2 normal : piece.normals) minimum = std::min(minimum, width_along(shape, normal));
+  return minimum;
 }
 
 void measure(RigidShape& shape, const Moments& moments) {

@@ -51,11 +51,11 @@ double rough_start(const Hold& hold, const LoggerRecord& logger, const Sliding& 
                    double latest) {
   const Samples places = between(hold.time, hold.time.front(), latest);
   const std::size_t stride = 1 + places.count() / max_places;
-  double best = hold.time.front(), least = std::numeric_limits<double>::infinity();
+  double best = hold.time.front(), minimum = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < places.count(); i += stride) {
     const double rest = unexplained(hold, logger, sliding, hold.time[i]);
-    if (rest < least) {
-      least = rest;
+    if (rest < minimum) {
+      minimum = rest;
       best = hold.time[i];
     }
   }
@@ -132,10 +132,10 @@ void find_offset(Clocks& clocks, const PressRecord& press, const LoggerRecord& l
 }  // namespace
 
 Samples find_hold(const PressRecord& press, double tolerance) {
-  const double most = *std::max_element(press.force.begin(), press.force.end());
+  const double maximum = *std::max_element(press.force.begin(), press.force.end());
   std::vector<double> upper;
   for (const double force : press.force)
-    if (force > most / 2) upper.push_back(force);
+    if (force > maximum / 2) upper.push_back(force);
   const auto middle = upper.begin() + static_cast<std::ptrdiff_t>(upper.size() / 2);
   std::nth_element(upper.begin(), middle, upper.end());
   Samples longest, now;

@@ -97,11 +97,11 @@ double spectral_period(std::span<const double> x, std::span<const double> y) {
   constexpr double steps_in_a_line = 5;  // frequencies tried within the width of one line
   const double span = x.back() - x.front();
   const double step = 1 / (steps_in_a_line * span), interval = span / static_cast<double>(x.size());
-  double best = 2 / span, most = 0;
+  double best = 2 / span, maximum = 0;
   for (double f = 2 / span; f <= 0.5 / interval; f += step) {
     const double power = lomb_power(x, y, 2 * std::numbers::pi * f);
-    if (power > most) {
-      most = power;
+    if (power > maximum) {
+      maximum = power;
       best = f;
     }
   }

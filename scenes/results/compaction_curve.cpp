@@ -61,14 +61,14 @@ void lay_beside(TransmissionShare& share, double mu, double nu) {
 // The loading under force, in pieces of equal change of density.
 std::vector<std::vector<CompactionSample>> loading(const std::vector<CompactionSample>& samples) {
   const auto last = std::ranges::max_element(samples, {}, &CompactionSample::density);
-  double most = 0;
-  for (auto s = samples.begin(); s != last + 1; ++s) most = std::max(most, s->top);
+  double maximum = 0;
+  for (auto s = samples.begin(); s != last + 1; ++s) maximum = std::max(maximum, s->top);
   const auto first = std::find_if(samples.begin(), last, [&](const CompactionSample& s) {
-    return s.top >= min_force_share * most;
+    return s.top >= min_force_share * maximum;
   });
   std::vector<std::vector<CompactionSample>> found(pieces);
   const double low = first->density, width = (last->density - low) / pieces;
-  if (!(most > 0) || !(width > 0)) return {};
+  if (!(maximum > 0) || !(width > 0)) return {};
   for (auto s = first; s != last + 1; ++s) {
     const int piece = std::clamp(static_cast<int>((s->density - low) / width), 0, pieces - 1);
     if (s->top > 0) found[static_cast<std::size_t>(piece)].push_back(*s);

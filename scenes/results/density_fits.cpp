@@ -107,9 +107,9 @@ FitRange fit_range(std::span<const double> density, std::span<const double> pres
   range.unusable = falls(density, last);
   if (range.unusable.empty()) range.unusable = too_little(density[last] - density.front());
   if (!range.unusable.empty()) return range;
-  const double most = std::ranges::max(pressure.first(last + 1));
+  const double maximum = std::ranges::max(pressure.first(last + 1));
   for (std::size_t i = 0; i <= last; ++i) {
-    if (!(most > 0) || pressure[i] < min_pressure_share * most || density[i] >= 1) continue;
+    if (!(maximum > 0) || pressure[i] < min_pressure_share * maximum || density[i] >= 1) continue;
     range.density.push_back(density[i]);
     range.pressure.push_back(pressure[i]);
   }

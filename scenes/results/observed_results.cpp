@@ -74,7 +74,7 @@ void append_network(const World& world, std::vector<double>& row) {
              {2 * static_cast<double>(network.pairs.size()) / particles,
               static_cast<double>(network.tools.size()) / particles, rattlers / particles,
               fabric.xx, fabric.xy, fabric.yy, fabric.anisotropy(), fabric.angle(), sizes.mean,
-              sizes.most, share_of(world.resource<ForceChains>().chain)});
+              sizes.maximum, share_of(world.resource<ForceChains>().chain)});
 }
 
 std::vector<FieldInfo> contact_fields(const std::string& group, bool pairs) {
@@ -169,18 +169,18 @@ void append_density(const World& world, std::vector<double>& row) {
   const auto& grid = world.resource<DensityGrid>();
   const std::vector<double> cells = GridView{grid}.cells();
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double filled = 0, room = 0, least = unknown, most = unknown, squares = 0;
+  double filled = 0, room = 0, minimum = unknown, maximum = unknown, squares = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     filled += grid.filled[c];
     room += grid.room[c];
     if (std::isnan(cells[c])) continue;
-    least = std::fmin(least, cells[c]);  // the other one where one is no number
-    most = std::fmax(most, cells[c]);
+    minimum = std::fmin(minimum, cells[c]);  // the other one where one is no number
+    maximum = std::fmax(maximum, cells[c]);
   }
   const double mean = filled / room;
   for (std::size_t c = 0; c < cells.size(); ++c)
     if (!std::isnan(cells[c])) squares += grid.room[c] * (cells[c] - mean) * (cells[c] - mean);
-  row.insert(row.end(), {mean, least, most, std::sqrt(squares / room)});
+  row.insert(row.end(), {mean, minimum, maximum, std::sqrt(squares / room)});
 }
 
 void append_density_frame(const World& world, Fields& fields) {

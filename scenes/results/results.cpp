@@ -176,9 +176,9 @@ void Results::take_energies() {
 void Results::take_kinetic_ratio() {
   const double internal = energies_.internal();
   largest_internal_ = std::max(largest_internal_, internal);
-  const double least = 0.01 * largest_internal_;
-  std::erase_if(kinetic_ratios_, [&](const auto& sample) { return sample.second <= least; });
-  if (internal <= least) return;
+  const double minimum = 0.01 * largest_internal_;
+  std::erase_if(kinetic_ratios_, [&](const auto& sample) { return sample.second <= minimum; });
+  if (internal <= minimum) return;
   const double ratio = energies_.kinetic / internal;
   const auto outdone_by = [](double r, double i) {
     return [=](const auto& sample) { return sample.first <= r && sample.second <= i; };
@@ -329,10 +329,11 @@ std::array<double, 3> Results::momentum() const {
 
 // The state that was just observed is the next step's to look at, if there is one.
 double Results::min_jacobian() const {
-  double least = world_.resource<Totals>().min_jacobian;
+  double minimum = world_.resource<Totals>().min_jacobian;
   for (const int slot : world_.resource<Bodies>().slot_of_number)
-    least = std::min(least, world_.column<MinJacobian>().values()[static_cast<std::size_t>(slot)]);
-  return least;
+    minimum =
+        std::min(minimum, world_.column<MinJacobian>().values()[static_cast<std::size_t>(slot)]);
+  return minimum;
 }
 
 // The forces of a step are those at its ends: where surfaces meet within it, the balance is known to no more than

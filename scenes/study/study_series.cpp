@@ -57,10 +57,10 @@ std::vector<double> share_below(const Scene& scene, const History& history) {
   const DieCell cell = *die_cell(scene);
   std::vector<double> values = history(tool_series(scene, cell.bottom, "force_y"));
   const std::vector<double> top = history(tool_series(scene, cell.top, "force_y"));
-  const double most = top.empty() ? 0 : std::ranges::max(top);
+  const double maximum = top.empty() ? 0 : std::ranges::max(top);
   for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = top[i] > min_force_share * most ? -values[i] / top[i]
-                                                : std::numeric_limits<double>::quiet_NaN();
+    values[i] = top[i] > min_force_share * maximum ? -values[i] / top[i]
+                                                   : std::numeric_limits<double>::quiet_NaN();
   return values;
 }
 

@@ -54,15 +54,15 @@ Extent powder_extent(const Scene& scene, const std::vector<BodySpec>& bodies) {
 
 // The tool's own frame goes the other way than the powder in it.
 Extent covered(const Scene& scene, int tool, Extent powder) {
-  double at = 0, least = 0, most = 0;
+  double at = 0, minimum = 0, maximum = 0;
   for (const StageSpec& stage : scene.stages)
     for (const MoveSpec& move : stage.moves) {
       if (move.tool != tool) continue;
       at += move.displacement.x();
-      least = std::min(least, at);
-      most = std::max(most, at);
+      minimum = std::min(minimum, at);
+      maximum = std::max(maximum, at);
     }
-  return {powder.low - most, powder.high - least};
+  return {powder.low - maximum, powder.high - minimum};
 }
 
 std::vector<Vec2> repeated(const ToolSpec& tool, Extent extent) {

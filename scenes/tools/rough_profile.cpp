@@ -11,10 +11,10 @@ namespace {
 constexpr double kernel_reach = 3;  // correlation lengths; there it is exp(-18)
 
 std::vector<double> white_noise(std::uint64_t seed, std::size_t count) {
-  constexpr double least = 1e-15;  // uniform() can be 0, whose quantile is infinite
+  constexpr double minimum = 1e-15;  // uniform() can be 0, whose quantile is infinite
   portable::Random random(seed);
   std::vector<double> noise(count);
-  for (double& value : noise) value = portable::normal_quantile(random.between(least, 1));
+  for (double& value : noise) value = portable::normal_quantile(random.between(minimum, 1));
   return noise;
 }
 

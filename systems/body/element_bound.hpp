@@ -13,12 +13,13 @@ namespace pulvis {
 // Largest norm of the deviatoric stress at the Gauss points of an element.
 template <int Points, class View>
 Lane largest_norm(const View& stress, Row<Element> e) {
-  Lane most{};
+  Lane maximum{};
   for (int g = 0; g < Points; ++g) {
     const auto s = deviator(stress, e, g);
-    most = max(most, s.xx * s.xx + s.yy * s.yy + (s.xx + s.yy) * (s.xx + s.yy) + 2.0 * s.xy * s.xy);
+    maximum =
+        max(maximum, s.xx * s.xx + s.yy * s.yy + (s.xx + s.yy) * (s.xx + s.yy) + 2.0 * s.xy * s.xy);
   }
-  return sqrt(most);
+  return sqrt(maximum);
 }
 
 // A quad with a corner that closes swings faster there than its middle says: about by the square of how much
@@ -26,9 +27,9 @@ Lane largest_norm(const View& stress, Row<Element> e) {
 // elements that are not badly distorted; at most 9, so that a corner that is about to turn inside out does so
 // (and is named) instead of stopping the clock.
 inline Lane corner_factor(const kernels::QuadMap<Lane>& map) {
-  Lane least = determinant(map_gradient<4>(map, 0));
-  for (int g = 1; g < 4; ++g) least = min(least, determinant(map_gradient<4>(map, g)));
-  const Lane ratio = determinant(map_gradient<1>(map, 0)) / max(least, 1e-300);
+  Lane minimum = determinant(map_gradient<4>(map, 0));
+  for (int g = 1; g < 4; ++g) minimum = min(minimum, determinant(map_gradient<4>(map, g)));
+  const Lane ratio = determinant(map_gradient<1>(map, 0)) / max(minimum, 1e-300);
   return min(max(1.0, 0.5 * ratio * ratio), 9.0);
 }
 
@@ -43,13 +44,13 @@ inline Lane stable_step(Chunk chunk, Lane density, Lane highest,
 
 // Least L/A of an element's edges on the outline; infinite where it has none.
 inline double softest_edge(const Shape& shape, const Quad& quad) {
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 4; ++c) {
     const int from = quad[c].value, to = quad[(c + 1) % 4].value;
     if (from < shape.boundary_nodes && to == (from + 1) % shape.boundary_nodes)
-      least = std::min(least, entry(shape.edges, from).stiffness);
+      minimum = std::min(minimum, entry(shape.edges, from).stiffness);
   }
-  return least;
+  return minimum;
 }
 
 // Contact dashpots over contact springs of k K L/A, times sqrt(kK/rho) L/A: 2 xi with a tool. Two equal bodies

@@ -38,13 +38,19 @@ void keep_worst(Lane residual, Row<Element> e, ChunkSums& sums) {
   sums.element = select(worse, e.value, sums.element);
 }
 
+struct PointKinematics {
+  kernels::Matrix2<Lane> f;
+  Lane theta, mu_over_theta;
+  double area;  // m^2, undeformed
+};
+
 template <class F, class Law, class Coupled>
-void return_point(const Views<F, Law>& v, Row<Element> e, int g, const kernels::Matrix2<Lane>& f,
-                  Lane mu_over_theta, Lane theta, double area, ChunkSums& sums, Coupled&& coupled) {
+void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKinematics& at,
+                  ChunkSums& sums, Coupled&& coupled) {
   const Lane r = v.scale(e, g), before = v.strain(e, g);
   const auto next = kernels::radial_return<Lane>(
-      {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), before}, f, r * r, mu_over_theta,
-      theta * v.inv_mu, v.law, coupled);
+      {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), before}, at.f, r * r,
+      at.mu_over_theta, at.theta * v.inv_mu, v.law, coupled);
   store(v.stress, e, g, next.s);
   v.metric(e, 4 * g) = next.c.xx;
   v.metric(e, 4 * g + 1) = next.c.yy;
@@ -53,7 +59,7 @@ void return_point(const Views<F, Law>& v, Row<Element> e, int g, const kernels::
   v.strain(e, g) = next.eps;
   if constexpr (!kernels::is_closed_form<Law>) {
     keep_worst(next.residual, e, sums);
-    sums.rate_work += area * kernels::rate_work(v.law, before, next.eps - before);
+    sums.rate_work += at.area * kernels::rate_work(v.law, before, next.eps - before);
   }
 }
 
@@ -79,7 +85,7 @@ void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, 
       theta = determinant(f);
       mu_over_theta = v.mu / theta;
     }
-    return_point(v, e, g, f, mu_over_theta, theta, point.determinant, sums, kernels::Uncoupled{});
+    return_point(v, e, g, {f, theta, mu_over_theta, point.determinant}, sums, kernels::Uncoupled{});
   }
 }
 
@@ -117,7 +123,7 @@ void return_element(const Views<OnePoint, Law>& v, const Bending& bending, const
   const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
   const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
   const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
-  return_point(v, e, 0, f, v.mu * (r * r * r), determinant(f), point.determinant, sums, coupled);
+  return_point(v, e, 0, {f, determinant(f), v.mu * (r * r * r), point.determinant}, sums, coupled);
   sums.hourglass_work += keep_bending(bending, e, m, coupled.retained, point.determinant);
 }
 

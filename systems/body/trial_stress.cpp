@@ -62,9 +62,9 @@ Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& s
                     Row<Element> e, const LeftCauchyGreen& left) {
   const auto map = quad_map<F::points>(v.x, entry(shape.quads, e.value));
   const auto& points = points_of<F::points>(shape, e.value);
-  Lane theta{}, inv_theta{}, least = 1e300;
+  Lane theta{}, inv_theta{}, minimum = 1e300;
   if constexpr (F::volumes < F::points) {
-    theta = least = mean_dilatation(map, points);
+    theta = minimum = mean_dilatation(map, points);
     inv_theta = 1.0 / theta;
     v.p(e) = 0.5 * v.bulk * (theta - inv_theta);
   }
@@ -80,19 +80,19 @@ Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& s
       v.p(e, g) = 0.5 * v.bulk * (j - inv_theta);
     }
     store(v.s, e, g, kernels::scaled_deviator(left(f, r, e, g), v.mu * inv_theta * r2));
-    least = min(j, least);
+    minimum = min(j, minimum);
   }
   if constexpr (F::stabilised)
-    least *= hourglass_stress(*hourglass, map, inv_theta * (0.25 / points[0].determinant),
-                              entry(shape.hourglass, e.value), e);
-  return least;
+    minimum *= hourglass_stress(*hourglass, map, inv_theta * (0.25 / points[0].determinant),
+                                entry(shape.hourglass, e.value), e);
+  return minimum;
 }
 
 // A NaN wins every comparison and is not replaced by a later number, so that it is seen.
-void keep_worst(Lane least, Row<Element> e, Lane& worst, Lane& worst_element) {
-  const LaneMask lower = ~(least >= worst) & (worst == worst);
+void keep_worst(Lane minimum, Row<Element> e, Lane& worst, Lane& worst_element) {
+  const LaneMask lower = ~(minimum >= worst) & (worst == worst);
   worst_element = select(lower, e.value, worst_element);
-  worst = select(lower, least, worst);
+  worst = select(lower, minimum, worst);
 }
 
 // `plastic_bending`: null for elastic material.

@@ -175,7 +175,7 @@ void bin_edges::operator()() const {
     const bool again = found.all[r].faces && touches(row) == 0;
     const bool known = source[r] >= 0 && !again;
     // What was found to be the back face of a thin part stays that.
-    if (!(known && rows.reach(row) == back_face)) rows.reach(row) = 0;
+    if (!(known && rows.activation(row) == back_face)) rows.activation(row) = 0;
     curves.place(row, 0) = entry(slots, key.slot).first_control + edge.first_control;
     curves.place(row, 1) = entry(slots, key.other).first_control;
     if (known) return;
@@ -203,11 +203,11 @@ PieceRange near_pieces(const ToolSurface& surface, Point at, const double* point
 }
 
 double min_distance(const double* points, Point at, Point normal) {
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (int a = 0; a < 4; ++a)
-    least = std::min(least,
-                     (points[2 * a] - at[0]) * normal[0] + (points[2 * a + 1] - at[1]) * normal[1]);
-  return least;
+    minimum = std::min(
+        minimum, (points[2 * a] - at[0]) * normal[0] + (points[2 * a + 1] - at[1]) * normal[1]);
+  return minimum;
 }
 
 // Edges within `skin` of a tool's surface, or behind it.
@@ -252,7 +252,7 @@ void bin_tool_edges::operator()() const {
             {kappa, rules.friction_with_tool(key.other, entry(bodies->slots, key.slot).material),
              damping_of(rules, kappa, entry(material.density.values(), key.slot), edge)},
             rows);
-    rows.reach(row) = 0;
+    rows.activation(row) = 0;
     if (!range) continue;
     (*range)(row, 0) = found.all[r].range.first;
     (*range)(row, 1) = found.all[r].range.last;

@@ -168,8 +168,9 @@ bool faces(const double* own, const double* other) {
         way_from_chord({begin[0] + share * chord[0], begin[1] + share * chord[1]}, other);
     const bool near =
         direction[0] * direction[0] + direction[1] * direction[1] < close * close * length;
-    const double least = near ? min_close : 0;
-    if (outwards(direction, other) > least && outwards({-direction[0], -direction[1]}, own) > least)
+    const double minimum = near ? min_close : 0;
+    if (outwards(direction, other) > minimum &&
+        outwards({-direction[0], -direction[1]}, own) > minimum)
       return true;
   }
   return false;
@@ -245,7 +246,7 @@ class EdgeSearch {
   int nearest_edge(const Other& other, const Sampled& own, Of of) const {
     if (!near(own.box, entry(boxes_.particle, other.slot), skin_)) return Shape::no_edge;
     int nearest = Shape::no_edge;
-    double least = std::numeric_limits<double>::max();
+    double minimum = std::numeric_limits<double>::max();
     for (const int e : other.edges) {
       if (!near(own.box, edge_box(other.slot, e), skin_)) continue;
       if (other.slot == own.slot && (of == Of::all || !folded(own, e)) &&
@@ -253,11 +254,11 @@ class EdgeSearch {
         continue;
       const double distance =
           squared_distance_to_chord(own.middle, curves_.edge_points(other.slot, e));
-      if (distance >= least) continue;
+      if (distance >= minimum) continue;
       if (of == Of::faced &&
           !faces(curves_.edge_points(own.slot, own.edge), curves_.edge_points(other.slot, e)))
         continue;
-      least = distance;
+      minimum = distance;
       nearest = e;
     }
     return nearest;

@@ -20,7 +20,7 @@ struct Box {
 // a half turn between them, in the root of a notch: their normals' product is below that.
 inline constexpr int min_fold = 4;
 inline constexpr double sharp_fold = -0.5;
-// Reach of a candidate of an outline against itself that sees its own neighbourhood or the back face of a thin part.
+// Activation of a candidate of an outline against itself that sees its own neighbourhood or the back face of a thin part.
 inline constexpr double back_face = std::numeric_limits<double>::infinity();
 // Along a closed outline of `edges`.
 int edges_between(int a, int b, int edges);

@@ -46,11 +46,11 @@ template <class Friction>
 }
 
 // ---- from and to the columns --------------------------------------------------------------------------
-// A candidate whose points are all apart: nothing acts, and nothing can before `reach` has been travelled.
+// A candidate whose points are all apart: nothing acts, and nothing can before `activation` has been travelled.
 template <class At>
-void set_apart(const RowColumns<At>& c, Row<At> row, double reach) {
+void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
   c.touches(row) = 0;
-  c.reach(row) = reach;
+  c.activation(row) = activation;
   for (int k = 0; k < 2 * edge_points; ++k) c.force(row, k) = 0;
   if (c.elastic_slip)
     for (int k = 0; k < edge_points; ++k) (*c.elastic_slip)(row, k) = 0;
@@ -102,7 +102,7 @@ template <class At>
 [[gnu::always_inline]] inline void keep(const RowColumns<At>& c, Row<At> row, int half,
                                         const PointForces& f) {
   c.touches(row) = 1;
-  c.reach(row) = 0;
+  c.activation(row) = 0;
   store_pairs_of_half(f.x, f.y, half, &c.force(row));
   if (c.elastic_slip) store_half(f.elastic_slip, half, &(*c.elastic_slip)(row));
 }

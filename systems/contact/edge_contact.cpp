@@ -36,7 +36,7 @@ struct EdgePass {
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<Contact> row) const {
-    return s.clock->travel >= s.columns.reach(row);
+    return s.clock->travel >= s.columns.activation(row);
   }
   [[gnu::always_inline]] void fetch(Row<Contact> row) const {
     pulvis::fetch(s.columns, row);

@@ -73,14 +73,14 @@ class Boundary {
     const double ml = std::sqrt(product(m, m)), nl = std::sqrt(product(n, n));
     const Point out{m[0] / ml + n[0] / nl, m[1] / ml + n[1] / nl};
     int times = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < chords_.size(); ++k) {
       if (k == i || k == after.before) continue;
       times += kernels::crossing(after.a, out, chords_[k].a, chords_[k].b);
       if (product(out, chords_[k].normal()) < 0)
-        least = std::min(least, distance(after.a, chords_[k]));
+        minimum = std::min(minimum, distance(after.a, chords_[k]));
     }
-    return times > 0 && std::isfinite(least) ? least : 0;
+    return times > 0 && std::isfinite(minimum) ? minimum : 0;
   }
 
  private:

@@ -57,10 +57,10 @@ double min_of_slots(const std::vector<int>& slots, const Left& left) {
   using Range = tbb::blocked_range<std::size_t>;
   return tbb::parallel_reduce(
       Range(0, slots.size()), 1e300,
-      [&](const Range& range, double least) {
+      [&](const Range& range, double minimum) {
         for (std::size_t i = range.begin(); i < range.end(); ++i)
-          least = std::min(least, left(slots[i]));
-        return least;
+          minimum = std::min(minimum, left(slots[i]));
+        return minimum;
       },
       [](double a, double b) { return std::min(a, b); });
 }
@@ -82,21 +82,21 @@ double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMo
                           int slot) {
   if (index.neighbour_begin.empty()) return 1e300;
   const OutlineMotion& own = entry(motion, slot);
-  double least = 1e300;
+  double minimum = 1e300;
   for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
        ++k) {
     const int other = entry(index.neighbours, k);
     if (other < slot) continue;  // seen from there
     const OutlineMotion& its = entry(motion, other);
     const double allowed = std::max(index.skin, kernels::gap(own.before, its.before));
-    least = std::min(least, allowed - kernels::closing(own.displacement, its.displacement));
+    minimum = std::min(minimum, allowed - kernels::closing(own.displacement, its.displacement));
   }
-  return least;
+  return minimum;
 }
 
 // Towards a plane only what goes against its normal counts, so that a compact may slide along it.
 double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const OutlineMotion& m) {
-  double least = 1e300;
+  double minimum = 1e300;
   for (int t = 0; t < tools.position.rows(); ++t) {
     const Row<Tool> tool(t);
     const Point before = entry(index.tools_before, t);
@@ -108,14 +108,14 @@ double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const
       const bool far =
           pieces_near((*tools.shapes)->surface_of(t), own, index.neighbourhood).empty();
       const double allowed = far ? index.neighbourhood : index.skin;
-      least = std::min(least, allowed - kernels::closing(u, Box{{0, 0}, {0, 0}}));
+      minimum = std::min(minimum, allowed - kernels::closing(u, Box{{0, 0}, {0, 0}}));
       continue;
     }
     const Point normal{tools.normal(tool, 0), tools.normal(tool, 1)};
-    least = std::min(least, std::max(index.skin, kernels::min_along(own, normal)) +
-                                kernels::min_along(u, normal));
+    minimum = std::min(minimum, std::max(index.skin, kernels::min_along(own, normal)) +
+                                    kernels::min_along(u, normal));
   }
-  return least;
+  return minimum;
 }
 
 }  // namespace

@@ -26,19 +26,20 @@ inline double gap(const Box& a, const Box& b) {
 
 // How far points with displacements in these boxes can have come nearer along an axis, at most.
 inline double closing(const Box& a, const Box& b) {
-  double most = 0;
-  for (int k = 0; k < 2; ++k) most = std::max({most, a.high[k] - b.low[k], b.high[k] - a.low[k]});
-  return most;
+  double maximum = 0;
+  for (int k = 0; k < 2; ++k)
+    maximum = std::max({maximum, a.high[k] - b.low[k], b.high[k] - a.low[k]});
+  return maximum;
 }
 
 // Least x . n of a box, and the most by which displacements from a box can go against n.
 inline double min_along(const Box& box, const std::array<double, 2>& n) {
-  double least = 0;
+  double minimum = 0;
   for (int k = 0; k < 2; ++k) {
     const double component = entry(n, k);
-    least += std::min(component * box.low[k], component * box.high[k]);
+    minimum += std::min(component * box.low[k], component * box.high[k]);
   }
-  return least;
+  return minimum;
 }
 
 inline Box moved(Box box, const std::array<double, 2>& by) {

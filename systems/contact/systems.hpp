@@ -30,7 +30,7 @@ template <class At>
 struct NewRows {
   Write<ContactPair<At>> pair;
   Write<ContactLaw<At>> law;
-  Write<ContactReach<At>> reach;
+  Write<ActivationTravel<At>> activation;
   Optional<Write<FrictionMore<At>>> more;
 };
 
@@ -67,7 +67,7 @@ template <class At>
 struct RowColumns {
   Read<ContactPair<At>> pair;
   Write<ContactTouches<At>> touches;
-  Write<ContactReach<At>> reach;
+  Write<ActivationTravel<At>> activation;
   Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
   Optional<Write<ElasticSlip<At>>> elastic_slip;

@@ -34,9 +34,9 @@ struct Weakening {
   T mu;         // dynamic
   T drop;       // static less dynamic
   T inv_decay;  // 1/m
-  T most;       // Pa; of one pass
+  T maximum;    // Pa; of one pass
   T lost;       // share of the static part that has faded
-  T strength(T pressure) const { return min(fma(drop, 1.0 - lost, mu) * pressure, most); }
+  T strength(T pressure) const { return min(fma(drop, 1.0 - lost, mu) * pressure, maximum); }
   void slide(T distance) { lost = 1.0 - (1.0 - lost) / fma(distance, inv_decay, T{} + 1.0); }
 };
 

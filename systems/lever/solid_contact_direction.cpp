@@ -137,7 +137,7 @@ class ProbeContact {
 
   // By how much forces, over the largest, or places, over the scanner's displacement, still change.
   double change() const {
-    const double most = equations_.force_step.lpNorm<Eigen::Infinity>();
+    const double maximum = equations_.force_step.lpNorm<Eigen::Infinity>();
     double moved_by = 0, travel = Vector3d(target_.travel.data()).norm();
     for (const int p : points_) {
       const Vector3d step =
@@ -145,7 +145,7 @@ class ProbeContact {
       moved_by = std::max(moved_by, step.norm());
     }
     // A probe that slides steadily moves on under forces that stay.
-    return std::max(most == 0 ? 0 : most / std::max(most, equations_.largest_force),
+    return std::max(maximum == 0 ? 0 : maximum / std::max(maximum, equations_.largest_force),
                     moved_by == 0 ? 0 : moved_by / std::max(moved_by, travel));
   }
 

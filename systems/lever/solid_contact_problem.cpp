@@ -82,14 +82,14 @@ class ContactNewton {
   // probe off before the law has been asked.
   void follow() {
     Index hardest = -1;
-    double most = 0;
+    double maximum = 0;
     for (Index p = 0; p < size_ / 3; ++p) {
       const double pressing = place(p).normal.dot(start_.segment<3>(3 * p));
-      if (pressing > most) most = pressing, hardest = p;
+      if (pressing > maximum) maximum = pressing, hardest = p;
     }
     if (hardest < 0) return;
     const auto at = place(hardest);
-    height_ = (at.gap + most / point(hardest).law.normal_stiffness) / at.normal.z();
+    height_ = (at.gap + maximum / point(hardest).law.normal_stiffness) / at.normal.z();
   }
 
   // Nothing touches, but the servo wants its force: the nearest point takes it.

@@ -232,9 +232,9 @@ struct HexKernel {
   }
 
   static Real min_volume(const std::array<Point, 8>& points) {
-    Real least = points[0].volume;
-    for (const Point& p : points) least = std::min(least, p.volume);
-    return least;
+    Real minimum = points[0].volume;
+    for (const Point& p : points) minimum = std::min(minimum, p.volume);
+    return minimum;
   }
 
   // Adds a point's stress and its derivative c to the tangent, the modes left aside.

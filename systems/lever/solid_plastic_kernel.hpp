@@ -144,12 +144,12 @@ inline double elastic_modes(const std::array<HexPoint, 8>& points, const Voigt6&
 inline ModeBalance balance_modes(const std::array<HexPoint, 8>& points, const PlasticMaterial& m,
                                  const Voigt6& elastic, HexFormulation formulation,
                                  const HexMemory& before) {
-  constexpr int most = 60, halvings = 8;
+  constexpr int maximum = 60, halvings = 8;
   constexpr double enough = 1e-14;
   ModeBalance b;
   const double size = elastic_modes(points, elastic, formulation, before, b);
   evaluate_modes(points, m, elastic, formulation, before, b);
-  for (int i = 0; i < most; ++i) {
+  for (int i = 0; i < maximum; ++i) {
     b.found = b.work.norm() <= enough * size;
     if (b.found) return b;
     ModeVector step = -b.h.llt().solve(b.work);

@@ -90,17 +90,17 @@ Face face_of(const std::vector<Point>& surface, int side, Point tool, double far
 // Farthest outwards that the chain of `side` comes between `low` and `high` of the other axis.
 double farthest(const std::vector<Point>& chain, int side, double low, double high) {
   const std::size_t along = across(side), out = 1 - along;
-  double most = -endless;
+  double maximum = -endless;
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
     const Point &a = chain[i], &b = chain[i + 1];
     const double from = std::min(a[along], b[along]), to = std::max(a[along], b[along]);
     if (to < low || from > high) continue;
     for (const double at : {std::max(from, low), std::min(to, high)}) {
       const double share = to > from ? (at - a[along]) / (b[along] - a[along]) : 0;
-      most = std::max(most, outward(side) * (a[out] + share * (b[out] - a[out])));
+      maximum = std::max(maximum, outward(side) * (a[out] + share * (b[out] - a[out])));
     }
   }
-  return outward(side) * most;
+  return outward(side) * maximum;
 }
 
 class Grid {

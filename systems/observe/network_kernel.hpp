@@ -38,14 +38,14 @@ inline Fabric fabric(std::span<const ContactLink> links) {
 }
 
 struct ForceSizes {
-  double mean = 0, most = 0;  // N, normal
+  double mean = 0, maximum = 0;  // N, normal
 };
 
 inline ForceSizes force_sizes(std::span<const ContactLink> links) {
   ForceSizes sizes;
   for (const ContactLink& link : links) {
     sizes.mean += link.normal_force() / static_cast<double>(links.size());
-    sizes.most = std::max(sizes.most, link.normal_force());
+    sizes.maximum = std::max(sizes.maximum, link.normal_force());
   }
   return sizes;
 }

@@ -67,11 +67,11 @@ class Approach {
 
 // No surface may be on one side of a part before a step and on its other side after it, or nearer to that.
 double without_passing(const Approach& approach, const Clock& clock, double thinnest, double dt) {
-  const double most = max_share_of_thickness * thinnest;
+  const double maximum = max_share_of_thickness * thinnest;
   for (double displacement = approach.displacement(clock.time, dt);
-       displacement > most && std::isfinite(displacement);
+       displacement > maximum && std::isfinite(displacement);
        displacement = approach.displacement(clock.time, dt))
-    dt *= 0.99 * most / displacement;
+    dt *= 0.99 * maximum / displacement;
   return dt;
 }
 

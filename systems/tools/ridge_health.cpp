@@ -64,7 +64,7 @@ struct Depth {
 };
 Depth depth_in(const Shape& shape, const double* control, const Point& p) {
   bool inside = false;
-  double least = std::numeric_limits<double>::infinity(), length = 1;
+  double minimum = std::numeric_limits<double>::infinity(), length = 1;
   for (const Shape::Edge& edge : shape.edges) {
     const double* y = control + 2 * edge.first_control;
     const Point a = curve_point(y, 0), b = curve_point(y, 1);
@@ -74,11 +74,11 @@ Depth depth_in(const Shape& shape, const double* control, const Point& p) {
     const double cx = b[0] - a[0], cy = b[1] - a[1], rx = p[0] - a[0], ry = p[1] - a[1];
     const double share = std::clamp((rx * cx + ry * cy) / (cx * cx + cy * cy), 0.0, 1.0);
     const double distance = portable::hypot(rx - share * cx, ry - share * cy);
-    if (distance >= least) continue;
-    least = distance;
+    if (distance >= minimum) continue;
+    minimum = distance;
     length = edge.length;
   }
-  return inside ? Depth{least, least / length} : Depth{};
+  return inside ? Depth{minimum, minimum / length} : Depth{};
 }
 
 Box in_frame_of(Box box, const Point& tool) {

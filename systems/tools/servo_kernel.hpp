@@ -60,11 +60,11 @@ inline constexpr double dragged_mass = 4;
 // Of the mass, that may be let go in a step: what touches comes and goes, and each time would brake.
 inline constexpr double let_go = 1e-3;
 
-// The state once the mass is at least `least`.
-inline ServoState with_mass(const ServoState& s, double least) {
-  if (least <= s.mass) return {std::max(least, (1 - let_go) * s.mass), s.speed, s.dragged};
-  const double kept = s.mass / least;
-  return {least, kept * s.speed, kept * s.dragged};
+// The state once the mass is at least `minimum`.
+inline ServoState with_mass(const ServoState& s, double minimum) {
+  if (minimum <= s.mass) return {std::max(minimum, (1 - let_go) * s.mass), s.speed, s.dragged};
+  const double kept = s.mass / minimum;
+  return {minimum, kept * s.speed, kept * s.dragged};
 }
 
 // `missing`: F_set - F, N. No faster than `max_speed`.

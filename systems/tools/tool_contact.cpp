@@ -35,7 +35,7 @@ struct ToolPass {
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<ToolContact> row) const {
-    return s.clock->travel >= s.columns.reach(row);
+    return s.clock->travel >= s.columns.activation(row);
   }
   [[gnu::always_inline]] void fetch(Row<ToolContact> row) const { pulvis::fetch(s.columns, row); }
   void fetch_other(Row<ToolContact>) const {}

@@ -100,11 +100,11 @@ void tool_servo::operator()() const {
     drive.asked(tool, 0) =
         asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
 
-    const double least = kernels::min_tool_mass(touching(t, rows, law), clock->dt, clock->safety);
+    const double minimum = kernels::min_tool_mass(touching(t, rows, law), clock->dt, clock->safety);
     const kernels::ServoState now =
         kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
                             along(drive.dragged, tool, servo->direction)},
-                           std::max(servo->mass, least));
+                           std::max(servo->mass, minimum));
     const kernels::ServoState next = kernels::servo_step(
         now, drive.asked(tool, 0) - bears, servo->damping * std::sqrt(now.mass / servo->mass),
         servo->max_speed, 0.5 * (clock->dt_before + clock->dt));

@@ -124,8 +124,9 @@ TEST_F(Faults, AFolderThatVanishesIsNamed) {
   fs::rename(place / "run", place / "gone");  // at once: nothing is written in between
   const Outcome end = end_of(child);
   EXPECT_EQ(end.code, 4) << end.err;
-  EXPECT_THAT(end.err, ContainsRegex("run/[a-z.0-9-]+: cannot .*: (No such file or directory|it is no "
-                                     "longer there)"));
+  EXPECT_THAT(end.err,
+              ContainsRegex("run/[a-z.0-9-]+: cannot .*: (No such file or directory|it is no "
+                            "longer there)"));
 }
 
 TEST_F(Faults, TooLittleMemoryIsRefusedBeforeTheFolderIsMade) {

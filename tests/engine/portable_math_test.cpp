@@ -25,13 +25,14 @@ std::mt19937_64& bits() {
 double uniform(double low, double high) {
   return low + (high - low) * static_cast<double>(bits()() >> 11U) * 0x1p-53;
 }
-double magnitude(int least, int most) {  // between powers of two
-  const int exponent = least + static_cast<int>(bits()() % static_cast<unsigned>(most - least));
+double magnitude(int minimum, int maximum) {  // between powers of two
+  const int exponent =
+      minimum + static_cast<int>(bits()() % static_cast<unsigned>(maximum - minimum));
   return std::ldexp(uniform(1, 2), exponent);
 }
-double signed_magnitude(int least, int most) {
+double signed_magnitude(int minimum, int maximum) {
   const double sign = bits()() % 2 == 0 ? 1 : -1;
-  return sign * magnitude(least, most);
+  return sign * magnitude(minimum, maximum);
 }
 
 struct Case {

@@ -189,10 +189,10 @@ TEST_F(RecorderTest, LeavesAFrameReadableWhileTheRunGoesOn) {
 
 // Beyond the first hundred, frames that come fast share a commit. Whoever looks on sees whole ones.
 TEST_F(RecorderTest, ManyFastFramesAreAllThereWhenTheRunIsSavedOrEnds) {
-  constexpr int most = 600;
+  constexpr int maximum = 600;
   open_run_folder(folder);
   Recorder recorder(folder, {}, two_squares(), two_series(), four_fields());
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < maximum; ++k) {
     recorder.sample(k, std::vector{1.0, 2.0});
     recorder.frame(k, k, fields_of(k));
     if (k % 97 != 0) continue;
@@ -204,13 +204,13 @@ TEST_F(RecorderTest, ManyFastFramesAreAllThereWhenTheRunIsSavedOrEnds) {
       EXPECT_EQ(file.number_attribute("/frames/" + frame, "complete"), 1);
     EXPECT_EQ(file.shape("/history/time").front(), frames.size());
   }
-  EXPECT_EQ(recorder.position().frames, most);
-  EXPECT_EQ(hdf5::File::open(folder / "run.h5").children("/frames").size(), std::size_t{most});
+  EXPECT_EQ(recorder.position().frames, maximum);
+  EXPECT_EQ(hdf5::File::open(folder / "run.h5").children("/frames").size(), std::size_t{maximum});
   EXPECT_THAT(text_of("run.xdmf"), HasSubstr("/frames/000599/position"));
   recorder.finish();
   const auto file = hdf5::File::open(folder / "run.h5");
-  EXPECT_EQ(file.children("/frames").size(), std::size_t{most});
-  EXPECT_EQ(file.read_doubles("/frames/000599/effective_stress"), fields_of(most - 1)[2]);
+  EXPECT_EQ(file.children("/frames").size(), std::size_t{maximum});
+  EXPECT_EQ(file.read_doubles("/frames/000599/effective_stress"), fields_of(maximum - 1)[2]);
   EXPECT_EQ(file.number_attribute("/frames/000400", "time"), 400);
 }
 

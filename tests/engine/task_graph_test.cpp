@@ -231,14 +231,14 @@ TEST_F(TaskGraphTest, ExceptionOfASystemComesOutOfRunAndStopsWhatFollows) {
 // ---- small tasks beside chunks ------------------------------------------------------------------
 // Chunks that were begun when the system of small tasks began, the least of many runs.
 int chunks_begun_before(const std::vector<System>& systems, Workers& workers) {
-  std::atomic<int> begun = 0, least = chunks;
+  std::atomic<int> begun = 0, minimum = chunks;
   std::vector<System> counted = systems;
   for (System& system : counted) {
     const auto inner = system.run;
     if (system.by_chunk)
       system.run = [&begun, inner](Chunk c) { ++begun, inner(c); };
     else if (system.small_tasks)
-      system.run = [&begun, &least](Chunk) { least = std::min<int>(least, begun); };
+      system.run = [&begun, &minimum](Chunk) { minimum = std::min<int>(minimum, begun); };
   }
   workers.run([&] {
     TaskGraph graph(counted, chunks);
@@ -247,7 +247,7 @@ int chunks_begun_before(const std::vector<System>& systems, Workers& workers) {
       EXPECT_EQ(begun, chunks);
     }
   });
-  return least;
+  return minimum;
 }
 
 TEST_F(TaskGraphTest, SmallTasksBeginWhenTheChunksBesideThemHaveBeenTaken) {

@@ -55,17 +55,18 @@ TEST(ContactNetwork, GivesEveryParticleAndToolItsForce) {
   Experiment e("compaction/regular-25.toml", pressed);
   e.run(3);
   const std::vector<Vec2> sums = sums_by_particle(e);
-  const double most = e.value("network/largest_force");
-  ASSERT_GT(most, 1000);
+  const double maximum = e.value("network/largest_force");
+  ASSERT_GT(maximum, 1000);
   for (std::size_t p = 0; p < sums.size(); ++p)
-    EXPECT_LT((sums[p] - force_on_nodes(e, bodies_of(e).slot_of_number[p])).norm(), 1e-11 * most);
+    EXPECT_LT((sums[p] - force_on_nodes(e, bodies_of(e).slot_of_number[p])).norm(),
+              1e-11 * maximum);
   std::vector<Vec2> on_tools(e.scene.tools.size(), Vec2::Zero());
   for (const ContactLink& l : network_of(e).tools)
     on_tools[static_cast<std::size_t>(l.second)] -= Vec2(l.force[0], l.force[1]);
   for (std::size_t t = 0; t < on_tools.size(); ++t) {
     const std::string name = "tool/" + e.scene.tools[t].name + "/force_";
-    EXPECT_NEAR(on_tools[t].x(), e.value(name + "x"), 1e-11 * most) << name;
-    EXPECT_NEAR(on_tools[t].y(), e.value(name + "y"), 1e-11 * most) << name;
+    EXPECT_NEAR(on_tools[t].x(), e.value(name + "x"), 1e-11 * maximum) << name;
+    EXPECT_NEAR(on_tools[t].y(), e.value(name + "y"), 1e-11 * maximum) << name;
   }
 }
 

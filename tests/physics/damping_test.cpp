@@ -175,7 +175,7 @@ TEST(BulkDamping, OfMassSlowsARotationByItsRate) {
 
 // ---- coming to rest -----------------------------------------------------------------------------------
 struct Ringing {
-  double least = 1e300, most = -1e300;  // of the static force, over the last third of the run
+  double minimum = 1e300, maximum = -1e300;  // of the static force, over the last third of the run
   double balance = 0;
 };
 Ringing strut(const std::vector<std::string>& changes) {
@@ -188,8 +188,8 @@ Ringing strut(const std::vector<std::string>& changes) {
     spent = e.results.energies().bulk_damping;
     if (e.simulation.clock().time < 2.0 / 3 * e.simulation.clock().end) return;
     const double share = e.value("tool/head/force_y") / still;
-    found.least = std::min(found.least, share);
-    found.most = std::max(found.most, share);
+    found.minimum = std::min(found.minimum, share);
+    found.maximum = std::max(found.maximum, share);
   });
   found.balance = e.results.energy_balance_error();
   return found;
@@ -197,12 +197,12 @@ Ringing strut(const std::vector<std::string>& changes) {
 
 TEST(BulkDamping, AStrutComesToRestAtItsStaticForce) {
   const Ringing free = strut({"material.steel.damping.mass_proportional=0 1/s"});
-  EXPECT_LT(free.least, 0.83);
-  EXPECT_GT(free.most, 1.17);
+  EXPECT_LT(free.minimum, 0.83);
+  EXPECT_GT(free.maximum, 1.17);
   for (const char* formulation : {"one-point", "four-point", "standard"}) {
     const Ringing damped = strut({std::string("element.formulation=") + formulation});
-    EXPECT_NEAR(damped.least, 1, 0.01) << formulation;
-    EXPECT_NEAR(damped.most, 1, 0.01) << formulation;
+    EXPECT_NEAR(damped.minimum, 1, 0.01) << formulation;
+    EXPECT_NEAR(damped.maximum, 1, 0.01) << formulation;
     EXPECT_LT(damped.balance, 1e-3) << formulation;
   }
 }

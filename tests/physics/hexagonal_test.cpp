@@ -20,13 +20,13 @@ const std::vector<std::string> small{"packing[0].rows=5",
 
 TEST(Hexagonal, PushesBothWallsAlike) {
   Experiment e("compaction/hexagonal-1683.toml", small);
-  double most = 0;
+  double maximum = 0;
   e.run(50, [&] {
     const double left = -e.value("tool/left/force_x"), right = e.value("tool/right/force_x");
-    most = std::max(most, right);
-    EXPECT_NEAR(left, right, 1e-6 * most);
+    maximum = std::max(maximum, right);
+    EXPECT_NEAR(left, right, 1e-6 * maximum);
   });
-  EXPECT_GT(most, 1e3);
+  EXPECT_GT(maximum, 1e3);
   EXPECT_GT(e.results.energies().plastic, 10 * e.results.energies().elastic);
   EXPECT_NEAR(e.value("relative_density"), 18 * std::numbers::pi * 25 / (40 * (44.641016152 - 1.3)),
               1e-3);

@@ -82,15 +82,15 @@ TEST(SpinningRoundedRectangle, KeepsItsShape) {
   const std::vector<Point> end = positions(e);
   const double r = std::hypot(7.5e-3, 5e-3);
   const double strain = 7850 * 1e4 * 1e4 * r * r / 200e9;
-  double most = 0;
+  double maximum = 0;
   for (std::size_t i = 0; i < start.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double was = std::hypot(start[i][0] - start[j][0], start[i][1] - start[j][1]);
       const double is = std::hypot(end[i][0] - end[j][0], end[i][1] - end[j][1]);
-      most = std::max(most, std::abs(is / was - 1));
+      maximum = std::max(maximum, std::abs(is / was - 1));
     }
-  EXPECT_GT(most, 0);
-  EXPECT_LT(most, 2 * strain);
+  EXPECT_GT(maximum, 0);
+  EXPECT_LT(maximum, 2 * strain);
   EXPECT_LT(e.results.energy_balance_error(), 1e-3);
 }
 
@@ -155,11 +155,11 @@ double patch_error(const std::string& stiffness) {
   const std::vector<double> s = e.results.frame()[4];
   const double force = 0.5 * (e.value("tool/top/force_y") - e.value("tool/bottom/force_y"));
   const double pressure = force / (10e-3 * e.scene.thickness);
-  double most = 0;
+  double maximum = 0;
   for (std::size_t c = 0; c < s.size() / 4; ++c)
-    most = std::max({most, std::abs(s[4 * c + 1] / pressure + 1), std::abs(s[4 * c] / pressure),
-                     std::abs(s[4 * c + 3] / pressure)});
-  return most;
+    maximum = std::max({maximum, std::abs(s[4 * c + 1] / pressure + 1),
+                        std::abs(s[4 * c] / pressure), std::abs(s[4 * c + 3] / pressure)});
+  return maximum;
 }
 
 // The springs of the contact are as soft as the element behind them is thick, which is not the same along an

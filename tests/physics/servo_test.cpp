@@ -83,15 +83,15 @@ TEST_P(ServoOver, HoldsItsForceAndKeepsItsEnergy) {
   Experiment e(own_scene(c.powder + die(c.width, c.height) + stage("load", "compact", c.load) +
                          servo("top", c.force, 0.8) + stage("hold", "hold", hold) +
                          servo("top", c.force, 0.2) + contact(c.stiffness, c.damping)));
-  double most = 0, off = 0;
+  double maximum = 0, off = 0;
   e.run(300, [&] {
     const double force = e.value("tool/top/force_y");
-    most = std::max(most, force);
+    maximum = std::max(maximum, force);
     if (e.simulation.clock().time > (c.load + 0.25 * hold) * 1e-3)
       off = std::max(off, std::abs(force - c.force));
   });
   EXPECT_LT(e.results.energy_balance_error(), 5e-3);
-  EXPECT_LT(most, 1.01 * c.force);
+  EXPECT_LT(maximum, 1.01 * c.force);
   EXPECT_LT(off, 2e-3 * c.force);
 }
 

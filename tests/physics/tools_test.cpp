@@ -175,10 +175,10 @@ name = "lid"
 shape = "plane"
 point = ["0 mm", "14 mm"]
 normal = [0, -1])"));
-  double most = 0;
-  e.run(300, [&] { most = std::max(most, e.results.energies().contact); });
+  double maximum = 0;
+  e.run(300, [&] { maximum = std::max(maximum, e.results.energies().contact); });
   const double kinetic = 0.5 * 7850 * 25e-6 * std::numbers::pi * 1e-3 * (400 + 16);
-  EXPECT_GT(most, 0.02 * kinetic);  // it did hit
+  EXPECT_GT(maximum, 0.02 * kinetic);  // it did hit
   EXPECT_LT(e.results.energy_balance_error(), 0.002);
 }
 

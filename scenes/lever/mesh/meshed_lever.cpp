@@ -109,10 +109,10 @@ class LeverReader {
         {{0, 4, 7, 3, 1, 5, 6, 2}, {0, 1, 5, 4, 3, 2, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}}};
     static constexpr std::array<std::size_t, 3> next{1, 3, 4};
     std::size_t best = 0;
-    double most = -1;
+    double maximum = -1;
     for (std::size_t k = 0; k < 3; ++k) {
       const double upright = std::abs((at(h[next[k]]) - at(h[0])).normalized().z());
-      if (upright > most) most = upright, best = k;
+      if (upright > maximum) maximum = upright, best = k;
     }
     SolidMesh::Hexahedron flat;
     for (std::size_t c = 0; c < 8; ++c) flat[c] = h[turned[best][c]];

@@ -169,10 +169,10 @@ double foot_reach(const TipSpec& tip) {
 }
 
 int tip_layers(const TipSpec& tip) {
-  constexpr double most = 40;
+  constexpr double maximum = 40;
   const double end = tip.shape == TipShape::block ? tip.foot : tip.end;
   const double cubes = std::round(tip.height / (0.5 * (tip.foot + end)) * tip.elements);
-  return static_cast<int>(std::clamp(cubes, 2.0, most));
+  return static_cast<int>(std::clamp(cubes, 2.0, maximum));
 }
 
 LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip) {

@@ -27,9 +27,9 @@ TEST(Jkr, AForceAloneLetsGoAtThreeHalvesPiWRAndAnApproachAloneAtFiveSixths) {
   const double stays = std::cbrt(1.5 * pi * w * R * R / K);  // a_0/4^(1/3)
   EXPECT_NEAR(law.radius * std::pow(jkr_balance(law, 1, 0, -off * (1 - 1e-12)).q, 2) / stays, 1,
               1e-5);
-  const double least = std::cbrt(pi * w * R * R / (6 * K)), lowest = -3 * least * least / R;
+  const double minimum = std::cbrt(pi * w * R * R / (6 * K)), lowest = -3 * minimum * minimum / R;
   EXPECT_EQ(jkr_radius(polystyrene, lowest * (1 + 1e-9)), 0);
-  EXPECT_NEAR(jkr_radius(polystyrene, lowest * (1 - 1e-9)) / least, 1, 1e-4);
+  EXPECT_NEAR(jkr_radius(polystyrene, lowest * (1 - 1e-9)) / minimum, 1, 1e-4);
   EXPECT_NEAR(jkr_balance(law, 0, 1, lowest * (1 - 1e-12)).force / (-5.0 / 6 * pi * w * R), 1,
               1e-5);
 }
@@ -123,7 +123,7 @@ TEST(Jkr, AForceCurveOfALeverIsTheClosedForm) {
   EXPECT_NEAR(off, 1.5 * pi * 0.01 * 5e-6, 1e-20);
   const AfmHistory h = history_of(simulation);
   bool touches = false;
-  double least = 0, before = 0, work = 0, in_at = -1, out_at = 1;
+  double minimum = 0, before = 0, work = 0, in_at = -1, out_at = 1;
   for (std::size_t i = 1; i < h.rows.size(); ++i) {
     const double z = h.value(i, "scanner/z"), force = h.value(i, "probe/force_z");
     const bool touched = touches;
@@ -144,10 +144,10 @@ TEST(Jkr, AForceCurveOfALeverIsTheClosedForm) {
       EXPECT_NEAR(h.value(i, "contact/radius") / a, 1, 2e-3) << z;
     }
     work += 0.5 * (force + before) * (z - h.value(i - 1, "scanner/z"));
-    least = std::min(least, force);
+    minimum = std::min(minimum, force);
     before = force;
   }
-  EXPECT_NEAR(least / -off, 1, 1e-3);
+  EXPECT_NEAR(minimum / -off, 1, 1e-3);
   EXPECT_GE(in_at, 0);
   EXPECT_LT(in_at, 10.1e-9);  // an increment
   EXPECT_LT(out_at, 0);
@@ -180,14 +180,14 @@ TEST(Jkr, AStiffLeverFollowsTheBallBeyondItsGreatestPull) {
   const double off = pull_off_force(scene);
   const AfmHistory h = history_of(simulation);
   bool touches = false;
-  double least = 0, held = 0;
+  double minimum = 0, held = 0;
   for (std::size_t i = 1; i < h.rows.size(); ++i) {
     const double force = h.value(i, "probe/force_z");
     EXPECT_NEAR(force, on_spring(ball, k, h.value(i, "scanner/z"), touches), 2e-3 * off);
-    least = std::min(least, force);
+    minimum = std::min(minimum, force);
     if (touches) held = force;
   }
-  EXPECT_NEAR(least / -off, 1, 1e-3);
+  EXPECT_NEAR(minimum / -off, 1, 1e-3);
   EXPECT_GT(held, -0.9 * off);
   EXPECT_FALSE(touches);
 }
@@ -208,14 +208,14 @@ TEST(Jkr, FrictionSeesTheLoadAndThePullOffForce) {
     const Scene scene = afm_scene(text + programme);
     const AfmHistory h = history_of(scene);
     const double load = 100e-9, off = pull_off_force(scene), theta = degrees * pi / 180;
-    double most = 0;
+    double maximum = 0;
     for (std::size_t i = 4; i < h.rows.size(); ++i) {
       EXPECT_NEAR(h.value(i, "probe/force_z") / load, 1, 1e-6);
-      most = std::max(most, -h.value(i, "probe/force_y"));
+      maximum = std::max(maximum, -h.value(i, "probe/force_y"));
     }
     const double up = (load * (std::sin(theta) + 0.2 * std::cos(theta)) + 0.2 * off) /
                       (std::cos(theta) - 0.2 * std::sin(theta));
-    EXPECT_NEAR(most / up, 1, 1e-3) << degrees;
+    EXPECT_NEAR(maximum / up, 1, 1e-3) << degrees;
   }
 }
 

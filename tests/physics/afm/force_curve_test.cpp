@@ -13,13 +13,13 @@ TEST(ForceCurve, TheTipLeavesWhereTheLeverDrawsWithTheAdhesion) {
   AfmSimulation simulation(scene);
   const double k = simulation.calibrate().normal_stiffness;
   const AfmHistory h = history_of(scene);
-  double least = 0, snapped_at = 0;
+  double minimum = 0, snapped_at = 0;
   for (std::size_t i = 1; i < h.rows.size(); ++i) {
-    least = std::min(least, h.value(i, "probe/force_z"));
+    minimum = std::min(minimum, h.value(i, "probe/force_z"));
     const bool in = h.times[i] > 1 && h.times[i] < 3 && h.value(i, "contact/points") > 0;
     if (in && snapped_at == 0) snapped_at = h.value(i, "scanner/z");
   }
-  EXPECT_NEAR(least / -20e-9, 1, 0.005);
+  EXPECT_NEAR(minimum / -20e-9, 1, 0.005);
   // The lever snaps on where d/dg [A/(1 + g/r)^2] = -k: the gap there, less how far the tip is drawn by then.
   const double stretch = std::cbrt(2 * 20e-9 / (k * 1e-9));
   const double expected = -1e-9 * (stretch - 1) - 20e-9 / (stretch * stretch) / k;

@@ -15,14 +15,14 @@ namespace {
 
 // From `near` on r' <= most r^2, but for round-off. A method that gains a digit an iteration fails at the third.
 void expect_squares(const std::vector<double>& r) {
-  constexpr double near = 0.05, most = 50, round_off = 1e-11;
+  constexpr double near = 0.05, maximum = 50, round_off = 1e-11;
   int squared = 0;
   // What is out of balance is largest once the load, or the contact's new forces, have come.
   const auto most_out = static_cast<std::size_t>(std::ranges::max_element(r) - r.begin());
   for (std::size_t i = most_out; i + 1 < r.size(); ++i) {
     if (squared == 0 && r[i] > near) continue;
     if (r[i] < 1e-7) break;  // its square is round-off
-    EXPECT_LE(r[i + 1], most * r[i] * r[i] + round_off) << i;
+    EXPECT_LE(r[i + 1], maximum * r[i] * r[i] + round_off) << i;
     ++squared;
   }
   EXPECT_GE(squared, 3) << testing::PrintToString(r);

@@ -102,13 +102,13 @@ TEST(Mesh, DiscHasTheAreaOfItsCircle) {
 TEST(Mesh, RefinedDiscIsFinerAtThePolesByItsRefinement) {
   for (const double refinement : {2.0, 8.0, 48.0}) {
     const Shape shape = disc({160, 1, refinement});
-    double least = 1, most = 0;
+    double minimum = 1, maximum = 0;
     for (const Shape::Edge& edge : shape.edges) {
-      least = std::min(least, edge.length);
-      most = std::max(most, edge.length);
+      minimum = std::min(minimum, edge.length);
+      maximum = std::max(maximum, edge.length);
     }
     // A pole between two edges is half an edge finer than they; an edge of the flanks is one in 25.
-    EXPECT_NEAR(most / least, refinement, 0.08 * refinement);
+    EXPECT_NEAR(maximum / minimum, refinement, 0.08 * refinement);
   }
 }
 
@@ -157,13 +157,13 @@ TEST(Mesh, DiscHasTheSymmetryOfTheSquare) {
 
 // Largest distance of the contact curve from the circle, in radii.
 double curve_error(const Shape& shape) {
-  double most = 0;
+  double maximum = 0;
   for (const Shape::Edge& edge : shape.edges)
     for (int i = 0; i <= 8; ++i) {
       const Point x = curve_point(shape, edge, i / 8.0);
-      most = std::max(most, std::abs(std::hypot(x[0], x[1]) / radius - 1));
+      maximum = std::max(maximum, std::abs(std::hypot(x[0], x[1]) / radius - 1));
     }
-  return most;
+  return maximum;
 }
 
 TEST(ContactCurve, OfADiscIsTheCircleToTheFourthOrder) {

@@ -100,21 +100,21 @@ TEST(RoundedRectangle, IsItsOwnMirrorImage) {
 
 TEST(RoundedRectangle, EveryArcHasFourEdgesAndNeighboursDifferLittle) {
   for (const Case& c : all()) {
-    double least = 1, most = 0, growth = 1;
+    double minimum = 1, maximum = 0, growth = 1;
     for (const Shape::Edge& edge : c.shape.edges) {
       const double next = c.shape.edges[static_cast<std::size_t>(edge.next)].length;
       growth = std::max({growth, next / edge.length, edge.length / next});
-      least = std::min(least, edge.length);
-      most = std::max(most, edge.length);
+      minimum = std::min(minimum, edge.length);
+      maximum = std::max(maximum, edge.length);
     }
     EXPECT_LT(growth, 1.02 * max_edge_growth) << c.name;  // lengths of the curve, not of its chords
     const double arc = pi / 2 * c.outline.radius;
-    EXPECT_LT(least, 1.1 * arc / 4)
+    EXPECT_LT(minimum, 1.1 * arc / 4)
         << c.name;  // four edges an arc, with the rest of a short flat ...
     // ... and no edge is thinner than a quarter of an arc, or than an even division would make it.
     double perimeter = 0;
     for (const Shape::Edge& edge : c.shape.edges) perimeter += edge.length;
-    EXPECT_GT(least, 0.8 * std::min(arc / 4, perimeter / c.mesh.boundary_edges)) << c.name;
+    EXPECT_GT(minimum, 0.8 * std::min(arc / 4, perimeter / c.mesh.boundary_edges)) << c.name;
   }
 }
 
@@ -126,11 +126,12 @@ double outside(const RoundedRectangleOutline& o, const Point& p) {
 }
 
 double corner_error(const Case& c) {
-  double most = 0;
+  double maximum = 0;
   for (const Shape::Edge& edge : c.shape.edges)
     for (int i = 0; i <= 16; ++i)
-      most = std::max(most, std::abs(outside(c.outline, curve_point(c.shape, edge, i / 16.0))));
-  return most;
+      maximum =
+          std::max(maximum, std::abs(outside(c.outline, curve_point(c.shape, edge, i / 16.0))));
+  return maximum;
 }
 
 TEST(RoundedRectangleCurve, FollowsTheOutlineToOnePercentOfTheRadius) {
@@ -190,12 +191,12 @@ TEST(RoundedRectangleCurve, HasTheOutlinesArea) {
 
 // Largest difference of a node's load by a uniform pressure on the curve from that on its element edges.
 double load_error(const Shape& shape) {
-  double most = 0;
+  double maximum = 0;
   for (const PressureLoad& load : pressure_loads(shape))
-    most = std::max(most,
-                    std::hypot(load.curve[0] - load.polygon[0], load.curve[1] - load.polygon[1]) /
-                        std::hypot(load.polygon[0], load.polygon[1]));
-  return most;
+    maximum = std::max(
+        maximum, std::hypot(load.curve[0] - load.polygon[0], load.curve[1] - load.polygon[1]) /
+                     std::hypot(load.polygon[0], load.polygon[1]));
+  return maximum;
 }
 
 TEST(RoundedRectangleCurve, UniformPressureLoadsTheNodesAsElementEdgesDo) {

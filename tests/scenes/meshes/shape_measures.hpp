@@ -27,10 +27,10 @@ inline double polygon_area(const Shape& shape) {
 }
 
 inline double min_determinant(const Shape& shape) {
-  double least = 1e300;
+  double minimum = 1e300;
   for (const auto& element : shape.gauss)
-    for (const Shape::GaussPoint& point : element) least = std::min(least, point.determinant);
-  return least;
+    for (const Shape::GaussPoint& point : element) minimum = std::min(minimum, point.determinant);
+  return minimum;
 }
 
 inline Point control_point(const Shape& shape, int c) {

@@ -152,14 +152,14 @@ TEST(StarMesh, HasTheMomentOfInertiaOfTheOutline) {
 
 // Mirror images of all nodes are nodes, as far as the smoothing has converged.
 double asymmetry(const Shape& shape, double sign_x, double sign_y) {
-  double most = 0;
+  double maximum = 0;
   for (const Point& p : shape.nodes) {
     double nearest = 1;
     for (const Point& q : shape.nodes)
       nearest = std::min(nearest, std::hypot(q[0] - sign_x * p[0], q[1] - sign_y * p[1]));
-    most = std::max(most, nearest);
+    maximum = std::max(maximum, nearest);
   }
-  return most / std::sqrt(shape.area);
+  return maximum / std::sqrt(shape.area);
 }
 
 TEST(StarMesh, IsAsSymmetricAsItsOutline) {
@@ -179,15 +179,15 @@ TEST(StarMesh, IsAsSymmetricAsItsOutline) {
 double curve_error(const EllipseOutline& o, int edges) {
   const double a = o.width / 2, b = o.height / 2;
   const Shape shape = meshed(o, edges);
-  double most = 0;
+  double maximum = 0;
   for (const Shape::Edge& edge : shape.edges)
     for (int i = 0; i < 16; ++i) {
       const Point p = curve_point(shape, edge, i / 16.0);
       const double x = p[0] / a, y = p[1] / b;
       const double slope = 2 * std::hypot(x / a, y / b);
-      most = std::max(most, std::abs(x * x + y * y - 1) / slope / b);
+      maximum = std::max(maximum, std::abs(x * x + y * y - 1) / slope / b);
     }
-  return most;
+  return maximum;
 }
 
 TEST(StarCurve, OfAnEllipseIsTheEllipseToTheFourthOrder) {
@@ -200,22 +200,22 @@ TEST(StarCurve, OfAnEllipseIsTheEllipseToTheFourthOrder) {
 // Of any outline: from a polygon that is far closer to it than the curve is.
 double distance_to(const std::vector<Vec2>& polygon, const Point& point) {
   const Vec2 p(point[0], point[1]);
-  double least = 1;
+  double minimum = 1;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 &a = polygon[i], along = polygon[(i + 1) % polygon.size()] - a;
     const double share = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (p - a - share * along).norm());
+    minimum = std::min(minimum, (p - a - share * along).norm());
   }
-  return least;
+  return minimum;
 }
 
 double largest_distance(const Outline& outline, const Shape& shape) {
   const auto polygon = outline_polygon(outline, 1e-6 * std::sqrt(shape.area));
-  double most = 0;
+  double maximum = 0;
   for (const Shape::Edge& edge : shape.edges)
     for (int i = 0; i < 8; ++i)
-      most = std::max(most, distance_to(polygon, curve_point(shape, edge, i / 8.0)));
-  return most / std::sqrt(shape.area);
+      maximum = std::max(maximum, distance_to(polygon, curve_point(shape, edge, i / 8.0)));
+  return maximum / std::sqrt(shape.area);
 }
 
 TEST(StarCurve, FollowsEveryOutline) {
@@ -250,17 +250,17 @@ TEST(StarCurve, HasTheOutlinesAreaAndLoadsTheNodesAsElementEdgesDo) {
   double worst = 0;
   for (const MeshedCase& c : meshed_cases()) {
     const Shape& shape = c.shape;
-    double twice = 0, most = 0;
+    double twice = 0, maximum = 0;
     const auto load = pressure_loads(shape);
     for (std::size_t i = 0; i < load.size(); ++i) {
       twice += shape.nodes[i][0] * load[i].curve[0] + shape.nodes[i][1] * load[i].curve[1];
-      most = std::max(most, std::hypot(load[i].curve[0] - load[i].polygon[0],
-                                       load[i].curve[1] - load[i].polygon[1]) /
-                                std::hypot(load[i].polygon[0], load[i].polygon[1]));
+      maximum = std::max(maximum, std::hypot(load[i].curve[0] - load[i].polygon[0],
+                                             load[i].curve[1] - load[i].polygon[1]) /
+                                      std::hypot(load[i].polygon[0], load[i].polygon[1]));
     }
     EXPECT_NEAR(0.5 * twice / shape.area, 1, 1e-3) << c.name;
-    EXPECT_LT(most, 0.06) << c.name;  // 5% where a rounded rectangle's edges grow fastest
-    worst = std::max(worst, most);
+    EXPECT_LT(maximum, 0.06) << c.name;  // 5% where a rounded rectangle's edges grow fastest
+    worst = std::max(worst, maximum);
   }
   RecordProperty("worst", std::to_string(worst));
 }

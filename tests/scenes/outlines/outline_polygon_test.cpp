@@ -20,10 +20,10 @@ double polygon_area(const std::vector<Vec2>& points) {
 }
 
 double shortest_side(const std::vector<Vec2>& points) {
-  double least = 1e300;
+  double minimum = 1e300;
   for (std::size_t i = 0; i < points.size(); ++i)
-    least = std::min(least, (points[i] - points[(i + 1) % points.size()]).norm());
-  return least;
+    minimum = std::min(minimum, (points[i] - points[(i + 1) % points.size()]).norm());
+  return minimum;
 }
 
 TEST(OutlinePolygon, LeavesTheDiscByAtMostTheDeviation) {
@@ -93,13 +93,13 @@ TEST(OutlinePolygon, OfACurvedOutlineIsAsCloseAsAskedAndCentred) {
     EXPECT_LT(moment.norm() / area, 1e-5);
     // Every corner of the fine polygon lies within the deviation of the coarse one.
     for (const Vec2& p : fine) {
-      double least = 1;
+      double minimum = 1;
       for (std::size_t i = 0; i < coarse.size(); ++i) {
         const Vec2 &a = coarse[i], along = coarse[(i + 1) % coarse.size()] - a;
         const double share = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-        least = std::min(least, (p - a - share * along).norm());
+        minimum = std::min(minimum, (p - a - share * along).norm());
       }
-      EXPECT_LT(least, 1e-2);
+      EXPECT_LT(minimum, 1e-2);
     }
   }
 }

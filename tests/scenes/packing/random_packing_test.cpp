@@ -20,7 +20,7 @@ struct Case {
   const char* name;
   const char* width;
   std::vector<RandomClass> classes;
-  double least = 0.76;  // density at which it rests
+  double minimum = 0.76;  // density at which it rests
 };
 void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
 
@@ -107,7 +107,7 @@ TEST_P(RandomPackings, AreAsDenseAsWantedAndFreeOfOverlap) {
 TEST_P(RandomPackings, TouchAtLess2PercentOfADiameter) {
   const Scene scene = packed(GetParam(), "\"touching\"");
   EXPECT_LT(scene.packings.at(0).reached.mean_gap, 0.02);
-  EXPECT_GT(scene.packings.at(0).reached.density, GetParam().least);
+  EXPECT_GT(scene.packings.at(0).reached.density, GetParam().minimum);
   EXPECT_NEAR(scene.packings.at(0).reached.density, density_of(scene), 1e-9);
   expect_no_overlap(scene);
 }

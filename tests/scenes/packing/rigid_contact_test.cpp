@@ -15,10 +15,10 @@ using portable::V2;
 double gap_of(const Outline& a, RigidPose at_a, const Outline& b, RigidPose at_b) {
   RigidContacts contacts;
   const RigidShape shape_a = rigid_shape(a, 1, 1e-4), shape_b = rigid_shape(b, 1, 1e-4);
-  double least = 1e9;
+  double minimum = 1e9;
   for (const RigidTouch& t : contacts.between(shape_a, at_a, shape_b, at_b, 10))
-    least = std::min(least, t.gap);
-  return least;
+    minimum = std::min(minimum, t.gap);
+  return minimum;
 }
 
 portable::Turn degrees(double angle) {

@@ -139,12 +139,12 @@ TEST_F(PointsFile, IsSmoothedByTheDistanceItSays) {
                 smooth = read("smoothing = \"0.05 mm\"");
   // A zigzag of 0.05 mm either way is 0.05 mm in the root mean square: nothing of it is left.
   const auto roughness = [](const Outline& outline) {
-    double least = 1, most = 0;
+    double minimum = 1, maximum = 0;
     for (const Vec2& p : outline_polygon(outline, 1e-6)) {
-      least = std::min(least, p.norm());
-      most = std::max(most, p.norm());
+      minimum = std::min(minimum, p.norm());
+      maximum = std::max(maximum, p.norm());
     }
-    return most - least;
+    return maximum - minimum;
   };
   EXPECT_GT(roughness(rough), 0.09e-3);
   EXPECT_LT(roughness(smooth), 0.01e-3);

@@ -32,9 +32,9 @@ TEST(LabFriction, IsTheRatioOfTheForcesForAShortCompact) {
 }
 
 TEST(LabFriction, EndsWhereNoCoefficientTransmitsMore) {
-  const double k = 2, most = largest_ratio(k);
-  EXPECT_NEAR(*friction_coefficient(most * (1 - 1e-12), k), 1 / k, 1e-5);  // a double root
-  EXPECT_FALSE(friction_coefficient(most * (1 + 1e-9), k));
+  const double k = 2, maximum = largest_ratio(k);
+  EXPECT_NEAR(*friction_coefficient(maximum * (1 - 1e-12), k), 1 / k, 1e-5);  // a double root
+  EXPECT_FALSE(friction_coefficient(maximum * (1 + 1e-9), k));
 }
 
 TEST(LabFriction, NoiseAboutZeroKeepsItsSign) {

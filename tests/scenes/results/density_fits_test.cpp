@@ -17,12 +17,12 @@ struct Curve {
   std::vector<double> density, pressure;
 };
 
-// `density_at` for pressures up to `most`, after a first sample without pressure.
+// `density_at` for pressures up to `maximum`, after a first sample without pressure.
 template <class Law>
-Curve curve_of(double first, double most, const Law& density_at, int count = 200) {
+Curve curve_of(double first, double maximum, const Law& density_at, int count = 200) {
   Curve curve{{first}, {0}};
   for (int i = 1; i <= count; ++i) {
-    const double p = most * i / count;
+    const double p = maximum * i / count;
     curve.pressure.push_back(p);
     curve.density.push_back(density_at(p));
   }

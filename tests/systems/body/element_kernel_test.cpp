@@ -93,9 +93,9 @@ std::vector<Case> random_cases() {
 }
 
 double largest(const Coordinates& f) {
-  double most = 0;
-  for (const double v : f) most = std::max(most, std::abs(v));
-  return most;
+  double maximum = 0;
+  for (const double v : f) maximum = std::max(maximum, std::abs(v));
+  return maximum;
 }
 
 TEST(ElementKinematics, MapPutsTheCornersWhereTheNodesAre) {

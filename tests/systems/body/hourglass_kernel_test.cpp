@@ -139,7 +139,7 @@ TEST(InversionBarrier, RatioIsThatOfTheMap) {
 TEST(InversionBarrier, CornerThatInvertsIsPushedBack) {
   const Coordinates square{-1, -1, 1, -1, 1, 1, -1, 1};
   constexpr double h = 1e-6;
-  double least = 1;
+  double minimum = 1;
   for (int corner = 0; corner < 4; ++corner) {
     const auto n = static_cast<std::size_t>(2 * corner);
     for (double in = 0; in < 1.3; in += 0.01) {
@@ -149,7 +149,7 @@ TEST(InversionBarrier, CornerThatInvertsIsPushedBack) {
       const auto ratio = ratios(square, now);
       const double r = min_ratio(ratio);
       if (r < 0.05) break;
-      least = std::min(least, r);
+      minimum = std::min(minimum, r);
       const double stored = inversion_barrier_energy(ratio, shear_modulus);
       if (r >= barrier_ratio)
         ASSERT_EQ(stored, 0);
@@ -164,7 +164,7 @@ TEST(InversionBarrier, CornerThatInvertsIsPushedBack) {
       }
     }
   }
-  EXPECT_LT(least, 0.1);
+  EXPECT_LT(minimum, 0.1);
 }
 
 TEST(Hourglass, ForcesHaveNoResultantAndNoMoment) {

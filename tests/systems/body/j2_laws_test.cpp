@@ -96,17 +96,17 @@ TEST(IteratedReturn, OfALineIsTheClosedForm) {
 TEST(IteratedReturn, EndsWithinAJump) {
   const TabulatedHardening jump{{0, 0.05, 0.05 + 1e-12, 1}, {240e6, 245e6, 300e6, 310e6}};
   J2State<double> state{};
-  double most = 0;
+  double maximum = 0;
   int within = 0;
   for (double gamma = 0; gamma < 0.2; gamma += 1e-4) {
     const Returned<double> next = law_step(Matrix2<double>{1, gamma, 0, 1}, state, jump);
     ASSERT_EQ(next.residual, 0) << gamma;
-    most = std::max(most, mises(next) / jump.flow_stress(next.eps) - 1);
+    maximum = std::max(maximum, mises(next) / jump.flow_stress(next.eps) - 1);
     within += next.eps >= 0.05 && next.eps < 0.05 + 1e-12;
     state = next;
   }
   EXPECT_GT(within, 0);
-  EXPECT_LT(most, 1e-5);  // a last digit of the strain is 350 Pa there
+  EXPECT_LT(maximum, 1e-5);  // a last digit of the strain is 350 Pa there
   EXPECT_NEAR(mises(state), jump.flow_stress(state.eps), 1e-3);
 }
 

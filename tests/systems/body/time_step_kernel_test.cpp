@@ -64,9 +64,9 @@ struct Element {
     return sum;
   }
   double min_area(const Coordinates& x) const {
-    double least = 1e300;
-    for (int g = 0; g < 4; ++g) least = std::min(least, determinant(at(x, g)));
-    return least;
+    double minimum = 1e300;
+    for (int g = 0; g < 4; ++g) minimum = std::min(minimum, determinant(at(x, g)));
+    return minimum;
   }
   Matrix2<double> gradient(const Coordinates& x, int g) const {
     const auto a0 = at(undeformed, g);

@@ -145,12 +145,12 @@ TEST(BroadPhase, StartsAtTheNearestOfTheOthersEdges) {
   constexpr int samples = 1000;
   const auto distance = [&](const EdgeCandidate& c, int edge) {
     const auto middle = on_chord(heap, c.slot, c.edge, 0.5);
-    double least = 1;
+    double minimum = 1;
     for (int i = 0; i <= samples; ++i) {
       const auto p = on_chord(heap, c.other, edge, double(i) / samples);
-      least = std::min(least, std::hypot(p[0] - middle[0], p[1] - middle[1]));
+      minimum = std::min(minimum, std::hypot(p[0] - middle[0], p[1] - middle[1]));
     }
-    return least;
+    return minimum;
   };
   for (const EdgeCandidate& c : candidates(heap, skin)) {
     const Box own = edge_box(heap, c.slot, c.edge), start = edge_box(heap, c.other, c.start);

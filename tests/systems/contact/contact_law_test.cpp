@@ -89,11 +89,11 @@ TEST(ContactLaw, SlidesOnTheConeAndSpendsTheRest) {
   const PointMotion m = motion_at(slip);
   const PointForces f = with_coulomb(m, 0);
   for (int l = 0; l < lane_count; ++l) {
-    const double most = mu * pressure_at(m.gap[l]), held = most / kappa;
-    EXPECT_NEAR(f.along[l], -weight * most, 4e-16 * weight * most);
+    const double maximum = mu * pressure_at(m.gap[l]), held = maximum / kappa;
+    EXPECT_NEAR(f.along[l], -weight * maximum, 4e-16 * weight * maximum);
     // Half the limit on the mean, from a spring without stretch.
-    EXPECT_NEAR(f.friction_work[l], weight * 0.5 * most * (slip - held),
-                1e-15 * weight * most * slip);
+    EXPECT_NEAR(f.friction_work[l], weight * 0.5 * maximum * (slip - held),
+                1e-15 * weight * maximum * slip);
   }
 }
 

@@ -95,8 +95,8 @@ class LostPoints {
         step_.push_back(std::move(system));
   }
   const Totals& look() {
-    std::fill_n(world->column<ContactReach<Contact>>().values(),
-                world->column<ContactReach<Contact>>().table.rows, 0.0);
+    std::fill_n(world->column<ActivationTravel<Contact>>().values(),
+                world->column<ActivationTravel<Contact>>().table.rows, 0.0);
     TaskGraph(step_, world->chunks()).run();
     return world->resource<Totals>();
   }

@@ -37,11 +37,11 @@ struct TwoLegs {
   // The edge whose middle is nearest to a point.
   int edge_at(const Point& p) const {
     int nearest = 0;
-    double least = 1e300;
+    double minimum = 1e300;
     for (int e = 0; e < curve.edges(); ++e) {
       const Point m = Curve(curve.control.data() + 2 * e).value(0.5);
       const double distance = std::hypot(m[0] - p[0], m[1] - p[1]);
-      if (distance < least) least = distance, nearest = e;
+      if (distance < minimum) minimum = distance, nearest = e;
     }
     return nearest;
   }

@@ -95,10 +95,10 @@ TEST(Projection, IsNoFartherThanAnyPointOfTheCurve) {
     project(curve.bodies, p);
     ASSERT_EQ(p.unconverged(), 0U);
     for (int l = 0; l < lane_count; ++l) {
-      const double found = std::hypot(p.rx[l], p.ry[l]), least = entry(nearest, l).distance;
+      const double found = std::hypot(p.rx[l], p.ry[l]), minimum = entry(nearest, l).distance;
       // Between two samples, h apart, a curve comes nearer than both by h/2 at most.
-      ASSERT_LE(found, least + 1e-12);
-      ASSERT_GE(found, least - 0.5 * 0.14 / samples);
+      ASSERT_LE(found, minimum + 1e-12);
+      ASSERT_GE(found, minimum - 0.5 * 0.14 / samples);
     }
   }
 }

@@ -95,10 +95,10 @@ std::vector<Touch> run(const std::string& scene, const std::vector<std::string>&
 
 void expect_same(const std::string& scene, const std::vector<std::string>& changes, int steps) {
   const auto seldom = run(scene, changes, steps, false), anew = run(scene, changes, steps, true);
-  std::int64_t most = 0;
+  std::int64_t maximum = 0;
   double energy = 0, work = 0;
   for (std::size_t i = 0; i < seldom.size(); ++i) {
-    most = std::max(most, anew[i].touching);
+    maximum = std::max(maximum, anew[i].touching);
     energy = std::max(energy, anew[i].contact_energy);
     work = std::max(work, std::abs(anew[i].external_work));
     ASSERT_EQ(seldom[i].touching, anew[i].touching) << scene << ", step " << i;
@@ -106,7 +106,7 @@ void expect_same(const std::string& scene, const std::vector<std::string>& chang
         << scene << ", step " << i;
     ASSERT_NEAR(seldom[i].external_work, anew[i].external_work, 1e-6 * work);
   }
-  EXPECT_GT(most, 1);
+  EXPECT_GT(maximum, 1);
 }
 
 TEST(SkinCheck, NoContactIsMissedUnderAFastPunch) {

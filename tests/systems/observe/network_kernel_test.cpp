@@ -62,10 +62,10 @@ TEST(Rose, SumsToOneWhateverTheDirections) {
 
 TEST(MajorCompression, IsThePrincipalStressOfMohrsCircle) {
   for (const double turn : {0.0, 0.3, 1.2, 2.8}) {
-    const double c = std::cos(turn), s = std::sin(turn), least = -50, most = 8;
+    const double c = std::cos(turn), s = std::sin(turn), minimum = -50, maximum = 8;
     // least along (c, s), most across.
-    const PlaneStress stress{least * c * c + most * s * s, least * s * s + most * c * c,
-                             (least - most) * s * c};
+    const PlaneStress stress{minimum * c * c + maximum * s * s, minimum * s * s + maximum * c * c,
+                             (minimum - maximum) * s * c};
     const MajorCompression major = major_compression(stress);
     EXPECT_NEAR(major.size, 50, 1e-12);
     EXPECT_NEAR(std::abs(major.direction[0] * c + major.direction[1] * s), 1, 1e-14) << turn;

@@ -47,13 +47,13 @@ bool in_powder(const Points& chain, const Vec2& at) {
 
 double brute_force(const Points& points, const Vec2& at) {
   const Points chain = prolonged(points);
-  double least = everywhere;
+  double minimum = everywhere;
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
     const Vec2 way = chain[i + 1] - chain[i];
     const double s = std::clamp((at - chain[i]).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (at - chain[i] - s * way).norm());
+    minimum = std::min(minimum, (at - chain[i] - s * way).norm());
   }
-  return in_powder(chain, at) ? least : -least;
+  return in_powder(chain, at) ? minimum : -minimum;
 }
 
 class Places {
@@ -102,9 +102,9 @@ TEST(SurfaceDistance, RoundingShrinksAndGrowsTheTool) {
     const double distance = nearest(rounded, at).distance;
     EXPECT_GE(distance, nearest(sharp, at).distance - 1e-12);
     if (distance < 0) continue;
-    double least = everywhere;
-    for (const Vec2& s : shrunk) least = std::min(least, (at - s).norm());
-    EXPECT_NEAR(distance, least - radius, 2e-3) << at.transpose();
+    double minimum = everywhere;
+    for (const Vec2& s : shrunk) minimum = std::min(minimum, (at - s).norm());
+    EXPECT_NEAR(distance, minimum - radius, 2e-3) << at.transpose();
     ++asked;
   }
   EXPECT_GT(asked, 100);
