@@ -71,8 +71,9 @@ void add_of_tools(const TouchingRows<ToolContact>& tools, const ContactIndex& in
 }  // namespace
 
 [[gnu::flatten]] void contact_force::operator()(Chunk chunk) const {
-  const BasisByPoint& by_point = basis_by_point();
-  const EdgeBasis& n = edge_basis();
+  // Copies, which no force that is written can change: they stay in registers.
+  const BasisByPoint by_point = basis_by_point();
+  const EdgeBasis n = edge_basis();
   const Shape& shape = bodies->shape_of_chunk(chunk);
   double* all = &curve_force.chunk(chunk)(Row<ControlPoint>(0));
   const std::ptrdiff_t numbers = CurveForce::count * shape.control_points();  // of a particle
