@@ -248,7 +248,7 @@ const Names shown{"tool/force",
                   "particle/damping_work"};
 // Read and written by one and the same system through Write: history of a contact row, sums.
 const Names kept_by_their_writer{
-    "contact/reach", "tool_contact/reach", "contact/elastic_slip", "tool_contact/elastic_slip",
+    "contact/activation", "tool_contact/activation", "contact/elastic_slip", "tool_contact/elastic_slip",
     "curve/force",   "curve/before",       "node/damping_force"};
 
 class NoIdleColumn : public ::testing::TestWithParam<const char*> {};
