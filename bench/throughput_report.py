@@ -3,7 +3,7 @@ import re
 
 CONTACT = re.compile(r"^system/.*(contact|bin|tool_reaction)")
 LARGER = ("1683", "10000")  # than 100 particles, else alike
-UPDATES = ("step", "kernels", "run/step")  # whole element-updates, or the bodies' part of them
+UPDATES = ("step", "kernels", "limit", "run/step")  # whole element-updates, or the bodies' part of them
 COUNTED = "100"  # whose instructions and operations are counted: those of the larger cases too
 THESIS_STEPS = 94_000
 
@@ -14,6 +14,11 @@ AIMS = (
     ("M/s", "element-updates, 10,000 particles, 2 threads", "10000", "step", 2, 60, 100),
     ("M/s", "internal force and return map, 100, 1 thread", "100", "kernels", 1, None, 110),
     ("M/s", "internal force and return map, 100, 2 threads", "100", "kernels", 2, None, 200),
+    ("x", "kernels over the bare loop, 100, 1 thread", "100", "kernels/of_limit", 1, None, 0.85),
+    ("x", "kernels over the bare loop, 100, 2 threads", "100", "kernels/of_limit", 2, None, 0.85),
+    ("x", "step over the bare loop, 100, 2 threads", "100", "step/of_limit", 2, None, 0.55),
+    ("x", "step over the bare loop, 1,683, 2 threads", "1683", "step/of_limit", 2, None, 0.5),
+    ("x", "step over the bare loop, 10,000, 2 threads", "10000", "step/of_limit", 2, None, 0.45),
     ("s", "the thesis's hour: 100 particles, 94,000 steps", "thesis", "94,000_steps", 2, 20, 12),
     ("B", "memory an element, 100 particles", "100", "memory/columns", 1, 600, None),
     ("B", "memory an element, 1,683 particles", "1683", "memory/columns", 1, 600, None),
@@ -39,6 +44,7 @@ def derive(measured):
         derive_memory(measured, case)
         for threads in (1, 2):
             derive_fractions(measured, case, threads)
+            derive_ratios(measured, case, threads)
     derive_thesis(measured)
 
 
@@ -90,6 +96,14 @@ def derive_fractions(measured, case, threads):
     moved = value(measured, case, "memory/moved_a_step") * per_ns["step"]
     bandwidth = measured.lines["machine", "triad", threads].best
     measured.line(case, "step/of_bandwidth", threads, "1").add(moved / bandwidth)
+
+
+def derive_ratios(measured, case, threads):
+    """Of the medians, to the bare loop of the same rounds."""
+    limit = measured.lines.get((case, "limit", threads))
+    for name in ("step", "kernels") if limit else ():
+        line = measured.lines[case, name, threads]
+        measured.line(case, name + "/of_limit", threads, "1").add(limit.median / line.median)
 
 
 # ---- tables ---------------------------------------------------------------------------------------

@@ -24,7 +24,8 @@ rm -rf -- "$output"
 throughput | tee "$output.log"
 grep -q '^element-updates, 100 particles, 2 threads  *[0-9.]* M/s' "$output.log"
 grep -q '^element-updates, 100 particles, 2 threads  *[0-9.]* M/s' "$output.log"
-for line in 100,1,step 100,2,step 100,2,kernels 100,1,graph 100,1,system/j2_return_map \
+for line in 100,1,step 100,2,step 100,2,kernels 100,1,limit 100,2,limit 100,2,kernels/of_limit \
+            100,1,graph 100,1,system/j2_return_map \
             100,1,memory/columns 100,1,startup 100,2,scaling thesis,2,run machine,2,fma machine,1,triad; do
   grep -qE "^$line,[^,]+,[0-9.e+-]+,[0-9.e+-]+,1,.*" "$output"/*cores.csv
 done

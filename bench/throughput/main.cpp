@@ -15,6 +15,7 @@
 #include <sstream>
 #include <thread>
 
+#include "bench/throughput/limit.hpp"
 #include "bench/throughput/lines.hpp"
 #include "bench/throughput/machine.hpp"
 #include "cli/summary.hpp"
@@ -82,6 +83,11 @@ void add_machine(int threads) {
   add("machine/triad" + suffix, [=] { return Line{1e-9 * triad_bandwidth(threads), "GB/s"}; });
 }
 
+double limit_seconds_of(State& state, int threads) {
+  const auto& bodies = state.world().resource<Bodies>();
+  return limit_seconds(bodies.shapes.at(0), bodies.particles(), state.of().batch, threads);
+}
+
 void add_times(const Case& c, int threads) {
   const auto timed = [&](const char* name, double (*seconds)(State&, int)) {
     add(fmt::format("{}/{}/threads:{}", c.name, name, threads), [&c, seconds, threads] {
@@ -92,6 +98,7 @@ void add_times(const Case& c, int threads) {
   timed("step", step_seconds);
   timed("kernels", kernel_seconds);
   timed("graph", graph_seconds);
+  if (has_limit()) timed("limit", limit_seconds_of);
 }
 
 // All systems of a round are timed by the first of their lines.
