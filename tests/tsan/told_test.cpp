@@ -4,6 +4,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <memory>
@@ -21,6 +23,21 @@ void wait_a_little() {
   for (int i = 0; i < 20000; ++i) x = x + i;
 }
 
+// Holds the first task until a second one runs beside it, however late a busy machine wakes another thread. All is
+// relaxed: nothing of it orders the tasks, so that their race stays one.
+class Meeting {
+ public:
+  void wait() {
+    inside_.fetch_add(1, std::memory_order_relaxed);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (inside_.load(std::memory_order_relaxed) < 2 && std::chrono::steady_clock::now() < end)
+      wait_a_little();
+  }
+
+ private:
+  std::atomic<int> inside_{0};  // tasks that have come, ever
+};
+
 }  // namespace
 
 int main(int, char** words) {
@@ -29,14 +46,17 @@ int main(int, char** words) {
   constexpr std::size_t places = 1000;
   double sum = 0;
   std::vector<double> values(places);
+  Meeting meeting;
   const auto node = [&](Message) {
     wait_a_little();
     if (mode.ends_with("nodes")) {
+      if (mode.starts_with("race")) meeting.wait();
       sum += 1;
       return;
     }
     tbb::parallel_for(std::size_t{0}, places, [&](std::size_t i) {
       wait_a_little();
+      if (mode.starts_with("race")) meeting.wait();
       (mode == "race-in-loop" ? sum : values[i]) += 1;
     });
   };
