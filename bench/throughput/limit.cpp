@@ -22,14 +22,14 @@ constexpr double mu = youngs_modulus / (2 * (1 + poissons_ratio));
 constexpr double lambda = 2 * mu * poissons_ratio / (1 - 2 * poissons_ratio);
 
 double shortest_edge(const Shape& shape) {
-  double least = 1e300;
+  double shortest = 1e300;
   for (const auto& q : shape.quads)
     for (std::size_t k = 0; k < 4; ++k) {
       const Point &a = entry(shape.nodes, q[k].value),
                   &b = entry(shape.nodes, q[(k + 1) % 4].value);
-      least = std::min(least, std::hypot(a[0] - b[0], a[1] - b[1]));
+      shortest = std::min(shortest, std::hypot(a[0] - b[0], a[1] - b[1]));
     }
-  return least;
+  return shortest;
 }
 
 LimitMaterial material_of(const Shape& shape) {
@@ -98,7 +98,8 @@ class Loop {
   std::vector<LimitElement> elements_;
 };
 
-// Threads that meet after every step. Nobody sleeps: a step is some 60 microseconds.
+// Threads that meet after every step. Nobody sleeps, since a step is some 60 microseconds, unless another process has
+// the processor of who is missing.
 class Meeting {
  public:
   explicit Meeting(int threads) : threads_(threads) {}
@@ -108,11 +109,13 @@ class Meeting {
       here_.store(0, std::memory_order_relaxed);
       round_.store(round + 1, std::memory_order_release);
     } else {
-      while (round_.load(std::memory_order_acquire) == round) __builtin_ia32_pause();
+      for (int i = 0; round_.load(std::memory_order_acquire) == round; ++i)
+        i < patience ? __builtin_ia32_pause() : std::this_thread::yield();
     }
   }
 
  private:
+  static constexpr int patience = 10'000;  // some 100 microseconds
   int threads_;
   alignas(64) std::atomic<int> here_{0};
   alignas(64) std::atomic<int> round_{0};

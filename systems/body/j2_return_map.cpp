@@ -120,6 +120,7 @@ void return_element(const Views<OnePoint, Law>& v, const Bending& bending, const
   const auto map = quad_map<1>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
   kernels::CoupledBending<Lane> coupled{m, bending.softness, bending.stiffness,
                                         kernels::inverse_width(map, s, limit2), 1.0};
+  if (!any(kernels::yields(s, v.strain(e), v.law, coupled))) return;
   const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
   const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
   const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
