@@ -16,7 +16,8 @@ class ChunkView {
  public:
   explicit ChunkView(Pointer base) : base_(base) {}
   auto& operator()(Row<typename C::Entity> row, int component = 0) const {
-    return base_[row.value * C::count + component];
+    // Components at a fixed distance from the row: one address for all of them.
+    return (base_ + static_cast<std::ptrdiff_t>(row.value) * C::count)[component];
   }
 
  private:
