@@ -156,6 +156,7 @@ bool is_own(const fs::path& file, std::string_view of) {
 
 void require_own_or_none(const fs::path& file, std::string_view of) {
   if (!is_there(file) || is_own(file, of)) return;
+  if (!is_there(file)) return;  // its folder went away between the two looks: who writes will name that
   throw ForeignFile(file, "write it",
                     fmt::format("there is one that Pulvis did not write as a file of a {}, or that "
                                 "was changed since; allowed: another folder or name, or moving it "
