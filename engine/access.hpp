@@ -24,6 +24,33 @@ class ChunkView {
   Pointer base_;
 };
 
+// The same, of the lanes that register `part` holds.
+template <class C, class PacketPointer>
+class PartView {
+ public:
+  PartView(PacketPointer base, int part) : base_(base + part) {}
+  auto& operator()(Row<typename C::Entity> row, int component = 0) const {
+    return (base_ +
+            static_cast<std::ptrdiff_t>(row.value) * (C::count * stride))[component * stride];
+  }
+
+ private:
+  static constexpr int stride = simd::registers;
+  PacketPointer base_;
+};
+template <class C>
+using ReadPart = PartView<C, const Packet*>;
+template <class C>
+using WritePart = PartView<C, Packet*>;
+template <class C>
+ReadPart<C> part_of(const ChunkView<C, const Lane*>& view, int part) {
+  return {reinterpret_cast<const Packet*>(&view(Row<typename C::Entity>(0))), part};
+}
+template <class C>
+WritePart<C> part_of(const ChunkView<C, Lane*>& view, int part) {
+  return {reinterpret_cast<Packet*>(&view(Row<typename C::Entity>(0))), part};
+}
+
 namespace detail {
 template <class C>
 std::int32_t first_row(const Column<C>& column, Chunk chunk) {

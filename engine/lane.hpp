@@ -3,6 +3,9 @@
 // A Lane is one register of AVX-512, two of AVX2 or four of SSE2, whatever the translation unit is compiled
 // for. It lies in memory alike in all three, and every operation gives the same bits. The same functions
 // exist for plain doubles, so that a kernel written with them is tested as a scalar and run on lanes.
+//
+// A Packet is what one register holds of it: the lanes that a kernel with many intermediate values takes at a time, so
+// that they stay in registers (PartView in engine/access.hpp).
 #pragma once
 
 #include <algorithm>
@@ -20,148 +23,162 @@ namespace simd {
 inline constexpr std::size_t registers = lane_count / register_lanes;
 }
 
-struct LaneMask {
-  simd::Mask part[simd::registers];
+// True or false in each lane.
+template <std::size_t Registers>
+struct PackMask {
+  static constexpr unsigned all_bits = (1U << Registers * simd::register_lanes) - 1;
+  simd::Mask part[Registers];
 
-  static LaneMask of(unsigned bits);  // bit l: lane l
-  unsigned bits() const;
+  template <class F>
+  static PackMask each(const F& f) {
+    PackMask result;
+    for (std::size_t i = 0; i < Registers; ++i) result.part[i] = f(i);
+    return result;
+  }
+  static PackMask of(unsigned bits) {  // bit l: lane l
+    return each([&](std::size_t i) { return simd::mask_of(bits >> (i * simd::register_lanes)); });
+  }
+  unsigned bits() const {
+    unsigned all = 0;
+    for (std::size_t i = 0; i < Registers; ++i)
+      all |= simd::bits(part[i]) << (i * simd::register_lanes);
+    return all;
+  }
   bool operator[](int l) const { return (bits() >> l & 1) != 0; }
+
+  friend PackMask operator&(const PackMask& a, const PackMask& b) {
+    return each([&](std::size_t i) { return simd::Mask(a.part[i] & b.part[i]); });
+  }
+  friend PackMask operator|(const PackMask& a, const PackMask& b) {
+    return each([&](std::size_t i) { return simd::Mask(a.part[i] | b.part[i]); });
+  }
+  friend PackMask operator~(const PackMask& a) {
+    return each([&](std::size_t i) { return simd::opposite(a.part[i]); });
+  }
+  friend bool any(const PackMask& mask) { return mask.bits() != 0; }
+  friend bool all(const PackMask& mask) { return mask.bits() == all_bits; }
 };
 
-struct alignas(64) Lane {
-  simd::Register part[simd::registers];
+template <std::size_t Registers>
+struct alignas(Registers * sizeof(simd::Register)) Pack {
+  using Mask = PackMask<Registers>;
+  static constexpr std::size_t size = Registers * simd::register_lanes;
+  simd::Register part[Registers];
 
-  Lane() = default;  // as a double: Lane{} is zero, a plain declaration nothing yet
-  Lane(double all) {
+  Pack() = default;  // as a double: Lane{} is zero, a plain declaration nothing yet
+  Pack(double all) {
     for (auto& p : part) p = simd::broadcast(all);
   }
   template <class Value>  // value(l) of lane l
-  static Lane from(const Value& value) {
-    std::array<double, lane_count> all;
-    for (int l = 0; l < lane_count; ++l) all[static_cast<std::size_t>(l)] = value(l);
+  static Pack from(const Value& value) {
+    std::array<double, size> all;
+    for (std::size_t l = 0; l < size; ++l) all[l] = value(static_cast<int>(l));
     return load(all.data());
   }
-  static Lane load(const double* eight) {
-    Lane a;
-    for (std::size_t i = 0; i < simd::registers; ++i)
-      a.part[i] = simd::load(eight + i * simd::register_lanes);
-    return a;
+  static Pack load(const double* from) {
+    return each([&](std::size_t i) { return simd::load(from + i * simd::register_lanes); });
   }
-  void store(double* eight) const {
-    for (std::size_t i = 0; i < simd::registers; ++i)
-      simd::store(eight + i * simd::register_lanes, part[i]);
+  void store(double* to) const {
+    for (std::size_t i = 0; i < Registers; ++i) simd::store(to + i * simd::register_lanes, part[i]);
   }
   // For code that is seldom run: it goes through memory.
   double& operator[](int l) { return reinterpret_cast<double*>(this)[l]; }
   double operator[](int l) const { return reinterpret_cast<const double*>(this)[l]; }
+
+  // ---- arithmetic ----------------------------------------------------------------------------------
+  template <class F>
+  static Pack each(const F& f) {
+    Pack result;
+    for (std::size_t i = 0; i < Registers; ++i) result.part[i] = f(i);
+    return result;
+  }
+  friend Pack operator+(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.part[i] + b.part[i]; });
+  }
+  friend Pack operator-(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.part[i] - b.part[i]; });
+  }
+  friend Pack operator*(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.part[i] * b.part[i]; });
+  }
+  friend Pack operator/(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return a.part[i] / b.part[i]; });
+  }
+  friend Pack operator-(const Pack& a) {
+    return each([&](std::size_t i) { return -a.part[i]; });
+  }
+  friend Pack& operator+=(Pack& a, const Pack& b) { return a = a + b; }
+  friend Pack& operator-=(Pack& a, const Pack& b) { return a = a - b; }
+  friend Pack& operator*=(Pack& a, const Pack& b) { return a = a * b; }
+
+  // a b + c, rounded once; see fma.
+  static Pack fused(const Pack& a, const Pack& b, const Pack& c) {
+    return each([&](std::size_t i) { return simd::fma(a.part[i], b.part[i], c.part[i]); });
+  }
+  friend Pack sqrt(const Pack& a) {
+    return each([&](std::size_t i) { return simd::sqrt(a.part[i]); });
+  }
+  friend Pack min(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return simd::lesser(b.part[i], a.part[i]); });
+  }
+  friend Pack max(const Pack& a, const Pack& b) {
+    return each([&](std::size_t i) { return simd::greater(b.part[i], a.part[i]); });
+  }
+  friend Pack abs(const Pack& a) { return max(a, -a); }
+
+  // ---- comparison and choice -----------------------------------------------------------------------
+  friend Mask operator<(const Pack& a, const Pack& b) {
+    return Mask::each([&](std::size_t i) { return simd::less(a.part[i], b.part[i]); });
+  }
+  friend Mask operator<=(const Pack& a, const Pack& b) {
+    return Mask::each([&](std::size_t i) { return simd::less_or_equal(a.part[i], b.part[i]); });
+  }
+  friend Mask operator>(const Pack& a, const Pack& b) { return b < a; }
+  friend Mask operator>=(const Pack& a, const Pack& b) { return b <= a; }
+  friend Mask operator==(const Pack& a, const Pack& b) {
+    return Mask::each([&](std::size_t i) { return simd::equal(a.part[i], b.part[i]); });
+  }
+  friend Pack select(const Mask& mask, const Pack& yes, const Pack& no) {
+    return each([&](std::size_t i) { return simd::select(mask.part[i], yes.part[i], no.part[i]); });
+  }
 };
-static_assert(sizeof(Lane) == lane_count * sizeof(double));
 
-namespace simd {
-template <class F>
-Lane each(const F& f) {
-  Lane result;
-  for (std::size_t i = 0; i < registers; ++i) result.part[i] = f(i);
-  return result;
-}
-template <class F>
-LaneMask each_mask(const F& f) {
-  LaneMask result;
-  for (std::size_t i = 0; i < registers; ++i) result.part[i] = f(i);
-  return result;
-}
-}  // namespace simd
+using Lane = Pack<simd::registers>;
+using LaneMask = Lane::Mask;
+using Packet = Pack<1>;
+static_assert(sizeof(Lane) == lane_count * sizeof(double) && alignof(Lane) == sizeof(Lane));
 
-// ---- arithmetic ------------------------------------------------------------------------------------
-inline Lane operator+(const Lane& a, const Lane& b) {
-  return simd::each([&](std::size_t i) { return a.part[i] + b.part[i]; });
-}
-inline Lane operator-(const Lane& a, const Lane& b) {
-  return simd::each([&](std::size_t i) { return a.part[i] - b.part[i]; });
-}
-inline Lane operator*(const Lane& a, const Lane& b) {
-  return simd::each([&](std::size_t i) { return a.part[i] * b.part[i]; });
-}
-inline Lane operator/(const Lane& a, const Lane& b) {
-  return simd::each([&](std::size_t i) { return a.part[i] / b.part[i]; });
-}
-inline Lane operator-(const Lane& a) {
-  return simd::each([&](std::size_t i) { return -a.part[i]; });
-}
-inline Lane& operator+=(Lane& a, const Lane& b) { return a = a + b; }
-inline Lane& operator-=(Lane& a, const Lane& b) { return a = a - b; }
-inline Lane& operator*=(Lane& a, const Lane& b) { return a = a * b; }
+template <class T>
+inline constexpr bool is_pack = false;
+template <std::size_t Registers>
+inline constexpr bool is_pack<Pack<Registers>> = true;
 
 // a b + c, rounded once. Contraction is off for the whole build, so this is the only way to get one: the
 // compilers cannot differ.
 inline double fma(double a, double b, double c) { return std::fma(a, b, c); }
-inline Lane fused(const Lane& a, const Lane& b, const Lane& c) {
-  return simd::each([&](std::size_t i) { return simd::fma(a.part[i], b.part[i], c.part[i]); });
-}
 template <class A, class B, class C>
-requires(std::is_same_v<A, Lane> || std::is_same_v<B, Lane> || std::is_same_v<C, Lane>) Lane
-    fma(const A& a, const B& b, const C& c) {
-  return fused(a, b, c);
+requires(is_pack<A> || is_pack<B> || is_pack<C>) auto fma(const A& a, const B& b, const C& c) {
+  using AB = std::conditional_t<is_pack<A>, A, B>;
+  return std::conditional_t<is_pack<AB>, AB, C>::fused(a, b, c);
 }
 
 inline double sqrt(double a) { return std::sqrt(a); }
-inline Lane sqrt(const Lane& a) {
-  return simd::each([&](std::size_t i) { return simd::sqrt(a.part[i]); });
-}
 
 // As std::min and std::max do it, so that a NaN in `a` stays one.
 inline double min(double a, double b) { return std::min(a, b); }
 inline double max(double a, double b) { return std::max(a, b); }
-inline Lane min(const Lane& a, const Lane& b) {
-  return simd::each([&](std::size_t i) { return simd::lesser(b.part[i], a.part[i]); });
-}
-inline Lane max(const Lane& a, const Lane& b) {
-  return simd::each([&](std::size_t i) { return simd::greater(b.part[i], a.part[i]); });
-}
 inline double abs(double a) { return std::abs(a); }
-inline Lane abs(const Lane& a) { return max(a, -a); }
 
-// ---- comparison and choice -----------------------------------------------------------------------
-inline LaneMask operator<(const Lane& a, const Lane& b) {
-  return simd::each_mask([&](std::size_t i) { return simd::less(a.part[i], b.part[i]); });
-}
-inline LaneMask operator<=(const Lane& a, const Lane& b) {
-  return simd::each_mask([&](std::size_t i) { return simd::less_or_equal(a.part[i], b.part[i]); });
-}
-inline LaneMask operator>(const Lane& a, const Lane& b) { return b < a; }
-inline LaneMask operator>=(const Lane& a, const Lane& b) { return b <= a; }
-inline LaneMask operator==(const Lane& a, const Lane& b) {
-  return simd::each_mask([&](std::size_t i) { return simd::equal(a.part[i], b.part[i]); });
-}
-inline LaneMask operator&(const LaneMask& a, const LaneMask& b) {
-  return simd::each_mask([&](std::size_t i) { return simd::Mask(a.part[i] & b.part[i]); });
-}
-inline LaneMask operator|(const LaneMask& a, const LaneMask& b) {
-  return simd::each_mask([&](std::size_t i) { return simd::Mask(a.part[i] | b.part[i]); });
-}
-inline LaneMask operator~(const LaneMask& a) {
-  return simd::each_mask([&](std::size_t i) { return simd::opposite(a.part[i]); });
-}
-
-inline unsigned LaneMask::bits() const {
-  unsigned all = 0;
-  for (std::size_t i = 0; i < simd::registers; ++i)
-    all |= simd::bits(part[i]) << (i * simd::register_lanes);
-  return all;
-}
-inline LaneMask LaneMask::of(unsigned bits) {
-  return simd::each_mask(
-      [&](std::size_t i) { return simd::mask_of(bits >> (i * simd::register_lanes)); });
-}
-inline bool any(const LaneMask& mask) { return mask.bits() != 0; }
-inline bool all(const LaneMask& mask) { return mask.bits() == (1U << lane_count) - 1; }
 inline bool any(bool mask) { return mask; }
 inline bool all(bool mask) { return mask; }
-
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
-inline Lane select(const LaneMask& mask, const Lane& yes, const Lane& no) {
-  return simd::each(
-      [&](std::size_t i) { return simd::select(mask.part[i], yes.part[i], no.part[i]); });
+
+// What a lane has in register i.
+inline constexpr int parts_of_a_lane = simd::registers;
+inline Packet part_of(const Lane& lane, int i) {
+  Packet packet;
+  packet.part[0] = lane.part[i];
+  return packet;
 }
 
 }  // namespace pulvis

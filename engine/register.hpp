@@ -74,7 +74,7 @@ inline Mask mask_of(unsigned set) {
 #else
 
 inline constexpr const char* instruction_set = "portable";
-using Register [[gnu::vector_size(16)]] = double;
+using Register [[gnu::vector_size(16), gnu::may_alias]] = double;
 using Mask [[gnu::vector_size(16)]] = long long;
 
 inline Register broadcast(double a) { return Register{a, a}; }

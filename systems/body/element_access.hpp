@@ -27,15 +27,16 @@ auto quad_map(const Nodes& x, const Quad& q) {
     return map(x(q[0], 0), x(q[0], 1), x(q[1], 0), x(q[1], 1), x(q[2], 0), x(q[2], 1), x(q[3], 0),
                x(q[3], 1));
   };
+  using T = std::remove_cvref_t<decltype(x(q[0]))>;
   if constexpr (Points == 1)
-    return of_corners(kernels::fourfold_map<Lane>);
+    return of_corners(kernels::fourfold_map<T>);
   else
-    return of_corners(kernels::quad_map<Lane>);
+    return of_corners(kernels::quad_map<T>);
 }
 
 // At point g of an element with `Points`.
-template <int Points, int Scale>
-kernels::Matrix2<Lane> map_gradient(const kernels::QuadMap<Lane, Scale>& map, int g) {
+template <int Points, class T, int Scale>
+kernels::Matrix2<T> map_gradient(const kernels::QuadMap<T, Scale>& map, int g) {
   if constexpr (Points == 1)
     return {map.ax, map.bx, map.ay, map.by};
   else
@@ -43,8 +44,9 @@ kernels::Matrix2<Lane> map_gradient(const kernels::QuadMap<Lane, Scale>& map, in
 }
 
 // theta: current over undeformed area of the element.
-inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoints<4>& points) {
-  Lane now{};
+template <class T>
+T mean_dilatation(const kernels::QuadMap<T>& map, const ElementPoints<4>& points) {
+  T now{};
   double before = 0;
   for (int g = 0; g < 4; ++g) {
     now += determinant(map_gradient<4>(map, g));
@@ -53,22 +55,27 @@ inline Lane mean_dilatation(const kernels::QuadMap<Lane>& map, const ElementPoin
   return now * (1 / before);
 }
 // A quad's area is that of its centre's parallelogram: 1/4 det of the fourfold map.
-inline Lane mean_dilatation(const kernels::FourfoldMap<Lane>& map, const ElementPoints<1>& points) {
+template <class T>
+T mean_dilatation(const kernels::FourfoldMap<T>& map, const ElementPoints<1>& points) {
   return determinant(map_gradient<1>(map, 0)) * (0.25 / points[0].determinant);
 }
 
+// What a view of lanes or of packets has.
 template <class View>
-kernels::Symmetric3<Lane> plastic_metric(const View& c, Row<Element> e, int g) {
+using NumberOf = std::remove_cvref_t<decltype(std::declval<View>()(Row<Element>(0)))>;
+
+template <class View>
+kernels::Symmetric3<NumberOf<View>> plastic_metric(const View& c, Row<Element> e, int g) {
   return {c(e, 4 * g), c(e, 4 * g + 1), c(e, 4 * g + 2), c(e, 4 * g + 3)};
 }
 
 template <class View>
-kernels::Deviator<Lane> deviator(const View& s, Row<Element> e, int g) {
+kernels::Deviator<NumberOf<View>> deviator(const View& s, Row<Element> e, int g) {
   return {s(e, 3 * g), s(e, 3 * g + 1), s(e, 3 * g + 2)};
 }
 
 template <class View>
-void store(const View& s, Row<Element> e, int g, const kernels::Deviator<Lane>& value) {
+void store(const View& s, Row<Element> e, int g, const kernels::Deviator<NumberOf<View>>& value) {
   s(e, 3 * g) = value.xx;
   s(e, 3 * g + 1) = value.yy;
   s(e, 3 * g + 2) = value.xy;

@@ -123,8 +123,9 @@ inline double wide_inverse_cube_root(double a) {
 [[gnu::noinline]] inline double replace_far(double a, double y) {
   return a > 0.8 && a < 1.25 ? y : wide_inverse_cube_root(a);
 }
-[[gnu::noinline]] inline Lane replace_far(Lane a, Lane y) {
-  for (int l = 0; l < lane_count; ++l) y[l] = replace_far(a[l], y[l]);
+template <std::size_t Registers>
+[[gnu::noinline]] Pack<Registers> replace_far(Pack<Registers> a, Pack<Registers> y) {
+  for (int l = 0; l < static_cast<int>(a.size); ++l) y[l] = replace_far(a[l], y[l]);
   return y;
 }
 

@@ -13,37 +13,37 @@
 namespace pulvis {
 namespace {
 
-using Map = kernels::QuadMap<Lane>;
-using Flux = kernels::QuadFlux<Lane>;
+using Map = kernels::QuadMap<Packet>;
+using Flux = kernels::QuadFlux<Packet>;
 
 struct Bending {
-  ChunkView<HourglassStress, const Lane*> stress;
-  Lane mu;
+  ReadPart<HourglassStress> stress;
+  Packet mu;
   bool near_inversion;  // some corner of the chunk's elements is about to fold
 };
 
 template <class F>
 struct Views {
-  ChunkView<DeviatoricStress<F::points>, const Lane*> s;
-  ChunkView<MeanStress<F::volumes>, const Lane*> p;
+  ReadPart<DeviatoricStress<F::points>> s;
+  ReadPart<MeanStress<F::volumes>> p;
   const Bending* bending;  // null: not stabilised
 };
 
 Flux stress_flux(const Views<FourPoint>& v, const Map& map, const Shape& shape, Row<Element> e) {
   const auto& points = points_of<4>(shape, e.value);
-  const Lane theta = mean_dilatation(map, points), mean = v.p(e);
-  kernels::Matrix2<Lane> gradient[4];
-  Lane now[4];
+  const Packet theta = mean_dilatation(map, points), mean = v.p(e);
+  kernels::Matrix2<Packet> gradient[4];
+  Packet now[4];
   for (int g = 0; g < 4; ++g) {
     gradient[g] = map_gradient<4>(map, g);
     now[g] = determinant(gradient[g]);
   }
   // A division for two points: it is the dearest operation of the loop.
-  const Lane over[2] = {theta / (now[0] * now[1]), theta / (now[2] * now[3])};
+  const Packet over[2] = {theta / (now[0] * now[1]), theta / (now[2] * now[3])};
   Flux flux;
   for (int g = 0; g < 4; ++g) {
     const auto& a = gradient[g];
-    const Lane kirchhoff = over[g / 2] * now[g ^ 1] * entry(points, g).determinant;
+    const Packet kirchhoff = over[g / 2] * now[g ^ 1] * entry(points, g).determinant;
     const auto d = deviator(v.s, e, g);
     kernels::add_flux(flux, a, kirchhoff * d.xx + mean, kirchhoff * d.yy + mean, kirchhoff * d.xy,
                       kernels::gauss_xi[g], kernels::gauss_eta[g]);
@@ -61,19 +61,19 @@ Flux stress_flux(const Views<Standard>& v, const Map& map, const Shape&, Row<Ele
   return flux;
 }
 
-Flux stress_flux(const Views<OnePoint>& v, const kernels::FourfoldMap<Lane>& map,
+Flux stress_flux(const Views<OnePoint>& v, const kernels::FourfoldMap<Packet>& map,
                  const Shape& shape, Row<Element> e) {
   const auto a = map_gradient<1>(map, 0);
   const auto d = deviator(v.s, e, 0);
-  const Lane mean = v.p(e);
+  const Packet mean = v.p(e);
   // The fourfold map stands for the four quarters of (xi, eta).
   auto flux = kernels::central_flux(a, d.xx + mean, d.yy + mean, d.xy);
-  const Lane inv_det = 1.0 / determinant(a);
+  const Packet inv_det = 1.0 / determinant(a);
   const auto& reference = entry(shape.hourglass, e.value);
   const double area = 4 * points_of<1>(shape, e.value)[0].determinant;  // by scale / inv_det
   const auto w = kernels::natural_hourglass(map, inv_det);
-  auto moment = kernels::bending_moment<Lane>({v.bending->stress(e, 0), v.bending->stress(e, 1)},
-                                              reference, (1.0 / 3.0) * area);
+  auto moment = kernels::bending_moment<Packet>({v.bending->stress(e, 0), v.bending->stress(e, 1)},
+                                                reference, (1.0 / 3.0) * area);
   if (v.bending->near_inversion) {
     const auto more = kernels::inversion_barrier_moment(kernels::corner_ratios(w, reference),
                                                         reference, area * v.bending->mu);
@@ -85,10 +85,10 @@ Flux stress_flux(const Views<OnePoint>& v, const kernels::FourfoldMap<Lane>& map
 }
 
 template <class F>
-void chunk_force(BusyChunk chunk, const Views<F>& views, const ChunkView<Position, const Lane*>& x,
-                 const ChunkView<InternalForce, Lane*>& f, const Shape& shape, double thickness) {
+void part_force(BusyChunk chunk, const Views<F>& views, const ReadPart<Position>& x,
+                const WritePart<InternalForce>& f, const Shape& shape, double thickness) {
   for (int n = 0; n < static_cast<int>(shape.nodes.size()); ++n)
-    f(Row<Node>(n), 0) = f(Row<Node>(n), 1) = Lane{};
+    f(Row<Node>(n), 0) = f(Row<Node>(n), 1) = Packet{};
 
   chunk.for_elements(shape.elements(), [&](int i) {
     const Quad& quad = entry(shape.quads, i);
@@ -106,15 +106,22 @@ void chunk_force(BusyChunk chunk, const Views<F>& views, const ChunkView<Positio
 template <class F>
 [[gnu::flatten]] void internal_force<F>::operator()(BusyChunk chunk) const {
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  Views<F> views{stress.deviator.chunk(chunk), stress.mean.chunk(chunk), nullptr};
-  if constexpr (F::stabilised) {
-    const Row<Particle> particle;
-    const Bending modes{bending->stress.chunk(chunk), shear.chunk(chunk)(particle),
-                        any(bending->min_corner.chunk(chunk)(particle) < kernels::barrier_ratio)};
-    views.bending = &modes;
-    chunk_force(chunk, views, position.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
-  } else {
-    chunk_force(chunk, views, position.chunk(chunk), force.chunk(chunk), shape, bodies->thickness);
+  for (int part = 0; part < parts_of_a_lane; ++part) {
+    Views<F> views{part_of(stress.deviator.chunk(chunk), part),
+                   part_of(stress.mean.chunk(chunk), part), nullptr};
+    const auto x = part_of(position.chunk(chunk), part);
+    const auto f = part_of(force.chunk(chunk), part);
+    if constexpr (F::stabilised) {
+      const Row<Particle> particle;
+      const Packet corner = part_of(bending->min_corner.chunk(chunk), part)(particle);
+      const Bending modes{part_of(bending->stress.chunk(chunk), part),
+                          part_of(shear.chunk(chunk), part)(particle),
+                          any(corner < kernels::barrier_ratio)};
+      views.bending = &modes;
+      part_force(chunk, views, x, f, shape, bodies->thickness);
+    } else {
+      part_force(chunk, views, x, f, shape, bodies->thickness);
+    }
   }
 }
 template struct internal_force<FourPoint>;

@@ -15,40 +15,41 @@ namespace {
 
 // What the elements of a chunk add up to.
 struct ChunkSums {
-  Lane hourglass_work{};          // J/m
-  Lane rate_work{};               // J/m
-  Lane residual{}, element = -1;  // the worst return's
+  Packet hourglass_work{};          // J/m
+  Packet rate_work{};               // J/m
+  Packet residual{}, element = -1;  // the worst return's
 };
 
 template <class F, class Law>
 struct Views {
-  ChunkView<Position, const Lane*> x;
-  ChunkView<IsochoricScale<F::points>, const Lane*> scale;
-  ChunkView<DeviatoricStress<F::points>, Lane*> stress;
-  ChunkView<PlasticMetric<F::points>, Lane*> metric;
-  ChunkView<PlasticStrain<F::points>, Lane*> strain;
-  Lane mu, inv_mu;
+  ReadPart<Position> x;
+  ReadPart<IsochoricScale<F::points>> scale;
+  WritePart<DeviatoricStress<F::points>> stress;
+  WritePart<PlasticMetric<F::points>> metric;
+  WritePart<PlasticStrain<F::points>> strain;
+  Packet mu, inv_mu;
   Law law;
 };
 
 // Not a number is worse than any.
-void keep_worst(Lane residual, Row<Element> e, ChunkSums& sums) {
-  const LaneMask worse = ~(abs(residual) <= abs(sums.residual)) & (sums.residual == sums.residual);
+void keep_worst(Packet residual, Row<Element> e, ChunkSums& sums) {
+  const Packet::Mask worse =
+      ~(abs(residual) <= abs(sums.residual)) & (sums.residual == sums.residual);
   sums.residual = select(worse, residual, sums.residual);
   sums.element = select(worse, e.value, sums.element);
 }
 
 struct PointKinematics {
-  kernels::Matrix2<Lane> f;
-  Lane theta, mu_over_theta;
+  kernels::Matrix2<Packet> f;
+  Packet theta, mu_over_theta;
   double area;  // m^2, undeformed
 };
 
 template <class F, class Law, class Coupled>
 void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKinematics& at,
                   ChunkSums& sums, Coupled&& coupled) {
-  const Lane r = v.scale(e, g), before = v.strain(e, g);
-  const auto next = kernels::radial_return<Lane>(
+  const Packet r = v.scale(e, g), before = v.strain(e, g);
+  const auto next = kernels::radial_return<Packet>(
       {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), before}, at.f, r * r,
       at.mu_over_theta, at.theta * v.inv_mu, v.law, coupled);
   store(v.stress, e, g, next.s);
@@ -65,7 +66,7 @@ void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKine
 
 template <class F, class Law>
 void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, ChunkSums& sums) {
-  LaneMask flows[F::points], some = LaneMask::of(0);
+  Packet::Mask flows[F::points], some = Packet::Mask::of(0);
   for (int g = 0; g < F::points; ++g) {
     flows[g] = kernels::yields(deviator(v.stress, e, g), v.strain(e, g), v.law);
     some = some | flows[g];
@@ -74,8 +75,8 @@ void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, 
 
   const auto map = quad_map<F::points>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
   const auto& points = points_of<F::points>(shape, e.value);
-  Lane theta = mean_dilatation(map, points);
-  Lane mu_over_theta = v.mu / theta;
+  Packet theta = mean_dilatation(map, points);
+  Packet mu_over_theta = v.mu / theta;
   for (int g = 0; g < F::points; ++g) {
     if (!any(flows[g])) continue;
     const auto& point = points[static_cast<std::size_t>(g)];
@@ -91,16 +92,16 @@ void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, 
 
 // ---- one point: the stress of the hourglass modes goes with the deviator ---------------------------
 struct Bending {
-  ChunkView<HourglassStress, Lane*> stress;
-  ChunkView<PlasticHourglass, Lane*> plastic;
-  Lane softness, stiffness, inv_modulus;
+  WritePart<HourglassStress> stress;
+  WritePart<PlasticHourglass> plastic;
+  Packet softness, stiffness, inv_modulus;
 };
 
 // Keeps the share `retained` of the bending stress; the rest has become plastic. Returns the work spent in
 // the hourglass modes, J/m.
-Lane keep_bending(const Bending& bending, Row<Element> e, const kernels::Hourglass<Lane>& stress,
-                  Lane retained, double area) {
-  const Lane plastic_share = fma(-retained, bending.inv_modulus, bending.inv_modulus);
+Packet keep_bending(const Bending& bending, Row<Element> e,
+                    const kernels::Hourglass<Packet>& stress, Packet retained, double area) {
+  const Packet plastic_share = fma(-retained, bending.inv_modulus, bending.inv_modulus);
   bending.plastic(e, 0) = fma(plastic_share, stress.one, bending.plastic(e, 0));
   bending.plastic(e, 1) = fma(plastic_share, stress.two, bending.plastic(e, 1));
   bending.stress(e, 0) = retained * stress.one;
@@ -113,17 +114,17 @@ template <class Law>
 void return_element(const Views<OnePoint, Law>& v, const Bending& bending, const Shape& shape,
                     Row<Element> e, ChunkSums& sums) {
   const auto s = deviator(v.stress, e, 0);
-  const kernels::Hourglass<Lane> m{bending.stress(e, 0), bending.stress(e, 1)};
-  const Lane yield = v.law.flow_stress(v.strain(e)), limit2 = (2.0 / 3.0) * yield * yield;
+  const kernels::Hourglass<Packet> m{bending.stress(e, 0), bending.stress(e, 1)};
+  const Packet yield = v.law.flow_stress(v.strain(e)), limit2 = (2.0 / 3.0) * yield * yield;
   if (!any(kernels::may_yield(s, m, limit2))) return;
 
   const auto map = quad_map<1>(v.x, shape.quads[static_cast<std::size_t>(e.value)]);
-  kernels::CoupledBending<Lane> coupled{m, bending.softness, bending.stiffness,
-                                        kernels::inverse_width(map, s, limit2), 1.0};
+  kernels::CoupledBending<Packet> coupled{m, bending.softness, bending.stiffness,
+                                          kernels::inverse_width(map, s, limit2), 1.0};
   if (!any(kernels::yields(s, v.strain(e), v.law, coupled))) return;
   const auto& point = shape.centre[static_cast<std::size_t>(e.value)][0];
   const auto f = kernels::deformation_gradient(map_gradient<1>(map, 0), point.inverse_jacobian);
-  const Lane r = v.scale(e);  // theta = det F: 1/theta is its cube
+  const Packet r = v.scale(e);  // theta = det F: 1/theta is its cube
   return_point(v, e, 0, {f, determinant(f), v.mu * (r * r * r), point.determinant}, sums, coupled);
   sums.hourglass_work += keep_bending(bending, e, m, coupled.retained, point.determinant);
 }
@@ -133,42 +134,51 @@ void return_element(const Views<OnePoint, Law>& v, const Bending& bending, const
 template <class F>
 [[gnu::flatten]] void j2_return_map<F>::operator()(BusyChunk chunk) const {
   const Row<Particle> particle;
-  const Lane mu = elastic.shear.chunk(chunk)(particle);
   const Shape& shape = bodies->shape_of_chunk(chunk);
-  ChunkSums sums;
-  const auto return_chunk = [&]<class Law>(const Law& law) {
-    const Views<F, Law> v{position.chunk(chunk),
-                          points.isochoric.chunk(chunk),
-                          points.deviator.chunk(chunk),
-                          points.metric.chunk(chunk),
-                          points.strain.chunk(chunk),
-                          mu,
-                          1.0 / mu,
-                          law};
-    if constexpr (F::stabilised) {
-      const Lane modulus = kernels::plane_strain_modulus(mu, elastic.bulk.chunk(chunk)(particle));
-      const Bending bending{hourglass->stress.chunk(chunk), hourglass->plastic.chunk(chunk),
-                            (1.0 / 3.0) * modulus / mu, 3.0 * mu / modulus, 1.0 / modulus};
-      chunk.for_elements(shape.elements(),
-                         [&](int i) { return_element(v, bending, shape, Row<Element>(i), sums); });
-    } else {
-      chunk.for_elements(shape.elements(),
-                         [&](int i) { return_element(v, shape, Row<Element>(i), sums); });
-    }
+  const auto constant = [&](const auto& column, int part) {
+    return part_of(column.chunk(chunk), part)(particle);
   };
-  const kernels::LinearHardening<Lane> linear{flow.yield_stress.chunk(chunk)(particle),
-                                              flow.hardening.chunk(chunk)(particle)};
-  if (flow.laws)
-    with_law((*flow.laws)->of_chunk(*bodies, chunk), linear, 1 / clock->dt_before, return_chunk);
-  else
-    return_chunk(linear);
-  if constexpr (F::stabilised)
-    hourglass->work.chunk(chunk)(particle) += sums.hourglass_work * bodies->thickness;
-  if (const auto& work = iterated.rate_work)
-    work->chunk(chunk)(particle) += sums.rate_work * bodies->thickness;
-  if (const auto& residual = iterated.residual) {
-    residual->chunk(chunk)(particle, 0) = sums.residual;
-    residual->chunk(chunk)(particle, 1) = sums.element;
+  for (int part = 0; part < parts_of_a_lane; ++part) {
+    const Packet mu = constant(elastic.shear, part);
+    ChunkSums sums;
+    const auto return_part = [&]<class Law>(const Law& law) {
+      const Views<F, Law> v{part_of(position.chunk(chunk), part),
+                            part_of(points.isochoric.chunk(chunk), part),
+                            part_of(points.deviator.chunk(chunk), part),
+                            part_of(points.metric.chunk(chunk), part),
+                            part_of(points.strain.chunk(chunk), part),
+                            mu,
+                            1.0 / mu,
+                            law};
+      if constexpr (F::stabilised) {
+        const Packet modulus = kernels::plane_strain_modulus(mu, constant(elastic.bulk, part));
+        const Bending bending{part_of(hourglass->stress.chunk(chunk), part),
+                              part_of(hourglass->plastic.chunk(chunk), part),
+                              (1.0 / 3.0) * modulus / mu, 3.0 * mu / modulus, 1.0 / modulus};
+        chunk.for_elements(shape.elements(), [&](int i) {
+          return_element(v, bending, shape, Row<Element>(i), sums);
+        });
+      } else {
+        chunk.for_elements(shape.elements(),
+                           [&](int i) { return_element(v, shape, Row<Element>(i), sums); });
+      }
+    };
+    const kernels::LinearHardening<Packet> linear{constant(flow.yield_stress, part),
+                                                  constant(flow.hardening, part)};
+    if (flow.laws)
+      with_law((*flow.laws)->of_chunk(*bodies, chunk), linear, 1 / clock->dt_before, return_part);
+    else
+      return_part(linear);
+    if constexpr (F::stabilised)
+      part_of(hourglass->work.chunk(chunk), part)(particle) +=
+          sums.hourglass_work * bodies->thickness;
+    if (const auto& work = iterated.rate_work)
+      part_of(work->chunk(chunk), part)(particle) += sums.rate_work * bodies->thickness;
+    if (const auto& residual = iterated.residual) {
+      const auto worst = part_of(residual->chunk(chunk), part);
+      worst(particle, 0) = sums.residual;
+      worst(particle, 1) = sums.element;
+    }
   }
 }
 template struct j2_return_map<FourPoint>;

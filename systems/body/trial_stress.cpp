@@ -17,32 +17,34 @@ namespace {
 
 template <class F>
 struct Views {
-  ChunkView<Position, const Lane*> x;
-  ChunkView<DeviatoricStress<F::points>, Lane*> s;
-  ChunkView<MeanStress<F::volumes>, Lane*> p;
-  Lane mu, bulk;
+  ReadPart<Position> x;
+  WritePart<DeviatoricStress<F::points>> s;
+  WritePart<MeanStress<F::volumes>> p;
+  Packet mu, bulk;
 };
 
 template <class F>
 Views<F> views_of(const Read<Position>& position, const ElementStress<Write, F>& stress,
-                  const Elasticity& elastic, Chunk chunk) {
+                  const Elasticity& elastic, Chunk chunk, int part) {
   const Row<Particle> particle;
-  return {position.chunk(chunk), stress.deviator.chunk(chunk), stress.mean.chunk(chunk),
-          elastic.shear.chunk(chunk)(particle), elastic.bulk.chunk(chunk)(particle)};
+  return {part_of(position.chunk(chunk), part), part_of(stress.deviator.chunk(chunk), part),
+          part_of(stress.mean.chunk(chunk), part),
+          part_of(elastic.shear.chunk(chunk)(particle), part),
+          part_of(elastic.bulk.chunk(chunk)(particle), part)};
 }
 
 // Elements with one point: the trial stress of their hourglass modes, over the plastic part `plastic_bending`.
 struct HourglassViews {
-  ChunkView<HourglassStress, Lane*> stress;
-  const ChunkView<PlasticHourglass, const Lane*>* plastic_bending;  // null: elastic
-  Lane modulus;
-  Lane min_corner;  // of the chunk's elements so far
+  WritePart<HourglassStress> stress;
+  const ReadPart<PlasticHourglass>* plastic_bending;  // null: elastic
+  Packet modulus;
+  Packet min_corner;  // of the chunk's elements so far
 };
 
 // Returns the least det F of where the Gauss points of a four-point element would be, over theta: it tells
 // a folded element.
-Lane hourglass_stress(HourglassViews& v, const kernels::FourfoldMap<Lane>& map, Lane inv_det,
-                      const Shape::Hourglass& reference, Row<Element> e) {
+Packet hourglass_stress(HourglassViews& v, const kernels::FourfoldMap<Packet>& map, Packet inv_det,
+                        const Shape::Hourglass& reference, Row<Element> e) {
   const auto w = kernels::natural_hourglass(map, inv_det);
   auto strain = kernels::bending_strain(w, reference);
   if (v.plastic_bending != nullptr) {
@@ -51,18 +53,18 @@ Lane hourglass_stress(HourglassViews& v, const kernels::FourfoldMap<Lane>& map, 
   }
   v.stress(e, 0) = v.modulus * strain.one;
   v.stress(e, 1) = v.modulus * strain.two;
-  const Lane corner = kernels::min_ratio(kernels::corner_ratios(w, reference));
+  const Packet corner = kernels::min_ratio(kernels::corner_ratios(w, reference));
   v.min_corner = min(corner, v.min_corner);
   return corner;
 }
 
 // `left(F, r, e, g)` gives F C_p^-1 F^T, with r = J^(-1/3). Returns the least det F of the element's points.
 template <class F, class LeftCauchyGreen>
-Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& shape,
-                    Row<Element> e, const LeftCauchyGreen& left) {
+Packet element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& shape,
+                      Row<Element> e, const LeftCauchyGreen& left) {
   const auto map = quad_map<F::points>(v.x, entry(shape.quads, e.value));
   const auto& points = points_of<F::points>(shape, e.value);
-  Lane theta{}, inv_theta{}, minimum = 1e300;
+  Packet theta{}, inv_theta{}, minimum = 1e300;
   if constexpr (F::volumes < F::points) {
     theta = minimum = mean_dilatation(map, points);
     inv_theta = 1.0 / theta;
@@ -72,9 +74,9 @@ Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& s
     const auto& point = entry(points, g);
     const auto f =
         kernels::deformation_gradient(map_gradient<F::points>(map, g), point.inverse_jacobian);
-    const Lane j = determinant(f);
-    const Lane r = kernels::inverse_cube_root(j);
-    const Lane r2 = r * r;
+    const Packet j = determinant(f);
+    const Packet r = kernels::inverse_cube_root(j);
+    const Packet r2 = r * r;
     if constexpr (F::volumes == F::points) {
       inv_theta = r2 * r;
       v.p(e, g) = 0.5 * v.bulk * (j - inv_theta);
@@ -89,49 +91,52 @@ Lane element_stress(const Views<F>& v, HourglassViews* hourglass, const Shape& s
 }
 
 // A NaN wins every comparison and is not replaced by a later number, so that it is seen.
-void keep_worst(Lane minimum, Row<Element> e, Lane& worst, Lane& worst_element) {
-  const LaneMask lower = ~(minimum >= worst) & (worst == worst);
+void keep_worst(Packet minimum, Row<Element> e, Packet& worst, Packet& worst_element) {
+  const Packet::Mask lower = ~(minimum >= worst) & (worst == worst);
   worst_element = select(lower, e.value, worst_element);
   worst = select(lower, minimum, worst);
 }
 
 // `plastic_bending`: null for elastic material.
 template <class F, class LeftCauchyGreen>
-void chunk_stress(Chunk chunk, const Bodies& bodies, const Views<F>& v,
-                  const Optional<BendingModes<Write>>& bending,
-                  const Optional<Read<PlasticHourglass>>* plastic_bending,
-                  const WorstJacobian<Write>& worst_jacobian, const LeftCauchyGreen& left) {
-  std::optional<ChunkView<PlasticHourglass, const Lane*>> plastic;
+void part_stress(Chunk chunk, int part, const Bodies& bodies, const Views<F>& v,
+                 const Optional<BendingModes<Write>>& bending,
+                 const Optional<Read<PlasticHourglass>>* plastic_bending,
+                 const WorstJacobian<Write>& worst_jacobian, const LeftCauchyGreen& left) {
+  std::optional<ReadPart<PlasticHourglass>> plastic;
   std::optional<HourglassViews> hourglass;
   if constexpr (F::stabilised) {
-    if (plastic_bending != nullptr) plastic = (*plastic_bending)->chunk(chunk);
-    hourglass = {bending->stress.chunk(chunk), plastic ? &*plastic : nullptr,
+    if (plastic_bending != nullptr) plastic = part_of((*plastic_bending)->chunk(chunk), part);
+    hourglass = {part_of(bending->stress.chunk(chunk), part), plastic ? &*plastic : nullptr,
                  kernels::plane_strain_modulus(v.mu, v.bulk), 1e300};
   }
   const Shape& shape = bodies.shape_of_chunk(chunk);
-  Lane worst = 1e300, which{};
+  Packet worst = 1e300, which{};
   for (int i = 0; i < shape.elements(); ++i)
     keep_worst(
         element_stress<F>(v, hourglass ? &*hourglass : nullptr, shape, Row<Element>(i), left),
         Row<Element>(i), worst, which);
+  const Row<Particle> particle;
   if constexpr (F::stabilised)
-    bending->min_corner.chunk(chunk)(Row<Particle>()) = hourglass->min_corner;
-  worst_jacobian.value.chunk(chunk)(Row<Particle>()) = worst;
-  worst_jacobian.element.chunk(chunk)(Row<Particle>()) = which;
+    part_of(bending->min_corner.chunk(chunk), part)(particle) = hourglass->min_corner;
+  part_of(worst_jacobian.value.chunk(chunk), part)(particle) = worst;
+  part_of(worst_jacobian.element.chunk(chunk), part)(particle) = which;
 }
 
 }  // namespace
 
 template <class F>
 [[gnu::flatten]] void trial_stress<F>::operator()(Chunk chunk) const {
-  const Views<F> views = views_of<F>(position, stress, elastic, chunk);
-  const auto c = plastic.metric.chunk(chunk);
-  const auto scale = plastic.isochoric.chunk(chunk);
-  const auto left = [&](const kernels::Matrix2<Lane>& f, Lane r, Row<Element> e, int g) {
-    scale(e, g) = r;
-    return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
-  };
-  chunk_stress<F>(chunk, *bodies, views, bending, &plastic.hourglass, worst, left);
+  for (int part = 0; part < parts_of_a_lane; ++part) {
+    const auto c = part_of(plastic.metric.chunk(chunk), part);
+    const auto scale = part_of(plastic.isochoric.chunk(chunk), part);
+    const auto left = [&](const kernels::Matrix2<Packet>& f, Packet r, Row<Element> e, int g) {
+      scale(e, g) = r;
+      return kernels::left_cauchy_green(f, plastic_metric(c, e, g));
+    };
+    part_stress<F>(chunk, part, *bodies, views_of<F>(position, stress, elastic, chunk, part),
+                   bending, &plastic.hourglass, worst, left);
+  }
 }
 template struct trial_stress<FourPoint>;
 template struct trial_stress<Standard>;
@@ -139,11 +144,12 @@ template struct trial_stress<OnePoint>;
 
 template <class F>
 [[gnu::flatten]] void elastic_stress<F>::operator()(Chunk chunk) const {
-  const Views<F> views = views_of<F>(position, stress, elastic, chunk);
-  const auto left = [](const kernels::Matrix2<Lane>& f, Lane, Row<Element>, int) {
+  const auto left = [](const kernels::Matrix2<Packet>& f, Packet, Row<Element>, int) {
     return kernels::left_cauchy_green(f);
   };
-  chunk_stress<F>(chunk, *bodies, views, bending, nullptr, worst, left);
+  for (int part = 0; part < parts_of_a_lane; ++part)
+    part_stress<F>(chunk, part, *bodies, views_of<F>(position, stress, elastic, chunk, part),
+                   bending, nullptr, worst, left);
 }
 template struct elastic_stress<FourPoint>;
 template struct elastic_stress<Standard>;

@@ -12,8 +12,8 @@ namespace pulvis::kernels {
 // f(number) for each number of x.
 template <class T, class F>
 T each_number(const T& x, const F& f) {
-  if constexpr (std::is_same_v<T, Lane>)
-    return Lane::from([&](int l) { return f(x[l]); });
+  if constexpr (is_pack<T>)
+    return T::from([&](int l) { return f(x[l]); });
   else
     return f(x);
 }

@@ -43,9 +43,8 @@ struct FlowLaws {
 
 // Calls use(law) with the law's own type: once a chunk, not once a point. Linear hardening keeps its columns, where
 // elastic particles have an infinite yield stress.
-template <class Use>
-void with_hardening(const FlowLaw& law, const kernels::LinearHardening<Lane>& linear,
-                    const Use& use) {
+template <class T, class Use>
+void with_hardening(const FlowLaw& law, const kernels::LinearHardening<T>& linear, const Use& use) {
   std::visit(
       [&]<class Law>(const Law& own) {
         if constexpr (std::is_same_v<Law, kernels::LinearHardening<double>>)
@@ -58,8 +57,8 @@ void with_hardening(const FlowLaw& law, const kernels::LinearHardening<Lane>& li
 
 // The same with the rate law, over a step of 1/over_dt. Kept out of its caller, which is inlined as a whole for linear
 // hardening.
-template <class Use>
-[[gnu::noinline]] void with_law(const FlowLaw& law, const kernels::LinearHardening<Lane>& linear,
+template <class T, class Use>
+[[gnu::noinline]] void with_law(const FlowLaw& law, const kernels::LinearHardening<T>& linear,
                                 double over_dt, const Use& use) {
   with_hardening(law, linear, [&](const auto& hardening) {
     std::visit(

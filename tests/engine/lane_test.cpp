@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "engine/lane_memory.hpp"
 
 #include "tests/helpers/random_values.hpp"
@@ -101,6 +103,41 @@ TEST(Lane, FusedMultiplyAddTakesScalarsInEveryPlace) {
                    [](double a, double, double c) { return std::fma(a, 0.3, c); });
   expect_same_bits([](Lane, Lane b, Lane) { return fma(0.3, b, 0.7); },
                    [](double, double b, double) { return std::fma(0.3, b, 0.7); });
+}
+
+TEST(Packet, HoldsTheLanesOfOneRegister) {
+  kernels::Random random(2);
+  const Lane a = random.lane(-10, 10), b = random.lane(-10, 10), c = random.lane(-10, 10);
+  const Lane whole = select(a < b, fma(a, 0.3, c), sqrt(abs(b)) / c);
+  const int lanes = static_cast<int>(Packet::size);
+  ASSERT_EQ(parts_of_a_lane * lanes, lane_count);
+  for (int part = 0; part < parts_of_a_lane; ++part) {
+    const Packet x = part_of(a, part), y = part_of(b, part), z = part_of(c, part);
+    const Packet result = select(x < y, fma(x, 0.3, z), sqrt(abs(y)) / z);
+    for (int l = 0; l < lanes; ++l)
+      EXPECT_EQ(bits(result[l]), bits(whole[part * lanes + l])) << part << " " << l;
+  }
+}
+
+struct Thing {};
+struct Pairs : Component<Thing, double, 2> {};
+
+TEST(Packet, PartsOfAViewAreTheLanesInPlace) {
+  std::array<Lane, 6> column;  // three rows of two
+  for (int i = 0; i < 6; ++i) entry(column, i) = Lane::from([i](int l) { return 100 * i + l; });
+  const ChunkView<Pairs, Lane*> view(column.data());
+  const ChunkView<Pairs, const Lane*> read(column.data());
+  const int lanes = static_cast<int>(Packet::size);
+  for (int part = 0; part < parts_of_a_lane; ++part)
+    for (int row = 0; row < 3; ++row)
+      for (int k = 0; k < 2; ++k)
+        for (int l = 0; l < lanes; ++l) {
+          const Row<Thing> r(row);
+          EXPECT_EQ(part_of(read, part)(r, k)[l], 100 * (2 * row + k) + part * lanes + l);
+          part_of(view, part)(r, k)[l] += 0.5;
+        }
+  for (int i = 0; i < 6; ++i)
+    for (int l = 0; l < lane_count; ++l) EXPECT_EQ(entry(column, i)[l], 100 * i + l + 0.5);
 }
 
 TEST(LaneMemory, HalvesComeAndGoByThemselves) {
