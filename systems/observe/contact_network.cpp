@@ -88,7 +88,9 @@ void sort_by_numbers(std::vector<ContactLink>& links) {
 
 std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex& index,
                                         const Outlines& outlines, const TouchingPairs& pairs) {
-  const auto& [pair, touches, force] = pairs.rows;
+  const auto& pair = pairs.rows.pair;
+  const auto& touches = pairs.rows.touches;
+  const auto& force = pairs.rows.force;
   const Read<ClosestPoint>& closest = pairs.closest;
   const auto add_row = [&](Row<Contact> row, double side, Gathered& contact) {
     const auto normal_at = [&](const Point&, int g) {
