@@ -60,19 +60,19 @@ class SplitStep {
   TaskGraph before_, kernels_, after_;
 };
 
+// What follows each other is fused. Unlike a graph it does not move the systems of the whole world out of the way, so
+// that what a graph would drop after a pass is kept here.
 class TimedSystems {
  public:
   explicit TimedSystems(World& world)
-      : chunks_(world.chunks()), systems_(all_systems(world)), seconds_(systems_.size()) {
-    world.allocate_transient(droppable_components(systems_), 1);
-  }
+      : chunks_(world.chunks()), systems_(all_systems(world)), seconds_(systems_.size()) {}
 
   void run() {
     for (std::size_t first = 0, last; first < systems_.size(); first = last) {
       const bool by_chunk = systems_[first].by_chunk;
       for (last = first + 1; by_chunk && last < systems_.size() && systems_[last].by_chunk;) ++last;
       for (int chunk = 0; chunk < (by_chunk ? chunks_ : 1); ++chunk)
-        run_fused(first, last, Chunk{chunk, 0});
+        run_fused(first, last, Chunk{chunk});
     }
   }
   std::map<std::string, double> seconds() const {
