@@ -85,6 +85,7 @@ def main():
 
     tries = [(10, m, r, a) for m, r in ((0.05, 0.05), (0.05, 0.1), (0.05, 0.2), (0.1, 0.1)) for a in (5e4, 2e5)]
     tries += [(20, m, r, a) for m, r in ((0.025, 0.025), (0.05, 0.05)) for a in (5e4, 2e5)]
+    tries += [(10, m, 0.1, 2e5) for m in (0.28, 1.12)]  # slowly: must come to the reference
     factors = [0.25, 0.5, 1]
     jobs = [(timed(4), 400)] + [(timed(f), 400) for f in factors] + [(relaxed(*t), 40 * t[0]) for t in tries]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:

@@ -19,7 +19,7 @@ using Flux = kernels::QuadFlux<Packet>;
 struct Bending {
   ReadPart<HourglassStress> stress;
   Packet mu;
-  bool near_inversion;  // some corner of the chunk's elements is about to fold
+  bool near_inversion;  // some corner of the elements is about to fold
 };
 
 template <class F>

@@ -13,8 +13,8 @@
 namespace pulvis {
 namespace {
 
-// What the elements of a chunk add up to.
-struct ChunkSums {
+// What the elements of a packet of particles add up to.
+struct PacketSums {
   Packet hourglass_work{};          // J/m
   Packet rate_work{};               // J/m
   Packet residual{}, element = -1;  // the worst return's
@@ -32,7 +32,7 @@ struct Views {
 };
 
 // Not a number is worse than any.
-void keep_worst(Packet residual, Row<Element> e, ChunkSums& sums) {
+void keep_worst(Packet residual, Row<Element> e, PacketSums& sums) {
   const Packet::Mask worse =
       ~(abs(residual) <= abs(sums.residual)) & (sums.residual == sums.residual);
   sums.residual = select(worse, residual, sums.residual);
@@ -47,7 +47,7 @@ struct PointKinematics {
 
 template <class F, class Law, class Coupled>
 void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKinematics& at,
-                  ChunkSums& sums, Coupled&& coupled) {
+                  PacketSums& sums, Coupled&& coupled) {
   const Packet r = v.scale(e, g), before = v.strain(e, g);
   const auto next = kernels::radial_return<Packet>(
       {deviator(v.stress, e, g), plastic_metric(v.metric, e, g), before}, at.f, r * r,
@@ -65,7 +65,7 @@ void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKine
 }
 
 template <class F, class Law>
-void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, ChunkSums& sums) {
+void return_element(const Views<F, Law>& v, const Shape& shape, Row<Element> e, PacketSums& sums) {
   Packet::Mask flows[F::points], some = Packet::Mask::of(0);
   for (int g = 0; g < F::points; ++g) {
     flows[g] = kernels::yields(deviator(v.stress, e, g), v.strain(e, g), v.law);
@@ -112,7 +112,7 @@ Packet keep_bending(const Bending& bending, Row<Element> e,
 
 template <class Law>
 void return_element(const Views<OnePoint, Law>& v, const Bending& bending, const Shape& shape,
-                    Row<Element> e, ChunkSums& sums) {
+                    Row<Element> e, PacketSums& sums) {
   const auto s = deviator(v.stress, e, 0);
   const kernels::Hourglass<Packet> m{bending.stress(e, 0), bending.stress(e, 1)};
   const Packet yield = v.law.flow_stress(v.strain(e)), limit2 = (2.0 / 3.0) * yield * yield;
@@ -140,7 +140,7 @@ template <class F>
   };
   for (int part = 0; part < parts_of_a_lane; ++part) {
     const Packet mu = constant(elastic.shear, part);
-    ChunkSums sums;
+    PacketSums sums;
     const auto return_part = [&]<class Law>(const Law& law) {
       const Views<F, Law> v{part_of(position.chunk(chunk), part),
                             part_of(points.isochoric.chunk(chunk), part),

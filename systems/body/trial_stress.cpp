@@ -38,7 +38,7 @@ struct HourglassViews {
   WritePart<HourglassStress> stress;
   const ReadPart<PlasticHourglass>* plastic_bending;  // null: elastic
   Packet modulus;
-  Packet min_corner;  // of the chunk's elements so far
+  Packet min_corner;  // of the elements so far
 };
 
 // Returns the least det F of where the Gauss points of a four-point element would be, over theta: it tells
