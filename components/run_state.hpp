@@ -90,6 +90,8 @@ struct ContactRules {
   double thinnest = std::numeric_limits<double>::infinity();
   std::vector<double> tool_thickness;  // m, [tools]: of thin ridges; infinite where there are none
   bool servos = false;                 // some tool holds a force
+  // -, [materials]: stiffness of bonds over that of the contact springs; empty without bonds
+  std::vector<double> bond_stiffness;
   int materials = 0;
   struct Friction {
     double coefficient = 0;  // -, Coulomb's; where there is a static one, the dynamic
@@ -100,6 +102,12 @@ struct ContactRules {
   };
   std::vector<Friction> friction;       // [materials * materials]
   std::vector<Friction> tool_friction;  // [tools * materials]
+  double bonds_of(int material) const {
+    return bond_stiffness.empty() ? 0 : entry(bond_stiffness, material);
+  }
+  double stiffest_bond() const {
+    return bond_stiffness.empty() ? 0 : *std::ranges::max_element(bond_stiffness);
+  }
   const Friction& friction_between(int a, int b) const {
     return entry(friction, a * materials + b);
   }

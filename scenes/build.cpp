@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "components/bond.hpp"
 #include "components/contact.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
@@ -24,6 +25,7 @@
 #include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/observe.hpp"
+#include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "scenes/tools/drives.hpp"
@@ -194,6 +196,28 @@ void add_row_columns(World& world, const Needs& needs) {
   world.emplace<ContactSums<At>>();
 }
 
+template <class At>
+void add_bond_columns(World& world, bool welds) {
+  world.add<BondLawNumber<At>>();
+  world.add<BondedPoints<At>>();
+  world.add<BondOffset<At>>();
+  world.add<BondStrength<At>>();
+  world.add<BondDamage<At>>();
+  if (welds) world.add<WeldPressure<At>>();
+  world.emplace<BondSums<At>>();
+}
+
+void add_bonds(World& world, const Needs& needs) {
+  if (needs.bonds) {
+    add_bond_columns<Contact>(world, needs.welds);
+    world.add<CurveAnchor>();
+  }
+  if (needs.tool_bonds) {
+    add_bond_columns<ToolContact>(world, needs.tool_welds);
+    world.add<ToolAnchor>();
+  }
+}
+
 void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add_table<BoundaryNode>(
       rows_by_chunk(bodies, [](const Shape& s) { return s.boundary_nodes; }));
@@ -209,7 +233,7 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
     add_row_columns<Contact>(world, needs);
     world.add<ContactPlace>();
     world.add<ClosestPoint>();
-    if (needs.friction) world.add<FrictionCouple>();
+    if (needs.friction || needs.bonds) world.add<FrictionCouple>();
   }
   if (needs.tools) add_row_columns<ToolContact>(world, needs);
   if (needs.polylines) world.add<SurfaceRange>();
@@ -363,6 +387,15 @@ std::unique_ptr<World> build_world(const Scene& scene) {
     rules.servos = world->has<ToolServos>();
     ContactIndex& index = world->emplace<ContactIndex>();
     index.skin = scene.contact.skin * rules.shortest_edge;
+    if (needs.any_bonds()) {
+      add_bonds(*world, needs);
+      const BondRules& bonds =
+          world->emplace<BondRules>(bounded_by(layout.bodies, scene, bond_rules(scene)));
+      for (int m = 0; m < bonds.materials; ++m)
+        rules.bond_stiffness.push_back(stiffest_bond(bonds, m));
+      // A bond that holds keeps its row.
+      index.skin = std::max(index.skin, longest_opening(bonds));
+    }
     index.neighbourhood = skins_of_neighbourhood * index.skin;
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
@@ -373,6 +406,8 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.flow_laws) world->emplace<FlowLaws>(flow_laws(scene));
   add_clock(*world, scene);
   world->emplace<Totals>();
+  if (!scene.bonds.empty())
+    world->emplace<BondTotals>().made.assign(scene.bonds.size(), 0);
   world->emplace<Bodies>(std::move(layout.bodies));
   if (needs.constraints) add_constraints(*world, scene);
   add_observed(*world, scene);

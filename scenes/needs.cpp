@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenes/outlines/outline.hpp"
+#include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "systems/laws/flow_law.hpp"
 
@@ -45,6 +46,16 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
       any_friction(rules, needs, [](const Friction& f) { return f.coefficient > 0 || f.drop > 0; });
   needs.weakening = needs.friction &&
                     any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
+  if (!scene.bonds.empty()) {
+    const BondRules bonds = bond_rules(scene);
+    const auto any_law = [](const std::vector<std::uint8_t>& numbers) {
+      return std::ranges::any_of(numbers, [](std::uint8_t number) { return number != 0; });
+    };
+    needs.welds = needs.pairs && any_law(bonds.pressed);
+    needs.tool_welds = needs.tools && any_law(bonds.tool_pressed);
+    needs.bonds = needs.welds || (needs.pairs && any_law(bonds.initial));
+    needs.tool_bonds = needs.tool_welds || (needs.tools && any_law(bonds.tool_initial));
+  }
   needs.formulation = scene.element.formulation;
   needs.damping = needs.contact() && scene.contact.damping > 0;
   needs.bulk_damping = std::ranges::any_of(scene.materials, &MaterialSpec::damped);

@@ -16,9 +16,14 @@ struct Needs {
   bool constraints = false;
   bool friction = false;      // a coefficient above zero can act
   bool weakening = false;     // and a law beyond Coulomb's
+  bool bonds = false;         // between particles
+  bool tool_bonds = false;
+  bool welds = false;         // made by pressure, between particles
+  bool tool_welds = false;
   bool damping = false;       // of contacts
   bool bulk_damping = false;  // of a material
   Formulation formulation = Formulation::one_point;
+  bool any_bonds() const { return bonds || tool_bonds; }
   bool contact() const { return pairs || tools; }
 };
 

@@ -51,6 +51,7 @@ class SceneReader {
     scene.tools = read_all(schema::tool());
     scene.stages = read_stages();
     scene.frictions = read_all(schema::friction());
+    scene.bonds = read_all(schema::bond());
     read_one(schema::contact(), scene.contact);
     read_one(schema::element(), scene.element);
     read_one(schema::time(), scene.time);

@@ -36,6 +36,8 @@ StepList step_list_of(World& w) {
   const bool pairs = w.has<ContactPair<Contact>>();
   const bool tools = w.has<ContactPair<ToolContact>>();
   const bool touching = pairs || tools;
+  const bool bonds = w.has<BondTotals>();
+  const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
   const bool constraints = w.has<ConstraintReaction>();
   SystemList force(w), observe(w, When::on_sample), move(w);
 
@@ -46,7 +48,12 @@ StepList step_list_of(World& w) {
   force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
   force.add<edge_contact>               ("edge_contact",      pairs);
   force.add<tool_contact>               ("tool_contact",      tools);
+  force.add<pressed_bonds>              ("pressed_bonds",     w.has<WeldPressure<Contact>>());
+  force.add<pressed_tool_bonds>         ("pressed_tool_bonds", w.has<WeldPressure<ToolContact>>());
+  force.add<bond_forces>                ("bond_forces",       pair_bonds);
+  force.add<tool_bond_forces>           ("tool_bond_forces",  tool_bonds);
   force.add<contact_totals>             ("contact_totals",    touching);
+  force.add<bond_totals>                ("bond_totals",       bonds);
   force.add<contact_health>             ("contact_health",    touching);
   force.add<ridge_health>               ("ridge_health",      w.has<SurfaceRange>());
   force.add<contact_force>              ("contact_force",     touching);
@@ -83,10 +90,23 @@ StepList step_list_of(World& w) {
   return {force.taken(), observe.taken(), move.taken()};
 }
 
+// What touches at the start is known once contacts have been looked for.
+void add_first_bonds(World& w, SystemList& start) {
+  const bool bonds = w.has<BondTotals>();
+  const bool pairs = w.has<CurveAnchor>(), tools = w.has<ToolAnchor>();
+  start.add<skin_check>("skin_check", bonds);
+  start.add<bin_edges>("bin_edges", pairs);
+  start.add<edge_contact>("edge_contact", pairs);
+  start.add<initial_bonds>("initial_bonds", pairs);
+  start.add<bin_tool_edges>("bin_tool_edges", tools);
+  start.add<initial_tool_bonds>("initial_tool_bonds", tools);
+}
+
 template <class F>
 std::vector<System> start_list_of(World& w) {
   SystemList start(w);
   start.add<contact_curve>("contact_curve", w.has<CurvePosition>());
+  add_first_bonds(w, start);
   start.add<stable_time_step<F::points>>("stable_time_step");
   start.add<highest_mode<F::points>>("highest_mode", w.has<HighestMode>());
   start.add<first_time_step>("first_time_step");

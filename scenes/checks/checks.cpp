@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <type_traits>
 
 #include "scenes/meshes/mesh.hpp"
@@ -43,6 +44,7 @@ class Checks {
     packings();
     stages();
     frictions();
+    bonds();
     everything_is_used();
   }
 
@@ -325,6 +327,30 @@ class Checks {
         refuse(path, fmt::format("the pair '{}' and '{}' is named twice, allowed: once",
                                  friction.first, friction.second));
     }
+  }
+
+  void bonds() {
+    constexpr std::size_t most_bonds = 255;
+    std::set<std::tuple<BondSpec::Origin, std::string, std::string>> named;
+    for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
+      const BondSpec& bond = scene_.bonds[i];
+      const std::string path = fmt::format("bond[{}].between", i);
+      const auto& [first, second] = std::minmax(bond.first, bond.second);
+      if (is_tool(first) && is_tool(second))
+        refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
+      for (const ToolSpec& tool : scene_.tools)
+        if (tool.shape == ToolSpec::Shape::constraint && (tool.name == first || tool.name == second))
+          refuse(path, fmt::format("nothing touches the constraint '{}', allowed: tools that are "
+                                   "no constraints",
+                                   tool.name));
+      if (!named.insert({bond.origin, first, second}).second)
+        refuse(path, fmt::format("the pair '{}' and '{}' is named twice with this origin, allowed: "
+                                 "once",
+                                 first, second));
+    }
+    if (scene_.bonds.size() > most_bonds)
+      refuse("bond[255]", fmt::format("{} are declared, allowed: <= {}", scene_.bonds.size(),
+                                      most_bonds));
   }
 
   void everything_is_used() {

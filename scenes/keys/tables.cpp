@@ -9,7 +9,7 @@ const Language& scene_language() {
       view_of(mesh()),          view_of(body()),     view_of(packing()),
       view_of(mixture_class()), view_of(tool()),     view_of(stage()),
       view_of(move()),          view_of(servo()),    view_of(until()),
-      view_of(friction()),      view_of(contact()),  view_of(element()),
+      view_of(friction()),      view_of(bond()),         view_of(contact()),  view_of(element()),
       view_of(time()),          view_of(output()),   view_of(limits()),
       view_of(lever()),         view_of(tip()),      view_of(laser()),
       view_of(detector()),      view_of(surface()),  view_of(action()),

@@ -23,6 +23,7 @@ const TableDeclaration<MoveSpec>& move();
 const TableDeclaration<ServoSpec>& servo();
 const TableDeclaration<UntilSpec>& until();
 const TableDeclaration<FrictionSpec>& friction();
+const TableDeclaration<BondSpec>& bond();
 const TableDeclaration<ContactSpec>& contact();
 const TableDeclaration<ElementSpec>& element();
 const TableDeclaration<TimeSpec>& time();

@@ -68,6 +68,10 @@ class SeriesList {
     add("energy/damping", "J", "dissipated by contact damping");
     if (std::ranges::any_of(scene_.materials, &MaterialSpec::damped))
       add("energy/bulk_damping", "J", "dissipated by the materials' damping");
+    if (!scene_.bonds.empty()) {
+      add("energy/bonds", "J", "stored in the bonds");
+      add("energy/fracture", "J", "spent in breaking bonds");
+    }
     add("energy/external", "J", "work of the tools");
     add("energy/balance", "J",
         "all energies less the work of the tools and the energy at the start");
@@ -79,6 +83,10 @@ class SeriesList {
     add("contact_overlap", "-", "area in which outlines overlap / area of the particles");
     add("narrow_contacts", "-",
         "share of the contact force on contacts narrower than two boundary edges");
+    if (!scene_.bonds.empty()) {
+      add("bonds/area", "m^2", "of the surfaces that are bonded");
+      add("bonds/crack_length", "m", "of all that broke so far");
+    }
     add("min_jacobian", "-", "smallest det F so far");
     add("dt", "s", "time step");
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "components/bond.hpp"
 #include "components/body.hpp"
 #include "components/contact.hpp"
 #include "components/observed.hpp"
@@ -159,9 +160,13 @@ void Results::take_energies() {
   e.friction = totals.friction_work;
   e.damping = totals.damping_work;
   e.bulk_damping = world_.has<DampingWork>() ? total<DampingWork>(world_) : 0;
+  if (world_.has<BondTotals>()) {
+    e.bonds = world_.resource<BondTotals>().energy;
+    e.fracture = world_.resource<BondTotals>().fracture;
+  }
   e.external = totals.external_work;
   const double all = e.kinetic + e.elastic + e.plastic + e.hourglass + e.contact + e.friction +
-                     e.damping + e.bulk_damping;
+                     e.damping + e.bulk_damping + e.bonds + e.fracture;
   if (first_) initial_energy_ = all;
   first_ = false;
   e.balance = all - e.external - initial_energy_;
@@ -255,6 +260,7 @@ void Results::append_energies(std::vector<double>& row) const {
   row.push_back(e.hourglass);
   row.insert(row.end(), {e.contact, e.friction, e.damping});
   if (world_.has<DampingWork>()) row.push_back(e.bulk_damping);
+  if (world_.has<BondTotals>()) row.insert(row.end(), {e.bonds, e.fracture});
   row.insert(row.end(), {e.external, e.balance});
 }
 
@@ -263,6 +269,9 @@ void Results::append_contacts(std::vector<double>& row) const {
   if (world_.has<ContactQuality>()) now = world_.resource<ContactQuality>();
   row.push_back(now.overlap / particle_area_);
   row.push_back(now.force > 0 ? now.narrow_force / now.force : 0);
+  if (!world_.has<BondTotals>()) return;
+  const BondTotals& bonds = world_.resource<BondTotals>();
+  row.insert(row.end(), {bonds.area, bonds.crack_length});
 }
 
 std::vector<double> Results::sample() {

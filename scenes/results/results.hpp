@@ -20,11 +20,12 @@ namespace pulvis {
 // Energies of the whole scene at t_n, J. `balance` is what the others leave over: 0 in a perfect run.
 struct Energies {
   double kinetic = 0, elastic = 0, plastic = 0, hourglass = 0, contact = 0;
-  double friction = 0, damping = 0, bulk_damping = 0, external = 0, balance = 0;
+  double friction = 0, damping = 0, bulk_damping = 0, bonds = 0, fracture = 0;
+  double external = 0, balance = 0;
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(kinetic, elastic, plastic, hourglass, contact, friction, damping, bulk_damping, external,
-          balance);
+    bytes(kinetic, elastic, plastic, hourglass, contact, friction, damping, bulk_damping, bonds,
+          fracture, external, balance);
   }
   double internal() const { return elastic + plastic + hourglass; }
 };

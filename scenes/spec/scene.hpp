@@ -279,6 +279,20 @@ struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names 
   SourceMark mark;
 };
 
+struct BondSpec {  // of one pair of names (materials or tools)
+  enum class Origin { initial, pressed } origin = Origin::initial;
+  std::string first, second;
+  std::optional<double> strength, shear_strength;                // Pa
+  std::optional<double> fracture_energy, shear_fracture_energy;  // J/m^2
+  double mixed_mode_exponent = 2;                                // -
+  double stiffness = 20;                                         // -, over the contact spring's
+  double reach = 0.01;                                           // -, of the boundary edge
+  std::optional<double> weibull_modulus;                         // -
+  double threshold = 0;                                          // Pa
+  double growth = 0;                                             // -
+  SourceMark mark;
+};
+
 struct ContactSpec {
   double friction = 0;  // -, Coulomb coefficient of every pair that no [[friction]] names
   // k of kappa = k K L/A (bulk modulus, boundary edge length, element area). 0.5: softer, the penetration
@@ -355,6 +369,7 @@ struct Scene {
   std::vector<ToolSpec> tools;          // [[tool]]
   std::vector<StageSpec> stages;        // [[stage]]
   std::vector<FrictionSpec> frictions;  // [[friction]]
+  std::vector<BondSpec> bonds;          // [[bond]]
   ContactSpec contact;
   ElementSpec element;
   TimeSpec time;

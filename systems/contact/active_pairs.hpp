@@ -6,7 +6,7 @@
 //          several blocks, so that the first of the next are asked for while the last of one are looked at
 //
 // A phase says what is done: active(row), fetch(row), fetch_other(row) (which may use what the first has asked for),
-// and (two, sums of their block); (two, two, sums) as well, where side by side is faster.
+// and (two, sums of their block); (two, two, sums) as well, where side by side is faster. Phase::Sums keeps the books.
 #pragma once
 
 #include <algorithm>
@@ -79,10 +79,10 @@ struct ActiveWalk {
     }
     return {Row<At>(list.row[i]), Row<At>(list.row[i + 1])};
   }
-  BlockSums look_at(std::size_t i, std::size_t end) const {
-    LaneSums sums;
-    if constexpr (side_by_side &&
-                  std::invocable<Phase, TwoCandidates<At>, TwoCandidates<At>, LaneSums&>)
+  typename Phase::Sums::Block look_at(std::size_t i, std::size_t end) const {
+    typename Phase::Sums sums;
+    if constexpr (side_by_side && std::invocable<Phase, TwoCandidates<At>, TwoCandidates<At>,
+                                                 typename Phase::Sums&>)
       for (; i + 4 <= end; i += 4) phase(two(i), two(i + 2), sums);
     for (; i < end; i += 2) phase(two(i), sums);
     return sums.added_up();
@@ -92,10 +92,11 @@ struct ActiveWalk {
 }  // namespace detail
 
 template <class At, class Phase>
-void for_active_pairs(int rows, ContactSums<At>& sums, const Phase& phase) {
+void for_active_pairs(int rows, std::vector<typename Phase::Sums::Block>& sums,
+                      const Phase& phase) {
   const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
   const int blocks_of_a_task = std::clamp(blocks / detail::min_tasks, 1, detail::max_blocks);
-  sums.blocks.resize(static_cast<std::size_t>(blocks));
+  sums.resize(static_cast<std::size_t>(blocks));
   Deal tasks((blocks + blocks_of_a_task - 1) / blocks_of_a_task,
              tbb::this_task_arena::max_concurrency());
   for_pieces(tasks, [&](int task) {
@@ -109,7 +110,7 @@ void for_active_pairs(int rows, ContactSums<At>& sums, const Phase& phase) {
     std::size_t at = 0;
     for (int block = first; block < last; ++block) {
       const std::size_t end = entry(list.end, block - first);
-      entry(sums.blocks, block) = walk.look_at(at, end);
+      entry(sums, block) = walk.look_at(at, end);
       at = end;
     }
   });

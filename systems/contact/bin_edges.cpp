@@ -70,6 +70,7 @@ struct PairLaw {
   double kappa;
   const ContactRules::Friction& friction;
   double damping;
+  std::uint8_t weld;  // number of the law of bonds by which pressure welds
 };
 
 template <class At>
@@ -88,6 +89,7 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
     (*rows.more)(row, More::inv_decay) = law.friction.inv_decay;
     (*rows.more)(row, More::strength) = law.friction.strength;
   }
+  if (rows.bond_law) (*rows.bond_law)(row, BondLawNumber<At>::weld) = law.weld;
   rows.law(row, Law::damping) = law.damping;
   rows.law(row, Law::inv_length) = 1 / edge.length;
   for (std::size_t g = 0; g < edge_points; ++g)
@@ -107,6 +109,20 @@ double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, c
 // c = 2 xi sqrt(kappa rho h): the boundary element's mass per area on the contact spring.
 double damping_of(const ContactRules& rules, double kappa, double rho, const Shape::Edge& edge) {
   return 2 * rules.damping * std::sqrt(kappa * rho / edge.stiffness);
+}
+
+std::uint8_t weld_law(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
+                      const RowKey& key) {
+  if (!bonds || key.slot == key.other) return 0;
+  const auto material = [&](int slot) { return entry(bodies.slots, slot).material; };
+  return entry((*bonds)->pressed,
+               material(key.slot) * (*bonds)->materials + material(key.other));
+}
+std::uint8_t tool_weld_law(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
+                           const RowKey& key) {
+  if (!bonds) return 0;
+  return entry((*bonds)->tool_pressed,
+               key.other * (*bonds)->materials + entry(bodies.slots, key.slot).material);
 }
 
 // Flat flanks of one outline that are deeper in each other than the skin have boxes apart: their rows stay while
@@ -169,7 +185,8 @@ void bin_edges::operator()() const {
         row, *bodies, key,
         {kappa,
          rules.friction_between(entry(slots, key.slot).material, entry(slots, key.other).material),
-         damping_of(rules, kappa, rho, edge)},
+         damping_of(rules, kappa, rho, edge),
+         weld_law(material.bonds, *bodies, key)},
         rows);
     // An outline against itself is looked for anew: its closest points may have gone home along it (edge_contact).
     const bool again = found.all[r].faces && touches(row) == 0;
@@ -250,7 +267,8 @@ void bin_tool_edges::operator()() const {
     const double kappa = rules.stiffness * entry(material.bulk.values(), key.slot) * edge.stiffness;
     set_row(row, *bodies, key,
             {kappa, rules.friction_with_tool(key.other, entry(bodies->slots, key.slot).material),
-             damping_of(rules, kappa, entry(material.density.values(), key.slot), edge)},
+             damping_of(rules, kappa, entry(material.density.values(), key.slot), edge),
+             tool_weld_law(material.bonds, *bodies, key)},
             rows);
     rows.activation(row) = 0;
     if (!range) continue;

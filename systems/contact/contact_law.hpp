@@ -30,6 +30,7 @@ template <class Friction>
       kernels::normal_traction(m.gap, m.gap_rate, law.kappa, law.damping, law.inv_length);
   PointForces f{};
   f.energy = normal.spring_energy;
+  f.pressure = normal.pressure;
   if constexpr (!std::is_same_v<Friction, Frictionless>) {
     const kernels::Friction<Lane> tangential = friction(m.slip_rate * dt, normal.pressure);
     f.elastic_slip = tangential.elastic_slip;
@@ -52,10 +53,22 @@ void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
   c.touches(row) = 0;
   c.activation(row) = activation;
   for (int k = 0; k < 2 * edge_points; ++k) c.force(row, k) = 0;
-  if (c.elastic_slip)
-    for (int k = 0; k < edge_points; ++k) (*c.elastic_slip)(row, k) = 0;
-  if (c.lost)
-    for (int k = 0; k < edge_points; ++k) (*c.lost)(row, k) = 0;
+  if (c.sliding)
+    for (int k = 0; k < edge_points; ++k) c.sliding->elastic_slip(row, k) = 0;
+  if (c.sliding && c.sliding->lost)
+    for (int k = 0; k < edge_points; ++k) (*c.sliding->lost)(row, k) = 0;
+  if (c.weld)
+    for (int k = 0; k < edge_points; ++k) (*c.weld)(row, k) = 0;
+}
+
+// Bonded points are apart for the narrow phase: bond_forces answers for them.
+template <class At>
+[[gnu::always_inline]] inline void pass_over_bonded(const RowColumns<At>& c,
+                                                    const TwoCandidates<At>& two,
+                                                    PointMotion& motion) {
+  if (!c.bonded) return;
+  const unsigned low = (*c.bonded)(two[0]), high = (*c.bonded)(two[1]);
+  motion.gap = select(LaneMask::of(low | high << edge_points), Lane{} - 1.0, motion.gap);
 }
 
 // Answers of the friction law of two candidates; keeps what sliding has done to those that touch (bits 0 and 1).
@@ -65,19 +78,21 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
                                     unsigned touching, double share, const Lane& slip,
                                     const Lane& pressure, const Lane& kappa,
                                     const Lane& inv_kappa) {
-  const Lane before = at_points(*c.elastic_slip, two);
+  const auto& sliding = *c.sliding;
+  const Lane before = at_points(sliding.elastic_slip, two);
   const Lane mu = at_candidates(c.law, two, ContactLaw<At>::friction);
-  if (!c.more) {
+  if (!sliding.more) {
     kernels::Coulomb<Lane> law{mu};
     return kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
   }
   using More = FrictionMore<At>;
   kernels::Weakening<Lane> law{
-      mu, at_candidates(*c.more, two, More::drop), at_candidates(*c.more, two, More::inv_decay),
-      share * at_candidates(*c.more, two, More::strength), at_points(*c.lost, two)};
+      mu, at_candidates(*sliding.more, two, More::drop),
+      at_candidates(*sliding.more, two, More::inv_decay),
+      share * at_candidates(*sliding.more, two, More::strength), at_points(*sliding.lost, two)};
   const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
   for (int half = 0; half < 2; ++half)
-    if ((touching >> half & 1) != 0) store_half(law.lost, half, &(*c.lost)(entry(two, half)));
+    if ((touching >> half & 1) != 0) store_half(law.lost, half, &(*sliding.lost)(entry(two, half)));
   return friction;
 }
 
@@ -91,7 +106,7 @@ template <class At>
   const PointLaw law{at_points(c.law, two, Law::weight), halves(stiffness[0], stiffness[1]),
                      share * at_candidates(c.law, two, Law::damping),
                      at_candidates(c.law, two, Law::inv_length)};
-  if (!c.elastic_slip) return forces_of(law, m, dt, Frictionless{});
+  if (!c.sliding) return forces_of(law, m, dt, Frictionless{});
   return forces_of(law, m, dt, [&](const Lane& slip, const Lane& pressure) {
     return friction_of(c, two, touching, share, slip, pressure, law.kappa,
                        halves(1 / stiffness[0], 1 / stiffness[1]));
@@ -100,11 +115,12 @@ template <class At>
 
 template <class At>
 [[gnu::always_inline]] inline void keep(const RowColumns<At>& c, Row<At> row, int half,
-                                        const PointForces& f) {
+                                        const PointForces& f, double share) {
   c.touches(row) = 1;
   c.activation(row) = 0;
   store_pairs_of_half(f.x, f.y, half, &c.force(row));
-  if (c.elastic_slip) store_half(f.elastic_slip, half, &(*c.elastic_slip)(row));
+  if (c.sliding) store_half(f.elastic_slip, half, &c.sliding->elastic_slip(row));
+  if (c.weld) store_half((1 / share) * f.pressure, half, &(*c.weld)(row));
 }
 
 // Law, columns and books of the candidates of two that touch (bit 0, bit 1). Returns their friction traction times weight
@@ -116,7 +132,7 @@ template <class At>
   sums.add(f, touching);
   sums.add_depth(two, touching, m.gap * at_candidates(c.law, two, ContactLaw<At>::inv_length));
   for (int half = 0; half < 2; ++half)
-    if ((touching >> half & 1) != 0) keep(c, entry(two, half), half, f);
+    if ((touching >> half & 1) != 0) keep(c, entry(two, half), half, f, share);
   return f.along;
 }
 
@@ -125,7 +141,7 @@ template <class At>
 void fetch(const RowColumns<At>& c, Row<At> row) {
   const auto line = [row](const auto& column) { prefetch(&column(row)); };
   line(c.pair), line(c.law), line(c.force);
-  if (c.elastic_slip) line(*c.elastic_slip);
+  if (c.sliding) line(c.sliding->elastic_slip);
 }
 
 }  // namespace pulvis

@@ -36,6 +36,7 @@ template <class At>
 
 // The sums of a block while it is looked at: lane by lane, and added up at its end.
 struct LaneSums {
+  using Block = BlockSums;
   Lane energy{}, friction_work{}, damping_work{};
   BlockSums block;  // the other numbers
 

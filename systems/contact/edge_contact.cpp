@@ -30,6 +30,7 @@ void set_couple(const PointMotion& m, const Lane& along, unsigned touching, cons
 // One pass over the active pairs. What is inline in the loop over all keeps what it passes in registers.
 struct EdgePass {
   static constexpr double share = 0.5;  // of the stiffness: the other particle samples back
+  using Sums = LaneSums;
   const edge_contact& s;
   const double* points = s.curves.position.values().data();
   const double* rates = s.curves.velocity ? s.curves.velocity->values().data() : nullptr;
@@ -40,14 +41,14 @@ struct EdgePass {
   }
   [[gnu::always_inline]] void fetch(Row<Contact> row) const {
     pulvis::fetch(s.columns, row);
-    prefetch(&s.place(row));
-    prefetch(&s.closest(row));
-    if (s.couple) prefetch(&(*s.couple)(row));
+    prefetch(&s.points.place(row));
+    prefetch(&s.points.closest(row));
+    if (s.points.couple) prefetch(&(*s.points.couple)(row));
   }
   // Both outlines, the other where it was met last.
   [[gnu::always_inline]] void fetch_other(Row<Contact> row) const {
-    const int other = 2 * (s.place(row, 1) + s.closest(row).unpacked().edge);
-    const int own = 2 * s.place(row, 0);
+    const int other = 2 * (s.points.place(row, 1) + s.points.closest(row).unpacked().edge);
+    const int own = 2 * s.points.place(row, 0);
     for (const double* list : {points, rates}) {
       if (list == nullptr) continue;
       for (const int at : {other, own}) {
@@ -72,27 +73,28 @@ struct EdgePass {
   [[gnu::always_inline]] Projection start(const Two& two) const {
     Projection p;
     p.other = {{s.columns.pair(two[0], 2), s.columns.pair(two[1], 2)},
-               {s.place(two[0], 1), s.place(two[1], 1)},
+               {s.points.place(two[0], 1), s.points.place(two[1], 1)},
                points,
                rates};
     p.points = sampled_edges(points, two);
-    p.at = CurvePoints::of(s.closest, two);
+    p.at = CurvePoints::of(s.points.closest, two);
     p.curve = gather(p.other, points, p.at);
     return p;
   }
   [[gnu::always_inline]] PointLanes sampled_edges(const double* list, const Two& two) const {
-    return edge_points_at(list + 2 * s.place(two[0], 0), list + 2 * s.place(two[1], 0));
+    return edge_points_at(list + 2 * s.points.place(two[0], 0), list + 2 * s.points.place(two[1], 0));
   }
 
   // ---- law and books
   [[gnu::always_inline]] void resolve(const Two& two, const Projection& p, LaneSums& sums) const {
-    p.at.keep(s.closest, two);
+    p.at.keep(s.points.closest, two);
     book_projection(two, p.unconverged(), sums.block);
     PointMotion motion = motion_of(p, rates != nullptr ? sampled_edges(rates, two) : PointLanes{});
+    pass_over_bonded(s.columns, two, motion);
     const unsigned touching = find_touching(two, p, motion);
     if (touching == 0) return;
     const Lane along = act(s.columns, two, touching, motion, share, s.clock->dt_before, sums);
-    if (s.couple) set_couple(motion, along, touching, two, *s.couple);
+    if (s.points.couple) set_couple(motion, along, touching, two, *s.points.couple);
   }
   // The candidates of the two that touch (bit 0, bit 1); the others are set apart.
   [[gnu::always_inline]] unsigned find_touching(const Two& two, const Projection& p,
@@ -118,7 +120,7 @@ struct EdgePass {
     for (int g = 0; s.columns.touches(row) != 0 && g < edge_points; ++g)
       if (s.columns.force(row, 2 * g) != 0 || s.columns.force(row, 2 * g + 1) != 0)
         touched |= 1U << g;
-    return exclude_own_body(p, half, s.columns.pair(row, 1), {shape, points + 2 * s.place(row, 1)},
+    return exclude_own_body(p, half, s.columns.pair(row, 1), {shape, points + 2 * s.points.place(row, 1)},
                             touched, motion);
   }
 };
@@ -126,7 +128,7 @@ struct EdgePass {
 }  // namespace
 
 void edge_contact::operator()(SmallTasks) const {
-  for_active_pairs(columns.pair.rows(), *sums, EdgePass{*this});
+  for_active_pairs<Contact>(columns.pair.rows(), sums->blocks, EdgePass{*this});
 }
 
 }  // namespace pulvis

@@ -2,6 +2,7 @@
 // them in order, and each is described at the top of its own file.
 #pragma once
 
+#include "components/bond.hpp"
 #include "components/bundles.hpp"
 #include "components/hollow.hpp"
 #include "engine/look_ahead.hpp"
@@ -22,6 +23,7 @@ struct skin_check {
 // What the laws of a row follow from.
 struct ContactStiffness {
   Read<ContactRules> rules;
+  Optional<Read<BondRules>> bonds;
   Read<BulkModulus> bulk;
   Read<Density> density;
 };
@@ -32,6 +34,7 @@ struct NewRows {
   Write<ContactLaw<At>> law;
   Write<ActivationTravel<At>> activation;
   Optional<Write<FrictionMore<At>>> more;
+  Optional<Write<BondLawNumber<At>>> bond_law;
 };
 
 struct bin_edges {
@@ -62,7 +65,7 @@ struct bin_tool_edges {
 };
 
 // ---- what they do ---------------------------------------------------------------------------------
-// What the narrow phases read and write of a row; elastic slip only in scenes with friction.
+// What the narrow phases read and write of a row.
 template <class At>
 struct RowColumns {
   Read<ContactPair<At>> pair;
@@ -70,9 +73,14 @@ struct RowColumns {
   Write<ActivationTravel<At>> activation;
   Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
-  Optional<Write<ElasticSlip<At>>> elastic_slip;
-  Optional<Read<FrictionMore<At>>> more;
-  Optional<Write<SlipWeakening<At>>> lost;
+  struct Sliding {  // in scenes with friction
+    Write<ElasticSlip<At>> elastic_slip;
+    Optional<Read<FrictionMore<At>>> more;
+    Optional<Write<SlipWeakening<At>>> lost;
+  };
+  Optional<Sliding> sliding;
+  Optional<Write<WeldPressure<At>>> weld;
+  Optional<Read<BondedPoints<At>>> bonded;  // bond_forces answers for those
 };
 
 struct edge_contact {
@@ -80,9 +88,11 @@ struct edge_contact {
   Read<Clock> clock;
   ContactCurves curves;
   RowColumns<Contact> columns;
-  Read<ContactPlace> place;
-  Write<ClosestPoint> closest;
-  Optional<Write<FrictionCouple>> couple;
+  struct Closest {
+    Read<ContactPlace> place;
+    Write<ClosestPoint> closest;
+    Optional<Write<FrictionCouple>> couple;
+  } points;
   Write<ContactSums<Contact>> sums;
   void operator()(SmallTasks) const;
 };
@@ -117,6 +127,74 @@ struct contact_curve {
   Optional<Write<CurveVelocity>> velocity;
   Write<MaximumSpeed> speed;
   void operator()(Chunk chunk) const;
+};
+
+// ---- bonds --------------------------------------------------------------------------------------
+template <class At>
+struct BondColumns {
+  Write<BondLawNumber<At>> law;
+  Write<BondedPoints<At>> points;
+  Read<BondOffset<At>> offset;
+  Read<BondStrength<At>> strength;
+  Write<BondDamage<At>> damage;
+};
+// What is set when bonds are made.
+template <class At>
+struct NewBonds {
+  Read<ContactPair<At>> pair;
+  Read<ContactTouches<At>> touches;
+  Write<BondLawNumber<At>> law;
+  Write<BondedPoints<At>> points;
+  Write<BondOffset<At>> offset;
+  Write<BondStrength<At>> strength;
+};
+struct PairAnchors {
+  Read<ContactPlace> place;
+  Read<ClosestPoint> closest;
+  Write<CurveAnchor> anchor;
+};
+
+struct initial_bonds {  // once, at the start
+  Read<Bodies> bodies;
+  Read<BondRules> rules;
+  Read<CurvePosition> control;
+  NewBonds<Contact> rows;
+  PairAnchors at;
+  Write<BondTotals> totals;
+  void operator()() const;
+};
+
+struct pressed_bonds {
+  Read<BondRules> rules;
+  NewBonds<Contact> rows;
+  Write<WeldPressure<Contact>> pressure;
+  PairAnchors at;
+  void operator()(SmallTasks) const;
+};
+
+struct bond_forces {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<BondRules> rules;
+  ContactCurves curves;
+  RowColumns<Contact> columns;
+  BondColumns<Contact> bonds;
+  struct Anchors {
+    Read<ContactPlace> place;
+    Read<CurveAnchor> anchor;
+    Write<ClosestPoint> closest;
+    Write<FrictionCouple> couple;
+  } at;
+  Write<BondSums<Contact>> sums;
+  void operator()(SmallTasks) const;
+};
+
+struct bond_totals {
+  Optional<Read<BondSums<Contact>>> pairs;
+  Optional<Read<BondSums<ToolContact>>> tools;
+  Write<BondTotals> bonds;
+  Write<Totals> totals;
+  void operator()() const;
 };
 
 // ---- whether the run is still sound -----------------------------------------------------------------

@@ -78,6 +78,7 @@ struct PointForces {
   Lane x, y;           // N, on the sampled edge
   Lane along;          // N, of it friction, along t
   Lane elastic_slip;   // m, new
+  Lane pressure;       // Pa, of the pass
   Lane energy;         // J, stored
   Lane friction_work;  // J, spent in this step
   Lane damping_work;   // J, spent in this step

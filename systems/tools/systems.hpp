@@ -34,6 +34,7 @@ struct tool_servo {
   Read<ToolForce> force;
   TouchingRows<ToolContact> rows;
   Read<ContactLaw<ToolContact>> law;
+  Read<ContactRules> rules;
   Write<ToolServos> servos;
   struct Drive {
     Write<ServoMass> mass;
@@ -57,6 +58,49 @@ struct tool_contact {
   Read<ToolVelocity> tool_velocity;
   Optional<Read<SurfaceRange>> range;
   Write<ContactSums<ToolContact>> sums;
+  void operator()(SmallTasks) const;
+};
+
+// ---- bonds with them ------------------------------------------------------------------------------
+struct ToolBondPlaces {
+  Read<CurvePosition> control;
+  ToolSurfaces tools;
+  Optional<Read<SurfaceRange>> range;
+};
+
+struct initial_tool_bonds {  // once, at the start
+  Read<Bodies> bodies;
+  Read<BondRules> rules;
+  NewBonds<ToolContact> rows;
+  ToolBondPlaces at;
+  Write<ToolAnchor> anchor;
+  Write<BondTotals> totals;
+  void operator()() const;
+};
+
+struct pressed_tool_bonds {
+  Read<Bodies> bodies;
+  Read<BondRules> rules;
+  NewBonds<ToolContact> rows;
+  Write<WeldPressure<ToolContact>> pressure;
+  ToolBondPlaces at;
+  Write<ToolAnchor> anchor;
+  void operator()(SmallTasks) const;
+};
+
+struct tool_bond_forces {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<BondRules> rules;
+  RowColumns<ToolContact> columns;
+  BondColumns<ToolContact> bonds;
+  struct Places {
+    ContactCurves curves;
+    Read<ToolPosition> position;
+    Read<ToolVelocity> velocity;
+    Read<ToolAnchor> anchor;
+  } at;
+  Write<BondSums<ToolContact>> sums;
   void operator()(SmallTasks) const;
 };
 

@@ -51,9 +51,10 @@ void check_held(const Servo& servo, const ToolProgram& program, const Clock& clo
       clock.time, servo.force, servo.tolerance));
 }
 
-// Springs and dashpots of the contact points that press on a tool now, as if all pointed in its direction.
+// Springs and dashpots of the contact points that press on a tool now, as if all pointed in its direction. `bonds`:
+// their stiffness over that of a contact spring.
 kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
-                            const Read<ContactLaw<ToolContact>>& law) {
+                            const Read<ContactLaw<ToolContact>>& law, double bonds) {
   using Law = ContactLaw<ToolContact>;
   kernels::TouchSums sums;
   for (int r = 0; r < rows.pair.rows(); ++r) {
@@ -66,7 +67,7 @@ kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
       const double x = rows.force(row, 2 * g), y = rows.force(row, 2 * g + 1);
       const double pressure = std::sqrt(x * x + y * y) / weight;
       if (!(pressure > 0)) continue;
-      sums.stiffness += weight * kappa * kernels::tangent_at(pressure, kappa, g_s);
+      sums.stiffness += weight * kappa * (kernels::tangent_at(pressure, kappa, g_s) + bonds);
       sums.damping += weight * law(row, Law::damping);
     }
   }
@@ -100,7 +101,8 @@ void tool_servo::operator()() const {
     drive.asked(tool, 0) =
         asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
 
-    const double minimum = kernels::min_tool_mass(touching(t, rows, law), clock->dt, clock->safety);
+    const double minimum = kernels::min_tool_mass(touching(t, rows, law, rules->stiffest_bond()),
+                                                  clock->dt, clock->safety);
     const kernels::ServoState now =
         kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
                             along(drive.dragged, tool, servo->direction)},

@@ -1,0 +1,171 @@
+#include "scenes/tools/bond_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "engine/entry.hpp"
+#include "scenes/language/problem.hpp"
+
+namespace pulvis {
+namespace {
+
+BondRules::Law law_of(const Scene& scene, const BondSpec& spec) {
+  BondRules::Law law;
+  law.stiffness = spec.stiffness;
+  law.strength = *spec.strength;
+  law.shear_strength = spec.shear_strength.value_or(*spec.strength);
+  law.energy = *spec.fracture_energy;
+  law.shear_energy = spec.shear_fracture_energy.value_or(*spec.fracture_energy);
+  law.mixed_exponent = spec.mixed_mode_exponent;
+  law.reach = spec.reach;
+  law.weibull_modulus = spec.weibull_modulus.value_or(0);
+  law.seed = scene.seed;
+  law.threshold = spec.threshold;
+  law.growth = spec.growth;
+  return law;
+}
+
+std::uint8_t number_of(const Scene& scene, BondSpec::Origin origin, const std::string& a,
+                       const std::string& b) {
+  for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
+    const BondSpec& bond = scene.bonds[i];
+    if (bond.origin == origin &&
+        std::minmax(bond.first, bond.second) == std::minmax(a, b))
+      return static_cast<std::uint8_t>(i + 1);
+  }
+  return 0;
+}
+
+}  // namespace
+
+BondRules bond_rules(const Scene& scene) {
+  using Origin = BondSpec::Origin;
+  BondRules rules;
+  rules.materials = static_cast<int>(scene.materials.size());
+  for (const BondSpec& bond : scene.bonds) rules.laws.push_back(law_of(scene, bond));
+  for (const MaterialSpec& a : scene.materials)
+    for (const MaterialSpec& b : scene.materials) {
+      rules.initial.push_back(number_of(scene, Origin::initial, a.name, b.name));
+      rules.pressed.push_back(number_of(scene, Origin::pressed, a.name, b.name));
+    }
+  for (const ToolSpec& tool : scene.tools)
+    for (const MaterialSpec& m : scene.materials) {
+      rules.tool_initial.push_back(number_of(scene, Origin::initial, tool.name, m.name));
+      rules.tool_pressed.push_back(number_of(scene, Origin::pressed, tool.name, m.name));
+    }
+  return rules;
+}
+
+double longest_opening(const BondRules& rules) {
+  double longest = 0;
+  for (const BondRules::Law& law : rules.laws)
+    longest = std::max({longest, 2 * law.energy / law.strength,
+                        2 * law.shear_energy / law.shear_strength});
+  return longest;
+}
+
+double stiffest_bond(const BondRules& rules, int material) {
+  double stiffest = 0;
+  const auto take = [&](const std::vector<std::uint8_t>& numbers, int at) {
+    const int number = entry(numbers, at);
+    if (number != 0) stiffest = std::max(stiffest, rules.law(number).stiffness);
+  };
+  for (int other = 0; other < rules.materials; ++other)
+    for (const auto* numbers : {&rules.initial, &rules.pressed})
+      take(*numbers, material * rules.materials + other);
+  const int tools = static_cast<int>(rules.tool_initial.size()) / rules.materials;
+  for (int tool = 0; tool < tools; ++tool)
+    for (const auto* numbers : {&rules.tool_initial, &rules.tool_pressed})
+      take(*numbers, tool * rules.materials + material);
+  return stiffest;
+}
+
+namespace {
+
+// Least stiffness of the contact springs of each law, Pa/m.
+class SoftestSprings {
+ public:
+  SoftestSprings(const Bodies& bodies, const Scene& scene, const BondRules& rules)
+      : bodies_(bodies), scene_(scene), rules_(rules), least_(rules.laws.size(), infinite) {
+    materials_of_shapes();
+    for (const auto& [a, m] : used_)
+      for (const auto& [b, n] : used_)
+        for (const auto* numbers : {&rules.initial, &rules.pressed})
+          take(entry(*numbers, m * rules.materials + n), pair(a, m, b, n));
+    const int tools = static_cast<int>(scene.tools.size());
+    for (const auto& [a, m] : used_)
+      for (int tool = 0; tool < tools; ++tool)
+        for (const auto* numbers : {&rules.tool_initial, &rules.tool_pressed})
+          take(entry(*numbers, tool * rules.materials + m), softest(a, m));
+  }
+  double of(std::size_t law) const { return least_[law]; }
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+ private:
+  void materials_of_shapes() {
+    for (const Bodies::Slot& slot : bodies_.slots) used_.insert({slot.shape, slot.material});
+  }
+  double bulk(int material) const {
+    const MaterialSpec& m = entry(scene_.materials, material);
+    return m.youngs_modulus / (3 * (1 - 2 * m.poissons_ratio));
+  }
+  double softest(int shape, int material) const {
+    double least = infinite;
+    for (const Shape::Edge& edge : entry(bodies_.shapes, shape).edges)
+      least = std::min(least, edge.stiffness);
+    return scene_.contact.stiffness * bulk(material) * least;
+  }
+  // As the broad phase has it: the sampled edge in series with the other outline's mean.
+  double pair(int a, int m, int b, int n) const {
+    const double first = softest(a, m);
+    const double second = scene_.contact.stiffness * bulk(n) *
+                          entry(bodies_.shapes, b).mean_edge_stiffness;
+    return first * second / (first + second);
+  }
+  void take(int number, double stiffness) {
+    if (number == 0) return;
+    double& least = entry(least_, number - 1);
+    least = std::min(least, stiffness);
+  }
+
+  const Bodies& bodies_;
+  const Scene& scene_;
+  const BondRules& rules_;
+  std::set<std::pair<int, int>> used_;
+  std::vector<double> least_;
+};
+
+}  // namespace
+
+BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules) {
+  constexpr double margin = 1.02;  // the law must soften, however little
+  const SoftestSprings springs(bodies, scene, rules);
+  std::vector<SceneProblem> problems;
+  for (std::size_t i = 0; i < rules.laws.size(); ++i) {
+    if (springs.of(i) == SoftestSprings::infinite) continue;  // nobody who could touch
+    BondRules::Law& law = rules.laws[i];
+    const double k = law.stiffness * springs.of(i);
+    law.largest_share = std::numeric_limits<double>::infinity();
+    const auto bound = [&](const char* key, double strength, double energy) {
+      const double least = margin * strength * strength / (2 * k);
+      law.largest_share = std::min(law.largest_share, energy / least);
+      if (energy >= least) return;
+      const SourceMark& mark = scene.bonds[i].mark;
+      problems.push_back(
+          {scene.file_of(mark).string(), mark.line, mark.column, "", fmt::format("bond[{}].{}", i, key),
+           fmt::format("{:.4g} J/m^2 is less than the bond stores when it begins to break at "
+                       "{:.4g} Pa, allowed: >= {:.4g} J/m^2 with this mesh; finer edges or a "
+                       "higher `stiffness` allow less",
+                       energy, strength, least)});
+    };
+    bound("fracture_energy", law.strength, law.energy);
+    bound("shear_fracture_energy", law.shear_strength, law.shear_energy);
+  }
+  if (!problems.empty()) throw SceneError(problems);
+  return rules;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,251 @@
+// Bonded points: what the bonded points of two candidates bear. Alike for pairs of particles and for tools.
+//
+// Law      systems/laws/bond.hpp; in parallel with it the share c of what the contact law answers at the anchor:
+//          c = d for bonds made at the start, whose own spring bears compression too, (1 - d) k_n d_n (Alfano & Sacco
+//          2006); c = 1 for welds, which only hold what contact does not
+// Books    stored (1 - d) w0 + c times the contact's; spent what damage spends, and what a pressed bond's spring stored
+//          less what the contact stores that takes over
+// Sign     on the sampled edge along n (outward of the other surface) and t = (-n_y, n_x); the opening is what the
+//          sampled point is from its anchor
+#pragma once
+
+#include "components/bond.hpp"
+#include "systems/contact/broad_phase.hpp"
+#include "systems/contact/contact_law.hpp"
+#include "systems/laws/bond.hpp"
+
+namespace pulvis {
+
+// How bonded points stand against their anchors.
+struct BondMotion {
+  PointMotion point;  // against the surface at the anchor, as for contact
+  Lane along;         // m, of the sampled point from the anchor, along t
+};
+
+// Of the bonds of two candidates.
+struct BondLanes {
+  Lane k;                    // Pa/m, of both directions
+  Lane offset_n, offset_t;   // m
+  Lane strength;             // -, share
+  Lane damage;               // d before
+  LaneMask welded;           // by pressure
+  Lane weight;               // m^2, of the pass: area that the point stands for, times its share
+};
+
+// Books of a block while it is looked at.
+struct BondSumsOfLanes {
+  using Block = BondBlock;
+  Lane energy{}, fracture{}, friction_work{}, damping_work{}, area{};
+  BondBlock block;
+
+  BondBlock added_up() {
+    const auto sum = [](const SumsOfHalves& s) {
+      return std::array{s.a[0] + s.a[1], s.b[0] + s.b[1]};
+    };
+    const auto one = sum(sums_of_halves(energy, fracture));
+    const auto two = sum(sums_of_halves(friction_work, damping_work));
+    block.energy = one[0];
+    block.fracture += one[1];
+    block.friction_work = two[0];
+    block.damping_work = two[1];
+    block.area = sum(sums_of_halves(area, Lane{}))[0];
+    return std::move(block);
+  }
+};
+
+// The law of one bonded point. Weaker bonds open as far as strong ones.
+inline kernels::CohesiveLaw cohesive_law(const BondRules::Law& law, double k, double strength) {
+  return {k,
+          k,
+          law.strength * strength,
+          law.shear_strength * strength,
+          law.energy * strength,
+          law.shear_energy * strength,
+          law.mixed_exponent};
+}
+
+// One pass over bonded rows; `share` of the stiffness and of the law in it: one half where the other particle samples
+// too, as in contact.
+template <class At>
+class BondPass {
+ public:
+  using Two = TwoCandidates<At>;
+  using Sums = BondSumsOfLanes;
+  struct Parts {
+    const RowColumns<At>& rows;
+    const BondColumns<At>& bonds;
+    const BondRules& rules;
+    const Clock& clock;
+    double thickness;
+    double share;
+  };
+  explicit BondPass(const Parts& parts) : s_(parts) {}
+
+  // Bonded lanes. A candidate that stands twice counts once.
+  unsigned bonded(const Two& two) const {
+    const unsigned low = s_.bonds.points(two[0]);
+    return low | (count_of(two) == 2 ? unsigned{s_.bonds.points(two[1])} << edge_points : 0U);
+  }
+
+  // `contact`: forces that the contact law answers at the anchors; asked for only where any has a share in them.
+  // `position` m, of the sampled points. Returns the forces on the sampled edges and the new shares.
+  template <class Answer>
+  PointForces act(const Two& two, unsigned bonded, const BondMotion& m, const PointLanes& position,
+                  const Answer& contact, Sums& sums) const {
+    const BondLanes b = lanes_of(two);
+    const Lane d_n = -m.point.gap - b.offset_n, d_t = m.along - b.offset_t;
+    Lane damage = b.damage;
+    const Lane open = max(d_n, 0.0);
+    const Lane stored = 0.5 * b.k * fma(open, open, d_t * d_t);
+    const unsigned may = bonded & ((b.damage > 0.0) | (stored > onset_of(two, b))).bits();
+    unsigned broken = 0;
+    if (may != 0) {
+      const Openings openings{d_n, d_t, position};
+      broken = grow(two, may, openings, b, damage, sums);
+    }
+    const Lane held = 1.0 - damage;
+    // A weld's compression is contact's alone.
+    const Lane normal = select(b.welded, open, d_n);
+    const Lane spring_n = b.k * normal, spring_t = b.k * d_t;
+    PointForces f{};
+    const LaneMask lanes = LaneMask::of(bonded);
+    const Lane squeezed = select(b.welded, Lane{}, min(d_n, 0.0));
+    const Lane of_compression = 0.5 * b.k * squeezed * squeezed;
+    const Lane contacts = select(b.welded, Lane{} + 1.0, damage);
+    f.energy = held * fma(0.5 * b.k * d_t, d_t, 0.5 * spring_n * normal) * b.weight;
+    Lane pull = -(held * spring_n) * b.weight, along = -(held * spring_t) * b.weight;
+    const Lane grown = damage - b.damage;
+    Lane spent = grown * of_compression * b.weight;
+    if (any(lanes & (contacts > 0.0) & (m.point.gap > 0.0))) {
+      const PointForces by_contact = contact();
+      const auto [push, friction] = along_axes(by_contact, m.point);
+      pull = fma(contacts, push, pull);
+      along = fma(contacts, friction, along);
+      f.energy = fma(contacts, by_contact.energy, f.energy);
+      f.friction_work = contacts * by_contact.friction_work;
+      f.damping_work = contacts * by_contact.damping_work;
+      f.elastic_slip = by_contact.elastic_slip;
+      f.pressure = by_contact.pressure;
+      spent -= select(b.welded, Lane{}, grown * by_contact.energy);
+    }
+    f.along = along;
+    f.x = fma(pull, m.point.nx, -(along * m.point.ny));
+    f.y = fma(pull, m.point.ny, along * m.point.nx);
+    add(two, bonded, f, spent, b, sums);
+    keep(two, bonded, f, damage);
+    if (broken != 0) release(two, broken);
+    return f;
+  }
+
+ private:
+  struct Openings {
+    const Lane &n, &t;
+    const PointLanes& position;
+  };
+
+  const BondRules::Law& law(Row<At> row) const { return s_.rules.law(s_.bonds.law(row, BondLawNumber<At>::bonded)); }
+  double stiffness(Row<At> row) const {
+    return law(row).stiffness * s_.rows.law(row, ContactLaw<At>::stiffness);
+  }
+  BondLanes lanes_of(const Two& two) const {
+    return {halves(stiffness(two[0]), stiffness(two[1])),
+            at_points(s_.bonds.offset, two),
+            at_points(s_.bonds.offset, two, edge_points),
+            at_points(s_.bonds.strength, two),
+            at_points(s_.bonds.damage, two),
+            LaneMask::of((law(two[0]).pressed() ? 0x0fU : 0U) | (law(two[1]).pressed() ? 0xf0U : 0U)),
+            s_.share * at_points(s_.rows.law, two, ContactLaw<At>::weight)};
+  }
+  // w0 below which nothing of the candidate is damaged. (J/m^2)
+  Lane onset_of(const Two& two, const BondLanes& b) const {
+    const auto least = [&](Row<At> row) {
+      return kernels::least_onset(cohesive_law(law(row), stiffness(row), 1));
+    };
+    return halves(least(two[0]), least(two[1])) * b.strength * b.strength;
+  }
+
+  // Grows the damage of the points that may: seldom, one by one. Returns those that broke.
+  [[gnu::noinline]] unsigned grow(const Two& two, unsigned may, const Openings& o,
+                                  const BondLanes& b, Lane& damage, Sums& sums) const {
+    unsigned broken = 0;
+    for (int l = 0; l < lane_count; ++l) {
+      if ((may >> l & 1) == 0) continue;
+      const Row<At> row = entry(two, l / edge_points);
+      const auto of_point = cohesive_law(law(row), b.k[l], b.strength[l]);
+      const auto now = kernels::cohesive_damage(of_point, o.n[l], o.t[l], b.damage[l]);
+      damage[l] = now.d;
+      sums.block.fracture += now.spent * b.weight[l];
+      if (now.d < 1) continue;
+      broken |= 1U << l;
+      sums.block.cracks.push_back(crack(row, l, o, now.shear, b, of_point));
+    }
+    return broken;
+  }
+  Crack crack(Row<At> row, int l, const Openings& o, double shear, const BondLanes& b,
+              const kernels::CohesiveLaw& of_point) const {
+    const auto& pair = s_.rows.pair;
+    const std::int32_t other = std::is_same_v<At, Contact> ? pair(row, 2) : -1 - pair(row, 2);
+    return {s_.clock.time, pair(row, 0),    pair(row, 1),
+            other,         o.position.x[l], o.position.y[l],
+            b.weight[l] / s_.thickness,     shear,
+            b.weight[l] * kernels::fracture_energy(of_point, shear)};
+  }
+
+  static std::array<Lane, 2> along_axes(const PointForces& f, const PointMotion& m) {
+    return {fma(f.x, m.nx, f.y * m.ny), fma(f.y, m.nx, -(f.x * m.ny))};
+  }
+
+  void add(const Two& two, unsigned bonded, const PointForces& f, const Lane& spent,
+           const BondLanes& b, Sums& sums) const {
+    const LaneMask lanes = LaneMask::of(bonded);
+    sums.energy += select(lanes, f.energy, Lane{});
+    sums.fracture += select(lanes, spent, Lane{});
+    sums.friction_work += select(lanes, f.friction_work, Lane{});
+    sums.damping_work += select(lanes, f.damping_work, Lane{});
+    sums.area += select(lanes, b.weight, Lane{});
+    for (int half = 0; half < count_of(two); ++half)
+      sums.block.rows += half_of(bonded, half) == BondedPoints<At>::all ? 1 : 0;
+  }
+  // Only what is bonded: the narrow phase has answered for the others.
+  void keep(const Two& two, unsigned bonded, const PointForces& f, const Lane& damage) const {
+    const LaneMask lanes = LaneMask::of(bonded);
+    const auto store = [&](const auto& column, int half, const Lane& now, int first = 0) {
+      double* four = &column(entry(two, half), first);
+      store_half(select(lanes, now, load_halves(four, four)), half, four);
+    };
+    for (int half = 0; half < count_of(two); ++half) {
+      const Row<At> row = entry(two, half);
+      s_.rows.touches(row) = 1;
+      double* force = &s_.rows.force(row);
+      for (int g = 0; g < edge_points; ++g) {
+        if ((half_of(bonded, half) >> g & 1) == 0) continue;
+        force[2 * g] = f.x[half * edge_points + g];
+        force[2 * g + 1] = f.y[half * edge_points + g];
+      }
+      if (half_of(bonded, half) == BondedPoints<At>::all)
+        s_.rows.activation(row) = back_face;  // nothing is left for the narrow phase
+      store(s_.bonds.damage, half, damage);
+      if (s_.rows.sliding) store(s_.rows.sliding->elastic_slip, half, f.elastic_slip);
+      if (s_.rows.weld) store(*s_.rows.weld, half, (1 / s_.share) * f.pressure);
+    }
+  }
+  // From the next step on the contact of broken points is the narrow phase's.
+  void release(const Two& two, unsigned broken) const {
+    for (int half = 0; half < count_of(two); ++half) {
+      const Row<At> row = entry(two, half);
+      const unsigned points = half_of(broken, half);
+      if (points == 0) continue;
+      s_.bonds.points(row) = static_cast<std::uint8_t>(s_.bonds.points(row) & ~points);
+      s_.rows.activation(row) = 0;
+      for (int g = 0; g < edge_points; ++g) {
+        if ((points >> g & 1) == 0) continue;
+        s_.bonds.damage(row, g) = 0;
+        if (s_.rows.weld) (*s_.rows.weld)(row, WeldPressure<At>::largest + g) = 0;
+      }
+    }
+  }
+
+  const Parts s_;
+};
+
+}  // namespace pulvis

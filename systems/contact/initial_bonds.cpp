@@ -1,0 +1,73 @@
+// initial_bonds: bonds what touches at the start.
+//
+// Law      a point within `reach` of its closest point on a surface that faces it; what gap there is belongs to the bond
+//          and bears nothing
+// Runs     once, at the start, after the first search for contacts
+// Active   when the scene has bonds between particles
+#include <algorithm>
+#include <cmath>
+
+#include "engine/portable_math.hpp"
+#include "systems/contact/contact_outlines.hpp"
+#include "systems/contact/new_bonds.hpp"
+
+namespace pulvis {
+namespace {
+
+// The same on every machine (Steele, Lea & Flood 2014: SplitMix64).
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31);
+}
+
+// A point that its surface sees from beside, past a corner, is no neighbour.
+constexpr double beside = 1e-3;  // of the edge length
+constexpr double facing = -0.5;  // product of the normals
+
+}  // namespace
+
+double drawn_strength(const BondRules::Law& law, int first, int second) {
+  if (law.weibull_modulus == 0) return 1;
+  const auto word = [](int number) { return static_cast<std::uint32_t>(number); };
+  const std::uint64_t pair = std::uint64_t{word(std::min(first, second))} << 32 |
+                             word(std::max(first, second));
+  const double uniform = static_cast<double>(mixed(mixed(law.seed) ^ pair) >> 11) * 0x1p-53;
+  return std::min(portable::pow(-portable::log(1 - uniform), 1 / law.weibull_modulus),
+                  law.largest_share);
+}
+
+void initial_bonds::operator()() const {
+  const Outlines outlines(*bodies, control.values());
+  for (int r = 0; r < rows.pair.rows(); ++r) {
+    const Row<Contact> row(r);
+    const int slot = rows.pair(row, 0), edge = rows.pair(row, 1), other = rows.pair(row, 2);
+    if (slot == other) continue;
+    const auto& a = entry(bodies->slots, slot);
+    const auto& b = entry(bodies->slots, other);
+    const int number = rules->initial_between(a, b);
+    if (number == 0) continue;
+    const BondRules::Law& law = rules->law(number);
+    const double length = entry(bodies->shape_of_slot(slot).edges, edge).length;
+    const double strength = drawn_strength(law, a.number, b.number);
+    const Curve sampled = outlines.edge(slot, edge);
+    for (int g = 0; g < edge_points; ++g) {
+      const double u = entry(kernels::edge_u, g);
+      const PackedCurvePoint at_other = at.closest(row, g);
+      const CurvePoint there = at_other.unpacked();
+      const Curve curve = outlines.from(other, there.edge);
+      const Point n = curve.normal(there.u), on = curve.value(there.u), from = sampled.value(u);
+      const Point own = sampled.normal(u), d{from[0] - on[0], from[1] - on[1]};
+      const BondOpening opening{d[0] * n[0] + d[1] * n[1], d[1] * n[0] - d[0] * n[1]};
+      if (std::abs(opening.normal) > law.reach * length || std::abs(opening.along) > beside * length ||
+          n[0] * own[0] + n[1] * own[1] > facing)
+        continue;
+      at.anchor(row, g) = at_other;
+      make_bond(rows, row, g, number, strength, opening);
+      entry(totals->made, number - 1) += 1;
+    }
+  }
+}
+
+}  // namespace pulvis

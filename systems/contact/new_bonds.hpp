@@ -1,0 +1,69 @@
+// Making bonds: what initial_bonds and pressed_bonds set at a point. Alike for pairs of particles and for tools.
+#pragma once
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "systems/contact/systems.hpp"
+
+namespace pulvis {
+
+struct BondOpening {
+  double normal = 0, along = 0;  // m, when the bond is made
+};
+
+template <class At>
+void make_bond(const NewBonds<At>& rows, Row<At> row, int g, int law, double strength,
+               const BondOpening& opening) {
+  rows.law(row, BondLawNumber<At>::bonded) = static_cast<std::uint8_t>(law);
+  rows.points(row) = static_cast<std::uint8_t>(rows.points(row) | 1U << g);
+  rows.strength(row, g) = strength;
+  rows.offset(row, g) = opening.normal;
+  rows.offset(row, edge_points + g) = opening.along;
+}
+
+// ---- at the start ---------------------------------------------------------------------------------
+// Strength of the bonds between two neighbours over the law's (Weibull 1951): P(share < s) = 1 - exp(-s^m). By the
+// numbers of the two, so that both sides draw the same. A tool's number is -1 - its position.
+double drawn_strength(const BondRules::Law& law, int first, int second);
+
+// ---- by pressure ------------------------------------------------------------------------------------
+// Surfaces weld when their pressure has fallen to this share of its largest: while it grows they are in contact, and
+// slide with friction.
+inline constexpr double weld_at = 0.5;
+
+// Follows the pressure of a row's points and welds those that it has left. `anchor(g)` sets where point g is held, and
+// returns how it stands there.
+template <class At, class Anchor>
+void weld(const NewBonds<At>& rows, const Write<WeldPressure<At>>& pressure, const BondRules& rules,
+          Row<At> row, const Anchor& anchor) {
+  const int number = rows.law(row, BondLawNumber<At>::weld);
+  if (number == 0) return;
+  const BondRules::Law& law = rules.law(number);
+  const unsigned bonded = rows.points(row);
+  if (bonded != 0 && rows.law(row, BondLawNumber<At>::bonded) != number) return;
+  for (int g = 0; g < edge_points; ++g) {
+    const double now = pressure(row, g);
+    double& largest = pressure(row, WeldPressure<At>::largest + g);
+    largest = std::max(largest, now);
+    if (largest <= law.threshold) continue;
+    const double strength =
+        std::min(1.0, law.growth * (largest - law.threshold) / law.strength);
+    if ((bonded >> g & 1) != 0)
+      rows.strength(row, g) = std::max(rows.strength(row, g), strength);
+    else if (now < weld_at * largest)
+      make_bond(rows, row, g, number, strength, anchor(g));
+  }
+}
+
+// Rows among which pressure may weld, of a task each.
+template <class At, class RowWork>
+void for_rows(int rows, const RowWork& work) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, rows, rows_of_a_block), [&](const auto& range) {
+    for (int r = range.begin(); r < range.end(); ++r) work(Row<At>(r));
+  });
+}
+
+}  // namespace pulvis
