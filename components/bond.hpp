@@ -109,7 +109,8 @@ struct Crack {
 
 // Of a block of rows, as of the narrow phase.
 struct alignas(64) BondBlock {
-  double energy = 0;         // J, stored
+  double energy = 0;         // J, stored in bonds
+  double contact_energy = 0; // J, stored in contact springs of bonded points
   double fracture = 0;       // J, spent by damage in the last step
   double friction_work = 0;  // J, in the last step, at points partly damaged or welded
   double damping_work = 0;   // J
@@ -119,7 +120,7 @@ struct alignas(64) BondBlock {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(energy, fracture, friction_work, damping_work, area, rows, cracks);
+    bytes(energy, contact_energy, fracture, friction_work, damping_work, area, rows, cracks);
   }
 };
 template <class At>

@@ -138,6 +138,16 @@ struct SlipWeakening : Component<At, double, edge_points> {
                                       "share of the static friction lost in sliding: history"};
 };
 
+// ---- only where surfaces attract each other ---------------------------------------------------------
+template <class At>
+struct AdhesionLaw : Component<At, double, 2> {
+  static constexpr ComponentInfo info{"adhesion", "SI", "traction of surfaces that touch; range"};
+  enum Number {
+    traction,  // Pa
+    range      // m, gap at which it has faded
+  };
+};
+
 // Moment that keeps friction across a small gap from spinning the pair; see contact_kernel.hpp.
 struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
   static constexpr ComponentInfo info{"friction_couple", "N",

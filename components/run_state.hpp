@@ -102,6 +102,18 @@ struct ContactRules {
   };
   std::vector<Friction> friction;       // [materials * materials]
   std::vector<Friction> tool_friction;  // [tools * materials]
+  struct Adhesion {
+    double traction = 0;  // Pa, of surfaces that touch
+    double range = 0;     // m, gap at which it has faded
+  };
+  std::vector<Adhesion> adhesion;       // [materials * materials]; empty without
+  std::vector<Adhesion> tool_adhesion;  // [tools * materials]
+  const Adhesion& adhesion_between(int a, int b) const {
+    return adhesive(adhesion, a * materials + b);
+  }
+  const Adhesion& adhesion_with_tool(int tool, int material) const {
+    return adhesive(tool_adhesion, tool * materials + material);
+  }
   double bonds_of(int material) const {
     return bond_stiffness.empty() ? 0 : entry(bond_stiffness, material);
   }
@@ -114,13 +126,20 @@ struct ContactRules {
   const Friction& friction_with_tool(int tool, int material) const {
     return entry(tool_friction, tool * materials + material);
   }
+
+ private:
+  static const Adhesion& adhesive(const std::vector<Adhesion>& list, int at) {
+    static const Adhesion none;
+    return list.empty() ? none : entry(list, at);
+  }
 };
 
 // Where the rows of each particle are, rebuilt with the rows.
 struct ContactIndex {
   static constexpr const char* resource_name = "contact_index";
-  double skin = 0;            // m: rows are made for everything nearer than this
-  double neighbourhood = 0;   // m, > skin: particles nearer than this to each other are neighbours
+  double skin = 0;            // m: by how much surfaces may approach each other before rows are made anew
+  double reach = 0;           // m: forces act across gaps below this; rows are made for gaps below skin + reach
+  double neighbourhood = 0;   // m, > skin + reach: particles nearer than this to each other are neighbours
   double travel_at_bin = -1;  // m, Clock::travel when the rows were made; < 0: never yet
   double look_at = 0;         // m, Clock::travel at which the skin may be used up
   double travel_seen = 0;     // m, Clock::travel of the step before

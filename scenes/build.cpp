@@ -193,6 +193,7 @@ void add_row_columns(World& world, const Needs& needs) {
     world.add<FrictionMore<At>>();
     world.add<SlipWeakening<At>>();
   }
+  if (needs.adhesion) world.add<AdhesionLaw<At>>();
   world.emplace<ContactSums<At>>();
 }
 
@@ -393,10 +394,13 @@ std::unique_ptr<World> build_world(const Scene& scene) {
           world->emplace<BondRules>(bounded_by(layout.bodies, scene, bond_rules(scene)));
       for (int m = 0; m < bonds.materials; ++m)
         rules.bond_stiffness.push_back(stiffest_bond(bonds, m));
-      // A bond that holds keeps its row.
-      index.skin = std::max(index.skin, longest_opening(bonds));
+      index.reach = longest_opening(bonds);
     }
-    index.neighbourhood = skins_of_neighbourhood * index.skin;
+    for (const ContactRules::Adhesion& adhesion : rules.adhesion)
+      index.reach = std::max(index.reach, adhesion.range);
+    for (const ContactRules::Adhesion& adhesion : rules.tool_adhesion)
+      index.reach = std::max(index.reach, adhesion.range);
+    index.neighbourhood = skins_of_neighbourhood * index.skin + index.reach;
   }
   if (scene.time.estimate == TimeSpec::Estimate::highest_mode)
     add_highest_mode(*world, layout.bodies, needs);
@@ -406,7 +410,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.flow_laws) world->emplace<FlowLaws>(flow_laws(scene));
   add_clock(*world, scene);
   world->emplace<Totals>();
-  if (!scene.bonds.empty())
+  if (has_bonds(scene))
     world->emplace<BondTotals>().made.assign(scene.bonds.size(), 0);
   world->emplace<Bodies>(std::move(layout.bodies));
   if (needs.constraints) add_constraints(*world, scene);

@@ -51,6 +51,7 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
     const auto any_law = [](const std::vector<std::uint8_t>& numbers) {
       return std::ranges::any_of(numbers, [](std::uint8_t number) { return number != 0; });
     };
+    needs.adhesion = needs.contact() && !rules.adhesion.empty();
     needs.welds = needs.pairs && any_law(bonds.pressed);
     needs.tool_welds = needs.tools && any_law(bonds.tool_pressed);
     needs.bonds = needs.welds || (needs.pairs && any_law(bonds.initial));

@@ -20,6 +20,7 @@ struct Needs {
   bool tool_bonds = false;
   bool welds = false;         // made by pressure, between particles
   bool tool_welds = false;
+  bool adhesion = false;      // surfaces attract each other
   bool damping = false;       // of contacts
   bool bulk_damping = false;  // of a material
   Formulation formulation = Formulation::one_point;

@@ -92,13 +92,13 @@ StepList step_list_of(World& w) {
 
 // What touches at the start is known once contacts have been looked for.
 void add_first_bonds(World& w, SystemList& start) {
-  const bool bonds = w.has<BondTotals>();
   const bool pairs = w.has<CurveAnchor>(), tools = w.has<ToolAnchor>();
+  const bool bonds = pairs || tools;
   start.add<skin_check>("skin_check", bonds);
-  start.add<bin_edges>("bin_edges", pairs);
+  start.add<bin_edges>("bin_edges", bonds && w.has<ContactPair<Contact>>());
+  start.add<bin_tool_edges>("bin_tool_edges", bonds && w.has<ContactPair<ToolContact>>());
   start.add<edge_contact>("edge_contact", pairs);
   start.add<initial_bonds>("initial_bonds", pairs);
-  start.add<bin_tool_edges>("bin_tool_edges", tools);
   start.add<initial_tool_bonds>("initial_tool_bonds", tools);
 }
 

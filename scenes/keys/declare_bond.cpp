@@ -5,12 +5,15 @@
 namespace pulvis::schema {
 namespace {
 
+const Words of_bonds{"initial", "pressed"};  // not of adhesion, which has no memory
+
 Key<BondSpec> strength_key(const char* name, std::optional<double> BondSpec::*member,
                            const char* doc) {
   return {{.name = name,
            .kind = Kind::quantity,
            .unit = "Pa",
            .range = above(0, 1e13),
+           .only_for = of_bonds,
            .doc = doc,
            .fallback_doc = "`strength`"},
           to(member)};
@@ -22,6 +25,7 @@ std::vector<Key<BondSpec>> bond_law_keys() {
             .unit = "Pa",
             .range = above(0, 1e13),
             .required = true,
+            .only_for = of_bonds,
             .doc = "Tensile stress at which the bond begins to break; of a pressed bond the most "
                    "that it reaches."},
            to(&BondSpec::strength)},
@@ -32,12 +36,14 @@ std::vector<Key<BondSpec>> bond_law_keys() {
             .unit = "J/m^2",
             .range = above(0, 1e9),
             .required = true,
+            .only_for = of_bonds,
             .doc = "Energy that opening it takes, per area (mode I)."},
            to(&BondSpec::fracture_energy)},
           {{.name = "shear_fracture_energy",
             .kind = Kind::quantity,
             .unit = "J/m^2",
             .range = above(0, 1e9),
+            .only_for = of_bonds,
             .doc = "Energy that shearing it off takes, per area (mode II).",
             .fallback_doc = "`fracture_energy`"},
            to(&BondSpec::shear_fracture_energy)},
@@ -45,6 +51,7 @@ std::vector<Key<BondSpec>> bond_law_keys() {
             .kind = Kind::number,
             .range = within(0.5, 10),
             .fallback = value_of(2.0),
+            .only_for = of_bonds,
             .doc = "Eta of Benzeggagh and Kenane: how strength and energy go from opening to "
                    "shear."},
            to(&BondSpec::mixed_mode_exponent)},
@@ -52,6 +59,7 @@ std::vector<Key<BondSpec>> bond_law_keys() {
             .kind = Kind::number,
             .range = within(1, 1000),
             .fallback = value_of(20.0),
+            .only_for = of_bonds,
             .doc = "Stiffness of the unbroken bond over that of the contact spring. Stiffer bonds "
                    "give less and ask for shorter time steps."},
            to(&BondSpec::stiffness)}};
@@ -91,7 +99,24 @@ std::vector<Key<BondSpec>> bond_origin_keys() {
             .only_for = "pressed",
             .doc = "Tensile strength gained over pressure beyond the threshold, up to `strength`; "
                    "the other values grow along."},
-           to(&BondSpec::growth)}};
+           to(&BondSpec::growth)},
+          {{.name = "work",
+            .kind = Kind::quantity,
+            .unit = "J/m^2",
+            .range = above(0, 1e6),
+            .required = true,
+            .only_for = "adhesion",
+            .doc = "Work of adhesion: what parting the surfaces takes, per area."},
+           to(&BondSpec::work)},
+          {{.name = "range",
+            .kind = Kind::quantity,
+            .unit = "m",
+            .range = within(smallest_size, largest_size),
+            .required = true,
+            .only_for = "adhesion",
+            .doc = "Gap at which the attraction has faded. The traction of surfaces that touch is "
+                   "2 `work`/`range`."},
+           to(&BondSpec::range)}};
 }
 
 std::vector<Key<BondSpec>> bond_keys() {
@@ -107,7 +132,8 @@ std::vector<Key<BondSpec>> bond_keys() {
       {{.name = "origin",
         .kind = Kind::choice,
         .choices = {{"initial", "what touches at the start is bonded"},
-                    {"pressed", "pressure makes the bond (cold welding, sticking)"}},
+                    {"pressed", "pressure makes the bond (cold welding, sticking)"},
+                    {"adhesion", "none: surfaces attract each other whenever they are near"}},
         .required = true,
         .doc = "What makes the bond."},
        [](BondSpec& spec, const Decoded& value) {

@@ -6,6 +6,7 @@
 
 #include "scenes/results/observed_results.hpp"
 #include "scenes/results/shear_results.hpp"
+#include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
@@ -68,7 +69,7 @@ class SeriesList {
     add("energy/damping", "J", "dissipated by contact damping");
     if (std::ranges::any_of(scene_.materials, &MaterialSpec::damped))
       add("energy/bulk_damping", "J", "dissipated by the materials' damping");
-    if (!scene_.bonds.empty()) {
+    if (has_bonds(scene_)) {
       add("energy/bonds", "J", "stored in the bonds");
       add("energy/fracture", "J", "spent in breaking bonds");
     }
@@ -83,7 +84,7 @@ class SeriesList {
     add("contact_overlap", "-", "area in which outlines overlap / area of the particles");
     add("narrow_contacts", "-",
         "share of the contact force on contacts narrower than two boundary edges");
-    if (!scene_.bonds.empty()) {
+    if (has_bonds(scene_)) {
       add("bonds/area", "m^2", "of the surfaces that are bonded");
       add("bonds/crack_length", "m", "of all that broke so far");
     }

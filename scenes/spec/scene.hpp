@@ -280,7 +280,7 @@ struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names 
 };
 
 struct BondSpec {  // of one pair of names (materials or tools)
-  enum class Origin { initial, pressed } origin = Origin::initial;
+  enum class Origin { initial, pressed, adhesion } origin = Origin::initial;
   std::string first, second;
   std::optional<double> strength, shear_strength;                // Pa
   std::optional<double> fracture_energy, shear_fracture_energy;  // J/m^2
@@ -290,6 +290,8 @@ struct BondSpec {  // of one pair of names (materials or tools)
   std::optional<double> weibull_modulus;                         // -
   double threshold = 0;                                          // Pa
   double growth = 0;                                             // -
+  double work = 0;                                               // J/m^2, of adhesion
+  double range = 0;                                              // m
   SourceMark mark;
 };
 

@@ -14,6 +14,7 @@ namespace {
 
 BondRules::Law law_of(const Scene& scene, const BondSpec& spec) {
   BondRules::Law law;
+  if (spec.origin == BondSpec::Origin::adhesion) return law;
   law.stiffness = spec.stiffness;
   law.strength = *spec.strength;
   law.shear_strength = spec.shear_strength.value_or(*spec.strength);
@@ -41,6 +42,12 @@ std::uint8_t number_of(const Scene& scene, BondSpec::Origin origin, const std::s
 
 }  // namespace
 
+bool has_bonds(const Scene& scene) {
+  return std::ranges::any_of(scene.bonds, [](const BondSpec& bond) {
+    return bond.origin != BondSpec::Origin::adhesion;
+  });
+}
+
 BondRules bond_rules(const Scene& scene) {
   using Origin = BondSpec::Origin;
   BondRules rules;
@@ -62,7 +69,8 @@ BondRules bond_rules(const Scene& scene) {
 double longest_opening(const BondRules& rules) {
   double longest = 0;
   for (const BondRules::Law& law : rules.laws)
-    longest = std::max({longest, 2 * law.energy / law.strength,
+    if (law.strength > 0)
+      longest = std::max({longest, 2 * law.energy / law.strength,
                         2 * law.shear_energy / law.shear_strength});
   return longest;
 }

@@ -6,6 +6,9 @@
 
 namespace pulvis {
 
+// Whether anything can be bonded: adhesion is no bond.
+bool has_bonds(const Scene& scene);
+
 // Without what follows from the meshes: see bounded_by.
 BondRules bond_rules(const Scene& scene);
 

@@ -1,5 +1,7 @@
 #include "scenes/tools/contact_rules.hpp"
 
+#include <algorithm>
+
 #include "scenes/tools/constraints.hpp"
 
 namespace pulvis {
@@ -18,6 +20,28 @@ ContactRules::Friction friction_of(const Scene& scene, const std::string& a, con
   return {.coefficient = scene.contact.friction};
 }
 
+namespace {
+
+bool is_adhesion(const BondSpec& bond) { return bond.origin == BondSpec::Origin::adhesion; }
+
+ContactRules::Adhesion adhesion_of(const Scene& scene, const std::string& a, const std::string& b) {
+  for (const BondSpec& bond : scene.bonds)
+    if (is_adhesion(bond) && std::minmax(bond.first, bond.second) == std::minmax(a, b))
+      return {2 * bond.work / bond.range, bond.range};
+  return {};
+}
+
+void add_adhesion(const Scene& scene, ContactRules& rules) {
+  for (const MaterialSpec& a : scene.materials)
+    for (const MaterialSpec& b : scene.materials)
+      rules.adhesion.push_back(adhesion_of(scene, a.name, b.name));
+  for (const ToolSpec& tool : scene.tools)
+    for (const MaterialSpec& m : scene.materials)
+      rules.tool_adhesion.push_back(adhesion_of(scene, tool.name, m.name));
+}
+
+}  // namespace
+
 ContactRules contact_rules(const Scene& scene) {
   ContactRules rules;
   rules.stiffness = scene.contact.stiffness;
@@ -32,6 +56,7 @@ ContactRules contact_rules(const Scene& scene) {
     for (const MaterialSpec& m : scene.materials)
       rules.tool_friction.push_back(is_constraint(tool) ? ContactRules::Friction{}
                                                         : friction_of(scene, tool.name, m.name));
+  if (std::ranges::any_of(scene.bonds, is_adhesion)) add_adhesion(scene, rules);
   return rules;
 }
 

@@ -71,6 +71,7 @@ struct PairLaw {
   const ContactRules::Friction& friction;
   double damping;
   std::uint8_t weld;  // number of the law of bonds by which pressure welds
+  const ContactRules::Adhesion& adhesion;
 };
 
 template <class At>
@@ -88,6 +89,11 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
     (*rows.more)(row, More::drop) = law.friction.drop;
     (*rows.more)(row, More::inv_decay) = law.friction.inv_decay;
     (*rows.more)(row, More::strength) = law.friction.strength;
+  }
+  if (rows.adhesion) {
+    using Adhesive = AdhesionLaw<At>;
+    (*rows.adhesion)(row, Adhesive::traction) = law.adhesion.traction;
+    (*rows.adhesion)(row, Adhesive::range) = law.adhesion.range;
   }
   if (rows.bond_law) (*rows.bond_law)(row, BondLawNumber<At>::weld) = law.weld;
   rows.law(row, Law::damping) = law.damping;
@@ -123,6 +129,15 @@ std::uint8_t tool_weld_law(const Optional<Read<BondRules>>& bonds, const Bodies&
   if (!bonds) return 0;
   return entry((*bonds)->tool_pressed,
                key.other * (*bonds)->materials + entry(bodies.slots, key.slot).material);
+}
+
+// A fold of one outline does not attract itself: what is near is the body's own neighbourhood as a rule.
+const ContactRules::Adhesion& adhesion_of(const ContactRules& rules, const Bodies& bodies,
+                                          const RowKey& key) {
+  static const ContactRules::Adhesion none;
+  if (key.slot == key.other) return none;
+  return rules.adhesion_between(entry(bodies.slots, key.slot).material,
+                                entry(bodies.slots, key.other).material);
 }
 
 // Flat flanks of one outline that are deeper in each other than the skin have boxes apart: their rows stay while
@@ -167,7 +182,7 @@ void bin_edges::operator()() const {
   const ContactRules& rules = *material.rules;
   BySlot<std::int32_t> neighbours =
       particle_neighbours(*bodies, control.values(), index->neighbourhood);
-  BySlot<EdgeCandidate> found = edge_candidates(*bodies, control.values(), neighbours, index->skin);
+  BySlot<EdgeCandidate> found = edge_candidates(*bodies, control.values(), neighbours, index->skin + index->reach);
   if (any_fold_touches(rows.pair, touches))
     found = with_touching_folds(index->sampled_begin, rows.pair, touches, found);
   const std::vector<std::int32_t> source = match(index->sampled_begin, rows.pair, found);
@@ -186,7 +201,8 @@ void bin_edges::operator()() const {
         {kappa,
          rules.friction_between(entry(slots, key.slot).material, entry(slots, key.other).material),
          damping_of(rules, kappa, rho, edge),
-         weld_law(material.bonds, *bodies, key)},
+         weld_law(material.bonds, *bodies, key),
+         adhesion_of(rules, *bodies, key)},
         rows);
     // An outline against itself is looked for anew: its closest points may have gone home along it (edge_contact).
     const bool again = found.all[r].faces && touches(row) == 0;
@@ -258,7 +274,7 @@ BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const doub
 void bin_tool_edges::operator()() const {
   if (!index->due) return;
   const ContactRules& rules = *material.rules;
-  BySlot<ToolCandidate> found = tool_candidates(*bodies, control.values(), tools, index->skin);
+  BySlot<ToolCandidate> found = tool_candidates(*bodies, control.values(), tools, index->skin + index->reach);
   structure.rebuild(match(index->tool_begin, rows.pair, found));
   for (std::size_t r = 0; r < found.all.size(); ++r) {
     const Row<ToolContact> row(static_cast<std::int64_t>(r));
@@ -268,7 +284,8 @@ void bin_tool_edges::operator()() const {
     set_row(row, *bodies, key,
             {kappa, rules.friction_with_tool(key.other, entry(bodies->slots, key.slot).material),
              damping_of(rules, kappa, entry(material.density.values(), key.slot), edge),
-             tool_weld_law(material.bonds, *bodies, key)},
+             tool_weld_law(material.bonds, *bodies, key),
+             rules.adhesion_with_tool(key.other, entry(bodies->slots, key.slot).material)},
             rows);
     rows.activation(row) = 0;
     if (!range) continue;

@@ -35,7 +35,7 @@ struct BondLanes {
 // Books of a block while it is looked at.
 struct BondSumsOfLanes {
   using Block = BondBlock;
-  Lane energy{}, fracture{}, friction_work{}, damping_work{}, area{};
+  Lane energy{}, contact_energy{}, fracture{}, friction_work{}, damping_work{}, area{};
   BondBlock block;
 
   BondBlock added_up() {
@@ -48,7 +48,9 @@ struct BondSumsOfLanes {
     block.fracture += one[1];
     block.friction_work = two[0];
     block.damping_work = two[1];
-    block.area = sum(sums_of_halves(area, Lane{}))[0];
+    const auto three = sum(sums_of_halves(area, contact_energy));
+    block.area = three[0];
+    block.contact_energy = three[1];
     return std::move(block);
   }
 };
@@ -112,7 +114,7 @@ class BondPass {
     const Lane squeezed = select(b.welded, Lane{}, min(d_n, 0.0));
     const Lane of_compression = 0.5 * b.k * squeezed * squeezed;
     const Lane contacts = select(b.welded, Lane{} + 1.0, damage);
-    f.energy = held * fma(0.5 * b.k * d_t, d_t, 0.5 * spring_n * normal) * b.weight;
+    const Lane in_bonds = held * fma(0.5 * b.k * d_t, d_t, 0.5 * spring_n * normal) * b.weight;
     Lane pull = -(held * spring_n) * b.weight, along = -(held * spring_t) * b.weight;
     const Lane grown = damage - b.damage;
     Lane spent = grown * of_compression * b.weight;
@@ -121,7 +123,7 @@ class BondPass {
       const auto [push, friction] = along_axes(by_contact, m.point);
       pull = fma(contacts, push, pull);
       along = fma(contacts, friction, along);
-      f.energy = fma(contacts, by_contact.energy, f.energy);
+      f.energy = contacts * by_contact.energy;
       f.friction_work = contacts * by_contact.friction_work;
       f.damping_work = contacts * by_contact.damping_work;
       f.elastic_slip = by_contact.elastic_slip;
@@ -131,6 +133,7 @@ class BondPass {
     f.along = along;
     f.x = fma(pull, m.point.nx, -(along * m.point.ny));
     f.y = fma(pull, m.point.ny, along * m.point.nx);
+    sums.energy += select(lanes, in_bonds, Lane{});
     add(two, bonded, f, spent, b, sums);
     keep(two, bonded, f, damage);
     if (broken != 0) release(two, broken);
@@ -198,7 +201,7 @@ class BondPass {
   void add(const Two& two, unsigned bonded, const PointForces& f, const Lane& spent,
            const BondLanes& b, Sums& sums) const {
     const LaneMask lanes = LaneMask::of(bonded);
-    sums.energy += select(lanes, f.energy, Lane{});
+    sums.contact_energy += select(lanes, f.energy, Lane{});
     sums.fracture += select(lanes, spent, Lane{});
     sums.friction_work += select(lanes, f.friction_work, Lane{});
     sums.damping_work += select(lanes, f.damping_work, Lane{});
@@ -226,7 +229,8 @@ class BondPass {
         s_.rows.activation(row) = back_face;  // nothing is left for the narrow phase
       store(s_.bonds.damage, half, damage);
       if (s_.rows.sliding) store(s_.rows.sliding->elastic_slip, half, f.elastic_slip);
-      if (s_.rows.weld) store(*s_.rows.weld, half, (1 / s_.share) * f.pressure);
+      if (s_.rows.bonding->weld)
+        store(*s_.rows.bonding->weld, half, (1 / s_.share) * f.pressure);
     }
   }
   // From the next step on the contact of broken points is the narrow phase's.
@@ -240,7 +244,8 @@ class BondPass {
       for (int g = 0; g < edge_points; ++g) {
         if ((points >> g & 1) == 0) continue;
         s_.bonds.damage(row, g) = 0;
-        if (s_.rows.weld) (*s_.rows.weld)(row, WeldPressure<At>::largest + g) = 0;
+        if (s_.rows.bonding->weld)
+          (*s_.rows.bonding->weld)(row, WeldPressure<At>::largest + g) = 0;
       }
     }
   }

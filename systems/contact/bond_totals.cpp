@@ -1,6 +1,6 @@
 // bond_totals: sums of the bonds, and what broke.
 //
-// Runs     every step, after bond_forces: what is spent adds up over steps
+// Runs     every step, after bond_forces and contact_totals: what is spent adds up over steps
 // Active   when the scene has bonds
 #include "components/run_state.hpp"
 #include "systems/contact/systems.hpp"
@@ -12,6 +12,7 @@ void bond_totals::operator()() const {
   const auto take = [&](const std::vector<BondBlock>& blocks) {
     for (const BondBlock& block : blocks) {
       bonds->energy += block.energy;
+      totals->contact_energy += block.contact_energy;
       bonds->fracture += block.fracture;
       bonds->area += block.area;
       totals->friction_work += block.friction_work;

@@ -7,6 +7,7 @@
 
 #include "systems/contact/contact_sums.hpp"
 #include "systems/contact/systems.hpp"
+#include "systems/laws/adhesion.hpp"
 #include "systems/laws/friction.hpp"
 #include "systems/laws/normal_contact.hpp"
 
@@ -57,8 +58,8 @@ void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
     for (int k = 0; k < edge_points; ++k) c.sliding->elastic_slip(row, k) = 0;
   if (c.sliding && c.sliding->lost)
     for (int k = 0; k < edge_points; ++k) (*c.sliding->lost)(row, k) = 0;
-  if (c.weld)
-    for (int k = 0; k < edge_points; ++k) (*c.weld)(row, k) = 0;
+  if (c.bonding && c.bonding->weld)
+    for (int k = 0; k < edge_points; ++k) (*c.bonding->weld)(row, k) = 0;
 }
 
 // Bonded points are apart for the narrow phase: bond_forces answers for them.
@@ -66,8 +67,8 @@ template <class At>
 [[gnu::always_inline]] inline void pass_over_bonded(const RowColumns<At>& c,
                                                     const TwoCandidates<At>& two,
                                                     PointMotion& motion) {
-  if (!c.bonded) return;
-  const unsigned low = (*c.bonded)(two[0]), high = (*c.bonded)(two[1]);
+  if (!c.bonding) return;
+  const unsigned low = c.bonding->bonded(two[0]), high = c.bonding->bonded(two[1]);
   motion.gap = select(LaneMask::of(low | high << edge_points), Lane{} - 1.0, motion.gap);
 }
 
@@ -96,6 +97,23 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
   return friction;
 }
 
+// Gaps below which candidates of two bear a force.
+template <class At>
+Lane range_of(const RowColumns<At>& c, const TwoCandidates<At>& two) {
+  return c.adhesion ? at_candidates(*c.adhesion, two, AdhesionLaw<At>::range) : Lane{};
+}
+
+// `weight` m^2, of the pass.
+template <class At>
+void attract(const RowColumns<At>& c, const TwoCandidates<At>& two, const PointMotion& m,
+             const Lane& weight, PointForces& f) {
+  const auto pull = kernels::adhesion(
+      m.gap, at_candidates(*c.adhesion, two, AdhesionLaw<At>::traction), range_of(c, two));
+  f.x -= pull.traction * weight * m.nx;
+  f.y -= pull.traction * weight * m.ny;
+  f.energy += pull.energy * weight;
+}
+
 template <class At>
 [[gnu::always_inline]] inline PointForces forces_of(const RowColumns<At>& c,
                                                     const TwoCandidates<At>& two, unsigned touching,
@@ -106,11 +124,16 @@ template <class At>
   const PointLaw law{at_points(c.law, two, Law::weight), halves(stiffness[0], stiffness[1]),
                      share * at_candidates(c.law, two, Law::damping),
                      at_candidates(c.law, two, Law::inv_length)};
-  if (!c.sliding) return forces_of(law, m, dt, Frictionless{});
-  return forces_of(law, m, dt, [&](const Lane& slip, const Lane& pressure) {
-    return friction_of(c, two, touching, share, slip, pressure, law.kappa,
-                       halves(1 / stiffness[0], 1 / stiffness[1]));
-  });
+  PointForces f =
+      c.sliding ? forces_of(law, m, dt,
+                            [&](const Lane& slip, const Lane& pressure) {
+                              return friction_of(c, two, touching, share, slip, pressure,
+                                                 law.kappa,
+                                                 halves(1 / stiffness[0], 1 / stiffness[1]));
+                            })
+                : forces_of(law, m, dt, Frictionless{});
+  if (c.adhesion) attract(c, two, m, share * law.weight, f);
+  return f;
 }
 
 template <class At>
@@ -120,7 +143,8 @@ template <class At>
   c.activation(row) = 0;
   store_pairs_of_half(f.x, f.y, half, &c.force(row));
   if (c.sliding) store_half(f.elastic_slip, half, &c.sliding->elastic_slip(row));
-  if (c.weld) store_half((1 / share) * f.pressure, half, &(*c.weld)(row));
+  if (c.bonding && c.bonding->weld)
+    store_half((1 / share) * f.pressure, half, &(*c.bonding->weld)(row));
 }
 
 // Law, columns and books of the candidates of two that touch (bit 0, bit 1). Returns their friction traction times weight

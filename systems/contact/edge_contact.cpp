@@ -100,16 +100,19 @@ struct EdgePass {
   [[gnu::always_inline]] unsigned find_touching(const Two& two, const Projection& p,
                                                 PointMotion& motion) const {
     unsigned touching = 0;
+    const Lane range = range_of(s.columns, two);
     for (int i = 0; i < count_of(two); ++i) {
       const Row<Contact> row = entry(two, i);
       const bool itself = s.columns.pair(row, 2) == s.columns.pair(row, 0);
       const double nearest = itself ? nearest_fold(row, i, p, motion) : 0;
-      if (half_of((motion.gap > 0.0).bits(), i) != 0) {
+      const LaneMask near = motion.gap > -range;
+      if (half_of(near.bits(), i) != 0) {
         touching |= 1U << i;
       } else {
         const Lane square = p.rx * p.rx + p.ry * p.ry;
         set_apart(s.columns, row,
-                  s.clock->travel + (itself ? nearest : std::sqrt(min_of_half(square, i))));
+                  s.clock->travel +
+                      (itself ? nearest : std::sqrt(min_of_half(square, i)) - range[4 * i]));
       }
     }
     return touching;

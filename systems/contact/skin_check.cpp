@@ -75,7 +75,7 @@ double remaining_of_non_neighbours(const ContactIndex& index, const std::vector<
       all.low[k] = std::min(all.low[k], u.low[k]);
       all.high[k] = std::max(all.high[k], u.high[k]);
     }
-  return index.neighbourhood - kernels::closing(all, all);
+  return index.neighbourhood - index.reach - kernels::closing(all, all);
 }
 
 double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMotion>& motion,
@@ -88,7 +88,8 @@ double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMo
     const int other = entry(index.neighbours, k);
     if (other < slot) continue;  // seen from there
     const OutlineMotion& its = entry(motion, other);
-    const double allowed = std::max(index.skin, kernels::gap(own.before, its.before));
+    const double allowed =
+        std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
     minimum = std::min(minimum, allowed - kernels::closing(own.displacement, its.displacement));
   }
   return minimum;
@@ -107,13 +108,14 @@ double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const
       if (!(*tools.shapes)->is(t, ToolShapes::Kind::polyline)) continue;
       const bool far =
           pieces_near((*tools.shapes)->surface_of(t), own, index.neighbourhood).empty();
-      const double allowed = far ? index.neighbourhood : index.skin;
+      const double allowed = far ? index.neighbourhood - index.reach : index.skin;
       minimum = std::min(minimum, allowed - kernels::closing(u, Box{{0, 0}, {0, 0}}));
       continue;
     }
     const Point normal{tools.normal(tool, 0), tools.normal(tool, 1)};
-    minimum = std::min(minimum, std::max(index.skin, kernels::min_along(own, normal)) +
-                                    kernels::min_along(u, normal));
+    minimum =
+        std::min(minimum, std::max(index.skin, kernels::min_along(own, normal) - index.reach) +
+                              kernels::min_along(u, normal));
   }
   return minimum;
 }

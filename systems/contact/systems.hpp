@@ -35,6 +35,7 @@ struct NewRows {
   Write<ActivationTravel<At>> activation;
   Optional<Write<FrictionMore<At>>> more;
   Optional<Write<BondLawNumber<At>>> bond_law;
+  Optional<Write<AdhesionLaw<At>>> adhesion;
 };
 
 struct bin_edges {
@@ -79,8 +80,12 @@ struct RowColumns {
     Optional<Write<SlipWeakening<At>>> lost;
   };
   Optional<Sliding> sliding;
-  Optional<Write<WeldPressure<At>>> weld;
-  Optional<Read<BondedPoints<At>>> bonded;  // bond_forces answers for those
+  struct Bonding {                    // in scenes with bonds
+    Read<BondedPoints<At>> bonded;    // bond_forces answers for those
+    Optional<Write<WeldPressure<At>>> weld;
+  };
+  Optional<Bonding> bonding;
+  Optional<Read<AdhesionLaw<At>>> adhesion;
 };
 
 struct edge_contact {

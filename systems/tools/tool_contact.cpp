@@ -53,8 +53,9 @@ struct ToolPass {
   // The candidates of the two that touch (bit 0, bit 1); the others are set apart.
   unsigned find_touching(const Two& two, const PointMotion& m) const {
     unsigned touching = 0;
+    const Lane range = range_of(s.columns, two);
     for (int i = 0; i < count_of(two); ++i) {
-      const double deepest = greatest_of_half(m.gap, i);
+      const double deepest = greatest_of_half(m.gap + range, i);
       if (deepest > 0)
         touching |= 1U << i;
       else

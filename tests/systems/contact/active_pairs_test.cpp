@@ -12,6 +12,7 @@ namespace {
 
 // Notes what it is given.
 struct Noting {
+  using Sums = LaneSums;
   int every;                // of so many is one active
   std::vector<int>& times;  // [rows]
   std::vector<std::int32_t>&
@@ -48,7 +49,7 @@ Walked walk(int rows, int every, int threads) {
                 {}};
   Workers workers(threads);
   workers.run([&] {
-    for_active_pairs(rows, walked.sums, Noting{every, walked.times, walked.two});
+    for_active_pairs<Contact>(rows, walked.sums.blocks, Noting{every, walked.times, walked.two});
   });
   return walked;
 }
