@@ -1,0 +1,189 @@
+// Bonds against laws: a glued bar is a bar, a glued body that turns is a body, glue takes its energy at any mesh and in
+// any mode, and nothing depends on threads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "components/bond.hpp"
+#include "scenes/results/state_hash.hpp"
+#include "tests/helpers/experiment.hpp"
+#include "tests/helpers/wrong.hpp"
+
+namespace pulvis {
+namespace {
+
+// ---- a bar of one piece, or glued from two unlike ones ---------------------------------------------------
+constexpr const char* bar_material = R"(
+family = "compaction"
+thickness = "1 mm"
+[[material]]
+name = "stone"
+density = "2000 kg/m^3"
+youngs_modulus = "20 GPa"
+poissons_ratio = 0.25
+[material.damping]
+mass_proportional = "20000 1/s"
+)";
+
+std::string piece(const char* name, double length, double x) {
+  return fmt::format(R"(
+[[particle]]
+name = "{0}"
+material = "stone"
+outline = "rectangle"
+width = "{1} mm"
+height = "1 mm"
+[particle.mesh]
+columns = {2}
+rows = 10
+[[body]]
+particle = "{0}"
+position = ["{3} mm", "0 mm"]
+)",
+                     name, length, std::lround(10 * length), x);
+}
+
+std::string bar(bool glued) {
+  if (!glued) return piece("whole", 6, 0);
+  return piece("left", 2.5, -1.75) + piece("right", 3.5, 1.25) + R"(
+[[bond]]
+between = ["stone", "stone"]
+origin = "initial"
+strength = "1 GPa"
+fracture_energy = "0.1 MJ/m^2"
+)";
+}
+
+std::string grip(const char* name, int body, const std::array<double, 4>& box, const char* holds) {
+  return fmt::format(
+      "[[tool]]\nname = \"{}\"\nshape = \"constraint\"\nbody = {}\nlow = [\"{} mm\", \"{} mm\"]\n"
+      "high = [\"{} mm\", \"{} mm\"]\nholds = \"{}\"\n",
+      name, body, box[0], box[1], box[2], box[3], holds);
+}
+
+struct Loading {
+  const char* name;
+  double x, y;  // um
+};
+
+double force_on(bool glued, const Loading& loading) {
+  const int last = glued ? 1 : 0;
+  const bool bends = loading.name == std::string("bending");
+  const std::string grips =
+      bends ? grip("left", 0, {-3.01, -.51, -2.99, -.49}, "y") +
+                  grip("right", last, {2.99, -.51, 3.01, -.49}, "y") +
+                  grip("load", last, {-.01, .49, .01, .51}, "both")
+            : grip("left", 0, {-3.01, -1, -2.99, 1}, "both") +
+                  grip("load", last, {2.99, -1, 3.01, 1}, "both");
+  Experiment e(own_scene(bar_material + bar(glued) + grips +
+                         fmt::format(R"(
+[[stage]]
+name = "load"
+kind = "shear"
+duration = "1 ms"
+[[stage.move]]
+tool = "load"
+displacement = ["{} um", "{} um"]
+[[stage]]
+name = "rest"
+kind = "hold"
+duration = "0.4 ms"
+)",
+                                     loading.x, loading.y)));
+  e.run(20);
+  EXPECT_LT(e.results.energy_balance_error(), 1e-4);
+  return e.value(loading.x != 0 ? "tool/load/force_x" : "tool/load/force_y");
+}
+
+TEST(GluedBar, AnswersAsTheWholeBar) {
+  for (const Loading& loading : {Loading{"tension", 10, 0}, Loading{"compression", -10, 0},
+                                 Loading{"shear", 0, 10}, Loading{"bending", 0, -10}}) {
+    const double whole = force_on(false, loading), glued = force_on(true, loading);
+    EXPECT_NEAR(glued, whole, 0.01 * std::abs(whole)) << loading.name;
+    EXPECT_GT(std::abs(whole), 0.5) << loading.name;
+  }
+}
+
+// ---- a glued body that turns -------------------------------------------------------------------------------
+// Free, about the middle of both: twice round in 2 ms, with what that takes of stress. `glued`: of two halves.
+struct Turned {
+  double elastic, bonds, kinetic, balance, contacts;
+};
+Turned turn(bool glued) {
+  const double omega = 2 * 2 * std::numbers::pi / 2e-3;
+  const auto half = [&](double y) {
+    return fmt::format(
+        "[[body]]\nparticle = \"half\"\nposition = [\"0 mm\", \"{} mm\"]\nangular_velocity = "
+        "\"{:.17g} rad/s\"\nvelocity = [\"{:.17g} m/s\", \"0 m/s\"]\n",
+        y, omega, -omega * y * 1e-3);
+  };
+  std::string text = bar_material;
+  text.erase(text.find("[material.damping]"));
+  text += fmt::format(
+      "[[particle]]\nname = \"half\"\nmaterial = \"stone\"\noutline = \"rectangle\"\nwidth = \"1 "
+      "mm\"\nheight = \"{} mm\"\n[particle.mesh]\ncolumns = 10\nrows = {}\n",
+      glued ? 1 : 2, glued ? 10 : 20);
+  text += glued ? half(-0.5) + half(0.5) : half(0);
+  if (glued)
+    text +=
+        "[[bond]]\nbetween = [\"stone\", \"stone\"]\norigin = \"initial\"\nstrength = \"10 "
+        "MPa\"\nfracture_energy = \"20 J/m^2\"\n";
+  text += "[[stage]]\nname = \"spin\"\nkind = \"hold\"\nduration = \"2 ms\"\n";
+  Experiment e(own_scene(text));
+  double elastic = 0, bonds = 0;
+  e.run(200, [&] {
+    elastic += e.results.energies().elastic / 201;
+    bonds += e.results.energies().bonds / 201;
+  });
+  return {elastic, bonds, e.results.energies().kinetic, e.results.energy_balance_error(),
+          e.value("contacts")};
+}
+
+TEST(GluedBody, TurnsTwiceWithTheStressOfItsRotationOnly) {
+  const Turned whole = turn(false), glued = turn(true);
+  EXPECT_NEAR(glued.kinetic, whole.kinetic, 1e-6 * whole.kinetic);
+  EXPECT_NEAR(glued.elastic + glued.bonds, whole.elastic, 0.05 * whole.elastic);
+  EXPECT_LT(glued.elastic, 1e-4 * glued.kinetic);
+  EXPECT_LT(glued.balance, 1e-7);
+  EXPECT_EQ(glued.contacts, 20);  // every point of both sides is still bonded
+}
+
+// ---- breaking ----------------------------------------------------------------------------------------------
+double spent(const std::vector<std::string>& overrides, const char* scene = "pulled-blocks.toml") {
+  Experiment e(std::string("bonds/") + scene, overrides);
+  e.run(50);
+  EXPECT_LT(e.results.energy_balance_error(), 1e-3);
+  EXPECT_EQ(e.value("bonds/area"), 0);
+  EXPECT_NEAR(e.value("bonds/crack_length"), 1e-3, 1e-12);
+  return e.value("energy/fracture");
+}
+
+TEST(Glue, TakesItsFractureEnergyAtAnyMesh) {
+  for (const char* columns : {"5", "8", "10", "17"})
+    EXPECT_NEAR(spent({std::string("particle.upper.mesh.columns=") + columns}), 20e-6, 0.2e-6)
+        << columns;
+  EXPECT_NEAR(spent({}, "sheared-blocks.toml"), 40e-6, 0.4e-6);
+}
+
+TEST(Glue, IsBitwiseTheSameForAnyThreads) {
+  const auto hash = [](int threads) {
+    Experiment e("bonds/cold-weld.toml", {}, threads);
+    e.run(5);
+    return state_hash(e.simulation.world());
+  };
+  const auto one = hash(1);
+  EXPECT_EQ(hash(2), one);
+  EXPECT_EQ(hash(3), one);
+}
+
+TEST(Glue, TooBrittleForItsMeshIsRefusedWithTheLeastEnergy) {
+  EXPECT_THAT(messages_of([] {
+                Experiment e("bonds/pulled-blocks.toml",
+                             {"bond[0].fracture_energy=1 mJ/m^2"});
+              }),
+              ::testing::HasSubstr("allowed: >= "));
+}
+
+}  // namespace
+}  // namespace pulvis
