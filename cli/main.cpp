@@ -70,8 +70,28 @@ const CLI::Validator without_detours(
     },
     "", "without_detours");
 
+void print_grains(const Scene& scene, const ParticleSpec& particle) {
+  int grains = 0, elements = 0;
+  double sine = 1, edge = std::numeric_limits<double>::infinity();
+  for (const auto& variant : particle.tessellations)
+    for (const GrainPlace& place : variant) {
+      const Shape shape = make_shape(scene.grains[static_cast<std::size_t>(place.grain)]);
+      ++grains;
+      elements += shape.elements();
+      sine = std::min(sine, min_corner_sine(shape));
+      edge = std::min(edge, shortest_edge(shape));
+    }
+  tell("{}: {} grains and {} elements in {} tessellations, worst corner sine {:.3f}, shortest edge "
+       "{:.4g} m\n",
+       particle.name, grains, elements, particle.tessellations.size(), sine, edge);
+}
+
 void print_meshes(const Scene& scene) {
   for (const ParticleSpec& particle : scene.particles) {
+    if (particle.grains) {
+      print_grains(scene, particle);
+      continue;
+    }
     const Shape shape = make_shape(particle);
     tell("{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
          particle.name, shape.elements(), shape.boundary_nodes, min_corner_sine(shape),

@@ -78,11 +78,12 @@ struct BondRules {
   std::vector<Law> laws;
   int materials = 0;
   std::vector<std::uint8_t> initial, pressed;            // [materials * materials]
+  std::vector<std::uint8_t> inside;  // likewise, initial between grains of one particle
   std::vector<std::uint8_t> tool_initial, tool_pressed;  // [tools * materials]
 
   const Law& law(int number) const { return entry(laws, number - 1); }
   int initial_between(const Bodies::Slot& a, const Bodies::Slot& b) const {
-    return entry(initial, a.material * materials + b.material);
+    return entry(a.parent == b.parent ? inside : initial, a.material * materials + b.material);
   }
   int initial_with_tool(int tool, const Bodies::Slot& a) const {
     return entry(tool_initial, tool * materials + a.material);

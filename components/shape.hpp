@@ -92,6 +92,7 @@ struct Bodies {
     int shape = 0;            // position in `shapes`
     int material = 0;         // of the scene
     int first_control = 0;    // row of its first control point
+    int parent = empty_slot;  // number of the particle that it is a grain of, or its own
   };
 
   double thickness = 0;  // m

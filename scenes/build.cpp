@@ -17,6 +17,7 @@
 #include "components/surface.hpp"
 #include "engine/access.hpp"
 #include "engine/portable_math.hpp"
+#include "scenes/grains/grains.hpp"
 #include "scenes/highest_mode.hpp"
 #include "scenes/hilbert.hpp"
 #include "scenes/meshes/hollows.hpp"
@@ -77,10 +78,10 @@ class MemoryOrder {
 // (a disc's outline does not care), so that all particles of a class share one undeformed mesh.
 std::vector<std::vector<Placed>> by_class(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::mt19937_64 random(scene.seed);
-  std::vector<std::vector<Placed>> classes(scene.particles.size());
+  std::vector<std::vector<Placed>> classes(scene.particles.size() + scene.grains.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto which = static_cast<std::size_t>(bodies[i].particle);
-    const ParticleSpec& spec = scene.particles[which];
+    const ParticleSpec& spec = scene.class_of(bodies[i]);
     const double phase =
         spec.random_mesh_phase ? 2 * std::numbers::pi * uniform(random) : spec.mesh_phase;
     classes[which].push_back({&bodies[i], static_cast<int>(i), bodies[i].angle + phase});
@@ -106,12 +107,13 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
   for (std::size_t c = 0; c < classes.size(); ++c) {
     if (classes[c].empty()) continue;
     const int shape = static_cast<int>(layout.bodies.shapes.size());
-    layout.bodies.shapes.push_back(make_shape(scene.particles[c]));
+    const ParticleSpec& spec = scene.class_of(*classes[c].front().body);
+    layout.bodies.shapes.push_back(make_shape(spec));
     const std::size_t lanes = (classes[c].size() + lane_count - 1) / lane_count * lane_count;
     for (std::size_t i = 0; i < lanes; ++i) {
       const bool there = i < classes[c].size();
-      Bodies::Slot slot{there ? classes[c][i].number : Bodies::empty_slot, shape,
-                        scene.particles[c].material, control};
+      Bodies::Slot slot{there ? classes[c][i].number : Bodies::empty_slot, shape, spec.material,
+                        control, there ? classes[c][i].body->parent : Bodies::empty_slot};
       control += layout.bodies.shapes.back().control_points();
       if (there)
         layout.bodies.slot_of_number[static_cast<std::size_t>(slot.number)] =
@@ -371,15 +373,16 @@ void add_clock(World& world, const Scene& scene) {
 }  // namespace
 
 std::unique_ptr<World> build_world(const Scene& scene) {
-  const std::vector<BodySpec> bodies = place_bodies(scene);
-  check_overlaps(scene, bodies);
+  const std::vector<BodySpec> particles = place_bodies(scene);
+  check_overlaps(scene, particles);
+  const std::vector<BodySpec> bodies = grains_of(scene, particles);
   const Needs needs = needs_of(scene, bodies.size());
   const auto classes = by_class(scene, bodies);
   Layout layout = lay_out(scene, classes, bodies.size());
 
   auto world = std::make_unique<World>();
   add_body_columns(*world, layout.bodies, needs);
-  if (needs.tools || needs.constraints) add_tools(*world, scene, bodies, needs);
+  if (needs.tools || needs.constraints) add_tools(*world, scene, particles, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     world->emplace<ContactQuality>();

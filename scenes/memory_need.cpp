@@ -9,6 +9,7 @@
 #include "components/highest_mode.hpp"
 #include "engine/files/output_error.hpp"
 #include "engine/machine_memory.hpp"
+#include "scenes/grains/grains.hpp"
 #include "scenes/meshes/mesh.hpp"
 #include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
@@ -55,14 +56,9 @@ std::uint64_t row_bytes(const Needs& needs) {
 }
 
 std::vector<std::uint64_t> particles_of_classes(const Scene& scene) {
-  std::vector<std::uint64_t> count(scene.particles.size());
-  for (const BodySpec& body : scene.bodies) count[static_cast<std::size_t>(body.particle)] += 1;
-  for (const PackingSpec& packing : scene.packings) {
-    if (is_lattice(packing))
-      count[static_cast<std::size_t>(packing.particle)] +=
-          static_cast<std::uint64_t>(particle_count(packing));
-    for (const BodySpec& body : packing.placed) count[static_cast<std::size_t>(body.particle)] += 1;
-  }
+  std::vector<std::uint64_t> count(scene.particles.size() + scene.grains.size());
+  for (const BodySpec& body : grains_of(scene, place_bodies(scene)))
+    count[static_cast<std::size_t>(body.particle)] += 1;
   return count;
 }
 
@@ -87,7 +83,9 @@ MemoryNeed memory_need(const Scene& scene) {
                  static_cast<std::uint64_t>(scene.output.density_cells[1]);
   for (std::size_t c = 0; c < particles.size(); ++c) {
     if (particles[c] == 0) continue;
-    const Shape shape = make_shape(scene.particles[c]);
+    const bool whole = c < scene.particles.size();
+    const Shape shape =
+        make_shape(whole ? scene.particles[c] : scene.grains[c - scene.particles.size()]);
     const std::uint64_t lanes = (particles[c] + lane_count - 1) / lane_count * lane_count;
     const auto nodes = static_cast<std::uint64_t>(shape.nodes.size());
     const auto edges = static_cast<std::uint64_t>(shape.boundary_nodes);

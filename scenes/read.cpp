@@ -6,6 +6,7 @@
 #include "scenes/checks/accuracy.hpp"
 #include "scenes/checks/checks.hpp"
 #include "scenes/checks/expect_checks.hpp"
+#include "scenes/grains/grains.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/extends.hpp"
 #include "scenes/language/override.hpp"
@@ -138,6 +139,9 @@ class SceneReader {
       if (mesh != nullptr && outline != nullptr && holds_outline(*outline))
         tables_.read(schema::mesh(), mesh->value, numbered("particle", i) + ".mesh", *outline,
                      particles[i]);
+      if (const document::Entry* grains = document::find(table, "grains"))
+        tables_.read(schema::grains(), grains->value, numbered("particle", i) + ".grains", "",
+                     particles[i].grains.emplace());
     }
     return particles;
   }
@@ -247,6 +251,8 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
     problems.throw_if_any();
   }
   fill_packings(loaded.scene, reader.origins(), problems);
+  problems.throw_if_any();
+  make_grains(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
   make_profiles(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();

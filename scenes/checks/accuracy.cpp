@@ -1,5 +1,7 @@
 #include "scenes/checks/accuracy.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -59,14 +61,28 @@ Table* mesh_of(Table& particle, const document::Origin& origin) {
   return particle.back().value.as<Table>();
 }
 
+// Grains are too small for the counts of a particle.
+void refuse_counts(Table& particle, const Preset& preset, Problems& problems, std::size_t number) {
+  Entry* mesh = document::find(particle, "mesh");
+  if (mesh == nullptr || mesh->value.as<Table>() == nullptr) return;
+  for (const Setting& setting : preset.settings)
+    if (const Entry* count = document::find(*mesh->value.as<Table>(), setting.key))
+      problems.add(count->origin, fmt::format("particle[{}].mesh.{}", number, setting.key),
+                   "has no effect on grains, allowed: size, or grains.edges");
+}
+
 // True when the particle's mesh came from the preset.
-bool fill_mesh(Value& element, std::size_t at) {
+bool fill_mesh(Value& element, std::size_t at, std::size_t number, Problems& problems) {
   Table* particle = element.as<Table>();
   const std::string* outline =
       particle != nullptr ? document::find_text(*particle, "outline") : nullptr;
   if (outline == nullptr) return false;
   for (const Preset& preset : presets()) {
     if (preset.outline != *outline) continue;
+    if (document::find(*particle, "grains") != nullptr) {
+      refuse_counts(*particle, preset, problems, number);
+      return false;
+    }
     Table* mesh = mesh_of(*particle, element.origin);
     if (mesh == nullptr || gives_a_size(*mesh, preset)) return false;
     for (const Setting& setting : preset.settings) {
@@ -84,9 +100,11 @@ bool fill_mesh(Value& element, std::size_t at) {
 void fill_meshes(document::Table& root, Problems& problems) {
   Entry* particles = document::find(root, "particle");
   bool used = false;
-  if (particles != nullptr && document::is_array_of_tables(particles->value))
+  if (particles != nullptr && document::is_array_of_tables(particles->value)) {
+    std::size_t number = 0;
     for (Value& element : particles->value.get<document::Array>())
-      used |= fill_mesh(element, level(root));
+      used |= fill_mesh(element, level(root), number++, problems);
+  }
   const Entry* accuracy = document::find(root, "accuracy");
   if (accuracy != nullptr && !used)
     problems.add(accuracy->value.origin, "accuracy",

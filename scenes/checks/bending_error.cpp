@@ -19,6 +19,7 @@ struct Rows {
 };
 
 std::optional<Rows> rows_of(const ParticleSpec& particle) {
+  if (particle.grains) return std::nullopt;
   if (const auto* bar = std::get_if<RectangleOutline>(&particle.outline)) {
     const auto& mesh = std::get<RectangleMesh>(particle.mesh);
     const double length = std::max(bar->width, bar->height);

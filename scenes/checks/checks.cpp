@@ -92,6 +92,10 @@ class Checks {
       if (!std::visit([&](const auto& outline) { return is_good(path, outline); },
                       particle.outline))
         continue;
+      if (particle.grains) {
+        grains(path, particle);
+        continue;
+      }
       if (!size_alone(path, particle)) continue;
       mesh_of_size(particle);
       std::visit([&](const auto& outline) { check(path, outline, particle.mesh); },
@@ -109,6 +113,18 @@ class Checks {
       return faults.empty();
     }
     return true;
+  }
+
+  void grains(const std::string& path, const ParticleSpec& particle) {
+    if (particle.grains->number.has_value() == particle.grains->size.has_value())
+      refuse(path + "grains", "how many there are is not said, or twice, allowed: number or size");
+    if (std::holds_alternative<RingOutline>(particle.outline))
+      refuse(path + "grains", "a ring is not cut, allowed: an outline without a hole");
+    const auto* disc = std::get_if<DiscMesh>(&particle.mesh);
+    if (disc != nullptr && disc->refinement != 1)
+      refuse(path + "mesh.refinement", "has no effect on grains, allowed: 1");
+    if (particle.random_mesh_phase || particle.mesh_phase != 0)
+      refuse(path + "mesh.phase", "has no effect on grains, allowed: 0 deg");
   }
 
   // The wanted size decides on the counts.
@@ -222,12 +238,13 @@ class Checks {
   }
 
   std::int64_t quads_of(int particle) const {
-    return quads(scene_.particles[static_cast<std::size_t>(particle)].mesh);
+    const ParticleSpec& spec = scene_.particles[static_cast<std::size_t>(particle)];
+    return spec.grains ? 0 : quads(spec.mesh);  // grains are bounded in number
   }
 
   void counts() {
     for (std::size_t i = 0; i < scene_.particles.size(); ++i)
-      if (quads(scene_.particles[i].mesh) > max_quads_a_particle)
+      if (!scene_.particles[i].grains && quads(scene_.particles[i].mesh) > max_quads_a_particle)
         refuse(fmt::format("particle[{}].mesh", i),
                fmt::format("the mesh has {} quads, allowed: at most {}",
                            quads(scene_.particles[i].mesh), max_quads_a_particle));
@@ -331,7 +348,7 @@ class Checks {
 
   void bonds() {
     constexpr std::size_t most_bonds = 255;
-    std::set<std::tuple<BondSpec::Origin, std::string, std::string>> named;
+    std::set<std::tuple<BondSpec::Origin, bool, std::string, std::string>> named;
     for (std::size_t i = 0; i < scene_.bonds.size(); ++i) {
       const BondSpec& bond = scene_.bonds[i];
       const std::string path = fmt::format("bond[{}].between", i);
@@ -343,7 +360,7 @@ class Checks {
           refuse(path, fmt::format("nothing touches the constraint '{}', allowed: tools that are "
                                    "no constraints",
                                    tool.name));
-      if (!named.insert({bond.origin, first, second}).second)
+      if (!named.insert({bond.origin, bond.inside, first, second}).second)
         refuse(path, fmt::format("the pair '{}' and '{}' is named twice with this origin, allowed: "
                                  "once",
                                  first, second));

@@ -74,6 +74,13 @@ std::vector<Key<BondSpec>> bond_origin_keys() {
             .doc = "Share of the boundary edge within which surfaces that face each other are "
                    "bonded."},
            to(&BondSpec::reach)},
+          {{.name = "inside",
+            .kind = Kind::flag,
+            .fallback = value_of(false),
+            .only_for = "initial",
+            .doc = "Only between grains of one particle, where it goes before another bond of these "
+                   "materials."},
+           flag_to(&BondSpec::inside)},
           {{.name = "weibull_modulus",
             .kind = Kind::number,
             .range = within(0.5, 1000),

@@ -14,6 +14,7 @@ const TableDeclaration<FlowLaw>& hardening();
 const TableDeclaration<FlowLaw>& rate();
 const TableDeclaration<ParticleSpec>& particle();
 const TableDeclaration<ParticleSpec>& mesh();
+const TableDeclaration<GrainsSpec>& grains();
 const TableDeclaration<BodySpec>& body();
 const TableDeclaration<PackingSpec>& packing();
 const TableDeclaration<MixtureClass>& mixture_class();

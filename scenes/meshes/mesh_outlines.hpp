@@ -15,6 +15,9 @@ void mesh_outline(const RoundedRectangleOutline& rectangle, const RoundedRectang
                   double phase, Shape& shape);
 void mesh_outline(const RingOutline& ring, const RingMesh& mesh, double phase, Shape& shape);
 
+// A grain has its nodes where its neighbours have theirs.
+void mesh_outline(const GrainOutline& grain, const StarMesh& mesh, double phase, Shape& shape);
+
 // Of every outline that is a curve; its mesh does not turn.
 void mesh_star(const OutlineCurve& curve, const StarMesh& mesh, Shape& shape);
 template <class Curved>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "engine/portable_math.hpp"
 #include "scenes/outlines/closed_spline.hpp"
@@ -144,6 +145,42 @@ OutlineCurve curve_of(const PointsOutline& outline) {
   if (outline.diameter) scale = *outline.diameter / (2 * std::sqrt(curve.area() / pi));
   if (outline.area) scale = std::sqrt(*outline.area / curve.area());
   return scale == 1 ? curve : OutlineCurve(std::move(pieces), false, scale);
+}
+
+OutlineCurve curve_of(const GrainOutline& outline) {
+  std::vector<Piece> pieces;
+  const std::size_t n = outline.faces.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const GrainOutline::Face& face = outline.faces[i];
+    if (face.on_outline())
+      pieces.push_back([particle = outline.particle, face](double t) {
+        const double length = face.end - face.begin, round = particle->length();
+        const auto place = particle->at(std::fmod(face.begin + t * length, round));
+        return Point{place.at, length * Vec2(-place.normal.y(), place.normal.x())};
+      });
+    else
+      pieces.push_back(flat(face.from, outline.faces[(i + 1) % n].from));
+  }
+  return {std::move(pieces), true};
+}
+
+OutlineCurve any_curve(const Outline& outline) {
+  if (const auto* disc = std::get_if<DiscOutline>(&outline))
+    return curve_of(EllipseOutline{disc->diameter, disc->diameter});
+  const auto box = [](double width, double height, double rounding) {
+    const Vec2 half(width / 2, height / 2), other(-half.x(), half.y());
+    return curve_of(PolygonOutline{.corners = {-half, -other, half, other}, .rounding = rounding});
+  };
+  if (const auto* o = std::get_if<RectangleOutline>(&outline)) return box(o->width, o->height, 0);
+  if (const auto* o = std::get_if<RoundedRectangleOutline>(&outline))
+    return box(o->width, o->height, o->radius);
+  return std::visit(
+      [](const auto& o) {
+        if constexpr (requires { curve_of(o); }) return curve_of(o);
+        throw std::logic_error("no curve with a hole");
+        return curve_of(EllipseOutline{});
+      },
+      outline);
 }
 
 }  // namespace pulvis

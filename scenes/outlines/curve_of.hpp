@@ -11,6 +11,10 @@ OutlineCurve curve_of(const EllipseOutline& outline);
 OutlineCurve curve_of(const SuperellipseOutline& outline);
 OutlineCurve curve_of(const PolygonOutline& outline);
 OutlineCurve curve_of(const PointsOutline& outline);
+OutlineCurve curve_of(const GrainOutline& outline);
+
+// Of any outline without a hole.
+OutlineCurve any_curve(const Outline& outline);
 
 // Corners counter-clockwise, as mirrored as it says; not yet rounded, nor moved to the centre.
 std::vector<Vec2> corners_of(const PolygonOutline& polygon);

@@ -30,6 +30,9 @@ PointsOutline scaled_by(double f, PointsOutline o) {
   return o;
 }
 
+// Particles are scaled before they are cut into grains.
+GrainOutline scaled_by(double, const GrainOutline& o) { return o; }
+
 }  // namespace
 
 Outline scaled(const Outline& outline, double factor) {

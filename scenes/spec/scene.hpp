@@ -116,8 +116,39 @@ struct PointsOutline {
   std::optional<double> area = {};      // m^2
   bool mirrored = false;                // x -> -x
 };
-using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline,
-                             EllipseOutline, SuperellipseOutline, PolygonOutline, PointsOutline>;
+class OutlineCurve;  // scenes/outlines/outline_curve.hpp
+
+// One grain of a particle: its faces to other grains are straight, the others lie on the particle's outline. No scene
+// names it (scenes/grains).
+struct GrainOutline {
+  using Mesh = StarMesh;
+  struct Face {
+    Vec2 from = Vec2::Zero();   // m, in the particle's frame
+    double begin = 0, end = 0;  // m, along the particle's outline; both 0: straight
+    int edges = 1;              // of the mesh
+    bool on_outline() const { return begin != end; }
+  };
+  std::vector<Face> faces = {};
+  std::shared_ptr<const OutlineCurve> particle = {};
+  double edge = 0;  // m, wanted length of the mesh's edges
+};
+using Outline =
+    std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline, EllipseOutline,
+                 SuperellipseOutline, PolygonOutline, PointsOutline, GrainOutline>;
+
+struct GrainsSpec {  // what a particle is made of: a Voronoi tessellation
+  std::optional<int> number;
+  std::optional<double> size;  // m, mean: diameter of the circle of the mean area
+  int variants = 4;            // tessellations that the particles of a class share
+  int relaxation = 5;          // steps of Lloyd's method
+  double aspect_ratio = 1;     // -
+  double direction = 0;        // rad, of the longer side
+  int edges = 12;              // of the mesh around a mean grain
+};
+struct GrainPlace {
+  int grain;  // position in Scene::grains
+  Vec2 at;       // m, its centre in the frame of the particle
+};
 
 struct ParticleSpec {  // a class of equal particles
   std::string name;
@@ -131,6 +162,9 @@ struct ParticleSpec {  // a class of equal particles
   std::optional<double> mesh_size = {};  // m, of the edges; the counts in `mesh` come from it
   int class_of = -1;  // of one size of a packing: the class that is scaled, in Scene::particles
   double scale = 1;   // of that class's outline
+  std::optional<GrainsSpec> grains = {};
+  // [variants][grains], when the scene has been read.
+  std::vector<std::vector<GrainPlace>> tessellations = {};
 };
 
 struct BodySpec {                // one particle, placed by hand
@@ -140,6 +174,7 @@ struct BodySpec {                // one particle, placed by hand
   Vec2 velocity = Vec2::Zero();  // m/s
   double angular_velocity = 0;   // rad/s
   SourceMark mark;
+  int parent = -1;  // of a grain: the particle's number in the order of placement
 };
 
 // By number: uniform, normal, log-normal; by area: sieve. The size of a particle is the smallest width of its
@@ -292,6 +327,7 @@ struct BondSpec {  // of one pair of names (materials or tools)
   double growth = 0;                                             // -
   double work = 0;                                               // J/m^2, of adhesion
   double range = 0;                                              // m
+  bool inside = false;                                           // only between grains of one particle
   SourceMark mark;
 };
 
@@ -366,6 +402,7 @@ struct Scene {
   std::uint64_t seed = 1;
   std::vector<MaterialSpec> materials;
   std::vector<ParticleSpec> particles;
+  std::vector<ParticleSpec> grains;     // of particles that are made of them
   std::vector<BodySpec> bodies;         // [[body]]
   std::vector<PackingSpec> packings;    // [[packing]]
   std::vector<ToolSpec> tools;          // [[tool]]
@@ -381,6 +418,11 @@ struct Scene {
   // family = "afm": then there are no particles, tools and stages. Not changed once it is read.
   std::shared_ptr<AfmScene> afm;
 
+  // Of a particle, or of a grain: those are counted behind.
+  const ParticleSpec& class_of(const BodySpec& body) const {
+    const auto number = static_cast<std::size_t>(body.particle);
+    return number < particles.size() ? particles[number] : grains.at(number - particles.size());
+  }
   const std::filesystem::path& file_of(const SourceMark& mark) const {
     return mark.file == 0 ? file : extended.at(static_cast<std::size_t>(mark.file - 1));
   }

@@ -30,10 +30,10 @@ BondRules::Law law_of(const Scene& scene, const BondSpec& spec) {
 }
 
 std::uint8_t number_of(const Scene& scene, BondSpec::Origin origin, const std::string& a,
-                       const std::string& b) {
+                       const std::string& b, bool inside = false) {
   for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
     const BondSpec& bond = scene.bonds[i];
-    if (bond.origin == origin &&
+    if (bond.origin == origin && bond.inside == inside &&
         std::minmax(bond.first, bond.second) == std::minmax(a, b))
       return static_cast<std::uint8_t>(i + 1);
   }
@@ -57,6 +57,8 @@ BondRules bond_rules(const Scene& scene) {
     for (const MaterialSpec& b : scene.materials) {
       rules.initial.push_back(number_of(scene, Origin::initial, a.name, b.name));
       rules.pressed.push_back(number_of(scene, Origin::pressed, a.name, b.name));
+      const std::uint8_t inside = number_of(scene, Origin::initial, a.name, b.name, true);
+      rules.inside.push_back(inside != 0 ? inside : rules.initial.back());
     }
   for (const ToolSpec& tool : scene.tools)
     for (const MaterialSpec& m : scene.materials) {
@@ -82,7 +84,7 @@ double stiffest_bond(const BondRules& rules, int material) {
     if (number != 0) stiffest = std::max(stiffest, rules.law(number).stiffness);
   };
   for (int other = 0; other < rules.materials; ++other)
-    for (const auto* numbers : {&rules.initial, &rules.pressed})
+    for (const auto* numbers : {&rules.initial, &rules.inside, &rules.pressed})
       take(*numbers, material * rules.materials + other);
   const int tools = static_cast<int>(rules.tool_initial.size()) / rules.materials;
   for (int tool = 0; tool < tools; ++tool)
@@ -101,7 +103,7 @@ class SoftestSprings {
     materials_of_shapes();
     for (const auto& [a, m] : used_)
       for (const auto& [b, n] : used_)
-        for (const auto* numbers : {&rules.initial, &rules.pressed})
+        for (const auto* numbers : {&rules.initial, &rules.inside, &rules.pressed})
           take(entry(*numbers, m * rules.materials + n), pair(a, m, b, n));
     const int tools = static_cast<int>(scene.tools.size());
     for (const auto& [a, m] : used_)

@@ -94,21 +94,26 @@ bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
 std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
   const Bodies& bodies = world.resource<Bodies>();
-  if (tool.body >= bodies.particles())
+  int last = 0;  // a particle's grains are all held
+  for (const Bodies::Slot& slot : bodies.slots) last = std::max(last, slot.parent);
+  if (tool.body > last)
     refuse(scene, number, "body",
-           fmt::format("there is no particle {}, allowed: >= 0 and <= {}", tool.body,
-                       bodies.particles() - 1));
-  const int slot = bodies.slot_of_number[static_cast<std::size_t>(tool.body)];
-  const std::vector<Vec2> places = places_of(world, slot);
-  const double size = size_of(places);
+           fmt::format("there is no particle {}, allowed: >= 0 and <= {}", tool.body, last));
+  std::vector<Vec2> all;
   std::vector<Held> held;
-  for (std::size_t n = 0; n < places.size(); ++n)
-    if (holds_place(tool, places[n], round_off * size))
-      hold_node(
-          scene,
-          {slot / lane_count, static_cast<std::int32_t>(n), slot % lane_count, number, places[n]},
-          size, held);
-  if (held.empty()) refuse_empty(scene, number, places);
+  for (int slot = 0; slot < static_cast<int>(bodies.slots.size()); ++slot) {
+    if (entry(bodies.slots, slot).parent != tool.body) continue;
+    const std::vector<Vec2> places = places_of(world, slot);
+    const double size = size_of(places);
+    for (std::size_t n = 0; n < places.size(); ++n)
+      if (holds_place(tool, places[n], round_off * size))
+        hold_node(scene,
+                  {slot / lane_count, static_cast<std::int32_t>(n), slot % lane_count, number,
+                   places[n]},
+                  size, held);
+    all.insert(all.end(), places.begin(), places.end());
+  }
+  if (held.empty()) refuse_empty(scene, number, all);
   return held;
 }
 

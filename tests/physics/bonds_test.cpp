@@ -1,5 +1,6 @@
 // Bonds against laws: a glued bar is a bar, a glued body that turns is a body, glue takes its energy at any mesh and in
 // any mode, and nothing depends on threads.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -178,7 +179,7 @@ TEST(Glue, IsBitwiseTheSameForAnyThreads) {
 }
 
 TEST(Glue, TooBrittleForItsMeshIsRefusedWithTheLeastEnergy) {
-  EXPECT_THAT(messages_of([] {
+  EXPECT_THAT(message_of([] {
                 Experiment e("bonds/pulled-blocks.toml",
                              {"bond[0].fracture_energy=1 mJ/m^2"});
               }),
