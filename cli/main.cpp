@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <new>
 #include <sstream>
 #include <system_error>
@@ -31,6 +32,7 @@
 #include "engine/machine_memory.hpp"
 #include "scenes/build.hpp"
 #include "scenes/checks/bending_error.hpp"
+#include "scenes/checks/bond_checks.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/keys/scene_reference.hpp"
 #include "scenes/language/units.hpp"
@@ -41,6 +43,7 @@
 #include "scenes/records/lab_settings.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/study/study_read.hpp"
+#include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/constraints.hpp"
 
 namespace pulvis {
@@ -115,10 +118,15 @@ ExitCode check(const Options& options) {
   if (scene.afm) return check_afm_scene(scene);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
-  if (std::ranges::any_of(scene.tools, is_constraint)) build_world(scene);  // it finds their nodes
+  std::vector<std::string> warnings = bending_warnings(scene);
+  if (has_bonds(scene))  // what is bonded is known once contacts have been looked for
+    std::ranges::move(bond_warnings(scene, Simulation(scene).world()),
+                      std::back_inserter(warnings));
+  else if (std::ranges::any_of(scene.tools, is_constraint))
+    build_world(scene);  // it finds their nodes
   tell("{}", packing_summary(scene));
   print_meshes(scene);
-  for (const std::string& line : bending_warnings(scene)) tell("warning: {}\n", line);
+  for (const std::string& line : warnings) tell("warning: {}\n", line);
   const MemoryNeed need = memory_need(scene);
   tell("memory: about {}: {} of particles, {} of contacts, {} of results, {} of program\n",
        bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),

@@ -18,6 +18,7 @@
 #include "engine/files/run_folder.hpp"
 #include "engine/run_failure.hpp"
 #include "scenes/checks/bending_error.hpp"
+#include "scenes/checks/bond_checks.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/read.hpp"
@@ -74,6 +75,7 @@ struct Run {
   Expectations expectations;
   CompactionCurve compaction;
   ContactLoading contacts;
+  std::vector<std::string> bond_warnings;  // of those made at the start
   std::vector<Verdict> verdicts;
   Timetable samples, frames;
   bool ended = false;  // and its last sample is taken
@@ -92,6 +94,7 @@ struct Run {
         expectations(scene.scene),
         compaction(scene.scene),
         contacts(scene.scene),
+        bond_warnings(pulvis::bond_warnings(scene.scene, simulation->world())),
         samples(clock().end, std::max(scene.scene.output.samples, scene.scene.output.frames)),
         frames(clock().end, scene.scene.output.frames),
         checkpoints(scene, where, given.checkpoints) {}
@@ -105,6 +108,8 @@ struct Run {
                       fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
         results.mesh(), results.series(), results.fields());
     checkpoints.of_run(recorder->run_id());
+    if (options.talks())
+      for (const std::string& line : bond_warnings) tell("warning: {}\n", line);
     progress = std::make_unique<Progress>(clock().end, results.elements(), options.talks());
   }
 
@@ -184,6 +189,7 @@ struct Run {
   // What its user should know of its figures.
   RunQuality quality() const {
     RunQuality found{contacts.findings(), bending_warnings(loaded.scene)};
+    found.warnings.insert(found.warnings.end(), bond_warnings.begin(), bond_warnings.end());
     for (std::string& line : found.contacts.warnings()) found.warnings.push_back(std::move(line));
     return found;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "components/contact.hpp"
@@ -143,6 +144,14 @@ struct BondTotals {
   double area = 0;                // m^2, bonded now, the mean of both sides
   double crack_length = 0;        // m, broken
   std::vector<std::int32_t> made;  // [laws] points bonded at the start
+  struct Gap {
+    double width = std::numeric_limits<double>::infinity();  // m
+    double share = std::numeric_limits<double>::infinity();  // -, of the boundary edge
+    void take(double gap, double length) {
+      if (gap < share * length) *this = {gap, gap / length};
+    }
+  };
+  std::vector<Gap> nearest;       // [laws] surfaces that face each other; found anew at every start
   std::vector<Crack> cracks;      // in the order in which they came
 
   template <class Bytes>

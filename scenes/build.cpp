@@ -397,7 +397,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
           world->emplace<BondRules>(bounded_by(layout.bodies, scene, bond_rules(scene)));
       for (int m = 0; m < bonds.materials; ++m)
         rules.bond_stiffness.push_back(stiffest_bond(bonds, m));
-      index.reach = longest_opening(bonds);
+      index.reach = longest_gap(layout.bodies, bonds);
     }
     for (const ContactRules::Adhesion& adhesion : rules.adhesion)
       index.reach = std::max(index.reach, adhesion.range);
@@ -413,8 +413,11 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.flow_laws) world->emplace<FlowLaws>(flow_laws(scene));
   add_clock(*world, scene);
   world->emplace<Totals>();
-  if (has_bonds(scene))
-    world->emplace<BondTotals>().made.assign(scene.bonds.size(), 0);
+  if (has_bonds(scene)) {
+    BondTotals& totals = world->emplace<BondTotals>();
+    totals.made.assign(scene.bonds.size(), 0);
+    totals.nearest.resize(scene.bonds.size());
+  }
   world->emplace<Bodies>(std::move(layout.bodies));
   if (needs.constraints) add_constraints(*world, scene);
   add_observed(*world, scene);

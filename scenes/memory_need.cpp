@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/body.hpp"
+#include "components/bond.hpp"
 #include "components/contact.hpp"
 #include "components/highest_mode.hpp"
 #include "engine/files/output_error.hpp"
@@ -50,8 +51,14 @@ std::uint64_t row_bytes(const Needs& needs) {
   using At = Contact;
   std::uint64_t bytes = bytes_of<ContactPair<At>, ContactTouches<At>, ActivationTravel<At>,
                                  ContactLaw<At>, PointForce<At>, ContactPlace, ClosestPoint>();
-  if (needs.friction) bytes += bytes_of<ElasticSlip<At>, FrictionCouple>();
+  if (needs.friction) bytes += bytes_of<ElasticSlip<At>>();
+  if (needs.friction || needs.bonds) bytes += bytes_of<FrictionCouple>();
   if (needs.weakening) bytes += bytes_of<FrictionMore<At>, SlipWeakening<At>>();
+  if (needs.adhesion) bytes += bytes_of<AdhesionLaw<At>>();
+  if (needs.bonds)
+    bytes += bytes_of<BondLawNumber<At>, BondedPoints<At>, BondOffset<At>, BondStrength<At>,
+                      BondDamage<At>, CurveAnchor>();
+  if (needs.welds) bytes += bytes_of<WeldPressure<At>>();
   return bytes;
 }
 

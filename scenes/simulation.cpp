@@ -5,6 +5,7 @@
 
 #include "components/servo.hpp"
 #include "scenes/build.hpp"
+#include "scenes/checks/bond_checks.hpp"
 
 namespace pulvis {
 
@@ -14,6 +15,7 @@ Simulation::Simulation(const Scene& scene, int threads)
     step_ = std::make_unique<Step>(*world_);
     step_->start();
   });
+  require_initial_bonds(scene, *world_);
 }
 
 Simulation::~Simulation() {

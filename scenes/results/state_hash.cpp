@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "components/bond.hpp"
 #include "components/contact.hpp"
 #include "components/probe.hpp"
 #include "components/run_state.hpp"
@@ -73,13 +74,18 @@ class StateHash {
     std::ranges::sort(touching);
     for (const auto& [number, edge, other, row] : touching) {
       add(std::array{number, edge, other});
-      if (world_.has<ElasticSlip<At>>())
-        for (int g = 0; g < edge_points; ++g)
-          add(world_.column<ElasticSlip<At>>().values()[edge_points * row + g]);
-      if (world_.has<SlipWeakening<At>>())
-        for (int g = 0; g < edge_points; ++g)
-          add(world_.column<SlipWeakening<At>>().values()[edge_points * row + g]);
+      add_points<ElasticSlip<At>>(row);
+      add_points<SlipWeakening<At>>(row);
+      if (!world_.has<BondedPoints<At>>()) continue;
+      add(world_.column<BondedPoints<At>>().values()[row]);
+      add_points<BondDamage<At>>(row);
     }
+  }
+  template <class C>
+  void add_points(int row) {
+    if (!world_.has<C>()) return;
+    for (int g = 0; g < edge_points; ++g)
+      add(world_.column<C>().values()[edge_points * row + g]);
   }
 
   const World& world_;

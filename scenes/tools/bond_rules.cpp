@@ -68,12 +68,17 @@ BondRules bond_rules(const Scene& scene) {
   return rules;
 }
 
-double longest_opening(const BondRules& rules) {
+double longest_gap(const Bodies& bodies, const BondRules& rules) {
+  double edge = 0;
+  for (const Shape& shape : bodies.shapes)
+    for (const Shape::Edge& e : shape.edges) edge = std::max(edge, e.length);
   double longest = 0;
-  for (const BondRules::Law& law : rules.laws)
-    if (law.strength > 0)
-      longest = std::max({longest, 2 * law.energy / law.strength,
-                        2 * law.shear_energy / law.shear_strength});
+  for (const BondRules::Law& law : rules.laws) {
+    if (law.strength == 0) continue;
+    const double opening =
+        2 * std::max(law.energy / law.strength, law.shear_energy / law.shear_strength);
+    longest = std::max(longest, law.reach * edge + opening);
+  }
   return longest;
 }
 

@@ -19,7 +19,8 @@ BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules);
 // -, stiffness over the contact spring's of the stiffest bond that a material can have.
 double stiffest_bond(const BondRules& rules, int material);
 
-// m, opening at which a bond is broken, in its longest mode.
-double longest_opening(const BondRules& rules);
+// m, gap across which a bond can hold: what was bonded at the start, and the opening at which it is broken in its longest
+// mode.
+double longest_gap(const Bodies& bodies, const BondRules& rules);
 
 }  // namespace pulvis

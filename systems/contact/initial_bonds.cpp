@@ -60,9 +60,10 @@ void initial_bonds::operator()() const {
       const Point n = curve.normal(there.u), on = curve.value(there.u), from = sampled.value(u);
       const Point own = sampled.normal(u), d{from[0] - on[0], from[1] - on[1]};
       const BondOpening opening{d[0] * n[0] + d[1] * n[1], d[1] * n[0] - d[0] * n[1]};
-      if (std::abs(opening.normal) > law.reach * length || std::abs(opening.along) > beside * length ||
-          n[0] * own[0] + n[1] * own[1] > facing)
+      if (std::abs(opening.along) > beside * length || n[0] * own[0] + n[1] * own[1] > facing)
         continue;
+      entry(totals->nearest, number - 1).take(std::abs(opening.normal), length);
+      if (std::abs(opening.normal) > law.reach * length) continue;
       at.anchor(row, g) = at_other;
       make_bond(rows, row, g, number, strength, opening);
       entry(totals->made, number - 1) += 1;

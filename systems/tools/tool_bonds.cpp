@@ -105,7 +105,9 @@ void initial_tool_bonds::operator()() const {
     const RowStand stand = stand_of(*bodies, at, rows.pair, row);
     const double strength = drawn_strength(law, body.number, -1 - tool);
     for (int g = 0; g < edge_points; ++g) {
-      if (std::abs(stand.motion.gap[g]) > law.reach * length) continue;
+      const double gap = std::abs(stand.motion.gap[g]);
+      entry(totals->nearest, number - 1).take(gap, length);
+      if (gap > law.reach * length) continue;
       set_anchor(stand, row, g, anchor);
       make_bond(rows, row, g, number, strength, {-stand.motion.gap[g], 0});
       entry(totals->made, number - 1) += 1;

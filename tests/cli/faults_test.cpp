@@ -1,5 +1,6 @@
 // When the machine fails a run: exit code 4, a message that names file and reason, and every frame that was
 // written before can be read. What was stopped goes on as soon as the cause is gone.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -192,6 +193,35 @@ TEST(MemoryNeed, ContactRowsOfADensePowderAreWithin) {
   const auto promised = static_cast<double>(memory_need(e.scene).contacts);
   EXPECT_LT(rows, promised);
   EXPECT_GT(rows, 0.2 * promised);
+}
+
+// Of a row: what the columns of bonds add to the others.
+TEST(MemoryNeed, RowsGrowByTheirColumnsOfBonds) {
+  const auto bond = [](const char* origin, const char* keys) {
+    return fmt::format("[[bond]]\nbetween = [\"316L\", \"316L\"]\norigin = \"{}\"\n{}\n", origin,
+                       keys);
+  };
+  const std::string law = "strength = \"10 MPa\"\nfracture_energy = \"50 J/m^2\"\n";
+  const std::string glue = bond("initial", law.c_str());
+  const std::string weld = bond("pressed", (law + "threshold = \"5 MPa\"\ngrowth = 0.1").c_str());
+  const std::string dust = bond("adhesion", "work = \"0.1 J/m^2\"\nrange = \"1 um\"");
+  struct Rows {
+    double bytes, promised;
+  };
+  const auto rows_with = [](const std::string& bonds) {
+    Experiment e(own_scene("extends = \"" + paths::source_dir() +
+                           "/scenes/compaction/regular-25.toml\"\n" + bonds));
+    double bytes = 0;
+    for (const ColumnBase* column : e.simulation.world().columns())
+      if (column->entity == Contact::name) bytes += static_cast<double>(column->row_bytes);
+    return Rows{bytes, static_cast<double>(memory_need(e.scene).contacts)};
+  };
+  const Rows plain = rows_with("");
+  for (const std::string& bonds : {glue, weld, dust, glue + weld + dust}) {
+    const Rows bonded = rows_with(bonds);
+    EXPECT_GT(bonded.bytes, plain.bytes);
+    EXPECT_NEAR(bonded.promised / plain.promised, bonded.bytes / plain.bytes, 1e-9) << bonds;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,137 @@
+#include "scenes/checks/bond_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "components/bond.hpp"
+#include "components/run_state.hpp"
+#include "scenes/language/problem.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double edges_in_zone = 3;
+constexpr double zone_factor = 0.88;
+constexpr double largest_reach = 0.5;  // that a scene may ask for
+
+std::string what_would_bond(const BondTotals::Gap& nearest, const World& world) {
+  const ContactIndex* index = world.has<ContactIndex>() ? &world.resource<ContactIndex>() : nullptr;
+  if (nearest.share == std::numeric_limits<double>::infinity())
+    return index == nullptr
+               ? "there is nothing that could touch, allowed: bodies that touch at the start"
+               : fmt::format(
+                     "no surfaces of them face each other within {:.4g} m, as far as this "
+                     "`reach` looks, allowed: bodies that touch at the start, or a larger "
+                     "reach",
+                     index->skin + index->reach);
+  const double needed = 1.001 * nearest.share;  // as it is printed, it must do
+  if (needed > largest_reach)
+    return fmt::format(
+        "the nearest surfaces are {:.4g} m apart, {:.3g} of their edge, allowed: bodies "
+        "that touch, or a gap of at most {} of the edge",
+        nearest.width, nearest.share, largest_reach);
+  return fmt::format("the nearest surfaces are {:.4g} m apart, allowed: reach >= {:.4g}",
+                     nearest.width, needed);
+}
+
+// ---- how long interfaces are ---------------------------------------------------------------------------
+// One side's bonded edges along one neighbour.
+struct Interface {
+  int edges = 0;
+  double length = 0;   // m
+  double longest = 0;  // m, edge
+};
+struct InterfaceKey {
+  int law, slot, other;
+  bool tool;
+  auto operator<=>(const InterfaceKey&) const = default;
+};
+using Interfaces = std::map<InterfaceKey, Interface>;
+
+template <class At>
+void add_interfaces(const World& world, Interfaces& all) {
+  if (!world.has<BondedPoints<At>>()) return;
+  const auto& bodies = world.resource<Bodies>();
+  const auto& pair = world.column<ContactPair<At>>();
+  const auto& points = world.column<BondedPoints<At>>();
+  const auto& law = world.column<BondLawNumber<At>>();
+  for (std::size_t r = 0; r < pair.table.rows; ++r) {
+    const unsigned bonded = points.values()[r];
+    if (bonded == 0) continue;
+    const std::int32_t* key = pair.values() + 3 * r;
+    const Shape::Edge& edge = entry(bodies.shape_of_slot(key[0]).edges, key[1]);
+    Interface& found =
+        all[{law.values()[2 * r] - 1, key[0], key[2], std::is_same_v<At, ToolContact>}];
+    found.edges += 1;
+    found.length += edge.length * std::popcount(bonded) / edge_points;
+    found.longest = std::max(found.longest, edge.length);
+  }
+}
+
+double plane_strain_modulus(const MaterialSpec& m) {
+  return m.youngs_modulus / (1 - m.poissons_ratio * m.poissons_ratio);
+}
+
+// m, of the law between the two materials; a tool does not give.
+double zone_length(const Scene& scene, const BondRules::Law& law, int material, int other) {
+  double modulus = plane_strain_modulus(entry(scene.materials, material));
+  if (other >= 0) modulus = std::min(modulus, plane_strain_modulus(entry(scene.materials, other)));
+  return zone_factor * modulus *
+         std::min(law.energy / (law.strength * law.strength),
+                  law.shear_energy / (law.shear_strength * law.shear_strength));
+}
+
+}  // namespace
+
+void require_initial_bonds(const Scene& scene, const World& world) {
+  if (!world.has<BondTotals>()) return;
+  const auto& totals = world.resource<BondTotals>();
+  std::vector<SceneProblem> problems;
+  for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
+    const BondSpec& bond = scene.bonds[i];
+    if (bond.origin != BondSpec::Origin::initial || totals.made[i] > 0) continue;
+    problems.push_back(
+        {scene.file_of(bond.mark).string(), bond.mark.line, bond.mark.column, "",
+         fmt::format("bond[{}].reach", i),
+         fmt::format("nothing of '{}' and '{}' is bonded at the start: {}", bond.first, bond.second,
+                     what_would_bond(totals.nearest[i], world))});
+  }
+  if (!problems.empty()) throw SceneError(problems);
+}
+
+std::vector<std::string> bond_warnings(const Scene& scene, const World& world) {
+  if (!world.has<BondRules>()) return {};
+  const auto& rules = world.resource<BondRules>();
+  const auto& bodies = world.resource<Bodies>();
+  Interfaces all;
+  add_interfaces<Contact>(world, all);
+  add_interfaces<ToolContact>(world, all);
+  struct Coarsest {
+    double zone = 0, edge = 0;
+  };
+  std::map<int, Coarsest> coarse;  // by law
+  for (const auto& [key, found] : all) {
+    const int material = entry(bodies.slots, key.slot).material;
+    const int other = key.tool ? -1 : entry(bodies.slots, key.other).material;
+    const double zone = zone_length(scene, rules.law(key.law + 1), material, other);
+    if (found.edges < 2 || found.length <= zone || zone >= edges_in_zone * found.longest) continue;
+    Coarsest& worst = coarse[key.law];
+    if (zone * worst.edge <= worst.zone * found.longest) worst = {zone, found.longest};
+  }
+  std::vector<std::string> lines;
+  for (const auto& [law, worst] : coarse)
+    lines.push_back(fmt::format(
+        "bond[{}] between '{}' and '{}' breaks over {:.3g} boundary edges ahead of a crack, at "
+        "least "
+        "{} resolve it: edges of {:.3g} m would do, they are up to {:.3g} m long",
+        law, entry(scene.bonds, law).first, entry(scene.bonds, law).second, worst.zone / worst.edge,
+        edges_in_zone, worst.zone / edges_in_zone, worst.edge));
+  return lines;
+}
+
+}  // namespace pulvis
