@@ -70,6 +70,7 @@ between = ["salt", "salt"]
 origin = "initial"
 strength = "1 GPa"
 fracture_energy = "50 kJ/m^2"
+stiffness = 2
 [[stage]]
 name = "press"
 duration = "0.1 ms"
