@@ -118,6 +118,9 @@ struct alignas(Registers * sizeof(simd::Register)) Pack {
   friend Pack sqrt(const Pack& a) {
     return each([&](std::size_t i) { return simd::sqrt(a.part[i]); });
   }
+  friend Pack whole(const Pack& a) {  // rounded towards zero
+    return each([&](std::size_t i) { return simd::whole(a.part[i]); });
+  }
   friend Pack min(const Pack& a, const Pack& b) {
     return each([&](std::size_t i) { return simd::lesser(b.part[i], a.part[i]); });
   }

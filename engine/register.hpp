@@ -25,6 +25,9 @@ inline Register load(const double* p) { return _mm512_loadu_pd(p); }
 inline void store(double* p, Register a) { _mm512_storeu_pd(p, a); }
 inline Register fma(Register a, Register b, Register c) { return _mm512_fmadd_pd(a, b, c); }
 inline Register sqrt(Register a) { return _mm512_sqrt_pd(a); }
+inline Register whole(Register a) {
+  return _mm512_roundscale_pd(a, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
 inline Register lesser(Register a, Register b) { return _mm512_min_pd(a, b); }
 inline Register greater(Register a, Register b) { return _mm512_max_pd(a, b); }
 inline Mask less(Register a, Register b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
@@ -48,6 +51,9 @@ inline Register load(const double* p) { return _mm256_loadu_pd(p); }
 inline void store(double* p, Register a) { _mm256_storeu_pd(p, a); }
 inline Register fma(Register a, Register b, Register c) { return _mm256_fmadd_pd(a, b, c); }
 inline Register sqrt(Register a) { return _mm256_sqrt_pd(a); }
+inline Register whole(Register a) {
+  return _mm256_round_pd(a, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
 inline Register lesser(Register a, Register b) { return _mm256_min_pd(a, b); }
 inline Register greater(Register a, Register b) { return _mm256_max_pd(a, b); }
 inline Mask less(Register a, Register b) {
@@ -84,6 +90,7 @@ inline Register fma(Register a, Register b, Register c) {
   return Register{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1])};
 }
 inline Register sqrt(Register a) { return Register{std::sqrt(a[0]), std::sqrt(a[1])}; }
+inline Register whole(Register a) { return Register{std::trunc(a[0]), std::trunc(a[1])}; }
 inline Register lesser(Register a, Register b) { return a < b ? a : b; }
 inline Register greater(Register a, Register b) { return a > b ? a : b; }
 inline Mask less(Register a, Register b) { return a < b; }

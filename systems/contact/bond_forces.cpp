@@ -81,19 +81,15 @@ struct PairBonds {
     const Lane push = fma(f.x, m.point.nx, f.y * m.point.ny);
     const Lane size = fma(push, m.along, f.along * m.point.gap) * m.point.inv_slope;
     const Lane x = size * m.point.nx, y = size * m.point.ny;
-    for (int l = 0; l < lane_count; ++l) {
-      if ((bonded >> l & 1) == 0) continue;
-      double* couple = &s.at.couple(entry(two, l / edge_points), 2 * (l % edge_points));
-      couple[0] = x[l];
-      couple[1] = y[l];
-    }
+    for (int half = 0; half < count_of(two); ++half)
+      store_bonded(half_of(bonded, half), x, y, half, &s.at.couple(entry(two, half)));
   }
   // Where their forces act on the other body, and where the closest point is looked for once they break.
   void keep_anchors(const Two& two, unsigned bonded) const {
-    for (int l = 0; l < lane_count; ++l) {
-      if ((bonded >> l & 1) == 0) continue;
-      const Row<Contact> row = entry(two, l / edge_points);
-      s.at.closest(row, l % edge_points) = s.at.anchor(row, l % edge_points);
+    for (int half = 0; half < count_of(two); ++half) {
+      const Row<Contact> row = entry(two, half);
+      for (int g = 0; g < edge_points; ++g)
+        if ((half_of(bonded, half) >> g & 1) != 0) s.at.closest(row, g) = s.at.anchor(row, g);
     }
   }
 };

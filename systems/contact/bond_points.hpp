@@ -16,6 +16,8 @@
 
 namespace pulvis {
 
+inline constexpr unsigned all_of_a_half = (1U << edge_points) - 1;
+
 // How bonded points stand against their anchors.
 struct BondMotion {
   PointMotion point;  // against the surface at the anchor, as for contact
@@ -24,12 +26,12 @@ struct BondMotion {
 
 // Of the bonds of two candidates.
 struct BondLanes {
-  Lane k;                    // Pa/m, of both directions
-  Lane offset_n, offset_t;   // m
-  Lane strength;             // -, share
-  Lane damage;               // d before
-  LaneMask welded;           // by pressure
-  Lane weight;               // m^2, of the pass: area that the point stands for, times its share
+  Lane k;                   // Pa/m, of both directions
+  Lane offset_n, offset_t;  // m
+  Lane strength;            // -, share
+  Lane damage;              // d before
+  LaneMask welded;          // by pressure
+  Lane weight;              // m^2, of the pass: area that the point stands for, times its share
 };
 
 // Books of a block while it is looked at.
@@ -66,6 +68,25 @@ inline kernels::CohesiveLaw cohesive_law(const BondRules::Law& law, double k, do
           law.mixed_exponent};
 }
 
+// What bonded points of a half (bits) keep; the others keep what they have.
+inline void store_bonded(unsigned points, const Lane& now, int half, double* four) {
+  if (points == all_of_a_half)
+    store_half(now, half, four);
+  else
+    for (int g = 0; g < edge_points; ++g)
+      if ((points >> g & 1) != 0) four[g] = now[half * edge_points + g];
+}
+inline void store_bonded(unsigned points, const Lane& x, const Lane& y, int half, double* eight) {
+  if (points == all_of_a_half)
+    store_pairs_of_half(x, y, half, eight);
+  else
+    for (int g = 0; g < edge_points; ++g) {
+      if ((points >> g & 1) == 0) continue;
+      eight[2 * g] = x[half * edge_points + g];
+      eight[2 * g + 1] = y[half * edge_points + g];
+    }
+}
+
 // One pass over bonded rows; `share` of the stiffness and of the law in it: one half where the other particle samples
 // too, as in contact.
 template <class At>
@@ -98,8 +119,9 @@ class BondPass {
     const Lane d_n = -m.point.gap - b.offset_n, d_t = m.along - b.offset_t;
     Lane damage = b.damage;
     const Lane open = max(d_n, 0.0);
-    const Lane stored = 0.5 * b.k * fma(open, open, d_t * d_t);
-    const unsigned may = bonded & ((b.damage > 0.0) | (stored > onset_of(two, b))).bits();
+    const Lane square = b.k * b.k * fma(open, open, d_t * d_t);
+    const unsigned may =
+        bonded & ((b.damage > 0.0) | (square > onset_square(two) * b.strength * b.strength)).bits();
     unsigned broken = 0;
     if (may != 0) {
       const Openings openings{d_n, d_t, position};
@@ -109,7 +131,6 @@ class BondPass {
     // A weld's compression is contact's alone.
     const Lane normal = select(b.welded, open, d_n);
     const Lane spring_n = b.k * normal, spring_t = b.k * d_t;
-    PointForces f{};
     const LaneMask lanes = LaneMask::of(bonded);
     const Lane squeezed = select(b.welded, Lane{}, min(d_n, 0.0));
     const Lane of_compression = 0.5 * b.k * squeezed * squeezed;
@@ -118,7 +139,9 @@ class BondPass {
     Lane pull = -(held * spring_n) * b.weight, along = -(held * spring_t) * b.weight;
     const Lane grown = damage - b.damage;
     Lane spent = grown * of_compression * b.weight;
-    if (any(lanes & (contacts > 0.0) & (m.point.gap > 0.0))) {
+    PointForces f;
+    f.energy = f.friction_work = f.damping_work = f.elastic_slip = f.pressure = Lane{};
+    if (any(lanes & (contacts > 0.0) & (m.point.gap > -range_of(s_.rows, two)))) {
       const PointForces by_contact = contact();
       const auto [push, friction] = along_axes(by_contact, m.point);
       pull = fma(contacts, push, pull);
@@ -141,30 +164,35 @@ class BondPass {
   }
 
  private:
+  static constexpr double before_round_off = 1 - 1e-12;  // cohesive_damage decides
   struct Openings {
     const Lane &n, &t;
     const PointLanes& position;
   };
 
-  const BondRules::Law& law(Row<At> row) const { return s_.rules.law(s_.bonds.law(row, BondLawNumber<At>::bonded)); }
+  const BondRules::Law& law(Row<At> row) const {
+    return s_.rules.law(s_.bonds.law(row, BondLawNumber<At>::bonded));
+  }
   double stiffness(Row<At> row) const {
     return law(row).stiffness * s_.rows.law(row, ContactLaw<At>::stiffness);
   }
   BondLanes lanes_of(const Two& two) const {
-    return {halves(stiffness(two[0]), stiffness(two[1])),
-            at_points(s_.bonds.offset, two),
-            at_points(s_.bonds.offset, two, edge_points),
-            at_points(s_.bonds.strength, two),
-            at_points(s_.bonds.damage, two),
-            LaneMask::of((law(two[0]).pressed() ? 0x0fU : 0U) | (law(two[1]).pressed() ? 0xf0U : 0U)),
-            s_.share * at_points(s_.rows.law, two, ContactLaw<At>::weight)};
+    return {
+        halves(stiffness(two[0]), stiffness(two[1])),
+        at_points(s_.bonds.offset, two),
+        at_points(s_.bonds.offset, two, edge_points),
+        at_points(s_.bonds.strength, two),
+        at_points(s_.bonds.damage, two),
+        LaneMask::of((law(two[0]).pressed() ? 0x0fU : 0U) | (law(two[1]).pressed() ? 0xf0U : 0U)),
+        s_.share * at_points(s_.rows.law, two, ContactLaw<At>::weight)};
   }
-  // w0 below which nothing of the candidate is damaged. (J/m^2)
-  Lane onset_of(const Two& two, const BondLanes& b) const {
+  // Square of the traction below which nothing of the candidate is damaged, with its full strength. (Pa^2)
+  Lane onset_square(const Two& two) const {
     const auto least = [&](Row<At> row) {
-      return kernels::least_onset(cohesive_law(law(row), stiffness(row), 1));
+      const double weaker = std::min(law(row).strength, law(row).shear_strength);
+      return before_round_off * weaker * weaker;
     };
-    return halves(least(two[0]), least(two[1])) * b.strength * b.strength;
+    return halves(least(two[0]), least(two[1]));
   }
 
   // Grows the damage of the points that may: seldom, one by one. Returns those that broke.
@@ -188,9 +216,14 @@ class BondPass {
               const kernels::CohesiveLaw& of_point) const {
     const auto& pair = s_.rows.pair;
     const std::int32_t other = std::is_same_v<At, Contact> ? pair(row, 2) : -1 - pair(row, 2);
-    return {s_.clock.time, pair(row, 0),    pair(row, 1),
-            other,         o.position.x[l], o.position.y[l],
-            b.weight[l] / s_.thickness,     shear,
+    return {s_.clock.time,
+            pair(row, 0),
+            pair(row, 1),
+            other,
+            o.position.x[l],
+            o.position.y[l],
+            b.weight[l] / s_.thickness,
+            shear,
             b.weight[l] * kernels::fracture_energy(of_point, shear)};
   }
 
@@ -211,26 +244,18 @@ class BondPass {
   }
   // Only what is bonded: the narrow phase has answered for the others.
   void keep(const Two& two, unsigned bonded, const PointForces& f, const Lane& damage) const {
-    const LaneMask lanes = LaneMask::of(bonded);
-    const auto store = [&](const auto& column, int half, const Lane& now, int first = 0) {
-      double* four = &column(entry(two, half), first);
-      store_half(select(lanes, now, load_halves(four, four)), half, four);
-    };
     for (int half = 0; half < count_of(two); ++half) {
       const Row<At> row = entry(two, half);
+      const unsigned points = half_of(bonded, half);
       s_.rows.touches(row) = 1;
-      double* force = &s_.rows.force(row);
-      for (int g = 0; g < edge_points; ++g) {
-        if ((half_of(bonded, half) >> g & 1) == 0) continue;
-        force[2 * g] = f.x[half * edge_points + g];
-        force[2 * g + 1] = f.y[half * edge_points + g];
-      }
-      if (half_of(bonded, half) == BondedPoints<At>::all)
+      store_bonded(points, f.x, f.y, half, &s_.rows.force(row));
+      if (points == BondedPoints<At>::all)
         s_.rows.activation(row) = back_face;  // nothing is left for the narrow phase
-      store(s_.bonds.damage, half, damage);
-      if (s_.rows.sliding) store(s_.rows.sliding->elastic_slip, half, f.elastic_slip);
+      store_bonded(points, damage, half, &s_.bonds.damage(row));
+      if (s_.rows.sliding)
+        store_bonded(points, f.elastic_slip, half, &s_.rows.sliding->elastic_slip(row));
       if (s_.rows.bonding->weld)
-        store(*s_.rows.bonding->weld, half, (1 / s_.share) * f.pressure);
+        store_bonded(points, (1 / s_.share) * f.pressure, half, &(*s_.rows.bonding->weld)(row));
     }
   }
   // From the next step on the contact of broken points is the narrow phase's.
@@ -244,8 +269,7 @@ class BondPass {
       for (int g = 0; g < edge_points; ++g) {
         if ((points >> g & 1) == 0) continue;
         s_.bonds.damage(row, g) = 0;
-        if (s_.rows.bonding->weld)
-          (*s_.rows.bonding->weld)(row, WeldPressure<At>::largest + g) = 0;
+        if (s_.rows.bonding->weld) (*s_.rows.bonding->weld)(row, WeldPressure<At>::largest + g) = 0;
       }
     }
   }

@@ -17,14 +17,13 @@ struct CurvePoints {
   // The closest points that two candidates keep.
   template <class Access, class At>
   static CurvePoints of(const Access& closest, const TwoCandidates<At>& two) {
-    std::array<double, lane_count> number, u;
-    load_halves(&closest(two[0]).number, &closest(two[1]).number).store(number.data());
+    const Lane number = load_halves(&closest(two[0]).number, &closest(two[1]).number);
+    const Lane first = whole(number);
+    std::array<double, lane_count> edges;
+    first.store(edges.data());
     CurvePoints at;
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      at.edge[l] = static_cast<std::int64_t>(number[l]);
-      u[l] = number[l] - static_cast<double>(at.edge[l]);
-    }
-    at.u = Lane::load(u.data());
+    for (std::size_t l = 0; l < lane_count; ++l) at.edge[l] = static_cast<std::int64_t>(edges[l]);
+    at.u = number - first;
     return at;
   }
   template <class Access, class At>

