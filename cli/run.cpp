@@ -22,6 +22,7 @@
 #include "scenes/expectations.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/read.hpp"
+#include "scenes/results/bond_results.hpp"
 #include "scenes/results/compaction_curve.hpp"
 #include "scenes/results/contact_findings.hpp"
 #include "scenes/results/results.hpp"
@@ -106,7 +107,7 @@ struct Run {
         folder,
         RunAttributes{program_version(), program_commit(), loaded.scene.title,
                       fmt::format("{:016x}", loaded.hash), loaded.scene.seed, threads},
-        results.mesh(), results.series(), results.fields());
+        results.mesh(), results.series(), results.fields(), simulated_time, results.tables());
     checkpoints.of_run(recorder->run_id());
     if (options.talks())
       for (const std::string& line : bond_warnings) tell("warning: {}\n", line);
@@ -128,8 +129,8 @@ struct Run {
     const RunMesh mesh = results.mesh();
     checkpoint.restore(simulation->world());
     checkpoints.resumed(clock().step, clock().time);
-    recorder =
-        std::make_unique<Recorder>(folder, mesh, results.series(), results.fields(), position);
+    recorder = std::make_unique<Recorder>(folder, mesh, results.series(), results.fields(),
+                                          position, simulated_time, results.tables());
     checkpoints.of_run(recorder->run_id());
     progress = std::make_unique<Progress>(clock().end, results.elements(), options.talks(),
                                           Progress::Before{seconds, clock().step});
@@ -143,9 +144,18 @@ struct Run {
     checkpoints.write(clock().step, clock().time, simulation->world(), {{"plane", writer.bytes()}});
   }
 
+  // What broke since: the recorder knows how many rows it has.
+  void record_cracks() {
+    if (results.tables().empty()) return;
+    constexpr std::size_t cracks = 0;  // the only table
+    for (const auto& row : crack_rows(simulation->world(), recorder->rows(cracks)))
+      recorder->row(cracks, row);
+  }
+
   void record() {
     simulation->observe();
     recorder->sample(clock().time, results.sample());
+    record_cracks();
     expectations.sample(clock().time, results);
     compaction.sample(results);
     contacts.sample(results, simulation->world());
@@ -196,6 +206,7 @@ struct Run {
 
   void finish(const std::string& outcome) {
     progress->finish();
+    record_cracks();  // of the steps since the last sample
     recorder->finish(outcome);
     remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
     write_summary(folder, loaded.scene, simulation->world(), results, compaction, quality(),

@@ -11,6 +11,7 @@
 #include "components/contact.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/instruction_set.hpp"
+#include "scenes/results/bond_results.hpp"
 #include "scenes/results/state_hash.hpp"
 #include "scenes/tools/surface.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -131,6 +132,29 @@ void add_shear(Json& json, const Results& results) {
                    {"dilation", figures->dilation}};
 }
 
+Json diameters_json(const std::vector<FragmentSize>& fragments, SizeDistribution::Weight weight) {
+  const SizeDistribution sizes(fragments, weight);
+  return {{"d10", sizes.diameter(0.1)}, {"d50", sizes.diameter(0.5)}, {"d90", sizes.diameter(0.9)}};
+}
+
+void add_bonds(Json& json, const World& world) {
+  const auto found = bond_findings(world);
+  if (!found) return;
+  using Weight = SizeDistribution::Weight;
+  Json bonds{{"made", found->made},
+             {"broken", found->broken},
+             {"crack_length", found->crack_length},
+             {"fracture_energy", found->fracture_energy},
+             {"crack_energy", found->crack_energy}};
+  if (found->shear_share) bonds["mode_2_share"] = *found->shear_share;
+  if (found->damage) bonds["damage"] = *found->damage;
+  bonds["fragments"] = found->fragments.size();
+  bonds["largest_fragment"] = found->largest_share;
+  bonds["diameter_by_number"] = diameters_json(found->fragments, Weight::number);
+  bonds["diameter_by_area"] = diameters_json(found->fragments, Weight::area);
+  json["bonds"] = bonds;
+}
+
 }  // namespace
 
 void print_summary(const std::filesystem::path& folder) {
@@ -167,6 +191,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
   json["materials"] = materials_json(scene);
   add_stages(json, world);
   add_shear(json, results);
+  add_bonds(json, world);
   add_compaction(json, scene, curve);
   for (const SystemCost& system : cost.systems)
     json["cost"].push_back({{"system", system.system}, {"seconds", system.seconds}});

@@ -95,9 +95,11 @@ struct BondRules {
 // A point that broke.
 struct Crack {
   double time = 0;           // s
-  std::int32_t slot = 0;     // that samples, and its edge
+  std::int32_t slot = 0;     // that samples, its edge, and which Gauss point of it
   std::int32_t edge = 0;
+  std::int32_t point = 0;
   std::int32_t other = 0;    // slot; of a tool -1 - its number
+  std::int32_t law = 0;      // as BondRules counts
   double x = 0, y = 0;       // m, where
   double length = 0;         // m, half of what the point stands for: the other side samples too
   double shear = 0;          // -, share of shear in the energy when it broke: 0 mode I, 1 mode II
@@ -105,7 +107,7 @@ struct Crack {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(time, slot, edge, other, x, y, length, shear, energy);
+    bytes(time, slot, edge, point, other, law, x, y, length, shear, energy);
   }
 };
 
@@ -157,6 +159,22 @@ struct BondTotals {
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(energy, fracture, area, crack_length, made, cracks);
+  }
+};
+
+// What holds together, as last observed: particles joined by at least one bonded point make a fragment.
+struct Fragments {
+  static constexpr const char* resource_name = "fragments";
+  // [particles], by number: the lowest number of a particle of the same fragment. It outlives what breaks off.
+  std::vector<std::int32_t> of_particle;
+  std::vector<std::int64_t> points;  // [laws], bonded now
+  // m, [particles], of the bonds made at the start: what holds, and what broke. Both sides sample: half each.
+  std::vector<double> bonded, broken;
+  std::int64_t counted = 0;  // cracks that `broken` holds
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(of_particle, points, bonded, broken, counted);
   }
 };
 

@@ -79,6 +79,7 @@ StepList step_list_of(World& w) {
   observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork>());
   observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
   observe.add<force_chains>             ("force_chains",      w.has<ForceChains>());
+  observe.add<fragments>                ("fragments",         w.has<Fragments>());
   observe.add<local_density>            ("local_density",     w.has<DensityGrid>());
 
   move.add<integrate>                   ("integrate");

@@ -247,12 +247,13 @@ void File::write_any(const std::string& dataset, Id type, const void* values, st
 }
 
 void File::write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
-                        std::span<const double> values) {
+                        std::span<const double> values, Stored stored) {
   const hsize_t rows = kept + values.size();
   const Handle links = with_groups_on_the_way();
   const Handle space(H5Screate_simple(1, &rows, nullptr));
-  const Handle made(checked(H5Dcreate2(handle_.get(), dataset.c_str(), H5T_NATIVE_DOUBLE,
-                                       space.get(), links.get(), defaults, defaults),
+  const Id type = stored == Stored::whole ? H5T_NATIVE_INT32 : H5T_NATIVE_DOUBLE;
+  const Handle made(checked(H5Dcreate2(handle_.get(), dataset.c_str(), type, space.get(),
+                                       links.get(), defaults, defaults),
                             "make", dataset));
   for (std::uint64_t at = 0; at < kept; at += max_chunk_rows) {
     const std::uint64_t count = std::min(max_chunk_rows, kept - at);

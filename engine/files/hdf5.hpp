@@ -40,6 +40,8 @@ class Handle {
 
 enum class Packing { none, shuffle_gzip };  // the latter for meshes: it gains a hundredfold
 
+enum class Stored { real, whole };  // of numbers that are handed over as doubles
+
 class File {
  public:
   // An existing file is replaced. The first `user_block` bytes (0, or a power of two from 512) are left
@@ -72,7 +74,7 @@ class File {
   void write(const std::string& dataset, std::span<const std::byte> bytes);
   // A series of 1-D: those first `kept` rows of another one (none: 0 rows), then `values`.
   void write_series(const std::string& dataset, const std::string& old, std::uint64_t kept,
-                    std::span<const double> values);
+                    std::span<const double> values, Stored stored = Stored::real);
   void set_attribute(const std::string& object, const std::string& name, double value);
   void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& object, const std::string& name, std::uint64_t value);

@@ -12,6 +12,13 @@ struct SeriesInfo {     // one series of the history: a number a sample
   std::string name;     // slashes make groups: "tool/top/force_y"
   std::string unit;     // SI, "-" where there is none
   std::string meaning;  // a line for the reader
+  bool whole = false;   // whole numbers, and stored as such: of tables only
+};
+
+// Rows of their own, which come when they come: column "x" of table "cracks" is /cracks/x of run.h5.
+struct TableInfo {
+  std::string name;
+  std::vector<SeriesInfo> columns;
 };
 
 // What the samples follow: the first column of history.csv; /history/time of run.h5 has its unit.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/random.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -20,7 +21,7 @@ namespace {
 // run.h5 starts with this much text, before what is HDF5: by it Pulvis knows its file.
 constexpr std::uint64_t user_block_bytes = 4096;
 
-// With a frame the history is written anew, unless it is larger than this and has grown by less than an eighth.
+// With a frame the history is written anew, and every table that has grown, unless it is larger than this and has grown by less than an eighth.
 constexpr std::uint64_t small_history_bytes = std::uint64_t{1} << 20;
 
 // A commit lists every frame anew. The first frames get one each; later ones share it while commits would take
@@ -90,7 +91,8 @@ void survive_a_full_quota() {
 
 Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes,
                    const RunMesh& mesh, std::vector<SeriesInfo> series,
-                   std::vector<FieldInfo> fields, const SeriesInfo& abscissa)
+                   std::vector<FieldInfo> fields, const SeriesInfo& abscissa,
+                   std::vector<TableInfo> tables)
     : series_(std::move(series)),
       fields_(
           (check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),  // before any file
@@ -100,12 +102,14 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
       abscissa_(abscissa),
       run_id_(new_run_id(file_.path())),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
-      pending_(series_.size()) {
+      pending_(series_.size()),
+      tables_(growing_tables(std::move(tables))) {
   survive_a_full_quota();
   write_attributes(attributes);
   file_.make_group("/frames");
   write_mesh(mesh);
   write_history("/history", 0);
+  for (const GrowingTable& table : tables_) table.make(file_);
   file_.flush();
   file_.close();
   put_in_place(folder);
@@ -123,7 +127,8 @@ void Recorder::put_in_place(const std::filesystem::path& folder) {
 
 Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
                    std::vector<SeriesInfo> series, std::vector<FieldInfo> fields,
-                   const RecorderPosition& position, const SeriesInfo& abscissa)
+                   const RecorderPosition& position, const SeriesInfo& abscissa,
+                   std::vector<TableInfo> tables)
     : series_(std::move(series)),
       fields_((check_mesh(mesh), check_fields(mesh, fields), std::move(fields))),
       file_(hdf5::File::open_to_change(folder / "run.h5")),
@@ -132,7 +137,8 @@ Recorder::Recorder(std::filesystem::path folder, const RunMesh& mesh,
       abscissa_(abscissa),
       run_id_(file_.text_attribute("/", "run")),
       places_{mesh.node_particle.size(), mesh.cell_particle.size()},
-      pending_(series_.size()) {
+      pending_(series_.size()),
+      tables_(growing_tables(std::move(tables))) {
   survive_a_full_quota();
   cut(position);
   write_csv_again();
@@ -159,7 +165,13 @@ void Recorder::cut(const RecorderPosition& position) {
   write_history("/history.next", rows);
   if (file_.has_attribute("/", "outcome")) file_.remove_attribute("/", "outcome");
   if (file_.contains("/images")) file_.remove("/images");  // made anew when the run ends
-  replace({"/frames", "/history"});
+  std::vector<std::string> renewed{"/frames", "/history"};
+  require(position.rows.size() == tables_.size(), "a position counts the rows of every table");
+  for (std::size_t i = 0; i < tables_.size(); ++i) {
+    tables_[i].cut(file_, position.rows[i]);
+    renewed.push_back(tables_[i].group());
+  }
+  replace(renewed);
   committed_ = Clock::now();
 }
 
@@ -200,15 +212,22 @@ void Recorder::write_csv_again() {
   csv_.flush();
 }
 
-// With the frames of the change that is under way, if there are any, and the history, if that is wanted.
-void Recorder::commit(bool with_history) {
+// With the frames of the change that is under way, if there are any.
+void Recorder::commit(Extent extent) {
   const Clock::time_point begin = Clock::now();
   begin_change();
   std::vector<std::string> renewed;
   if (has_new_frames_) renewed.emplace_back("/frames");
-  if (with_history) {
+  const std::int64_t news = std::ssize(pending_time_);
+  if (extent == Extent::whole ? news > 0 : is_due(samples_, news, series_.size() + 1)) {
     renew_history();
     renewed.emplace_back("/history");
+  }
+  for (GrowingTable& table : tables_) {
+    const bool due = is_due(table.written(), table.waiting(), table.columns());
+    if (!table.has_news() || (extent == Extent::due && !due)) continue;
+    table.renew(file_);
+    renewed.push_back(table.group());
   }
   const bool has_new_frames = has_new_frames_;
   replace(renewed);
@@ -218,12 +237,18 @@ void Recorder::commit(bool with_history) {
   cost_ = linking_ + (committed_ - begin);
 }
 
+bool Recorder::has_news() const {
+  return !pending_time_.empty() || std::ranges::any_of(tables_, &GrowingTable::has_news);
+}
+
 RecorderPosition Recorder::position() {
-  if (is_changing_ || !pending_time_.empty())
-    commit(!pending_time_.empty());
+  if (is_changing_ || has_news())
+    commit(Extent::whole);
   else
     csv_.flush();
-  return {frames_, samples_};
+  RecorderPosition position{frames_, samples_};
+  for (const GrowingTable& table : tables_) position.rows.push_back(table.written());
+  return position;
 }
 
 Recorder::~Recorder() {
@@ -291,10 +316,9 @@ void Recorder::renew_history() {
   pending_time_.clear();
 }
 
-bool Recorder::is_history_due() const {
-  const std::uint64_t rows = static_cast<std::uint64_t>(samples_), more = pending_time_.size();
-  return (rows + more) * (series_.size() + 1) * sizeof(double) <= small_history_bytes ||
-         8 * more >= rows;
+bool Recorder::is_due(std::int64_t rows, std::int64_t news, std::size_t columns) {
+  const auto bytes = static_cast<std::uint64_t>(rows + news) * columns * sizeof(double);
+  return bytes <= small_history_bytes || 8 * news >= rows;
 }
 
 void Recorder::sample(double time, std::span<const double> values) {
@@ -302,6 +326,14 @@ void Recorder::sample(double time, std::span<const double> values) {
   csv_.add(time, values);
   pending_time_.push_back(time);
   for (std::size_t i = 0; i < values.size(); ++i) pending_[i].push_back(values[i]);
+}
+
+void Recorder::row(std::size_t table, std::span<const double> values) {
+  tables_.at(table).add(values);
+}
+
+std::int64_t Recorder::rows(std::size_t table) const {
+  return tables_.at(table).written() + tables_.at(table).waiting();
 }
 
 void Recorder::frame(double time, std::int64_t step,
@@ -313,7 +345,7 @@ void Recorder::frame(double time, std::int64_t step,
   is_half_ = false;
   xdmf_.add(time, "/frames" + frame_name(frames_));
   ++frames_;
-  if (is_commit_due()) commit(is_history_due());
+  if (is_commit_due()) commit(Extent::due);
 }
 
 // The new group of frames, to begin with those that there are.
@@ -384,7 +416,7 @@ void Recorder::finish(std::string_view outcome) {
   if (!std::exchange(open_, false)) return;
   begin_change();
   file_.set_attribute("/", "outcome", outcome);
-  commit(!pending_time_.empty());
+  commit(Extent::whole);
   xdmf_.finish();
   csv_.close();
   file_.close();

@@ -8,6 +8,7 @@
 //        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
 //                               complete = 1, written last: a frame without it is not to be read
 //        /history/<name>        one 1-D dataset a series; /history/time
+//        /<table>/<name>        one 1-D dataset a column, where the run has tables: rows come with the history
 //        /images/<name>         [lines, pixels], of a raster
 // Every dataset has the attributes unit and meaning, a field also place (node, cell, particle, list) and
 // components. A field of nodes or cells with two components is stored with a third one of zeros, because
@@ -29,6 +30,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/files/growing_table.hpp"
 #include "engine/files/hdf5.hpp"
 #include "engine/files/history_csv.hpp"
 #include "engine/files/record.hpp"
@@ -39,10 +41,11 @@ namespace pulvis {
 // How far a run had written its results.
 struct RecorderPosition {
   std::int64_t frames = 0, samples = 0;
+  std::vector<std::int64_t> rows = {};  // of every table
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(frames, samples);
+    bytes(frames, samples, rows);
   }
 };
 
@@ -52,17 +55,22 @@ class Recorder {
   // dimensions) is the first field.
   Recorder(std::filesystem::path folder, const RunAttributes& attributes, const RunMesh& mesh,
            std::vector<SeriesInfo> series, std::vector<FieldInfo> fields,
-           const SeriesInfo& abscissa = simulated_time);
+           const SeriesInfo& abscissa = simulated_time, std::vector<TableInfo> tables = {});
   // Goes on with the files of a run that stopped: what was written after `position` is cut off.
   Recorder(std::filesystem::path folder, const RunMesh& mesh, std::vector<SeriesInfo> series,
            std::vector<FieldInfo> fields, const RecorderPosition& position,
-           const SeriesInfo& abscissa = simulated_time);
+           const SeriesInfo& abscissa = simulated_time, std::vector<TableInfo> tables = {});
 
   // Everything so far is on the disk then.
   RecorderPosition position();
 
   // One history row: a value a series, in their order. Kept in memory until the next frame.
   void sample(double time, std::span<const double> values);
+
+  // One row of the table of that position: a value a column. Kept in memory until the next frame.
+  void row(std::size_t table, std::span<const double> values);
+  // How many the table has.
+  std::int64_t rows(std::size_t table) const;
 
   // One frame: the values of each field, in their order, the components of a place together.
   void frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
@@ -90,13 +98,15 @@ class Recorder {
   void put_in_place(const std::filesystem::path& folder);
   void begin_change();
   void begin_frames();
-  void commit(bool with_history);
+  enum class Extent { due, whole };  // of what has come since
+  void commit(Extent extent);
   bool is_commit_due() const;
   void check_lengths(const std::vector<std::vector<double>>& fields) const;
   void write_frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
   void write_history(const std::string& group, std::uint64_t kept);
   void renew_history();
-  bool is_history_due() const;
+  bool has_news() const;
+  static bool is_due(std::int64_t rows, std::int64_t news, std::size_t columns);
   void link_frames();
   void cut(const RecorderPosition& position);
   void replace(const std::vector<std::string>& groups);
@@ -112,9 +122,10 @@ class Recorder {
   Xdmf xdmf_;
   SeriesInfo abscissa_;
   std::string run_id_;
-  std::vector<std::uint64_t> places_;                  // how many of each FieldPlace there are
-  std::vector<double> pending_time_;                   // samples not yet in run.h5
-  std::vector<std::vector<double>> pending_;           // [series][sample]
+  std::vector<std::uint64_t> places_;         // how many of each FieldPlace there are
+  std::vector<double> pending_time_;          // samples not yet in run.h5
+  std::vector<std::vector<double>> pending_;  // [series][sample]
+  std::vector<GrowingTable> tables_;
   std::int64_t frames_ = 0, samples_ = 0;              // samples: in run.h5
   bool is_changing_ = false, has_new_frames_ = false;  // since the last commit
   bool is_half_ = false;                               // the frame that is being written

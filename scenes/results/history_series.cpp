@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "scenes/results/bond_results.hpp"
 #include "scenes/results/observed_results.hpp"
 #include "scenes/results/shear_results.hpp"
 #include "scenes/tools/bond_rules.hpp"
@@ -84,10 +85,7 @@ class SeriesList {
     add("contact_overlap", "-", "area in which outlines overlap / area of the particles");
     add("narrow_contacts", "-",
         "share of the contact force on contacts narrower than two boundary edges");
-    if (has_bonds(scene_)) {
-      add("bonds/area", "m^2", "of the surfaces that are bonded");
-      add("bonds/crack_length", "m", "of all that broke so far");
-    }
+    add(bond_series(scene_));
     add("min_jacobian", "-", "smallest det F so far");
     add("dt", "s", "time step");
   }

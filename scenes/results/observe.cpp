@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "components/bond.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
@@ -62,6 +63,7 @@ void check_output(const Scene& scene, const schema::Origins& origins, Problems& 
 }
 
 void add_observed(World& world, const Scene& scene) {
+  if (world.has<BondTotals>()) world.emplace<Fragments>();
   if (scene.output.stresses()) {
     world.add<ParticleStress>();
     world.add<DeformedArea>();

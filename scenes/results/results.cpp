@@ -5,12 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "components/bond.hpp"
 #include "components/body.hpp"
+#include "components/bond.hpp"
 #include "components/contact.hpp"
 #include "components/observed.hpp"
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "scenes/results/bond_results.hpp"
 #include "scenes/results/observe.hpp"
 #include "scenes/tools/die_relief.hpp"
 #include "systems/tools/relief_kernel.hpp"
@@ -109,6 +110,7 @@ Results::Results(const Scene& scene, const World& world)
       cell_(die_cell(scene)),
       yield_stress_(common_yield_stress(scene)),
       series_(history_series(scene)),
+      tables_(bond_tables(scene)),
       shear_(scene, world) {
   for_each_particle<Node>(world, [&](std::size_t, int, const Shape& shape) {
     particle_area_ += shape.area;
@@ -130,6 +132,7 @@ Results::Results(const Scene& scene, const World& world)
     fields_.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
   for (const FieldInfo& observed : observed_fields(scene)) fields_.push_back(observed);
+  for (const FieldInfo& of_bonds : bond_fields(scene)) fields_.push_back(of_bonds);
   for (const FieldInfo& of_shear : ShearResults::fields(scene)) fields_.push_back(of_shear);
 }
 
@@ -269,9 +272,7 @@ void Results::append_contacts(std::vector<double>& row) const {
   if (world_.has<ContactQuality>()) now = world_.resource<ContactQuality>();
   row.push_back(now.overlap / particle_area_);
   row.push_back(now.force > 0 ? now.narrow_force / now.force : 0);
-  if (!world_.has<BondTotals>()) return;
-  const BondTotals& bonds = world_.resource<BondTotals>();
-  row.insert(row.end(), {bonds.area, bonds.crack_length});
+  append_bond_sample(world_, row);
 }
 
 std::vector<double> Results::sample() {
@@ -310,6 +311,7 @@ std::vector<std::vector<double>> Results::frame() const {
     }
   });
   append_observed_frame(world_, fields);
+  append_bond_frame(world_, fields);
   shear_.append_frame(fields);
   return fields;
 }

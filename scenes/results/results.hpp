@@ -36,6 +36,7 @@ class Results {
 
   const std::vector<SeriesInfo>& series() const { return series_; }
   const std::vector<FieldInfo>& fields() const { return fields_; }
+  const std::vector<TableInfo>& tables() const { return tables_; }
   RunMesh mesh() const;
 
   // One value a series. Keeps the worst energy error and ratios seen, for the summary.
@@ -85,6 +86,7 @@ class Results {
   double particle_area_ = 0;
   std::int64_t elements_ = 0, nodes_ = 0;
   std::vector<SeriesInfo> series_;
+  std::vector<TableInfo> tables_;
   std::vector<FieldInfo> fields_;
   std::map<std::string, std::size_t> position_;
   std::vector<double> last_;

@@ -216,15 +216,17 @@ class BondPass {
               const kernels::CohesiveLaw& of_point) const {
     const auto& pair = s_.rows.pair;
     const std::int32_t other = std::is_same_v<At, Contact> ? pair(row, 2) : -1 - pair(row, 2);
-    return {s_.clock.time,
-            pair(row, 0),
-            pair(row, 1),
-            other,
-            o.position.x[l],
-            o.position.y[l],
-            b.weight[l] / s_.thickness,
-            shear,
-            b.weight[l] * kernels::fracture_energy(of_point, shear)};
+    return {.time = s_.clock.time,
+            .slot = pair(row, 0),
+            .edge = pair(row, 1),
+            .point = l % edge_points,
+            .other = other,
+            .law = s_.bonds.law(row, BondLawNumber<At>::bonded),
+            .x = o.position.x[l],
+            .y = o.position.y[l],
+            .length = b.weight[l] / s_.thickness,
+            .shear = shear,
+            .energy = b.weight[l] * kernels::fracture_energy(of_point, shear)};
   }
 
   static std::array<Lane, 2> along_axes(const PointForces& f, const PointMotion& m) {

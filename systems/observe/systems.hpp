@@ -2,6 +2,7 @@
 // once; systems/step.cpp puts them in order, and each is described at the top of its own file.
 #pragma once
 
+#include "components/bond.hpp"
 #include "components/bundles.hpp"
 #include "components/observed.hpp"
 
@@ -33,6 +34,23 @@ struct force_chains {
   Read<ParticleCentre> centre;
   Read<ContactNetwork> network;
   Write<ForceChains> chains;
+  void operator()() const;
+};
+
+template <class At>
+struct BondedRows {
+  Read<BondedPoints<At>> points;
+  Read<BondLawNumber<At>> law;
+  Read<ContactPair<At>> pair;
+  Read<ContactLaw<At>> contact;
+};
+struct fragments {
+  Read<Bodies> bodies;
+  Optional<Read<BondRules>> rules;  // where anything can touch
+  Read<BondTotals> totals;
+  Optional<BondedRows<Contact>> pairs;
+  Optional<BondedRows<ToolContact>> tools;
+  Write<Fragments> found;
   void operator()() const;
 };
 

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "components/bond.hpp"
 #include "components/observed.hpp"
 #include "tests/helpers/experiment.hpp"
 
@@ -166,6 +167,19 @@ TEST(Plan, ObservesWhatIsAskedOnSampledStepsOnly) {
   for (const System& system : contacts.list.observe) EXPECT_EQ(system.when, When::on_sample);
   for (const StagePlan& stage : contacts.experiment.simulation.plan().stages)
     for (const std::string& system : stage.systems) EXPECT_FALSE(observing.contains(system));
+}
+
+TEST(Plan, FragmentsAreLookedForWithBondsOnlyAndOnSampledStepsOnly) {
+  const Asked without("compaction/regular-25.toml"), with("bonds/pulled-blocks.toml");
+  const auto has_fragments = [](const Asked& asked) {
+    return const_cast<Simulation&>(asked.experiment.simulation).world().has<Fragments>();
+  };
+  EXPECT_THAT(without.names, Not(Contains("fragments")));
+  EXPECT_FALSE(has_fragments(without));
+  EXPECT_THAT(with.names, Contains("fragments"));
+  EXPECT_TRUE(has_fragments(with));
+  for (const StagePlan& stage : with.experiment.simulation.plan().stages)
+    EXPECT_THAT(stage.systems, Not(Contains("fragments")));
 }
 
 // ---- the graph ----------------------------------------------------------------------------------

@@ -115,6 +115,13 @@ INSTANTIATE_TEST_SUITE_P(
                {"output.samples=60", "output.frames=6"},
                1200,
                {{100, 1}, {701, 2}}},
+        Course{"BlocksThatTearApart",  // from one side on, from step 302 to 432
+               "bonds/pulled-blocks.toml",
+               {"stage.pull.duration=20 us", "tool.head.low=[\"0.4 mm\", \"1.4 mm\"]",
+                "stage.pull.move[0].displacement=[\"0 mm\", \"0.04 mm\"]", "output.samples=40",
+                "output.frames=6"},
+               700,
+               {{310, 1}, {311, 2}, {370, 1}, {425, 2}}},
         Course{"FrictionLoop", "afm/loop-beam-0.toml", {}, 0, {{1, 1}, {3, 1}, {9, 2}, {30, 1}}}),
     [](const auto& test) { return std::string(test.param.name); });
 

@@ -333,6 +333,38 @@ TEST_F(RecorderTest, AResumedRunTakesFramesThatItCutsOutOfTheXdmf) {
 }
 
 // Lists of their own length: none in the first frame, then two rows; no part of the XDMF picture.
+// Rows come between frames, none is lost or twice where a run was stopped, and whole numbers are stored as such.
+TEST_F(RecorderTest, TablesGrowAndGoOnWhereTheRunWasSaved) {
+  const std::vector<TableInfo> tables{
+      {"cracks", {{"time", "s", "when"}, {"particle", "-", "its number", true}}}};
+  RecorderPosition position;
+  open_run_folder(folder);
+  {
+    Recorder recorder(folder, {}, two_squares(), two_series(), four_fields(), simulated_time,
+                      tables);
+    EXPECT_EQ(hdf5::File::open(folder / "run.h5").shape("/cracks/time"), (hdf5::Shape{0}));
+    for (int k = 0; k < 5; ++k) {
+      recorder.row(0, std::vector{third * k, 7.0 + k});
+      EXPECT_EQ(recorder.rows(0), k + 1);
+      if (k == 1) recorder.frame(k, k, fields_of(k));
+      if (k == 2) position = recorder.position();
+    }
+    EXPECT_THROW(recorder.row(0, std::vector{1.0}), std::invalid_argument);
+    recorder.finish();
+  }
+  EXPECT_EQ(hdf5::File::open(folder / "run.h5").shape("/cracks/time"), (hdf5::Shape{5}));
+  Recorder resumed(folder, two_squares(), two_series(), four_fields(), position, simulated_time,
+                   tables);
+  EXPECT_EQ(resumed.rows(0), 3);
+  resumed.row(0, std::vector{0.5, 2147483647.0});
+  resumed.finish();
+  const auto file = hdf5::File::open(folder / "run.h5");
+  EXPECT_THAT(file.read_doubles("/cracks/time"), ElementsAre(0, third, 2 * third, 0.5));
+  EXPECT_THAT(file.read_integers("/cracks/particle"), ElementsAre(7, 8, 9, 2147483647));
+  EXPECT_EQ(file.text_attribute("/cracks/time", "unit"), "s");
+  EXPECT_THAT(file.children("/"), ElementsAre("cracks", "frames", "history", "mesh"));
+}
+
 TEST_F(RecorderTest, WritesListsWhoseLengthChanges) {
   open_run_folder(folder);
   auto fields = four_fields();

@@ -32,7 +32,7 @@ inline Left left_in(const std::filesystem::path& folder) {
             summary,
             {}};
   const auto file = hdf5::File::open(folder / "run.h5");
-  for (const std::string group : {"/history", "/frames", "/images"}) {
+  for (const std::string group : {"/history", "/cracks", "/frames", "/images"}) {
     if (!file.contains(group)) continue;
     for (const std::string& name : file.datasets_below(group)) {
       std::vector<std::uint64_t>& bits = left.numbers[group + "/" + name];

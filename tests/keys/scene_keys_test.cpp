@@ -42,7 +42,7 @@ const Plan& plan() {
 TEST(KeysOfScenes, AreAllUsed) { expect_all_used(plan(), "scene", "tests/keys/scenes"); }
 
 std::string kind_of(const Scene& scene) {
-  if (!scene.afm) return "powder";
+  if (!scene.afm) return scene.bonds.empty() ? "powder" : "bonds";
   const auto rasters = [](const ActionSpec& action) {
     return action.kind == ActionSpec::Kind::raster;
   };

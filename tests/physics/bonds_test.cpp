@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <set>
 
 #include "components/bond.hpp"
+#include "scenes/results/bond_results.hpp"
 #include "scenes/results/state_hash.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/wrong.hpp"
@@ -165,6 +168,98 @@ TEST(Glue, TakesItsFractureEnergyAtAnyMesh) {
     EXPECT_NEAR(spent({std::string("particle.upper.mesh.columns=") + columns}), 20e-6, 0.2e-6)
         << columns;
   EXPECT_NEAR(spent({}, "sheared-blocks.toml"), 40e-6, 0.4e-6);
+}
+
+// ---- results -----------------------------------------------------------------------------------------------
+double sum_of_column(const std::vector<std::vector<double>>& rows, std::size_t column) {
+  double sum = 0;
+  for (const auto& row : rows) sum += row.at(column);
+  return sum;
+}
+
+// One frame's field of that name.
+std::vector<double> field_of(const Experiment& e, const std::string& name) {
+  const auto& fields = e.results.fields();
+  const auto at = std::ranges::find(fields, name, &FieldInfo::name) - fields.begin();
+  return e.results.frame().at(static_cast<std::size_t>(at));
+}
+
+// m, of the lines along the bonds.
+double sum_of_lengths(const Experiment& e) {
+  double sum = 0;
+  for (const double length : field_of(e, "bonds/length")) sum += length;
+  return sum;
+}
+
+TEST(BondResults, CracksAddUpToTheHistory) {
+  enum Column { time, x, y, particle, other, bond, length, shear, energy };
+  Experiment e("bonds/pulled-blocks.toml");
+  ASSERT_EQ(e.results.tables().size(), 1U);
+  e.run(50);
+  const auto rows = crack_rows(e.simulation.world(), 0);
+  ASSERT_EQ(rows.size(), 4U * (10 + 13));
+  EXPECT_EQ(rows.front().size(), e.results.tables().front().columns.size());
+  EXPECT_NEAR(sum_of_column(rows, length), e.value("bonds/crack_length"), 1e-15);
+  EXPECT_NEAR(sum_of_column(rows, energy), e.value("energy/fracture"), 1e-12 * 20e-6);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row[particle] + row[other], 1);  // from both sides
+    EXPECT_LT(row[shear], 1e-6);
+    EXPECT_NEAR(row[y], 0.5e-3, 5e-6);
+  }
+  EXPECT_EQ(crack_rows(e.simulation.world(), 90).size(), 2U);
+}
+
+TEST(BondResults, FragmentsComeFromBondsThatBreak) {
+  using ::testing::ElementsAre;
+  Experiment e("bonds/pulled-blocks.toml");
+  std::set<double> fragments, damage;
+  e.run(50, [&] {
+    fragments.insert(e.value("bonds/fragments"));
+    damage.insert(e.value("bonds/damage"));
+    EXPECT_EQ(e.value("bonds/largest_fragment"), e.value("bonds/fragments") == 1 ? 1 : 0.5);
+    EXPECT_NEAR(sum_of_lengths(e), e.value("bonds/area") / 1e-3, 1e-15);
+  });
+  EXPECT_THAT(fragments, ElementsAre(1, 2));
+  EXPECT_EQ(*damage.begin(), 0);
+  EXPECT_EQ(*damage.rbegin(), 1);
+  EXPECT_THAT(field_of(e, "fragment"), ElementsAre(0, 1));
+  EXPECT_THAT(field_of(e, "fragments/number"), ElementsAre(0, 1));
+  EXPECT_THAT(field_of(e, "damage"), ElementsAre(1, 1));
+  const auto start = field_of(e, "cracks/start"), end = field_of(e, "cracks/end");
+  ASSERT_EQ(start.size(), 2 * 92U);
+  double length = 0;  // along the broken edges, of both sides
+  for (std::size_t i = 0; i < start.size(); i += 2)
+    length += 0.5 * std::hypot(start[i] - end[i], start[i + 1] - end[i + 1]);
+  EXPECT_NEAR(length, 1e-3, 1e-6);
+  const auto found = bond_findings(e.simulation.world());
+  EXPECT_EQ(found->made, 92);
+  EXPECT_EQ(found->broken, 92);
+  EXPECT_LT(*found->shear_share, 1e-6);
+}
+
+// A weld joins two particles, and is no damage when it breaks.
+TEST(BondResults, WeldsJoinFragmentsAndAreNoDamage) {
+  Experiment e("bonds/cold-weld.toml");
+  std::vector<double> fragments;
+  e.run(50, [&] {
+    const double now = e.value("bonds/fragments");
+    if (fragments.empty() || fragments.back() != now) fragments.push_back(now);
+  });
+  EXPECT_THAT(fragments, ::testing::ElementsAre(2, 1, 2));
+  EXPECT_TRUE(std::isnan(e.value("bonds/damage")));
+  EXPECT_EQ(bond_findings(e.simulation.world())->damage, std::nullopt);
+}
+
+TEST(BondResults, AreAbsentWithoutBonds) {
+  Experiment e("basic/oblique-impact.toml");
+  e.run(1);
+  EXPECT_TRUE(e.results.tables().empty());
+  EXPECT_FALSE(bond_findings(e.simulation.world()));
+  for (const SeriesInfo& series : e.results.series())
+    EXPECT_THAT(series.name, ::testing::Not(::testing::HasSubstr("bonds/")));
+  for (const FieldInfo& field : e.results.fields())
+    EXPECT_THAT(field.name,
+                ::testing::Not(::testing::ContainsRegex("bonds/|cracks/|fragment|damage")));
 }
 
 TEST(Glue, IsBitwiseTheSameForAnyThreads) {

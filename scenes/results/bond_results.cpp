@@ -1,0 +1,242 @@
+#include "scenes/results/bond_results.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "components/bond.hpp"
+#include "scenes/tools/bond_rules.hpp"
+#include "systems/contact/contact_outlines.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<FragmentSize> fragments_of(const World& world) {
+  const Bodies& bodies = world.resource<Bodies>();
+  std::vector<double> areas;
+  for (const int slot : bodies.slot_of_number) areas.push_back(bodies.shape_of_slot(slot).area);
+  return fragment_sizes(world.resource<Fragments>().of_particle, areas);
+}
+
+double largest_share(const std::vector<FragmentSize>& fragments) {
+  double all = 0, most = 0;
+  for (const FragmentSize& fragment : fragments) {
+    all += fragment.area;
+    most = std::max(most, fragment.area);
+  }
+  return most / all;
+}
+
+// Of one particle, or of all. NaN where nothing was bonded at the start.
+double damage(double bonded, double broken) {
+  return bonded + broken > 0 ? broken / (bonded + broken) : no_value;
+}
+double total_damage(const Fragments& found) {
+  const auto sum = [](const std::vector<double>& of) {
+    return std::accumulate(of.begin(), of.end(), 0.0);
+  };
+  return damage(sum(found.bonded), sum(found.broken));
+}
+
+// ---- lines on the outlines --------------------------------------------------------------------------
+// The part of its edge that Gauss point g stands for, from 0 to 1.
+double begin_of_point(int g) {
+  double begin = 0;
+  for (int i = 0; i < g; ++i) begin += entry(kernels::edge_w, i);
+  return begin;
+}
+
+struct Lines {
+  std::vector<double> start, end;
+
+  void add(const Curve& edge, int first, int last) {
+    const Point from = edge.value(begin_of_point(first));
+    const Point to = edge.value(begin_of_point(last + 1));
+    start.insert(start.end(), from.begin(), from.end());
+    end.insert(end.end(), to.begin(), to.end());
+  }
+};
+
+Outlines outlines_of(const World& world) {
+  const Column<CurvePosition>& control = world.column<CurvePosition>();
+  return {world.resource<Bodies>(), {control.values(), 2 * control.table.rows}};
+}
+
+// A line for every run of neighbouring points of an edge that are bonded to the same body.
+struct BondLines {
+  std::vector<double> ids, length, damage;
+  Lines lines;
+
+  template <class At>
+  void add(const World& world) {
+    const Outlines outlines = outlines_of(world);
+    const std::int32_t* pair = world.column<ContactPair<At>>().values();
+    const std::uint8_t* points = world.column<BondedPoints<At>>().values();
+    for (std::size_t r = 0; r < world.column<BondedPoints<At>>().table.rows; ++r, pair += 3) {
+      const unsigned bonded = points[r];
+      for (int g = 0; g < edge_points; ++g) {
+        const int first = g;
+        while (g < edge_points && (bonded >> g & 1) != 0) ++g;
+        if (g == first) continue;
+        add_run<At>(world, r, first, g);
+        const int other = std::is_same_v<At, Contact> ? outlines.number(pair[2]) : -1 - pair[2];
+        ids.insert(ids.end(), {1.0 * outlines.number(pair[0]), 1.0 * other});
+        lines.add(outlines.edge(pair[0], pair[1]), first, g - 1);
+      }
+    }
+  }
+
+ private:
+  template <class At>
+  void add_run(const World& world, std::size_t row, int first, int end) {
+    constexpr double share = std::is_same_v<At, Contact> ? 0.5 : 1;
+    const double* of_point = world.column<BondDamage<At>>().values() + row * edge_points;
+    const double* area = world.column<ContactLaw<At>>().values() + row * ContactLaw<At>::count +
+                         ContactLaw<At>::weight;
+    double sum = 0, areas = 0;
+    for (int g = first; g < end; ++g) {
+      sum += area[g] * of_point[g];
+      areas += area[g];
+    }
+    length.push_back(share * areas / world.resource<Bodies>().thickness);
+    damage.push_back(sum / areas);
+  }
+};
+
+// As they have moved since.
+Lines crack_lines(const World& world) {
+  Lines lines;
+  const Outlines outlines = outlines_of(world);
+  for (const Crack& crack : world.resource<BondTotals>().cracks)
+    lines.add(outlines.edge(crack.slot, crack.edge), crack.point, crack.point);
+  return lines;
+}
+
+constexpr const char* other_meaning =
+    "number of the other one; of a tool -1 - its position in the scene";
+
+}  // namespace
+
+// ---- series -------------------------------------------------------------------------------------------
+std::vector<SeriesInfo> bond_series(const Scene& scene) {
+  if (!has_bonds(scene)) return {};
+  return {{"bonds/area", "m^2", "of the surfaces that are bonded"},
+          {"bonds/crack_length", "m", "of all that broke so far"},
+          {"bonds/damage", "-", "broken share of the length bonded at the start; NaN: nothing was"},
+          {"bonds/fragments", "-", "pieces that bonds hold together, loose particles among them"},
+          {"bonds/largest_fragment", "-", "area of the largest / area of the particles"}};
+}
+
+void append_bond_sample(const World& world, std::vector<double>& row) {
+  if (!world.has<BondTotals>()) return;
+  const BondTotals& bonds = world.resource<BondTotals>();
+  const std::vector<FragmentSize> fragments = fragments_of(world);
+  row.insert(row.end(), {bonds.area, bonds.crack_length, total_damage(world.resource<Fragments>()),
+                         static_cast<double>(fragments.size()), largest_share(fragments)});
+}
+
+// ---- frames -------------------------------------------------------------------------------------------
+std::vector<FieldInfo> bond_fields(const Scene& scene) {
+  if (!has_bonds(scene)) return {};
+  constexpr auto list = FieldPlace::list;
+  return {{"bonds/ids", "-",
+           std::string("number of the particle whose edge it is; ") + other_meaning, list, 2, true},
+          {"bonds/length", "m", "as in bonds/area: half of it where the other side has a line, too",
+           list, 1},
+          {"bonds/damage", "-", "mean of the line's points, 0 ... 1", list, 1},
+          {"bonds/start", "m", "of a line along the bonded part of an edge", list, 2},
+          {"bonds/end", "m", "of a line along the bonded part of an edge", list, 2},
+          {"cracks/start", "m",
+           "of every row of /cracks so far: its part of the edge, where it is now", list, 2},
+          {"cracks/end", "m",
+           "of every row of /cracks so far: its part of the edge, where it is now", list, 2},
+          {"fragments/number", "-", "lowest particle number of every fragment", list, 1, true},
+          {"fragments/particles", "-", "how many it has", list, 1, true},
+          {"fragments/area", "m^2", "of its particles, undeformed", list, 1},
+          {"fragment", "-", "lowest number of a particle that it holds together with",
+           FieldPlace::particle, 1, true},
+          {"damage", "-", "broken share of the length bonded at the start; NaN: nothing was",
+           FieldPlace::particle, 1}};
+}
+
+void append_bond_frame(const World& world, std::vector<std::vector<double>>& fields) {
+  if (!world.has<BondTotals>()) return;
+  BondLines bonds;
+  if (world.has<CurveAnchor>()) bonds.add<Contact>(world);
+  if (world.has<ToolAnchor>()) bonds.add<ToolContact>(world);
+  Lines cracks;
+  if (world.has<CurvePosition>()) cracks = crack_lines(world);
+  const Fragments& found = world.resource<Fragments>();
+  for (std::vector<double>* list : {&bonds.ids, &bonds.length, &bonds.damage, &bonds.lines.start,
+                                    &bonds.lines.end, &cracks.start, &cracks.end})
+    fields.push_back(std::move(*list));
+  std::vector<double> number, particles, area;
+  for (const FragmentSize& fragment : fragments_of(world)) {
+    number.push_back(fragment.number);
+    particles.push_back(fragment.particles);
+    area.push_back(fragment.area);
+  }
+  fields.insert(fields.end(), {number, particles, area});
+  fields.emplace_back(found.of_particle.begin(), found.of_particle.end());
+  std::vector<double>& of_particle = fields.emplace_back();
+  for (std::size_t p = 0; p < found.bonded.size(); ++p)
+    of_particle.push_back(damage(found.bonded[p], found.broken[p]));
+}
+
+// ---- cracks -------------------------------------------------------------------------------------------
+std::vector<TableInfo> bond_tables(const Scene& scene) {
+  if (!has_bonds(scene)) return {};
+  return {{"cracks",
+           {{"time", "s", "when the point broke"},
+            {"x", "m", "where it was then"},
+            {"y", "m", "where it was then"},
+            {"particle", "-", "number of the particle whose edge it is on", true},
+            {"other", "-", other_meaning, true},
+            {"bond", "-", "position of its [[bond]] in the scene", true},
+            {"length", "m", "half of it where the other side's points break, too"},
+            {"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"},
+            {"energy", "J", "spent in breaking it"}}}};
+}
+
+std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t first) {
+  std::vector<std::vector<double>> rows;
+  if (!world.has<BondTotals>()) return rows;
+  const Bodies& bodies = world.resource<Bodies>();
+  const auto number = [&](int slot) { return slot < 0 ? slot : entry(bodies.slots, slot).number; };
+  const std::vector<Crack>& cracks = world.resource<BondTotals>().cracks;
+  for (std::int64_t i = first; i < std::ssize(cracks); ++i) {
+    const Crack& crack = entry(cracks, i);
+    rows.push_back({crack.time, crack.x, crack.y, 1.0 * number(crack.slot),
+                    1.0 * number(crack.other), crack.law - 1.0, crack.length, crack.shear,
+                    crack.energy});
+  }
+  return rows;
+}
+
+// ---- summary ------------------------------------------------------------------------------------------
+std::optional<BondFindings> bond_findings(const World& world) {
+  if (!world.has<BondTotals>() || world.resource<Fragments>().of_particle.empty())
+    return std::nullopt;
+  const BondTotals& bonds = world.resource<BondTotals>();
+  const Fragments& found = world.resource<Fragments>();
+  BondFindings findings;
+  findings.broken = std::ssize(bonds.cracks);
+  findings.made = std::accumulate(found.points.begin(), found.points.end(), findings.broken);
+  findings.crack_length = bonds.crack_length;
+  findings.fracture_energy = bonds.fracture;
+  double shear = 0;
+  for (const Crack& crack : bonds.cracks) {
+    shear += crack.shear * crack.energy;
+    findings.crack_energy += crack.energy;
+  }
+  if (findings.crack_energy > 0) findings.shear_share = shear / findings.crack_energy;
+  const double damage = total_damage(found);
+  if (damage >= 0) findings.damage = damage;
+  findings.fragments = fragments_of(world);
+  findings.largest_share = largest_share(findings.fragments);
+  return findings;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,40 @@
+// What a run with bonds hands back of them: series, fields of the frames, a table of the cracks, figures of the summary.
+// A scene without bonds has none of it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/files/record.hpp"
+#include "engine/world.hpp"
+#include "scenes/results/fragment_sizes.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+std::vector<SeriesInfo> bond_series(const Scene& scene);
+void append_bond_sample(const World& world, std::vector<double>& row);
+
+std::vector<FieldInfo> bond_fields(const Scene& scene);
+void append_bond_frame(const World& world, std::vector<std::vector<double>>& fields);
+
+// /cracks, a row for every contact point that broke, in the order in which they did.
+std::vector<TableInfo> bond_tables(const Scene& scene);
+// Rows from that one on. None without bonds.
+std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t first);
+
+// As last observed.
+struct BondFindings {
+  std::int64_t made = 0, broken = 0;  // contact points; both sides of a pair have theirs
+  double crack_length = 0;            // m
+  double fracture_energy = 0;         // J, spent by damage
+  double crack_energy = 0;            // J, of the cracks by their laws
+  std::optional<double>
+      shear_share;  // -, of mode II in the energy of what broke; none where nothing did
+  std::optional<double> damage;  // -, broken length over that of all bonds made at the start
+  std::vector<FragmentSize> fragments;
+  double largest_share = 0;  // -, of the area
+};
+std::optional<BondFindings> bond_findings(const World& world);
+
+}  // namespace pulvis

@@ -1,0 +1,78 @@
+// fragments: which particles bonds hold together, and how much of every particle's bonds is broken.
+//
+// Law      a bond between particles joins them as long as one of its points holds, whatever made it; bonds with tools
+//          join nothing. What is broken is counted of bonds made at the start, not of welds
+// Runs     on sampled steps, after bond_totals
+// Active   when the scene has bonds
+#include "systems/observe/fragments_kernel.hpp"
+
+#include <bit>
+
+#include "systems/observe/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+// Adds up what holds. `other_of(row)`: number of the particle on the other side, or none (-1).
+template <class At>
+class BondsThatHold {
+ public:
+  BondsThatHold(const fragments& system, const BondedRows<At>& rows)
+      : system_(system), rows_(rows) {}
+
+  template <class OtherOf>
+  void add_to(kernels::DisjointSets& sets, const OtherOf& other_of) const {
+    for (int r = 0; r < rows_.pair.rows(); ++r) {
+      const Row<At> row(r);
+      const unsigned points = rows_.points(row);
+      if (points == 0) continue;
+      const int number = entry(system_.bodies->slots, rows_.pair(row, 0)).number;
+      const int other = other_of(row), law = rows_.law(row, BondLawNumber<At>::bonded);
+      if (other >= 0) sets.join(number, other);
+      entry(system_.found->points, law - 1) += std::popcount(points);
+      if ((*system_.rules)->law(law).pressed()) continue;
+      const double length = length_of_points(row, points);
+      entry(system_.found->bonded, number) += length;
+      if (other >= 0) entry(system_.found->bonded, other) += length;
+    }
+  }
+
+ private:
+  // m, as of cracks: half of it where the other side samples, too.
+  double length_of_points(Row<At> row, unsigned points) const {
+    constexpr double share = std::is_same_v<At, Contact> ? 0.5 : 1;
+    double area = 0;
+    for (int g = 0; g < edge_points; ++g)
+      if ((points >> g & 1) != 0) area += rows_.contact(row, ContactLaw<At>::weight + g);
+    return share * area / system_.bodies->thickness;
+  }
+
+  const fragments& system_;
+  const BondedRows<At>& rows_;
+};
+
+}  // namespace
+
+void fragments::operator()() const {
+  const auto particles = static_cast<std::size_t>(bodies->particles());
+  const auto number_of = [&](int slot) { return entry(bodies->slots, slot).number; };
+  kernels::DisjointSets sets(bodies->particles());
+  found->bonded.assign(particles, 0);
+  found->broken.resize(particles, 0);
+  found->points.assign(totals->made.size(), 0);
+  if (pairs)
+    BondsThatHold<Contact>(*this, *pairs).add_to(sets, [&](Row<Contact> row) {
+      return number_of(pairs->pair(row, 2));
+    });
+  if (tools)
+    BondsThatHold<ToolContact>(*this, *tools).add_to(sets, [](Row<ToolContact>) { return -1; });
+  found->of_particle = sets.roots();
+  for (; found->counted < std::ssize(totals->cracks); ++found->counted) {
+    const Crack& crack = entry(totals->cracks, found->counted);
+    if ((*rules)->law(crack.law).pressed()) continue;
+    entry(found->broken, number_of(crack.slot)) += crack.length;
+    if (crack.other >= 0) entry(found->broken, number_of(crack.other)) += crack.length;
+  }
+}
+
+}  // namespace pulvis
