@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Figures of a run for papers and slides, and their numbers: the field of a frame, forces, stress ratio,
-energies, local densities, the contact network; of a lever the solid and its curves. `pulvis figure` runs it.
+energies, local densities, the contact network, cracks and fragments; of a lever the solid and its curves.
+`pulvis figure` runs it.
 
 usage: figures.py RUN_FOLDER [--frame N] [--field NAME] [--series NAME]... [--against NAME]
                   [--format png|svg|pdf|csv] [-o FILE_OR_FOLDER]
@@ -24,6 +25,7 @@ try:
     from matplotlib.collections import LineCollection, PolyCollection
 
     from figures_afm import AFM_FIGURES
+    from figures_bonds import BOND_FIELDS, breaking, cracks, draw_bonds, fragment_colours, fragment_sizes
     from figures_observed import contact_network, density_profile, local_density, rose
     from figures_parts import (STYLE, Run, draw_lines, draw_tools, labelled, outlines, printable, refuse, unit_for,
                                write_csv)
@@ -32,6 +34,7 @@ except ImportError as error:
     sys.exit(4)
 
 DEFAULT_FIELD = "effective_stress"
+FIELD_COLOURS = matplotlib.colormaps["viridis"].with_extremes(bad="#d5dbe2")  # what has no value is grey
 FORMATS = {".png", ".svg", ".pdf", ".csv"}
 
 
@@ -68,17 +71,20 @@ def energies(run, _):
     return draw_lines(run, time_axis(run), lines, "energy", "Energies") if lines else None
 
 
-def cell_field(frame, name):
-    """(values, unit) of a cell field of one component: NAME, or NAME:k for one of several."""
+def cell_field(run, frame, name):
+    """(values, unit) of a field of cells or particles, for every cell: NAME, or NAME:k for a component of several."""
     name, _, component = name.partition(":")
-    fields = [f for f in frame if frame[f].attrs.get("place") == "cell"]
+    fields = [f for f in frame if frame[f].attrs.get("place") in ("cell", "particle")]
     if name not in fields:
-        raise KeyError(f"no cell field {name}; there are: {', '.join(fields) or 'none'}")
+        raise KeyError(f"no field {name} of cells or particles; there are: {', '.join(fields) or 'none'}")
     data = frame[name]
     count = int(data.attrs["components"])
     if data.ndim > 1 and not (component.isdigit() and 1 <= int(component) <= count):
         raise KeyError(f"{name} has {count} components: say {name}:1 to {name}:{count}")
-    return (data[()] if data.ndim == 1 else data[:, int(component) - 1]), data.attrs["unit"]
+    values = data[()] if data.ndim == 1 else data[:, int(component) - 1]
+    if data.attrs["place"] == "particle":
+        values = values[run.file["mesh/cell_particle"][()]]
+    return values, data.attrs["unit"]
 
 
 def field_picture(run, options):
@@ -87,7 +93,7 @@ def field_picture(run, options):
     name = options.field or DEFAULT_FIELD
     frame = run.frame(options.frame)
     try:
-        values, unit = cell_field(frame, name)
+        values, unit = cell_field(run, frame, name)
     except KeyError as error:
         if options.field:  # asked for by name
             refuse(error.args[0])
@@ -104,8 +110,11 @@ def draw_field(run, frame, name, values, unit):
     shape = np.ptp(limits[:, 1]) / np.ptp(limits[:, 0])
     figure, axes = plt.subplots(figsize=(7.2, min(max(6.0 * shape, 2.4), 9.0) + 0.9),
                                 constrained_layout=True)
-    faces = PolyCollection(1e3 * position[quads], array=factor * values, cmap="viridis",
-                           edgecolors="face", linewidths=0.1)
+    faces = PolyCollection(1e3 * position[quads], edgecolors="face", linewidths=0.1)
+    if name == "fragment":
+        faces.set_facecolor(fragment_colours(values))
+    else:
+        faces.set(array=np.ma.masked_invalid(factor * values), cmap=FIELD_COLOURS)
     axes.add_collection(faces)
     axes.add_collection(LineCollection(1e3 * position[outlines(quads)], colors="#1d2733",
                                        linewidths=0.4))
@@ -116,8 +125,11 @@ def draw_field(run, frame, name, values, unit):
     label = name.replace("_", " ").replace(":", " ")
     axes.set_title(f"{label.capitalize()} at {time_factor * frame.attrs['time']:.4g} {time_unit}\n"
                    f"{run.title}", loc="left")
-    bar = figure.colorbar(faces, ax=axes, shrink=0.9, label=labelled(label, shown))
-    bar.outline.set_visible(False)
+    if name in BOND_FIELDS:
+        draw_bonds(run, figure, axes, frame)
+    if name != "fragment":
+        bar = figure.colorbar(faces, ax=axes, shrink=0.9, label=labelled(label, shown))
+        bar.outline.set_visible(False)
     middle = position[quads].mean(axis=1)
     figure.table = [("x", "m", middle[:, 0]), ("y", "m", middle[:, 1]), (name, unit, values)]
     return figure
@@ -140,7 +152,8 @@ def chosen_series(run, options):
 
 PLANE_FIGURES = {"force": force, "stress_ratio": stress_ratio, "energies": energies,
                  "local_density": local_density, "density_profile": density_profile,
-                 "contact_network": contact_network, "contact_rose": rose}
+                 "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
+                 "breaking": breaking, "fragment_sizes": fragment_sizes}
 
 
 def drawn(figure, path):
@@ -184,7 +197,7 @@ def arguments():
     parser.add_argument("run_folder", type=Path)
     parser.add_argument("--frame", type=int, help="number of a frame, from 0; the last if not said")
     parser.add_argument("--field",
-                        help=f"cell field, {DEFAULT_FIELD} if not said; NAME:k for component k")
+                        help=f"field of cells or particles, {DEFAULT_FIELD} if not said; NAME:k for component k")
     parser.add_argument("--series", action="append", default=[], help="series of the history to draw")
     parser.add_argument("--against", help="series of the other axis, time if not said")
     parser.add_argument("--format", choices=["png", "svg", "pdf", "csv"], default="png")

@@ -15,6 +15,7 @@ matplotlib.use("Agg")
 import numpy as np
 from matplotlib import pyplot as plt
 
+import figures_bonds
 import figures_observed
 import figures_parts
 
@@ -51,6 +52,20 @@ class FiguresTest(unittest.TestCase):
             axes = figure.axes[0]
             for place, label in zip(axes.yaxis.get_ticklocs(), axes.yaxis.get_ticklabels()):
                 self.assertAlmostEqual(place, float(label.get_text().removesuffix(" %")), places=9)
+
+    def test_every_fragment_keeps_its_colour_and_neighbours_differ(self):
+        colours = figures_bonds.fragment_colours(np.arange(60))
+        self.assertEqual(len({tuple(np.round(one, 3)) for one in colours}), 60)
+        self.assertTrue(np.array_equal(colours[[7, 3]], figures_bonds.fragment_colours([7, 3])))
+        apart = np.abs(colours[:, None] - colours[None]).max(axis=2) + np.eye(60)
+        self.assertGreater(apart.min(), 0.015)
+        self.assertGreater(np.diag(apart, 1).min(), 0.1)
+
+    def test_sizes_of_fragments_add_up_by_number_and_by_area(self):
+        diameter, number, area = figures_bonds.cumulative(np.array([3.0, 1.0, 4.0]))
+        np.testing.assert_allclose(np.pi / 4 * diameter ** 2, [1, 3, 4])
+        np.testing.assert_allclose(number, [1 / 3, 2 / 3, 1])
+        np.testing.assert_allclose(area, [1 / 8, 1 / 2, 1])
 
 
 if __name__ == "__main__":

@@ -90,11 +90,13 @@ async function drive() {
   told("otherField", await drawnAs(at(last, other)) && hashOf(canvas()) !== first);
   change("field", field);
   await drawnAs(at(last));
-  if (document.getElementById("contacts")) {
-    const before = hashOf(canvas());
-    document.getElementById("contacts").click();
-    told("contacts", await until(() => hashOf(canvas()) !== before));
-    document.getElementById("contacts").click();
+  for (const lines of ['contacts', 'bonds']) {
+    const tick = document.getElementById(lines), before = hashOf(canvas());
+    if (!tick) continue;
+    tick.click();
+    told(lines, await until(() => hashOf(canvas()) !== before));
+    tick.click();
+    await until(() => hashOf(canvas()) === before);
   }
   const dark = hashOf(canvas());
   document.getElementById("shade").click();

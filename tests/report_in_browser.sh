@@ -46,6 +46,7 @@ check WorksWithoutToolsAndWithoutASummary "${everything[@]}"
 check ShowsTheLastFrameOfARunOfOneFrame zoomed other-field
 check StaysSmall "${everything[@]}"
 check ShowsLocalDensitiesAndContactsOfEveryFrame "${everything[@]}" contacts
+check ShowsBondsCracksAndFragmentsOfEveryFrame "${everything[@]}" bonds
 check compaction "${everything[@]}" contacts
 check lever "${everything[@]}"
 check ShowsTheCurvesOfARunWithoutFrames has-curves

@@ -20,8 +20,19 @@ function outlineEdges(cells, nodes) {
 class FieldView {
   // whole: {width, height} in metres that the view shows at first, where views are to have one scale.
   constructor(host, run, {whole = null, most = 560} = {}) {
-    Object.assign(this, {run, whole, most, shown: "", contacts: false, sameRange: true, ranges: null,
-                         frame: run.frames.length - 1, share: 1, raster: new Raster()});
+    Object.assign(this, {
+      run,
+      whole,
+      most,
+      shown: '',
+      contacts: false,
+      bonds: false,
+      sameRange: true,
+      ranges: null,
+      frame: run.frames.length - 1,
+      share: 1,
+      raster: new Raster()
+    });
     const {low, high} = run.head;
     this.width = Math.max(high[0] - low[0], high[1] - low[1]) || 1;
     this.canvas = element("canvas", {className: "picture", tabIndex: 0, role: "img"});
@@ -54,9 +65,11 @@ class FieldView {
 
   async load() {
     const {run, frame} = this, field = run.field(this.shown);
-    const [position, codes, lines] = await Promise.all([
-      run.positions(frame), field < 0 ? null : run.codes(frame, field), this.contacts ? run.contactLines(frame) : null]);
-    Object.assign(this, {position, codes, lines, field: run.head.fields[field]});
+    const [position, codes, lines, bondLines] = await Promise.all([
+      run.positions(frame), field < 0 ? null : run.codes(frame, field),
+      this.contacts ? run.contactLines(frame) : null, this.bonds ? run.bondLines(frame) : null
+    ]);
+    Object.assign(this, {position, codes, lines, bondLines, field: run.head.fields[field]});
   }
 
   // Asked for faster than it can be unpacked: the last request wins.
@@ -133,6 +146,7 @@ class FieldView {
     if (this.shown === "density") this.drawDensity(ctx);
     this.drawOutlines(ctx);
     this.drawSurfaces(ctx);
+    if (this.bondLines) this.drawBonds(ctx);
     if (this.lines) this.drawContacts(ctx);
     ctx.restore();
     this.drawScaleBar(ctx);
@@ -147,6 +161,13 @@ class FieldView {
     const none = theme().none.match(/\w\w/g).map(two => parseInt(two, 16)), plain = packed(...none);
     const count = this.run.cells.length / 4, colours = new Uint32Array(count).fill(plain);
     if (!this.codes) return colours;
+    if (this.showsFragments) {
+      for (let c = 0; c < count; ++c) {
+        if (this.codes[c] !== NO_NUMBER)
+          colours[c] = packed(...fragmentColour(Math.round(this.valueOf(this.codes[c]))));
+      }
+      return colours;
+    }
     const [low, high] = this.range(), table = Array.from({length: 256}, (_, i) => packed(...mapColour(i / 255)));
     const {field} = this, step = (field.high - field.low) / field.levels, factor = high > low ? 256 / (high - low) : 0;
     for (let c = 0; c < count; ++c) {
@@ -155,6 +176,31 @@ class FieldView {
       colours[c] = table[Math.max(0, Math.min(255, Math.floor((field.low + step * code - low) * factor)))];
     }
     return colours;
+  }
+
+  get showsFragments() {
+    return this.codes && this.field.name === 'fragment';
+  }
+
+  // Thin lines along the bonds; cracks by the mode in which they broke.
+  drawBonds(ctx) {
+    const {bonds, cracks} = this.bondLines, {scale, x, y} = this.place;
+    const line = (lines, i) => {
+      ctx.moveTo(x + scale * lines[i], y - scale * lines[i + 1]);
+      ctx.lineTo(x + scale * lines[i + 2], y - scale * lines[i + 3]);
+    };
+    ctx.lineCap = 'round';
+    ctx.beginPath();
+    for (let i = 0; i < bonds.length; i += 4) line(bonds, i);
+    Object.assign(ctx, {strokeStyle: isDark() ? '#9aa6b4' : '#5b6672', lineWidth: 1});
+    ctx.stroke();
+    ctx.lineWidth = 2;
+    for (let i = 0; i < cracks.length; i += 5) {
+      ctx.beginPath();
+      line(cracks, i);
+      ctx.strokeStyle = modeColour(cracks[i + 4]);
+      ctx.stroke();
+    }
   }
 
   drawCells(ctx) {
@@ -294,7 +340,7 @@ class FieldView {
 
   drawLegend(ctx) {
     const {room, height} = this.place, density = this.shown === "density";
-    if (!density && !this.codes) return;
+    if (!density && (!this.codes || this.showsFragments)) return;
     const [low, high] = this.range();
     if (!(low <= high)) return;  // of no cell
     drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density ? "-" : this.field.unit});
@@ -305,7 +351,10 @@ class FieldView {
     const name = this.shown === "density" ? "Local relative density" : field ? titled(field.name) : "Outlines";
     const meaning = field && this.shown !== "density" ? ` (${field.meaning})` : "";
     const contacts = this.lines?.length ? ` Lines: normal contact forces, widest ${withUnit(this.mostForce, "N")}.` : "";
-    this.note.textContent = `${name}${meaning} at ${withUnit(time, "s")}, step ${step.toLocaleString("en")}.${contacts}`;
+    const bonds =
+        this.bondLines ? ' Grey lines: bonds; cracks from orange (mode I) to blue (mode II).' : '';
+    this.note.textContent = `${name}${meaning} at ${withUnit(time, 's')}, step ${
+        step.toLocaleString('en')}.${contacts}${bonds}`;
     this.canvas.setAttribute("aria-label", `Picture of the particles. ${this.note.textContent} ` +
       "Plus and minus zoom, 0 shows all.");
   }
@@ -317,7 +366,8 @@ class FieldView {
     const code = cell >= 0 && this.codes ? this.codes[cell] : NO_NUMBER;
     this.tip.hidden = code === NO_NUMBER || code === undefined;
     if (this.tip.hidden) return;
-    this.tip.textContent = withUnit(this.valueOf(code), this.field.unit);
+    this.tip.textContent = this.showsFragments ? `fragment ${Math.round(this.valueOf(code))}` :
+                                                 withUnit(this.valueOf(code), this.field.unit);
     this.tip.style.left = Math.min(x + 14, room - 60) + "px";
     this.tip.style.top = Math.max(0, y - 30) + "px";
   }

@@ -25,6 +25,28 @@ function mapColour(share) {
 
 const colour = share => `rgb(${mapColour(share).join(",")})`;
 
+// A pale colour for every fragment, of its number alone: it keeps it from frame to frame. Hues and saturations follow
+// a sequence that fills the plane evenly (Roberts' R2).
+function fragmentColour(number) {
+  const hue = number * 0.7548776662 % 1 * 6, pale = 0.2 + 0.3 * (number * 0.5698402910 % 1),
+        value = 0.95;
+  return [5, 3, 1].map(k => {
+    const at = (k + hue) % 6;
+    return Math.round(255 * (value - value * pale * Math.max(0, Math.min(at, 4 - at, 1))));
+  });
+}
+
+// From opening to shear: mode I orange, mode II blue.
+function modeColour(share) {
+  const points = [[213, 94, 0], [184, 155, 196], [0, 114, 178]],
+        at = 2 * Math.min(Math.max(share, 0), 1);
+  const i = at < 1 ? 0 : 1;
+  return `rgb(${
+      points[i]
+          .map((from, k) => Math.round(from + (at - i) * (points[i + 1][k] - from)))
+          .join(',')})`;
+}
+
 // Dark or light letters on a cell of that colour.
 function inkOn(share) {
   const [red, green, blue] = mapColour(share);

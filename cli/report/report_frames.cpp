@@ -32,7 +32,8 @@ void widen(Range& range, double value) {
 struct CellField {  // one number a cell
   std::string dataset, label, unit, meaning;
   std::size_t component = 0, stored = 1;
-  bool speed = false;  // made from the velocities of the nodes
+  bool speed = false;        // made from the velocities of the nodes
+  bool of_particle = false;  // one number a particle, which all of its cells show
   Range range = nothing_yet;
 };
 
@@ -81,8 +82,10 @@ class Frames {
   std::size_t affordable() const {
     std::size_t bytes = 4 * drawn_.node_count();
     bytes += (fans_ ? 1 : 2) * drawn_.cell_count() * fields_.size();
-    if (file_.contains(last_ + "/contacts"))
-      bytes += 10 * file_.shape(last_ + "/contacts/normal_force").at(0);
+    for (const auto& [lines, each] :
+         {std::pair("/contacts/normal_force", 10), {"/bonds/length", 8}, {"/cracks/start", 10}})
+      if (file_.contains(last_ + lines))
+        bytes += static_cast<std::size_t>(each) * file_.shape(last_ + lines).at(0);
     return budget_ / std::max<std::size_t>(1, bytes);
   }
 
@@ -91,8 +94,10 @@ class Frames {
     for (const auto& name : file_.children(last_)) {
       const std::string dataset = last_ + "/" + name;
       if (!file_.has_attribute(dataset, "place")) continue;
-      const bool speed = name == "velocity" && file_.text_attribute(dataset, "place") == "node";
-      if (!speed && file_.text_attribute(dataset, "place") != "cell") continue;
+      const std::string place = file_.text_attribute(dataset, "place");
+      const bool speed = name == "velocity" && place == "node";
+      const bool of_particle = place == "particle" && (name == "damage" || name == "fragment");
+      if (!speed && !of_particle && place != "cell") continue;
       const auto shape = file_.shape(dataset);
       const std::size_t stored = shape.size() > 1 ? shape[1] : 1;
       const auto used = static_cast<std::size_t>(file_.number_attribute(dataset, "components"));
@@ -101,7 +106,8 @@ class Frames {
       if (speed) fields_.push_back({name, "speed", unit, "mean over the corners", 0, stored, true});
       if (speed || (used > 1 && !tensors)) continue;
       for (std::size_t k = 0; k < used; ++k)
-        fields_.push_back({name, label(name, k, used), unit, meaning, k, stored});
+        fields_.push_back(
+            {name, label(name, k, used), unit, meaning, k, stored, false, of_particle});
     }
   }
 
@@ -121,7 +127,9 @@ class Frames {
     const auto all = file_.read_doubles(frame_path(frame) + "/" + field.dataset);
     std::vector<double> one(mesh_.cells());
     for (std::size_t c = 0; c < one.size(); ++c)
-      one[c] = field.speed ? speed(all, field.stored, c) : all[c * field.stored + field.component];
+      one[c] = field.speed         ? speed(all, field.stored, c)
+               : field.of_particle ? all[static_cast<std::size_t>(mesh_.cell_particle[c])]
+                                   : all[c * field.stored + field.component];
     return drawn_.values(one);
   }
 

@@ -1,14 +1,17 @@
 #include "cli/report/report_observed.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/report/report_encoding.hpp"
+#include "scenes/results/fragment_sizes.hpp"
 
 namespace pulvis {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t max_sizes = 100;     // of a frame's fragments
 constexpr std::size_t max_cells = 10'000;  // of a frame's map
 
 std::size_t groups(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
@@ -82,6 +85,42 @@ class Observed {
     return all;
   }
 
+  // Distribution of the fragments' sizes: diameters, and the shares of number and area up to each.
+  Json fragments() const {
+    std::vector<FragmentSize> sizes;
+    for (const double area : numbers("fragments/area")) sizes.push_back({0, 1, area});
+    using Weight = SizeDistribution::Weight;
+    const SizeDistribution by_number(sizes, Weight::number), by_area(sizes, Weight::area);
+    const std::size_t count = std::min(sizes.size(), max_sizes);
+    std::vector<double> diameter, number, area;
+    for (std::size_t i = 1; i <= count; ++i) {  // the last is the largest
+      const std::size_t at = i * sizes.size() / count - 1;
+      diameter.push_back(by_number.diameters()[at]);
+      number.push_back(by_number.shares()[at]);
+      area.push_back(by_area.shares()[at]);
+    }
+    return {{"count", sizes.size()},
+            {"diameter", rounded(diameter)},
+            {"number", rounded(number)},
+            {"area", rounded(area)}};
+  }
+
+  // Lines of four numbers, from start to end; of cracks five, with the share of shear. Of a run that was killed
+  // the newest rows may be missing in the table.
+  std::vector<float> bond_lines(const std::string& group) const {
+    const std::vector<double> start = numbers(group + "/start"), end = numbers(group + "/end");
+    const bool cracks = group == "cracks";
+    const std::vector<double> shear =
+        cracks ? file_.read_doubles("/cracks/shear") : std::vector<double>(start.size() / 2);
+    std::vector<float> all;
+    for (std::size_t i = 0; i < std::min(start.size() / 2, shear.size()); ++i) {
+      for (const auto& point : {start, end})
+        for (std::size_t k = 0; k < 2; ++k) all.push_back(static_cast<float>(point[2 * i + k]));
+      if (cracks) all.push_back(static_cast<float>(shear[i]));
+    }
+    return all;
+  }
+
  private:
   std::vector<double> numbers(const std::string& name) const {
     return file_.read_doubles(frame_ + "/" + name);
@@ -111,6 +150,15 @@ void add_observed(const hdf5::File& file, const std::string& frame, const std::s
                   Json& entry, std::vector<ReportSection>& sections) {
   const Observed observed(file, frame);
   if (observed.has("local_density")) entry["density"] = observed.density();
+  if (observed.has("bonds")) {
+    const std::vector<float> bonds = observed.bond_lines("bonds"),
+                             cracks = observed.bond_lines("cracks");
+    entry["fragments"] = observed.fragments();
+    entry["bonds"] = bonds.size() / 4;
+    entry["cracks"] = cracks.size() / 5;
+    if (!bonds.empty()) sections.push_back({prefix + "bonds", encoded(bonds)});
+    if (!cracks.empty()) sections.push_back({prefix + "cracks", encoded(cracks)});
+  }
   if (!observed.has("contacts")) return;
   const std::vector<float> lines = observed.lines();
   entry["network"] = observed.network(lines.size() / 5);

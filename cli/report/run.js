@@ -77,6 +77,13 @@ class Run {
     return network && network.lines ? this.kept_(`frame-${frame}-network`, floats) : new Float32Array();
   }
 
+  async bondLines(frame) {
+    const {bonds, cracks} = this.frames[frame],
+                  lines = (count, name) =>
+                      count ? this.kept_(`frame-${frame}-${name}`, floats) : new Float32Array();
+    return {bonds: await lines(bonds, 'bonds'), cracks: await lines(cracks, 'cracks')};
+  }
+
   field(name) { return (this.head.fields || []).findIndex(field => field.name === name); }
   get densities() { return this.frames.flatMap(frame => frame.density ? frame.density.cells : []); }
 

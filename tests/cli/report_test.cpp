@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -145,6 +147,53 @@ TEST_F(ReportTest, ShowsLocalDensitiesAndContactsOfEveryFrame) {
   EXPECT_EQ(std::system(command.c_str()), 0);
   for (const char* name : {"local_density", "density_profile", "contact_network", "contact_rose"})
     EXPECT_TRUE(fs::exists(folder / "pictures" / (std::string(name) + ".png"))) << name;
+}
+
+TEST_F(ReportTest, ShowsBondsCracksAndFragmentsOfEveryFrame) {
+  const auto plain = head_of(report_of({}));
+  for (const char* part : {"bonds", "cracks", "fragments"})
+    EXPECT_FALSE(plain["frames"].back().contains(part)) << part;
+  testing::SyntheticRun run;
+  run.bonds = true;
+  const auto head = head_of(report_of(run));
+  EXPECT_EQ(head["frames"][0]["bonds"], 3);
+  EXPECT_EQ(head["frames"][0]["cracks"], 0);
+  EXPECT_EQ(head["frames"][0]["fragments"]["count"], 1);
+  const auto& last = head["frames"].back();
+  EXPECT_EQ(last["cracks"], 3);  // four columns, apart
+  EXPECT_EQ(last["fragments"]["count"], 4);
+  EXPECT_EQ(last["fragments"]["number"].back(), 1);
+  EXPECT_EQ(last["fragments"]["area"].back(), 1);
+  EXPECT_NEAR(last["fragments"]["diameter"].back(), std::sqrt(4 * 4e-6 / std::numbers::pi), 1e-8);
+  for (const char* part : {"id=\"frame-0-bonds\"", "id=\"frame-5-cracks\"", "Bonds: energy"})
+    EXPECT_THAT(report(), HasSubstr(part));
+  std::vector<std::string> names;
+  for (const auto& field : head["fields"]) names.push_back(field["name"]);
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"damage", "fragment"}));
+}
+
+TEST_F(ReportTest, DrawsBondsCracksAndFragments) {
+  testing::SyntheticRun run;
+  run.bonds = true;
+  testing::record(run, folder);
+  const auto figure = [&](const std::string& options) {
+    return std::system((std::string("'") + paths::program() + "' figure '" + folder.string() +
+                        "' " + options + " >/dev/null")
+                           .c_str());
+  };
+  EXPECT_EQ(figure(""), 0);
+  for (const char* name : {"cracks", "breaking", "fragment_sizes"})
+    EXPECT_TRUE(fs::exists(folder / "pictures" / (std::string(name) + ".png"))) << name;
+  for (const std::string field : {"damage", "fragment"})
+    EXPECT_EQ(figure("--field " + field + " -o " + (folder / (field + ".svg")).string()), 0);
+  EXPECT_EQ(figure("--format csv --frame 3 -o " + (folder / "numbers").string()), 0);
+  std::istringstream rows(text_of(folder / "numbers" / "cracks.csv"));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "x1 [m],y1 [m],x2 [m],y2 [m],time [SI],length [SI],shear [SI],energy [SI]\r");
+  std::size_t count = 0;
+  while (std::getline(rows, row)) ++count;
+  EXPECT_EQ(count, 2U);  // of frame 3
 }
 
 TEST_F(ReportTest, ShowsTheCurvesOfARunWithoutFrames) {

@@ -81,11 +81,20 @@ std::vector<FieldInfo> fields(const SyntheticRun& run) {
       {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
       {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
       {"stress", "Pa", "Cauchy stress xx, yy, zz, xy", FieldPlace::cell, 4}};
-  if (!run.observed) return all;
   const auto add = [&](const std::string& name, const char* unit, FieldPlace place, int components,
                        bool whole = false) {
     all.push_back({name, unit, "made up", place, components, whole});
   };
+  if (run.bonds) {
+    for (const std::string name : {"bonds/start", "bonds/end", "cracks/start", "cracks/end"})
+      add(name, "m", FieldPlace::list, 2);
+    add("bonds/length", "m", FieldPlace::list, 1);
+    add("fragments/number", "-", FieldPlace::list, 1, true);
+    add("fragments/area", "m^2", FieldPlace::list, 1);
+    add("fragment", "-", FieldPlace::particle, 1, true);
+    add("damage", "-", FieldPlace::particle, 1);
+  }
+  if (!run.observed) return all;
   add("particle_centre", "m", FieldPlace::particle, 2);
   add("force_chain", "-", FieldPlace::particle, 1, true);
   add("local_density", "-", FieldPlace::list, 2);
@@ -133,6 +142,42 @@ void add_observed(const SyntheticRun& run, double share, std::vector<std::vector
                                rose});
 }
 
+// How many columns of discs have come off: one with every frame.
+int loose_columns(const SyntheticRun& run, double share) {
+  return std::min(run.columns - 1, static_cast<int>(share * run.columns));
+}
+
+// Columns are bonded by a vertical line each, and to nothing once it is broken.
+void add_bonds(const SyntheticRun& run, double share, std::vector<std::vector<double>>& fields) {
+  const int loose = loose_columns(run, share);
+  const double d = run.diameter, top = d * run.rows * squeeze(share);
+  std::vector<double> start[2], end[2], length, number, area, of_particle, damage;  // bonds, cracks
+  for (int line = 1; line < run.columns; ++line) {
+    const bool is_crack = line <= loose;
+    start[is_crack].insert(start[is_crack].end(), {d * line, 0});
+    end[is_crack].insert(end[is_crack].end(), {d * line, top});
+    if (!is_crack) length.push_back(top);
+  }
+  for (int fragment = 0; fragment <= loose; ++fragment) {
+    number.push_back(fragment);
+    area.push_back(d * d * run.rows * (fragment < loose ? 1 : run.columns - loose));
+  }
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    of_particle.push_back(std::min(disc % run.columns, loose));
+    damage.push_back(disc % run.columns < loose ? 1 : 0);
+  }
+  fields.insert(fields.end(),
+                {start[0], end[0], start[1], end[1], length, number, area, of_particle, damage});
+}
+
+std::vector<TableInfo> tables(const SyntheticRun& run) {
+  if (!run.bonds) return {};
+  std::vector<SeriesInfo> columns;
+  for (const char* name : {"time", "length", "shear", "energy"})
+    columns.push_back({name, "SI", "made up"});
+  return {{"cracks", columns}};
+}
+
 std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share) {
   const auto xy = positions(run, share);
   const auto stress = stresses(run, share);
@@ -143,17 +188,26 @@ std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share)
   }
   std::vector<std::vector<double>> fields{xy, std::vector<double>(xy.size(), 0.5), stress, strain,
                                           tensor};
+  if (run.bonds) add_bonds(run, share, fields);
   if (run.observed) add_observed(run, share, fields);
   return fields;
 }
 
-std::vector<SeriesInfo> series(bool tools) {
+std::vector<SeriesInfo> series(bool tools, bool bonds) {
   std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy"},
                                  {"energy/elastic", "J", "elastic energy"},
                                  {"energy/plastic", "J", "plastic work"},
                                  {"energy/hourglass", "J", "energy of hourglass modes"},
                                  {"energy/balance", "J", "energy made or lost"},
                                  {"contacts", "-", "edges in contact"}};
+  if (bonds)
+    for (const auto& [name, unit] : {std::pair("energy/bonds", "J"),
+                                     {"energy/fracture", "J"},
+                                     {"bonds/crack_length", "m"},
+                                     {"bonds/fragments", "-"},
+                                     {"bonds/damage", "-"},
+                                     {"bonds/largest_fragment", "-"}})
+      all.push_back({name, unit, "made up"});
   if (!tools) return all;
   for (const std::string tool : {"top", "bottom"}) {
     all.push_back({"tool/" + tool + "/position_x", "m", "position of the tool"});
@@ -184,6 +238,11 @@ std::vector<double> row(const SyntheticRun& run, double time) {
                                 0.012 * work,
                                 0.002 * work,
                                 std::floor(400 * share)};
+  if (run.bonds) {
+    const int loose = loose_columns(run, share);
+    const double broken = loose * run.rows * run.diameter, left = 1 - 1.0 * loose / run.columns;
+    values.insert(values.end(), {0.01 * work, 20e-3 * broken, broken, loose + 1.0, 1 - left, left});
+  }
   if (!run.tools) return values;
   values.insert(values.end(), {0, height, 0.001 * force, force});
   values.insert(values.end(), {0, 0, -0.001 * force, -0.93 * force});
@@ -228,11 +287,15 @@ void write_summary(const SyntheticRun& run, const std::filesystem::path& folder)
 void record(const SyntheticRun& run, const std::filesystem::path& folder) {
   open_run_folder(folder, true);
   Recorder recorder(folder, {"0.1.0", "0123abc", "A synthetic compact", "f00d", 7, 2}, mesh_of(run),
-                    series(run.tools), fields(run));
+                    series(run.tools, run.bonds), fields(run), simulated_time, tables(run));
   const int samples = (run.frames - 1) * run.samples_a_frame;
   for (int i = 0; i <= samples; ++i) {
     const double time = duration * i / std::max(1, samples);
     recorder.sample(time, row(run, time));
+    if (run.bonds)
+      while (recorder.rows(0) < loose_columns(run, share_at(time)))
+        recorder.row(0, std::vector{time, run.rows * run.diameter,
+                                    static_cast<double>(recorder.rows(0)) / run.columns, 1e-5});
     if (run.pictures && i % run.samples_a_frame == 0)
       recorder.frame(time, 94 * i, frame_of(run, share_at(time)));
   }

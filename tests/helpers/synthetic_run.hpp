@@ -15,6 +15,7 @@ struct SyntheticRun {
   bool tools = true;     // punches with their series, and densities
   bool observed =
       false;  // local densities (two columns of cells, one of them all tool) and contacts
+  bool bonds = false;      // discs that come apart column by column
   double diameter = 1e-3;  // m
 };
 
