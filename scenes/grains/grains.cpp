@@ -34,8 +34,8 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
 }
 
 GrainOutline outline_of(const GrainMap& map, const std::vector<GrainMap::Side>& grain,
-                        const std::shared_ptr<const OutlineCurve>& particle, double edge) {
-  GrainOutline outline{{}, particle, edge};
+                        const std::shared_ptr<const OutlineCurve>& particle) {
+  GrainOutline outline{{}, particle};
   for (std::size_t i = 0; i < grain.size(); ++i) {
     const auto& from = map.vertices[static_cast<std::size_t>(grain[i].vertex)];
     GrainOutline::Face face{from.at, 0, 0, grain[i].edges};
@@ -81,7 +81,7 @@ class Cutter {
       GrainMap map = tessellate(*curve_, wanted);
       join_short_sides(map, least_side * edge, *curve_);
       divide_sides(map, edge, curve_->length());
-      if (const auto specs = specs_of(map, edge, mean, variant)) {
+      if (const auto specs = specs_of(map, mean, variant)) {
         add(*specs);
         return true;
       }
@@ -90,7 +90,7 @@ class Cutter {
   }
 
  private:
-  std::optional<std::vector<ParticleSpec>> specs_of(const GrainMap& map, double edge, double mean,
+  std::optional<std::vector<ParticleSpec>> specs_of(const GrainMap& map, double mean,
                                                     int variant) const {
     std::vector<ParticleSpec> specs;
     for (const auto& grain : map.grains) {
@@ -99,7 +99,7 @@ class Cutter {
       spec.name = fmt::format("{}#{}.{}", particle_.name, variant + 1, specs.size() + 1);
       spec.material = particle_.material;
       spec.mark = particle_.mark;
-      const GrainOutline outline = outline_of(map, grain, curve_, edge);
+      const GrainOutline outline = outline_of(map, grain, curve_);
       int edges = 0;
       for (const auto& face : outline.faces) edges += face.edges;
       spec.outline = outline;

@@ -9,8 +9,8 @@
 namespace pulvis {
 namespace {
 
-// On the particle's outline the polygon of the nodes has the outline's area, as on every smooth outline: two thirds of
-// an edge's sagitta outside.
+// Where the contact curve is to lie on the particle's outline, nodes stand two thirds of an edge's sagitta outside, as on
+// every smooth outline.
 Vec2 node_on_outline(const OutlineCurve& particle, double s, double edge) {
   const double round = particle.length();
   const auto at = [&](double place) { return particle.at(std::fmod(place + round, round)); };
@@ -26,27 +26,20 @@ struct Outside {
   std::vector<int> corners;
 };
 
+// Corners stand where the faces meet: the contact curve ends in them.
 Outside nodes_of_faces(const GrainOutline& grain) {
   Outside outside;
-  const std::size_t n = grain.faces.size();
-  for (std::size_t f = 0; f < n; ++f) {
-    const auto &face = grain.faces[f], &before = grain.faces[(f + n - 1) % n],
-               &next = grain.faces[(f + 1) % n];
-    const auto begin = [&](const GrainOutline::Face& of, const GrainOutline::Face& ahead) {
-      if (of.on_outline()) return node_on_outline(*grain.particle, of.begin, grain.edge);
-      if (ahead.on_outline()) return node_on_outline(*grain.particle, ahead.end, grain.edge);
-      return of.from;
-    };
-    const Vec2 from = begin(face, before), to = begin(next, face);
+  for (std::size_t f = 0; f < grain.faces.size(); ++f) {
+    const auto &face = grain.faces[f], &next = grain.faces[(f + 1) % grain.faces.size()];
     outside.corners.push_back(static_cast<int>(outside.nodes.size()));
-    outside.nodes.push_back(from);
+    outside.nodes.push_back(face.from);
+    const double length = face.end - face.begin;
     for (int i = 1; i < face.edges; ++i) {
       const double share = static_cast<double>(i) / face.edges;
       outside.nodes.push_back(
           face.on_outline()
-              ? node_on_outline(*grain.particle, face.begin + share * (face.end - face.begin),
-                                grain.edge)
-              : Vec2(from + share * (to - from)));
+              ? node_on_outline(*grain.particle, face.begin + share * length, length / face.edges)
+              : Vec2(face.from + share * (next.from - face.from)));
     }
   }
   return outside;

@@ -130,7 +130,6 @@ struct GrainOutline {
   };
   std::vector<Face> faces = {};
   std::shared_ptr<const OutlineCurve> particle = {};
-  double edge = 0;  // m, wanted length of the mesh's edges
 };
 using Outline =
     std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline, EllipseOutline,

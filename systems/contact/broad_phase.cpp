@@ -261,6 +261,21 @@ class EdgeSearch {
       minimum = distance;
       nearest = e;
     }
+    return nearest == Shape::no_edge || other.slot == own.slot ? nearest
+                                                               : nearest_of_all(other.slot, own);
+  }
+
+  // A box that comes near may belong to an edge around a corner from the nearest one, whose own does not: seen from its
+  // back the sampled edge would be deep inside.
+  int nearest_of_all(int slot, const Sampled& own) const {
+    int nearest = Shape::no_edge;
+    double minimum = std::numeric_limits<double>::max();
+    for (int e = 0; e < curves_.edges(slot); ++e) {
+      const double distance = squared_distance_to_chord(own.middle, curves_.edge_points(slot, e));
+      if (distance >= minimum) continue;
+      minimum = distance;
+      nearest = e;
+    }
     return nearest;
   }
 
