@@ -116,7 +116,7 @@ async function placeViews(runs, names) {
   return views;
 }
 
-// Of all views of a kind at once: what they show, and contact forces where there are some.
+// Of all views of a kind at once: what they show, and contact forces and bonds where there are some.
 async function placeControls(views, wanted, {id, name}) {
   if (!views.length) return;
   const controls = document.getElementById("controls"), field = element("select", {id});
@@ -125,11 +125,14 @@ async function placeControls(views, wanted, {id, name}) {
   field.value = views[0].choices.some(([value]) => value === wanted) ? wanted : views[0].choices[0][0];
   field.onchange = () => show({shown: field.value});
   controls.append(element("label", {}, name + " ", field));
-  if (views.some(({run}) => run.frames.some(frame => frame.network && frame.network.lines))) {
+  const tick = (label, name, has) => {
+    if (!views.some(({run}) => run.frames.some(has))) return;
     const box = element("input", {type: "checkbox"});
-    box.onchange = () => show({contacts: box.checked});
-    controls.append(element("label", {}, box, " contact forces"));
-  }
+    box.onchange = () => show({[name]: box.checked});
+    controls.append(element("label", {}, box, " " + label));
+  };
+  tick("contact forces", "contacts", frame => frame.network && frame.network.lines);
+  tick("bonds and cracks", "bonds", frame => frame.fragments);
   await show({shown: field.value});
 }
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "components/bond.hpp"
 #include "components/observed.hpp"
 #include "components/run_state.hpp"
 #include "engine/files/checkpoint.hpp"
@@ -224,6 +225,8 @@ void state(Input input) {
   attempt(ToolProgram());
   attempt(ContactIndex());
   attempt(ContactNetwork());
+  attempt(BondTotals());
+  attempt(Fragments());
 }
 
 void checkpoint(Input input) {
