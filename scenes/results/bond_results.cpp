@@ -158,7 +158,9 @@ std::vector<FieldInfo> bond_fields(const Scene& scene) {
           {"fragment", "-", "lowest number of a particle that it holds together with",
            FieldPlace::particle, 1, true},
           {"damage", "-", "broken share of the length bonded at the start; NaN: nothing was",
-           FieldPlace::particle, 1}};
+           FieldPlace::particle, 1},
+          {"parent", "-", "number of the particle that it is a grain of, or its own",
+           FieldPlace::particle, 1, true}};
 }
 
 void append_bond_frame(const World& world, std::vector<std::vector<double>>& fields) {
@@ -183,6 +185,9 @@ void append_bond_frame(const World& world, std::vector<std::vector<double>>& fie
   std::vector<double>& of_particle = fields.emplace_back();
   for (std::size_t p = 0; p < found.bonded.size(); ++p)
     of_particle.push_back(damage(found.bonded[p], found.broken[p]));
+  const Bodies& bodies = world.resource<Bodies>();
+  std::vector<double>& parents = fields.emplace_back();
+  for (const int slot : bodies.slot_of_number) parents.push_back(entry(bodies.slots, slot).parent);
 }
 
 // ---- cracks -------------------------------------------------------------------------------------------
@@ -197,7 +202,8 @@ std::vector<TableInfo> bond_tables(const Scene& scene) {
             {"bond", "-", "position of its [[bond]] in the scene", true},
             {"length", "m", "half of it where the other side's points break, too"},
             {"shear", "-", "share of shear when it broke: 0 mode I, 1 mode II"},
-            {"energy", "J", "spent in breaking it"}}}};
+            {"energy", "J", "spent in breaking it"},
+            {"inside", "-", "1 between grains of one particle, or 0", true}}}};
 }
 
 std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t first) {
@@ -205,12 +211,14 @@ std::vector<std::vector<double>> crack_rows(const World& world, std::int64_t fir
   if (!world.has<BondTotals>()) return rows;
   const Bodies& bodies = world.resource<Bodies>();
   const auto number = [&](int slot) { return slot < 0 ? slot : entry(bodies.slots, slot).number; };
+  const auto parent = [&](int slot) { return entry(bodies.slots, slot).parent; };
   const std::vector<Crack>& cracks = world.resource<BondTotals>().cracks;
   for (std::int64_t i = first; i < std::ssize(cracks); ++i) {
     const Crack& crack = entry(cracks, i);
+    const bool inside = crack.other >= 0 && parent(crack.slot) == parent(crack.other);
     rows.push_back({crack.time, crack.x, crack.y, 1.0 * number(crack.slot),
                     1.0 * number(crack.other), crack.law - 1.0, crack.length, crack.shear,
-                    crack.energy});
+                    crack.energy, inside ? 1.0 : 0.0});
   }
   return rows;
 }

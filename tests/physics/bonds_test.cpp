@@ -192,7 +192,7 @@ double sum_of_lengths(const Experiment& e) {
 }
 
 TEST(BondResults, CracksAddUpToTheHistory) {
-  enum Column { time, x, y, particle, other, bond, length, shear, energy };
+  enum Column { time, x, y, particle, other, bond, length, shear, energy, inside };
   Experiment e("bonds/pulled-blocks.toml");
   ASSERT_EQ(e.results.tables().size(), 1U);
   e.run(50);
@@ -203,6 +203,7 @@ TEST(BondResults, CracksAddUpToTheHistory) {
   EXPECT_NEAR(sum_of_column(rows, energy), e.value("energy/fracture"), 1e-12 * 20e-6);
   for (const auto& row : rows) {
     EXPECT_EQ(row[particle] + row[other], 1);  // from both sides
+    EXPECT_EQ(row[inside], 0);                 // between two particles
     EXPECT_LT(row[shear], 1e-6);
     EXPECT_NEAR(row[y], 0.5e-3, 5e-6);
   }
@@ -225,6 +226,7 @@ TEST(BondResults, FragmentsComeFromBondsThatBreak) {
   EXPECT_THAT(field_of(e, "fragment"), ElementsAre(0, 1));
   EXPECT_THAT(field_of(e, "fragments/number"), ElementsAre(0, 1));
   EXPECT_THAT(field_of(e, "damage"), ElementsAre(1, 1));
+  EXPECT_THAT(field_of(e, "parent"), ElementsAre(0, 1));
   const auto start = field_of(e, "cracks/start"), end = field_of(e, "cracks/end");
   ASSERT_EQ(start.size(), 2 * 92U);
   double length = 0;  // along the broken edges, of both sides
