@@ -83,6 +83,11 @@ struct BondRules {
   std::vector<std::uint8_t> tool_initial, tool_pressed;  // [tools * materials]
 
   const Law& law(int number) const { return entry(laws, number - 1); }
+  // -, of the contact spring of surfaces that may have been bonded at the start: as stiff as the bond, so that one which
+  // breaks under pressure leaves its load to the contact.
+  double contact_stiffness(int initial_law) const {
+    return initial_law == 0 ? 1 : law(initial_law).stiffness;
+  }
   int initial_between(const Bodies::Slot& a, const Bodies::Slot& b) const {
     return entry(a.parent == b.parent ? inside : initial, a.material * materials + b.material);
   }

@@ -90,8 +90,9 @@ struct ContactRules {
   double thinnest = std::numeric_limits<double>::infinity();
   std::vector<double> tool_thickness;  // m, [tools]: of thin ridges; infinite where there are none
   bool servos = false;                 // some tool holds a force
-  // -, [materials]: stiffness of bonds over that of the contact springs; empty without bonds
-  std::vector<double> bond_stiffness;
+  // -, [materials]: stiffness over that of the contact springs of the stiffest bonds made at the start, which their
+  // contact springs share, and of welds; empty without bonds
+  std::vector<double> initial_stiffness, weld_stiffness;
   int materials = 0;
   struct Friction {
     double coefficient = 0;  // -, Coulomb's; where there is a static one, the dynamic
@@ -114,11 +115,15 @@ struct ContactRules {
   const Adhesion& adhesion_with_tool(int tool, int material) const {
     return adhesive(tool_adhesion, tool * materials + material);
   }
-  double bonds_of(int material) const {
-    return bond_stiffness.empty() ? 0 : entry(bond_stiffness, material);
+  // Tangent of the springs of a material's contacts and bonds over that of an untouched contact spring, when the
+  // contact springs have stiffened so much.
+  double springs_of(int material, double stiffening) const {
+    if (initial_stiffness.empty()) return stiffening;
+    return std::max(1.0, entry(initial_stiffness, material)) *
+           (stiffening + entry(weld_stiffness, material));
   }
-  double stiffest_bond() const {
-    return bond_stiffness.empty() ? 0 : *std::ranges::max_element(bond_stiffness);
+  double stiffest_weld() const {
+    return weld_stiffness.empty() ? 0 : *std::ranges::max_element(weld_stiffness);
   }
   const Friction& friction_between(int a, int b) const {
     return entry(friction, a * materials + b);

@@ -395,8 +395,10 @@ std::unique_ptr<World> build_world(const Scene& scene) {
       add_bonds(*world, needs);
       const BondRules& bonds =
           world->emplace<BondRules>(bounded_by(layout.bodies, scene, bond_rules(scene)));
-      for (int m = 0; m < bonds.materials; ++m)
-        rules.bond_stiffness.push_back(stiffest_bond(bonds, m));
+      for (int m = 0; m < bonds.materials; ++m) {
+        rules.initial_stiffness.push_back(stiffest_bond(bonds, m, false));
+        rules.weld_stiffness.push_back(stiffest_bond(bonds, m, true));
+      }
       index.reach = longest_gap(layout.bodies, bonds);
     }
     for (const ContactRules::Adhesion& adhesion : rules.adhesion)

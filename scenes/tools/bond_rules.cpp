@@ -82,11 +82,12 @@ double longest_gap(const Bodies& bodies, const BondRules& rules) {
   return longest;
 }
 
-double stiffest_bond(const BondRules& rules, int material) {
+double stiffest_bond(const BondRules& rules, int material, bool pressed) {
   double stiffest = 0;
   const auto take = [&](const std::vector<std::uint8_t>& numbers, int at) {
     const int number = entry(numbers, at);
-    if (number != 0) stiffest = std::max(stiffest, rules.law(number).stiffness);
+    if (number != 0 && rules.law(number).pressed() == pressed)
+      stiffest = std::max(stiffest, rules.law(number).stiffness);
   };
   for (int other = 0; other < rules.materials; ++other)
     for (const auto* numbers : {&rules.initial, &rules.inside, &rules.pressed})

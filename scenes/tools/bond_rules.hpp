@@ -16,8 +16,9 @@ BondRules bond_rules(const Scene& scene);
 // bond's spring stores on the softest edges.
 BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules);
 
-// -, stiffness over the contact spring's of the stiffest bond that a material can have.
-double stiffest_bond(const BondRules& rules, int material);
+// -, stiffness over the contact spring's of the stiffest bond that a material can have, made at the start or by pressure;
+// 0: none.
+double stiffest_bond(const BondRules& rules, int material, bool pressed);
 
 // m, gap across which a bond can hold: what was bonded at the start, and the opening at which it is broken in its longest
 // mode.

@@ -56,8 +56,8 @@ inline double softest_edge(const Shape& shape, const Quad& quad) {
 // Tangent of the stiffest spring on a chunk's outlines over that of an untouched contact spring, bonds included.
 inline double springs_of(Chunk chunk, const Bodies& bodies, const ContactRules& rules,
                          const Clock& clock) {
-  return clock.stiffening +
-         rules.bonds_of(entry(bodies.slots, ChunkLane(chunk, 0).slot()).material);
+  return rules.springs_of(entry(bodies.slots, ChunkLane(chunk, 0).slot()).material,
+                          clock.stiffening);
 }
 
 // Contact dashpots over contact springs of k K L/A, times sqrt(kK/rho) L/A: 2 xi with a tool. Two equal bodies

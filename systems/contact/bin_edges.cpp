@@ -67,7 +67,7 @@ void list_other_rows(const BySlot<EdgeCandidate>& rows, ContactIndex& index) {
 }
 
 struct PairLaw {
-  double kappa;
+  double kappa;  // Pa/m
   const ContactRules::Friction& friction;
   double damping;
   std::uint8_t weld;  // number of the law of bonds by which pressure welds
@@ -115,6 +115,19 @@ double pair_stiffness(const ContactRules& rules, std::span<const double> bulk, c
 // c = 2 xi sqrt(kappa rho h): the boundary element's mass per area on the contact spring.
 double damping_of(const ContactRules& rules, double kappa, double rho, const Shape::Edge& edge) {
   return 2 * rules.damping * std::sqrt(kappa * rho / edge.stiffness);
+}
+
+double initial_stiffness(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
+                         const RowKey& key) {
+  if (!bonds || key.slot == key.other) return 1;
+  return (*bonds)->contact_stiffness((*bonds)->initial_between(
+      entry(bodies.slots, key.slot), entry(bodies.slots, key.other)));
+}
+double initial_stiffness_with_tool(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
+                                   const RowKey& key) {
+  if (!bonds) return 1;
+  return (*bonds)->contact_stiffness(
+      (*bonds)->initial_with_tool(key.other, entry(bodies.slots, key.slot)));
 }
 
 std::uint8_t weld_law(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
@@ -198,7 +211,7 @@ void bin_edges::operator()() const {
     const Shape::Edge& edge = entry(bodies->shape_of_slot(key.slot).edges, key.edge);
     set_row(
         row, *bodies, key,
-        {kappa,
+        {kappa * initial_stiffness(material.bonds, *bodies, key),
          rules.friction_between(entry(slots, key.slot).material, entry(slots, key.other).material),
          damping_of(rules, kappa, rho, edge),
          weld_law(material.bonds, *bodies, key),
@@ -282,7 +295,8 @@ void bin_tool_edges::operator()() const {
     const Shape::Edge& edge = entry(bodies->shape_of_slot(key.slot).edges, key.edge);
     const double kappa = rules.stiffness * entry(material.bulk.values(), key.slot) * edge.stiffness;
     set_row(row, *bodies, key,
-            {kappa, rules.friction_with_tool(key.other, entry(bodies->slots, key.slot).material),
+            {kappa * initial_stiffness_with_tool(material.bonds, *bodies, key),
+             rules.friction_with_tool(key.other, entry(bodies->slots, key.slot).material),
              damping_of(rules, kappa, entry(material.density.values(), key.slot), edge),
              tool_weld_law(material.bonds, *bodies, key),
              rules.adhesion_with_tool(key.other, entry(bodies->slots, key.slot).material)},

@@ -174,7 +174,8 @@ class BondPass {
     return s_.rules.law(s_.bonds.law(row, BondLawNumber<At>::bonded));
   }
   double stiffness(Row<At> row) const {
-    return law(row).stiffness * s_.rows.law(row, ContactLaw<At>::stiffness);
+    const double contact = s_.rows.law(row, ContactLaw<At>::stiffness);
+    return law(row).pressed() ? law(row).stiffness * contact : contact;
   }
   BondLanes lanes_of(const Two& two) const {
     return {

@@ -74,6 +74,8 @@ struct EdgePass {
     Projection p;
     p.other = {{s.columns.pair(two[0], 2), s.columns.pair(two[1], 2)},
                {s.points.place(two[0], 1), s.points.place(two[1], 1)},
+               {s.columns.pair(two[0], 2) != s.columns.pair(two[0], 0),
+                s.columns.pair(two[1], 2) != s.columns.pair(two[1], 0)},
                points,
                rates};
     p.points = sampled_edges(points, two);

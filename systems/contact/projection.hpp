@@ -17,6 +17,7 @@ namespace pulvis {
 struct OtherCurves {
   std::array<int, 2> slot;
   std::array<std::int32_t, 2> first;  // control point of the outline
+  std::array<bool, 2> round_corners;  // the search goes round them: not where an outline folds on itself
   const double* position;             // of all control points
   const double* velocity;             // null where the scene needs none
 };
@@ -42,10 +43,22 @@ inline int edge_number(const Shape& shape, std::int64_t first_control) {
   return entry(shape.edge_from, first_control);
 }
 
-// Points that leave their edge go on in the next one, or stop at a corner. Returns the lanes that stand
+// The edge around a corner, for a point that is in front of or behind it and not beside both: no edge otherwise.
+inline int edge_around_corner(const Shape& shape, int edge, bool forward, const double* outline,
+                              const Point& p) {
+  const int count = static_cast<int>(shape.edges.size());
+  const int next = (edge + (forward ? 1 : count - 1)) % count;
+  const double* y = outline + 2 * entry(shape.edges, next).first_control + (forward ? 0 : 2);
+  double along = 0;  // of the way from the corner, into the edge
+  for (int k = 0; k < 2; ++k)
+    along += (p[k] - (y[k] + 4 * y[2 + k] + y[4 + k]) / 6) * (y[4 + k] - y[k]);
+  return (forward ? along : -along) > 0 ? next : Shape::no_edge;
+}
+
+// Points that leave their edge go on in the next one, or around a corner, or stop at it. Returns the lanes that stand
 // where they stood, at a corner.
-inline unsigned cross_edges(const Bodies& bodies, const OtherCurves& other, const Lane& before,
-                            CurvePoints& at) {
+inline unsigned cross_edges(const Bodies& bodies, const OtherCurves& other,
+                            const PointLanes& points, const Lane& before, CurvePoints& at) {
   std::array<double, lane_count> u, u_before;
   at.u.store(u.data());
   before.store(u_before.data());
@@ -58,7 +71,19 @@ inline unsigned cross_edges(const Bodies& bodies, const OtherCurves& other, cons
     const int neighbour = forward ? edge.next : edge.previous;
     if (neighbour == Shape::no_edge) {
       u[l] = forward ? 1 : 0;
-      if (u[l] == u_before[l]) stay |= 1U << l;
+      if (u[l] != u_before[l]) continue;
+      const std::size_t half = l / edge_points;
+      const int around = other.round_corners[half]
+                             ? edge_around_corner(shape, edge_number(shape, at.edge[l]), forward,
+                                                  other.position + 2 * other.first[half],
+                                                  {points.x[static_cast<int>(l)], points.y[static_cast<int>(l)]})
+                             : Shape::no_edge;
+      if (around == Shape::no_edge) {
+        stay |= 1U << l;
+      } else {
+        at.edge[l] = entry(shape.edges, around).first_control;
+        u[l] = forward ? 0 : 1;
+      }
     } else {
       at.edge[l] = entry(shape.edges, neighbour).first_control;
       u[l] = std::clamp(u[l] + (forward ? -1 : 1), 0.0, 1.0);
@@ -102,7 +127,7 @@ struct Projection {
   }
   // Seldom: outside the loop of Newton steps.
   [[gnu::noinline]] void cross(const Bodies& bodies, const Lane& before) {
-    beyond |= cross_edges(bodies, other, before, at);
+    beyond |= cross_edges(bodies, other, points, before, at);
     done |= beyond;
     curve = gather(other, other.position, at);
   }

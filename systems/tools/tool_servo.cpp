@@ -101,7 +101,7 @@ void tool_servo::operator()() const {
     drive.asked(tool, 0) =
         asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
 
-    const double minimum = kernels::min_tool_mass(touching(t, rows, law, rules->stiffest_bond()),
+    const double minimum = kernels::min_tool_mass(touching(t, rows, law, rules->stiffest_weld()),
                                                   clock->dt, clock->safety);
     const kernels::ServoState now =
         kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
