@@ -134,8 +134,7 @@ std::uint8_t weld_law(const Optional<Read<BondRules>>& bonds, const Bodies& bodi
                       const RowKey& key) {
   if (!bonds || key.slot == key.other) return 0;
   const auto material = [&](int slot) { return entry(bodies.slots, slot).material; };
-  return entry((*bonds)->pressed,
-               material(key.slot) * (*bonds)->materials + material(key.other));
+  return entry((*bonds)->pressed, material(key.slot) * (*bonds)->materials + material(key.other));
 }
 std::uint8_t tool_weld_law(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
                            const RowKey& key) {
@@ -195,7 +194,8 @@ void bin_edges::operator()() const {
   const ContactRules& rules = *material.rules;
   BySlot<std::int32_t> neighbours =
       particle_neighbours(*bodies, control.values(), index->neighbourhood);
-  BySlot<EdgeCandidate> found = edge_candidates(*bodies, control.values(), neighbours, index->skin + index->reach);
+  BySlot<EdgeCandidate> found =
+      edge_candidates(*bodies, control.values(), neighbours, index->skin + index->reach);
   if (any_fold_touches(rows.pair, touches))
     found = with_touching_folds(index->sampled_begin, rows.pair, touches, found);
   const std::vector<std::int32_t> source = match(index->sampled_begin, rows.pair, found);
@@ -213,8 +213,7 @@ void bin_edges::operator()() const {
         row, *bodies, key,
         {kappa * initial_stiffness(material.bonds, *bodies, key),
          rules.friction_between(entry(slots, key.slot).material, entry(slots, key.other).material),
-         damping_of(rules, kappa, rho, edge),
-         weld_law(material.bonds, *bodies, key),
+         damping_of(rules, kappa, rho, edge), weld_law(material.bonds, *bodies, key),
          adhesion_of(rules, *bodies, key)},
         rows);
     // An outline against itself is looked for anew: its closest points may have gone home along it (edge_contact).
@@ -225,9 +224,11 @@ void bin_edges::operator()() const {
     curves.place(row, 0) = entry(slots, key.slot).first_control + edge.first_control;
     curves.place(row, 1) = entry(slots, key.other).first_control;
     if (known) return;
-    const int start =
-        entry(bodies->shape_of_slot(key.other).edges, found.all[r].start).first_control;
-    for (int g = 0; g < edge_points; ++g) curves.closest(row, g) = CurvePoint{start, 0.5}.packed();
+    const auto& edges = bodies->shape_of_slot(key.other).edges;
+    for (int g = 0; g < edge_points; ++g) {
+      const int start = start_of_point(*bodies, control.values(), found.all[r], g);
+      curves.closest(row, g) = CurvePoint{entry(edges, start).first_control, 0.5}.packed();
+    }
   });
   list_other_rows(found, *index);
   index->sampled_begin = std::move(found.begin);
@@ -287,7 +288,8 @@ BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const doub
 void bin_tool_edges::operator()() const {
   if (!index->due) return;
   const ContactRules& rules = *material.rules;
-  BySlot<ToolCandidate> found = tool_candidates(*bodies, control.values(), tools, index->skin + index->reach);
+  BySlot<ToolCandidate> found =
+      tool_candidates(*bodies, control.values(), tools, index->skin + index->reach);
   structure.rebuild(match(index->tool_begin, rows.pair, found));
   for (std::size_t r = 0; r < found.all.size(); ++r) {
     const Row<ToolContact> row(static_cast<std::int64_t>(r));

@@ -1,5 +1,6 @@
 #include "systems/contact/broad_phase.hpp"
 #include "engine/entry.hpp"
+#include "systems/contact/contact_kernel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -319,6 +320,30 @@ BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const doub
   const Curves curves{bodies, control};
   const Boxes boxes = curves.boxes();
   return list_by_slot<EdgeCandidate>(curves.slots(), EdgeSearch(curves, boxes, neighbours, skin));
+}
+
+int start_of_point(const Bodies& bodies, std::span<const double> control,
+                   const EdgeCandidate& candidate, int point) {
+  const Curves curves{bodies, control};
+  const auto& edges = bodies.shape_of_slot(candidate.other).edges;
+  const int count = static_cast<int>(edges.size());
+  const Shape::Edge& start = entry(edges, candidate.start);
+  if (start.next != Shape::no_edge && start.previous != Shape::no_edge) return candidate.start;
+  const double* own = curves.edge_points(candidate.slot, candidate.edge);
+  const auto n = kernels::basis(entry(kernels::edge_u, point));
+  Spot at{0, 0};
+  for (int a = 0; a < 4; ++a)
+    for (int k = 0; k < 2; ++k) at[static_cast<std::size_t>(k)] += entry(n, a) * own[2 * a + k];
+  const auto distance = [&](int e) {
+    return squared_distance_to_chord(at, curves.edge_points(candidate.other, e));
+  };
+  int nearest = candidate.start;
+  const auto look_at = [&](int neighbour) {
+    if (distance(neighbour) < distance(nearest)) nearest = neighbour;
+  };
+  if (start.next == Shape::no_edge) look_at((candidate.start + 1) % count);
+  if (start.previous == Shape::no_edge) look_at((candidate.start + count - 1) % count);
+  return nearest;
 }
 
 }  // namespace pulvis

@@ -122,6 +122,19 @@ INSTANTIATE_TEST_SUITE_P(
                 "output.frames=6"},
                700,
                {{310, 1}, {311, 2}, {370, 1}, {425, 2}}},
+        Course{"Breaking",  // at step 1700 to 1950
+               "bonds/sheared-blocks.toml",
+               {"stage.pull.duration=30 us",
+                "stage.pull.move.head.displacement=[\"0.012 mm\", \"0.004 mm\"]",
+                "bond[0].weibull_modulus=5", "output.samples=60", "output.frames=6"},
+               2500,
+               {{1, 1}, {900, 2}, {1500, 1}, {1790, 2}, {1840, 1}, {1870, 2}}},
+        Course{"Welding",
+               "bonds/cold-weld.toml",
+               {"stage.press.duration=20 us", "stage.part.duration=40 us", "output.samples=60",
+                "output.frames=6"},
+               16000,
+               {{2, 1}, {6000, 2}, {11000, 1}, {13000, 2}}},
         Course{"FrictionLoop", "afm/loop-beam-0.toml", {}, 0, {{1, 1}, {3, 1}, {9, 2}, {30, 1}}}),
     [](const auto& test) { return std::string(test.param.name); });
 
