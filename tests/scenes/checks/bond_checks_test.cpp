@@ -41,7 +41,7 @@ TEST(InitialBonds, ThatBondNothingAreRefusedWithTheReachThatWouldDo) {
 }
 
 TEST(InitialBonds, FarFromEachOtherAreLookedForAsFarAsTheReachGoes) {
-  const auto problems = problems_apart(0.045);
+  const auto problems = problems_apart(0.3);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_THAT(problems[0].message, HasSubstr("face each other within"));
   EXPECT_THAT(problems_apart(0.045, {"bond[0].reach=0.5"}), IsEmpty());
