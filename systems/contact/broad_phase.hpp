@@ -47,7 +47,7 @@ BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const doub
                                       const BySlot<std::int32_t>& neighbours, double skin);
 
 // The edge from which point `point` of a new candidate looks for its closest one: `start`, or an edge that meets it in a
-// corner where that is nearer to the point. No search leads over a corner, and beside it the edge that is nearest to the
+// corner where that is nearer to the point. The search goes round a corner only for points beside it, and the edge that is nearest to the
 // middle of the sampled one may be the wrong one for some of its points.
 int start_of_point(const Bodies& bodies, std::span<const double> control,
                    const EdgeCandidate& candidate, int point);
