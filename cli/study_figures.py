@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Pictures of a study for papers and slides: every chart of its report, one curve a variation.
+"""Pictures of a study for papers and slides: every chart of its report, one curve a variation, and its laws of strength.
 
 usage: study_figures.py STUDY_FOLDER
 
-Reads STUDY_FOLDER/curves.json and writes STUDY_FOLDER/pictures/*.png; the band of a variation with several
+Reads STUDY_FOLDER/curves.json and summary.json and writes STUDY_FOLDER/pictures/*.png; the band of a variation with several
 seeds lies between the smallest and the largest. Needs python3-numpy and python3-matplotlib.
 """
 import argparse
@@ -45,23 +45,75 @@ def draw(curve, title):
     return figure
 
 
+def value_of(group, name):
+    return next(parameter["value"] for parameter in group["parameters"] if parameter["name"] == name)
+
+
+def draw_weibull(axes, group, factor, label):
+    strength = factor * np.array([point["strength"] for point in group["points"]])
+    chance = np.array([point["failure_probability"] for point in group["points"]])
+    marks, = axes.semilogx(strength, np.log(-np.log(1 - chance)), "o", markersize=4, label=label)
+    ends = np.array([strength.min(), strength.max()])
+    axes.plot(ends, value_of(group, "modulus") * np.log(ends / (factor * value_of(group, "scale"))),
+              color=marks.get_color())
+
+
+def draw_porosity(axes, group, factor, label):
+    porosity = np.array([point["porosity"] for point in group["points"]])
+    marks, = axes.plot(porosity, [factor * point["strength"] for point in group["points"]], "o", markersize=4,
+                       label=label)
+    along = np.linspace(porosity.min(), porosity.max(), 60)
+    axes.plot(along, factor * value_of(group, "dense_strength") * np.exp(-value_of(group, "k") * along),
+              color=marks.get_color())
+
+
+def plain_ticks(axes):
+    """On an axis of less than a decade: numbers instead of powers of ten."""
+    for set_formatter in (axes.xaxis.set_major_formatter, axes.xaxis.set_minor_formatter):
+        set_formatter(plt.FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def draw_fit(fit, title):
+    groups = [group for group in fit["groups"] if "not_fitted" not in group]
+    if not groups:
+        return None
+    factor, unit = unit_for("" if fit["unit"] == "-" else fit["unit"],
+                            np.array([point["strength"] for group in groups for point in group["points"]]))
+    weibull = fit["law"] == "weibull"
+    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    for group in groups:
+        shown = (f"modulus {value_of(group, 'modulus'):.3g}" if weibull else
+                 f"k = {value_of(group, 'k'):.3g}, r² = {value_of(group, 'r_squared'):.3g}")
+        (draw_weibull if weibull else draw_porosity)(axes, group, factor, f"{group['name']}: {shown}")
+    axes.set_xlabel(labelled("strength", unit) if weibull else "porosity")
+    axes.set_ylabel("ln(-ln(1 - P))" if weibull else labelled("strength", unit))
+    if weibull:
+        plain_ticks(axes)
+    axes.set_title(f"{fit['title'].replace('_', ' ')}\n{title}", loc="left")
+    axes.legend(fontsize=8)
+    return figure
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("study_folder", type=Path)
     folder = parser.parse_args().study_folder
     try:
         curves = json.loads((folder / "curves.json").read_text(encoding="utf-8"))
-        title = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["title"]
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        title = summary["title"]
     except (OSError, ValueError) as error:
         sys.exit(f"study_figures: {folder}: {error}")
     pictures = folder / "pictures"
     pictures.mkdir(exist_ok=True)
     plt.rcParams.update(STYLE)
-    for number, curve in enumerate(curves):
-        figure = draw(curve, title)
-        name = re.sub(r"[^A-Za-z0-9]+", "-", f"{number + 1}-{curve['y']}-{curve['x']}") + ".png"
+    drawn = [(draw(curve, title), f"{number + 1}-{curve['y']}-{curve['x']}") for number, curve in enumerate(curves)]
+    drawn += [(draw_fit(fit, title), f"fit-{number + 1}-{fit['law']}")
+              for number, fit in enumerate(summary.get("fits", []))]
+    for figure, words in drawn:
+        name = re.sub(r"[^A-Za-z0-9]+", "-", words) + ".png"
         if figure is None:
-            print(f"study_figures: no run has both series of {name}")
+            print(f"study_figures: no run has what {name} shows")
             continue
         if (pictures / name).exists() and MARK not in (pictures / name).read_bytes()[:1024]:
             sys.exit(f"study_figures: {pictures / name} is there already, and was not drawn here")

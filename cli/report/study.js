@@ -95,6 +95,68 @@ function fillBelow(head) {
   fillTable("below", ["run", "wall µ", ...TRANSMISSION.map(([, title]) => title), ""], rows);
 }
 
+const strengthLaws = head => Array.isArray(head.fits) ? head.fits : [];
+
+function limitedText(parameter) {
+  const {low, high, unit} = parameter;
+  return parameterText(parameter) +
+    (low === undefined ? "" : ` (${withUnit(low, unit, 3)} to ${withUnit(high, unit, 3)})`);
+}
+
+function fillStrength(head) {
+  const laws = strengthLaws(head);
+  document.getElementById("strength-section").hidden = !laws.length;
+  const row = (law, name, group) => [
+    law.title, name, group.diameter ? withUnit(group.diameter, "m") : "–", String(group.points.length),
+    group.not_fitted ? `not fitted: ${group.not_fitted}` : group.parameters.map(limitedText).join(", ")];
+  const rows = laws.flatMap(law => [
+    ...law.groups.map(group => row(law, group.name, group)),
+    ...(law.size_effect ? [row(law, "size effect", {points: law.groups.flatMap(group => group.points),
+                                                    parameters: law.size_effect})] : [])]);
+  fillTable("strength", ["fit", "of", "diameter", "runs", "found"], rows);
+}
+
+const spread = (values, count = 60) => {
+  const low = Math.min(...values), high = Math.max(...values);
+  return Array.from({length: count}, (_, i) => low + (high - low) * i / (count - 1));
+};
+const parameterOf = (group, name) => group.parameters.find(parameter => parameter.name === name).value;
+
+function markedLine(law, group, unit, x, values, fit) {
+  return {label: law.groups.length > 1 ? group.name : `${group.points.length} runs`, unit, x, values, low: values,
+          high: values, isMarks: true, fit: group.not_fitted ? null : fit()};
+}
+
+function weibullPlot(law) {
+  const [unit, factor] = law.unit === "Pa" ? ["MPa", 1e-6] : [law.unit, 1];
+  const lines = law.groups.filter(group => !group.not_fitted).map(group => {
+    const x = group.points.map(point => Math.log(point.strength * factor));
+    const values = group.points.map(point => Math.log(-Math.log(1 - point.failure_probability)));
+    return markedLine(law, group, "-", x, values, () => {
+      const modulus = parameterOf(group, "modulus"), middle = Math.log(parameterOf(group, "scale") * factor);
+      const along = spread(x, 2);
+      return {x: along, values: along.map(v => modulus * (v - middle))};
+    });
+  });
+  return {title: law.title, x: {label: unit === "-" ? "ln(strength)" : `ln(strength / ${unit})`, unit: "-", values: []},
+          y: "ln(−ln(1 − P))", lines};
+}
+
+function porosityPlot(law) {
+  const lines = law.groups.filter(group => group.points.length).map(group => {
+    const x = group.points.map(point => point.porosity), values = group.points.map(point => point.strength);
+    return markedLine(law, group, law.unit, x, values, () => {
+      const dense = parameterOf(group, "dense_strength"), k = parameterOf(group, "k"), along = spread(x);
+      return {x: along, values: along.map(porosity => dense * Math.exp(-k * porosity))};
+    });
+  });
+  return {title: law.title, x: {label: "porosity", unit: "-", values: []}, y: "strength", lines};
+}
+
+const strengthPlots = head => strengthLaws(head)
+  .map(law => law.law === "weibull" ? weibullPlot(law) : porosityPlot(law))
+  .filter(plot => plot.lines.length);
+
 function lineData(line, numbers) {
   const part = k => numbers.subarray(line.first + k * line.count, line.first + (k + 1) * line.count);
   return {x: part(0), y: part(1), low: line.band ? part(2) : null, high: line.band ? part(3) : null};
@@ -121,10 +183,12 @@ async function main() {
   fillRuns(head);
   fillLaws(head);
   fillBelow(head);
-  const drawn = head.curves.filter(curve => curve.lines.length);
-  const hosts = drawn.map(curve => card(seriesLabel(curve.title)));  // first all places: they share the width
-  drawn.forEach((curve, i) => drawChart(hosts[i], overlay(curve, numbers), {height: 340}));
-  document.body.dataset.drawnLines = drawn.reduce((sum, curve) => sum + curve.lines.length, 0);
+  fillStrength(head);
+  const drawn = [...strengthPlots(head),
+                 ...head.curves.filter(curve => curve.lines.length).map(curve => overlay(curve, numbers))];
+  const hosts = drawn.map(chart => card(chart.title));  // first all places: they share the width
+  drawn.forEach((chart, i) => drawChart(hosts[i], chart, {height: 340}));
+  document.body.dataset.drawnLines = drawn.reduce((sum, chart) => sum + chart.lines.length, 0);
   document.body.dataset.ready = "1";
 }
 

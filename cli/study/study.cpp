@@ -11,6 +11,7 @@
 #include "cli/checkpoints.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/report/report.hpp"
+#include "cli/study/study_fit_files.hpp"
 #include "cli/study/study_jobs.hpp"
 #include "cli/study/study_report.hpp"
 #include "cli/study/study_results.hpp"
@@ -81,8 +82,8 @@ void begin_log(const fs::path& log, const Job& job) {
 
 // Of the study itself.
 void require_own_study(const fs::path& folder, const fs::path& study) {
-  for (const char* const name :
-       {"study.toml", "study.csv", "summary.json", "curves.json", "report.html"}) {
+  for (const char* const name : {"study.toml", "study.csv", "fits.csv", "strengths.csv",
+                                 "summary.json", "curves.json", "report.html"}) {
     require_another(study, folder / name);
     require_own_or_none(folder / name, role::study);
   }
@@ -144,8 +145,11 @@ class StudyRunner {
       const StudyResult& result = of(run);
       return result.usable ? std::string() : result.failure;
     };
-    const std::vector<Verdict> verdicts = judge_study(study_, series, failed);
-    write_study(folder_, study_, results_, verdicts, times_);
+    const StudyFindings findings{judge_study(study_, series, failed),
+                                 fit_study(study_, series, failed)};
+    const std::vector<Verdict>& verdicts = findings.verdicts;
+    write_study(folder_, study_, results_, findings, times_);
+    if (!findings.fits.empty()) tell("{}", fits_text(findings.fits));
     print_end(verdicts);
     const bool bad = std::ranges::any_of(
         results_, [](const StudyResult& result) { return !result.failure.empty(); });

@@ -7,6 +7,7 @@
 #include "cli/report/report_encoding.hpp"
 #include "cli/report/report_page.hpp"
 #include "cli/study/study_curves.hpp"
+#include "cli/study/study_fit_files.hpp"
 #include "cli/summary.hpp"
 #include "engine/files/own_files.hpp"
 
@@ -51,13 +52,14 @@ std::string title_of(const Study& study) {
 }
 
 Json study_json(const Study& study, const std::vector<StudyResult>& results,
-                const std::vector<Verdict>& verdicts, const StudyTimes& times) {
+                const StudyFindings& findings, const StudyTimes& times) {
   Json json{{"title", title_of(study)},   {"version", program_version()},
             {"commit", program_commit()}, {"wall_seconds", times.wall_seconds},
             {"jobs", times.jobs},         {"threads_per_run", times.threads}};
   json["runs"] = Json::array();
   for (const StudyResult& result : results) json["runs"].push_back(run_json(study, result));
-  json["expectations"] = verdicts_json(verdicts);
+  json["expectations"] = verdicts_json(findings.verdicts);
+  if (!findings.fits.empty()) json["fits"] = fits_json(findings.fits);
   return json;
 }
 
@@ -113,16 +115,27 @@ ReportData page_data(const Study& study, Json head, const std::vector<DrawnCurve
           {{"numbers", encoded(numbers)}}};
 }
 
+void write_fits(const std::filesystem::path& folder, const std::vector<FittedLaw>& fits) {
+  if (fits.empty()) {  // of the same study before it was changed
+    remove_own(folder / "fits.csv", role::study);
+    remove_own(folder / "strengths.csv", role::study);
+    return;
+  }
+  write_own(folder / "fits.csv", role::study, fits_csv(fits));
+  write_own(folder / "strengths.csv", role::study, strengths_csv(fits));
+}
+
 }  // namespace
 
 void write_study(const std::filesystem::path& folder, const Study& study,
-                 const std::vector<StudyResult>& results, const std::vector<Verdict>& verdicts,
+                 const std::vector<StudyResult>& results, const StudyFindings& findings,
                  const StudyTimes& times) {
-  const Json summary = study_json(study, results, verdicts, times);
+  const Json summary = study_json(study, results, findings, times);
   const std::vector<DrawnCurve> curves = study_curves(study, results);
   write_own(folder / "study.csv", role::study, study_csv(study, results));
   write_own(folder / "summary.json", role::study, summary.dump(2) + "\n");
   write_own(folder / "curves.json", role::study, curves_json(curves).dump() + "\n");
+  write_fits(folder, findings.fits);
   write_page(folder / "report.html", "study.html",
              {"units.js", "payload.js", "save.js", "chart.js", "fits.js", "study.js"},
              page_data(study, summary, curves), role::study);

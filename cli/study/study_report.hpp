@@ -3,6 +3,8 @@
 //   summary.json  the same with everything of each run's summary that was looked up, and the verdicts
 //   curves.json   the curves as drawn: [{title, x, y, x_unit, y_unit, lines: [{variation, runs, x, y,
 //                 low, high}]}], SI; low and high where there are several seeds
+//   fits.csv, strengths.csv  where the study has a [[fit]]: the parameters that were found, and the strength of every
+//                 run with its probability of failure or its porosity
 //   report.html   table, curves, spread and verdicts in one page, with links to the runs' own reports
 #pragma once
 
@@ -10,8 +12,14 @@
 
 #include "cli/study/study_results.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/study/study_fits.hpp"
 
 namespace pulvis {
+
+struct StudyFindings {
+  std::vector<Verdict> verdicts;
+  std::vector<FittedLaw> fits;
+};
 
 struct StudyTimes {
   double wall_seconds = 0;
@@ -19,7 +27,7 @@ struct StudyTimes {
 };
 
 void write_study(const std::filesystem::path& folder, const Study& study,
-                 const std::vector<StudyResult>& results, const std::vector<Verdict>& verdicts,
+                 const std::vector<StudyResult>& results, const StudyFindings& findings,
                  const StudyTimes& times);
 
 }  // namespace pulvis

@@ -5,56 +5,120 @@
 namespace pulvis::schema {
 namespace {
 
-auto bound_to(std::optional<StudyExpect::Bound> StudyExpect::*member) {
-  return [member](StudyExpect& spec, const Decoded& value) {
-    spec.*member = {value.number, value.text};
-  };
+using Bound = StudyQuantity::Bound;
+
+template <class Spec>
+auto bound_to(std::optional<Bound> Spec::*member) {
+  return [member](auto& spec, const Decoded& value) { spec.*member = {value.number, value.text}; };
 }
-auto texts_to(std::vector<std::string> StudyExpect::*member) {
-  return [member](StudyExpect& spec, const Decoded& value) { spec.*member = value.texts; };
+template <class Spec>
+auto texts_to(std::vector<std::string> Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) { spec.*member = value.texts; };
+}
+auto text_to(std::string StudyQuantity::*member) {
+  return [member](auto& spec, const Decoded& value) { spec.*member = value.text; };
 }
 
-std::vector<Key<StudyExpect>> quantity_keys() {
+// Of what takes one number of every run; `when` has these words.
+template <class Spec>
+std::vector<Key<Spec>> quantity_keys(const std::vector<Choice>& when) {
   return {
       {{.name = "series",
         .kind = Kind::text,
         .required = true,
         .doc = "A series of `history.csv`, or one made from it (see above)."},
-       to(&StudyExpect::series)},
+       text_to(&StudyQuantity::series)},
       {{.name = "at",
         .kind = Kind::bound,
         .doc = "Its value where `against` first passes this one, by linear interpolation.",
         .fallback_doc = "what `when` says"},
-       bound_to(&StudyExpect::at)},
+       bound_to(&StudyQuantity::at)},
       {{.name = "when",
         .kind = Kind::choice,
-        .choices = {{"end", "its last sample"},
-                    {"max", "its largest"},
-                    {"min", "its smallest"},
-                    {"mean", "the mean of its samples"},
-                    {"roughness",
-                     "rms distance from a straight line through the twentieth of the samples "
-                     "around each, as a share of largest less smallest: 0 of a smooth curve"}},
+        .choices = when,
         .doc = "What of the series is meant.",
         .fallback_doc = "`\"end\"`, or what `at` says"},
-       [](StudyExpect& spec, const Decoded& value) {
-         spec.when = static_cast<StudyExpect::When>(value.index);
+       [](Spec& spec, const Decoded& value) {
+         spec.when = static_cast<StudyQuantity::When>(value.index);
        }},
       {{.name = "against",
         .kind = Kind::text,
         .doc = "The series that `at`, `from` and `until` are values of.",
         .fallback_doc = "`\"relative_density\"`"},
-       to(&StudyExpect::against)},
+       text_to(&StudyQuantity::against)},
       {{.name = "from",
         .kind = Kind::bound,
         .doc = "Samples before `against` first reaches this do not count.",
         .fallback_doc = "all count"},
-       bound_to(&StudyExpect::from)},
+       bound_to(&StudyQuantity::from)},
       {{.name = "until",
         .kind = Kind::bound,
         .doc = "Samples from where `against` first passes this on do not count.",
         .fallback_doc = "all count"},
-       bound_to(&StudyExpect::until)},
+       bound_to(&StudyQuantity::until)},
+  };
+}
+
+std::vector<Choice> samples() {
+  return {{"end", "its last sample"},
+          {"max", "its largest"},
+          {"min", "its smallest"},
+          {"mean", "the mean of its samples"}};
+}
+
+std::vector<Choice> samples_and_roughness() {
+  std::vector<Choice> all = samples();
+  all.push_back({"roughness",
+                 "rms distance from a straight line through the twentieth of the samples "
+                 "around each, as a share of largest less smallest: 0 of a smooth curve"});
+  return all;
+}
+
+std::vector<Key<StudyFit>> strength_keys() {
+  return {
+      {{.name = "law",
+        .kind = Kind::choice,
+        .choices = {{"weibull",
+                     "P = 1 - exp(-(strength/scale)^modulus) of the strengths of a variation, one "
+                     "a seed, by maximum likelihood"},
+                    {"ryshkewitch_duckworth",
+                     "strength = strength_0 exp(-k porosity) over the runs of different density"}},
+        .required = true,
+        .doc = "The law that is fitted."},
+       [](StudyFit& fit, const Decoded& value) {
+         fit.law = static_cast<StudyFit::Law>(value.index);
+       }},
+      {{.name = "area",
+        .kind = Kind::quantity,
+        .unit = "m^2",
+        .range = above(0, 1e6),
+        .doc = "The strength is the force that `series` has over this.",
+        .fallback_doc = "the strength is the number itself"},
+       to(&StudyFit::area)},
+      {{.name = "disc",
+        .kind = Kind::text,
+        .doc = "Name of a class of discs, one of which is crushed between two platens: the "
+               "strength is 2 F/(pi D t) of its diameter D and the scene's thickness t.",
+        .fallback_doc = "as `area` says"},
+       to(&StudyFit::disc)},
+      {{.name = "density",
+        .kind = Kind::text,
+        .only_for = "ryshkewitch_duckworth",
+        .doc = "The series of the relative density, whose largest value in a run is that of its "
+               "compact; the porosity is what it leaves to 1.",
+        .fallback_doc = "`\"relative_density\"`"},
+       to(&StudyFit::density)},
+      {{.name = "by",
+        .kind = Kind::texts,
+        .only_for = "ryshkewitch_duckworth",
+        .doc = "Keys that the study varies: runs in which they are alike are fitted together.",
+        .fallback_doc = "all runs are"},
+       texts_to(&StudyFit::by)},
+      {{.name = "title",
+        .kind = Kind::text,
+        .doc = "Above the chart.",
+        .fallback_doc = "made of `law` and `series`"},
+       to(&StudyFit::title)},
   };
 }
 
@@ -219,9 +283,28 @@ const TableDeclaration<StudyExpect>& study_expect() {
          "with code 3 if not. One number is taken of each run (`series` with `at` or `when`), over "
          "seeds their mean, and variations are compared by exactly one of `order`, `ratio`, "
          "`effect` or `of`."},
-        quantity_keys()};
+        quantity_keys<StudyExpect>(samples_and_roughness())};
     for (const auto& more : {across_keys(), bound_keys()})
       made.keys.insert(made.keys.end(), more.begin(), more.end());
+    return made;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<StudyFit>& study_fit() {
+  static const TableDeclaration<StudyFit> declaration = [] {
+    TableDeclaration<StudyFit> made{
+        {"fit", true, "law",
+         "A law of strength fitted across the runs: its parameters and what they were fitted to "
+         "are "
+         "in the report, in `fits.csv` and in `strengths.csv`. One number is taken of each run "
+         "(`series` with `at` or `when`). A Weibull plot has the probability of failure "
+         "P = (i - 0.5)/N of the i-th strength of N; modulus and scale come with limits of 90% "
+         "confidence. Of discs of several sizes the weakest link says scale ~ D^(-2/modulus): the "
+         "report has the exponent that was found beside it."},
+        strength_keys()};
+    const auto more = quantity_keys<StudyFit>(samples());
+    made.keys.insert(made.keys.begin() + 1, more.begin(), more.end());
     return made;
   }();
   return declaration;
@@ -243,6 +326,7 @@ const Language& study_language() {
       view_of(study_variation()),
       free_keys("variation.set", "Keys of the scene that this variation changes."),
       view_of(study_curve()),
+      view_of(study_fit()),
       view_of(study_expect())};
   return language;
 }

@@ -10,6 +10,7 @@ const TableDeclaration<StudySpec>& study_top_level();
 const TableDeclaration<VariationSpec>& study_variation();
 const TableDeclaration<StudyCurve>& study_curve();
 const TableDeclaration<StudyExpect>& study_expect();
+const TableDeclaration<StudyFit>& study_fit();
 const Language& study_language();
 
 }  // namespace pulvis::schema

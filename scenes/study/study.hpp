@@ -36,19 +36,33 @@ struct StudyCurve {  // [[curve]]
   SourceMark mark;
 };
 
-struct StudyExpect {  // [[expect]]
+struct StudyQuantity {  // one number of a run
   using Bound = ExpectSpec::Bound;
   enum class When { end, max, min, mean, roughness };
-  enum class Trend { increasing, decreasing };
   std::string series, against;
   std::optional<When> when;
   std::optional<Bound> at, from, until;  // of `against`
+};
+
+struct StudyExpect : StudyQuantity {  // [[expect]]
+  enum class Trend { increasing, decreasing };
   std::vector<std::string> order, ratio, effect, exceeds;
   std::optional<Trend> trend;
   double by = 0, factor = 1;
   std::string of;
   std::optional<Bound> above, below, equals;
   std::optional<double> within;
+  SourceMark mark;
+};
+
+struct StudyFit : StudyQuantity {  // [[fit]], of a strength
+  enum class Law { weibull, ryshkewitch_duckworth };
+  std::string title;
+  Law law = Law::weibull;
+  std::optional<double> area;                // m^2, that the force is divided by
+  std::string disc;                          // class of the particle that is crushed
+  std::string density = "relative_density";  // series
+  std::vector<std::string> by;               // keys whose values divide the runs into groups
   SourceMark mark;
 };
 
@@ -60,6 +74,7 @@ struct StudySpec {
   std::vector<VariationSpec> list;
   std::vector<StudyCurve> curves;
   std::vector<StudyExpect> expects;
+  std::vector<StudyFit> fits;
 };
 
 // One run of a study. Those that differ in nothing but their seed are one variation.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scenes/checks/expect_checks.hpp"
+#include "scenes/study/study_fits.hpp"
 #include "scenes/study/study_series.hpp"
 
 namespace pulvis {
@@ -35,6 +36,10 @@ class StudyChecks {
   void run() {
     seeds();
     curves();
+    for (std::size_t i = 0; i < study_.spec.fits.size(); ++i) {
+      path_ = fmt::format("fit[{}]", i);
+      fit(study_.spec.fits[i]);
+    }
     for (std::size_t i = 0; i < study_.spec.expects.size(); ++i) {
       path_ = fmt::format("expect[{}]", i);
       expect(study_.spec.expects[i]);
@@ -160,12 +165,12 @@ class StudyChecks {
                                 : "of";
   }
 
-  bool has_series(const StudyExpect& expect, const StudyRun& run) {
+  bool has_series(const StudyQuantity& quantity, const StudyRun& run) {
     const std::vector<SeriesInfo> all = study_series(run.scene);
     for (const auto& [key, name] :
-         {std::pair{"series", expect.series}, {"against", abscissa(expect)}})
+         {std::pair{"series", quantity.series}, {"against", abscissa(quantity)}})
       if (find_series(all, name) == nullptr) {
-        const bool said = std::string(key) == "series" || !expect.against.empty();
+        const bool said = std::string(key) == "series" || !quantity.against.empty();
         refuse(said ? key : "",
                fmt::format("a run of '{}' has no series '{}'{}, allowed: {}", run.variation, name,
                            suggestion(name, names_of(all)), listed(names_of(all))));
@@ -175,26 +180,30 @@ class StudyChecks {
   }
 
   // Without a place on it the abscissa does not matter; every run has the time.
-  static std::string abscissa(StudyExpect expect) {
-    const bool placed = expect.at || expect.from || expect.until;
-    if (!expect.against.empty()) return expect.against;
+  static std::string abscissa(const StudyQuantity& quantity) {
+    const bool placed = quantity.at || quantity.from || quantity.until;
+    if (!quantity.against.empty()) return quantity.against;
     return placed ? "relative_density" : "time";
   }
 
-  void units(StudyExpect& expect, const std::vector<SeriesInfo>& all) {
-    if (expect.at && expect.when)
+  void place(StudyQuantity& quantity, const std::vector<SeriesInfo>& all) {
+    if (quantity.at && quantity.when)
       refuse("when", "has no effect together with `at`, allowed: one of them");
-    if (!expect.against.empty() && !expect.at && !expect.from && !expect.until)
+    if (!quantity.against.empty() && !quantity.at && !quantity.from && !quantity.until)
       refuse("against",
              "has no effect without `at`, `from` or `until`, allowed: together with one of them");
-    if (expect.at && (expect.from || expect.until))
-      refuse(expect.from ? "from" : "until",
+    if (quantity.at && (quantity.from || quantity.until))
+      refuse(quantity.from ? "from" : "until",
              "has no effect together with `at`, allowed: with `when`");
-    expect.against = abscissa(expect);
-    const std::string place = unit_in(all, expect.against);
-    convert(expect.at, "at", place);
-    convert(expect.from, "from", place);
-    convert(expect.until, "until", place);
+    quantity.against = abscissa(quantity);
+    const std::string unit = unit_in(all, quantity.against);
+    convert(quantity.at, "at", unit);
+    convert(quantity.from, "from", unit);
+    convert(quantity.until, "until", unit);
+  }
+
+  void units(StudyExpect& expect, const std::vector<SeriesInfo>& all) {
+    place(expect, all);
     const bool share = expect.of.empty() || expect.when == StudyExpect::When::roughness;
     const std::string unit = share ? "-" : unit_in(all, expect.series);
     convert(expect.above, "above", unit);
@@ -202,6 +211,64 @@ class StudyChecks {
     convert(expect.equals, "equals", unit);
     if (expect.above && expect.below && expect.above->number > expect.below->number)
       refuse("above", "is above the other bound, allowed: above <= below");
+  }
+
+  void fit(StudyFit& fit) {
+    for (const StudyRun& run : study_.runs) {
+      if (!has_series(fit, run) || !fits_run(fit, run)) return;
+    }
+    const std::vector<SeriesInfo> all = study_series(study_.runs.front().scene);
+    if (fit.area && !fit.disc.empty())
+      refuse("disc", "has no effect together with `area`, allowed: one of them");
+    if ((fit.area || !fit.disc.empty()) && unit_in(all, fit.series) != "N")
+      refuse("series", fmt::format("'{}' is no force, allowed: a series in N, which `{}` makes a "
+                                   "strength",
+                                   fit.series, fit.area ? "area" : "disc"));
+    for (const std::string& key : fit.by) varied(key);
+    enough(fit);
+    place(fit, all);
+  }
+
+  // What a fit needs of every run besides the series.
+  bool fits_run(const StudyFit& fit, const StudyRun& run) {
+    if (fit.law == StudyFit::Law::ryshkewitch_duckworth) {
+      const std::vector<SeriesInfo> all = study_series(run.scene);
+      const SeriesInfo* density = find_series(all, fit.density);
+      if (density == nullptr || density->unit != "-") {
+        refuse("density",
+               density == nullptr
+                   ? fmt::format("a run of '{}' has no series '{}'{}, allowed: {}", run.variation,
+                                 fit.density, suggestion(fit.density, names_of(all)),
+                                 listed(names_of(all)))
+                   : fmt::format("'{}' is no relative density, allowed: a series without a unit",
+                                 fit.density));
+        return false;
+      }
+    }
+    if (fit.disc.empty() || disc_diameter(run.scene, fit.disc)) return true;
+    refuse("disc", fmt::format("'{}' is no class of discs in a run of '{}', allowed: the name of a "
+                               "particle whose outline is a disc",
+                               fit.disc, run.variation));
+    return false;
+  }
+
+  void varied(const std::string& key) {
+    std::vector<std::string> known;
+    for (const StudyRun& run : study_.runs)
+      for (const StudySetting& setting : run.varied)
+        if (std::ranges::find(known, setting.path) == known.end()) known.push_back(setting.path);
+    if (std::ranges::find(known, key) == known.end())
+      refuse("by", fmt::format("the study does not vary '{}'{}, allowed: {}", key,
+                               suggestion(key, known), listed(known)));
+  }
+
+  void enough(const StudyFit& fit) {
+    for (const FitRuns& group : groups_of(study_, fit))
+      if (group.runs.size() < fewest_runs(fit.law))
+        refuse("law", fmt::format("{} run{} of '{}' can be fitted, allowed: at least {}{}",
+                                  group.runs.size(), group.runs.size() == 1 ? "" : "s", group.name,
+                                  fewest_runs(fit.law),
+                                  fit.law == StudyFit::Law::weibull ? " (`seeds`)" : ""));
   }
 
   void convert(std::optional<StudyExpect::Bound>& bound, const std::string& key,

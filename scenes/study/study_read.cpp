@@ -98,8 +98,8 @@ std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) 
 }
 
 // What lies beside the folders of the runs.
-constexpr std::array files_of_a_study{"study.toml",  "study.csv",   "summary.json",
-                                      "curves.json", "report.html", "pictures"};
+constexpr std::array files_of_a_study{"study.toml",   "study.csv",   "fits.csv",    "strengths.csv",
+                                      "summary.json", "curves.json", "report.html", "pictures"};
 
 // File systems that know no capital letters take two such names for one.
 bool can_be_folder(std::string name) {
@@ -126,6 +126,7 @@ class StudyReader {
     study_.spec.list = elements(reader, schema::study_variation(), table);
     read_variation_settings(reader, table);
     study_.spec.curves = elements(reader, schema::study_curve(), table);
+    study_.spec.fits = elements(reader, schema::study_fit(), table);
     study_.spec.expects = elements(reader, schema::study_expect(), table);
     problems_.throw_if_any();
     scene_origin_ = document::find(table, "scene") == nullptr

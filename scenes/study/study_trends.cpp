@@ -29,13 +29,13 @@ double passing(std::span<const double> against, std::span<const double> series, 
 }
 
 // Samples from where `against` first reaches `from` to where it first passes `until`.
-std::vector<double> window(const StudyExpect& expect, std::span<const double> against,
+std::vector<double> window(const StudyQuantity& quantity, std::span<const double> against,
                            std::span<const double> series) {
   std::vector<double> inside;
-  bool begun = !expect.from;
+  bool begun = !quantity.from;
   for (std::size_t i = 0; i < against.size(); ++i) {
-    begun = begun || against[i] >= expect.from->number;
-    if (expect.until && against[i] > expect.until->number) break;
+    begun = begun || against[i] >= quantity.from->number;
+    if (quantity.until && against[i] > quantity.until->number) break;
     if (begun && std::isfinite(series[i])) inside.push_back(series[i]);
   }
   return inside;
@@ -75,16 +75,6 @@ double off_the_line(std::span<const double> values, std::size_t low, std::size_t
   return values[at] - mean - slope / spread * (static_cast<double>(at) - middle);
 }
 
-std::string what_of(const StudyExpect& expect) {
-  static constexpr const char* words[] = {"at the end", "largest", "smallest", "mean", "roughness"};
-  std::string text = expect.series;
-  if (expect.at) return text + fmt::format(" at {} = {:g}", expect.against, expect.at->number);
-  text += fmt::format(", {}", words[static_cast<int>(expect.when.value_or(When::end))]);
-  if (expect.from) text += fmt::format(", from {} = {:g}", expect.against, expect.from->number);
-  if (expect.until) text += fmt::format(", until {} = {:g}", expect.against, expect.until->number);
-  return text;
-}
-
 class Judge {
  public:
   Judge(const Study& study, const SeriesOfRun& series, const FailureOfRun& failed,
@@ -92,7 +82,7 @@ class Judge {
       : study_(study), series_(series), failed_(failed), expect_(expect) {}
 
   Verdict verdict() {
-    Verdict result{what_of(expect_), "", "", {}, false};
+    Verdict result{words_of(expect_), "", "", {}, false};
     if (!expect_.order.empty()) order(result);
     if (!expect_.ratio.empty()) ratio(result);
     if (!expect_.effect.empty()) effect(result);
@@ -216,6 +206,19 @@ class Judge {
 
 }  // namespace
 
+std::string words_of(const StudyQuantity& quantity) {
+  static constexpr const char* words[] = {"at the end", "largest", "smallest", "mean", "roughness"};
+  std::string text = quantity.series;
+  if (quantity.at)
+    return text + fmt::format(" at {} = {:g}", quantity.against, quantity.at->number);
+  text += fmt::format(", {}", words[static_cast<int>(quantity.when.value_or(When::end))]);
+  if (quantity.from)
+    text += fmt::format(", from {} = {:g}", quantity.against, quantity.from->number);
+  if (quantity.until)
+    text += fmt::format(", until {} = {:g}", quantity.against, quantity.until->number);
+  return text;
+}
+
 double roughness(std::span<const double> values) {
   const std::size_t count = values.size();
   const std::size_t near = std::max(min_neighbours, count / share_of_neighbours);
@@ -230,11 +233,11 @@ double roughness(std::span<const double> values) {
   return high > low ? std::sqrt(sum / static_cast<double>(count)) / (high - low) : 0;
 }
 
-double figure_of(const StudyExpect& expect, std::span<const double> against,
+double figure_of(const StudyQuantity& quantity, std::span<const double> against,
                  std::span<const double> series) {
   if (series.empty() || against.size() != series.size()) return no_number;
-  if (expect.at) return passing(against, series, expect.at->number);
-  return reduced(expect.when.value_or(When::end), window(expect, against, series));
+  if (quantity.at) return passing(against, series, quantity.at->number);
+  return reduced(quantity.when.value_or(When::end), window(quantity, against, series));
 }
 
 std::vector<Verdict> judge_study(const Study& study, const SeriesOfRun& series,

@@ -11,9 +11,9 @@
 
 namespace pulvis {
 
-// The one number that an expectation takes of a run, from samples of its series and of what it is
-// against. NaN where there is none: no sample in range, or a value that is never reached.
-double figure_of(const StudyExpect& expect, std::span<const double> against,
+// The one number that is taken of a run, from samples of the series and of what it is against. NaN where there is
+// none: no sample in range, or a value that is never reached.
+double figure_of(const StudyQuantity& quantity, std::span<const double> against,
                  std::span<const double> series);
 
 // rms distance of each sample from the straight line through its neighbours (a twentieth of all, at least
@@ -24,6 +24,8 @@ double roughness(std::span<const double> values);
 using SeriesOfRun = std::function<std::vector<double>(const StudyRun&, const std::string&)>;
 // `failed` tells why a run has no results to trust, or nothing.
 using FailureOfRun = std::function<std::string(const StudyRun&)>;
+
+std::string words_of(const StudyQuantity& quantity);  // "tool/top/force_y, largest"
 
 // One verdict an expectation; not met where a run that it needs has failed.
 std::vector<Verdict> judge_study(const Study& study, const SeriesOfRun& series,

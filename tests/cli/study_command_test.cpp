@@ -95,6 +95,72 @@ trend = "increasing"
   EXPECT_GT(curves[0]["lines"][0]["x"].size(), 30U);
 }
 
+// Meshes that are turned by chance make the forces of the seeds differ.
+TEST_F(StudyCommand, LeavesLawsOfStrength) {
+  std::ofstream(place / "study.toml") << "scene = \"" << scene("compaction/regular-25.toml") << R"("
+seeds = [1, 2, 3, 4, 5]
+[set]
+"stage.press.duration" = "20 us"
+particle.disc.mesh.phase = "random"
+output.frames = 2
+output.samples = 40
+[[variation]]
+name = "little"
+set = { "stage.press.move[0].displacement" = ["0 mm", "-0.3 mm"] }
+[[variation]]
+name = "more"
+set = { "stage.press.move[0].displacement" = ["0 mm", "-0.4 mm"] }
+[[fit]]
+law = "weibull"
+series = "tool/top/force_y"
+when = "max"
+disc = "disc"
+[[fit]]
+law = "ryshkewitch_duckworth"
+title = "Pressure"
+series = "pressure/top"
+when = "max"
+)";
+  const Outcome end = study();
+  ASSERT_EQ(end.code, 0) << end.out << end.err;
+  EXPECT_THAT(end.out, HasSubstr("Weibull's law: tool/top/force_y, largest\n  little: modulus "));
+  const auto fits = summary(results)["fits"];
+  ASSERT_EQ(fits.size(), 2U);
+  const auto& points = fits[0]["groups"][1]["points"];
+  ASSERT_EQ(points.size(), 5U);
+  EXPECT_EQ(points[0]["failure_probability"], 0.1);
+  EXPECT_LT(points[0]["strength"], points[4]["strength"]);
+  // The strengths are the table's forces over pi D t/2.
+  double largest = 0;
+  for (const auto& run : summary(results)["runs"])
+    for (const auto& figure : run["figures"])
+      if (run["variation"] == "more" && figure["name"] == "top_force_max")
+        largest = std::max(largest, figure["value"].get<double>());
+  EXPECT_NEAR(points[4]["strength"].get<double>() * 3.14159265358979 * 0.01 * 1e-3 / 2, largest,
+              1e-9 * largest);
+  EXPECT_EQ(fits[0]["groups"][0]["parameters"][0]["name"], "modulus");
+  EXPECT_FALSE(fits[0].contains("size_effect"));  // one size
+  EXPECT_EQ(fits[1]["groups"][0]["points"].size(), 10U);
+  EXPECT_LT(fits[1]["groups"][0]["points"][0]["porosity"], 0.22);
+  EXPECT_EQ(std::ranges::count(text_of(results / "fits.csv"), '\n'), 1 + 3 + 3 + 3);
+  EXPECT_EQ(std::ranges::count(text_of(results / "strengths.csv"), '\n'), 1 + 10 + 10);
+  // The same study without laws leaves none.
+  const std::string text = text_of(place / "study.toml");
+  std::ofstream(place / "study.toml") << text.substr(0, text.find("[[fit]]"));
+  ASSERT_EQ(study().code, 0);
+  EXPECT_FALSE(fs::exists(results / "fits.csv"));
+  EXPECT_FALSE(fs::exists(results / "strengths.csv"));
+}
+
+TEST_F(StudyCommand, StrengthsThatAreAlikeAreNotFitted) {
+  write("[0.1]", "[[fit]]\nlaw = \"weibull\"\nseries = \"tool/top/force_y\"\nwhen = \"max\"\n");
+  const std::string text = text_of(place / "study.toml");
+  std::ofstream(place / "study.toml") << "seeds = [1, 2, 3, 4, 5]\n" << text;
+  const Outcome end = study();
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("friction=0.1: not fitted: all strengths are alike"));
+}
+
 TEST_F(StudyCommand, RunsOnlyWhatIsMissingOrChanged) {
   write("[0.1, 0.2]");
   ASSERT_EQ(study().code, 0);

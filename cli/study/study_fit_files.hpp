@@ -1,0 +1,18 @@
+// Laws of strength that were fitted across the runs, as text: for summary.json, fits.csv, strengths.csv and the
+// terminal.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "scenes/study/study_fits.hpp"
+
+namespace pulvis {
+
+nlohmann::ordered_json fits_json(const std::vector<FittedLaw>& laws);
+std::string fits_csv(const std::vector<FittedLaw>& laws);       // one row a parameter
+std::string strengths_csv(const std::vector<FittedLaw>& laws);  // one row a run
+std::string fits_text(const std::vector<FittedLaw>& laws);      // one line a group
+
+}  // namespace pulvis
