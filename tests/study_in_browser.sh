@@ -1,6 +1,6 @@
 #!/bin/bash
 # Runs a small study and opens its report in headless Chromium: it must draw every curve, with the band over
-# its seeds, and raise no error, offline.
+# its seeds, and a law of strength, and raise no error, offline.
 #
 # usage: study_in_browser.sh PULVIS SCENE [FOLDER]
 #   PULVIS   the program
@@ -26,12 +26,19 @@ output.frames = 2
 output.samples = 40
 [grid]
 contact.friction = [0.1, 0.3]
+[[fit]]
+law = "ryshkewitch_duckworth"
+series = "pressure/top"
+density = "stress_ratio/lateral"
 TOML
 "$pulvis" study "$work/study.toml" -o "$study" >"$work/log.txt" || fail "the study: $(tail -3 "$work/log.txt")"
 
 body=$(body_of study "$study/report.html" 1200,2400 ready)
 [[ $body == *'data-ready="1"'* ]] || fail "not ready: $body"
-[[ $body == *'data-drawn-lines="6"'* && $(grep -o 'class="curve" d="M' "$work/page.html" | wc -l) -eq 6 ]] || fail "not 3 charts of 2 variations: $body"
+[[ $body == *'data-drawn-lines="7"'* && $(grep -o 'class="curve" d="M' "$work/page.html" | wc -l) -eq 7 ]] ||
+  fail "not 3 charts of 2 variations and one of a law: $body"
+[[ $(grep -o 'class="mark"' "$work/page.html" | wc -l) -eq 4 ]] || fail "not 4 strengths at their law"
+grep -q 'dense strength = ' "$work/page.html" || fail "no parameters of the law"
 grep -q 'href="friction%3D0.1%2Cseed%3D2/report.html"' "$work/page.html" || fail "no link to a run"
 [[ -f $study/friction=0.1,seed=2/report.html ]] || fail "the link leads nowhere"
 picture_of "$study/report.html" 1200,2400 "$study/report.png"

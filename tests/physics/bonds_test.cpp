@@ -263,6 +263,28 @@ TEST(BondResults, AreAbsentWithoutBonds) {
   for (const FieldInfo& field : e.results.fields())
     EXPECT_THAT(field.name,
                 ::testing::Not(::testing::ContainsRegex("bonds/|cracks/|fragment|damage")));
+// ---- a compact ------------------------------------------------------------------------------------------------
+// Pressed, unloaded and without walls: how many boundary edges still touch another particle.
+double touching_after_ejection(const char* scene, const std::vector<std::string>& more) {
+  std::vector<std::string> overrides{"packing[0].width=40 mm", "packing[0].class[0].number=16",
+                                     "tool.right.point=[\"40 mm\", \"0 mm\"]",
+                                     "stage.press.move.top.displacement=[\"0 mm\", \"-7.5 mm\"]"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  Experiment e(scene, overrides);
+  double largest = 0;
+  e.run(40, [&] { largest = std::max(largest, e.value("contacts")); });
+  EXPECT_GT(largest, 100);
+  EXPECT_LT(e.results.energy_balance_error(), 0.01);
+  return e.value("contacts");
+}
+
+TEST(Glue, OfColdWeldingHoldsACompactTogether) {
+  // One or two touch as they fly past each other.
+  EXPECT_LE(touching_after_ejection("bonds/loose-compact.toml", {}), 2);
+  EXPECT_GT(touching_after_ejection("bonds/green-strength.toml",
+                                    {"stage.crush.duration=1 us",
+                                     "stage.crush.move.top.displacement=[\"0 mm\", \"-1e-6 mm\"]"}),
+            50);
 }
 
 TEST(Glue, IsBitwiseTheSameForAnyThreads) {
