@@ -150,22 +150,19 @@ class StudyFitter {
 
   void size_effect(FittedLaw& law) const {
     std::vector<std::vector<double>> samples;
-    std::vector<double> diameters, scales;
+    std::vector<double> diameters;
     for (const FittedGroup& group : law.groups) {
       if (!group.not_fitted.empty() || !group.diameter) return;
       samples.push_back(strengths_of(group));
       diameters.push_back(*group.diameter);
-      scales.push_back(group.parameters.back().value);
     }
     if (std::ranges::min(diameters) == std::ranges::max(diameters)) return;
-    // A power law is a straight line of ln(scale): an exponential of ln(diameter).
-    std::vector<double> log_diameters(diameters.size());
-    std::ranges::transform(diameters, log_diameters.begin(), [](double d) { return std::log(d); });
-    const Estimate modulus = fit_weibull(samples).modulus;
+    const WeibullFit found = fit_weibull(samples, default_draws, diameters);
+    const Estimate& modulus = found.modulus;
     law.size_effect = {
         with_limits("common_modulus", "-", modulus),
         {"weakest_link_exponent", "-", -2 / modulus.value, -2 / modulus.low, -2 / modulus.high},
-        {"exponent", "-", -fit_porosity(log_diameters, scales).k, {}, {}}};
+        with_limits("exponent", "-", found.exponent)};
   }
 
   const Study& study_;

@@ -109,15 +109,44 @@ Pivots drawn_pivots(const std::vector<Logarithms>& like, int draws) {
   return pivots;
 }
 
+// The slope of a straight line through y of each size is the sum of y with these weights.
+std::vector<double> slope_weights(const std::vector<double>& sizes) {
+  std::vector<double> weights;
+  double mean = 0, square = 0;
+  for (const double size : sizes) mean += std::log(size) / static_cast<double>(sizes.size());
+  for (const double size : sizes) weights.push_back(std::log(size) - mean);
+  for (const double weight : weights) square += weight * weight;
+  for (double& weight : weights) weight /= square;
+  return weights;
+}
+
+double estimated_exponent(const std::vector<double>& weights, const std::vector<Estimate>& scales) {
+  double sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * std::log(scales[i].value);
+  return sum;
+}
+
+void limit_exponent(WeibullFit& fit, const std::vector<double>& weights, const Pivots& pivots) {
+  std::vector<double> sums(pivots.modulus.size(), 0);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    for (std::size_t draw = 0; draw < sums.size(); ++draw)
+      sums[draw] += weights[i] * pivots.scale[i][draw];
+  fit.exponent.low = fit.exponent.value - quantile(sums, 1 - outside) / fit.modulus.value;
+  fit.exponent.high = fit.exponent.value - quantile(sums, outside) / fit.modulus.value;
+}
+
 }  // namespace
 
-WeibullFit fit_weibull(const std::vector<std::vector<double>>& samples, int draws) {
+WeibullFit fit_weibull(const std::vector<std::vector<double>>& samples, int draws,
+                       const std::vector<double>& sizes) {
   std::vector<Logarithms> logs;
   for (const std::vector<double>& strengths : samples) logs.push_back(logarithms(strengths));
   const double modulus = likeliest_modulus(logs);
   WeibullFit fit;
   fit.modulus.value = modulus;
   for (const Logarithms& one : logs) fit.scales.push_back({std::exp(log_scale(one, modulus))});
+  const std::vector<double> weights = slope_weights(sizes);
+  fit.exponent.value = estimated_exponent(weights, fit.scales);
   if (draws == 0) return fit;
   const Pivots pivots = drawn_pivots(logs, draws);
   double mean = 0;
@@ -130,6 +159,7 @@ WeibullFit fit_weibull(const std::vector<std::vector<double>>& samples, int draw
     scale.low = scale.value * std::exp(-quantile(pivots.scale[i], 1 - outside) / modulus);
     scale.high = scale.value * std::exp(-quantile(pivots.scale[i], outside) / modulus);
   }
+  limit_exponent(fit, weights, pivots);
   return fit;
 }
 

@@ -7,7 +7,8 @@
 //             sum over samples of n (1/modulus + mean x - sum(w x)/sum w) = 0,   scale^modulus = mean w
 //           The left side falls with the modulus: there is one solution unless all strengths of a sample are alike.
 // Limits    with hats on estimates, modulus^/modulus and modulus^ ln(scale^/scale) have distributions that depend on the
-//           numbers of strengths alone (they are pivotal). Both are drawn, always the same.
+//           numbers of strengths alone (they are pivotal), and so is every sum of the second with weights, as the
+//           exponent of a size effect is. They are drawn, always the same.
 #pragma once
 
 #include <vector>
@@ -23,11 +24,16 @@ struct WeibullFit {
   Estimate modulus;              // -, maximum likelihood
   double unbiased_modulus = 0;   // divided by the mean of modulus^/modulus
   std::vector<Estimate> scales;  // in the unit of the strengths, one a sample
+  Estimate
+      exponent;  // of scale ~ size^exponent, by least squares of ln(scale); where there are sizes
 };
 
-// Every sample with at least two different strengths, all > 0. Without draws there are neither limits nor an unbiased
-// modulus.
-WeibullFit fit_weibull(const std::vector<std::vector<double>>& samples, int draws = 10'000);
+inline constexpr int default_draws = 10'000;
+
+// Every sample with at least two different strengths, all > 0; sizes, one a sample, not all alike. Without draws there are
+// neither limits nor an unbiased modulus.
+WeibullFit fit_weibull(const std::vector<std::vector<double>>& samples, int draws = default_draws,
+                       const std::vector<double>& sizes = {});
 
 // Probability of failure that stands beside strength `rank` (from 0) of `count` sorted ones.
 inline double failure_probability(std::size_t rank, std::size_t count) {

@@ -124,7 +124,8 @@ when = "max"
   const Outcome end = study();
   ASSERT_EQ(end.code, 0) << end.out << end.err;
   EXPECT_THAT(end.out, HasSubstr("Weibull's law: tool/top/force_y, largest\n  little: modulus "));
-  const auto fits = summary(results)["fits"];
+  const auto json = summary(results);
+  const auto& fits = json["fits"];
   ASSERT_EQ(fits.size(), 2U);
   const auto& points = fits[0]["groups"][1]["points"];
   ASSERT_EQ(points.size(), 5U);
@@ -132,7 +133,7 @@ when = "max"
   EXPECT_LT(points[0]["strength"], points[4]["strength"]);
   // The strengths are the table's forces over pi D t/2.
   double largest = 0;
-  for (const auto& run : summary(results)["runs"])
+  for (const auto& run : json["runs"])
     for (const auto& figure : run["figures"])
       if (run["variation"] == "more" && figure["name"] == "top_force_max")
         largest = std::max(largest, figure["value"].get<double>());

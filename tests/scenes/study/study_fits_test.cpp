@@ -86,6 +86,8 @@ TEST_F(StudyFits, TheWeakestLinkIsFound) {
   EXPECT_DOUBLE_EQ(law.size_effect[1].value, -2 / law.size_effect[0].value);
   EXPECT_DOUBLE_EQ(law.size_effect[1].low.value(), -2 / law.size_effect[0].low.value());
   EXPECT_NEAR(law.size_effect[2].value, -2 / modulus, 1e-9);
+  EXPECT_LT(law.size_effect[2].low.value(), -2 / modulus);
+  EXPECT_GT(law.size_effect[2].high.value(), -2 / modulus);
 }
 
 TEST_F(StudyFits, WhatFailedOrIsNoStrengthIsTold) {
