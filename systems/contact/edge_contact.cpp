@@ -7,6 +7,7 @@
 #include "engine/prefetch.hpp"
 #include "systems/contact/active_pairs.hpp"
 #include "systems/contact/contact_law.hpp"
+#include "systems/contact/corners.hpp"
 #include "systems/contact/own_outline.hpp"
 #include "systems/contact/projection.hpp"
 #include "systems/contact/systems.hpp"
@@ -34,6 +35,7 @@ struct EdgePass {
   const edge_contact& s;
   const double* points = s.curves.position.values().data();
   const double* rates = s.curves.velocity ? s.curves.velocity->values().data() : nullptr;
+  const Corners corners{*s.bodies, s.covered ? (*s.covered)->of_control.data() : nullptr};
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<Contact> row) const {
@@ -88,13 +90,24 @@ struct EdgePass {
                           list + 2 * s.points.place(two[1], 0));
   }
 
+  [[gnu::always_inline]] PointMotion motion_at(const Two& two, const Projection& p) const {
+    return motion_of(p, rates != nullptr ? sampled_edges(rates, two) : PointLanes{});
+  }
+
   // ---- law and books
-  [[gnu::always_inline]] void resolve(const Two& two, const Projection& p, LaneSums& sums) const {
-    p.at.keep(s.points.closest, two);
+  [[gnu::always_inline]] void resolve(const Two& two, Projection& p, LaneSums& sums) const {
     book_projection(two, p.unconverged(), sums.block);
-    PointMotion motion = motion_of(p, rates != nullptr ? sampled_edges(rates, two) : PointLanes{});
-    if (s.columns.adhesion && p.beyond != 0) attract_to_corners(p, motion);
+    PointMotion motion = motion_at(two, p);
     pass_over_bonded(s.columns, two, motion);
+    if (corners.any() && any(motion.gap > 0.0) && corners.settle(p, motion)) {
+      motion = motion_at(two, p);
+      pass_over_bonded(s.columns, two, motion);
+    }
+    p.at.keep(s.points.closest, two);
+    if (s.columns.adhesion && p.beyond != 0) {
+      attract_to_corners(p, motion);
+      pass_over_bonded(s.columns, two, motion);
+    }
     const unsigned touching = find_touching(two, p, motion);
     if (touching == 0) return;
     const Lane along = act(s.columns, two, touching, motion, share, s.clock->dt_before, sums);

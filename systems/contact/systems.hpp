@@ -98,6 +98,7 @@ struct edge_contact {
     Write<ClosestPoint> closest;
     Optional<Write<FrictionCouple>> couple;
   } points;
+  Optional<Read<CoveredEdges>> covered;
   Write<ContactSums<Contact>> sums;
   void operator()(SmallTasks) const;
 };
@@ -165,6 +166,7 @@ struct initial_bonds {  // once, at the start
   Read<CurvePosition> control;
   NewBonds<Contact> rows;
   PairAnchors at;
+  Write<CoveredEdges> covered;
   Write<BondTotals> totals;
   void operator()() const;
 };
@@ -195,8 +197,10 @@ struct bond_forces {
 };
 
 struct bond_totals {
+  Read<Bodies> bodies;
   Optional<Read<BondSums<Contact>>> pairs;
   Optional<Read<BondSums<ToolContact>>> tools;
+  Optional<Write<CoveredEdges>> covered;
   Write<BondTotals> bonds;
   Write<Totals> totals;
   void operator()() const;

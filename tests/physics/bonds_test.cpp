@@ -263,6 +263,8 @@ TEST(BondResults, AreAbsentWithoutBonds) {
   for (const FieldInfo& field : e.results.fields())
     EXPECT_THAT(field.name,
                 ::testing::Not(::testing::ContainsRegex("bonds/|cracks/|fragment|damage")));
+}
+
 // ---- a compact ------------------------------------------------------------------------------------------------
 // Pressed, unloaded and without walls: how many boundary edges still touch another particle.
 double touching_after_ejection(const char* scene, const std::vector<std::string>& more) {

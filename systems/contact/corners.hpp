@@ -1,0 +1,99 @@
+// Corners of the other outline: which of the two edges that meet there answers for a point that is behind one of them.
+//
+// Law      the edge that it is less deep behind, so that no energy jumps where a point goes from behind one to behind the
+//          other, or out beside a corner
+// Covered  an edge whose points are all bonded has the other surface in front of it: it answers for nobody else, or what
+//          slides along a particle would run into the faces of its grains (the "internal edges" of game engines)
+#pragma once
+
+#include "systems/contact/projection.hpp"
+
+namespace pulvis {
+
+inline bool has_corners(const Shape& shape) {
+  return entry(shape.edges, 0).previous == Shape::no_edge;
+}
+
+class Corners {
+ public:
+  Corners(const Bodies& bodies, const std::uint8_t* covered)
+      : bodies_(bodies),
+        covered_(covered),
+        any_(std::ranges::any_of(bodies.shapes, has_corners)) {}
+
+  bool any() const { return any_; }
+
+  // True when some point belongs to another edge now.
+  [[gnu::noinline]] bool settle(Projection& p, const PointMotion& m) const {
+    std::array<double, lane_count> gap;
+    m.gap.store(gap.data());
+    bool moved = false;
+    for (int l = 0; l < lane_count; ++l) {
+      if (!(entry(gap, l) > 0) || !entry(p.other.round_corners, l / edge_points)) continue;
+      const Shape& shape = bodies_.shape_of_slot(entry(p.other.slot, l / edge_points));
+      if (has_corners(shape)) moved |= settle(p, shape, l, entry(gap, l));
+    }
+    if (!moved) return false;
+    p.curve = gather(p.other, p.other.position, p.at);
+    p.offset();
+    return true;
+  }
+
+ private:
+  struct Foot {
+    int edge;
+    double u, depth;  // depth m, behind the edge
+  };
+
+  bool is_covered(const Projection& p, int half, std::int64_t control) const {
+    return covered_ != nullptr && covered_[entry(p.other.first, half) + control] != 0;
+  }
+
+  bool settle(Projection& p, const Shape& shape, int l, double depth) const {
+    const int half = l / edge_points, number = edge_number(shape, entry(p.at.edge, l));
+    const Shape::Edge& edge = entry(shape.edges, number);
+    const bool covered = is_covered(p, half, edge.first_control);
+    Foot best{Shape::no_edge, 0, covered ? std::numeric_limits<double>::infinity() : depth};
+    const int count = static_cast<int>(shape.edges.size());
+    for (const bool forward : {true, false}) {
+      if ((forward ? edge.next : edge.previous) != Shape::no_edge) continue;
+      const int around = (number + (forward ? 1 : count - 1)) % count;
+      const std::int64_t control = entry(shape.edges, around).first_control;
+      if (is_covered(p, half, control)) continue;
+      const Foot foot = foot_on(p, l, around, control, forward);
+      if (foot.edge != Shape::no_edge && foot.depth < best.depth) best = foot;
+    }
+    if (best.edge == Shape::no_edge) {
+      if (covered) p.beyond |= 1U << l;
+      return covered;
+    }
+    entry(p.at.edge, l) = entry(shape.edges, best.edge).first_control;
+    p.at.u[l] = best.u;
+    return true;
+  }
+
+  // Newton's method from the corner. None where the point is beside the edge.
+  static Foot foot_on(const Projection& p, int l, int edge, std::int64_t control, bool forward) {
+    constexpr int steps = 6;
+    const double* y = p.other.position + 2 * (entry(p.other.first, l / edge_points) + control);
+    const auto x_of = kernels::cubic(y[0], y[2], y[4], y[6]);
+    const auto y_of = kernels::cubic(y[1], y[3], y[5], y[7]);
+    double u = forward ? 0 : 1;
+    for (int i = 0; i < steps; ++i) {
+      const double rx = p.points.x[l] - x_of.value(u), ry = p.points.y[l] - y_of.value(u);
+      u = std::clamp(u + kernels::closest_point_step(rx, ry, x_of.slope(u), y_of.slope(u),
+                                                     x_of.curvature(u), y_of.curvature(u)),
+                     0.0, 1.0);
+    }
+    if (u <= 0 || u >= 1) return {Shape::no_edge, 0, 0};
+    const double sx = x_of.slope(u), sy = y_of.slope(u);
+    const double rx = p.points.x[l] - x_of.value(u), ry = p.points.y[l] - y_of.value(u);
+    return {edge, u, -(rx * sy - ry * sx) / std::sqrt(sx * sx + sy * sy)};
+  }
+
+  const Bodies& bodies_;
+  const std::uint8_t* covered_;  // [control points], by the first of an edge; null: none is
+  bool any_;
+};
+
+}  // namespace pulvis
