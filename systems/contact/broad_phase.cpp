@@ -262,8 +262,11 @@ class EdgeSearch {
       minimum = distance;
       nearest = e;
     }
-    return nearest == Shape::no_edge || other.slot == own.slot ? nearest
-                                                               : nearest_of_all(other.slot, own);
+    const auto& edges = curves_.bodies.shape_of_slot(other.slot).edges;
+    const bool corners = entry(edges, 0).previous == Shape::no_edge;
+    return nearest != Shape::no_edge && corners && other.slot != own.slot
+               ? nearest_of_all(other.slot, own)
+               : nearest;
   }
 
   // A box that comes near may belong to an edge around a corner from the nearest one, whose own does not: seen from its

@@ -65,6 +65,7 @@ class Corners {
     }
     if (best.edge == Shape::no_edge) {
       if (covered) p.beyond |= 1U << l;
+      p.inside &= covered ? ~(1U << l) : ~0U;
       return covered;
     }
     entry(p.at.edge, l) = entry(shape.edges, best.edge).first_control;

@@ -43,22 +43,28 @@ inline int edge_number(const Shape& shape, std::int64_t first_control) {
   return entry(shape.edge_from, first_control);
 }
 
-// The edge around a corner, for a point that is in front of or behind it and not beside both: no edge otherwise.
-inline int edge_around_corner(const Shape& shape, int edge, bool forward, const double* outline,
+// How a point stands to the edge around a corner.
+struct AroundCorner {
+  int edge = Shape::no_edge;  // where the point is in front of it or behind it: not beside it
+  bool behind = false;        // its line
+};
+inline AroundCorner edge_around_corner(const Shape& shape, int edge, bool forward, const double* outline,
                               const Point& p) {
   const int count = static_cast<int>(shape.edges.size());
   const int next = (edge + (forward ? 1 : count - 1)) % count;
   const double* y = outline + 2 * entry(shape.edges, next).first_control + (forward ? 0 : 2);
-  double along = 0;  // of the way from the corner, into the edge
-  for (int k = 0; k < 2; ++k)
-    along += (p[k] - (y[k] + 4 * y[2 + k] + y[4 + k]) / 6) * (y[4 + k] - y[k]);
-  return (forward ? along : -along) > 0 ? next : Shape::no_edge;
+  const Point way{p[0] - (y[0] + 4 * y[2] + y[4]) / 6, p[1] - (y[1] + 4 * y[3] + y[5]) / 6};
+  const Point slope{y[4] - y[0], y[5] - y[1]};
+  const double along = way[0] * slope[0] + way[1] * slope[1];
+  return {(forward ? along : -along) > 0 ? next : Shape::no_edge,
+          way[0] * slope[1] - way[1] * slope[0] < 0};
 }
 
 // Points that leave their edge go on in the next one, or around a corner, or stop at it. Returns the lanes that stand
 // where they stood, at a corner.
 inline unsigned cross_edges(const Bodies& bodies, const OtherCurves& other,
-                            const PointLanes& points, const Lane& before, CurvePoints& at) {
+                            const PointLanes& points, const Lane& before, CurvePoints& at,
+                            unsigned& behind_next) {
   std::array<double, lane_count> u, u_before;
   at.u.store(u.data());
   before.store(u_before.data());
@@ -73,15 +79,18 @@ inline unsigned cross_edges(const Bodies& bodies, const OtherCurves& other,
       u[l] = forward ? 1 : 0;
       if (u[l] != u_before[l]) continue;
       const std::size_t half = l / edge_points;
-      const int around = other.round_corners[half]
-                             ? edge_around_corner(shape, edge_number(shape, at.edge[l]), forward,
-                                                  other.position + 2 * other.first[half],
-                                                  {points.x[static_cast<int>(l)], points.y[static_cast<int>(l)]})
-                             : Shape::no_edge;
-      if (around == Shape::no_edge) {
+      const int lane = static_cast<int>(l);
+      const AroundCorner around =
+          other.round_corners[half]
+              ? edge_around_corner(shape, edge_number(shape, at.edge[l]), forward,
+                                   other.position + 2 * other.first[half],
+                                   {points.x[lane], points.y[lane]})
+              : AroundCorner{};
+      if (around.edge == Shape::no_edge) {
         stay |= 1U << l;
+        if (around.behind) behind_next |= 1U << l;
       } else {
-        at.edge[l] = entry(shape.edges, around).first_control;
+        at.edge[l] = entry(shape.edges, around.edge).first_control;
         u[l] = forward ? 0 : 1;
       }
     } else {
@@ -106,6 +115,7 @@ struct Projection {
   CurveLanes curve;
   Lane rx, ry;          // from the curve to the point, m
   unsigned beyond = 0;  // lanes closest to a corner, from outside its edge
+  unsigned inside = 0;  // of those, the ones in a body behind a corner that points inwards
   unsigned done = 0;    // lanes that stand
 
   unsigned unconverged() const { return ~done & all_lanes; }
@@ -127,9 +137,14 @@ struct Projection {
   }
   // Seldom: outside the loop of Newton steps.
   [[gnu::noinline]] void cross(const Bodies& bodies, const Lane& before) {
-    beyond |= cross_edges(bodies, other, points, before, at);
+    unsigned behind_next = 0;
+    beyond |= cross_edges(bodies, other, points, before, at, behind_next);
     done |= beyond;
     curve = gather(other, other.position, at);
+    if (behind_next == 0) return;
+    offset();
+    const LaneMask behind = fma(rx, curve.y.slope(at.u), -(ry * curve.x.slope(at.u))) < 0.0;
+    inside |= behind_next & behind.bits();
   }
 };
 
@@ -139,6 +154,15 @@ template <class... Projections>
   for (int step = 0; (all.done & ...) != all_lanes && step < Projection::max_steps; ++step)
     (all.step(bodies), ...);
   (all.offset(), ...);
+}
+
+// Behind a corner that points inwards the way out leads to the corner itself.
+[[gnu::noinline]] inline void look_to_corners(const Projection& p, const LaneMask& lanes,
+                                              PointMotion& m) {
+  const Lane distance = sqrt(fma(p.rx, p.rx, p.ry * p.ry));
+  const LaneMask apart = lanes & (distance > 0.0);
+  m.nx = select(apart, -(p.rx / distance), m.nx);
+  m.ny = select(apart, -(p.ry / distance), m.ny);
 }
 
 // How the points move against the curves; both rates vanish in a common rigid motion. Past a corner a point is outside
@@ -151,6 +175,7 @@ template <class... Projections>
   m.inv_slope = inv_length;
   m.nx = sy * inv_length;
   m.ny = -sx * inv_length;
+  if (p.inside != 0) look_to_corners(p, LaneMask::of(p.inside), m);
   m.gap = -fma(p.rx, m.nx, p.ry * m.ny);
   if (p.other.velocity != nullptr) {
     const CurveLanes v = gather(p.other, p.other.velocity, p.at);
@@ -161,7 +186,7 @@ template <class... Projections>
   } else {
     m.gap_rate = m.slip_rate = Lane{};
   }
-  m.gap = select(LaneMask::of(p.beyond), -1.0, m.gap);
+  m.gap = select(LaneMask::of(p.beyond & ~p.inside), -1.0, m.gap);
   return m;
 }
 
@@ -169,7 +194,7 @@ template <class... Projections>
 // where a point passes from an edge to beside it.
 [[gnu::noinline]] inline void attract_to_corners(const Projection& p, PointMotion& m) {
   const Lane distance = sqrt(fma(p.rx, p.rx, p.ry * p.ry));
-  const LaneMask corner = LaneMask::of(p.beyond) & (distance > 0.0);
+  const LaneMask corner = LaneMask::of(p.beyond & ~p.inside) & (distance > 0.0);
   m.nx = select(corner, p.rx / distance, m.nx);
   m.ny = select(corner, p.ry / distance, m.ny);
   m.gap = select(corner, -distance, m.gap);
