@@ -16,6 +16,7 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
+#include "cli/mesh_summary.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
 #include "cli/reduce.hpp"
@@ -37,7 +38,6 @@
 #include "scenes/keys/scene_reference.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/memory_need.hpp"
-#include "scenes/meshes/mesh.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/records/lab_settings.hpp"
@@ -73,35 +73,6 @@ const CLI::Validator without_detours(
     },
     "", "without_detours");
 
-void print_grains(const Scene& scene, const ParticleSpec& particle) {
-  int grains = 0, elements = 0;
-  double sine = 1, edge = std::numeric_limits<double>::infinity();
-  for (const auto& variant : particle.tessellations)
-    for (const GrainPlace& place : variant) {
-      const Shape shape = make_shape(scene.grains[static_cast<std::size_t>(place.grain)]);
-      ++grains;
-      elements += shape.elements();
-      sine = std::min(sine, min_corner_sine(shape));
-      edge = std::min(edge, shortest_edge(shape));
-    }
-  tell("{}: {} grains and {} elements in {} tessellations, worst corner sine {:.3f}, shortest edge "
-       "{:.4g} m\n",
-       particle.name, grains, elements, particle.tessellations.size(), sine, edge);
-}
-
-void print_meshes(const Scene& scene) {
-  for (const ParticleSpec& particle : scene.particles) {
-    if (particle.grains) {
-      print_grains(scene, particle);
-      continue;
-    }
-    const Shape shape = make_shape(particle);
-    tell("{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
-         particle.name, shape.elements(), shape.boundary_nodes, min_corner_sine(shape),
-         shortest_edge(shape));
-  }
-}
-
 ExitCode print_scene(const LoadedScene& loaded) {
   tell("{}", loaded.text_in_place);
   return ExitCode::done;
@@ -125,7 +96,7 @@ ExitCode check(const Options& options) {
   else if (std::ranges::any_of(scene.tools, is_constraint))
     build_world(scene);  // it finds their nodes
   tell("{}", packing_summary(scene));
-  print_meshes(scene);
+  tell("{}", mesh_summary(scene));
   for (const std::string& line : warnings) tell("warning: {}\n", line);
   const MemoryNeed need = memory_need(scene);
   tell("memory: about {}: {} of particles, {} of contacts, {} of results, {} of program\n",

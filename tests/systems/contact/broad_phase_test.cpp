@@ -153,12 +153,16 @@ TEST(BroadPhase, StartsAtTheNearestOfTheOthersEdges) {
     return minimum;
   };
   for (const EdgeCandidate& c : candidates(heap, skin)) {
-    const Box own = edge_box(heap, c.slot, c.edge), start = edge_box(heap, c.other, c.start);
-    EXPECT_TRUE(near(own, start, skin));
+    const Box own = edge_box(heap, c.slot, c.edge);
+    // Around a corner the nearest of all, whose box may be farther away.
+    const bool corners = heap.bodies.shape_of_slot(c.other).edges[0].previous == Shape::no_edge;
+    if (c.slot == c.other || !corners) {
+      EXPECT_TRUE(near(own, edge_box(heap, c.other, c.start), skin));
+    }
     const double nearest = distance(c, c.start);
     for (int f = 0; f < edges_of(heap, c.other); ++f)
       if ((c.slot != c.other || edges_between(c.edge, f, edges_of(heap, c.slot)) >= min_fold) &&
-          near(own, edge_box(heap, c.other, f), skin)) {
+          (near(own, edge_box(heap, c.other, f), skin) || (corners && c.slot != c.other))) {
         EXPECT_LE(nearest, distance(c, f) + 4e-3 / samples);  // half a step of the longest edges
       }
   }
