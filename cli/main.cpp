@@ -16,7 +16,6 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
-#include "cli/mesh_summary.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
 #include "cli/reduce.hpp"
@@ -34,6 +33,7 @@
 #include "scenes/build.hpp"
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
+#include "scenes/checks/mesh_summary.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/keys/scene_reference.hpp"
 #include "scenes/language/units.hpp"

@@ -1,4 +1,4 @@
-#include "cli/mesh_summary.hpp"
+#include "scenes/checks/mesh_summary.hpp"
 
 #include <fmt/format.h>
 
