@@ -2,7 +2,7 @@
 //
 // Law      the edge that it is less deep behind, so that no energy jumps where a point goes from behind one to behind the
 //          other, or out beside a corner
-// Covered  an edge whose points are all bonded has the other surface in front of it: it answers for nobody else, or what
+// Covered  an edge whose points are all bonded has the other surface in front of it: it answers for no other particle, or what
 //          slides along a particle would run into the faces of its grains (the "internal edges" of game engines)
 #pragma once
 
@@ -46,7 +46,7 @@ class Corners {
   };
 
   bool is_covered(const Projection& p, int half, std::int64_t control) const {
-    return covered_ != nullptr && covered_[entry(p.other.first, half) + control] != 0;
+    return entry(p.other.strangers, half) && covered_[entry(p.other.first, half) + control] != 0;
   }
 
   bool settle(Projection& p, const Shape& shape, int l, double depth) const {
