@@ -15,9 +15,9 @@ namespace pulvis {
 // ---- candidates, only where the scene has bonds ----------------------------------------------------
 template <class At>
 struct BondLawNumber : Component<At, std::uint8_t, 2> {
-  static constexpr ComponentInfo info{
-      "bond_law", "-",
-      "of its bonded points; by which pressure would weld it: 1 + position in BondRules::laws, or 0"};
+  static constexpr ComponentInfo info{"bond_law", "-",
+                                      "of its bonded points; by which pressure would weld it: 1 + "
+                                      "position in BondRules::laws, or 0"};
   enum Number { bonded, weld };
 };
 template <class At>
@@ -78,8 +78,8 @@ struct BondRules {
   };
   std::vector<Law> laws;
   int materials = 0;
-  std::vector<std::uint8_t> initial, pressed;            // [materials * materials]
-  std::vector<std::uint8_t> inside;  // likewise, initial between grains of one particle
+  std::vector<std::uint8_t> initial, pressed;  // [materials * materials]
+  std::vector<std::uint8_t> inside;            // likewise, initial between grains of one particle
   std::vector<std::uint8_t> tool_initial, tool_pressed;  // [tools * materials]
 
   const Law& law(int number) const { return entry(laws, number - 1); }
@@ -99,16 +99,16 @@ struct BondRules {
 // ---- what came of them -------------------------------------------------------------------------------
 // A point that broke.
 struct Crack {
-  double time = 0;           // s
-  std::int32_t slot = 0;     // that samples, its edge, and which Gauss point of it
+  double time = 0;        // s
+  std::int32_t slot = 0;  // that samples, its edge, and which Gauss point of it
   std::int32_t edge = 0;
   std::int32_t point = 0;
-  std::int32_t other = 0;    // slot; of a tool -1 - its number
-  std::int32_t law = 0;      // as BondRules counts
-  double x = 0, y = 0;       // m, where
-  double length = 0;         // m, half of what the point stands for: the other side samples too
-  double shear = 0;          // -, share of shear in the energy when it broke: 0 mode I, 1 mode II
-  double energy = 0;         // J, spent in breaking it, from its first damage on
+  std::int32_t other = 0;  // slot; of a tool -1 - its number
+  std::int32_t law = 0;    // as BondRules counts
+  double x = 0, y = 0;     // m, where
+  double length = 0;       // m, half of what the point stands for: the other side samples too
+  double shear = 0;        // -, share of shear in the energy when it broke: 0 mode I, 1 mode II
+  double energy = 0;       // J, spent in breaking it, from its first damage on
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -118,13 +118,13 @@ struct Crack {
 
 // Of a block of rows, as of the narrow phase.
 struct alignas(64) BondBlock {
-  double energy = 0;         // J, stored in bonds
-  double contact_energy = 0; // J, stored in contact springs of bonded points
-  double fracture = 0;       // J, spent by damage in the last step
-  double friction_work = 0;  // J, in the last step, at points partly damaged or welded
-  double damping_work = 0;   // J
-  double area = 0;           // m^2, bonded, of its own side
-  std::int32_t rows = 0;     // with nothing but bonded points
+  double energy = 0;          // J, stored in bonds
+  double contact_energy = 0;  // J, stored in contact springs of bonded points
+  double fracture = 0;        // J, spent by damage in the last step
+  double friction_work = 0;   // J, in the last step, at points partly damaged or welded
+  double damping_work = 0;    // J
+  double area = 0;            // m^2, bonded, of its own side
+  std::int32_t rows = 0;      // with nothing but bonded points
   std::vector<Crack> cracks;
 
   template <class Bytes>
@@ -147,7 +147,8 @@ struct BondSums {
 // Edges whose points were all bonded at the start and hold.
 struct CoveredEdges {
   static constexpr const char* resource_name = "covered_edges";
-  std::vector<std::uint8_t> of_control;  // [control points of all outlines]: 1 at the first of such an edge
+  std::vector<std::uint8_t>
+      of_control;  // [control points of all outlines]: 1 at the first of such an edge
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -157,10 +158,10 @@ struct CoveredEdges {
 
 struct BondTotals {
   static constexpr const char* resource_name = "bond_totals";
-  double energy = 0;              // J, stored now
-  double fracture = 0;            // J, spent by damage
-  double area = 0;                // m^2, bonded now, the mean of both sides
-  double crack_length = 0;        // m, broken
+  double energy = 0;               // J, stored now
+  double fracture = 0;             // J, spent by damage
+  double area = 0;                 // m^2, bonded now, the mean of both sides
+  double crack_length = 0;         // m, broken
   std::vector<std::int32_t> made;  // [laws] points bonded at the start
   struct Gap {
     double width = std::numeric_limits<double>::infinity();  // m
@@ -169,8 +170,8 @@ struct BondTotals {
       if (gap < share * length) *this = {gap, gap / length};
     }
   };
-  std::vector<Gap> nearest;       // [laws] surfaces that face each other; found anew at every start
-  std::vector<Crack> cracks;      // in the order in which they came
+  std::vector<Gap> nearest;   // [laws] surfaces that face each other; found anew at every start
+  std::vector<Crack> cracks;  // in the order in which they came
 
   template <class Bytes>
   void state(Bytes& bytes) {

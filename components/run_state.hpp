@@ -142,9 +142,11 @@ struct ContactRules {
 // Where the rows of each particle are, rebuilt with the rows.
 struct ContactIndex {
   static constexpr const char* resource_name = "contact_index";
-  double skin = 0;            // m: by how much surfaces may approach each other before rows are made anew
-  double reach = 0;           // m: forces act across gaps below this; rows are made for gaps below skin + reach
-  double neighbourhood = 0;   // m, > skin + reach: particles nearer than this to each other are neighbours
+  double skin = 0;  // m: by how much surfaces may approach each other before rows are made anew
+  double reach =
+      0;  // m: forces act across gaps below this; rows are made for gaps below skin + reach
+  double neighbourhood =
+      0;  // m, > skin + reach: particles nearer than this to each other are neighbours
   double travel_at_bin = -1;  // m, Clock::travel when the rows were made; < 0: never yet
   double look_at = 0;         // m, Clock::travel at which the skin may be used up
   double travel_seen = 0;     // m, Clock::travel of the step before

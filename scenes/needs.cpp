@@ -54,8 +54,7 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
     needs.adhesion = needs.contact() && !rules.adhesion.empty();
     needs.welds = needs.pairs && any_law(bonds.pressed);
     needs.tool_welds = needs.tools && any_law(bonds.tool_pressed);
-    needs.bonds =
-        needs.welds || (needs.pairs && (any_law(bonds.initial) || any_law(bonds.inside)));
+    needs.bonds = needs.welds || (needs.pairs && (any_law(bonds.initial) || any_law(bonds.inside)));
     needs.tool_bonds = needs.tool_welds || (needs.tools && any_law(bonds.tool_initial));
   }
   needs.formulation = scene.element.formulation;

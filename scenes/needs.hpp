@@ -14,11 +14,11 @@ struct Needs {
   bool tools = false;      // something that particles touch
   bool polylines = false;
   bool constraints = false;
-  bool friction = false;      // a coefficient above zero can act
-  bool weakening = false;     // and a law beyond Coulomb's
-  bool bonds = false;         // between particles
+  bool friction = false;   // a coefficient above zero can act
+  bool weakening = false;  // and a law beyond Coulomb's
+  bool bonds = false;      // between particles
   bool tool_bonds = false;
-  bool welds = false;         // made by pressure, between particles
+  bool welds = false;  // made by pressure, between particles
   bool tool_welds = false;
   bool adhesion = false;      // surfaces attract each other
   bool damping = false;       // of contacts

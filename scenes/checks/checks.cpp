@@ -356,7 +356,8 @@ class Checks {
       if (is_tool(first) && is_tool(second))
         refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
       for (const ToolSpec& tool : scene_.tools)
-        if (tool.shape == ToolSpec::Shape::constraint && (tool.name == first || tool.name == second))
+        if (tool.shape == ToolSpec::Shape::constraint &&
+            (tool.name == first || tool.name == second))
           refuse(path, fmt::format("nothing touches the constraint '{}', allowed: tools that are "
                                    "no constraints",
                                    tool.name));
@@ -366,8 +367,8 @@ class Checks {
                                  first, second));
     }
     if (scene_.bonds.size() > most_bonds)
-      refuse("bond[255]", fmt::format("{} are declared, allowed: <= {}", scene_.bonds.size(),
-                                      most_bonds));
+      refuse("bond[255]",
+             fmt::format("{} are declared, allowed: <= {}", scene_.bonds.size(), most_bonds));
   }
 
   void everything_is_used() {

@@ -265,7 +265,8 @@ void name_grains(GrainMap& map, const std::vector<std::size_t>& cell_of_grain) {
       const auto [first, last] = grains_of.equal_range(static_cast<std::size_t>(side.neighbour));
       side.neighbour = GrainMap::outside;
       for (auto at = first; at != last; ++at)
-        if (has(at->second, next, side.vertex)) named[g][i].neighbour = static_cast<int>(at->second);
+        if (has(at->second, next, side.vertex))
+          named[g][i].neighbour = static_cast<int>(at->second);
     }
   map.grains = std::move(named);
 }

@@ -83,7 +83,8 @@ class Joining {
           ++i;
     }
     for (std::size_t g = 0; g < map_.grains.size(); ++g)
-      if (map_.grains[g].size() == 1 || map_.grains[g].size() == 2) take_out_of(map_.grains[g], g, map_);
+      if (map_.grains[g].size() == 1 || map_.grains[g].size() == 2)
+        take_out_of(map_.grains[g], g, map_);
   }
 
   GrainMap& map_;
@@ -100,7 +101,8 @@ void number_anew(GrainMap& map) {
   }
   for (Grain& grain : left)
     for (Side& side : grain)
-      if (side.neighbour != outside) side.neighbour = number[static_cast<std::size_t>(side.neighbour)];
+      if (side.neighbour != outside)
+        side.neighbour = number[static_cast<std::size_t>(side.neighbour)];
   map.grains = std::move(left);
 }
 

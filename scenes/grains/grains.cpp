@@ -73,7 +73,8 @@ class Cutter {
   bool add_variant(int variant) {
     const GrainsSpec& grains = *particle_.grains;
     const int number = number_of(grains, curve_->area());
-    const double mean = curve_->area() / number, edge = particle_.mesh_size.value_or(std::sqrt(4 * pi * mean) / grains.edges);
+    const double mean = curve_->area() / number,
+                 edge = particle_.mesh_size.value_or(std::sqrt(4 * pi * mean) / grains.edges);
     Tessellation wanted{number, grains.relaxation, grains.aspect_ratio, grains.direction};
     for (int attempt = 0; attempt < attempts; ++attempt) {
       wanted.seed = mixed(mixed(scene_.seed, static_cast<std::uint64_t>(variant)),
@@ -140,7 +141,8 @@ void make_grains(Scene& scene, const schema::Origins& origins, Problems& problem
   for (std::size_t p = 0; p < scene.particles.size(); ++p) {
     ParticleSpec& particle = scene.particles[p];
     if (!particle.grains) continue;
-    const std::size_t declared = particle.class_of < 0 ? p : static_cast<std::size_t>(particle.class_of);
+    const std::size_t declared =
+        particle.class_of < 0 ? p : static_cast<std::size_t>(particle.class_of);
     const auto refuse = [&](const char* key, const std::string& message) {
       const std::string table = fmt::format("particle[{}].grains", declared);
       const std::string path = fmt::format("{}.{}", table, key);
@@ -160,7 +162,8 @@ void make_grains(Scene& scene, const schema::Origins& origins, Problems& problem
     }
     Cutter cutter(scene, particle);
     const auto placed = std::ranges::count(particles, static_cast<int>(p), &BodySpec::particle);
-    const int variants = static_cast<int>(std::min<std::ptrdiff_t>(particle.grains->variants, placed));
+    const int variants =
+        static_cast<int>(std::min<std::ptrdiff_t>(particle.grains->variants, placed));
     for (int variant = 0; variant < variants; ++variant) {
       if (cutter.add_variant(variant)) continue;
       refuse("relaxation",

@@ -16,7 +16,8 @@ using Site = boost::polygon::point_data<std::int32_t>;
 
 constexpr int guards = 16;
 constexpr double guard_radius = 4;  // of the sites'
-constexpr double grid = 1 << 28;    // cells of the site's grid in a guard radius: it counts in integers
+constexpr double grid =
+    1 << 28;  // cells of the site's grid in a guard radius: it counts in integers
 
 }  // namespace
 

@@ -66,64 +66,65 @@ std::vector<Key<BondSpec>> bond_law_keys() {
 }
 
 std::vector<Key<BondSpec>> bond_origin_keys() {
-  return {{{.name = "reach",
-            .kind = Kind::number,
-            .range = within(0, 0.5),
-            .fallback = value_of(0.01),
-            .only_for = "initial",
-            .doc = "Share of the boundary edge within which surfaces that face each other are "
-                   "bonded."},
-           to(&BondSpec::reach)},
-          {{.name = "inside",
-            .kind = Kind::flag,
-            .fallback = value_of(false),
-            .only_for = "initial",
-            .doc = "Only between grains of one particle, where it goes before another bond of these "
-                   "materials."},
-           flag_to(&BondSpec::inside)},
-          {{.name = "weibull_modulus",
-            .kind = Kind::number,
-            .range = within(0.5, 1000),
-            .only_for = "initial",
-            .doc = "Strengths and fracture energies of the bonds between two neighbours are a share "
-                   "of those given, drawn from a Weibull law with this modulus and the scene's "
-                   "`seed`.",
-            .fallback_doc = "all alike"},
-           to(&BondSpec::weibull_modulus)},
-          {{.name = "threshold",
-            .kind = Kind::quantity,
-            .unit = "Pa",
-            .range = within(0, 1e13),
-            .required = true,
-            .only_for = "pressed",
-            .doc = "Contact pressure from which on surfaces weld. The bond holds once the pressure "
-                   "has fallen to half of its largest."},
-           to(&BondSpec::threshold)},
-          {{.name = "growth",
-            .kind = Kind::number,
-            .range = above(0, 100),
-            .required = true,
-            .only_for = "pressed",
-            .doc = "Tensile strength gained over pressure beyond the threshold, up to `strength`; "
-                   "the other values grow along."},
-           to(&BondSpec::growth)},
-          {{.name = "work",
-            .kind = Kind::quantity,
-            .unit = "J/m^2",
-            .range = above(0, 1e6),
-            .required = true,
-            .only_for = "adhesion",
-            .doc = "Work of adhesion: what parting the surfaces takes, per area."},
-           to(&BondSpec::work)},
-          {{.name = "range",
-            .kind = Kind::quantity,
-            .unit = "m",
-            .range = within(smallest_size, largest_size),
-            .required = true,
-            .only_for = "adhesion",
-            .doc = "Gap at which the attraction has faded. The traction of surfaces that touch is "
-                   "2 `work`/`range`."},
-           to(&BondSpec::range)}};
+  return {
+      {{.name = "reach",
+        .kind = Kind::number,
+        .range = within(0, 0.5),
+        .fallback = value_of(0.01),
+        .only_for = "initial",
+        .doc = "Share of the boundary edge within which surfaces that face each other are "
+               "bonded."},
+       to(&BondSpec::reach)},
+      {{.name = "inside",
+        .kind = Kind::flag,
+        .fallback = value_of(false),
+        .only_for = "initial",
+        .doc = "Only between grains of one particle, where it goes before another bond of these "
+               "materials."},
+       flag_to(&BondSpec::inside)},
+      {{.name = "weibull_modulus",
+        .kind = Kind::number,
+        .range = within(0.5, 1000),
+        .only_for = "initial",
+        .doc = "Strengths and fracture energies of the bonds between two neighbours are a share "
+               "of those given, drawn from a Weibull law with this modulus and the scene's "
+               "`seed`.",
+        .fallback_doc = "all alike"},
+       to(&BondSpec::weibull_modulus)},
+      {{.name = "threshold",
+        .kind = Kind::quantity,
+        .unit = "Pa",
+        .range = within(0, 1e13),
+        .required = true,
+        .only_for = "pressed",
+        .doc = "Contact pressure from which on surfaces weld. The bond holds once the pressure "
+               "has fallen to half of its largest."},
+       to(&BondSpec::threshold)},
+      {{.name = "growth",
+        .kind = Kind::number,
+        .range = above(0, 100),
+        .required = true,
+        .only_for = "pressed",
+        .doc = "Tensile strength gained over pressure beyond the threshold, up to `strength`; "
+               "the other values grow along."},
+       to(&BondSpec::growth)},
+      {{.name = "work",
+        .kind = Kind::quantity,
+        .unit = "J/m^2",
+        .range = above(0, 1e6),
+        .required = true,
+        .only_for = "adhesion",
+        .doc = "Work of adhesion: what parting the surfaces takes, per area."},
+       to(&BondSpec::work)},
+      {{.name = "range",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = within(smallest_size, largest_size),
+        .required = true,
+        .only_for = "adhesion",
+        .doc = "Gap at which the attraction has faded. The traction of surfaces that touch is "
+               "2 `work`/`range`."},
+       to(&BondSpec::range)}};
 }
 
 std::vector<Key<BondSpec>> bond_keys() {

@@ -6,8 +6,11 @@ namespace pulvis::schema {
 
 const TableDeclaration<GrainsSpec>& grains() {
   static const TableDeclaration<GrainsSpec> declaration{
-      {"particle.grains", false, "",
-       "The particle is made of grains: a Voronoi tessellation of its outline. Every grain is a body "
+      {"particle.grains",
+       false,
+       "",
+       "The particle is made of grains: a Voronoi tessellation of its outline. Every grain is a "
+       "body "
        "of its own; what holds them together is a `[[bond]]`.",
        {"compaction"},
        true},
@@ -28,9 +31,10 @@ const TableDeclaration<GrainsSpec>& grains() {
          .kind = Kind::integer,
          .range = within(1, 1000),
          .fallback = value_of(4),
-         .doc = "Tessellations that are made by the scene's `seed`; every particle gets one of them. "
-                "Equal grains are computed together, up to eight at a time: few variants are "
-                "faster."},
+         .doc =
+             "Tessellations that are made by the scene's `seed`; every particle gets one of them. "
+             "Equal grains are computed together, up to eight at a time: few variants are "
+             "faster."},
         integer_to(&GrainsSpec::variants)},
        {{.name = "relaxation",
          .kind = Kind::integer,
@@ -56,8 +60,9 @@ const TableDeclaration<GrainsSpec>& grains() {
          .kind = Kind::integer,
          .range = within(8, 400),
          .fallback = value_of(12),
-         .doc = "Edges of the mesh along the outline of a mean grain; `mesh.size` instead gives their "
-                "length."},
+         .doc =
+             "Edges of the mesh along the outline of a mean grain; `mesh.size` instead gives their "
+             "length."},
         integer_to(&GrainsSpec::edges)}}};
   return declaration;
 }

@@ -84,8 +84,7 @@ class StateHash {
   template <class C>
   void add_points(int row) {
     if (!world_.has<C>()) return;
-    for (int g = 0; g < edge_points; ++g)
-      add(world_.column<C>().values()[edge_points * row + g]);
+    for (int g = 0; g < edge_points; ++g) add(world_.column<C>().values()[edge_points * row + g]);
   }
 
   const World& world_;

@@ -132,8 +132,8 @@ struct GrainOutline {
   std::shared_ptr<const OutlineCurve> particle = {};
 };
 using Outline =
-    std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline, EllipseOutline,
-                 SuperellipseOutline, PolygonOutline, PointsOutline, GrainOutline>;
+    std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline,
+                 EllipseOutline, SuperellipseOutline, PolygonOutline, PointsOutline, GrainOutline>;
 
 struct GrainsSpec {  // what a particle is made of: a Voronoi tessellation
   std::optional<int> number;
@@ -146,7 +146,7 @@ struct GrainsSpec {  // what a particle is made of: a Voronoi tessellation
 };
 struct GrainPlace {
   int grain;  // position in Scene::grains
-  Vec2 at;       // m, its centre in the frame of the particle
+  Vec2 at;    // m, its centre in the frame of the particle
 };
 
 struct ParticleSpec {  // a class of equal particles
@@ -326,7 +326,7 @@ struct BondSpec {  // of one pair of names (materials or tools)
   double growth = 0;                                             // -
   double work = 0;                                               // J/m^2, of adhesion
   double range = 0;                                              // m
-  bool inside = false;                                           // only between grains of one particle
+  bool inside = false;  // only between grains of one particle
   SourceMark mark;
 };
 

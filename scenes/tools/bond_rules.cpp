@@ -43,9 +43,8 @@ std::uint8_t number_of(const Scene& scene, BondSpec::Origin origin, const std::s
 }  // namespace
 
 bool has_bonds(const Scene& scene) {
-  return std::ranges::any_of(scene.bonds, [](const BondSpec& bond) {
-    return bond.origin != BondSpec::Origin::adhesion;
-  });
+  return std::ranges::any_of(
+      scene.bonds, [](const BondSpec& bond) { return bond.origin != BondSpec::Origin::adhesion; });
 }
 
 BondRules bond_rules(const Scene& scene) {
@@ -137,8 +136,8 @@ class SoftestSprings {
   // As the broad phase has it: the sampled edge in series with the other outline's mean.
   double pair(int a, int m, int b, int n) const {
     const double first = softest(a, m);
-    const double second = scene_.contact.stiffness * bulk(n) *
-                          entry(bodies_.shapes, b).mean_edge_stiffness;
+    const double second =
+        scene_.contact.stiffness * bulk(n) * entry(bodies_.shapes, b).mean_edge_stiffness;
     return first * second / (first + second);
   }
   void take(int number, double stiffness) {
@@ -171,7 +170,8 @@ BondRules bounded_by(const Bodies& bodies, const Scene& scene, BondRules rules) 
       if (energy >= least) return;
       const SourceMark& mark = scene.bonds[i].mark;
       problems.push_back(
-          {scene.file_of(mark).string(), mark.line, mark.column, "", fmt::format("bond[{}].{}", i, key),
+          {scene.file_of(mark).string(), mark.line, mark.column, "",
+           fmt::format("bond[{}].{}", i, key),
            fmt::format("{:.4g} J/m^2 is less than the bond stores when it begins to break at "
                        "{:.4g} Pa, allowed: >= {:.4g} J/m^2 with this mesh; finer edges or a "
                        "higher `stiffness` allow less",

@@ -107,10 +107,10 @@ std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
     const double size = size_of(places);
     for (std::size_t n = 0; n < places.size(); ++n)
       if (holds_place(tool, places[n], round_off * size))
-        hold_node(scene,
-                  {slot / lane_count, static_cast<std::int32_t>(n), slot % lane_count, number,
-                   places[n]},
-                  size, held);
+        hold_node(
+            scene,
+            {slot / lane_count, static_cast<std::int32_t>(n), slot % lane_count, number, places[n]},
+            size, held);
     all.insert(all.end(), places.begin(), places.end());
   }
   if (held.empty()) refuse_empty(scene, number, all);

@@ -120,7 +120,10 @@ template <int Points>
              rho = material.density.chunk(chunk)(particle);
   const Shape& shape = bodies->shape_of_chunk(chunk);
   const Lane contact =
-      springs ? contact_modulus(*springs->rules, springs_of(chunk, *bodies, *springs->rules, *clock), shape, k, rho, step) : Lane{};
+      springs
+          ? contact_modulus(*springs->rules, springs_of(chunk, *bodies, *springs->rules, *clock),
+                            shape, k, rho, step)
+          : Lane{};
   Body<Points> body{shape,
                     position.chunk(chunk),
                     deviator.chunk(chunk),

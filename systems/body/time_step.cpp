@@ -50,7 +50,9 @@ template <int Points>
   const Lane shear = material.elastic.shear.chunk(chunk)(particle), inv_shear = 1.0 / shear;
   // Enough for little damping, within what `safety` leaves; with more, `late` says what it takes.
   const double contact =
-      rules ? (*rules)->stiffness * (springs_of(chunk, *bodies, **rules, *clock) + 2 * (*rules)->damping) : 0;
+      rules ? (*rules)->stiffness *
+                  (springs_of(chunk, *bodies, **rules, *clock) + 2 * (*rules)->damping)
+            : 0;
   const bool damped = rules && (*rules)->damping > 0;
   Lane highest{}, late{};
   for (int i = 0; i < shape.elements(); ++i) {
@@ -65,7 +67,8 @@ template <int Points>
     const Lane solid = element * corner_factor(map);
     highest = max(highest, solid + contact * entry(shape.contact_frequency, e) * k);
     if (damped && entry(shape.contact_frequency, e) > 0)
-      late = max(late, late_frequency(**rules, springs_of(chunk, *bodies, **rules, *clock), shape, e, k, solid));
+      late = max(late, late_frequency(**rules, springs_of(chunk, *bodies, **rules, *clock), shape,
+                                      e, k, solid));
   }
   Lane& step = stable.chunk(chunk)(particle);
   step = stable_step(chunk, rho, highest, damping);

@@ -120,8 +120,8 @@ double damping_of(const ContactRules& rules, double kappa, double rho, const Sha
 double initial_stiffness(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
                          const RowKey& key) {
   if (!bonds || key.slot == key.other) return 1;
-  return (*bonds)->contact_stiffness((*bonds)->initial_between(
-      entry(bodies.slots, key.slot), entry(bodies.slots, key.other)));
+  return (*bonds)->contact_stiffness(
+      (*bonds)->initial_between(entry(bodies.slots, key.slot), entry(bodies.slots, key.other)));
 }
 double initial_stiffness_with_tool(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
                                    const RowKey& key) {

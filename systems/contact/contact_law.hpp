@@ -87,10 +87,10 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
     return kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
   }
   using More = FrictionMore<At>;
-  kernels::Weakening<Lane> law{
-      mu, at_candidates(*sliding.more, two, More::drop),
-      at_candidates(*sliding.more, two, More::inv_decay),
-      share * at_candidates(*sliding.more, two, More::strength), at_points(*sliding.lost, two)};
+  kernels::Weakening<Lane> law{mu, at_candidates(*sliding.more, two, More::drop),
+                               at_candidates(*sliding.more, two, More::inv_decay),
+                               share * at_candidates(*sliding.more, two, More::strength),
+                               at_points(*sliding.lost, two)};
   const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0) store_half(law.lost, half, &(*sliding.lost)(entry(two, half)));
@@ -127,8 +127,7 @@ template <class At>
   PointForces f =
       c.sliding ? forces_of(law, m, dt,
                             [&](const Lane& slip, const Lane& pressure) {
-                              return friction_of(c, two, touching, share, slip, pressure,
-                                                 law.kappa,
+                              return friction_of(c, two, touching, share, slip, pressure, law.kappa,
                                                  halves(1 / stiffness[0], 1 / stiffness[1]));
                             })
                 : forces_of(law, m, dt, Frictionless{});

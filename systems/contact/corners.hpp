@@ -17,9 +17,7 @@ inline bool has_corners(const Shape& shape) {
 class Corners {
  public:
   Corners(const Bodies& bodies, const std::uint8_t* covered)
-      : bodies_(bodies),
-        covered_(covered),
-        any_(std::ranges::any_of(bodies.shapes, has_corners)) {}
+      : bodies_(bodies), covered_(covered), any_(std::ranges::any_of(bodies.shapes, has_corners)) {}
 
   bool any() const { return any_; }
 

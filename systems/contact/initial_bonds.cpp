@@ -31,8 +31,8 @@ constexpr double facing = -0.5;  // product of the normals
 double drawn_strength(const BondRules::Law& law, int first, int second) {
   if (law.weibull_modulus == 0) return 1;
   const auto word = [](int number) { return static_cast<std::uint32_t>(number); };
-  const std::uint64_t pair = std::uint64_t{word(std::min(first, second))} << 32 |
-                             word(std::max(first, second));
+  const std::uint64_t pair =
+      std::uint64_t{word(std::min(first, second))} << 32 | word(std::max(first, second));
   const double uniform = static_cast<double>(mixed(mixed(law.seed) ^ pair) >> 11) * 0x1p-53;
   return std::min(portable::pow(-portable::log(1 - uniform), 1 / law.weibull_modulus),
                   law.largest_share);
@@ -69,8 +69,8 @@ void initial_bonds::operator()() const {
       entry(totals->made, number - 1) += 1;
     }
     if (rows.points(row) == BondedPoints<Contact>::all)
-      entry(covered->of_control, a.first_control + entry(bodies->shape_of_slot(slot).edges, edge)
-                                                       .first_control) = 1;
+      entry(covered->of_control,
+            a.first_control + entry(bodies->shape_of_slot(slot).edges, edge).first_control) = 1;
   }
 }
 

@@ -49,8 +49,7 @@ void weld(const NewBonds<At>& rows, const Write<WeldPressure<At>>& pressure, con
     double& largest = pressure(row, WeldPressure<At>::largest + g);
     largest = std::max(largest, now);
     if (largest <= law.threshold) continue;
-    const double strength =
-        std::min(1.0, law.growth * (largest - law.threshold) / law.strength);
+    const double strength = std::min(1.0, law.growth * (largest - law.threshold) / law.strength);
     if ((bonded >> g & 1) != 0)
       rows.strength(row, g) = std::max(rows.strength(row, g), strength);
     else if (now < weld_at * largest)

@@ -17,10 +17,11 @@ namespace pulvis {
 struct OtherCurves {
   std::array<int, 2> slot;
   std::array<std::int32_t, 2> first;  // control point of the outline
-  std::array<bool, 2> round_corners;  // the search goes round them: not where an outline folds on itself
-  std::array<bool, 2> strangers;      // no grains of one particle: covered edges are not there for them
-  const double* position;             // of all control points
-  const double* velocity;             // null where the scene needs none
+  std::array<bool, 2>
+      round_corners;  // the search goes round them: not where an outline folds on itself
+  std::array<bool, 2> strangers;  // no grains of one particle: covered edges are not there for them
+  const double* position;         // of all control points
+  const double* velocity;         // null where the scene needs none
 };
 
 struct CurveLanes {
@@ -49,8 +50,8 @@ struct AroundCorner {
   int edge = Shape::no_edge;  // where the point is in front of it or behind it: not beside it
   bool behind = false;        // its line
 };
-inline AroundCorner edge_around_corner(const Shape& shape, int edge, bool forward, const double* outline,
-                              const Point& p) {
+inline AroundCorner edge_around_corner(const Shape& shape, int edge, bool forward,
+                                       const double* outline, const Point& p) {
   const int count = static_cast<int>(shape.edges.size());
   const int next = (edge + (forward ? 1 : count - 1)) % count;
   const double* y = outline + 2 * entry(shape.edges, next).first_control + (forward ? 0 : 2);

@@ -88,8 +88,7 @@ double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMo
     const int other = entry(index.neighbours, k);
     if (other < slot) continue;  // seen from there
     const OutlineMotion& its = entry(motion, other);
-    const double allowed =
-        std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
+    const double allowed = std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
     minimum = std::min(minimum, allowed - kernels::closing(own.displacement, its.displacement));
   }
   return minimum;

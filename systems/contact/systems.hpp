@@ -80,8 +80,8 @@ struct RowColumns {
     Optional<Write<SlipWeakening<At>>> lost;
   };
   Optional<Sliding> sliding;
-  struct Bonding {                    // in scenes with bonds
-    Read<BondedPoints<At>> bonded;    // bond_forces answers for those
+  struct Bonding {                  // in scenes with bonds
+    Read<BondedPoints<At>> bonded;  // bond_forces answers for those
     Optional<Write<WeldPressure<At>>> weld;
   };
   Optional<Bonding> bonding;

@@ -19,10 +19,10 @@
 namespace pulvis::kernels {
 
 struct CohesiveLaw {
-  double k_n, k_t;         // Pa/m
-  double sigma, tau;       // Pa
-  double g_i, g_ii;        // J/m^2
-  double mixed_exponent;   // eta
+  double k_n, k_t;        // Pa/m
+  double sigma, tau;      // Pa
+  double g_i, g_ii;       // J/m^2
+  double mixed_exponent;  // eta
 };
 
 struct CohesiveDamage {
@@ -39,7 +39,8 @@ inline double fracture_energy(const CohesiveLaw& law, double shear) {
   return law.g_i + (law.g_ii - law.g_i) * mixed_share(law, shear);
 }
 
-inline CohesiveDamage cohesive_damage(const CohesiveLaw& law, double d_n, double d_t, double before) {
+inline CohesiveDamage cohesive_damage(const CohesiveLaw& law, double d_n, double d_t,
+                                      double before) {
   const double open = std::max(d_n, 0.0);
   const double normal = law.k_n * open * open, along = law.k_t * d_t * d_t, both = normal + along;
   if (both <= 0) return {before, 0, 0};

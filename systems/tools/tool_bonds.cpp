@@ -49,8 +49,7 @@ struct ToolBonds {
   const BondPass<ToolContact> bonds{
       {s.columns, s.bonds, *s.rules, *s.clock, s.bodies->thickness, share}};
   const double* points = s.at.curves.position.values().data();
-  const double* rates =
-      s.at.curves.velocity ? s.at.curves.velocity->values().data() : nullptr;
+  const double* rates = s.at.curves.velocity ? s.at.curves.velocity->values().data() : nullptr;
 
   bool active(Row<ToolContact> row) const { return s.bonds.points(row) != 0; }
   void fetch(Row<ToolContact> row) const { pulvis::fetch(s.columns, row); }

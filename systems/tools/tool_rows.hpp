@@ -30,9 +30,8 @@ struct SampledEdges {
 
 // Of all points, as if the candidate's tool were that of both.
 inline PointMotion stand_against(const ToolSurfaces& tools,
-                                 const Optional<Read<SurfaceRange>>& range,
-                                 Row<ToolContact> row, int number, const PointLanes& at,
-                                 double farthest) {
+                                 const Optional<Read<SurfaceRange>>& range, Row<ToolContact> row,
+                                 int number, const PointLanes& at, double farthest) {
   const Row<Tool> tool(number);
   const Point stands{tools.position(tool, 0), tools.position(tool, 1)};
   // Farther than an edge the range of pieces tells nothing; see bin_tool_edges.

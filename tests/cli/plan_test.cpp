@@ -261,9 +261,10 @@ const Names shown{"tool/force",
                   "particle/hourglass_energy",
                   "particle/damping_work"};
 // Read and written by one and the same system through Write: history of a contact row, sums.
-const Names kept_by_their_writer{
-    "contact/activation", "tool_contact/activation", "contact/elastic_slip", "tool_contact/elastic_slip",
-    "curve/force",   "curve/before",       "node/damping_force"};
+const Names kept_by_their_writer{"contact/activation",   "tool_contact/activation",
+                                 "contact/elastic_slip", "tool_contact/elastic_slip",
+                                 "curve/force",          "curve/before",
+                                 "node/damping_force"};
 
 class NoIdleColumn : public ::testing::TestWithParam<const char*> {};
 

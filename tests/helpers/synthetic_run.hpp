@@ -14,8 +14,8 @@ struct SyntheticRun {
   bool pictures = true;  // frames; without them it has its history alone
   bool tools = true;     // punches with their series, and densities
   bool observed =
-      false;  // local densities (two columns of cells, one of them all tool) and contacts
-  bool bonds = false;      // discs that come apart column by column
+      false;           // local densities (two columns of cells, one of them all tool) and contacts
+  bool bonds = false;  // discs that come apart column by column
   double diameter = 1e-3;  // m
 };
 

@@ -19,8 +19,10 @@ struct Stress {
 Stress of_two_loads(double x, double y, double R) {
   const double up = (R - y) * (R - y) + x * x, down = (R + y) * (R + y) + x * x;
   const auto cube = [](double v) { return v * v * v; };
-  return {-2 / std::numbers::pi * ((R - y) * x * x / (up * up) + (R + y) * x * x / (down * down) - 1 / (2 * R)),
-          -2 / std::numbers::pi * (cube(R - y) / (up * up) + cube(R + y) / (down * down) - 1 / (2 * R))};
+  return {-2 / std::numbers::pi *
+              ((R - y) * x * x / (up * up) + (R + y) * x * x / (down * down) - 1 / (2 * R)),
+          -2 / std::numbers::pi *
+              (cube(R - y) / (up * up) + cube(R + y) / (down * down) - 1 / (2 * R))};
 }
 
 // Mean stresses near the centre, over those of the law: 2P/(pi D t) and -6P/(pi D t) at the centre itself.

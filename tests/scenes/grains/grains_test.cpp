@@ -22,7 +22,8 @@
 namespace pulvis {
 namespace {
 
-Scene of_grains(const std::string& outline, const std::string& grains, const std::string& more = "") {
+Scene of_grains(const std::string& outline, const std::string& grains,
+                const std::string& more = "") {
   return own_scene(fmt::format(R"(
 family = "compaction"
 {}
@@ -68,7 +69,8 @@ TEST_P(EveryOutline, IsFilledByItsGrains) {
   }
   const double whole = outline_area(scene.particles[0].outline);
   EXPECT_NEAR(area, whole, 1e-9 * whole);
-  EXPECT_NEAR(meshed, whole, 2e-3 * whole);  // a polygon of the outline's area but at the faces' ends
+  EXPECT_NEAR(meshed, whole,
+              2e-3 * whole);  // a polygon of the outline's area but at the faces' ends
   EXPECT_GE(scene.grains.size(), 25U);
 }
 
@@ -90,7 +92,8 @@ TEST_P(EveryOutline, HasGrainsWithCommonNodes) {
   const OutlineCurve curve = any_curve(scene.particles[0].outline);
   int inside = 0, alone = 0;
   for (const auto& [at, count] : times) {
-    const Vec2 node = 100 * unit * Vec2(static_cast<double>(at.first), static_cast<double>(at.second));
+    const Vec2 node =
+        100 * unit * Vec2(static_cast<double>(at.first), static_cast<double>(at.second));
     double nearest = 1e300;
     for (const auto& sample : curve.samples())
       nearest = std::min(nearest, (curve.at(sample.s).at - node).norm());
@@ -107,13 +110,15 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Case{"disc", "outline = \"disc\"\ndiameter = \"10 mm\""},
         Case{"rectangle", "outline = \"rectangle\"\nwidth = \"10 mm\"\nheight = \"5 mm\""},
-        Case{"rounded", "outline = \"rounded_rectangle\"\nwidth = \"9 mm\"\nheight = \"8 mm\"\nradius = "
-                        "\"1 mm\""},
+        Case{"rounded",
+             "outline = \"rounded_rectangle\"\nwidth = \"9 mm\"\nheight = \"8 mm\"\nradius = "
+             "\"1 mm\""},
         Case{"ellipse", "outline = \"ellipse\"\nwidth = \"10 mm\"\nheight = \"6 mm\""},
         Case{"hexagon", "outline = \"polygon\"\nsides = 6\ndiameter = \"10 mm\""},
-        Case{"notched", "outline = \"polygon\"\ncorners = [[\"0 mm\", \"0 mm\"], [\"8 mm\", \"0 mm\"], "
-                        "[\"8 mm\", \"8 mm\"], [\"4 mm\", \"5 mm\"], [\"0 mm\", \"8 "
-                        "mm\"]]\nrounding = \"0.5 mm\""}),
+        Case{"notched",
+             "outline = \"polygon\"\ncorners = [[\"0 mm\", \"0 mm\"], [\"8 mm\", \"0 mm\"], "
+             "[\"8 mm\", \"8 mm\"], [\"4 mm\", \"5 mm\"], [\"0 mm\", \"8 "
+             "mm\"]]\nrounding = \"0.5 mm\""}),
     [](const auto& made) { return made.param.name; });
 
 constexpr const char* disc = "outline = \"disc\"\ndiameter = \"10 mm\"";
@@ -191,12 +196,14 @@ TEST(Grains, ThatCannotBeMadeAreRefused) {
   };
   EXPECT_THAT(refused(disc, "number = 20\nsize = \"1 mm\""), HasSubstr("allowed: number or size"));
   EXPECT_THAT(refused(disc, "relaxation = 3"), HasSubstr("allowed: number or size"));
-  EXPECT_THAT(refused(disc, "size = \"1 um\""), HasSubstr("particle[0].grains.size: it makes more than 4096"));
+  EXPECT_THAT(refused(disc, "size = \"1 um\""),
+              HasSubstr("particle[0].grains.size: it makes more than 4096"));
   EXPECT_THAT(refused(disc, "size = \"20 mm\""), HasSubstr("2 to 4096 grains"));
   EXPECT_THAT(refused("outline = \"ring\"\ndiameter = \"10 mm\"\nhole = \"5 mm\"", "number = 20"),
               HasSubstr("a ring is not cut"));
-  EXPECT_THAT(refused("outline = \"disc\"\ndiameter = \"10 mm\"\nmesh.boundary_edges = 48", "number = 20"),
-              HasSubstr("particle[0].mesh.boundary_edges: has no effect on grains"));
+  EXPECT_THAT(
+      refused("outline = \"disc\"\ndiameter = \"10 mm\"\nmesh.boundary_edges = 48", "number = 20"),
+      HasSubstr("particle[0].mesh.boundary_edges: has no effect on grains"));
 }
 
 }  // namespace
