@@ -37,7 +37,7 @@ body=$(body_of study "$study/report.html" 1200,2400 ready)
 [[ $body == *'data-ready="1"'* ]] || fail "not ready: $body"
 [[ $body == *'data-drawn-lines="7"'* && $(grep -o 'class="curve" d="M' "$work/page.html" | wc -l) -eq 7 ]] ||
   fail "not 3 charts of 2 variations and one of a law: $body"
-[[ $(grep -o 'class="mark"' "$work/page.html" | wc -l) -eq 4 ]] || fail "not 4 strengths at their law"
+[[ $(grep -o 'class="mark" cx="[0-9]' "$work/page.html" | wc -l) -eq 4 ]] || fail "not 4 strengths at their law"
 grep -q 'dense strength = ' "$work/page.html" || fail "no parameters of the law"
 grep -q 'href="friction%3D0.1%2Cseed%3D2/report.html"' "$work/page.html" || fail "no link to a run"
 [[ -f $study/friction=0.1,seed=2/report.html ]] || fail "the link leads nowhere"
