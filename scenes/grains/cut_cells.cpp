@@ -185,6 +185,16 @@ class CutCells {
     for (const int corner : between) grain.push_back({corner, GrainMap::outside});
   }
 
+  // A chord and an arc: three sides make a polygon.
+  void split_outside(std::vector<GrainMap::Side>& grain) {
+    const std::size_t side = grain[0].neighbour == GrainMap::outside ? 0 : 1;
+    const double from = place(grain[side].vertex), to = place(grain[1 - side].vertex);
+    const double middle = std::fmod(from + way(from, to) / 2, outline_.length());
+    grain.insert(grain.begin() + static_cast<std::ptrdiff_t>(side) + 1,
+                 {static_cast<int>(map_.vertices.size()), GrainMap::outside});
+    map_.vertices.push_back({outline_.at(middle), middle});
+  }
+
   void cut(std::size_t cell) {
     const std::vector<Piece> pieces = pieces_of(cell);
     std::vector<bool> used(pieces.size(), false);
@@ -199,6 +209,7 @@ class CutCells {
         at = piece.leaves ? next_entry(pieces, piece) : (at + 1) % pieces.size();
         if (piece.leaves && at < pieces.size()) add_outline(piece.to, pieces[at].from, grain);
       }
+      if (grain.size() == 2) split_outside(grain);
       cell_of_grain_.push_back(cell);
       map_.grains.push_back(std::move(grain));
     }

@@ -165,6 +165,17 @@ TEST(Grains, AreAsLongAsAskedAndWhereAsked) {
               0.5, 0.07);
 }
 
+// Two halves, or slices of a disc: a chord and an arc each.
+TEST(Grains, OfAFewPiecesFillTheParticle) {
+  for (const char* number : {"number = 2", "number = 3", "number = 5"}) {
+    const Scene scene = of_grains(disc, number);
+    double area = 0;
+    for (const ParticleSpec& grain : scene.grains) area += outline_area(grain.outline);
+    EXPECT_NEAR(area, outline_area(scene.particles[0].outline), 1e-12) << number;
+    EXPECT_EQ(fmt::format("number = {}", scene.grains.size()), number);
+  }
+}
+
 TEST(Grains, AreTheSameForTheSameSeedOnly) {
   const auto first = [](const char* seed) {
     return outline_area(of_grains(disc, "number = 20", seed).grains.at(0).outline);
