@@ -144,7 +144,7 @@ struct BondSums {
   }
 };
 
-// Edges whose points were all bonded at the start and hold.
+// Edges between grains of one particle whose points were all bonded at the start and hold.
 struct CoveredEdges {
   static constexpr const char* resource_name = "covered_edges";
   std::vector<std::uint8_t>

@@ -8,7 +8,6 @@ rounded squares, blocks; metals, hard and soft elastic ones), forces from gentle
 punch settles, loads, holds and, in some scenes, holds on while the plane below is drawn along or a wall is
 held at a force of its own. Nothing of the servo is tuned. All that is asked of a scene is in `faults`.
 """
-import argparse
 import csv
 import json
 import math
@@ -20,24 +19,9 @@ import tempfile
 
 import numpy as np
 
-# density kg/m^3, Young's modulus Pa, Poisson's ratio, yield stress Pa or none, hardening Pa
-MATERIALS = {"316L": (7990, 200e9, 0.30, 240e6, 440e6), "Cu": (8940, 115e9, 0.35, 50e6, 440e6),
-             "glass": (2500, 70e9, 0.22, None, 0), "polymer": (1100, 2e9, 0.40, None, 0)}
+from random_scenes import MATERIALS, log_uniform, parser
 
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("--scenes", type=int, default=50)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--first", type=int, default=0, help="number of the first scene")
-    parser.add_argument("--keep", type=pathlib.Path, help="folder for scenes and runs")
-    parser.add_argument("--set", action="append", default=[], help="handed on to the program")
-    return parser.parse_args()
-
-
-def log_uniform(draw, low, high):
-    return low * (high / low) ** draw.random()
+MATERIAL_NAMES = ("316L", "Cu", "glass", "polymer")
 
 
 class Scene:
@@ -46,7 +30,7 @@ class Scene:
     def __init__(self, seed, number):
         draw = random.Random(f"{seed}/{number}")
         self.name = f"servo-{seed}-{number}"
-        self.material = draw.choice(list(MATERIALS))
+        self.material = draw.choice(MATERIAL_NAMES)
         self.outline = draw.choice(["disc", "disc", "rounded", "block", "flat block"])
         side = log_uniform(draw, 1e-5, 1e-1)
         self.size = {"disc": (side, side), "rounded": (side, side), "block": (side, side),
@@ -204,6 +188,12 @@ def run(options, scene, place):
 def told(figures):
     return ", ".join(f"{name} " + ("/".join(f"{v:.2g}" for v in value) if isinstance(value, tuple) else
                                     f"{value:.3g}") for name, value in figures.items())
+
+
+def arguments():
+    made = parser(__doc__, scenes=50)
+    made.add_argument("--set", action="append", default=[], help="handed on to the program")
+    return made.parse_args()
 
 
 def main():

@@ -1,4 +1,4 @@
-// A particle of grains that hold is the particle: in the diametral test, and when it turns.
+// A particle of grains that hold is the particle: in the diametral test, when it turns, and where grains meet in a valley.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/helpers/crystal.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {
@@ -90,32 +91,12 @@ duration = "0.1 ms"
   EXPECT_NEAR(share.yy, 1, 0.02);
 }
 
-// Six turns in 2 ms: every bond turns with its surfaces.
+// Two turns in 4.2 ms: every bond turns with its surfaces.
 TEST(Grains, TurnWithoutStress) {
   const auto energies = [](const char* grains) {
-    Experiment e(own_scene(fmt::format(R"(
-family = "compaction"
-[[material]]
-name = "salt"
-density = "2160 kg/m^3"
-youngs_modulus = "20 GPa"
-poissons_ratio = 0.25
-[[particle]]
-name = "crystal"
-material = "salt"
-outline = "disc"
-diameter = "10 mm"
-{}
-[[body]]
-particle = "crystal"
-position = ["0 mm", "0 mm"]
-angular_velocity = "3000 rad/s"
-[[stage]]
-name = "turn"
-kind = "hold"
-duration = "4.2 ms"
-)",
-                                       grains)));
+    Experiment e(own_scene(Crystal{
+        .grains = grains, .motion = "angular_velocity = \"3000 rad/s\"", .duration = "4.2 ms"}
+                               .text()));
     double elastic = 0;
     e.run(50, [&] { elastic += (e.results.energies().elastic + e.results.energies().bonds) / 51; });
     EXPECT_LT(e.results.energy_balance_error(), 1e-6);
@@ -133,6 +114,47 @@ fracture_energy = "200 J/m^2"
   EXPECT_NEAR(grains[1], whole[1], 0.02 * whole[1]);  // lumped masses turn more slowly by the mesh
   EXPECT_NEAR(grains[0], whole[0], 0.1 * whole[0]);
   EXPECT_LT(grains[0], 1e-3 * grains[1]);
+}
+
+// A sharp block falls into the valley of a particle of two grains that meet in it, wherever its corner strikes.
+TEST(Grains, OfAValleyPushOutWithoutGainOrLoss) {
+  const char* const valley = R"(outline = "polygon"
+rounding = "0.02 mm"
+corners = [["-10 mm", "-4 mm"], ["10 mm", "-4 mm"], ["10 mm", "2 mm"], ["0 mm", "0 mm"], ["-10 mm", "2 mm"]])";
+  for (const char* x : {"-0.1", "-0.05", "0.05"}) {
+    const std::string block = fmt::format(R"([[body]]
+particle = "block"
+position = ["{} mm", "3.1 mm"]
+angle = "45 deg"
+velocity = ["5 m/s", "-20 m/s"])",
+                                          x);
+    Experiment e(own_scene(Crystal{.outline = valley,
+                                   .grains = R"([particle.grains]
+number = 2
+relaxation = 200
+[[bond]]
+between = ["salt", "salt"]
+origin = "initial"
+inside = true
+strength = "10 GPa"
+fracture_energy = "5 MJ/m^2"
+[[particle]]
+name = "block"
+material = "salt"
+outline = "rectangle"
+width = "2 mm"
+height = "2 mm"
+[particle.mesh]
+columns = 3
+rows = 3
+[contact]
+stiffness = 0.35)",
+                                   .motion = block,
+                                   .duration = "0.2 ms"}
+                               .text()));
+    e.run(20);
+    EXPECT_LT(e.results.energy_balance_error(), 0.003) << x;
+  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "scenes/outlines/curve_of.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/packing/place.hpp"
+#include "tests/helpers/crystal.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/wrong.hpp"
 
@@ -23,31 +24,12 @@ namespace pulvis {
 namespace {
 
 Scene of_grains(const std::string& outline, const std::string& grains,
-                const std::string& more = "") {
-  return own_scene(fmt::format(R"(
-family = "compaction"
-{}
-[[material]]
-name = "salt"
-density = "2160 kg/m^3"
-youngs_modulus = "20 GPa"
-poissons_ratio = 0.25
-[[particle]]
-name = "crystal"
-material = "salt"
-{}
-[particle.grains]
-{}
-[[body]]
-particle = "crystal"
-position = ["1 mm", "2 mm"]
-angle = "30 deg"
-[[stage]]
-name = "rest"
-kind = "hold"
-duration = "1 us"
-)",
-                               more, outline, grains));
+                const std::string& head = "") {
+  return own_scene(Crystal{.outline = outline,
+                           .grains = "[particle.grains]\n" + grains,
+                           .motion = "angle = \"30 deg\"",
+                           .head = head}
+                       .text());
 }
 
 struct Case {
