@@ -19,7 +19,7 @@ struct OtherCurves {
   std::array<std::int32_t, 2> first;  // control point of the outline
   std::array<bool, 2>
       round_corners;  // the search goes round them: not where an outline folds on itself
-  std::array<bool, 2> strangers;  // no grains of one particle: covered edges are not there for them
+  std::array<std::int32_t, 2> sampled;  // slot; edges that another grain covers are not there for it
   const double* position;         // of all control points
   const double* velocity;         // null where the scene needs none
 };
