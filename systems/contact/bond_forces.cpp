@@ -84,7 +84,7 @@ struct PairBonds {
     const Lane size = fma(push, m.along, f.along * m.point.gap) * m.point.inv_slope;
     const Lane x = size * m.point.nx, y = size * m.point.ny;
     for (int half = 0; half < count_of(two); ++half)
-      store_bonded(half_of(bonded, half), x, y, half, &s.at.couple(entry(two, half)));
+      store_points(half_of(bonded, half), x, y, half, &s.at.couple(entry(two, half)));
   }
   // Where their forces act on the other body, and where the closest point is looked for once they break.
   void keep_anchors(const Two& two, unsigned bonded) const {

@@ -16,8 +16,6 @@
 
 namespace pulvis {
 
-inline constexpr unsigned all_of_a_half = (1U << edge_points) - 1;
-
 // How bonded points stand against their anchors.
 struct BondMotion {
   PointMotion point;  // against the surface at the anchor, as for contact
@@ -68,15 +66,7 @@ inline kernels::CohesiveLaw cohesive_law(const BondRules::Law& law, double k, do
           law.mixed_exponent};
 }
 
-// What bonded points of a half (bits) keep; the others keep what they have.
-inline void store_bonded(unsigned points, const Lane& now, int half, double* four) {
-  if (points == all_of_a_half)
-    store_half(now, half, four);
-  else
-    for (int g = 0; g < edge_points; ++g)
-      if ((points >> g & 1) != 0) four[g] = now[half * edge_points + g];
-}
-inline void store_bonded(unsigned points, const Lane& x, const Lane& y, int half, double* eight) {
+inline void store_points(unsigned points, const Lane& x, const Lane& y, int half, double* eight) {
   if (points == all_of_a_half)
     store_pairs_of_half(x, y, half, eight);
   else
@@ -251,14 +241,14 @@ class BondPass {
       const Row<At> row = entry(two, half);
       const unsigned points = half_of(bonded, half);
       s_.rows.touches(row) = 1;
-      store_bonded(points, f.x, f.y, half, &s_.rows.force(row));
+      store_points(points, f.x, f.y, half, &s_.rows.force(row));
       if (points == BondedPoints<At>::all)
         s_.rows.activation(row) = back_face;  // nothing is left for the narrow phase
-      store_bonded(points, damage, half, &s_.bonds.damage(row));
+      store_points(points, damage, half, &s_.bonds.damage(row));
       if (s_.rows.sliding)
-        store_bonded(points, f.elastic_slip, half, &s_.rows.sliding->elastic_slip(row));
+        store_points(points, f.elastic_slip, half, &s_.rows.sliding->elastic_slip(row));
       if (s_.rows.bonding->weld)
-        store_bonded(points, (1 / s_.share) * f.pressure, half, &(*s_.rows.bonding->weld)(row));
+        store_points(points, (1 / s_.share) * f.pressure, half, &(*s_.rows.bonding->weld)(row));
     }
   }
   // From the next step on the contact of broken points is the narrow phase's.

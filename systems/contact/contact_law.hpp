@@ -48,18 +48,33 @@ template <class Friction>
 }
 
 // ---- from and to the columns --------------------------------------------------------------------------
+// Those of a candidate's points that no bond answers for (bits): what the others keep is bond_forces'.
+template <class At>
+unsigned free_points(const RowColumns<At>& c, Row<At> row) {
+  return all_of_a_half & ~(c.bonding ? unsigned{c.bonding->bonded(row)} : 0U);
+}
+// What the given points of a half (bits) keep; the others keep what they have.
+inline void store_points(unsigned points, const Lane& now, int half, double* four) {
+  if (points == all_of_a_half)
+    store_half(now, half, four);
+  else
+    for (int g = 0; g < edge_points; ++g)
+      if ((points >> g & 1) != 0) four[g] = now[half * edge_points + g];
+}
+
 // A candidate whose points are all apart: nothing acts, and nothing can before `activation` has been travelled.
 template <class At>
 void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
   c.touches(row) = 0;
   c.activation(row) = activation;
+  const unsigned free = free_points(c, row);
   for (int k = 0; k < 2 * edge_points; ++k) c.force(row, k) = 0;
-  if (c.sliding)
-    for (int k = 0; k < edge_points; ++k) c.sliding->elastic_slip(row, k) = 0;
-  if (c.sliding && c.sliding->lost)
-    for (int k = 0; k < edge_points; ++k) (*c.sliding->lost)(row, k) = 0;
-  if (c.bonding && c.bonding->weld)
-    for (int k = 0; k < edge_points; ++k) (*c.bonding->weld)(row, k) = 0;
+  for (int k = 0; k < edge_points; ++k) {
+    if ((free >> k & 1) == 0) continue;
+    if (c.sliding) c.sliding->elastic_slip(row, k) = 0;
+    if (c.sliding && c.sliding->lost) (*c.sliding->lost)(row, k) = 0;
+    if (c.bonding && c.bonding->weld) (*c.bonding->weld)(row, k) = 0;
+  }
 }
 
 // Bonded points are apart for the narrow phase: bond_forces answers for them.
@@ -93,7 +108,9 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
                                at_points(*sliding.lost, two)};
   const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
   for (int half = 0; half < 2; ++half)
-    if ((touching >> half & 1) != 0) store_half(law.lost, half, &(*sliding.lost)(entry(two, half)));
+    if ((touching >> half & 1) != 0)
+      store_points(free_points(c, entry(two, half)), law.lost, half,
+                   &(*sliding.lost)(entry(two, half)));
   return friction;
 }
 
@@ -141,9 +158,10 @@ template <class At>
   c.touches(row) = 1;
   c.activation(row) = 0;
   store_pairs_of_half(f.x, f.y, half, &c.force(row));
-  if (c.sliding) store_half(f.elastic_slip, half, &c.sliding->elastic_slip(row));
+  const unsigned free = free_points(c, row);
+  if (c.sliding) store_points(free, f.elastic_slip, half, &c.sliding->elastic_slip(row));
   if (c.bonding && c.bonding->weld)
-    store_half((1 / share) * f.pressure, half, &(*c.bonding->weld)(row));
+    store_points(free, (1 / share) * f.pressure, half, &(*c.bonding->weld)(row));
 }
 
 // Law, columns and books of the candidates of two that touch (bit 0, bit 1). Returns their friction traction times weight

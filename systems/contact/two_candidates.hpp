@@ -25,6 +25,7 @@ int count_of(const TwoCandidates<At>& two) {
 }
 
 inline constexpr unsigned all_lanes = (1U << lane_count) - 1;
+inline constexpr unsigned all_of_a_half = (1U << edge_points) - 1;
 // Bits of the points of one candidate, of the lanes of both.
 constexpr unsigned half_of(unsigned bits, int half) { return bits >> (half * edge_points) & 15; }
 inline constexpr std::array<unsigned, 4> lanes_of_halves{0x00, 0x0f, 0xf0, 0xff};

@@ -171,6 +171,19 @@ TEST(Glue, TakesItsFractureEnergyAtAnyMesh) {
   EXPECT_NEAR(spent({}, "sheared-blocks.toml"), 40e-6, 0.4e-6);
 }
 
+// Grains that tear open at one end of a boundary are pressed and slide at the other: the narrow phase has the free points
+// of a row, and leaves the friction springs of its bonded ones alone.
+TEST(Glue, ThatTearsAndSlidesUnderPressureKeepsTheEnergyBalance) {
+  Experiment e("studies/scenes/crushed-particle.toml",
+               {"seed=19", "particle.crystal.diameter=\"6 mm\"",
+                "particle.crystal.grains.number=13", "tool.bottom.point=[\"0 mm\", \"-3.003 mm\"]",
+                "tool.top.point=[\"0 mm\", \"3.003 mm\"]", "stage.crush.duration=\"0.18 ms\"",
+                "stage.crush.move.top.displacement=[\"0 mm\", \"-0.045 mm\"]"});
+  e.run(200);
+  EXPECT_LT(e.results.energy_balance_error(), 0.002);
+  EXPECT_GT(e.value("bonds/crack_length"), 6e-3);
+}
+
 // ---- results -----------------------------------------------------------------------------------------------
 double sum_of_column(const std::vector<std::vector<double>>& rows, std::size_t column) {
   double sum = 0;
