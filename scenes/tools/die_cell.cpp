@@ -16,13 +16,30 @@ bool is_ground(const ToolSpec& tool) {
          }) == tool.points.end();
 }
 
+// Of a polyline, which goes on straight beyond its ends.
+bool lies_behind(const ToolSpec& polyline, const ToolSpec& plane) {
+  const std::vector<Vec2>& p = polyline.points;
+  const auto height = [&](const Vec2& at) { return (at - plane.point).dot(plane.normal); };
+  return std::ranges::all_of(p, [&](const Vec2& at) { return height(at) <= 0; }) &&
+         height(p.front()) <= height(p[1]) && height(p.back()) <= height(p[p.size() - 2]);
+}
+
+// Platens that stand behind a wall of the die until it has gone.
+bool waits_outside(const ToolSpec& tool, const Scene& scene) {
+  return tool.shape == ToolSpec::Shape::polyline && tool.points.size() > 1 &&
+         std::ranges::any_of(scene.tools, [&](const ToolSpec& wall) {
+           return wall.shape == ToolSpec::Shape::plane && !wall.on_packing &&
+                  lies_behind(tool, wall);
+         });
+}
+
 }  // namespace
 
 std::optional<DieCell> die_cell(const Scene& scene) {
   DieCell cell{-1, -1, -1, -1};
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];
-    if (tool.shape == ToolSpec::Shape::constraint) continue;
+    if (tool.shape == ToolSpec::Shape::constraint || waits_outside(tool, scene)) continue;
     if (tool.shape != ToolSpec::Shape::plane && !is_ground(tool))
       return std::nullopt;  // takes space of its own
     const Vec2 n = face_normal(tool);

@@ -1,4 +1,5 @@
 // The box between four tools whose normals look along +x, -x, +y, -y: what relative density refers to.
+// Polylines that begin behind one of them take nothing of it.
 #pragma once
 
 #include <optional>

@@ -281,9 +281,11 @@ TEST(BondResults, AreAbsentWithoutBonds) {
 // ---- a compact ------------------------------------------------------------------------------------------------
 // Pressed, unloaded and without walls: how many boundary edges still touch another particle.
 double touching_after_ejection(const char* scene, const std::vector<std::string>& more) {
-  std::vector<std::string> overrides{"packing[0].width=40 mm", "packing[0].class[0].number=16",
-                                     "tool.right.point=[\"40 mm\", \"0 mm\"]",
-                                     "stage.press.move.top.displacement=[\"0 mm\", \"-7.5 mm\"]"};
+  std::vector<std::string> overrides{
+      "packing[0].width=40 mm", "packing[0].class[0].number=16",
+      "tool.right.point=[\"40 mm\", \"0 mm\"]",
+      "stage.press.move.top.displacement=[\"0 mm\", \"-3.75 mm\"]",
+      "stage.press.move.bottom.displacement=[\"0 mm\", \"3.75 mm\"]"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   Experiment e(scene, overrides);
   double largest = 0;
@@ -296,9 +298,11 @@ double touching_after_ejection(const char* scene, const std::vector<std::string>
 TEST(Glue, OfColdWeldingHoldsACompactTogether) {
   // One or two touch as they fly past each other.
   EXPECT_LE(touching_after_ejection("bonds/loose-compact.toml", {}), 2);
-  EXPECT_GT(touching_after_ejection("bonds/green-strength.toml",
-                                    {"stage.crush.duration=1 us",
-                                     "stage.crush.move.top.displacement=[\"0 mm\", \"-1e-6 mm\"]"}),
+  EXPECT_GT(touching_after_ejection(
+                "bonds/green-strength.toml",
+                {"stage.split.duration=1 us",
+                 "stage.split.move.left-platen.displacement=[\"1e-6 mm\", \"0 mm\"]",
+                 "stage.split.move.right-platen.displacement=[\"-1e-6 mm\", \"0 mm\"]"}),
             50);
 }
 

@@ -271,7 +271,7 @@ TEST(Polyline, ThreadsDoNotChangeABit) {
   EXPECT_TRUE(one == bits(3));
 }
 
-// Derived figures belong to a die of four planes.
+// Derived figures belong to a die of four planes, and to what is in it.
 TEST(Polyline, HasNoRelativeDensity) {
   Experiment e("basic/groove-wedge.toml");
   EXPECT_FALSE(die_cell(e.scene));
@@ -280,7 +280,16 @@ TEST(Polyline, HasNoRelativeDensity) {
   die.tools.push_back(die.tools.front());
   die.tools.back().shape = ToolSpec::Shape::constraint;
   EXPECT_TRUE(die_cell(die));  // takes no space
-  die.tools.back().shape = ToolSpec::Shape::polyline;
+  ToolSpec& platen = die.tools.back();
+  platen.shape = ToolSpec::Shape::polyline;
+  EXPECT_FALSE(die_cell(die));
+  // Unless it begins behind a wall, until that has gone: the left one, at x = 0.
+  platen.points = {{-20e-3, 6e-3}, {-1e-3, 6e-3}, {-1e-3, 4e-3}, {-20e-3, 4e-3}};
+  EXPECT_TRUE(die_cell(die));
+  platen.points[1].x() = 1e-3;
+  EXPECT_FALSE(die_cell(die));
+  platen.points = {
+      {-1e-3, 6e-3}, {-20e-3, 6e-3}, {-20e-3, 4e-3}, {-1e-3, 4e-3}};  // goes on to the right
   EXPECT_FALSE(die_cell(die));
 }
 
