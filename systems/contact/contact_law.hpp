@@ -79,15 +79,19 @@ void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
 
 // Bonded points are apart for the narrow phase: bond_forces answers for them.
 template <class At>
+LaneMask bonded_lanes(const RowColumns<At>& c, const TwoCandidates<At>& two) {
+  const unsigned low = c.bonding->bonded(two[0]), high = c.bonding->bonded(two[1]);
+  return LaneMask::of(low | high << edge_points);
+}
+template <class At>
 [[gnu::always_inline]] inline void pass_over_bonded(const RowColumns<At>& c,
                                                     const TwoCandidates<At>& two,
                                                     PointMotion& motion) {
-  if (!c.bonding) return;
-  const unsigned low = c.bonding->bonded(two[0]), high = c.bonding->bonded(two[1]);
-  motion.gap = select(LaneMask::of(low | high << edge_points), Lane{} - 1.0, motion.gap);
+  if (c.bonding) motion.gap = select(bonded_lanes(c, two), Lane{} - 1.0, motion.gap);
 }
 
 // Answers of the friction law of two candidates; keeps what sliding has done to those that touch (bits 0 and 1).
+// Of the narrow phase, for which bonded points have no spring to let go; bond_forces asks for none that touch.
 // `share` of kappa: one half where the other particle samples back.
 template <class At>
 kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates<At>& two,
@@ -95,7 +99,8 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
                                     const Lane& pressure, const Lane& kappa,
                                     const Lane& inv_kappa) {
   const auto& sliding = *c.sliding;
-  const Lane before = at_points(sliding.elastic_slip, two);
+  Lane before = at_points(sliding.elastic_slip, two);
+  if (c.bonding && touching != 0) before = select(bonded_lanes(c, two), Lane{}, before);
   const Lane mu = at_candidates(c.law, two, ContactLaw<At>::friction);
   if (!sliding.more) {
     kernels::Coulomb<Lane> law{mu};
