@@ -2,6 +2,7 @@
 // as one. Mode: Read or Write.
 #pragma once
 
+#include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
 #include "components/surface.hpp"
@@ -73,9 +74,24 @@ struct TouchingRows {
   Read<ContactTouches<At>> touches;
   Read<PointForce<At>> force;
 };
+// In a periodic cell: against which image of its other particle a row stands.
+struct CellImages {
+  Read<ContactImage> image;
+  Read<PeriodicCell> cell;
+  Image of(Row<Contact> row) const { return {image(row, 0), image(row, 1)}; }
+  Point shift(Row<Contact> row) const { return cell->vectors * of(row); }
+};
 struct TouchingPairs {
   TouchingRows<Contact> rows;
   Read<ClosestPoint> closest;
+  Optional<CellImages> images;
+
+  // As it stands against the other particle, not its image.
+  Point from_image(Row<Contact> row, const Point& at) const {
+    if (!images) return at;
+    const Point shift = images->shift(row);
+    return {at[0] - shift[0], at[1] - shift[1]};
+  }
 };
 struct TouchingTools {
   TouchingRows<ToolContact> rows;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -154,7 +155,10 @@ struct ContactIndex {
   std::int64_t bins = 0;      // how often so far
   std::vector<std::int32_t> neighbour_begin;  // [slots + 1] into neighbours
   std::vector<std::int32_t> neighbours;  // slots, itself included, when the rows were made; sorted
-  std::vector<Point> tools_before;       // m, [tools]: where they stood then
+  // In a periodic cell, of each of them: by which periods it is moved.
+  std::vector<std::array<std::int32_t, 2>> images;
+  std::array<double, 4> cell_before{};      // m, the cell's vectors then
+  std::vector<Point> tools_before;          // m, [tools]: where they stood then
   std::vector<std::int32_t> sampled_begin;  // [slots + 1] into contact rows: particle samples
   std::vector<std::int32_t>
       other_begin;  // [slots + 1] into other_rows: particle is sampled against
@@ -171,7 +175,8 @@ struct ContactIndex {
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(skin, neighbourhood, travel_at_bin, look_at, travel_seen, due, bins, neighbour_begin,
-          neighbours, tools_before, sampled_begin, other_begin, other_rows, tool_begin);
+          neighbours, images, cell_before, tools_before, sampled_begin, other_begin, other_rows,
+          tool_begin);
   }
 };
 

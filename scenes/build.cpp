@@ -27,6 +27,7 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/results/observe.hpp"
 #include "scenes/tools/bond_rules.hpp"
+#include "scenes/tools/cell.hpp"
 #include "scenes/tools/constraints.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "scenes/tools/drives.hpp"
@@ -389,6 +390,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.tools || needs.constraints) add_tools(*world, scene, particles, needs);
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
+    add_cell(*world, scene, particles);
     world->emplace<ContactQuality>();
     ContactRules& rules = world->emplace<ContactRules>(contact_rules(scene));
     find_thinnest(scene, layout.bodies, rules);

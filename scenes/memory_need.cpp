@@ -6,6 +6,7 @@
 
 #include "components/body.hpp"
 #include "components/bond.hpp"
+#include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/highest_mode.hpp"
 #include "engine/files/output_error.hpp"
@@ -59,6 +60,7 @@ std::uint64_t row_bytes(const Needs& needs) {
     bytes += bytes_of<BondLawNumber<At>, BondedPoints<At>, BondOffset<At>, BondStrength<At>,
                       BondDamage<At>, CurveAnchor>();
   if (needs.welds) bytes += bytes_of<WeldPressure<At>>();
+  if (needs.cell) bytes += bytes_of<ContactImage>();
   return bytes;
 }
 

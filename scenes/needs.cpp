@@ -38,7 +38,8 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   needs.polylines = any(ToolSpec::Shape::polyline);
   needs.tools = needs.polylines || any(ToolSpec::Shape::plane);
   needs.constraints = any(ToolSpec::Shape::constraint);
-  needs.pairs = particles > 1 || (needs.tools && any_outline(scene, can_fold)) ||
+  needs.cell = scene.cell.has_value();
+  needs.pairs = particles > 1 || needs.cell || (needs.tools && any_outline(scene, can_fold)) ||
                 (needs.constraints && any_outline(scene, has_notch));
   using Friction = ContactRules::Friction;
   const ContactRules rules = contact_rules(scene);

@@ -16,6 +16,7 @@ struct Needs {
   bool constraints = false;
   bool friction = false;   // a coefficient above zero can act
   bool weakening = false;  // and a law beyond Coulomb's
+  bool cell = false;       // periodic
   bool bonds = false;      // between particles
   bool tool_bonds = false;
   bool welds = false;  // made by pressure, between particles

@@ -53,6 +53,10 @@ class SceneReader {
     scene.stages = read_stages();
     scene.frictions = read_all(schema::friction());
     scene.bonds = read_all(schema::bond());
+    if (const document::Entry* entry = document::find(root_, "cell")) {
+      scene.cell.emplace().mark = entry->origin.mark;
+      tables_.read(schema::cell(), entry->value, "cell", "", *scene.cell);
+    }
     read_one(schema::contact(), scene.contact);
     read_one(schema::element(), scene.element);
     read_one(schema::time(), scene.time);
@@ -166,6 +170,10 @@ class SceneReader {
       if (const document::Entry* entry = document::find(table, "until")) {
         stages[i].until.emplace().mark = entry->origin.mark;
         tables_.read(schema::until(), entry->value, path + ".until", "", *stages[i].until);
+      }
+      if (const document::Entry* entry = document::find(table, "cell")) {
+        stages[i].cell.emplace().mark = entry->origin.mark;
+        tables_.read(schema::cell_drive(), entry->value, path + ".cell", "", *stages[i].cell);
       }
     }
     return stages;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "systems/body/systems.hpp"
+#include "systems/cell/systems.hpp"
 #include "systems/contact/systems.hpp"
 #include "systems/observe/systems.hpp"
 #include "systems/tools/systems.hpp"
@@ -39,6 +40,7 @@ StepList step_list_of(World& w) {
   const bool bonds = w.has<BondTotals>();
   const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
   const bool constraints = w.has<ConstraintReaction>();
+  const bool cell = w.has<PeriodicCell>();
   SystemList force(w), observe(w, When::on_sample), move(w);
 
   // clang-format off
@@ -54,6 +56,7 @@ StepList step_list_of(World& w) {
   force.add<tool_bond_forces>           ("tool_bond_forces",  tool_bonds);
   force.add<contact_totals>             ("contact_totals",    touching);
   force.add<bond_totals>                ("bond_totals",       bonds);
+  force.add<cell_control>               ("cell_control",      cell);
   force.add<contact_health>             ("contact_health",    touching);
   force.add<ridge_health>               ("ridge_health",      w.has<SurfaceRange>());
   force.add<contact_force>              ("contact_force",     touching);
@@ -82,8 +85,10 @@ StepList step_list_of(World& w) {
   observe.add<fragments>                ("fragments",         w.has<Fragments>());
   observe.add<local_density>            ("local_density",     w.has<DensityGrid>());
 
+  move.add<cell_kick>                   ("cell_kick",         cell);
   move.add<integrate>                   ("integrate");
   move.add<contact_curve>               ("contact_curve",     touching);
+  move.add<cell_motion>                 ("cell_motion",       cell);
   move.add<element_health>              ("element_health");
   move.add<return_health>               ("return_health",     w.has<ReturnResidual>());
   move.add<advance_clock>               ("advance_clock");

@@ -1,4 +1,5 @@
 #include "scenes/checks/checks.hpp"
+#include "scenes/checks/cell_checks.hpp"
 #include "scenes/outlines/points_file.hpp"
 
 #include <fmt/format.h>
@@ -297,10 +298,10 @@ class Checks {
       const std::string path = fmt::format("stage[{}]", i);
       const bool needs_moves =
           stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
-      if (needs_moves && stage.moves.empty() && stage.servos.empty())
+      if (needs_moves && stage.moves.empty() && stage.servos.empty() && !stage.cell)
         refuse(path + ".kind",
                "no tool moves in this stage, allowed: at least one [[stage.move]] or "
-               "[[stage.servo]], or kind = \"settle\" or \"hold\"");
+               "[[stage.servo]], a [stage.cell], or kind = \"settle\" or \"hold\"");
       if (!needs_moves && !stage.moves.empty())
         refuse(path + ".move[0]",
                "tools stand still in a stage of this kind, allowed: moves in kind = \"compact\", "
@@ -405,6 +406,7 @@ class Checks {
 void complete_and_check(Scene& scene, const schema::Origins& origins, Problems& problems) {
   Checks(scene, origins, problems).run();
   check_tools(scene, origins, problems);
+  check_cell(scene, origins, problems);
   check_output(scene, origins, problems);
 }
 

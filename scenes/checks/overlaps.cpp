@@ -11,6 +11,7 @@
 #include "scenes/packing/outline_depth.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/spec/rotation.hpp"
+#include "scenes/tools/cell.hpp"
 #include "scenes/tools/surface.hpp"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
@@ -198,14 +199,17 @@ class OverlapSearch {
 
 class Report {
  public:
-  Report(const Scene& scene, const std::vector<BodySpec>& bodies)
-      : scene_(scene), bodies_(bodies) {}
+  // `count` particles, and behind them images of all.
+  Report(const Scene& scene, const std::vector<BodySpec>& bodies, std::size_t count)
+      : scene_(scene), bodies_(bodies), count_(count) {}
 
   void particles(const std::vector<Overlap>& overlaps) {
-    for (const Overlap& overlap : overlaps)
+    for (const Overlap& overlap : overlaps) {
+      if (overlap.other >= count_) continue;  // two images
       add(overlap,
           fmt::format("{} overlaps {} by {:.6g} m, allowed: particles that touch or are apart",
                       described(overlap.particle), described(overlap.other), overlap.depth));
+    }
   }
 
   void tools(const std::vector<Overlap>& overlaps) {
@@ -242,22 +246,44 @@ class Report {
 
   std::string described(std::size_t i) const {
     const BodySpec& body = bodies_[i];
-    return fmt::format("particle {} ('{}' at ({:.6g}, {:.6g}) m)", i,
+    return fmt::format("{}particle {} ('{}' at ({:.6g}, {:.6g}) m)",
+                       i < count_ ? "" : "the image of ", i % count_,
                        scene_.particles[static_cast<std::size_t>(body.particle)].name,
                        body.position.x(), body.position.y());
   }
 
   const Scene& scene_;
   const std::vector<BodySpec>& bodies_;
+  std::size_t count_;
   std::vector<SceneProblem> problems_;
 };
 
 }  // namespace
 
+namespace {
+
+// The bodies, and behind them their images beyond the borders of the cell.
+std::vector<BodySpec> with_images(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  std::vector<BodySpec> all = bodies;
+  if (!scene.cell) return all;
+  const auto [first, second] = cell_vectors(*scene.cell);
+  for (int i = -1; i <= 1; ++i)
+    for (int k = -1; k <= 1; ++k)
+      for (const BodySpec& body : bodies) {
+        if (i == 0 && k == 0) break;
+        all.push_back(body);
+        all.back().position += i * first + k * second;
+      }
+  return all;
+}
+
+}  // namespace
+
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (bodies.empty()) return 0;
-  OverlapSearch search(scene, bodies);
-  Report report(scene, bodies);
+  const std::vector<BodySpec> all = with_images(scene, bodies);
+  OverlapSearch search(scene, all);
+  Report report(scene, all, bodies.size());
   report.tools(search.with_tools());
   report.particles(search.between_particles());
   report.throw_if_any();

@@ -18,6 +18,8 @@ const TableDeclaration<GrainsSpec>& grains();
 const TableDeclaration<BodySpec>& body();
 const TableDeclaration<PackingSpec>& packing();
 const TableDeclaration<MixtureClass>& mixture_class();
+const TableDeclaration<CellSpec>& cell();
+const TableDeclaration<CellDriveSpec>& cell_drive();
 const TableDeclaration<ToolSpec>& tool();
 const TableDeclaration<StageSpec>& stage();
 const TableDeclaration<MoveSpec>& move();

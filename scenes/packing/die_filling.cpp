@@ -34,7 +34,8 @@ class Press {
   explicit Press(const DieFilling& order)
       : order_(order),
         random_(order.seed),
-        powder_(order.shapes, order.shape_of, order.width, margin * smallest(order)) {
+        powder_(order.shapes, order.shape_of, order.width, margin * smallest(order),
+                order.periodic) {
     for (const int s : order.shape_of) area_ += order.shapes[static_cast<std::size_t>(s)].area;
     const double hundreds = std::max(1.0, static_cast<double>(order.shape_of.size()) / 100);
     max_work_ = static_cast<std::int64_t>(sweeps_of_hundred / std::sqrt(std::sqrt(hundreds)));

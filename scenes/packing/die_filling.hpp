@@ -14,6 +14,7 @@ struct DieFilling {
   std::vector<RigidShape> shapes;  // in units of the powder's mean diameter
   std::vector<int> shape_of;       // [particles]
   double width = 0;
+  bool periodic = false;  // a cell instead of a die: its height is squeezed
   double min_height = 0;  // the punch goes no farther
   double time_to_shake =
       1;  // on after nothing moves any more: 0 not at all, 1 as long as it may pay

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "scenes/outlines/outline.hpp"
 #include "scenes/outlines/outline_reach.hpp"
+#include "scenes/outlines/portable.hpp"
 #include "scenes/outlines/scaled_outline.hpp"
 #include "scenes/packing/die_filling.hpp"
 #include "scenes/packing/mixture.hpp"
@@ -57,6 +59,7 @@ class RandomPacking {
     unit_ = 2 * std::sqrt(mixture.area / mixture.count / std::numbers::pi);
     for (const MixtureSize& size : mixture.sizes) add(size);
     order_.width = packing_.width / unit_;
+    order_.periodic = scene_.cell.has_value();
     if (!everything_fits()) return;
     const double full = mixture.area / packing_.width;  // height at a density of 1
     if (packing_.density) order_.min_height = full / *packing_.density / unit_;
@@ -69,6 +72,7 @@ class RandomPacking {
     packing_.reached = {full / (die.height * unit_), die.mean_gap, die.min_gap * unit_,
                         die.touches};
     packing_.top = packing_.corner.y() + die.height * unit_;
+    if (scene_.cell) scene_.cell->height = die.height * unit_;
   }
 
  private:
@@ -115,17 +119,25 @@ class RandomPacking {
   }
 
   void place(const FilledDie& die) {
+    const double turn = scene_.cell ? scene_.cell->angle : 0;
+    const portable::Turn turned{portable::cos(turn), portable::sin(turn)};
     for (std::size_t i = 0; i < die.poses.size(); ++i) {
       const auto shape = static_cast<std::size_t>(order_.shape_of[i]);
       const RigidPose& pose = die.poses[i];
-      const V2 at = pose.at - pose.turn * order_.shapes[shape].centroid;
+      const V2 in_cell = home(pose.at, die.height) - pose.turn * order_.shapes[shape].centroid;
+      const V2 at = turn == 0 ? in_cell : turned * in_cell;
       BodySpec body;
       body.particle = classes_[shape];
       body.position = packing_.corner + unit_ * Vec2(at.x, at.y);
-      body.angle = portable::atan2(pose.turn.s, pose.turn.c);
+      body.angle = portable::atan2(pose.turn.s, pose.turn.c) + turn;
       body.mark = packing_.mark;
       packing_.placed.push_back(body);
     }
+  }
+  V2 home(const V2& at, double height) const {
+    if (!order_.periodic) return at;
+    return {at.x - std::floor(at.x / order_.width) * order_.width,
+            at.y - std::floor(at.y / height) * height};
   }
 
   Scene& scene_;

@@ -27,8 +27,12 @@ constexpr double kept_margin = 0.1;       // of two margins, which a relaxed tou
 }  // namespace
 
 RigidPowder::RigidPowder(std::vector<RigidShape> shapes, std::vector<int> shape_of, double width,
-                         double margin)
-    : shapes_(std::move(shapes)), shape_of_(std::move(shape_of)), width_(width), margin_(margin) {
+                         double margin, bool periodic)
+    : shapes_(std::move(shapes)),
+      shape_of_(std::move(shape_of)),
+      width_(width),
+      margin_(margin),
+      periodic_(periodic) {
   for (const RigidShape& s : shapes_) largest_reach_ = std::max(largest_reach_, s.reach);
   poses_.resize(shape_of_.size());
 }
@@ -37,7 +41,7 @@ void RigidPowder::scatter(double height, portable::Random& random) {
   height_ = height;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const V2 direction = random.direction();
-    const double edge = std::min({shape(i).reach, width_ / 2, height_ / 2});
+    const double edge = periodic_ ? 0 : std::min({shape(i).reach, width_ / 2, height_ / 2});
     const double x = random.between(edge, width_ - edge);
     poses_[i] = {{x, random.between(edge, height_ - edge)}, {direction.x, direction.y}};
   }
@@ -99,6 +103,7 @@ bool RigidPowder::lists_hold() const {
 // Cells as wide as two largest particles and the range; each looks at itself and at four of its
 // neighbours.
 void RigidPowder::find_pairs(double range) {
+  if (periodic_) return find_pairs_in_cell(range);
   const double cell = 2 * largest_reach_ + range;
   const int columns = std::max(1, static_cast<int>(width_ / cell));
   const int rows = std::max(1, static_cast<int>(height_ / cell));
@@ -134,6 +139,63 @@ void RigidPowder::find_pairs(double range) {
   listed_ = poses_;
 }
 
+// The same for all particles brought home, with the cells of the grid beyond each border. Where the cell is narrower than
+// three of those, every image of every pair is looked at.
+void RigidPowder::find_pairs_in_cell(double range) {
+  const double cell = 2 * largest_reach_ + range;
+  const int columns = static_cast<int>(width_ / cell), rows = static_cast<int>(height_ / cell);
+  std::vector<Home> home(poses_.size());
+  std::vector<V2> at(poses_.size());
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const V2 p = poses_[i].at;
+    home[i] = {-static_cast<std::int32_t>(std::floor(p.x / width_)),
+               -static_cast<std::int32_t>(std::floor(p.y / height_))};
+    at[i] = p + V2{home[i].x * width_, home[i].y * height_};
+  }
+  pairs_.clear();
+  const auto compare = [&](std::int32_t a, std::int32_t b, std::int32_t x, std::int32_t y) {
+    const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
+    const V2 apart = at[k] + V2{x * width_, y * height_} - at[i];
+    const double reach = shape(i).reach + shape(k).reach + range;
+    if (dot(apart, apart) < reach * reach)
+      pairs_.push_back({a, b, home[k].x + x - home[i].x, home[k].y + y - home[i].y});
+  };
+  listed_ = poses_;
+  const auto count = static_cast<std::int32_t>(poses_.size());
+  if (columns < 3 || rows < 3) {
+    for (std::int32_t a = 0; a < count; ++a)
+      for (std::int32_t b = a; b < count; ++b)
+        for (std::int32_t x = -1; x <= 1; ++x)
+          for (std::int32_t y = -1; y <= 1; ++y)
+            if (a != b || x > 0 || (x == 0 && y > 0)) compare(a, b, x, y);
+    return;
+  }
+  std::vector<std::vector<std::int32_t>> cells(static_cast<std::size_t>(columns * rows));
+  const auto place = [](double x, double extent, int cells_along) {
+    return std::clamp(static_cast<int>(x / extent * cells_along), 0, cells_along - 1);
+  };
+  for (std::int32_t i = 0; i < count; ++i) {
+    const V2 p = at[static_cast<std::size_t>(i)];
+    const int c = place(p.x, width_, columns), r = place(p.y, height_, rows);
+    cells[static_cast<std::size_t>(r * columns + c)].push_back(i);
+  }
+  constexpr int steps[4][2] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) {
+      const auto& own = cells[static_cast<std::size_t>(r * columns + c)];
+      for (std::size_t i = 0; i < own.size(); ++i)
+        for (std::size_t k = i + 1; k < own.size(); ++k) compare(own[i], own[k], 0, 0);
+      for (const auto& step : steps) {
+        const int x = c + step[0], y = r + step[1];
+        const int over_x = x < 0 ? -1 : x >= columns ? 1 : 0, over_y = y >= rows ? 1 : 0;
+        const int there = (y - over_y * rows) * columns + x - over_x * columns;
+        for (const std::int32_t i : own)
+          for (const std::int32_t k : cells[static_cast<std::size_t>(there)])
+            compare(i, k, over_x, over_y);
+      }
+    }
+}
+
 double RigidPowder::sweep() {
   if (!lists_hold()) find_pairs(list_range + 2 * margin_);
   double worst = 0;
@@ -159,12 +221,13 @@ void RigidPowder::correct(std::size_t i, V2 arm, V2 correction) {
 double RigidPowder::push(const Pair& pair) {
   const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
   const RigidShape &of_a = shape(a), &of_b = shape(b);
-  const V2 apart = poses_[b].at - poses_[a].at;
+  const RigidPose there = image(pair);
+  const V2 apart = there.at - poses_[a].at;
   const double reach = of_a.reach + of_b.reach + 2 * margin_;
   if (dot(apart, apart) >= reach * reach) return 0;
-  const auto& touches = contacts_.between(of_a, poses_[a], of_b, poses_[b], 2 * margin_);
+  const auto& touches = contacts_.between(of_a, poses_[a], of_b, there, 2 * margin_);
   double worst = 0;
-  const V2 centre_a = poses_[a].at, centre_b = poses_[b].at;
+  const V2 centre_a = poses_[a].at, centre_b = there.at;
   const double share = touches.size() > 1 ? joint_share / static_cast<double>(touches.size()) : 1;
   for (const RigidTouch& touch : touches) {
     const double overlap = 2 * margin_ - touch.gap;
@@ -183,6 +246,7 @@ double RigidPowder::push(const Pair& pair) {
 void RigidPowder::touches_with_tools(std::size_t i, double range,
                                      std::vector<RigidTouch>& touches) const {
   touches.clear();
+  if (periodic_) return;
   const RigidShape& s = shape(i);
   const RigidPose& pose = poses_[i];
   const double reach = s.reach + range;
@@ -231,7 +295,7 @@ double RigidPowder::min_gap() {
   for (const Pair& pair : pairs_) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
     for (const RigidTouch& touch :
-         contacts_.between(shape(a), poses_[a], shape(b), poses_[b], 2 * margin_))
+         contacts_.between(shape(a), poses_[a], shape(b), image(pair), 2 * margin_))
       minimum = std::min(minimum, touch.gap);
   }
   for (std::size_t i = 0; i < poses_.size(); ++i) {
@@ -257,7 +321,7 @@ std::vector<std::array<double, 3>> RigidPowder::near_gaps(double touching, int& 
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
     double minimum = std::numeric_limits<double>::max();
     for (const RigidTouch& touch :
-         contacts_.between(shape(a), poses_[a], shape(b), poses_[b], gap_range * widest))
+         contacts_.between(shape(a), poses_[a], shape(b), image(pair), gap_range * widest))
       minimum = std::min(minimum, touch.gap);
     note(a, minimum);
     note(b, minimum);

@@ -1,4 +1,4 @@
-// Rigid particles between the walls, floor and top punch of a die: pushed out of each other, shaken,
+// Rigid particles between the walls, floor and top punch of a die, or in a periodic cell: pushed out of each other, shaken,
 // squeezed. Lengths in units of a mean diameter; the left wall and the floor go through the origin.
 #pragma once
 
@@ -15,7 +15,7 @@ class RigidPowder {
   // `margin`: particles are pushed apart as if each were wider by this all around, so that what is left
   // of their overlap at the end is a gap.
   RigidPowder(std::vector<RigidShape> shapes, std::vector<int> shape_of, double width,
-              double margin);
+              double margin, bool periodic = false);
 
   void scatter(double height, portable::Random& random);  // anywhere, overlaps and all
   void squeeze(double height);  // every particle's place is scaled with it
@@ -39,7 +39,17 @@ class RigidPowder {
  private:
   struct Pair {
     std::int32_t a, b;
+    std::int32_t x = 0, y = 0;  // periods by which b is moved
   };
+  struct Home {  // periods that bring a particle into the cell
+    std::int32_t x = 0, y = 0;
+  };
+  RigidPose image(const Pair& pair) const {
+    RigidPose pose = poses_[static_cast<std::size_t>(pair.b)];
+    pose.at = pose.at + portable::V2{pair.x * width_, pair.y * height_};
+    return pose;
+  }
+  void find_pairs_in_cell(double range);
   const RigidShape& shape(std::size_t i) const {
     return shapes_[static_cast<std::size_t>(shape_of_[i])];
   }
@@ -55,6 +65,7 @@ class RigidPowder {
   std::vector<RigidShape> shapes_;
   std::vector<int> shape_of_;
   double width_, margin_;
+  bool periodic_;
   double height_ = 0;
   double largest_reach_ = 0;
   std::vector<RigidPose> poses_;

@@ -59,6 +59,19 @@ class SeriesList {
         "axial force on the bottom tool / on the top tool; NaN where the top bears none");
   }
 
+  void add_cell() {
+    add("relative_density", "-", "undeformed particle area / area of the cell");
+    add("cell/width", "m", "length of its first vector");
+    add("cell/height", "m", "length of its second vector");
+    for (const char* part : {"xx", "yy", "xy"})
+      add(std::string("cell/strain_") + part, "-",
+          "logarithmic: rate of deformation of the cell, integrated");
+    add("cell/rotation", "rad", "spin of the cell, integrated");
+    for (const char* part : {"xx", "yy", "xy"})
+      add(std::string("cell/stress_") + part, "Pa",
+          "Cauchy, of the forces across the cell's borders; tension > 0");
+  }
+
   void add_energies() {
     add("energy/kinetic", "J", "of all nodes");
     add("energy/elastic", "J", "stored in the elements");
@@ -74,7 +87,7 @@ class SeriesList {
       add("energy/bonds", "J", "stored in the bonds");
       add("energy/fracture", "J", "spent in breaking bonds");
     }
-    add("energy/external", "J", "work of the tools");
+    add("energy/external", "J", scene_.cell ? "work of the cell" : "work of the tools");
     add("energy/balance", "J",
         "all energies less the work of the tools and the energy at the start");
   }
@@ -111,6 +124,7 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   SeriesList list(scene);
   for (const ToolSpec& tool : scene.tools) list.add_tool(tool);
   if (die_cell(scene)) list.add_die();
+  if (scene.cell) list.add_cell();
   list.add_energies();
   list.add_quality();
   list.add(observed_series(scene));

@@ -64,7 +64,7 @@ void check_output(const Scene& scene, const schema::Origins& origins, Problems& 
 
 void add_observed(World& world, const Scene& scene) {
   if (world.has<BondTotals>()) world.emplace<Fragments>();
-  if (scene.output.stresses()) {
+  if (scene.observes_stress()) {
     world.add<ParticleStress>();
     world.add<DeformedArea>();
     world.add<ParticleCentre>();

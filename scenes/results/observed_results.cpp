@@ -32,14 +32,16 @@ std::vector<double> by_number(const World& world) {
 }
 
 // ---- stress -----------------------------------------------------------------------------------------
-void append_compact_stress(const World& world, double die_area, std::vector<double>& row) {
-  std::array<double, 4> sum{};
+void append_compact_stress(const World& world, double area, std::vector<double>& row) {
+  std::array<double, 4> s{};
   for (const int slot : world.resource<Bodies>().slot_of_number)
     for (std::size_t k = 0; k < 4; ++k)
-      sum[k] += in_slot<DeformedArea>(world, slot)[0] *
-                in_slot<ParticleStress>(world, slot)[k * lane_count];
-  row.insert(row.end(), {sum[0] / die_area, sum[1] / die_area, sum[3] / die_area,
-                         (sum[0] + sum[1] + sum[2]) / (3 * die_area)});
+      s[k] += in_slot<DeformedArea>(world, slot)[0] / area *
+              in_slot<ParticleStress>(world, slot)[k * lane_count];
+  const double mean = (s[0] + s[1] + s[2]) / 3;
+  const double xx = s[0] - mean, yy = s[1] - mean, zz = s[2] - mean;
+  const double deviatoric = std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * s[3] * s[3]));
+  row.insert(row.end(), {s[0], s[1], s[3], mean, s[2], deviatoric});
 }
 
 // ---- contacts -----------------------------------------------------------------------------------------
@@ -195,12 +197,16 @@ void append_density_frame(const World& world, Fields& fields) {
 
 std::vector<SeriesInfo> observed_series(const Scene& scene) {
   std::vector<SeriesInfo> all;
-  if (scene.output.stresses() && die_cell(scene))
-    all.insert(all.end(),
-               {{"stress/xx", "Pa", "Cauchy, mean over the area between the tools; tension > 0"},
-                {"stress/yy", "Pa", "Cauchy, mean over the area between the tools; tension > 0"},
-                {"stress/xy", "Pa", "Cauchy, mean over the area between the tools"},
-                {"stress/mean", "Pa", "(xx + yy + zz) / 3 over the area between the tools"}});
+  if (scene.observes_stress() && (scene.cell || die_cell(scene)))
+    all.insert(
+        all.end(),
+        {{"stress/xx", "Pa",
+          "Cauchy, mean over the area between the tools, or of the cell; tension > 0"},
+         {"stress/yy", "Pa", "the same"},
+         {"stress/xy", "Pa", "the same"},
+         {"stress/mean", "Pa", "(xx + yy + zz) / 3 over the same area: minus the pressure p"},
+         {"stress/zz", "Pa", "the same, across the plane of strain"},
+         {"stress/deviatoric", "Pa", "von Mises' stress q of these means"}});
   if (scene.output.contacts)
     all.insert(
         all.end(),
@@ -230,7 +236,7 @@ std::vector<FieldInfo> observed_fields(const Scene& scene) {
   const auto append = [&](std::vector<FieldInfo> more) {
     all.insert(all.end(), more.begin(), more.end());
   };
-  if (scene.output.stresses())
+  if (scene.observes_stress())
     append({{"particle_stress", "Pa", ParticleStress::info.meaning, FieldPlace::particle, 4},
             {"particle_centre", "m", ParticleCentre::info.meaning, FieldPlace::particle, 2}});
   if (scene.output.contacts) {

@@ -7,10 +7,12 @@
 
 #include "components/body.hpp"
 #include "components/bond.hpp"
+#include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "components/observed.hpp"
 #include "components/servo.hpp"
 #include "engine/access.hpp"
+#include "engine/portable_math.hpp"
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/observe.hpp"
 #include "scenes/tools/die_relief.hpp"
@@ -257,6 +259,23 @@ void Results::append_density(std::vector<double>& row) const {
   row.push_back(top > 0 ? bottom / top : std::numeric_limits<double>::quiet_NaN());
 }
 
+void Results::append_cell(std::vector<double>& row) const {
+  if (!world_.has<PeriodicCell>()) return;
+  const auto& cell = world_.resource<PeriodicCell>();
+  const auto& h = cell.vectors.t;
+  row.insert(row.end(), {particle_area_ / cell.area(), portable::hypot(h[0], h[2]),
+                         portable::hypot(h[1], h[3])});
+  row.insert(row.end(), cell.strain.begin(), cell.strain.end());
+  row.push_back(cell.rotation);
+  row.insert(row.end(), cell.stress.begin(), cell.stress.end());
+}
+
+// m^2, of what is around the powder; 0: nothing is.
+double Results::enclosed_area() const {
+  if (world_.has<PeriodicCell>()) return world_.resource<PeriodicCell>().area();
+  return cell_ ? die_area(world_, *cell_) : 0;
+}
+
 void Results::append_energies(std::vector<double>& row) const {
   const Energies& e = energies_;
   row.insert(row.end(), {e.kinetic, e.elastic, e.plastic});
@@ -280,6 +299,7 @@ std::vector<double> Results::sample() {
   std::vector<double> row;
   append_tools(row);
   append_density(row);
+  append_cell(row);
   append_energies(row);
   const Totals& totals = world_.resource<Totals>();
   row.push_back(static_cast<double>(totals.touching));
@@ -287,7 +307,7 @@ std::vector<double> Results::sample() {
   append_contacts(row);
   row.push_back(min_jacobian());
   row.push_back(world_.resource<Clock>().dt);
-  append_observed_sample(world_, cell_ ? die_area(world_, *cell_) : 0, row);
+  append_observed_sample(world_, enclosed_area(), row);
   shear_.append_sample(row);
   last_ = row;
   return row;

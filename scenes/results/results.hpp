@@ -77,6 +77,8 @@ class Results {
   Vec2 die_size() const;  // m, width and height between the tools; only with a cell
   void append_tools(std::vector<double>& row) const;
   void append_density(std::vector<double>& row) const;
+  void append_cell(std::vector<double>& row) const;
+  double enclosed_area() const;
   void append_energies(std::vector<double>& row) const;
   void append_contacts(std::vector<double>& row) const;
 

@@ -294,6 +294,30 @@ struct UntilSpec {
   SourceMark mark;
 };
 
+// A periodic cell instead of tools around the powder.
+struct CellSpec {
+  double width = 0;              // m, along its first vector
+  std::optional<double> height;  // m, along its second one; absent: that of the random packing
+  Vec2 corner = Vec2::Zero();    // m, lower left
+  double angle = 0;              // rad, of the first vector from the x axis
+  SourceMark mark;
+};
+
+// How the cell deforms in a stage: each part of the rate of deformation follows a strain or keeps a stress.
+struct CellDriveSpec {
+  std::optional<double> strain_xx, strain_yy,
+      strain_xy;  // -, over the stage; absent: 0, or stress-driven
+  std::optional<double> stress_xx, stress_yy, stress_xy;  // Pa, tension > 0
+  double rotation = 0;                                    // rad, over the stage
+  double ramp = 0.1;        // -, share of the stage in which the rate rises, and falls
+  double rise = 0.2;        // -, share of the stage until a stress is asked for in full
+  double response = 0.1;    // -, inertia of the cell over that of the powder
+  double tolerance = 0.05;  // -, of the largest stress, at the end of the stage
+  SourceMark mark;
+
+  bool any_stress() const { return stress_xx || stress_yy || stress_xy; }
+};
+
 struct StageSpec {
   std::string name;
   enum class Kind { settle, compact, hold, unload, eject, shear } kind = Kind::hold;
@@ -301,6 +325,7 @@ struct StageSpec {
   std::vector<MoveSpec> moves;
   std::vector<ServoSpec> servos;
   std::optional<UntilSpec> until;
+  std::optional<CellDriveSpec> cell;
   SourceMark mark;
 };
 
@@ -359,7 +384,6 @@ struct OutputSpec {
   bool particle_stress = false;
 
   bool density() const { return density_cells[0] > 0; }
-  bool stresses() const { return particle_stress || contacts; }  // force chains need them
 };
 
 struct LimitSpec {                        // health: a run that passes one of these stops
@@ -404,6 +428,7 @@ struct Scene {
   std::vector<ParticleSpec> grains;     // of particles that are made of them
   std::vector<BodySpec> bodies;         // [[body]]
   std::vector<PackingSpec> packings;    // [[packing]]
+  std::optional<CellSpec> cell;         // [cell]
   std::vector<ToolSpec> tools;          // [[tool]]
   std::vector<StageSpec> stages;        // [[stage]]
   std::vector<FrictionSpec> frictions;  // [[friction]]
@@ -417,6 +442,10 @@ struct Scene {
   // family = "afm": then there are no particles, tools and stages. Not changed once it is read.
   std::shared_ptr<AfmScene> afm;
 
+  // Those of the particles, and with them the powder's: force chains need them, and a periodic cell is looked at by them.
+  bool observes_stress() const {
+    return output.particle_stress || output.contacts || cell.has_value();
+  }
   // Of a particle, or of a grain: those are counted behind.
   const ParticleSpec& class_of(const BodySpec& body) const {
     const auto number = static_cast<std::size_t>(body.particle);

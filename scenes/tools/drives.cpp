@@ -12,6 +12,7 @@
 #include "engine/access.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/tools/die_cell.hpp"
+#include "scenes/tools/powder.hpp"
 #include "scenes/tools/servo_checks.hpp"
 #include "systems/tools/servo_kernel.hpp"
 
@@ -42,26 +43,6 @@ ToolProgram tool_program(const World& world, const Scene& scene) {
 }
 
 // ---- servos ---------------------------------------------------------------------------------------
-struct Powder {
-  double mass = 0;       // kg
-  double impedance = 0;  // Pa s/m, largest of its materials: density times dilatational speed
-  double area = 0;       // m^2
-};
-
-Powder powder_of(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  Powder powder;
-  for (const BodySpec& body : bodies) {
-    const ParticleSpec& particle = scene.particles[static_cast<std::size_t>(body.particle)];
-    const MaterialSpec& m = scene.materials[static_cast<std::size_t>(particle.material)];
-    const double area = outline_area(particle.outline), nu = m.poissons_ratio;
-    const double modulus = m.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
-    powder.area += area;
-    powder.mass += m.density * area * scene.thickness;
-    powder.impedance = std::max(powder.impedance, std::sqrt(m.density * modulus));
-  }
-  return powder;
-}
-
 // Across `direction`; particles count as discs of their area.
 double width_of(const Scene& scene, const std::vector<BodySpec>& bodies, const Vec2& direction) {
   double low = 1e300, high = -1e300;

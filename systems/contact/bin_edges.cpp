@@ -19,7 +19,9 @@ namespace {
 
 struct RowKey {
   std::int32_t slot, edge, other;
+  Image image{};
   auto operator<=>(const RowKey&) const = default;
+  bool itself() const { return slot == other && image == Image{}; }
 };
 
 struct ToolCandidate {
@@ -27,24 +29,35 @@ struct ToolCandidate {
   PieceRange range;  // of a polyline
 };
 
-RowKey key_of(const EdgeCandidate& c) { return {c.slot, c.edge, c.other}; }
+RowKey key_of(const EdgeCandidate& c) { return {c.slot, c.edge, c.other, c.image}; }
 RowKey key_of(const ToolCandidate& c) { return {c.slot, c.edge, c.tool}; }
+
+// The keys of the rows as they were made before.
+template <class At>
+struct KeysBefore {
+  const Write<ContactPair<At>>& pair;
+  RowKey operator()(Row<At> row) const { return {pair(row, 0), pair(row, 1), pair(row, 2)}; }
+};
+struct PairKeysBefore {
+  const Write<ContactPair<Contact>>& pair;
+  const Optional<Write<ContactImage>>& image;
+  RowKey operator()(Row<Contact> row) const {
+    const Image n = image ? Image{(*image)(row, 0), (*image)(row, 1)} : Image{};
+    return {pair(row, 0), pair(row, 1), pair(row, 2), n};
+  }
+};
 
 // For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, as they were
 // made; empty when none were.
-template <class At, class Candidate>
-std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin,
-                                const Write<ContactPair<At>>& before,
+template <class At, class Keys, class Candidate>
+std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin, const Keys& before,
                                 const BySlot<Candidate>& now) {
   std::vector<std::int32_t> source(now.all.size(), -1);
   if (before_begin.empty()) return source;
   for_slots(static_cast<int>(now.begin.size()) - 1, [&](int slot) {
     std::int32_t b = entry(before_begin, slot);
     const std::int32_t end = entry(before_begin, slot + 1);
-    const auto old_key = [&] {
-      const Row<At> row(b);
-      return RowKey{before(row, 0), before(row, 1), before(row, 2)};
-    };
+    const auto old_key = [&] { return before(Row<At>(b)); };
     for (auto n = entry(now.begin, slot); n < entry(now.begin, slot + 1); ++n) {
       const RowKey key = key_of(entry(now.all, n));
       while (b < end && old_key() < key) ++b;
@@ -119,7 +132,7 @@ double damping_of(const ContactRules& rules, double kappa, double rho, const Sha
 
 double initial_stiffness(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
                          const RowKey& key) {
-  if (!bonds || key.slot == key.other) return 1;
+  if (!bonds || key.itself()) return 1;
   return (*bonds)->contact_stiffness(
       (*bonds)->initial_between(entry(bodies.slots, key.slot), entry(bodies.slots, key.other)));
 }
@@ -132,7 +145,7 @@ double initial_stiffness_with_tool(const Optional<Read<BondRules>>& bonds, const
 
 std::uint8_t weld_law(const Optional<Read<BondRules>>& bonds, const Bodies& bodies,
                       const RowKey& key) {
-  if (!bonds || key.slot == key.other) return 0;
+  if (!bonds || key.itself()) return 0;
   const auto material = [&](int slot) { return entry(bodies.slots, slot).material; };
   return entry((*bonds)->pressed, material(key.slot) * (*bonds)->materials + material(key.other));
 }
@@ -147,7 +160,7 @@ std::uint8_t tool_weld_law(const Optional<Read<BondRules>>& bonds, const Bodies&
 const ContactRules::Adhesion& adhesion_of(const ContactRules& rules, const Bodies& bodies,
                                           const RowKey& key) {
   static const ContactRules::Adhesion none;
-  if (key.slot == key.other) return none;
+  if (key.itself()) return none;
   return rules.adhesion_between(entry(bodies.slots, key.slot).material,
                                 entry(bodies.slots, key.other).material);
 }
@@ -155,7 +168,7 @@ const ContactRules::Adhesion& adhesion_of(const ContactRules& rules, const Bodie
 // Flat flanks of one outline that are deeper in each other than the skin have boxes apart: their rows stay while
 // they touch.
 BySlot<EdgeCandidate> with_touching_folds(const std::vector<std::int32_t>& before_begin,
-                                          const Write<ContactPair<Contact>>& before,
+                                          const PairKeysBefore& before,
                                           const Read<ContactTouches<Contact>>& touches,
                                           const BySlot<EdgeCandidate>& found) {
   return list_by_slot<EdgeCandidate>(
@@ -170,21 +183,32 @@ BySlot<EdgeCandidate> with_touching_folds(const std::vector<std::int32_t>& befor
           return false;
         };
         for (const Row<Contact> row : RowRange<Contact>::of(before_begin, slot)) {
-          const RowKey key{before(row, 0), before(row, 1), before(row, 2)};
-          if (key.slot != key.other || touches(row) == 0) continue;
+          const RowKey key = before(row);
+          if (!key.itself() || touches(row) == 0) continue;
           if (!copy_below(&key)) list.push_back({key.slot, key.edge, key.other, key.edge, false});
         }
         copy_below(nullptr);
       });
 }
 
-bool any_fold_touches(const Write<ContactPair<Contact>>& pair,
-                      const Read<ContactTouches<Contact>>& touches) {
+bool any_fold_touches(const PairKeysBefore& before, const Read<ContactTouches<Contact>>& touches) {
   for (int r = 0; r < touches.rows(); ++r) {
     const Row<Contact> row(r);
-    if (touches(row) != 0 && pair(row, 0) == pair(row, 2)) return true;
+    if (touches(row) != 0 && before(row).itself()) return true;
   }
   return false;
+}
+
+void keep_neighbours(const BySlot<Neighbour>& found, const PeriodicCell* cell,
+                     ContactIndex& index) {
+  index.neighbour_begin = found.begin;
+  index.neighbours.clear();
+  index.images.clear();
+  for (const Neighbour& neighbour : found.all) {
+    index.neighbours.push_back(neighbour.slot);
+    if (cell != nullptr) index.images.push_back(neighbour.image);
+  }
+  if (cell != nullptr) index.cell_before = cell->vectors.t;
 }
 
 }  // namespace
@@ -192,19 +216,23 @@ bool any_fold_touches(const Write<ContactPair<Contact>>& pair,
 void bin_edges::operator()() const {
   if (!index->due) return;
   const ContactRules& rules = *material.rules;
-  BySlot<std::int32_t> neighbours =
-      particle_neighbours(*bodies, control.values(), index->neighbourhood);
-  BySlot<EdgeCandidate> found =
-      edge_candidates(*bodies, control.values(), neighbours, index->skin + index->reach);
-  if (any_fold_touches(rows.pair, touches))
-    found = with_touching_folds(index->sampled_begin, rows.pair, touches, found);
-  const std::vector<std::int32_t> source = match(index->sampled_begin, rows.pair, found);
+  const PeriodicCell* periodic = outlines.cell ? &**outlines.cell : nullptr;
+  BySlot<Neighbour> neighbours =
+      particle_neighbours(*bodies, outlines.control.values(), periodic, index->neighbourhood);
+  BySlot<EdgeCandidate> found = edge_candidates(*bodies, outlines.control.values(), periodic,
+                                                neighbours, index->skin + index->reach);
+  const PairKeysBefore before{rows.pair, curves.image};
+  if (any_fold_touches(before, touches))
+    found = with_touching_folds(index->sampled_begin, before, touches, found);
+  const std::vector<std::int32_t> source = match<Contact>(index->sampled_begin, before, found);
   structure.rebuild(source);
 
   tbb::parallel_for(std::size_t{0}, found.all.size(), [&](std::size_t r) {
     const Row<Contact> row(static_cast<std::int64_t>(r));
     const RowKey key = key_of(found.all[r]);
     const auto& slots = bodies->slots;
+    if (curves.image)
+      for (int k = 0; k < 2; ++k) (*curves.image)(row, k) = entry(key.image, k);
     const double kappa = pair_stiffness(rules, material.bulk.values(), *bodies, key);
     const double rho = std::min(entry(material.density.values(), key.slot),
                                 entry(material.density.values(), key.other));
@@ -226,14 +254,14 @@ void bin_edges::operator()() const {
     if (known) return;
     const auto& edges = bodies->shape_of_slot(key.other).edges;
     for (int g = 0; g < edge_points; ++g) {
-      const int start = start_of_point(*bodies, control.values(), found.all[r], g);
+      const int start =
+          start_of_point(*bodies, outlines.control.values(), periodic, found.all[r], g);
       curves.closest(row, g) = CurvePoint{entry(edges, start).first_control, 0.5}.packed();
     }
   });
   list_other_rows(found, *index);
   index->sampled_begin = std::move(found.begin);
-  index->neighbour_begin = std::move(neighbours.begin);
-  index->neighbours = std::move(neighbours.all);
+  keep_neighbours(neighbours, periodic, *index);
 }
 
 namespace {
@@ -290,7 +318,8 @@ void bin_tool_edges::operator()() const {
   const ContactRules& rules = *material.rules;
   BySlot<ToolCandidate> found =
       tool_candidates(*bodies, control.values(), tools, index->skin + index->reach);
-  structure.rebuild(match(index->tool_begin, rows.pair, found));
+  structure.rebuild(
+      match<ToolContact>(index->tool_begin, KeysBefore<ToolContact>{rows.pair}, found));
   for (std::size_t r = 0; r < found.all.size(); ++r) {
     const Row<ToolContact> row(static_cast<std::int64_t>(r));
     const RowKey key = key_of(found.all[r]);

@@ -46,8 +46,7 @@ struct PairBonds {
     const unsigned bonded = bonds.bonded(two);
     const auto contact = [&] {
       p.other.velocity = rates;
-      const PointMotion moving =
-          rates == nullptr ? m.point : motion_of(p, sampled_edges(rates, two));
+      const PointMotion moving = rates == nullptr ? m.point : motion_of(p, sampled_rates(two));
       return forces_of(s.columns, two, 0, moving, share, s.clock->dt_before);
     };
     const PointForces f = bonds.act(two, bonded, m, p.points, contact, sums);
@@ -59,6 +58,11 @@ struct PairBonds {
   PointLanes sampled_edges(const double* list, const Two& two) const {
     return edge_points_at(list + 2 * s.at.place(two[0], 0), list + 2 * s.at.place(two[1], 0));
   }
+  PointLanes sampled_rates(const Two& two) const {
+    PointLanes velocity = sampled_edges(rates, two);
+    if (s.at.images) move_to_images(s.at.images->cell->rate, s.at.images->image, two, velocity);
+    return velocity;
+  }
   Projection at_anchors(const Two& two) const {
     Projection p;
     p.other = {{s.columns.pair(two[0], 2), s.columns.pair(two[1], 2)},
@@ -68,6 +72,7 @@ struct PairBonds {
                points,
                nullptr};
     p.points = sampled_edges(points, two);
+    if (s.at.images) move_to_images(s.at.images->cell->vectors, s.at.images->image, two, p.points);
     p.at = CurvePoints::of(s.at.anchor, two);
     p.curve = gather(p.other, points, p.at);
     p.offset();

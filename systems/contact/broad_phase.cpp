@@ -1,12 +1,15 @@
 #include "systems/contact/broad_phase.hpp"
 #include "engine/entry.hpp"
 #include "systems/contact/contact_kernel.hpp"
+#include "systems/contact/skin_kernel.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace pulvis {
 
@@ -27,6 +30,8 @@ bool near(const Box& a, const Box& b, double skin) {
 }
 
 namespace {
+
+using kernels::moved;
 
 // Particles by cell of a uniform grid; a cell is as large as the largest particle, so that neighbours
 // stand in the cells around.
@@ -180,21 +185,27 @@ bool faces(const double* own, const double* other) {
 // The search for candidates of one slot after the other.
 class EdgeSearch {
  public:
-  EdgeSearch(const Curves& curves, const Boxes& boxes, const BySlot<std::int32_t>& neighbours,
-             double skin)
-      : curves_(curves), boxes_(boxes), neighbours_(neighbours), skin_(skin) {}
+  EdgeSearch(const Curves& curves, const Boxes& boxes, const PeriodicCell* cell,
+             const BySlot<Neighbour>& neighbours, double skin)
+      : curves_(curves), boxes_(boxes), cell_(cell), neighbours_(neighbours), skin_(skin) {}
 
   void operator()(int slot, std::vector<EdgeCandidate>& found) const {
     const std::vector<Other> others = others_of(slot);
     if (others.empty()) return;
     for (int e = 0; e < curves_.edges(slot); ++e) {
-      const Sampled sampled{slot, e, edge_box(slot, e), middle_of(slot, e)};
+      const Spot middle = middle_of(slot, e);
       for (const Other& other : others) {
-        const bool own = other.slot == slot;
+        const bool own = other.itself;
+        // The image stays, the sampled edge is moved the other way.
+        const Sampled sampled{slot,
+                              e,
+                              moved(edge_box(slot, e), {-other.shift[0], -other.shift[1]}),
+                              {middle[0] - other.shift[0], middle[1] - other.shift[1]}};
         const int ahead = own ? nearest_edge(other, sampled, Of::faced) : Shape::no_edge;
         const bool faced = ahead != Shape::no_edge;
         const int start = faced ? ahead : nearest_edge(other, sampled, Of::all);
-        if (start != Shape::no_edge) found.push_back({slot, e, other.slot, start, faced});
+        if (start != Shape::no_edge)
+          found.push_back({slot, e, other.slot, start, faced, other.image});
       }
     }
   }
@@ -207,6 +218,9 @@ class EdgeSearch {
   };
   struct Other {
     int slot;
+    Image image;
+    Point shift;  // m, of the image
+    bool itself;
     std::vector<int> edges;  // those that come near the sampled particle's box
   };
 
@@ -223,10 +237,14 @@ class EdgeSearch {
   }
 
   std::vector<Other> others_of(int slot) const {
-    const Box& own = entry(boxes_.particle, slot);
     std::vector<Other> others;
-    for (const std::int32_t neighbour : neighbours_.of(slot)) {
-      Other other{neighbour, {}};
+    for (const Neighbour& neighbour : neighbours_.of(slot)) {
+      Other other{neighbour.slot,
+                  neighbour.image,
+                  shift_of(cell_, neighbour.image),
+                  neighbour.slot == slot && neighbour.image == Image{},
+                  {}};
+      const Box own = moved(entry(boxes_.particle, slot), {-other.shift[0], -other.shift[1]});
       if (!near(own, entry(boxes_.particle, other.slot), skin_)) continue;
       for (int e = 0; e < curves_.edges(other.slot); ++e)
         if (near(own, edge_box(other.slot, e), skin_)) other.edges.push_back(e);
@@ -250,7 +268,7 @@ class EdgeSearch {
     double minimum = std::numeric_limits<double>::max();
     for (const int e : other.edges) {
       if (!near(own.box, edge_box(other.slot, e), skin_)) continue;
-      if (other.slot == own.slot && (of == Of::all || !folded(own, e)) &&
+      if (other.itself && (of == Of::all || !folded(own, e)) &&
           edges_between(own.edge, e, curves_.edges(own.slot)) < min_fold)
         continue;
       const double distance =
@@ -264,9 +282,8 @@ class EdgeSearch {
     }
     const auto& edges = curves_.bodies.shape_of_slot(other.slot).edges;
     const bool corners = entry(edges, 0).previous == Shape::no_edge;
-    return nearest != Shape::no_edge && corners && other.slot != own.slot
-               ? nearest_of_all(other.slot, own)
-               : nearest;
+    return nearest != Shape::no_edge && corners && !other.itself ? nearest_of_all(other.slot, own)
+                                                                 : nearest;
   }
 
   // A box that comes near may belong to an edge around a corner from the nearest one, whose own does not: seen from its
@@ -285,7 +302,8 @@ class EdgeSearch {
 
   const Curves& curves_;
   const Boxes& boxes_;
-  const BySlot<std::int32_t>& neighbours_;
+  const PeriodicCell* cell_;
+  const BySlot<Neighbour>& neighbours_;
   double skin_;
 };
 
@@ -296,36 +314,112 @@ int edges_between(int a, int b, int edges) {
   return std::min(apart, edges - apart);
 }
 
-BySlot<std::int32_t> particle_neighbours(const Bodies& bodies, std::span<const double> control,
-                                         double distance) {
+namespace {
+
+// Periods that bring the middle of a box into the cell.
+Image periods_home(const Tensor2& inverse, const Box& box) {
+  const Point share =
+      inverse * Point{0.5 * (box.low[0] + box.high[0]), 0.5 * (box.low[1] + box.high[1])};
+  return {-static_cast<std::int32_t>(std::floor(share[0])),
+          -static_cast<std::int32_t>(std::floor(share[1]))};
+}
+
+// All particles brought home, and the images that come near the cell.
+class Images {
+ public:
+  Images(const PeriodicCell& cell, const std::vector<Box>& boxes, const std::vector<int>& slots,
+         double distance)
+      : home_(boxes.size()), boxes_(boxes.size()), of_(boxes.size()) {
+    const Tensor2 inverse = cell.vectors.inverse();
+    Box all{{1e300, 1e300}, {-1e300, -1e300}};
+    for (const int s : slots) {
+      entry(home_, s) = periods_home(inverse, entry(boxes, s));
+      entry(boxes_, s) = moved(entry(boxes, s), cell.vectors * entry(home_, s));
+      entry(of_, s) = {s, entry(home_, s)};
+      ids_.push_back(s);
+      for (int k = 0; k < 2; ++k) {
+        all.low[k] = std::min(all.low[k], entry(boxes_, s).low[k]);
+        all.high[k] = std::max(all.high[k], entry(boxes_, s).high[k]);
+      }
+    }
+    // As many periods to each side as can reach over: the extent of all over the cell's heights.
+    const auto& h = cell.vectors.t;
+    const double extent = std::hypot(all.high[0] - all.low[0], all.high[1] - all.low[1]) + distance;
+    const auto periods = [&](double x, double y) {  // of the other vector
+      return static_cast<std::int32_t>(std::ceil(extent * std::hypot(x, y) / cell.area()));
+    };
+    const Image most{periods(h[1], h[3]), periods(h[0], h[2])};
+    for (std::int32_t i = -most[0]; i <= most[0]; ++i)
+      for (std::int32_t k = -most[1]; k <= most[1]; ++k) {
+        if (i == 0 && k == 0) continue;
+        const Point shift = cell.vectors * Image{i, k};
+        for (const int s : slots) {
+          const Box box = moved(entry(boxes_, s), shift);
+          if (!near(box, all, distance)) continue;
+          ids_.push_back(static_cast<int>(boxes_.size()));
+          boxes_.push_back(box);
+          of_.push_back({s, {entry(home_, s)[0] + i, entry(home_, s)[1] + k}});
+        }
+      }
+  }
+
+  const std::vector<Box>& boxes() const { return boxes_; }
+  const std::vector<int>& ids() const { return ids_; }
+  // The image with that number, as the particle in `slot` sees it from where it is.
+  Neighbour seen_from(int slot, int id) const {
+    const Neighbour& there = entry(of_, id);
+    const Image& own = entry(home_, slot);
+    return {there.slot, {there.image[0] - own[0], there.image[1] - own[1]}};
+  }
+
+ private:
+  std::vector<Image> home_;    // [slots]
+  std::vector<Box> boxes_;     // [slots], then images
+  std::vector<Neighbour> of_;  // of each box: whose, by which periods
+  std::vector<int> ids_;
+};
+
+bool before(const Neighbour& a, const Neighbour& b) {
+  return std::pair(a.slot, a.image) < std::pair(b.slot, b.image);
+}
+
+}  // namespace
+
+BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const double> control,
+                                      const PeriodicCell* cell, double distance) {
   if (bodies.slot_of_number.empty()) return {{0}, {}};
   std::vector<int> slots = bodies.slot_of_number;
   std::ranges::sort(slots);
   const Curves curves{bodies, control};
-  const std::vector<Box> boxes = curves.particle_boxes();
-  const Grid grid(boxes, slots, distance);
-  return list_by_slot<std::int32_t>(curves.slots(),
-                                    [&](int slot, std::vector<std::int32_t>& found) {
-                                      if (curves.is_empty(slot)) return;
-                                      const auto first = static_cast<std::ptrdiff_t>(found.size());
-                                      const Box& own = entry(boxes, slot);
-                                      grid.around(own, [&](int other) {
-                                        if (near(own, entry(boxes, other), distance))
-                                          found.push_back(other);
-                                      });
-                                      std::sort(found.begin() + first, found.end());
-                                    });
+  const std::vector<Box> own_boxes = curves.particle_boxes();
+  const auto images = cell != nullptr
+                          ? std::optional<Images>(std::in_place, *cell, own_boxes, slots, distance)
+                          : std::nullopt;
+  const std::vector<Box>& boxes = images ? images->boxes() : own_boxes;
+  const Grid grid(boxes, images ? images->ids() : slots, distance);
+  return list_by_slot<Neighbour>(curves.slots(), [&](int slot, std::vector<Neighbour>& found) {
+    if (curves.is_empty(slot)) return;
+    const auto first = static_cast<std::ptrdiff_t>(found.size());
+    const Box& own = entry(boxes, slot);
+    grid.around(own, [&](int other) {
+      if (near(own, entry(boxes, other), distance))
+        found.push_back(images ? images->seen_from(slot, other) : Neighbour{other});
+    });
+    std::sort(found.begin() + first, found.end(), before);
+  });
 }
 
 BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
-                                      const BySlot<std::int32_t>& neighbours, double skin) {
+                                      const PeriodicCell* cell, const BySlot<Neighbour>& neighbours,
+                                      double skin) {
   if (bodies.slot_of_number.empty()) return {{0}, {}};
   const Curves curves{bodies, control};
   const Boxes boxes = curves.boxes();
-  return list_by_slot<EdgeCandidate>(curves.slots(), EdgeSearch(curves, boxes, neighbours, skin));
+  return list_by_slot<EdgeCandidate>(curves.slots(),
+                                     EdgeSearch(curves, boxes, cell, neighbours, skin));
 }
 
-int start_of_point(const Bodies& bodies, std::span<const double> control,
+int start_of_point(const Bodies& bodies, std::span<const double> control, const PeriodicCell* cell,
                    const EdgeCandidate& candidate, int point) {
   const Curves curves{bodies, control};
   const auto& edges = bodies.shape_of_slot(candidate.other).edges;
@@ -334,7 +428,8 @@ int start_of_point(const Bodies& bodies, std::span<const double> control,
   if (start.next != Shape::no_edge && start.previous != Shape::no_edge) return candidate.start;
   const double* own = curves.edge_points(candidate.slot, candidate.edge);
   const auto n = kernels::basis(entry(kernels::edge_u, point));
-  Spot at{0, 0};
+  const Point shift = shift_of(cell, candidate.image);
+  Spot at{-shift[0], -shift[1]};
   for (int a = 0; a < 4; ++a)
     for (int k = 0; k < 2; ++k) at[static_cast<std::size_t>(k)] += entry(n, a) * own[2 * a + k];
   const auto distance = [&](int e) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "components/cell.hpp"
 #include "components/shape.hpp"
 #include "systems/contact/by_slot.hpp"
 
@@ -32,24 +33,39 @@ int edges_between(int a, int b, int edges);
 struct EdgeCandidate {
   std::int32_t slot, edge, other, start;
   bool faces;
+  Image image{};  // of the other particle
+
+  bool itself() const { return slot == other && image == Image{}; }
 };
+
+// A particle near another one, as it stands or as an image of itself.
+struct Neighbour {
+  std::int32_t slot;
+  Image image{};
+};
+
+// m, by which an image stands apart from its particle.
+inline Point shift_of(const PeriodicCell* cell, const Image& image) {
+  return cell == nullptr ? Point{} : cell->vectors * image;
+}
 
 Box box_of(const double* points, int count);
 bool near(const Box& a, const Box& b, double skin);
 
-// Of every slot the slots of the particles within `distance` (of boxes), itself included, ascending. `control`:
-// x y of every control point.
-BySlot<std::int32_t> particle_neighbours(const Bodies& bodies, std::span<const double> control,
-                                         double distance);
+// Of every slot the particles within `distance` (of boxes), itself included, ascending by slot and image. `control`:
+// x y of every control point; `cell`: null where nothing is periodic.
+BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const double> control,
+                                      const PeriodicCell* cell, double distance);
 
-// All candidates, sorted by (slot, edge, other). `neighbours`: within `skin` or more.
+// All candidates, sorted by (slot, edge, other, image). `neighbours`: within `skin` or more.
 BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
-                                      const BySlot<std::int32_t>& neighbours, double skin);
+                                      const PeriodicCell* cell, const BySlot<Neighbour>& neighbours,
+                                      double skin);
 
 // The edge from which point `point` of a new candidate looks for its closest one: `start`, or an edge that meets it in a
 // corner where that is nearer to the point. The search goes round a corner only for points beside it, and the edge that is nearest to the
 // middle of the sampled one may be the wrong one for some of its points.
-int start_of_point(const Bodies& bodies, std::span<const double> control,
+int start_of_point(const Bodies& bodies, std::span<const double> control, const PeriodicCell* cell,
                    const EdgeCandidate& candidate, int point);
 
 }  // namespace pulvis

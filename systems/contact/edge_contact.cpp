@@ -35,7 +35,8 @@ struct EdgePass {
   const edge_contact& s;
   const double* points = s.curves.position.values().data();
   const double* rates = s.curves.velocity ? s.curves.velocity->values().data() : nullptr;
-  const Corners corners{*s.bodies, s.covered ? (*s.covered)->of_control.data() : nullptr};
+  const Corners corners{*s.bodies,
+                        s.beyond.covered ? (*s.beyond.covered)->of_control.data() : nullptr};
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<Contact> row) const {
@@ -76,12 +77,12 @@ struct EdgePass {
     Projection p;
     p.other = {{s.columns.pair(two[0], 2), s.columns.pair(two[1], 2)},
                {s.points.place(two[0], 1), s.points.place(two[1], 1)},
-               {s.columns.pair(two[0], 2) != s.columns.pair(two[0], 0),
-                s.columns.pair(two[1], 2) != s.columns.pair(two[1], 0)},
+               {!itself(two[0]), !itself(two[1])},
                {s.columns.pair(two[0], 0), s.columns.pair(two[1], 0)},
                points,
                rates};
     p.points = sampled_edges(points, two);
+    if (s.beyond.images) stand_before_images(s.beyond.images->cell->vectors, two, p.points);
     p.at = CurvePoints::of(s.points.closest, two);
     p.curve = gather(p.other, points, p.at);
     return p;
@@ -91,8 +92,19 @@ struct EdgePass {
                           list + 2 * s.points.place(two[1], 0));
   }
 
+  void stand_before_images(const Tensor2& vectors, const Two& two, PointLanes& p) const {
+    move_to_images(vectors, s.beyond.images->image, two, p);
+  }
+  bool itself(Row<Contact> row) const {
+    return s.columns.pair(row, 2) == s.columns.pair(row, 0) &&
+           (!s.beyond.images || s.beyond.images->of(row) == Image{});
+  }
+
   [[gnu::always_inline]] PointMotion motion_at(const Two& two, const Projection& p) const {
-    return motion_of(p, rates != nullptr ? sampled_edges(rates, two) : PointLanes{});
+    if (rates == nullptr) return motion_of(p, {});
+    PointLanes velocity = sampled_edges(rates, two);
+    if (s.beyond.images) stand_before_images(s.beyond.images->cell->rate, two, velocity);
+    return motion_of(p, velocity);
   }
 
   // ---- law and books
@@ -121,16 +133,16 @@ struct EdgePass {
     const Lane range = range_of(s.columns, two);
     for (int i = 0; i < count_of(two); ++i) {
       const Row<Contact> row = entry(two, i);
-      const bool itself = s.columns.pair(row, 2) == s.columns.pair(row, 0);
-      const double nearest = itself ? nearest_fold(row, i, p, motion) : 0;
+      const bool own = itself(row);
+      const double nearest = own ? nearest_fold(row, i, p, motion) : 0;
       const LaneMask near = motion.gap > -range;
       if (half_of(near.bits(), i) != 0) {
         touching |= 1U << i;
       } else {
         const Lane square = p.rx * p.rx + p.ry * p.ry;
-        set_apart(s.columns, row,
-                  s.clock->travel +
-                      (itself ? nearest : std::sqrt(min_of_half(square, i)) - range[4 * i]));
+        set_apart(
+            s.columns, row,
+            s.clock->travel + (own ? nearest : std::sqrt(min_of_half(square, i)) - range[4 * i]));
       }
     }
     return touching;

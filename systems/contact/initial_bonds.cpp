@@ -43,7 +43,8 @@ void initial_bonds::operator()() const {
   for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<Contact> row(r);
     const int slot = rows.pair(row, 0), edge = rows.pair(row, 1), other = rows.pair(row, 2);
-    if (slot == other) continue;
+    if (slot == other && (!at.images || at.images->of(row) == Image{})) continue;
+    const Point shift = at.images ? at.images->shift(row) : Point{};
     const auto& a = entry(bodies->slots, slot);
     const auto& b = entry(bodies->slots, other);
     const int number = rules->initial_between(a, b);
@@ -58,7 +59,8 @@ void initial_bonds::operator()() const {
       const CurvePoint there = at_other.unpacked();
       const Curve curve = outlines.from(other, there.edge);
       const Point n = curve.normal(there.u), on = curve.value(there.u), from = sampled.value(u);
-      const Point own = sampled.normal(u), d{from[0] - on[0], from[1] - on[1]};
+      const Point own = sampled.normal(u),
+                  d{from[0] - shift[0] - on[0], from[1] - shift[1] - on[1]};
       const BondOpening opening{d[0] * n[0] + d[1] * n[1], d[1] * n[0] - d[0] * n[1]};
       if (std::abs(opening.along) > beside * length || n[0] * own[0] + n[1] * own[1] > facing)
         continue;

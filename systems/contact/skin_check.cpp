@@ -65,8 +65,27 @@ double min_of_slots(const std::vector<int>& slots, const Left& left) {
       [](double a, double b) { return std::min(a, b); });
 }
 
+// How far the nearest images have moved against their particles.
+double displacement_of_images(const ContactIndex& index, const PeriodicCell* cell) {
+  double sum = 0;
+  for (std::size_t i = 0; cell != nullptr && i < 4; ++i)
+    sum += std::abs(cell->vectors.t[i] - index.cell_before[i]);
+  return sum;
+}
+
+// As the neighbour's image moved, from where that stood.
+OutlineMotion of_image(const OutlineMotion& m, const ContactIndex& index, const PeriodicCell& cell,
+                       int k) {
+  const Tensor2 before{index.cell_before};
+  const Image& n = entry(index.images, k);
+  const Point was = before * n, is = cell.vectors * n;
+  return {kernels::moved(m.before, was),
+          kernels::moved(m.displacement, {is[0] - was[0], is[1] - was[1]})};
+}
+
 // Particles that were no neighbours: whichever of all moved most against each other.
-double remaining_of_non_neighbours(const ContactIndex& index, const std::vector<int>& slots,
+double remaining_of_non_neighbours(const ContactIndex& index, const PeriodicCell* cell,
+                                   const std::vector<int>& slots,
                                    const std::vector<OutlineMotion>& motion) {
   Box all = entry(motion, slots.front()).displacement;
   for (const int slot : slots)
@@ -75,11 +94,12 @@ double remaining_of_non_neighbours(const ContactIndex& index, const std::vector<
       all.low[k] = std::min(all.low[k], u.low[k]);
       all.high[k] = std::max(all.high[k], u.high[k]);
     }
-  return index.neighbourhood - index.reach - kernels::closing(all, all);
+  return index.neighbourhood - index.reach - kernels::closing(all, all) -
+         displacement_of_images(index, cell);
 }
 
-double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMotion>& motion,
-                          int slot) {
+double left_of_neighbours(const ContactIndex& index, const PeriodicCell* cell,
+                          const std::vector<OutlineMotion>& motion, int slot) {
   if (index.neighbour_begin.empty()) return 1e300;
   const OutlineMotion& own = entry(motion, slot);
   double minimum = 1e300;
@@ -87,7 +107,8 @@ double left_of_neighbours(const ContactIndex& index, const std::vector<OutlineMo
        ++k) {
     const int other = entry(index.neighbours, k);
     if (other < slot) continue;  // seen from there
-    const OutlineMotion& its = entry(motion, other);
+    const OutlineMotion& stored = entry(motion, other);
+    const OutlineMotion its = cell == nullptr ? stored : of_image(stored, index, *cell, k);
     const double allowed = std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
     minimum = std::min(minimum, allowed - kernels::closing(own.displacement, its.displacement));
   }
@@ -135,9 +156,10 @@ void skin_check::operator()() const {
           motion_of(before.values().data() + first, control.values().data() + first,
                     bodies->shape_of_slot(slots[i]).control_points());
     });
-    double left = remaining_of_non_neighbours(*index, slots, motion);
+    const PeriodicCell* periodic = cell ? &**cell : nullptr;
+    double left = remaining_of_non_neighbours(*index, periodic, slots, motion);
     left = std::min(left, min_of_slots(slots, [&](int slot) {
-                      return left_of_neighbours(*index, motion, slot);
+                      return left_of_neighbours(*index, periodic, motion, slot);
                     }));
     if (tools)
       left = std::min(left, min_of_slots(slots, [&](int slot) {

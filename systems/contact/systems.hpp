@@ -4,6 +4,7 @@
 
 #include "components/bond.hpp"
 #include "components/bundles.hpp"
+#include "components/cell.hpp"
 #include "components/hollow.hpp"
 #include "engine/look_ahead.hpp"
 
@@ -15,6 +16,7 @@ struct skin_check {
   Read<Clock> clock;
   Read<CurvePosition> control;
   Optional<ToolSurfaces> tools;
+  Optional<Read<PeriodicCell>> cell;
   Write<CurveBefore> before;
   Write<ContactIndex> index;
   void operator()() const;
@@ -41,7 +43,10 @@ struct NewRows {
 struct bin_edges {
   Read<Bodies> bodies;
   ContactStiffness material;
-  Read<CurvePosition> control;
+  struct Outlines {
+    Read<CurvePosition> control;
+    Optional<Read<PeriodicCell>> cell;
+  } outlines;
   Write<ContactIndex> index;
   Structural<Contact> structure;
   NewRows<Contact> rows;
@@ -49,6 +54,7 @@ struct bin_edges {
   struct Curves {
     Write<ContactPlace> place;
     Write<ClosestPoint> closest;
+    Optional<Write<ContactImage>> image;
   } curves;
   void operator()() const;
 };
@@ -98,7 +104,10 @@ struct edge_contact {
     Write<ClosestPoint> closest;
     Optional<Write<FrictionCouple>> couple;
   } points;
-  Optional<Read<CoveredEdges>> covered;
+  struct Beyond {  // what not every scene has
+    Optional<Read<CoveredEdges>> covered;
+    Optional<CellImages> images;
+  } beyond;
   Write<ContactSums<Contact>> sums;
   void operator()(SmallTasks) const;
 };
@@ -158,6 +167,7 @@ struct PairAnchors {
   Read<ContactPlace> place;
   Read<ClosestPoint> closest;
   Write<CurveAnchor> anchor;
+  Optional<CellImages> images;
 };
 
 struct initial_bonds {  // once, at the start
@@ -191,6 +201,7 @@ struct bond_forces {
     Read<CurveAnchor> anchor;
     Write<ClosestPoint> closest;
     Write<FrictionCouple> couple;
+    Optional<CellImages> images;
   } at;
   Write<BondSums<Contact>> sums;
   void operator()(SmallTasks) const;

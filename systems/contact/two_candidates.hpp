@@ -10,6 +10,7 @@
 
 #include <array>
 
+#include "components/cell.hpp"
 #include "components/contact.hpp"
 #include "engine/lane_memory.hpp"
 #include "systems/contact/contact_kernel.hpp"
@@ -63,6 +64,17 @@ inline PointLanes edge_points_at(const double* low, const double* high) {
     p.y = fma(n, halves(low[2 * a + 1], high[2 * a + 1]), p.y);
   }
   return p;
+}
+
+// Points that stand against images of other particles, as they stand against those particles. `vectors` of the cell: m,
+// or m/s for velocities.
+template <class Images, class At>
+inline void move_to_images(const Tensor2& vectors, const Images& image,
+                           const TwoCandidates<At>& two, PointLanes& p) {
+  const Point a = vectors * Image{image(two[0], 0), image(two[0], 1)};
+  const Point b = vectors * Image{image(two[1], 0), image(two[1], 1)};
+  p.x -= halves(a[0], b[0]);
+  p.y -= halves(a[1], b[1]);
 }
 
 // What a projection finds: how the points stand and move against the other surface.

@@ -20,6 +20,7 @@ namespace {
 // Sums of a contact while its points are gathered.
 struct Gathered {
   ContactLink link;
+  Image image{};  // of its second particle
   double weight = 0;
 
   // `force` on the sampled side, `normal` into it; `side` -1 where that is the link's second particle.
@@ -50,12 +51,15 @@ struct Gathered {
 class Partners {
  public:
   explicit Partners(int first) : first_(first) {}
-  Gathered& with(int second) {
-    const auto same = [second](const Gathered& g) { return g.link.second == second; };
+  Gathered& with(int second, const Image& image = {}) {
+    const auto same = [&](const Gathered& g) {
+      return g.link.second == second && g.image == image;
+    };
     const auto found = std::ranges::find_if(all_, same);
     if (found != all_.end()) return *found;
     all_.emplace_back().link.first = first_;
     all_.back().link.second = second;
+    all_.back().image = image;
     return all_.back();
   }
   // Points may touch without a force, where the surfaces just meet: those make no contact.
@@ -69,16 +73,17 @@ class Partners {
   std::vector<Gathered> all_;
 };
 
-// Adds the points of a row that bear a force; normal_at(point, g) looks into the sampled particle.
+// Adds the points of a row that bear a force; normal_at(point, g) looks into the sampled particle. `shift` m, from where the
+// sampled particle is to where it touches the link's first one.
 template <class At, class NormalAt>
 void add_points(const Curve& sampled, const Read<PointForce<At>>& force, Row<At> row, double side,
-                const NormalAt& normal_at, Gathered& contact) {
+                const NormalAt& normal_at, Gathered& contact, const Point& shift = {}) {
   for (int g = 0; g < edge_points; ++g) {
     const Point f{force(row, 2 * g), force(row, 2 * g + 1)};
     if (f[0] == 0 && f[1] == 0) continue;
     const Point at = sampled.value(kernels::edge_u[g]), along = sampled.slope(kernels::edge_u[g]);
     const double length = kernels::edge_w[g] * length_of(along);
-    contact.add(at, normal_at(at, g), f, length, side);
+    contact.add({at[0] + shift[0], at[1] + shift[1]}, normal_at(at, g), f, length, side);
   }
 }
 
@@ -97,7 +102,16 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
       const CurvePoint there = closest(row, g).unpacked();
       return outlines.from(pair(row, 2), there.edge).normal(there.u);
     };
-    add_points(outlines.edge(pair(row, 0), pair(row, 1)), force, row, side, normal_at, contact);
+    const Point shift = side > 0 || !pairs.images ? Point{} : pairs.images->shift(row);
+    add_points(outlines.edge(pair(row, 0), pair(row, 1)), force, row, side, normal_at, contact,
+               {-shift[0], -shift[1]});
+  };
+  const auto image_of = [&](Row<Contact> row) {
+    return pairs.images ? pairs.images->of(row) : Image{};
+  };
+  // Of the two links of a particle with an image of itself one is kept.
+  const auto counts = [](int number, int other, const Image& image) {
+    return other > number || (other == number && image > Image{});
   };
   // Each pair belongs to its particle of lower number, whose rows and those against it are looked through.
   auto links = list_by_slot<ContactLink>(
@@ -110,13 +124,15 @@ std::vector<ContactLink> links_of_pairs(const Bodies& bodies, const ContactIndex
           const Row<Contact> row(r);
           if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 2));
-          if (other > number) add_row(row, 1, partners.with(other));
+          const Image image = image_of(row);
+          if (counts(number, other, image)) add_row(row, 1, partners.with(other, image));
         }
         for (int k = index.other_begin[s]; k < index.other_begin[s + 1]; ++k) {
           const Row<Contact> row(entry(index.other_rows, k));
           if (touches(row) == 0) continue;
           const int other = outlines.number(pair(row, 0));
-          if (other > number) add_row(row, -1, partners.with(other));
+          const Image n = image_of(row), image{-n[0], -n[1]};
+          if (counts(number, other, image)) add_row(row, -1, partners.with(other, image));
         }
         partners.move_to(found, 2);
       });

@@ -88,7 +88,8 @@ void contact_quality::operator()() const {
   const auto edge_of = [&](int slot, int edge) -> const Shape::Edge& {
     return entry(bodies->shape_of_slot(slot).edges, edge);
   };
-  const auto gap_to_curve = [&](Row<Contact> row, const Point& at, int g) {
+  const auto gap_to_curve = [&](Row<Contact> row, const Point& sampled, int g) {
+    const Point at = pairs->from_image(row, sampled);
     const CurvePoint there = pairs->closest(row, g).unpacked();
     const Curve curve = outlines.from(pairs->rows.pair(row, 2), there.edge);
     const Point m = curve.value(there.u), n = curve.normal(there.u);

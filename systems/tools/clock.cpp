@@ -50,11 +50,13 @@ class Approach {
   explicit Approach(const SurfaceSpeeds& speeds) : speeds_(speeds) {
     if (!speeds.outlines) return;
     for (const double v : speeds.outlines->values()) fastest_ = std::max(fastest_, v);
+    if (speeds.cell)
+      for (const double v : (*speeds.cell)->rate.t) images_ += std::abs(v);
   }
   bool anything() const { return static_cast<bool>(speeds_.outlines); }  // that can touch
   double displacement(double time, double dt) const {
     const double fastest = fastest_ * dt;
-    return fastest +
+    return images_ * dt + fastest +
            std::max(fastest, speeds_.program
                                  ? farthest_displacement(**speeds_.program, speeds_.servo, time, dt)
                                  : 0.0);
@@ -63,6 +65,7 @@ class Approach {
  private:
   const SurfaceSpeeds& speeds_;
   double fastest_ = 0;  // m/s
+  double images_ = 0;   // m/s, of the nearest images against their particles
 };
 
 // No surface may be on one side of a part before a step and on its other side after it, or nearer to that.

@@ -162,6 +162,7 @@ struct SurfaceSpeeds {
   Optional<Read<MaximumSpeed>> outlines;
   Optional<Read<ToolProgram>> program;
   Optional<Read<ServoVelocity>> servo;
+  Optional<Read<PeriodicCell>> cell;
 };
 
 struct first_time_step {  // once, at the start

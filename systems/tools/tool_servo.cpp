@@ -13,8 +13,8 @@
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
 #include "engine/run_failure.hpp"
-#include "systems/laws/normal_contact.hpp"
 #include "systems/tools/servo_kernel.hpp"
+#include "systems/tools/servo_touch.hpp"
 #include "systems/tools/systems.hpp"
 #include "systems/tools/tool_kernel.hpp"
 
@@ -51,25 +51,15 @@ void check_held(const Servo& servo, const ToolProgram& program, const Clock& clo
       clock.time, servo.force, servo.tolerance));
 }
 
-// Springs and dashpots of the contact points that press on a tool now, as if all pointed in its direction. `bonds`:
-// their stiffness over that of a contact spring.
 kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
                             const Read<ContactLaw<ToolContact>>& law, double bonds) {
-  using Law = ContactLaw<ToolContact>;
   kernels::TouchSums sums;
   for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<ToolContact> row(r);
     if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
-    const double kappa = law(row, Law::stiffness);
-    const double g_s = kernels::stiffening_depth / law(row, Law::inv_length);
-    for (int g = 0; g < edge_points; ++g) {
-      const double weight = law(row, Law::weight + g);
-      const double x = rows.force(row, 2 * g), y = rows.force(row, 2 * g + 1);
-      const double pressure = std::sqrt(x * x + y * y) / weight;
-      if (!(pressure > 0)) continue;
-      sums.stiffness += weight * kappa * (kernels::tangent_at(pressure, kappa, g_s) + bonds);
-      sums.damping += weight * law(row, Law::damping);
-    }
+    const kernels::TouchSums one = touching_of(row, rows, law, bonds);
+    sums.stiffness += one.stiffness;
+    sums.damping += one.damping;
   }
   return sums;
 }

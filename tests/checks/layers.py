@@ -26,9 +26,10 @@ ROOMS = {
         "body": "laws",
         "contact": "laws",
         "tools": "contact laws",
+        "cell": "tools",
         "observe": "contact tools",
         "lever": "body laws",
-        "": "body contact tools observe",
+        "": "body cell contact tools observe",
     },
     "scenes": {
         "language": "",

@@ -1,0 +1,127 @@
+// The periodic cell: a powder that goes on in all directions, of which one period is stored. Particles are stored once and
+// whole, and stay where they are when they pass a border; a contact row says against which image of its other particle
+// it stands.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "components/contact.hpp"
+#include "components/shape.hpp"
+
+namespace pulvis {
+
+struct ContactImage : Component<Contact, std::int32_t, 2> {
+  static constexpr ComponentInfo info{
+      "image", "-", "periods by which the other particle is moved along both vectors of the cell"};
+};
+struct KickWork : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"kick_work", "J",
+                                      "kinetic energy from the last change of the cell's speed"};
+};
+
+using Image = std::array<std::int32_t, 2>;
+
+// xx xy yx yy, as in x_i = T_ij y_j.
+struct Tensor2 {
+  std::array<double, 4> t{};
+  Point operator*(const Point& p) const {
+    return {t[0] * p[0] + t[1] * p[1], t[2] * p[0] + t[3] * p[1]};
+  }
+  Point operator*(const Image& n) const {
+    return *this * Point{static_cast<double>(n[0]), static_cast<double>(n[1])};
+  }
+  Tensor2 operator*(const Tensor2& o) const {
+    return {{t[0] * o.t[0] + t[1] * o.t[2], t[0] * o.t[1] + t[1] * o.t[3],
+             t[2] * o.t[0] + t[3] * o.t[2], t[2] * o.t[1] + t[3] * o.t[3]}};
+  }
+  double determinant() const { return t[0] * t[3] - t[1] * t[2]; }
+  Tensor2 inverse() const {
+    const double d = 1 / determinant();
+    return {{d * t[3], -d * t[1], -d * t[2], d * t[0]}};
+  }
+  friend Tensor2 operator+(const Tensor2& a, const Tensor2& b) {
+    Tensor2 sum;
+    for (std::size_t i = 0; i < 4; ++i) sum.t[i] = a.t[i] + b.t[i];
+    return sum;
+  }
+  friend Tensor2 operator*(double s, const Tensor2& a) {
+    Tensor2 scaled;
+    for (std::size_t i = 0; i < 4; ++i) scaled.t[i] = s * a.t[i];
+    return scaled;
+  }
+  // a_ij b_ij
+  friend double product(const Tensor2& a, const Tensor2& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) sum += a.t[i] * b.t[i];
+    return sum;
+  }
+};
+
+struct PeriodicCell {
+  static constexpr const char* resource_name = "periodic_cell";
+  enum Part { xx, yy, xy, parts };  // of a symmetric tensor: what strain or stress drives
+  struct Stage {
+    std::string name;
+    double begin = 0, duration = 0;      // s
+    double ramp = 0.1;                   // -, share of the duration
+    double rise = 0;                     // s, until a stress is asked for in full
+    double tolerance = 0.05;             // -, of the largest stress
+    std::array<double, parts> strain{};  // -, over the stage: integral of the rate of deformation
+    std::array<bool, parts> stress_driven{};
+    std::array<double, parts> stress{};  // Pa, tension > 0
+    double rotation = 0;                 // rad, over the stage
+    double mass = 0;                     // kg m^2, least of a drive
+    double damping = 0;                  // N m s, of its dashpot, with that mass
+
+    bool holds_stress() const {
+      return stress_driven[xx] || stress_driven[yy] || stress_driven[xy];
+    }
+  };
+  struct Drive {          // of one part that a stress drives (systems/tools/servo_kernel.hpp)
+    double mass = 0;      // kg m^2
+    double speed = 0;     // 1/s
+    double dragged = 0;   // 1/s
+    double at_begin = 0;  // Pa, when the stage began
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(mass, speed, dragged, at_begin);
+    }
+  };
+
+  // The scene's
+  std::vector<Stage> stages;
+  Point centre{};        // m, of all mass: the point about which the powder is moved
+  double thickness = 0;  // m
+
+  // The run's
+  Tensor2 vectors;  // m, in columns
+  Tensor2
+      rate;  // m/s, of the vectors, over the last step; over the next one once the forces are known
+  Tensor2 gradient;      // 1/s, velocity gradient over the same step
+  Tensor2 change;        // 1/s, by which the next step's gradient differs from the last one's
+  Tensor2 border_force;  // N: sum over the contacts of force on the sampled side times image
+  std::array<double, parts> strain{};  // integral of the rate of deformation so far
+  double rotation = 0;                 // rad, of the spin
+  std::array<double, parts> stress{};  // Pa, of the forces across the borders
+  std::array<double, parts> asked{};   // Pa
+  std::array<Drive, parts> drives{};
+  std::size_t stage = static_cast<std::size_t>(-1);  // in which the last step was
+
+  double area() const { return std::abs(vectors.determinant()); }
+  std::size_t stage_at(double time) const {
+    std::size_t s = 0;
+    while (s < stages.size() && time >= stages[s].begin + stages[s].duration) ++s;
+    return s;
+  }
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(vectors.t, rate.t, gradient.t, change.t, border_force.t, strain, rotation, stress, asked,
+          drives, stage);
+  }
+};
+
+}  // namespace pulvis

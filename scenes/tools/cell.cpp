@@ -1,0 +1,81 @@
+#include "scenes/tools/cell.hpp"
+
+#include <cmath>
+
+#include "components/cell.hpp"
+#include "engine/portable_math.hpp"
+#include "scenes/outlines/outline.hpp"
+#include "scenes/tools/powder.hpp"
+#include "systems/tools/servo_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+Point centre_of_mass(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  Vec2 sum = Vec2::Zero();
+  double mass = 0;
+  for (const BodySpec& body : bodies) {
+    const ParticleSpec& particle = scene.class_of(body);
+    const double m = scene.materials[static_cast<std::size_t>(particle.material)].density *
+                     outline_area(particle.outline);
+    sum += m * body.position;
+    mass += m;
+  }
+  return {sum.x() / mass, sum.y() / mass};
+}
+
+PeriodicCell::Stage stage_of(const StageSpec& spec, double begin, const CellDriveSpec& drive) {
+  PeriodicCell::Stage stage;
+  stage.name = spec.name;
+  stage.begin = begin;
+  stage.duration = spec.duration;
+  stage.ramp = drive.ramp;
+  stage.rise = drive.rise * spec.duration;
+  stage.tolerance = drive.tolerance;
+  stage.rotation = drive.rotation;
+  stage.strain = {drive.strain_xx.value_or(0), drive.strain_yy.value_or(0),
+                  drive.strain_xy.value_or(0)};
+  stage.stress_driven = {drive.stress_xx.has_value(), drive.stress_yy.has_value(),
+                         drive.stress_xy.has_value()};
+  stage.stress = {drive.stress_xx.value_or(0), drive.stress_yy.value_or(0),
+                  drive.stress_xy.value_or(0)};
+  return stage;
+}
+
+// The inertia against a strain, kg m^2, and the dashpot, N m s: those of a punch of the cell's size at the end of a lever of
+// its size (scenes/tools/drives.cpp), since a displacement is strain times size.
+void tune(PeriodicCell::Stage& stage, double response, const Powder& powder, double area,
+          double thickness) {
+  const double share = response / (1 + kernels::dragged_mass);
+  const double wave = powder.impedance * std::sqrt(area) * thickness;
+  stage.mass = share * powder.mass * area;
+  stage.damping = 0.5 * std::sqrt(kernels::dragged_mass * share) * wave * area;
+}
+
+}  // namespace
+
+std::array<Vec2, 2> cell_vectors(const CellSpec& cell) {
+  const double c = portable::cos(cell.angle), s = portable::sin(cell.angle);
+  return {cell.width * Vec2(c, s), *cell.height * Vec2(-s, c)};
+}
+
+void add_cell(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
+  if (!scene.cell) return;
+  world.add<ContactImage>();
+  world.add<KickWork>();
+  PeriodicCell& cell = world.emplace<PeriodicCell>();
+  const auto [first, second] = cell_vectors(*scene.cell);
+  cell.vectors = {{first.x(), second.x(), first.y(), second.y()}};
+  cell.centre = centre_of_mass(scene, bodies);
+  cell.thickness = scene.thickness;
+  const Powder powder = powder_of(scene, bodies);
+  double begin = 0;
+  for (const StageSpec& spec : scene.stages) {
+    const CellDriveSpec drive = spec.cell.value_or(CellDriveSpec{});
+    cell.stages.push_back(stage_of(spec, begin, drive));
+    tune(cell.stages.back(), drive.response, powder, cell.area(), scene.thickness);
+    begin += spec.duration;
+  }
+}
+
+}  // namespace pulvis

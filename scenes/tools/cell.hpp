@@ -1,0 +1,18 @@
+// The periodic cell of a scene.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/world.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// m, first and second.
+std::array<Vec2, 2> cell_vectors(const CellSpec& cell);
+
+// Where the scene has one. `bodies`: the particles.
+void add_cell(World& world, const Scene& scene, const std::vector<BodySpec>& bodies);
+
+}  // namespace pulvis

@@ -1,0 +1,42 @@
+// Systems of the periodic cell. What a system reads and writes is what it declares here.
+#pragma once
+
+#include "components/bundles.hpp"
+#include "components/cell.hpp"
+
+namespace pulvis {
+
+struct cell_control {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<ContactRules> rules;
+  struct Borders {
+    TouchingRows<Contact> rows;
+    Read<ContactLaw<Contact>> law;
+    Read<ContactImage> image;
+  } borders;
+  Read<KickWork> kick_work;
+  Write<PeriodicCell> cell;
+  Write<Totals> totals;
+  void operator()() const;
+};
+
+struct cell_kick {
+  Read<Bodies> bodies;
+  Read<Clock> clock;
+  Read<PeriodicCell> cell;
+  NodalForces<Read> forces;
+  Read<Density> density;
+  Read<Position> position;
+  Write<Velocity> velocity;
+  Write<KickWork> work;
+  void operator()(Chunk chunk) const;
+};
+
+struct cell_motion {
+  Read<Clock> clock;
+  Write<PeriodicCell> cell;
+  void operator()() const;
+};
+
+}  // namespace pulvis
