@@ -147,8 +147,8 @@ struct BondSums {
 // Edges between grains of one particle whose points were all bonded at the start and hold.
 struct CoveredEdges {
   static constexpr const char* resource_name = "covered_edges";
-  // [control points of all outlines]: at the first of such an edge the slot of the grain that covers it, else empty_slot
-  std::vector<std::int32_t> of_control;
+  std::vector<std::uint8_t>
+      of_control;  // [control points of all outlines]: 1 at the first of such an edge
 
   template <class Bytes>
   void state(Bytes& bytes) {

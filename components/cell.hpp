@@ -101,7 +101,8 @@ struct PeriodicCell {
   Tensor2
       rate;  // m/s, of the vectors, over the last step; over the next one once the forces are known
   Tensor2 gradient;      // 1/s, velocity gradient over the same step
-  Tensor2 change;        // 1/s, by which the next step's gradient differs from the last one's
+  Tensor2 next;          // m, the vectors at the end of the step
+  Tensor2 change;        // 1/s, of the homogeneous velocity field, from the last step to the next
   Tensor2 border_force;  // N: sum over the contacts of force on the sampled side times image
   std::array<double, parts> strain{};  // integral of the rate of deformation so far
   double rotation = 0;                 // rad, of the spin
@@ -119,8 +120,8 @@ struct PeriodicCell {
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(vectors.t, rate.t, gradient.t, change.t, border_force.t, strain, rotation, stress, asked,
-          drives, stage);
+    bytes(vectors.t, rate.t, gradient.t, next.t, change.t, border_force.t, strain, rotation, stress,
+          asked, drives, stage);
   }
 };
 

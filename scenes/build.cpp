@@ -218,7 +218,7 @@ void add_bonds(World& world, const Bodies& bodies, const Needs& needs) {
     world.emplace<CoveredEdges>().of_control.assign(
         static_cast<std::size_t>(bodies.slots.back().first_control +
                                  bodies.shapes.back().control_points()),
-        Bodies::empty_slot);
+        0);
   }
   if (needs.tool_bonds) {
     add_bond_columns<ToolContact>(world, needs.tool_welds);

@@ -8,6 +8,7 @@
 // Drives   parts of the rate of deformation that a strain drives follow the stage; those that a stress drives move as
 //          a mass that the missing stress pushes and a dashpot damps (systems/tools/servo_kernel.hpp): force
 //          (asked - stress) area thickness, mass in kg m^2, speed in 1/s
+// Vectors  by the midpoint rule, (h_(n+1) - h_n)/dt = L (h_n + h_(n+1))/2: their area follows the trace of L
 // Runs     after the contacts of the step; cell_kick and cell_motion carry it out
 // Watches  that asked stresses are held when their stage ends
 #include <fmt/format.h>
@@ -152,18 +153,19 @@ void cell_control::operator()() const {
   }
   now.stage = number;
   const Tensor2 gradient{{rate[0], rate[2] - spin, rate[2] + spin, rate[1]}};
-  now.change = gradient + -1.0 * now.gradient;
   now.gradient = gradient;
+  const Tensor2 half = (0.5 * clock->dt) * gradient;
+  constexpr Tensor2 one{{1, 0, 0, 1}};
+  now.next = (one + -1.0 * half).inverse() * ((one + half) * now.vectors);
+  const Tensor2 next_rate = (1 / clock->dt) * (now.next + -1.0 * now.vectors);
+  now.change = (next_rate + -1.0 * now.rate) * now.vectors.inverse();
 }
 
-// The vectors by the midpoint rule, h' = L (h_n + h_(n+1))/2: their area follows the trace of L.
+// The step itself.
 void cell_motion::operator()() const {
   PeriodicCell& now = *cell;
-  const Tensor2 half = (0.5 * clock->dt) * now.gradient;
-  constexpr Tensor2 one{{1, 0, 0, 1}};
-  const Tensor2 next = (one + -1.0 * half).inverse() * ((one + half) * now.vectors);
-  now.rate = (1 / clock->dt) * (next + -1.0 * now.vectors);
-  now.vectors = next;
+  now.rate = (1 / clock->dt) * (now.next + -1.0 * now.vectors);
+  now.vectors = now.next;
   const auto& l = now.gradient.t;
   now.strain[PeriodicCell::xx] += l[0] * clock->dt;
   now.strain[PeriodicCell::yy] += l[3] * clock->dt;

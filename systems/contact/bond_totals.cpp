@@ -30,8 +30,7 @@ void bond_totals::operator()() const {
       for (const Crack& crack : block.cracks)
         entry((*covered)->of_control,
               entry(bodies->slots, crack.slot).first_control +
-                  entry(bodies->shape_of_slot(crack.slot).edges, crack.edge).first_control) =
-            Bodies::empty_slot;
+                  entry(bodies->shape_of_slot(crack.slot).edges, crack.edge).first_control) = 0;
   }
   if (tools) take((*tools)->blocks);
 }

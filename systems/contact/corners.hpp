@@ -2,8 +2,8 @@
 //
 // Law      the edge that it is less deep behind, so that no energy jumps where a point goes from behind one to behind the
 //          other, or out beside a corner
-// Covered  an edge between grains whose points are all bonded has the other grain in front of it: it answers for that
-//          one only, or what slides along a particle would run into the faces of its grains (the "internal edges"
+// Covered  an edge between grains whose points are all bonded has the other grain in front of it: it answers for no
+//          other particle, or what slides along a particle would run into the faces of its grains (the "internal edges"
 //          of game engines). Of two grains the one answers that the point is in; in a valley between them, where it is
 //          beside both outer faces, the way out leads to the corner, so that no energy jumps from the one to the other
 #pragma once
@@ -18,7 +18,7 @@ inline bool has_corners(const Shape& shape) {
 
 class Corners {
  public:
-  Corners(const Bodies& bodies, const std::int32_t* covered)
+  Corners(const Bodies& bodies, const std::uint8_t* covered)
       : bodies_(bodies), covered_(covered), any_(std::ranges::any_of(bodies.shapes, has_corners)) {}
 
   bool any() const { return any_; }
@@ -40,15 +40,16 @@ class Corners {
   }
 
  private:
+  // Of the edge's length: farther from it nobody comes in from a valley.
+  static constexpr double near_corner = 0.25;
+
   struct Foot {
     int edge;
     double u, depth;  // depth m, behind the edge
   };
 
   bool is_covered(const Projection& p, int half, std::int64_t control) const {
-    if (covered_ == nullptr) return false;
-    const std::int32_t by = covered_[entry(p.other.first, half) + control];
-    return by != Bodies::empty_slot && by != entry(p.other.sampled, half);
+    return entry(p.other.strangers, half) && covered_[entry(p.other.first, half) + control] != 0;
   }
 
   bool settle(Projection& p, const Shape& shape, int l, double depth) const {
@@ -71,7 +72,8 @@ class Corners {
       const Foot foot = foot_on(p, shape, l, around, forward);
       if (foot.edge == Shape::no_edge) continue;
       const bool at_corner = foot.edge == around && foot.u == (forward ? 0 : 1);
-      if (at_corner ? covered && at.behind && best.edge == Shape::no_edge
+      if (at_corner ? covered && at.behind && best.edge == Shape::no_edge &&
+                          at.distance < near_corner * edge.length
                     : foot.depth < best.depth) {
         best = foot;
         behind_corner = at_corner;
@@ -118,7 +120,7 @@ class Corners {
   }
 
   const Bodies& bodies_;
-  const std::int32_t* covered_;  // CoveredEdges::of_control; null: none is
+  const std::uint8_t* covered_;  // [control points], by the first of an edge; null: none is
   bool any_;
 };
 

@@ -78,7 +78,7 @@ struct EdgePass {
     p.other = {{s.columns.pair(two[0], 2), s.columns.pair(two[1], 2)},
                {s.points.place(two[0], 1), s.points.place(two[1], 1)},
                {!itself(two[0]), !itself(two[1])},
-               {s.columns.pair(two[0], 0), s.columns.pair(two[1], 0)},
+               {strangers(two[0]), strangers(two[1])},
                points,
                rates};
     p.points = sampled_edges(points, two);
@@ -86,6 +86,10 @@ struct EdgePass {
     p.at = CurvePoints::of(s.points.closest, two);
     p.curve = gather(p.other, points, p.at);
     return p;
+  }
+  [[gnu::always_inline]] bool strangers(Row<Contact> row) const {
+    return s.beyond.covered && entry(s.bodies->slots, s.columns.pair(row, 0)).parent !=
+                                   entry(s.bodies->slots, s.columns.pair(row, 2)).parent;
   }
   [[gnu::always_inline]] PointLanes sampled_edges(const double* list, const Two& two) const {
     return edge_points_at(list + 2 * s.points.place(two[0], 0),

@@ -72,7 +72,7 @@ void initial_bonds::operator()() const {
     }
     if (a.parent == b.parent && rows.points(row) == BondedPoints<Contact>::all)
       entry(covered->of_control,
-            a.first_control + entry(bodies->shape_of_slot(slot).edges, edge).first_control) = other;
+            a.first_control + entry(bodies->shape_of_slot(slot).edges, edge).first_control) = 1;
   }
 }
 

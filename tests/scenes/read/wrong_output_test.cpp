@@ -63,7 +63,7 @@ TEST(RightOutput, IsAccepted) {
                           .scene;
   EXPECT_EQ(scene.output.density_cells, (std::array{2, 7}));
   EXPECT_TRUE(scene.output.contacts);
-  EXPECT_TRUE(scene.output.stresses());
+  EXPECT_TRUE(scene.observes_stress());
 }
 
 TEST(WrongOutput, ContactsOfAParticleThatNothingCanTouch) {

@@ -95,8 +95,8 @@ std::set<Key> brute_force(const Heap& heap, double skin) {
 }
 
 std::vector<EdgeCandidate> candidates(const Heap& heap, double skin) {
-  return edge_candidates(heap.bodies, heap.control,
-                         particle_neighbours(heap.bodies, heap.control, skin), skin)
+  return edge_candidates(heap.bodies, heap.control, nullptr,
+                         particle_neighbours(heap.bodies, heap.control, nullptr, skin), skin)
       .all;
 }
 
@@ -200,8 +200,8 @@ TEST(BroadPhase, EmptySlotsTouchNobody) {
     EXPECT_NE(heap.bodies.slots[static_cast<std::size_t>(c.slot)].number, Bodies::empty_slot);
     EXPECT_NE(heap.bodies.slots[static_cast<std::size_t>(c.other)].number, Bodies::empty_slot);
   }
-  EXPECT_TRUE(particle_neighbours(Bodies{}, {}, 1e-3).all.empty());
-  EXPECT_TRUE(edge_candidates(Bodies{}, {}, {{0}, {}}, 1e-3).all.empty());
+  EXPECT_TRUE(particle_neighbours(Bodies{}, {}, nullptr, 1e-3).all.empty());
+  EXPECT_TRUE(edge_candidates(Bodies{}, {}, nullptr, {{0}, {}}, 1e-3).all.empty());
 }
 
 TEST(BroadPhase, SkinIsADistanceBetweenBoxes) {

@@ -1,0 +1,108 @@
+// What a periodic cell cannot do is refused at its key, with the reason and what is allowed.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "scenes/build.hpp"
+#include "tests/helpers/right_scene.hpp"
+
+namespace pulvis {
+namespace {
+
+using testing::HasSubstr;
+
+std::string scene(const std::string& cell, const std::string& packing, const std::string& drive,
+                  const std::string& more = "") {
+  return fmt::format(R"(family = "compaction"
+[[material]]
+name = "Cu"
+density = "8940 kg/m^3"
+youngs_modulus = "115 GPa"
+poissons_ratio = 0.35
+[[particle]]
+name = "disc"
+material = "Cu"
+outline = "disc"
+diameter = "1 mm"
+{}
+{}
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "0.1 ms"
+[stage.cell]
+{}
+{})",
+                     cell, packing, drive, more);
+}
+
+constexpr const char* cell = "[cell]\nwidth = \"4 mm\"\n";
+constexpr const char* tall = "[cell]\nwidth = \"4 mm\"\nheight = \"4 mm\"\n";
+constexpr const char* random_packing =
+    "[[packing]]\nkind = \"random\"\nwidth = \"4 mm\"\ndensity = 0.6\nclass = [{ particle = "
+    "\"disc\", "
+    "number = 9 }]\n";
+constexpr const char* body = "[[body]]\nparticle = \"disc\"\nposition = [\"2 mm\", \"2 mm\"]\n";
+
+struct WrongCell {
+  const char* name;
+  std::string text;
+  const char* key;
+  const char* says;
+};
+void PrintTo(const WrongCell& wrong, std::ostream* out) { *out << wrong.name; }
+
+class WrongCells : public testing::TestWithParam<WrongCell> {};
+
+TEST_P(WrongCells, AreRefused) {
+  const std::vector<SceneProblem> problems = problems_of(GetParam().text);
+  ASSERT_FALSE(problems.empty());
+  EXPECT_EQ(problems.front().key, GetParam().key) << problems.front().text();
+  EXPECT_THAT(problems.front().text(), HasSubstr(GetParam().says));
+  EXPECT_THAT(problems.front().text(), HasSubstr("allowed: "));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, WrongCells,
+    testing::Values(
+        WrongCell{"none", scene("", body, "strain_yy = -0.1"), "stage[0].cell", "there is no cell"},
+        WrongCell{"no_height", scene(cell, body, "strain_yy = -0.1"), "cell", "height is missing"},
+        WrongCell{"height_twice", scene(tall, random_packing, "strain_yy = -0.1"), "cell.height",
+                  "the random packing decides"},
+        WrongCell{"other_width",
+                  scene("[cell]\nwidth = \"5 mm\"\n", random_packing, "strain_yy = -0.1"),
+                  "packing[0].width", "0.005 m"},
+        WrongCell{"both", scene(tall, body, "strain_yy = -0.1\nstress_yy = \"-1 MPa\""),
+                  "stage[0].cell.stress_yy", "has a strain, too"},
+        WrongCell{"tool",
+                  scene(tall, body, "strain_yy = -0.1",
+                        "[[tool]]\nname = \"floor\"\nshape = \"plane\"\npoint = [\"0 mm\", \"0 "
+                        "mm\"]\nnormal = [0, 1]\n"),
+                  "tool[0]", "has no walls"},
+        WrongCell{"until",
+                  scene(tall, body, "strain_yy = -0.1", "[stage.until]\nrelative_density = 0.9\n"),
+                  "stage[0].until", "last as long as they say"},
+        WrongCell{"empty", scene(tall, body, "strain_zz = -0.1"), "stage[0].cell.strain_zz",
+                  "unknown key"}),
+    [](const auto& wrong) { return std::string(wrong.param.name); });
+
+TEST(RightCell, HasTheHeightOfItsPacking) {
+  const Scene right =
+      load_scene_text(scene(cell, random_packing, "strain_yy = -0.1"), "cell.toml").scene;
+  ASSERT_TRUE(right.cell->height);
+  EXPECT_NEAR(9 * 0.25 * 3.14159265e-6 / (4e-3 * *right.cell->height), 0.6, 1e-6);
+}
+
+// A particle that only its image runs into.
+TEST(WrongPlaces, AreFoundAcrossTheBorder) {
+  const std::string text = scene(tall,
+                                 std::string(body) +
+                                     "[[body]]\nparticle = \"disc\"\nposition = [\"0.3 mm\", "
+                                     "\"2 mm\"]\n[[body]]\nparticle = \"disc\"\nposition = "
+                                     "[\"3.8 mm\", \"2 mm\"]\n",
+                                 "strain_yy = -0.1");
+  EXPECT_THAT(message_of([&] { build_world(load_scene_text(text, "cell.toml").scene); }),
+              HasSubstr("the image of particle"));
+}
+
+}  // namespace
+}  // namespace pulvis
