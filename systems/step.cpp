@@ -29,6 +29,32 @@ class SystemList {
   std::vector<System> systems_;
 };
 
+// On sampled steps, when the forces are known.
+template <class F>
+std::vector<System> observed_of(World& w) {
+  const bool plastic = w.has<PlasticStrain<F::points>>();
+  const bool tools = w.has<ContactPair<ToolContact>>();
+  const bool touching = tools || w.has<ContactPair<Contact>>();
+  const bool constraints = w.has<ConstraintReaction>();
+  SystemList observe(w, When::on_sample);
+
+  // clang-format off
+  observe.add<lost_bodies>              ("lost_bodies",       tools);
+  observe.add<outline_health>           ("outline_health",    touching || constraints);
+  observe.add<kinetic_energy>           ("kinetic_energy");
+  observe.add<elastic_energy<F>>        ("elastic_energy");
+  observe.add<plastic_work<F>>          ("plastic_work",      plastic);
+  observe.add<hourglass_energy>         ("hourglass_energy",  F::stabilised);
+  observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress>());
+  observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork>());
+  observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
+  observe.add<force_chains>             ("force_chains",      w.has<ForceChains>());
+  observe.add<fragments>                ("fragments",         w.has<Fragments>());
+  observe.add<local_density>            ("local_density",     w.has<DensityGrid>());
+  // clang-format on
+  return observe.taken();
+}
+
 // ---- the order of a step: a newcomer's first page ------------------------------------------------
 // F: how the elements of the scene take their stresses (components/formulation.hpp).
 template <class F>
@@ -41,7 +67,7 @@ StepList step_list_of(World& w) {
   const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
   const bool constraints = w.has<ConstraintReaction>();
   const bool cell = w.has<PeriodicCell>();
-  SystemList force(w), observe(w, When::on_sample), move(w);
+  SystemList force(w), move(w);
 
   // clang-format off
   force.add<tool_motion>                ("tool_motion",       tools || constraints);
@@ -72,19 +98,6 @@ StepList step_list_of(World& w) {
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
   force.add<tool_servo>                 ("tool_servo",        w.has<ToolServos>());
 
-  observe.add<lost_bodies>              ("lost_bodies",       tools);
-  observe.add<outline_health>           ("outline_health",    touching || constraints);
-  observe.add<kinetic_energy>           ("kinetic_energy");
-  observe.add<elastic_energy<F>>        ("elastic_energy");
-  observe.add<plastic_work<F>>          ("plastic_work",      plastic);
-  observe.add<hourglass_energy>         ("hourglass_energy",  F::stabilised);
-  observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress>());
-  observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork>());
-  observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
-  observe.add<force_chains>             ("force_chains",      w.has<ForceChains>());
-  observe.add<fragments>                ("fragments",         w.has<Fragments>());
-  observe.add<local_density>            ("local_density",     w.has<DensityGrid>());
-
   move.add<cell_kick>                   ("cell_kick",         cell);
   move.add<integrate>                   ("integrate");
   move.add<contact_curve>               ("contact_curve",     touching);
@@ -93,7 +106,7 @@ StepList step_list_of(World& w) {
   move.add<return_health>               ("return_health",     w.has<ReturnResidual>());
   move.add<advance_clock>               ("advance_clock");
   // clang-format on
-  return {force.taken(), observe.taken(), move.taken()};
+  return {force.taken(), observed_of<F>(w), move.taken()};
 }
 
 // What touches at the start is known once contacts have been looked for.

@@ -15,6 +15,7 @@
 #include "components/formulation.hpp"
 #include "scenes/language/source_mark.hpp"
 #include "scenes/language/vec2.hpp"
+#include "scenes/spec/cell_spec.hpp"
 
 namespace pulvis {
 
@@ -292,30 +293,6 @@ struct UntilSpec {
   std::optional<double> displacement;  // m
   std::optional<double> relative_density;
   SourceMark mark;
-};
-
-// A periodic cell instead of tools around the powder.
-struct CellSpec {
-  double width = 0;              // m, along its first vector
-  std::optional<double> height;  // m, along its second one; absent: that of the random packing
-  Vec2 corner = Vec2::Zero();    // m, lower left
-  double angle = 0;              // rad, of the first vector from the x axis
-  SourceMark mark;
-};
-
-// How the cell deforms in a stage: each part of the rate of deformation follows a strain or keeps a stress.
-struct CellDriveSpec {
-  std::optional<double> strain_xx, strain_yy,
-      strain_xy;  // -, over the stage; absent: 0, or stress-driven
-  std::optional<double> stress_xx, stress_yy, stress_xy;  // Pa, tension > 0
-  double rotation = 0;                                    // rad, over the stage
-  double ramp = 0.1;        // -, share of the stage in which the rate rises, and falls
-  double rise = 0.2;        // -, share of the stage until a stress is asked for in full
-  double response = 0.1;    // -, inertia of the cell over that of the powder
-  double tolerance = 0.05;  // -, of the largest stress, at the end of the stage
-  SourceMark mark;
-
-  bool any_stress() const { return stress_xx || stress_yy || stress_xy; }
 };
 
 struct StageSpec {

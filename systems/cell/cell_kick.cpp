@@ -5,7 +5,8 @@
 //   dv = C (x_c - x_0) + (C - C^T)/2 (x - x_c),   C = (change of h') h^-1
 //   work = sum m (v_n . dv + dv . dv/2),   v_n = v_(n-1/2) + a_n (dt_before + dt)/4
 //
-// So an image moves as its particle would if it were stored there: where the cell is cut open does not matter. v_n is what the kinetic energy of the leapfrog is taken at (systems/body/energies.cpp).
+// So an image moves as its particle would if it were stored there: where the cell is cut open does not matter. v_n is what
+// the kinetic energy of the leapfrog is taken at (systems/body/energies.cpp).
 //
 // Runs     after cell_control, before integrate
 #include "engine/entry.hpp"

@@ -1,5 +1,6 @@
 #include "systems/contact/broad_phase.hpp"
 #include "engine/entry.hpp"
+#include "engine/portable_math.hpp"
 #include "systems/contact/contact_kernel.hpp"
 #include "systems/contact/skin_kernel.hpp"
 
@@ -344,9 +345,10 @@ class Images {
     }
     // As many periods to each side as can reach over: the extent of all over the cell's heights.
     const auto& h = cell.vectors.t;
-    const double extent = std::hypot(all.high[0] - all.low[0], all.high[1] - all.low[1]) + distance;
+    const double extent =
+        portable::hypot(all.high[0] - all.low[0], all.high[1] - all.low[1]) + distance;
     const auto periods = [&](double x, double y) {  // of the other vector
-      return static_cast<std::int32_t>(std::ceil(extent * std::hypot(x, y) / cell.area()));
+      return static_cast<std::int32_t>(std::ceil(extent * portable::hypot(x, y) / cell.area()));
     };
     const Image most{periods(h[1], h[3]), periods(h[0], h[2])};
     for (std::int32_t i = -most[0]; i <= most[0]; ++i)
