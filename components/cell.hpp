@@ -94,6 +94,7 @@ struct PeriodicCell {
   // The scene's
   std::vector<Stage> stages;
   Point centre{};        // m, of all mass: the point about which the powder is moved
+  Point corner{};        // -, of the scene's cell, from the centre, in vectors of the cell
   double thickness = 0;  // m
 
   // The run's
@@ -112,6 +113,12 @@ struct PeriodicCell {
   std::size_t stage = static_cast<std::size_t>(-1);  // in which the last step was
 
   double area() const { return std::abs(vectors.determinant()); }
+  // m: it follows the homogeneous motion about the centre, as the particles do on average. In a periodic powder any corner
+  // would do; with this one few particles leave the cell.
+  Point corner_now() const {
+    const Point way = vectors * corner;
+    return {centre[0] + way[0], centre[1] + way[1]};
+  }
   std::size_t stage_at(double time) const {
     std::size_t s = 0;
     while (s < stages.size() && time >= stages[s].begin + stages[s].duration) ++s;

@@ -133,6 +133,9 @@ Results::Results(const Scene& scene, const World& world)
   if (element_columns(world).plastic_strain != nullptr)
     fields_.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
+  if (scene.cell)
+    fields_.push_back(
+        {"cell", "m", "corner, first and second vector of the periodic cell", FieldPlace::list, 2});
   for (const FieldInfo& observed : observed_fields(scene)) fields_.push_back(observed);
   for (const FieldInfo& of_bonds : bond_fields(scene)) fields_.push_back(of_bonds);
   for (const FieldInfo& of_shear : ShearResults::fields(scene)) fields_.push_back(of_shear);
@@ -330,6 +333,12 @@ std::vector<std::vector<double>> Results::frame() const {
       fields[5].push_back(mean_of(columns.plastic_strain + e * points, columns.points, lane));
     }
   });
+  if (world_.has<PeriodicCell>()) {
+    const auto& cell = world_.resource<PeriodicCell>();
+    const Point corner = cell.corner_now();
+    const auto& h = cell.vectors.t;
+    fields.push_back({corner[0], corner[1], h[0], h[2], h[1], h[3]});
+  }
   append_observed_frame(world_, fields);
   append_bond_frame(world_, fields);
   shear_.append_frame(fields);

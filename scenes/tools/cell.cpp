@@ -67,6 +67,9 @@ void add_cell(World& world, const Scene& scene, const std::vector<BodySpec>& bod
   const auto [first, second] = cell_vectors(*scene.cell);
   cell.vectors = {{first.x(), second.x(), first.y(), second.y()}};
   cell.centre = centre_of_mass(scene, bodies);
+  const Vec2& corner = scene.cell->corner;
+  cell.corner =
+      cell.vectors.inverse() * Point{corner.x() - cell.centre[0], corner.y() - cell.centre[1]};
   cell.thickness = scene.thickness;
   const Powder powder = powder_of(scene, bodies);
   double begin = 0;

@@ -1,6 +1,7 @@
 // A shipped scene run inside a test: the same reader, builder and step as the program's.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -45,6 +46,12 @@ class Experiment {
   }
 
   double value(const std::string& series) const { return results.value(series); }
+  // Of a frame of now.
+  std::vector<double> field(const std::string& name) const {
+    const auto& fields = results.fields();
+    const auto at = std::ranges::find(fields, name, &FieldInfo::name) - fields.begin();
+    return results.frame().at(static_cast<std::size_t>(at));
+  }
   template <class C>
   const Column<C>& column() const {
     return const_cast<Simulation&>(simulation).world().column<C>();

@@ -191,17 +191,10 @@ double sum_of_column(const std::vector<std::vector<double>>& rows, std::size_t c
   return sum;
 }
 
-// One frame's field of that name.
-std::vector<double> field_of(const Experiment& e, const std::string& name) {
-  const auto& fields = e.results.fields();
-  const auto at = std::ranges::find(fields, name, &FieldInfo::name) - fields.begin();
-  return e.results.frame().at(static_cast<std::size_t>(at));
-}
-
 // m, of the lines along the bonds.
 double sum_of_lengths(const Experiment& e) {
   double sum = 0;
-  for (const double length : field_of(e, "bonds/length")) sum += length;
+  for (const double length : e.field("bonds/length")) sum += length;
   return sum;
 }
 
@@ -237,11 +230,11 @@ TEST(BondResults, FragmentsComeFromBondsThatBreak) {
   EXPECT_THAT(fragments, ElementsAre(1, 2));
   EXPECT_EQ(*damage.begin(), 0);
   EXPECT_EQ(*damage.rbegin(), 1);
-  EXPECT_THAT(field_of(e, "fragment"), ElementsAre(0, 1));
-  EXPECT_THAT(field_of(e, "fragments/number"), ElementsAre(0, 1));
-  EXPECT_THAT(field_of(e, "damage"), ElementsAre(1, 1));
-  EXPECT_THAT(field_of(e, "parent"), ElementsAre(0, 1));
-  const auto start = field_of(e, "cracks/start"), end = field_of(e, "cracks/end");
+  EXPECT_THAT(e.field("fragment"), ElementsAre(0, 1));
+  EXPECT_THAT(e.field("fragments/number"), ElementsAre(0, 1));
+  EXPECT_THAT(e.field("damage"), ElementsAre(1, 1));
+  EXPECT_THAT(e.field("parent"), ElementsAre(0, 1));
+  const auto start = e.field("cracks/start"), end = e.field("cracks/end");
   ASSERT_EQ(start.size(), 2 * 92U);
   double length = 0;  // along the broken edges, of both sides
   for (std::size_t i = 0; i < start.size(); i += 2)
