@@ -26,6 +26,7 @@ try:
 
     from figures_afm import AFM_FIGURES
     from figures_bonds import BOND_FIELDS, breaking, cracks, draw_bonds, fragment_colours, fragment_sizes
+    from figures_cell import Cell
     from figures_observed import contact_network, density_profile, local_density, rose
     from figures_parts import (STYLE, Run, draw_lines, draw_tools, labelled, outlines, printable, refuse, unit_for,
                                write_csv)
@@ -102,11 +103,9 @@ def field_picture(run, options):
 
 
 def draw_field(run, frame, name, values, unit):
-    position = frame["position"][()]
+    cell = Cell(run, frame)
+    position, limits = cell.position, 1e3 * cell.limits()
     quads, (factor, shown) = run.file["mesh/quads"][()], unit_for(unit, values)
-    low, high = position.min(axis=0), position.max(axis=0)
-    margin = 0.03 * (high - low).max()
-    limits = 1e3 * np.array([low - margin, high + margin])
     shape = np.ptp(limits[:, 1]) / np.ptp(limits[:, 0])
     figure, axes = plt.subplots(figsize=(7.2, min(max(6.0 * shape, 2.4), 9.0) + 0.9),
                                 constrained_layout=True)
@@ -116,8 +115,10 @@ def draw_field(run, frame, name, values, unit):
     else:
         faces.set(array=np.ma.masked_invalid(factor * values), cmap=FIELD_COLOURS)
     axes.add_collection(faces)
-    axes.add_collection(LineCollection(1e3 * position[outlines(quads)], colors="#1d2733",
-                                       linewidths=0.4))
+    edges = outlines(quads)
+    axes.add_collection(LineCollection(1e3 * position[edges], colors="#1d2733", linewidths=0.4))
+    faces.update_scalarmappable()  # colours for the images, too
+    cell.draw(axes, faces.get_facecolor(), edges)
     draw_tools(run, axes, frame.attrs["time"], limits / 1e3)
     axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel="x [mm]", ylabel="y [mm]")
     axes.grid(False)
@@ -126,7 +127,7 @@ def draw_field(run, frame, name, values, unit):
     axes.set_title(f"{label.capitalize()} at {time_factor * frame.attrs['time']:.4g} {time_unit}\n"
                    f"{run.title}", loc="left")
     if name in BOND_FIELDS:
-        draw_bonds(run, figure, axes, frame)
+        draw_bonds(run, figure, axes, frame, cell)
     if name != "fragment":
         bar = figure.colorbar(faces, ax=axes, shrink=0.9, label=labelled(label, shown))
         bar.outline.set_visible(False)

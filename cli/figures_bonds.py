@@ -7,6 +7,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.ticker import MaxNLocator
 
+from figures_cell import Cell
 from figures_observed import recorded, when
 from figures_parts import draw_tools, labelled, outlines, unit_for
 
@@ -27,12 +28,15 @@ def lines_of(frame, group):
     return 1e3 * np.stack([frame[f"{group}/start"][()], frame[f"{group}/end"][()]], axis=1)
 
 
-def draw_bonds(run, figure, axes, frame):
+def draw_bonds(run, figure, axes, frame, cell):
     """Thin lines along the bonds, and what is broken by the mode in which it broke."""
-    axes.add_collection(LineCollection(lines_of(frame, "bonds"), colors=BOND_COLOUR, linewidths=0.6, zorder=3))
-    broken = lines_of(frame, "cracks")
+    bonds, broken = lines_of(frame, "bonds"), lines_of(frame, "cracks")
     shear = run.file["cracks/shear"][:len(broken)]
     broken = broken[:len(shear)]  # of a run that was killed the newest rows may be missing
+    if cell.here:
+        bonds += 1e3 * cell.shift[frame["bonds/ids"][:, 0], None]
+        broken += 1e3 * cell.shift[run.file["cracks/particle"][:len(broken)], None]
+    axes.add_collection(LineCollection(bonds, colors=BOND_COLOUR, linewidths=0.6, zorder=3))
     drawn = LineCollection(broken, array=shear, cmap=MODES, clim=(0, 1),
                            linewidths=1.6, capstyle="round", zorder=4)
     axes.add_collection(drawn)
@@ -46,17 +50,17 @@ def cracks(run, options):
     frame = recorded(run, options, "cracks")
     if frame is None:
         return None
-    position, quads = frame["position"][()], run.file["mesh/quads"][()]
+    cell, quads = Cell(run, frame), run.file["mesh/quads"][()]
     owner = run.file["mesh/cell_particle"][()]
-    low, high = position.min(axis=0), position.max(axis=0)
-    margin = 0.03 * (high - low).max()
-    limits = 1e3 * np.array([low - margin, high + margin])
+    position, limits = cell.position, 1e3 * cell.limits()
     shape = np.ptp(limits[:, 1]) / np.ptp(limits[:, 0])
     figure, axes = plt.subplots(figsize=(7.2, min(max(6.0 * shape, 2.4), 9.0) + 0.9), constrained_layout=True)
     colours = fragment_colours(frame["fragment"][()])[owner]
     axes.add_collection(PolyCollection(1e3 * position[quads], facecolors=colours, edgecolors="face", linewidths=0.1))
-    axes.add_collection(LineCollection(1e3 * position[outlines(quads)], colors="#8b96a3", linewidths=0.4))
-    draw_bonds(run, figure, axes, frame)
+    edges = outlines(quads)
+    axes.add_collection(LineCollection(1e3 * position[edges], colors="#8b96a3", linewidths=0.4))
+    cell.draw(axes, colours, edges)
+    draw_bonds(run, figure, axes, frame, cell)
     draw_tools(run, axes, frame.attrs["time"], limits / 1e3)
     axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel="x [mm]", ylabel="y [mm]")
     axes.grid(False)

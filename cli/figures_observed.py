@@ -4,6 +4,7 @@ from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import MaxNLocator
 
+from figures_cell import Cell
 from figures_parts import draw_tools, labelled, outlines, unit_for
 
 MAPS = 4  # density maps side by side: evenly over the run, the last frame among them
@@ -92,13 +93,15 @@ def density_profile(run, options):
     return figure
 
 
-def network_lines(frame):
+def network_lines(frame, cell):
     """Lines of the contacts, from centre to centre or to where a tool acts, and their forces."""
-    centre = 1e3 * frame["particle_centre"][()]
+    centre = frame["particle_centre"][()]
     pairs, tools = frame["contacts/ids"][()], frame["tool_contacts/ids"][()]
-    lines = np.concatenate([centre[pairs], np.stack([centre[tools[:, 0]],
-                                                     1e3 * frame["tool_contacts/point"][()]], axis=1)])
-    return lines, np.concatenate([frame["contacts/normal_force"][()],
+    end = cell.other_end(pairs, centre, frame["contacts/point"][()])
+    lines = np.concatenate([np.stack([centre[pairs[:, 0]], end], axis=1),
+                            np.stack([centre[tools[:, 0]], frame["tool_contacts/point"][()]], axis=1)])
+    lines += cell.shift[np.concatenate([pairs[:, 0], tools[:, 0]]), None]
+    return 1e3 * lines, np.concatenate([frame["contacts/normal_force"][()],
                                   frame["tool_contacts/normal_force"][()]])
 
 
@@ -106,11 +109,10 @@ def contact_network(run, options):
     frame = recorded(run, options, "contacts")
     if frame is None or len(frame["contacts/ids"]) + len(frame["tool_contacts/ids"]) == 0:
         return None
-    position, quads = frame["position"][()], run.file["mesh/quads"][()]
+    cell, quads = Cell(run, frame), run.file["mesh/quads"][()]
+    position, limits = cell.position, 1e3 * cell.limits()
     low, high = position.min(axis=0), position.max(axis=0)
-    margin = 0.03 * (high - low).max()
-    limits = 1e3 * np.array([low - margin, high + margin])
-    lines, force = network_lines(frame)
+    lines, force = network_lines(frame, cell)
     chained = quads[frame["force_chain"][()][run.file["mesh/cell_particle"][()]] > 0]
     factor, unit = unit_for("N", force)
     size = 1e3 * np.sqrt(np.prod(high - low) / len(frame["particle_centre"]))
@@ -119,8 +121,9 @@ def contact_network(run, options):
     figure, axes = plt.subplots(figsize=(7.4, min(max(6.0 * shape, 2.4), 9.0) + 0.9),
                                 constrained_layout=True)
     axes.add_collection(PolyCollection(1e3 * position[chained], color="#fbdccb", linewidths=0.1))
-    axes.add_collection(LineCollection(1e3 * position[outlines(quads)], colors="#8b96a3",
-                                       linewidths=0.5))
+    edges = outlines(quads)
+    axes.add_collection(LineCollection(1e3 * position[edges], colors="#8b96a3", linewidths=0.5))
+    cell.draw(axes, edges=edges)
     drawn = LineCollection(lines, array=factor * force, cmap="viridis_r", capstyle="round",
                            clim=(0, factor * force.max()),
                            linewidths=np.maximum(0.3, points * force / force.max()), zorder=3)

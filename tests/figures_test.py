@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 import figures_bonds
+import figures_cell
 import figures_observed
 import figures_parts
 
@@ -66,6 +67,28 @@ class FiguresTest(unittest.TestCase):
         np.testing.assert_allclose(np.pi / 4 * diameter ** 2, [1, 3, 4])
         np.testing.assert_allclose(number, [1 / 3, 2 / 3, 1])
         np.testing.assert_allclose(area, [1 / 8, 1 / 2, 1])
+
+    def test_particles_are_drawn_inside_the_cell_and_again_across_its_borders(self):
+        square = 0.1 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+        centres = np.array([[1.2, 0.5], [0.05, 0.05], [0.6, 0.5]])  # outside, in a corner, in the middle
+        vectors = np.array([[2.0, 0.1], [0.5, 1.0]])
+        stored = (centres[:, None] + square).reshape(-1, 2) @ vectors + [3, 4]
+        frame = {"cell": np.vstack([[3, 4], vectors]), "position": Shares(stored.tolist())}
+        mesh = {"mesh/node_particle": Shares(np.repeat(np.arange(3), 4).tolist()), "mesh/quads": Shares([]),
+                "mesh/cell_particle": Shares([])}
+        cell = figures_cell.Cell(types.SimpleNamespace(file=mesh), frame)
+        np.testing.assert_allclose(cell.shift, [-vectors[0], [0, 0], [0, 0]], atol=1e-12)
+        again = sorted((int(p), *np.round(np.linalg.solve(vectors.T, (at[4 * p] - cell.position[4 * p])))) for
+                       at, shown in cell.images for p in np.flatnonzero(shown))
+        self.assertEqual(again, [(1, 0, 1), (1, 1, 0), (1, 1, 1)])
+        end = cell.other_end(np.array([[2, 0]]), centres @ vectors + [3, 4], np.array([[0.4, 0.5]]) @ vectors + [3, 4])
+        np.testing.assert_allclose(end, [[0.2, 0.5]] @ vectors + [3, 4])
+
+    def test_without_a_cell_particles_stay_where_they_are(self):
+        mesh = {"mesh/node_particle": Shares([0, 0]), "mesh/quads": Shares([]), "mesh/cell_particle": Shares([])}
+        cell = figures_cell.Cell(types.SimpleNamespace(file=mesh), {"position": Shares([[0, 0], [1, 2]])})
+        self.assertFalse(cell.here or cell.images or cell.shift.any())
+        np.testing.assert_allclose(cell.limits(), [[-0.06, -0.06], [1.06, 2.06]])
 
 
 if __name__ == "__main__":
