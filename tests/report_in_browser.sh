@@ -47,6 +47,7 @@ check ShowsTheLastFrameOfARunOfOneFrame zoomed other-field
 check StaysSmall "${everything[@]}"
 check ShowsLocalDensitiesAndContactsOfEveryFrame "${everything[@]}" contacts
 check ShowsBondsCracksAndFragmentsOfEveryFrame "${everything[@]}" bonds
+check ShowsThePeriodicCellWithTheParticlesInside "${everything[@]}" contacts
 check compaction "${everything[@]}" contacts
 check lever "${everything[@]}"
 check ShowsTheCurvesOfARunWithoutFrames has-curves

@@ -145,6 +145,7 @@ class FieldView {
     this.drawCells(ctx);
     if (this.shown === "density") this.drawDensity(ctx);
     this.drawOutlines(ctx);
+    this.drawCell(ctx);
     this.drawSurfaces(ctx);
     if (this.bondLines) this.drawBonds(ctx);
     if (this.lines) this.drawContacts(ctx);
@@ -215,14 +216,40 @@ class FieldView {
   }
 
   drawOutlines(ctx) {
-    ctx.beginPath();
-    const {outline, at} = this;
+    const {outline, at} = this, path = this.outlinePath = new Path2D();
     for (let i = 0; i < outline.length; i += 2) {
-      ctx.moveTo(at[2 * outline[i]], at[2 * outline[i] + 1]);
-      ctx.lineTo(at[2 * outline[i + 1]], at[2 * outline[i + 1] + 1]);
+      path.moveTo(at[2 * outline[i]], at[2 * outline[i] + 1]);
+      path.lineTo(at[2 * outline[i + 1]], at[2 * outline[i + 1] + 1]);
     }
     ctx.strokeStyle = isDark() && !this.codes ? "#c4cdd8" : "#1d2733";
     ctx.lineWidth = 0.7;
+    ctx.stroke(path);
+  }
+
+  // The periodic cell, and pale outlines of the powder's images around it.
+  drawCell(ctx) {
+    const {cell} = this.run.frames[this.frame], {scale, x, y} = this.place;
+    if (!cell) return;
+    const [x0, y0, ...vectors] = cell, [ax, ay, bx, by] = vectors.map(length => scale * length);
+    ctx.save();
+    ctx.strokeStyle = isDark() ? "#c4cdd8" : "#1d2733";
+    ctx.lineWidth = 0.7;
+    ctx.globalAlpha = 0.3;
+    for (let i = -1; i <= 1; ++i) {
+      for (let j = -1; j <= 1; ++j) {
+        if (!i && !j) continue;
+        ctx.translate(i * ax + j * bx, -i * ay - j * by);
+        ctx.stroke(this.outlinePath);
+        ctx.translate(-i * ax - j * bx, i * ay + j * by);
+      }
+    }
+    ctx.restore();
+    ctx.beginPath();
+    ctx.moveTo(x + scale * x0, y - scale * y0);
+    for (const [i, j] of [[1, 0], [1, 1], [0, 1]])
+      ctx.lineTo(x + scale * x0 + i * ax + j * bx, y - scale * y0 - i * ay - j * by);
+    ctx.closePath();
+    Object.assign(ctx, {strokeStyle: "#d55e00", lineWidth: 1.2});
     ctx.stroke();
   }
 

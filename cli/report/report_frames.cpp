@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "cli/report/report_cell.hpp"
 #include "cli/report/report_encoding.hpp"
 #include "cli/report/report_mesh.hpp"
 #include "cli/report/report_observed.hpp"
@@ -119,8 +120,11 @@ class Frames {
            (count <= 3 ? std::string(1, "xyz"[component]) : std::to_string(component + 1));
   }
 
-  std::vector<double> positions(const std::string& frame) const {
-    return drawn_.positions(file_.read_doubles(frame_path(frame) + "/position"));
+  ReportCell cell(const std::string& frame) const {
+    return {file_, frame_path(frame), mesh_.node_particle};
+  }
+  std::vector<double> positions(const std::string& frame, const ReportCell& cell) const {
+    return drawn_.positions(cell.inside(file_.read_doubles(frame_path(frame) + "/position")));
   }
 
   std::vector<double> values(const std::string& frame, const CellField& field) const {
@@ -144,8 +148,13 @@ class Frames {
 
   void find_ranges() {
     for (const auto& frame : frames_) {
-      const auto xy = positions(frame);
+      const ReportCell of_frame = cell(frame);
+      const auto xy = positions(frame, of_frame);
       for (std::size_t i = 0; i < xy.size(); ++i) widen(i % 2 == 0 ? x_ : y_, xy[i]);
+      for (const Point& corner : of_frame.corners()) {
+        widen(x_, corner[0]);
+        widen(y_, corner[1]);
+      }
       for (auto& field : fields_)
         for (const double value : values(frame, field)) widen(field.range, value);
     }
@@ -157,7 +166,8 @@ class Frames {
     const std::string prefix = "frame-" + std::to_string(number) + "-";
     const double width = std::max(x_.high - x_.low, y_.high - y_.low);
     const std::size_t levels = fans_ ? coarse_levels : fine_levels;
-    auto xy = positions(frame);  // both axes in steps of one length: from 0 to `width`
+    const ReportCell of_frame = cell(frame);
+    auto xy = positions(frame, of_frame);  // both axes in steps of one length: from 0 to `width`
     for (std::size_t i = 0; i < xy.size(); ++i) xy[i] -= i % 2 == 0 ? x_.low : y_.low;
     sections_.push_back({prefix + "position", encoded(quantised(xy, {0, width}), 2)});
     for (std::size_t k = 0; k < fields_.size(); ++k) {
@@ -166,7 +176,8 @@ class Frames {
     }
     Json entry{{"time", file_.number_attribute(frame_path(frame), "time")},
                {"step", file_.number_attribute(frame_path(frame), "step")}};
-    add_observed(file_, frame_path(frame), prefix, entry, sections_);
+    if (of_frame.here()) entry["cell"] = of_frame.numbers();
+    add_observed(file_, frame_path(frame), prefix, of_frame, entry, sections_);
     head_["frames"].push_back(entry);
   }
 

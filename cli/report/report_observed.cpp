@@ -41,7 +41,8 @@ std::vector<double> means(const std::vector<double>& cells, std::size_t columns,
 
 class Observed {
  public:
-  Observed(const hdf5::File& file, std::string frame) : file_(file), frame_(std::move(frame)) {}
+  Observed(const hdf5::File& file, std::string frame, const ReportCell& cell)
+      : file_(file), frame_(std::move(frame)), cell_(cell) {}
 
   bool has(const std::string& name) const { return file_.contains(frame_ + "/" + name); }
 
@@ -76,10 +77,12 @@ class Observed {
       const auto point = numbers(std::string(group) + "/point");
       const auto force = numbers(std::string(group) + "/normal_force");
       for (std::size_t i = 0; i < force.size(); ++i) {
-        const double* from = centre.data() + 2 * ids[2 * i];
-        const double* to = pairs ? centre.data() + 2 * ids[2 * i + 1] : point.data() + 2 * i;
-        for (const double value : {from[0], from[1], to[0], to[1], force[i]})
-          all.push_back(static_cast<float>(value));
+        const Point from = point_of(centre, ids[2 * i]), at = point_of(point, i);
+        const Point to = pairs ? cell_.other_end(from, at, point_of(centre, ids[2 * i + 1])) : at;
+        const Point way = cell_.way(ids[2 * i]);
+        for (const Point& end : {from, to})
+          for (std::size_t k = 0; k < 2; ++k) all.push_back(static_cast<float>(end[k] + way[k]));
+        all.push_back(static_cast<float>(force[i]));
       }
     }
     return all;
@@ -112,16 +115,35 @@ class Observed {
     const bool cracks = group == "cracks";
     const std::vector<double> shear =
         cracks ? file_.read_doubles("/cracks/shear") : std::vector<double>(start.size() / 2);
+    const std::size_t count = std::min(start.size() / 2, shear.size());
+    const std::vector<Point> ways = ways_of_bonds(group, count);
     std::vector<float> all;
-    for (std::size_t i = 0; i < std::min(start.size() / 2, shear.size()); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       for (const auto& point : {start, end})
-        for (std::size_t k = 0; k < 2; ++k) all.push_back(static_cast<float>(point[2 * i + k]));
+        for (std::size_t k = 0; k < 2; ++k)
+          all.push_back(static_cast<float>(point[2 * i + k] + ways[i][k]));
       if (cracks) all.push_back(static_cast<float>(shear[i]));
     }
     return all;
   }
 
  private:
+  template <class Number>
+  static Point point_of(const std::vector<double>& points, Number number) {
+    const auto n = static_cast<std::size_t>(number);
+    return {points[2 * n], points[2 * n + 1]};
+  }
+
+  // m, of the particles whose edges the lines lie along.
+  std::vector<Point> ways_of_bonds(const std::string& group, std::size_t count) const {
+    std::vector<Point> ways(count);
+    if (!cell_.here()) return ways;
+    const bool cracks = group == "cracks";
+    const auto ids = file_.read_integers(cracks ? "/cracks/particle" : frame_ + "/bonds/ids");
+    for (std::size_t i = 0; i < count; ++i) ways[i] = cell_.way(ids.at(cracks ? i : 2 * i));
+    return ways;
+  }
+
   std::vector<double> numbers(const std::string& name) const {
     return file_.read_doubles(frame_ + "/" + name);
   }
@@ -142,13 +164,14 @@ class Observed {
 
   const hdf5::File& file_;
   std::string frame_;
+  const ReportCell& cell_;
 };
 
 }  // namespace
 
 void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
-                  Json& entry, std::vector<ReportSection>& sections) {
-  const Observed observed(file, frame);
+                  const ReportCell& cell, Json& entry, std::vector<ReportSection>& sections) {
+  const Observed observed(file, frame, cell);
   if (observed.has("local_density")) entry["density"] = observed.density();
   if (observed.has("bonds")) {
     const std::vector<float> bonds = observed.bond_lines("bonds"),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/report/report_cell.hpp"
 #include "cli/report/report_data.hpp"
 #include "engine/files/hdf5.hpp"
 
@@ -12,6 +13,7 @@ namespace pulvis {
 
 // Adds "density" and "network" to the frame's entry of the report's head, and the lines of the contacts.
 void add_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
-                  nlohmann::ordered_json& entry, std::vector<ReportSection>& sections);
+                  const ReportCell& cell, nlohmann::ordered_json& entry,
+                  std::vector<ReportSection>& sections);
 
 }  // namespace pulvis

@@ -26,6 +26,8 @@ namespace pulvis {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -146,6 +148,26 @@ TEST_F(ReportTest, ShowsLocalDensitiesAndContactsOfEveryFrame) {
   write_report(folder);
   EXPECT_EQ(std::system(command.c_str()), 0);
   for (const char* name : {"local_density", "density_profile", "contact_network", "contact_rose"})
+    EXPECT_TRUE(fs::exists(folder / "pictures" / (std::string(name) + ".png"))) << name;
+}
+
+TEST_F(ReportTest, ShowsThePeriodicCellWithTheParticlesInside) {
+  const auto plain = head_of(report_of({}));
+  EXPECT_FALSE(plain["frames"].back().contains("cell"));
+  EXPECT_DOUBLE_EQ(plain["low"][0].get<double>(), 0);
+  testing::SyntheticRun run;
+  run.tools = false;
+  run.cell = run.observed = true;
+  const auto head = head_of(report_of(run));
+  const auto near = [](double value) { return DoubleNear(value, 1e-15); };
+  EXPECT_THAT(head["frames"].back()["cell"].get<std::vector<double>>(),
+              ElementsAre(near(1e-3), 0, near(4e-3), 0, 0, near(0.97 * 3.2e-3 + 0.03 * 4e-3)));
+  EXPECT_NEAR(head["low"][0].get<double>(), 1e-3, 1e-15);  // the first column is drawn as the last
+  EXPECT_NEAR(head["high"][0].get<double>(), 5e-3, 1e-15);
+  const std::string command =
+      std::string("'") + paths::program() + "' figure '" + folder.string() + "' >/dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  for (const char* name : {"effective_stress", "contact_network"})
     EXPECT_TRUE(fs::exists(folder / "pictures" / (std::string(name) + ".png"))) << name;
 }
 

@@ -85,6 +85,7 @@ std::vector<FieldInfo> fields(const SyntheticRun& run) {
                        bool whole = false) {
     all.push_back({name, unit, "made up", place, components, whole});
   };
+  if (run.cell) add("cell", "m", FieldPlace::list, 2);
   if (run.bonds) {
     for (const std::string name : {"bonds/start", "bonds/end", "cracks/start", "cracks/end"})
       add(name, "m", FieldPlace::list, 2);
@@ -188,6 +189,8 @@ std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share)
   }
   std::vector<std::vector<double>> fields{xy, std::vector<double>(xy.size(), 0.5), stress, strain,
                                           tensor};
+  const double d = run.diameter;
+  if (run.cell) fields.push_back({d, 0, d * run.columns, 0, 0, d * run.rows * squeeze(share)});
   if (run.bonds) add_bonds(run, share, fields);
   if (run.observed) add_observed(run, share, fields);
   return fields;

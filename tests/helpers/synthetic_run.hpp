@@ -16,6 +16,7 @@ struct SyntheticRun {
   bool observed =
       false;           // local densities (two columns of cells, one of them all tool) and contacts
   bool bonds = false;  // discs that come apart column by column
+  bool cell = false;   // a periodic cell around all of them, its left side after the first column
   double diameter = 1e-3;  // m
 };
 

@@ -1,0 +1,40 @@
+// The periodic cell of a frame, and where the report shows the particles: with their centres inside.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/cell.hpp"
+#include "engine/files/hdf5.hpp"
+
+namespace pulvis {
+
+class ReportCell {
+ public:
+  ReportCell(const hdf5::File& file, const std::string& frame,
+             const std::vector<std::int32_t>& node_particle);
+
+  bool here() const { return !way_.empty(); }  // else nothing is moved
+  // m, of the particle of that number.
+  Point way(std::int32_t particle) const {
+    return here() ? way_[static_cast<std::size_t>(particle)] : Point{};
+  }
+  // x, y of all nodes.
+  std::vector<double> inside(std::vector<double> positions) const;
+  // Of a line from the centre of one particle through the point where it touches another: the centre of that image of the
+  // other one. A particle is about as large as its neighbour.
+  Point other_end(const Point& from, const Point& through, const Point& other) const;
+  // Corner, first and second vector.
+  std::vector<double> numbers() const;
+  std::vector<Point> corners() const;
+
+ private:
+  void find_ways(const std::vector<double>& positions);
+
+  const std::vector<std::int32_t>& node_particle_;
+  Point corner_{};
+  Tensor2 vectors_;
+  std::vector<Point> way_;
+};
+
+}  // namespace pulvis
