@@ -144,18 +144,6 @@ struct BondSums {
   }
 };
 
-// Edges between grains of one particle whose points were all bonded at the start and hold.
-struct CoveredEdges {
-  static constexpr const char* resource_name = "covered_edges";
-  std::vector<std::uint8_t>
-      of_control;  // [control points of all outlines]: 1 at the first of such an edge
-
-  template <class Bytes>
-  void state(Bytes& bytes) {
-    bytes(of_control);
-  }
-};
-
 struct BondTotals {
   static constexpr const char* resource_name = "bond_totals";
   double energy = 0;               // J, stored now

@@ -211,14 +211,10 @@ void add_bond_columns(World& world, bool welds) {
   world.emplace<BondSums<At>>();
 }
 
-void add_bonds(World& world, const Bodies& bodies, const Needs& needs) {
+void add_bonds(World& world, const Needs& needs) {
   if (needs.bonds) {
     add_bond_columns<Contact>(world, needs.welds);
     world.add<CurveAnchor>();
-    world.emplace<CoveredEdges>().of_control.assign(
-        static_cast<std::size_t>(bodies.slots.back().first_control +
-                                 bodies.shapes.back().control_points()),
-        0);
   }
   if (needs.tool_bonds) {
     add_bond_columns<ToolContact>(world, needs.tool_welds);
@@ -398,7 +394,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
     ContactIndex& index = world->emplace<ContactIndex>();
     index.skin = scene.contact.skin * rules.shortest_edge;
     if (needs.any_bonds()) {
-      add_bonds(*world, layout.bodies, needs);
+      add_bonds(*world, needs);
       const BondRules& bonds =
           world->emplace<BondRules>(bounded_by(layout.bodies, scene, bond_rules(scene)));
       for (int m = 0; m < bonds.materials; ++m) {

@@ -68,7 +68,6 @@ struct PairBonds {
     p.other = {{s.columns.pair(two[0], 2), s.columns.pair(two[1], 2)},
                {s.at.place(two[0], 1), s.at.place(two[1], 1)},
                {},
-               {},
                points,
                nullptr};
     p.points = sampled_edges(points, two);

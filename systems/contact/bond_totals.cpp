@@ -24,14 +24,7 @@ void bond_totals::operator()() const {
       }
     }
   };
-  if (pairs) {
-    take((*pairs)->blocks);
-    for (const BondBlock& block : (*pairs)->blocks)
-      for (const Crack& crack : block.cracks)
-        entry((*covered)->of_control,
-              entry(bodies->slots, crack.slot).first_control +
-                  entry(bodies->shape_of_slot(crack.slot).edges, crack.edge).first_control) = 0;
-  }
+  if (pairs) take((*pairs)->blocks);
   if (tools) take((*tools)->blocks);
 }
 

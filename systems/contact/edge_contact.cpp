@@ -35,8 +35,7 @@ struct EdgePass {
   const edge_contact& s;
   const double* points = s.curves.position.values().data();
   const double* rates = s.curves.velocity ? s.curves.velocity->values().data() : nullptr;
-  const Corners corners{*s.bodies,
-                        s.beyond.covered ? (*s.beyond.covered)->of_control.data() : nullptr};
+  const Corners corners{*s.bodies};
 
   // ---- active pairs
   [[gnu::always_inline]] bool active(Row<Contact> row) const {
@@ -78,18 +77,13 @@ struct EdgePass {
     p.other = {{s.columns.pair(two[0], 2), s.columns.pair(two[1], 2)},
                {s.points.place(two[0], 1), s.points.place(two[1], 1)},
                {!itself(two[0]), !itself(two[1])},
-               {strangers(two[0]), strangers(two[1])},
                points,
                rates};
     p.points = sampled_edges(points, two);
-    if (s.beyond.images) stand_before_images(s.beyond.images->cell->vectors, two, p.points);
+    if (s.images) stand_before_images(s.images->cell->vectors, two, p.points);
     p.at = CurvePoints::of(s.points.closest, two);
     p.curve = gather(p.other, points, p.at);
     return p;
-  }
-  [[gnu::always_inline]] bool strangers(Row<Contact> row) const {
-    return s.beyond.covered && entry(s.bodies->slots, s.columns.pair(row, 0)).parent !=
-                                   entry(s.bodies->slots, s.columns.pair(row, 2)).parent;
   }
   [[gnu::always_inline]] PointLanes sampled_edges(const double* list, const Two& two) const {
     return edge_points_at(list + 2 * s.points.place(two[0], 0),
@@ -97,17 +91,17 @@ struct EdgePass {
   }
 
   void stand_before_images(const Tensor2& vectors, const Two& two, PointLanes& p) const {
-    move_to_images(vectors, s.beyond.images->image, two, p);
+    move_to_images(vectors, s.images->image, two, p);
   }
   bool itself(Row<Contact> row) const {
     return s.columns.pair(row, 2) == s.columns.pair(row, 0) &&
-           (!s.beyond.images || s.beyond.images->of(row) == Image{});
+           (!s.images || s.images->of(row) == Image{});
   }
 
   [[gnu::always_inline]] PointMotion motion_at(const Two& two, const Projection& p) const {
     if (rates == nullptr) return motion_of(p, {});
     PointLanes velocity = sampled_edges(rates, two);
-    if (s.beyond.images) stand_before_images(s.beyond.images->cell->rate, two, velocity);
+    if (s.images) stand_before_images(s.images->cell->rate, two, velocity);
     return motion_of(p, velocity);
   }
 
@@ -116,7 +110,8 @@ struct EdgePass {
     book_projection(two, p.unconverged(), sums.block);
     PointMotion motion = motion_at(two, p);
     pass_over_bonded(s.columns, two, motion);
-    if (corners.any() && any(motion.gap > 0.0) && corners.settle(p, motion)) {
+    const unsigned at_corners = corners.any() ? Corners::in_question(p, motion) : 0;
+    if (at_corners != 0 && corners.settle(at_corners, p, motion)) {
       motion = motion_at(two, p);
       pass_over_bonded(s.columns, two, motion);
     }

@@ -70,9 +70,6 @@ void initial_bonds::operator()() const {
       make_bond(rows, row, g, number, strength, opening);
       entry(totals->made, number - 1) += 1;
     }
-    if (a.parent == b.parent && rows.points(row) == BondedPoints<Contact>::all)
-      entry(covered->of_control,
-            a.first_control + entry(bodies->shape_of_slot(slot).edges, edge).first_control) = 1;
   }
 }
 

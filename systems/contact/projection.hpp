@@ -6,7 +6,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "components/shape.hpp"
 #include "systems/contact/curve_points.hpp"
@@ -19,10 +18,9 @@ struct OtherCurves {
   std::array<int, 2> slot;
   std::array<std::int32_t, 2> first;  // control point of the outline
   std::array<bool, 2>
-      round_corners;  // the search goes round them: not where an outline folds on itself
-  std::array<bool, 2> strangers;  // no grains of one particle: covered edges are not there for them
-  const double* position;         // of all control points
-  const double* velocity;         // null where the scene needs none
+      round_corners;       // the search goes round them: not where an outline folds on itself
+  const double* position;  // of all control points
+  const double* velocity;  // null where the scene needs none
 };
 
 struct CurveLanes {
@@ -50,7 +48,6 @@ inline int edge_number(const Shape& shape, std::int64_t first_control) {
 struct AroundCorner {
   int edge = Shape::no_edge;  // where the point is in front of it or behind it: not beside it
   bool behind = false;        // its line
-  double distance = 0;        // m, from the corner
 };
 inline AroundCorner edge_around_corner(const Shape& shape, int edge, bool forward,
                                        const double* outline, const Point& p) {
@@ -61,7 +58,7 @@ inline AroundCorner edge_around_corner(const Shape& shape, int edge, bool forwar
   const Point slope{y[4] - y[0], y[5] - y[1]};
   const double along = way[0] * slope[0] + way[1] * slope[1];
   return {(forward ? along : -along) > 0 ? next : Shape::no_edge,
-          way[0] * slope[1] - way[1] * slope[0] < 0, std::sqrt(way[0] * way[0] + way[1] * way[1])};
+          way[0] * slope[1] - way[1] * slope[0] < 0};
 }
 
 // Points that leave their edge go on in the next one, or around a corner, or stop at it. Returns the lanes that stand

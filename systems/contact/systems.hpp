@@ -104,10 +104,7 @@ struct edge_contact {
     Write<ClosestPoint> closest;
     Optional<Write<FrictionCouple>> couple;
   } points;
-  struct Beyond {  // what not every scene has
-    Optional<Read<CoveredEdges>> covered;
-    Optional<CellImages> images;
-  } beyond;
+  Optional<CellImages> images;
   Write<ContactSums<Contact>> sums;
   void operator()(SmallTasks) const;
 };
@@ -176,7 +173,6 @@ struct initial_bonds {  // once, at the start
   Read<CurvePosition> control;
   NewBonds<Contact> rows;
   PairAnchors at;
-  Write<CoveredEdges> covered;
   Write<BondTotals> totals;
   void operator()() const;
 };
@@ -208,10 +204,8 @@ struct bond_forces {
 };
 
 struct bond_totals {
-  Read<Bodies> bodies;
   Optional<Read<BondSums<Contact>>> pairs;
   Optional<Read<BondSums<ToolContact>>> tools;
-  Optional<Write<CoveredEdges>> covered;
   Write<BondTotals> bonds;
   Write<Totals> totals;
   void operator()() const;

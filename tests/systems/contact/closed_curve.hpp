@@ -48,7 +48,7 @@ struct ClosedCurve {
   Projection look_from(const std::array<Point, lane_count>& points,
                        const std::array<int, lane_count>& start) const {
     Projection p;
-    p.other = {{0, 0}, {0, 0}, {}, {}, control.data(), nullptr};
+    p.other = {{0, 0}, {0, 0}, {}, control.data(), nullptr};
     p.points = {Lane::from([&](int l) { return entry(points, l)[0]; }),
                 Lane::from([&](int l) { return entry(points, l)[1]; })};
     for (std::size_t l = 0; l < lane_count; ++l) p.at.edge[l] = start[l];
