@@ -67,7 +67,8 @@ LoadedScene scene_of(const fs::path& folder, const Checkpoint& checkpoint) {
 
 Checkpoints::Checkpoints(const LoadedScene& scene, fs::path folder,
                          const CheckpointOptions& options)
-    : info_{program_version(), program_commit(), hash_text(scene)},
+    : info_{program_version(), program_commit(), hash_text(scene),
+            fmt::format("{:016x}", scene.powder_hash)},
       folder_(std::move(folder)),
       options_(options) {}
 
@@ -94,6 +95,14 @@ void Checkpoints::write(std::int64_t step, double time, const State& world, cons
 }
 template void Checkpoints::write(std::int64_t, double, const World&, const StateParts&);
 template void Checkpoints::write(std::int64_t, double, const StateParts&, const StateParts&);
+
+void Checkpoints::keep_state(const std::string& name, std::int64_t step, double time,
+                             const World& world) const {
+  CheckpointInfo info = info_;
+  info.step = step;
+  info.time = time;
+  write_state_file(folder_ / fmt::format("state-{}.h5", name), info, world);
+}
 
 void require_stopped_run(const fs::path& folder) {
   if (!fs::exists(folder / "scene.toml") || !fs::exists(folder / "run.h5"))

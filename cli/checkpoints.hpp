@@ -37,6 +37,9 @@ class Checkpoints {
   // `world` is a World or the parts that were kept of one.
   template <class State>
   void write(std::int64_t step, double time, const State& world, const StateParts& run);
+  // As a state that other runs may begin with.
+  void keep_state(const std::string& name, std::int64_t step, double time,
+                  const World& world) const;
   // Nothing is left to go on with.
   void remove() const { remove_checkpoints(folder_); }
 

@@ -80,6 +80,8 @@ struct Run {
   std::vector<Verdict> verdicts;
   Timetable samples, frames;
   bool ended = false;  // and its last sample is taken
+  bool keeps_states;
+  std::size_t stages_over = 0;
   Checkpoints checkpoints;
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<Progress> progress;
@@ -98,6 +100,7 @@ struct Run {
         bond_warnings(pulvis::bond_warnings(scene.scene, simulation->world())),
         samples(clock().end, std::max(scene.scene.output.samples, scene.scene.output.frames)),
         frames(clock().end, scene.scene.output.frames),
+        keeps_states(std::ranges::any_of(scene.scene.stages, &StageSpec::keep_state)),
         checkpoints(scene, where, given.checkpoints) {}
 
   const Clock& clock() const { return simulation->clock(); }
@@ -117,7 +120,8 @@ struct Run {
   // What the world does not hold of the run's state.
   template <class Bytes>
   void state(Bytes& bytes, RecorderPosition& position, double& seconds) {
-    bytes(position, seconds, results, expectations, compaction, contacts, samples, frames, ended);
+    bytes(position, seconds, results, expectations, compaction, contacts, samples, frames, ended,
+          stages_over);
   }
 
   void go_on_from(const Checkpoint& checkpoint) {
@@ -167,6 +171,20 @@ struct Run {
     frames.pass(clock().time);
   }
 
+  // The stages that are over, and whose states are to be kept.
+  void keep_states() {
+    const World& world = simulation->world();
+    const std::size_t over = world.resource<ToolProgram>().stage_at(clock().time);
+    for (; stages_over < over; ++stages_over) {
+      const StageSpec& stage = loaded.scene.stages[stages_over];
+      if (stage.keep_state) checkpoints.keep_state(stage.name, clock().step, clock().time, world);
+    }
+  }
+  bool stage_is_over() const {
+    const World& world = simulation->world();
+    return keeps_states && world.resource<ToolProgram>().stage_at(clock().time) > stages_over;
+  }
+
   bool stops() const { return interrupted() || checkpoints.stops(clock().step); }
 
   // True when the run reached its end, false when it was interrupted. Checkpoints are taken where a step is
@@ -174,6 +192,7 @@ struct Run {
   bool go() {
     while (!ended) {
       if (stops()) return false;
+      if (keeps_states) keep_states();
       if (checkpoints.due(clock().step, clock().time)) write_checkpoint();
       const bool last = simulation->finished();  // before its time where a stage ended early
       if (last || samples.due(clock().time) || frames.due(clock().time)) {
@@ -184,7 +203,7 @@ struct Run {
       }
       simulation->run_until(std::min(samples.next(), frames.next()), [&] {
         progress->show(clock().time, clock().step);
-        return stops() || checkpoints.due(clock().step, clock().time);
+        return stops() || stage_is_over() || checkpoints.due(clock().step, clock().time);
       });
     }
     return true;

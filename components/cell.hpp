@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cmath>
-#include <string>
+#include <limits>
 #include <vector>
 
 #include "components/contact.hpp"
@@ -60,27 +60,33 @@ struct Tensor2 {
   }
 };
 
-struct PeriodicCell {
-  static constexpr const char* resource_name = "periodic_cell";
+// How a powder deforms as a whole, by strains or by stresses that are kept: what its stages ask for, and how far they have
+// come. Of a periodic cell, or of the four planes of a die.
+struct MixedControl {
   enum Part { xx, yy, xy, parts };  // of a symmetric tensor: what strain or stress drives
+  enum class Law {
+    strain,  // follows it
+    stress,  // keeps it
+    ratio,   // xx: keeps that share of the stress yy
+    mean     // xx: keeps the mean of xx and yy
+  };
   struct Stage {
-    std::string name;
-    double begin = 0, duration = 0;      // s
+    double duration = 0;                 // s, planned
     double ramp = 0.1;                   // -, share of the duration
     double rise = 0;                     // s, until a stress is asked for in full
     double tolerance = 0.05;             // -, of the largest stress
+    std::array<Law, parts> law{};        //
     std::array<double, parts> strain{};  // -, over the stage: integral of the rate of deformation
-    std::array<bool, parts> stress_driven{};
-    std::array<double, parts> stress{};  // Pa, tension > 0
+    std::array<double, parts> stress{};  // Pa, tension > 0; of a ratio: -
     double rotation = 0;                 // rad, over the stage
-    double mass = 0;                     // kg m^2, least of a drive
+    double mass = 0;                     // kg m^2, least of a servo
     double damping = 0;                  // N m s, of its dashpot, with that mass
 
     bool holds_stress() const {
-      return stress_driven[xx] || stress_driven[yy] || stress_driven[xy];
+      return law[xx] != Law::strain || law[yy] != Law::strain || law[xy] != Law::strain;
     }
   };
-  struct Drive {          // of one part that a stress drives (systems/tools/servo_kernel.hpp)
+  struct Servo {          // of one part that a stress drives (systems/tools/servo_kernel.hpp)
     double mass = 0;      // kg m^2
     double speed = 0;     // 1/s
     double dragged = 0;   // 1/s
@@ -93,11 +99,32 @@ struct PeriodicCell {
 
   // The scene's
   std::vector<Stage> stages;
+
+  // The run's
+  std::array<double, parts> strain{};  // integral of the rate of deformation so far
+  double rotation = 0;                 // rad, of the spin
+  std::array<double, parts> stress{};  // Pa
+  std::array<double, parts> asked{};   // Pa
+  std::array<Servo, parts> servos{};
+  std::size_t stage = static_cast<std::size_t>(-1);      // in which the last step was
+  double cut = std::numeric_limits<double>::infinity();  // s: from then on its strains come to rest
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(strain, rotation, stress, asked, servos, stage, cut);
+  }
+};
+
+struct PeriodicCell {
+  static constexpr const char* resource_name = "periodic_cell";
+
+  // The scene's
   Point centre{};        // m, of all mass: the point about which the powder is moved
   Point corner{};        // -, of the scene's cell, from the centre, in vectors of the cell
   double thickness = 0;  // m
 
   // The run's
+  MixedControl control;
   Tensor2 vectors;  // m, in columns
   Tensor2
       rate;  // m/s, of the vectors, over the last step; over the next one once the forces are known
@@ -105,12 +132,6 @@ struct PeriodicCell {
   Tensor2 next;          // m, the vectors at the end of the step
   Tensor2 change;        // 1/s, of the homogeneous velocity field, from the last step to the next
   Tensor2 border_force;  // N: sum over the contacts of force on the sampled side times image
-  std::array<double, parts> strain{};  // integral of the rate of deformation so far
-  double rotation = 0;                 // rad, of the spin
-  std::array<double, parts> stress{};  // Pa, of the forces across the borders
-  std::array<double, parts> asked{};   // Pa
-  std::array<Drive, parts> drives{};
-  std::size_t stage = static_cast<std::size_t>(-1);  // in which the last step was
 
   double area() const { return std::abs(vectors.determinant()); }
   // m: it follows the homogeneous motion about the centre, as the particles do on average. In a periodic powder any corner
@@ -119,16 +140,23 @@ struct PeriodicCell {
     const Point way = vectors * corner;
     return {centre[0] + way[0], centre[1] + way[1]};
   }
-  std::size_t stage_at(double time) const {
-    std::size_t s = 0;
-    while (s < stages.size() && time >= stages[s].begin + stages[s].duration) ++s;
-    return s;
-  }
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(vectors.t, rate.t, gradient.t, next.t, change.t, border_force.t, strain, rotation, stress,
-          asked, drives, stage);
+    bytes(control, vectors.t, rate.t, gradient.t, next.t, change.t, border_force.t);
+  }
+};
+
+// The four planes of a die, moved as the borders of a cell are: by strains or stresses, about the middle between them.
+struct DrivenWalls {
+  static constexpr const char* resource_name = "driven_walls";
+  int left = 0, right = 0, bottom = 0, top = 0;  // tools
+  double thickness = 0;                          // m
+  MixedControl control;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(control);
   }
 };
 

@@ -387,10 +387,11 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   if (needs.contact()) {
     add_contact_columns(*world, layout.bodies, needs);
     add_cell(*world, scene, particles);
+    if (scene.cell) add_drives(*world, scene, particles);
     world->emplace<ContactQuality>();
     ContactRules& rules = world->emplace<ContactRules>(contact_rules(scene));
     find_thinnest(scene, layout.bodies, rules);
-    rules.servos = world->has<ToolServos>();
+    rules.servos = world->has<ServoVelocity>();
     ContactIndex& index = world->emplace<ContactIndex>();
     index.skin = scene.contact.skin * rules.shortest_edge;
     if (needs.any_bonds()) {

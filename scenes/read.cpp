@@ -6,6 +6,7 @@
 #include "scenes/checks/accuracy.hpp"
 #include "scenes/checks/checks.hpp"
 #include "scenes/checks/expect_checks.hpp"
+#include "scenes/checks/state_checks.hpp"
 #include "scenes/grains/grains.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/extends.hpp"
@@ -22,6 +23,9 @@
 #include "systems/laws/flow_law.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 
 namespace pulvis {
 namespace {
@@ -205,6 +209,20 @@ class SceneReader {
   throw SceneError({{file.string(), 1, 1, "", "scene", message}});
 }
 
+// Of all that decides on what a state has in it, and on how the powder answers.
+std::uint64_t powder_hash(Table root) {
+  for (document::Entry& entry : root)
+    if (entry.key == "output" && entry.value.as<Table>() != nullptr)
+      std::erase_if(entry.value.get<Table>(), [](const document::Entry& key) {
+        return key.key == "samples" || key.key == "frames";
+      });
+  std::erase_if(root, [](const document::Entry& entry) {
+    constexpr std::array others{"title", "initial_state", "stage", "expect", "limits"};
+    return std::ranges::find(others, entry.key) != others.end();
+  });
+  return scene_hash(scene_text(root, schema::scene_language()));
+}
+
 // What an accuracy asked for stands in the meshes, and what the scene is expected to do does not concern the
 // one that is compared with it.
 void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, bool alone) {
@@ -215,6 +233,7 @@ void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, 
   loaded.inputs =
       keep_inputs(root, loaded.scene.file.parent_path(), others, schema::scene_language());
   loaded.text = scene_text(root, schema::scene_language());
+  loaded.powder_hash = powder_hash(root);
   loaded.hash = hash_with_inputs(loaded.inputs, scene_hash(loaded.text));
 }
 
@@ -265,6 +284,8 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   make_profiles(loaded.scene, reader.origins(), problems);
   problems.throw_if_any();
   make_complete(loaded, root, others, alone);
+  check_initial_state(loaded.scene, loaded.powder_hash, reader.origins(), problems);
+  problems.throw_if_any();
   return loaded;
 }
 

@@ -21,6 +21,9 @@ struct LoadedScene {
   // The same with its paths as they are from the folder of the scene's file.
   std::string text_in_place;
   std::vector<InputFile> inputs;
+  // Of the powder alone, with its contacts and materials: scenes that differ in their stages and results share it, and may
+  // begin with each other's states.
+  std::uint64_t powder_hash = 0;
   // Of that text and of those files: the same for every scene that says the same.
   std::uint64_t hash = 0;
 };

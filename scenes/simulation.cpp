@@ -6,6 +6,7 @@
 #include "components/servo.hpp"
 #include "scenes/build.hpp"
 #include "scenes/checks/bond_checks.hpp"
+#include "scenes/initial_state.hpp"
 
 namespace pulvis {
 
@@ -16,6 +17,7 @@ Simulation::Simulation(const Scene& scene, int threads)
     step_->start();
   });
   require_initial_bonds(scene, *world_);
+  begin_with_state(*world_, scene);
 }
 
 Simulation::~Simulation() {

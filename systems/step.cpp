@@ -95,6 +95,7 @@ StepList step_list_of(World& w) {
   force.add<highest_mode<F::points>>    ("highest_mode",      w.has<HighestMode>());
   force.add<apply_constraints>          ("apply_constraints", constraints);
   force.add<tool_reaction>              ("tool_reaction",     tools || constraints);
+  force.add<wall_control>               ("wall_control",      w.has<DrivenWalls>());
   force.add<stage_control>              ("stage_control",     w.has<StageEnds>());
   force.add<tool_servo>                 ("tool_servo",        w.has<ToolServos>());
 

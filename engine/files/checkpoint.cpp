@@ -118,6 +118,7 @@ void write_content(const fs::path& path, const CheckpointInfo& info, const State
   file.set_attribute("/", "version", std::string_view(info.version));
   file.set_attribute("/", "commit", std::string_view(info.commit));
   file.set_attribute("/", "scene_hash", std::string_view(info.scene_hash));
+  file.set_attribute("/", "powder_hash", std::string_view(info.powder_hash));
   file.set_attribute("/", "run", std::string_view(info.run));
   file.set_attribute("/", "step", info.step);
   file.set_attribute("/", "time", info.time);
@@ -129,9 +130,8 @@ void write_content(const fs::path& path, const CheckpointInfo& info, const State
 }
 
 template <class State>
-void write_state(const fs::path& folder, const CheckpointInfo& info, const State& world,
+void write_state(const fs::path& path, const CheckpointInfo& info, const State& world,
                  const StateParts& run) {
-  const fs::path path = folder / fmt::format("checkpoint-{:012}.h5", info.step);
   const fs::path temporary = path.string() + ".new";
   std::error_code ignored;
   require_own_or_none(path, role::run);
@@ -144,7 +144,13 @@ void write_state(const fs::path& folder, const CheckpointInfo& info, const State
     fs::remove(temporary, ignored);
     throw;
   }
-  sync_folder(folder);
+  sync_folder(path.parent_path());
+}
+
+template <class State>
+void write_next(const fs::path& folder, const CheckpointInfo& info, const State& world,
+                const StateParts& run) {
+  write_state(folder / fmt::format("checkpoint-{:012}.h5", info.step), info, world, run);
   const std::vector<fs::path> all = checkpoints_in(folder);
   for (std::size_t i = kept; i < all.size(); ++i) remove_own(all[i], role::run);
 }
@@ -161,12 +167,16 @@ StateParts state_of(const World& world) {
 
 void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const World& world,
                       const StateParts& run) {
-  write_state(folder, info, world, run);
+  write_next(folder, info, world, run);
 }
 
 void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const StateParts& world,
                       const StateParts& run) {
-  write_state(folder, info, world, run);
+  write_next(folder, info, world, run);
+}
+
+void write_state_file(const fs::path& file, const CheckpointInfo& info, const World& world) {
+  write_state(file, info, world, {});
 }
 
 std::vector<fs::path> checkpoints_in(const fs::path& folder, const char* ending) {
@@ -194,6 +204,7 @@ Checkpoint::Checkpoint(const fs::path& file) : file_(verified(file)) {
     info_.version = file_.text_attribute("/", "version");
     info_.commit = file_.text_attribute("/", "commit");
     info_.scene_hash = file_.text_attribute("/", "scene_hash");
+    info_.powder_hash = file_.text_attribute("/", "powder_hash");
     info_.run = file_.text_attribute("/", "run");
     info_.step = static_cast<std::int64_t>(file_.unsigned_attribute("/", "step"));
     info_.time = file_.number_attribute("/", "time");
@@ -202,11 +213,12 @@ Checkpoint::Checkpoint(const fs::path& file) : file_(verified(file)) {
   }
 }
 
-void Checkpoint::restore(World& world) const {
+void Checkpoint::restore(World& world, const std::set<std::string>& left_alone) const {
   std::set<std::string> unused;
   for (const std::string group : {"/columns/", "/resources/"})
     if (file_.contains(group.substr(0, group.size() - 1)))
-      for (const std::string& name : file_.datasets_below(group)) unused.insert(group + name);
+      for (const std::string& name : file_.datasets_below(group))
+        if (!left_alone.contains(name)) unused.insert(group + name);
   const auto take = [&](const std::string& name) {
     if (unused.erase(name) == 0) throw BadState("it has no " + name);
     return file_.read_bytes(name);
@@ -214,7 +226,8 @@ void Checkpoint::restore(World& world) const {
   for (const ColumnBase* column : world.columns())
     if (!column->declared_transient) world.set_column(*column, take(column_name(*column)));
   for (const World::SavedResource& resource : world.saved_resources())
-    resource.set_state(take("/resources/" + resource.name));
+    if (!left_alone.contains(resource.name))
+      resource.set_state(take("/resources/" + resource.name));
   if (!unused.empty()) throw BadState("the scene has no " + *unused.begin());
 }
 

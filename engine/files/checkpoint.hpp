@@ -1,8 +1,8 @@
 // Checkpoints: the whole state of a run in one file, from which it goes on as if it had never stopped.
 //
-// <folder>/checkpoint-000000001234.h5, the number is the step:
+// <folder>/checkpoint-000000001234.h5, the number is the step; state-<stage>.h5, kept at the end of a stage:
 //   512 bytes of text       "pulvis checkpoint", size and XXH3 of all that follows (HDF5's user block)
-//   /                       version, commit, scene_hash, run, step, time
+//   /                       version, commit, scene_hash, powder_hash, run, step, time
 //   /columns/<place>/<name> bytes of every column that is not transient
 //   /resources/<name>       bytes of every resource that is not fixed
 //   /run/<name>             bytes of what else the run carries on
@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@
 namespace pulvis {
 
 struct CheckpointInfo {
-  std::string version, commit, scene_hash;
+  std::string version, commit, scene_hash, powder_hash;
   std::int64_t step = 0;
   double time = 0;
   std::string run = {};  // the attribute of its run.h5
@@ -40,6 +41,10 @@ void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo&
                       const World& world, const StateParts& run);
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
                       const StateParts& world, const StateParts& run);
+
+// The same as a state that other runs may begin with; an old one of that name goes.
+void write_state_file(const std::filesystem::path& file, const CheckpointInfo& info,
+                      const World& world);
 
 // The newest first.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder,
@@ -65,8 +70,9 @@ class Checkpoint {
   explicit Checkpoint(const std::filesystem::path& file);  // throws DamagedCheckpoint
 
   const CheckpointInfo& info() const { return info_; }
-  // `world` was made from the same scene. Throws BadState where it has other columns or resources.
-  void restore(World& world) const;
+  // `world` was made from the same scene. Throws BadState where it has other columns or resources; those of `left_alone` stay
+  // as they are.
+  void restore(World& world, const std::set<std::string>& left_alone = {}) const;
   std::vector<std::byte> run(const std::string& name) const;
 
  private:

@@ -102,8 +102,8 @@ bool fits(const FileDescriptor& file, std::uint64_t bytes, const Line& line) {
 std::string_view own_beginning(const std::string& name) {
   if (name == "run.h5" || name == "run.h5.new") return "pulvis run";
   if (name == "run.h5.journal") return "PLVJNL";
-  const bool numbered = name.starts_with("checkpoint-");
-  if (numbered && (name.ends_with(".h5") || name.ends_with(".h5.new"))) return "pulvis checkpoint";
+  const bool state = name.starts_with("checkpoint-") || name.starts_with("state-");
+  if (state && (name.ends_with(".h5") || name.ends_with(".h5.new"))) return "pulvis checkpoint";
   return {};
 }
 
@@ -156,7 +156,8 @@ bool is_own(const fs::path& file, std::string_view of) {
 
 void require_own_or_none(const fs::path& file, std::string_view of) {
   if (!is_there(file) || is_own(file, of)) return;
-  if (!is_there(file)) return;  // its folder went away between the two looks: who writes will name that
+  if (!is_there(file))
+    return;  // its folder went away between the two looks: who writes will name that
   throw ForeignFile(file, "write it",
                     fmt::format("there is one that Pulvis did not write as a file of a {}, or that "
                                 "was changed since; allowed: another folder or name, or moving it "

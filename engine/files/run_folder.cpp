@@ -47,12 +47,13 @@ bool is_result(const std::string& name) {
   for (const char* const own :
        {"run.h5", "run.xdmf", "history.csv", "summary.json", "report.html", "scene.toml"})
     if (name == own) return true;
-  return false;
+  return name.starts_with("state-") && name.ends_with(".h5");
 }
 
 bool belongs_to_a_run(const std::string& name) {
   if (is_result(name) || name == "run.h5.new" || name == "run.h5.journal") return true;
-  return name.starts_with("checkpoint-") && (name.ends_with(".h5") || name.ends_with(".h5.new"));
+  const bool state = name.starts_with("checkpoint-") || name.starts_with("state-");
+  return state && (name.ends_with(".h5") || name.ends_with(".h5.new"));
 }
 
 std::vector<fs::path> files_of_a_run(const fs::path& folder) {

@@ -29,7 +29,7 @@ class FolderLock {
 // Makes the folder, parents included, and checks that files can be written into it. One that holds a file where
 // the run will write its own, and that no run wrote, is refused (ForeignFile: engine/files/own_files.hpp), and one with
 // results of a run unless `overwrite`. Then the old run's own files (run.h5, run.xdmf, history.csv, summary.json,
-// report.html, scene.toml, checkpoint-*.h5, what `figure` drew in pictures/) go and others stay. A refusal
+// report.html, scene.toml, checkpoint-*.h5, state-*.h5, what `figure` drew in pictures/) go and others stay. A refusal
 // leaves everything as it was: what this call made is taken away again.
 FolderLock open_run_folder(const std::filesystem::path& folder, bool overwrite = false);
 // Only that: made, parents included, and files can be written into it.

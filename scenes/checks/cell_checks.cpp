@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "scenes/tools/die_cell.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -55,18 +57,68 @@ class CellChecks {
     for (std::size_t i = 0; i < scene_.stages.size(); ++i) {
       const StageSpec& stage = scene_.stages[i];
       const std::string path = fmt::format("stage[{}].", i);
-      if (scene_.cell && stage.until)
-        refuse(path + "until", "a cell's stages last as long as they say, allowed: `duration`");
+      if (scene_.cell && stage.until && !stage.until->relative_density)
+        refuse(path + "until", "a cell has no tools, allowed: `relative_density`");
+      keeping(i, path);
       if (!stage.cell) continue;
-      if (!scene_.cell) refuse(path + "cell", "there is no cell, allowed: with a table [cell]");
-      const CellDriveSpec& drive = *stage.cell;
-      const std::array<std::pair<const char*, bool>, 3> both{
-          std::pair{"stress_xx", drive.strain_xx && drive.stress_xx},
-          std::pair{"stress_yy", drive.strain_yy && drive.stress_yy},
-          std::pair{"stress_xy", drive.strain_xy && drive.stress_xy}};
-      for (const auto& [key, twice] : both)
-        if (twice)
-          refuse(path + "cell." + key, "this component has a strain, too, allowed: one of both");
+      drive(*stage.cell, path + "cell");
+      if (!scene_.cell) walls(stage, path);
+    }
+  }
+
+  void keeping(std::size_t i, const std::string& path) {
+    if (!scene_.stages[i].keep_state) return;
+    if (!scene_.cell)
+      refuse(path + "keep_state",
+             "only a powder in a periodic cell can begin with a state, allowed: in a scene with "
+             "[cell]");
+    for (std::size_t k = 0; k < i; ++k)
+      if (scene_.stages[k].keep_state && scene_.stages[k].name == scene_.stages[i].name)
+        refuse(path + "name",
+               fmt::format("two stages that keep their state are called '{}', allowed: each name "
+                           "once",
+                           scene_.stages[i].name));
+  }
+
+  void drive(const CellDriveSpec& drive, const std::string& path) {
+    const std::array<std::pair<const char*, bool>, 3> both{
+        std::pair{".stress_xx", drive.strain_xx && drive.stress_xx},
+        std::pair{".stress_yy", drive.strain_yy && drive.stress_yy},
+        std::pair{".stress_xy", drive.strain_xy && drive.stress_xy}};
+    for (const auto& [key, twice] : both)
+      if (twice) refuse(path + key, "this component has a strain, too, allowed: one of both");
+    const int of_xx = int{drive.strain_xx || drive.stress_xx} +
+                      int{drive.stress_ratio.has_value()} + int{drive.mean_stress.has_value()};
+    if (of_xx > 1)
+      refuse(path + (drive.mean_stress ? ".mean_stress" : ".stress_ratio"),
+             "the component xx has something else to follow, too, allowed: one of strain_xx, "
+             "stress_xx, stress_ratio and mean_stress");
+  }
+
+  // Of a scene without a cell.
+  void walls(const StageSpec& stage, const std::string& path) {
+    const auto die = die_cell(scene_);
+    if (!die)
+      return refuse(path + "cell",
+                    "there is no cell, allowed: with a table [cell], or in a scene whose tools are "
+                    "four planes with normals along +x, -x, +y and -y");
+    const CellDriveSpec& drive = *stage.cell;
+    if (drive.strain_xy || drive.stress_xy)
+      refuse(path + (drive.strain_xy ? "cell.strain_xy" : "cell.stress_xy"),
+             "planes cannot shear, allowed: in a periodic cell");
+    if (drive.rotation != 0)
+      refuse(path + "cell.rotation", "planes cannot turn, allowed: in a periodic cell");
+    for (const int tool : {die->left, die->right, die->bottom, die->top})
+      if (scene_.tools[static_cast<std::size_t>(tool)].shape != ToolSpec::Shape::plane)
+        refuse(fmt::format("tool[{}]", tool),
+               "it would be moved by [stage.cell], allowed: a plane on each side");
+    for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
+      if (!scene_.stages[s].servos.empty())
+        refuse(fmt::format("stage[{}].servo[0]", s),
+               "another stage moves the walls by [stage.cell], allowed: one of both in a scene");
+      if (!scene_.stages[s].moves.empty() && scene_.stages[s].cell)
+        refuse(fmt::format("stage[{}].move[0]", s),
+               "[stage.cell] moves the walls, allowed: one of both in a stage");
     }
   }
 

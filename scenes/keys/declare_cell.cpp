@@ -73,7 +73,9 @@ const TableDeclaration<CellDriveSpec>& cell_drive() {
   static const TableDeclaration<CellDriveSpec> declaration{
       {"stage.cell", false, "",
        "How the periodic cell deforms during the stage above it: each component by a strain, or "
-       "by the stress that it is to bear. Without this table the cell keeps its shape.",
+       "by the stress that it is to bear. Without this table the cell keeps its shape. In a die of "
+       "four planes with normals along x and y: how these move, without shear and rotation, both "
+       "sides alike.",
        compaction_only, true},
       {strain_key("strain_xx",
                   "Logarithmic strain over the stage: the rate of deformation xx, integrated; < 0 "
@@ -86,6 +88,21 @@ const TableDeclaration<CellDriveSpec>& cell_drive() {
                   &CellDriveSpec::stress_xx),
        stress_key("stress_yy", "The same, yy.", &CellDriveSpec::stress_yy),
        stress_key("stress_xy", "The same, xy.", &CellDriveSpec::stress_xy),
+       {{.name = "stress_ratio",
+         .kind = Kind::number,
+         .range = within(-100, 100),
+         .doc = "Instead of strain_xx and stress_xx: the stress xx is kept at this share of the "
+                "stress yy of the moment.",
+         .fallback_doc = "none"},
+        to(&CellDriveSpec::stress_ratio)},
+       {{.name = "mean_stress",
+         .kind = Kind::quantity,
+         .unit = "Pa",
+         .range = within(-1e13, 1e13),
+         .doc = "Instead of strain_xx and stress_xx: the stress xx is kept so that the mean of xx "
+                "and yy is this; < 0 in compression.",
+         .fallback_doc = "none"},
+        to(&CellDriveSpec::mean_stress)},
        {{.name = "rotation",
          .kind = Kind::quantity,
          .unit = "rad",

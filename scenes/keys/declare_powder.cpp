@@ -110,7 +110,16 @@ const TableDeclaration<Scene>& top_level() {
          .doc = "Seed of everything random; the same seed gives the same run."},
         [](Scene& scene, const Decoded& value) {
           scene.seed = static_cast<std::uint64_t>(value.integer);
-        }}}};
+        }},
+       {{.name = "initial_state",
+         .kind = Kind::file,
+         .only_for = compaction_only,
+         .doc = "A state that another run of the same powder has kept (`stage.keep_state`), "
+                "relative to the scene's folder: the powder in its periodic cell begins with it, "
+                "at time 0 and with the stages of this scene. What is drawn or counted over a run "
+                "(strain, work, energies) goes on from there.",
+         .fallback_doc = "the powder as it is packed"},
+        [](Scene& scene, const Decoded& value) { scene.initial_state = value.text; }}}};
   return declaration;
 }
 

@@ -68,7 +68,13 @@ const TableDeclaration<StageSpec>& stage() {
          .range = within(1e-15, 1e6),
          .required = true,
          .doc = "Simulated time."},
-        to(&StageSpec::duration)}}};
+        to(&StageSpec::duration)},
+       {{.name = "keep_state",
+         .kind = Kind::flag,
+         .fallback = value_of(false),
+         .doc = "Keep the state at the stage's end as `state-<name>.h5` in the run's folder: other "
+                "scenes can begin with it (`initial_state`)."},
+        [](StageSpec& spec, const Decoded& value) { spec.keep_state = value.flag; }}}};
   return declaration;
 }
 

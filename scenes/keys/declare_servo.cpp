@@ -86,8 +86,10 @@ const TableDeclaration<ServoSpec>& servo() {
 const TableDeclaration<UntilSpec>& until() {
   static const TableDeclaration<UntilSpec> declaration{
       {"stage.until", false, "",
-       "Ends the stage above it before its time is over; its tools then come to rest as smoothly "
-       "as they started. A stage whose time is over before that stops the run. One of `force`, "
+       "Ends the stage above it before its time is over; its tools, or strains, then come to rest "
+       "as "
+       "smoothly as they started. A stage whose time is over before that stops the run. One of "
+       "`force`, "
        "`displacement` and `relative_density`.",
        compaction_only, true},
       {{{.name = "tool",
@@ -116,7 +118,7 @@ const TableDeclaration<UntilSpec>& until() {
        {{.name = "relative_density",
          .kind = Kind::number,
          .range = above(0, 2),
-         .doc = "Of the powder in a die of four planes.",
+         .doc = "Of the powder in a die of four planes, or in a periodic cell.",
          .fallback_doc = "none"},
         to(&UntilSpec::relative_density)}}};
   return declaration;

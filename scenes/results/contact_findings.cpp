@@ -42,7 +42,7 @@ ContactLoading::ContactLoading(const Scene& scene) : stiffness_(scene.contact.st
 }
 
 bool ContactLoading::loads(const World& world) const {
-  if (!world.has<ContactQuality>() || !world.has<ToolProgram>()) return false;
+  if (!world.has<ContactQuality>() || !world.has<ToolForce>()) return false;
   const std::size_t stage = world.resource<ToolProgram>().stage_at(world.resource<Clock>().time);
   return stage < loads_.size() ? loads_[stage] : loads_.back();
 }

@@ -8,6 +8,7 @@
 #include "scenes/results/observed_results.hpp"
 #include "scenes/results/shear_results.hpp"
 #include "scenes/tools/bond_rules.hpp"
+#include "scenes/tools/cell.hpp"
 #include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
@@ -60,16 +61,16 @@ class SeriesList {
   }
 
   void add_cell() {
-    add("relative_density", "-", "undeformed particle area / area of the cell");
-    add("cell/width", "m", "length of its first vector");
-    add("cell/height", "m", "length of its second vector");
+    if (scene_.cell) add("relative_density", "-", "undeformed particle area / area of the cell");
+    add("cell/width", "m", "length of its first vector, or between the walls");
+    add("cell/height", "m", "length of its second vector, or between the walls");
     for (const char* part : {"xx", "yy", "xy"})
       add(std::string("cell/strain_") + part, "-",
           "logarithmic: rate of deformation of the cell, integrated");
     add("cell/rotation", "rad", "spin of the cell, integrated");
     for (const char* part : {"xx", "yy", "xy"})
       add(std::string("cell/stress_") + part, "Pa",
-          "Cauchy, of the forces across the cell's borders; tension > 0");
+          "Cauchy, of the forces across the cell's borders, or on the walls; tension > 0");
   }
 
   void add_energies() {
@@ -124,7 +125,7 @@ std::vector<SeriesInfo> history_series(const Scene& scene) {
   SeriesList list(scene);
   for (const ToolSpec& tool : scene.tools) list.add_tool(tool);
   if (die_cell(scene)) list.add_die();
-  if (scene.cell) list.add_cell();
+  if (scene.cell || drives_walls(scene)) list.add_cell();
   list.add_energies();
   list.add_quality();
   list.add(observed_series(scene));

@@ -175,7 +175,7 @@ void Results::take_energies() {
   e.external = totals.external_work;
   const double all = e.kinetic + e.elastic + e.plastic + e.hourglass + e.contact + e.friction +
                      e.damping + e.bulk_damping + e.bonds + e.fracture;
-  if (first_) initial_energy_ = all;
+  if (first_) initial_energy_ = all - e.external;  // a state to begin with has its own
   first_ = false;
   e.balance = all - e.external - initial_energy_;
   // "Not smaller" instead of "larger": a NaN must come through to the limits.
@@ -263,14 +263,20 @@ void Results::append_density(std::vector<double>& row) const {
 }
 
 void Results::append_cell(std::vector<double>& row) const {
-  if (!world_.has<PeriodicCell>()) return;
-  const auto& cell = world_.resource<PeriodicCell>();
-  const auto& h = cell.vectors.t;
-  row.insert(row.end(), {particle_area_ / cell.area(), portable::hypot(h[0], h[2]),
-                         portable::hypot(h[1], h[3])});
-  row.insert(row.end(), cell.strain.begin(), cell.strain.end());
-  row.push_back(cell.rotation);
-  row.insert(row.end(), cell.stress.begin(), cell.stress.end());
+  const auto append = [&](double width, double height, const MixedControl& control) {
+    row.insert(row.end(), {width, height});
+    row.insert(row.end(), control.strain.begin(), control.strain.end());
+    row.push_back(control.rotation);
+    row.insert(row.end(), control.stress.begin(), control.stress.end());
+  };
+  if (world_.has<PeriodicCell>()) {
+    const auto& cell = world_.resource<PeriodicCell>();
+    const auto& h = cell.vectors.t;
+    row.push_back(particle_area_ / cell.area());
+    append(portable::hypot(h[0], h[2]), portable::hypot(h[1], h[3]), cell.control);
+  } else if (world_.has<DrivenWalls>()) {
+    append(die_size().x(), die_size().y(), world_.resource<DrivenWalls>().control);
+  }
 }
 
 // m^2, of what is around the powder; 0: nothing is.

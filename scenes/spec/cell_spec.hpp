@@ -17,19 +17,19 @@ struct CellSpec {
   SourceMark mark;
 };
 
-// How the cell deforms in a stage: each part of the rate of deformation follows a strain or keeps a stress.
+// How the cell, or the die of four planes, deforms in a stage: each part of the rate of deformation follows a strain or keeps a stress.
 struct CellDriveSpec {
   std::optional<double> strain_xx, strain_yy,
       strain_xy;  // -, over the stage; absent: 0, or stress-driven
   std::optional<double> stress_xx, stress_yy, stress_xy;  // Pa, tension > 0
-  double rotation = 0;                                    // rad, over the stage
-  double ramp = 0.1;        // -, share of the stage in which the rate rises, and falls
-  double rise = 0.2;        // -, share of the stage until a stress is asked for in full
-  double response = 0.1;    // -, inertia of the cell over that of the powder
-  double tolerance = 0.05;  // -, of the largest stress, at the end of the stage
+  std::optional<double> stress_ratio;  // -, of xx to yy, instead of strain or stress xx
+  std::optional<double> mean_stress;   // Pa, of xx and yy, the same
+  double rotation = 0;                 // rad, over the stage
+  double ramp = 0.1;                   // -, share of the stage in which the rate rises, and falls
+  double rise = 0.2;                   // -, share of the stage until a stress is asked for in full
+  double response = 0.1;               // -, inertia of the cell over that of the powder
+  double tolerance = 0.05;             // -, of the largest stress, at the end of the stage
   SourceMark mark;
-
-  bool any_stress() const { return stress_xx || stress_yy || stress_xy; }
 };
 
 }  // namespace pulvis

@@ -303,6 +303,7 @@ struct StageSpec {
   std::vector<ServoSpec> servos;
   std::optional<UntilSpec> until;
   std::optional<CellDriveSpec> cell;
+  bool keep_state = false;  // at its end, for other runs to begin with
   SourceMark mark;
 };
 
@@ -400,6 +401,7 @@ struct Scene {
   std::string title;
   double thickness = 1e-3;  // m, of the plane-strain slice: forces are in N
   std::uint64_t seed = 1;
+  std::optional<std::string> initial_state;  // file
   std::vector<MaterialSpec> materials;
   std::vector<ParticleSpec> particles;
   std::vector<ParticleSpec> grains;     // of particles that are made of them

@@ -11,6 +11,7 @@
 #include "components/servo.hpp"
 #include "engine/access.hpp"
 #include "scenes/outlines/outline.hpp"
+#include "scenes/tools/cell.hpp"
 #include "scenes/tools/die_cell.hpp"
 #include "scenes/tools/powder.hpp"
 #include "scenes/tools/servo_checks.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 ToolProgram tool_program(const World& world, const Scene& scene) {
   ToolProgram program;
-  const double* start = world.column<ToolPosition>().values();
+  const double* start = scene.tools.empty() ? nullptr : world.column<ToolPosition>().values();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     program.names.push_back(scene.tools[t].name);
     program.start.push_back({start[2 * t], start[2 * t + 1]});
@@ -101,12 +102,13 @@ StageEnds stage_ends(const World& world, const Scene& scene, const std::vector<B
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     if (scene.stages[s].until)
       ends.ends.push_back(end_of(scene, static_cast<int>(s), *scene.stages[s].until));
+  ends.cell.particle_area = powder_of(scene, bodies).area;
   if (const auto cell = die_cell(scene))
     ends.cell = {cell->left,
                  cell->right,
                  cell->bottom,
                  cell->top,
-                 powder_of(scene, bodies).area,
+                 ends.cell.particle_area,
                  relief_of(world, cell->bottom)};
   return ends;
 }
@@ -130,6 +132,7 @@ void add_drives(World& world, const Scene& scene, const std::vector<BodySpec>& b
     world.add<ServoForce>();
     world.emplace<ToolServos>(tool_servos(scene, bodies));
   }
+  add_driven_walls(world, scene, bodies);
   if (has_early_ends(scene)) world.emplace<StageEnds>(stage_ends(world, scene, bodies));
 }
 

@@ -78,10 +78,11 @@ class ServoChecks {
                       aims));
     if (until.relative_density && until.tool)
       refuse(path, "tool", "has no effect together with relative_density, allowed: without it");
-    if (until.relative_density && !die_cell(scene_))
+    if (until.relative_density && !scene_.cell && !die_cell(scene_))
       refuse(path, "relative_density",
-             "there is no die that it refers to, allowed: in a scene whose tools are four planes "
-             "with normals along +x, -x, +y and -y");
+             "there is no die that it refers to, allowed: in a periodic cell, or in a scene whose "
+             "tools "
+             "are four planes with normals along +x, -x, +y and -y");
   }
 
   const Scene& scene_;

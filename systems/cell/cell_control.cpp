@@ -5,30 +5,28 @@
 //          sampled side against that image does work at a rate f . (h' n) through the cell alone: stress =
 //          sum f (x) h n / (area thickness), tension > 0 (Christoffersen, Mehrabadi & Nemat-Nasser 1981, with the
 //          borders as section)
-// Drives   parts of the rate of deformation that a strain drives follow the stage; those that a stress drives move as
-//          a mass that the missing stress pushes and a dashpot damps (systems/tools/servo_kernel.hpp): force
-//          (asked - stress) area thickness, mass in kg m^2, speed in 1/s
+// Control  systems/cell/mixed_control.hpp
 // Vectors  by the midpoint rule, (h_(n+1) - h_n)/dt = L (h_n + h_(n+1))/2: their area follows the trace of L
 // Runs     after the contacts of the step; cell_kick and cell_motion carry it out
 // Watches  that asked stresses are held when their stage ends
-#include <fmt/format.h>
-
+//
+// wall_control: the same for the four planes of a die, with the stresses that they bear. They move alike on both sides, about
+// the middle between them.
+//
+// Runs     after tool_reaction; tool_motion carries it out in the next step
 #include <algorithm>
 #include <cmath>
 
 #include "engine/entry.hpp"
-#include "engine/run_failure.hpp"
+#include "systems/cell/mixed_control.hpp"
 #include "systems/cell/systems.hpp"
-#include "systems/tools/servo_kernel.hpp"
 #include "systems/tools/servo_touch.hpp"
-#include "systems/tools/tool_kernel.hpp"
 
 namespace pulvis {
 namespace {
 
-using Stage = PeriodicCell::Stage;
-using Parts = std::array<double, PeriodicCell::parts>;
-constexpr std::array<const char*, PeriodicCell::parts> names{"xx", "yy", "xy"};
+using kernels::TouchSums;
+using Parts = std::array<double, MixedControl::parts>;
 
 struct BorderSums {
   Tensor2 force;                // N
@@ -63,60 +61,6 @@ Parts stress_of(const PeriodicCell& cell) {
   return {sum.t[0], sum.t[3], 0.5 * (sum.t[1] + sum.t[2])};
 }
 
-void check_held(const Stage& stage, const PeriodicCell& cell, const Clock& clock) {
-  double largest = 0;
-  for (int k = 0; k < PeriodicCell::parts; ++k)
-    if (entry(stage.stress_driven, k))
-      largest = std::max(largest, std::abs(entry(stage.stress, k)));
-  for (int k = 0; k < PeriodicCell::parts; ++k) {
-    if (!entry(stage.stress_driven, k)) continue;
-    if (std::abs(entry(cell.stress, k) - entry(stage.stress, k)) <= stage.tolerance * largest)
-      continue;
-    throw RunFailure(fmt::format(
-        "cell_control: the cell's stress {} is {:.6g} Pa at the end of stage '{}', step {}, t = "
-        "{:.6g} s; asked for {:.6g} Pa, allowed: within {:.3g} Pa of it (stage.cell.tolerance); a "
-        "longer stage or a denser powder would reach it",
-        entry(names, k), entry(cell.stress, k), stage.name, clock.step, clock.time,
-        entry(stage.stress, k), stage.tolerance * largest));
-  }
-}
-
-// Of the displacement, that the stage has come in the step that ends at `time`.
-double share_in_step(const Stage& stage, double time, double dt) {
-  const auto share = [&](double t) {
-    return kernels::cut_travel((t - stage.begin) / stage.duration, stage.ramp, 1e300);
-  };
-  return share(time + dt) - share(time);
-}
-
-double asked_for(const Stage& stage, int part, double at_begin, double since) {
-  const double share = since < stage.rise ? kernels::ramp_speed(since / stage.rise) : 1;
-  return at_begin + share * (entry(stage.stress, part) - at_begin);
-}
-
-// Rate of the part over the next step, 1/s.
-double driven_by_stress(const Stage& stage, int part, bool new_stage, bool was_driven,
-                        const kernels::TouchSums& touching, const Clock& clock,
-                        PeriodicCell& cell) {
-  PeriodicCell::Drive& drive = entry(cell.drives, part);
-  if (new_stage) drive.at_begin = entry(cell.stress, part);
-  if (new_stage && !was_driven) drive.mass = stage.mass;
-  entry(cell.asked, part) = asked_for(stage, part, drive.at_begin, clock.time - stage.begin);
-  const double sides = part == PeriodicCell::xy ? 2 : 1;  // xy and yx
-  const double missing =
-      sides * (entry(cell.asked, part) - entry(cell.stress, part)) * cell.area() * cell.thickness;
-  const double minimum = sides * kernels::min_tool_mass(touching, clock.dt, clock.safety);
-  const kernels::ServoState now = kernels::with_mass({drive.mass, drive.speed, drive.dragged},
-                                                     std::max(sides * stage.mass, minimum));
-  const double damping = sides * stage.damping * std::sqrt(now.mass / (sides * stage.mass));
-  const kernels::ServoState next =
-      kernels::servo_step(now, missing, damping, 1e300, 0.5 * (clock.dt_before + clock.dt));
-  drive.mass = next.mass;
-  drive.speed = next.speed;
-  drive.dragged = next.dragged;
-  return next.speed;
-}
-
 }  // namespace
 
 void cell_control::operator()() const {
@@ -127,32 +71,12 @@ void cell_control::operator()() const {
   totals->external_work += work;
   totals->largest_work = std::max(totals->largest_work, std::abs(work));
   now.border_force = sums.force;
-  now.stress = stress_of(now);
+  now.control.stress = stress_of(now);
 
-  const std::size_t number = now.stage_at(clock->time);
-  const bool new_stage = number != now.stage;
-  const Stage* last = now.stage < now.stages.size() ? &now.stages[now.stage] : nullptr;
-  if (new_stage && last != nullptr && last->holds_stress()) check_held(*last, now, *clock);
-  Parts rate{};
-  double spin = 0;
-  if (number < now.stages.size()) {
-    const Stage& stage = now.stages[number];
-    const double share = share_in_step(stage, clock->time, clock->dt) / clock->dt;
-    for (int k = 0; k < PeriodicCell::parts; ++k) {
-      const bool was_driven = last != nullptr && entry(last->stress_driven, k);
-      if (entry(stage.stress_driven, k)) {
-        entry(rate, k) =
-            driven_by_stress(stage, k, new_stage, was_driven, sums.touching, *clock, now);
-      } else {
-        entry(rate, k) = share * entry(stage.strain, k);
-        entry(now.drives, k) = {};
-        entry(now.asked, k) = 0;
-      }
-    }
-    spin = share * stage.rotation;
-  }
-  now.stage = number;
-  const Tensor2 gradient{{rate[0], rate[2] - spin, rate[2] + spin, rate[1]}};
+  const Rates rates = rates_of(now.control, *program, *clock, now.area() * now.thickness,
+                               {sums.touching, sums.touching, sums.touching});
+  const auto& rate = rates.deformation;
+  const Tensor2 gradient{{rate[0], rate[2] - rates.spin, rate[2] + rates.spin, rate[1]}};
   now.gradient = gradient;
   const Tensor2 half = (0.5 * clock->dt) * gradient;
   constexpr Tensor2 one{{1, 0, 0, 1}};
@@ -167,10 +91,48 @@ void cell_motion::operator()() const {
   now.rate = (1 / clock->dt) * (now.next + -1.0 * now.vectors);
   now.vectors = now.next;
   const auto& l = now.gradient.t;
-  now.strain[PeriodicCell::xx] += l[0] * clock->dt;
-  now.strain[PeriodicCell::yy] += l[3] * clock->dt;
-  now.strain[PeriodicCell::xy] += 0.5 * (l[1] + l[2]) * clock->dt;
-  now.rotation += 0.5 * (l[2] - l[1]) * clock->dt;
+  add_strain(now.control, {{l[0], l[3], 0.5 * (l[1] + l[2])}, 0.5 * (l[2] - l[1])}, clock->dt);
+}
+
+// ---- walls ----------------------------------------------------------------------------------------
+namespace {
+
+// Of the contacts of two planes that move apart by half of the strain each, times the squares of their ways.
+TouchSums pressed_by(int low, int high, double size, const wall_control& s) {
+  TouchSums sums;
+  const double square = 0.25 * size * size;
+  for (int r = 0; r < s.contacts.pair.rows(); ++r) {
+    const Row<ToolContact> row(r);
+    const int tool = s.contacts.pair(row, 2);
+    if (s.contacts.touches(row) == 0 || (tool != low && tool != high)) continue;
+    const TouchSums one = touching_of(row, s.contacts, s.law, s.rules->stiffest_weld());
+    sums.stiffness += square * one.stiffness;
+    sums.damping += square * one.damping;
+  }
+  return sums;
+}
+
+}  // namespace
+
+void wall_control::operator()() const {
+  DrivenWalls& now = *drive.walls;
+  const Row<Tool> left(now.left), right(now.right), bottom(now.bottom), top(now.top);
+  const double width = position(right, 0) - position(left, 0);
+  const double height = position(top, 1) - position(bottom, 1);
+  now.control.stress = {-0.5 * (force(right, 0) - force(left, 0)) / (height * now.thickness),
+                        -0.5 * (force(top, 1) - force(bottom, 1)) / (width * now.thickness), 0};
+  const Rates rates = rates_of(now.control, *program, *clock, width * height * now.thickness,
+                               {pressed_by(now.left, now.right, width, *this),
+                                pressed_by(now.bottom, now.top, height, *this), TouchSums{}});
+  const auto move = [&](Row<Tool> low, Row<Tool> high, int axis, double size, double rate) {
+    const double half = 0.5 * rate * clock->dt;  // midpoint rule, as in a cell
+    const double speed = 0.5 * rate * size / (1 - half);
+    drive.velocity(low, axis) = -speed;
+    drive.velocity(high, axis) = speed;
+  };
+  move(left, right, 0, width, rates.deformation[0]);
+  move(bottom, top, 1, height, rates.deformation[1]);
+  add_strain(now.control, rates, clock->dt);
 }
 
 }  // namespace pulvis

@@ -1,8 +1,9 @@
-// Systems of the periodic cell. What a system reads and writes is what it declares here.
+// Systems of the periodic cell, and of a die that is driven like one. What a system reads and writes is what it declares here.
 #pragma once
 
 #include "components/bundles.hpp"
 #include "components/cell.hpp"
+#include "components/servo.hpp"
 
 namespace pulvis {
 
@@ -16,6 +17,7 @@ struct cell_control {
     Read<ContactImage> image;
   } borders;
   Read<KickWork> kick_work;
+  Read<ToolProgram> program;
   Write<PeriodicCell> cell;
   Write<Totals> totals;
   void operator()() const;
@@ -31,6 +33,21 @@ struct cell_kick {
   Write<Velocity> velocity;
   Write<KickWork> work;
   void operator()(Chunk chunk) const;
+};
+
+struct wall_control {
+  Read<Clock> clock;
+  Read<ContactRules> rules;
+  Read<ToolProgram> program;
+  TouchingRows<ToolContact> contacts;
+  Read<ContactLaw<ToolContact>> law;
+  Read<ToolPosition> position;
+  Read<ToolForce> force;
+  struct Drive {
+    Write<DrivenWalls> walls;
+    Write<ServoVelocity> velocity;
+  } drive;
+  void operator()() const;
 };
 
 struct cell_motion {

@@ -1,4 +1,4 @@
-// stage_control: ends a stage when what its `until` asks for is reached. Its tools come to rest smoothly, in
+// stage_control: ends a stage when what its `until` asks for is reached. Its tools, or strains, come to rest smoothly, in
 // as long as they took to start, and all that follows begins earlier.
 //
 // Runs     after tool_reaction, before tool_servo
@@ -29,8 +29,12 @@ double relative_density(const StageEnds::Cell& cell, const Read<ToolPosition>& a
   return cell.particle_area / kernels::die_area(sides, cell.relief);
 }
 
-double value_now(const End& end, const StageEnds& ends, const Read<ToolPosition>& at,
-                 const Read<ToolForce>& force) {
+double value_now(const End& end, const stage_control& s) {
+  const StageEnds& ends = *s.ends;
+  if (end.kind == StageEnds::Kind::density && s.cell)
+    return ends.cell.particle_area / (*s.cell)->area();
+  const Read<ToolPosition>& at = s.tools->position;
+  const Read<ToolForce>& force = s.tools->force;
   const Row<Tool> tool(end.tool);
   if (end.kind == StageEnds::Kind::density) return relative_density(ends.cell, at);
   if (end.kind == StageEnds::Kind::displacement) {
@@ -42,18 +46,26 @@ double value_now(const End& end, const StageEnds& ends, const Read<ToolPosition>
   return any_way ? portable::hypot(force(tool, 0), force(tool, 1)) : -along;
 }
 
-// How long its tools take to come to rest; 0 where none is on its way.
-double time_to_rest(const ToolProgram& program, int stage) {
+// How long its tools, or strains, take to come to rest; 0 where none is on its way.
+double time_to_rest(const ToolProgram& program, const MixedControl* control, int stage) {
   double longest = 0;
+  if (control != nullptr) {
+    const MixedControl::Stage& asked = entry(control->stages, stage);
+    for (int k = 0; k < MixedControl::parts; ++k)
+      if (entry(asked.law, k) == MixedControl::Law::strain && entry(asked.strain, k) != 0)
+        longest = asked.ramp * asked.duration;
+  }
   for (const ToolProgram::Segment& s : program.segments)
     if (s.stage == stage) longest = std::max(longest, s.ramp * s.duration);
   return longest;
 }
 
-void end_early(const End& end, double time, ToolProgram& program, double& run_end) {
+void end_early(const End& end, double time, MixedControl* control, ToolProgram& program,
+               double& run_end) {
   ToolProgram::Stage& stage = entry(program.stages, end.stage);
-  const double saved = stage.end - (time + time_to_rest(program, end.stage));
+  const double saved = stage.end - (time + time_to_rest(program, control, end.stage));
   if (saved <= 0) return;  // its time is all but over
+  if (control != nullptr) control->cut = time;
   stage.end -= saved;
   run_end -= saved;
   for (auto s = static_cast<std::size_t>(end.stage) + 1; s < program.stages.size(); ++s) {
@@ -92,18 +104,20 @@ void stage_control::operator()() const {
   if (new_stage)
     for (End& end : ends->ends)
       if (static_cast<std::size_t>(end.stage) == ends->stage && !end.reached)
-        stop(end, *program, *clock, value_now(end, *ends, position, force));
-  if (new_stage) {
-    ends->tools_at_begin.resize(static_cast<std::size_t>(position.rows()));
-    for (int t = 0; t < position.rows(); ++t)
-      entry(ends->tools_at_begin, t) = {position(Row<Tool>(t), 0), position(Row<Tool>(t), 1)};
+        stop(end, *program, *clock, value_now(end, *this));
+  if (new_stage && tools) {
+    ends->tools_at_begin.resize(static_cast<std::size_t>(tools->position.rows()));
+    for (int t = 0; t < tools->position.rows(); ++t)
+      entry(ends->tools_at_begin, t) = {tools->position(Row<Tool>(t), 0),
+                                        tools->position(Row<Tool>(t), 1)};
   }
   ends->stage = stage;
   ends->run_end = std::min(ends->run_end, clock->end);
+  MixedControl* control = cell ? &(*cell)->control : walls ? &(*walls)->control : nullptr;
   for (End& end : ends->ends) {
     if (static_cast<std::size_t>(end.stage) != stage || end.reached) continue;
-    end.reached = value_now(end, *ends, position, force) >= end.value;
-    if (end.reached) end_early(end, clock->time, *program, ends->run_end);
+    end.reached = value_now(end, *this) >= end.value;
+    if (end.reached) end_early(end, clock->time, control, *program, ends->run_end);
   }
 }
 

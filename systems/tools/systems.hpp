@@ -21,8 +21,13 @@ struct tool_motion {
 
 struct stage_control {
   Read<Clock> clock;
-  Read<ToolPosition> position;
-  Read<ToolForce> force;
+  struct Tools {
+    Read<ToolPosition> position;
+    Read<ToolForce> force;
+  };
+  Optional<Tools> tools;
+  Optional<Write<PeriodicCell>> cell;
+  Optional<Write<DrivenWalls>> walls;
   Write<StageEnds> ends;
   Write<ToolProgram> program;
   void operator()() const;

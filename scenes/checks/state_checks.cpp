@@ -1,0 +1,40 @@
+#include "scenes/checks/state_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/files/checkpoint.hpp"
+
+namespace pulvis {
+namespace {
+
+// Why the scene cannot begin with it; empty: it can.
+std::string unfit_state(const std::filesystem::path& file, std::uint64_t powder_hash) {
+  const std::string allowed = "allowed: a state-*.h5 that a run kept (stage.keep_state)";
+  if (!std::filesystem::is_regular_file(file))
+    return fmt::format("'{}' is no file, {}", file.string(), allowed);
+  try {
+    const Checkpoint state(file);
+    if (state.info().powder_hash != fmt::format("{:016x}", powder_hash))
+      return fmt::format(
+          "'{}' is the state of another powder, allowed: of a scene that differs in title, "
+          "[[stage]], [[expect]], [limits], output.samples and output.frames alone",
+          file.string());
+  } catch (const DamagedCheckpoint& damage) {
+    return fmt::format("'{}': {}, {}", file.string(), damage.what(), allowed);
+  }
+  return {};
+}
+
+}  // namespace
+
+void check_initial_state(const Scene& scene, std::uint64_t powder_hash,
+                         const schema::Origins& origins, Problems& problems) {
+  if (!scene.initial_state) return;
+  const std::string unfit =
+      scene.cell ? unfit_state(scene.file.parent_path() / *scene.initial_state, powder_hash)
+                 : "only a powder in a periodic cell can begin with a state, allowed: in a scene "
+                   "with [cell]";
+  if (!unfit.empty()) problems.add(origins.at("initial_state"), "initial_state", unfit);
+}
+
+}  // namespace pulvis

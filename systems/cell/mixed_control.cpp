@@ -1,0 +1,137 @@
+#include "systems/cell/mixed_control.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/entry.hpp"
+#include "engine/run_failure.hpp"
+#include "systems/tools/tool_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+using Stage = MixedControl::Stage;
+using Law = MixedControl::Law;
+constexpr std::array<const char*, MixedControl::parts> names{"xx", "yy", "xy"};
+
+// Pa: what the stage is to come to.
+double aim(const MixedControl& control, const Stage& stage, int part) {
+  const double yy = control.stress[MixedControl::yy], given = entry(stage.stress, part);
+  switch (entry(stage.law, part)) {
+    case Law::ratio:
+      return given * yy;
+    case Law::mean:
+      return 2 * given - yy;
+    default:
+      return given;
+  }
+}
+
+void check_held(const Stage& stage, const std::string& name, const MixedControl& control,
+                const Clock& clock) {
+  double largest = 0;
+  for (int k = 0; k < MixedControl::parts; ++k)
+    if (entry(stage.law, k) != Law::strain)
+      largest =
+          std::max({largest, std::abs(aim(control, stage, k)), std::abs(entry(stage.stress, k))});
+  for (int k = 0; k < MixedControl::parts; ++k) {
+    if (entry(stage.law, k) == Law::strain) continue;
+    const double asked = aim(control, stage, k), reached = entry(control.stress, k);
+    if (std::abs(reached - asked) <= stage.tolerance * largest) continue;
+    throw RunFailure(fmt::format(
+        "mixed_control: the stress {} is {:.6g} Pa at the end of stage '{}', step {}, t = "
+        "{:.6g} s; asked for {:.6g} Pa, allowed: within {:.3g} Pa of it (stage.cell.tolerance); a "
+        "longer stage or a denser powder would reach it",
+        entry(names, k), reached, name, clock.step, clock.time, asked, stage.tolerance * largest));
+  }
+}
+
+// Of the strain, that the stage has come in the step that begins at `since` after it.
+double share_in_step(const Stage& stage, double since, double cut, double dt) {
+  const auto share = [&](double t) {
+    return kernels::cut_travel(t / stage.duration, stage.ramp, cut / stage.duration);
+  };
+  return share(since + dt) - share(since);
+}
+
+double asked_for(const MixedControl& control, const Stage& stage, int part, double since) {
+  const double share = since < stage.rise ? kernels::ramp_speed(since / stage.rise) : 1;
+  const double at_begin = entry(control.servos, part).at_begin;
+  return at_begin + share * (aim(control, stage, part) - at_begin);
+}
+
+// Rate of the part over the next step, 1/s.
+double driven_by_stress(const Stage& stage, int part, double volume,
+                        const kernels::TouchSums& touching, const Clock& clock,
+                        MixedControl& control) {
+  MixedControl::Servo& servo = entry(control.servos, part);
+  const double sides = part == MixedControl::xy ? 2 : 1;  // xy and yx
+  const double missing =
+      sides * (entry(control.asked, part) - entry(control.stress, part)) * volume;
+  const double minimum = sides * kernels::min_tool_mass(touching, clock.dt, clock.safety);
+  const kernels::ServoState now = kernels::with_mass({servo.mass, servo.speed, servo.dragged},
+                                                     std::max(sides * stage.mass, minimum));
+  const double damping = sides * stage.damping * std::sqrt(now.mass / (sides * stage.mass));
+  const kernels::ServoState next =
+      kernels::servo_step(now, missing, damping, 1e300, 0.5 * (clock.dt_before + clock.dt));
+  servo.mass = next.mass;
+  servo.speed = next.speed;
+  servo.dragged = next.dragged;
+  return next.speed;
+}
+
+void begin_stage(const Stage* last, const Stage* stage, MixedControl& control) {
+  control.cut = std::numeric_limits<double>::infinity();
+  if (stage == nullptr) return;
+  for (int k = 0; k < MixedControl::parts; ++k) {
+    if (entry(stage->law, k) == Law::strain) continue;
+    MixedControl::Servo& servo = entry(control.servos, k);
+    servo.at_begin = entry(control.stress, k);
+    if (last == nullptr || entry(last->law, k) == Law::strain) servo.mass = stage->mass;
+  }
+}
+
+}  // namespace
+
+Rates rates_of(MixedControl& control, const ToolProgram& program, const Clock& clock, double volume,
+               const std::array<kernels::TouchSums, MixedControl::parts>& touching) {
+  const std::size_t number = program.stage_at(clock.time);
+  const Stage* stage = number < control.stages.size() ? &control.stages[number] : nullptr;
+  if (number != control.stage) {
+    const Stage* last =
+        control.stage < control.stages.size() ? &control.stages[control.stage] : nullptr;
+    const bool ended_early = std::isfinite(control.cut);
+    if (last != nullptr && last->holds_stress() && !ended_early)
+      check_held(*last, program.stages[control.stage].name, control, clock);
+    begin_stage(last, stage, control);
+  }
+  control.stage = number;
+  Rates rates;
+  if (stage == nullptr) return rates;
+  const double begin = program.stages[number].begin, since = clock.time - begin;
+  const double share = share_in_step(*stage, since, control.cut - begin, clock.dt) / clock.dt;
+  for (int k = 0; k < MixedControl::parts; ++k) {
+    if (entry(stage->law, k) == Law::strain) {
+      entry(rates.deformation, k) = share * entry(stage->strain, k);
+      entry(control.servos, k) = {};
+      entry(control.asked, k) = 0;
+    } else {
+      entry(control.asked, k) = asked_for(control, *stage, k, since);
+      entry(rates.deformation, k) =
+          driven_by_stress(*stage, k, volume, entry(touching, k), clock, control);
+    }
+  }
+  rates.spin = share * stage->rotation;
+  return rates;
+}
+
+void add_strain(MixedControl& control, const Rates& rates, double dt) {
+  for (int k = 0; k < MixedControl::parts; ++k)
+    entry(control.strain, k) += entry(rates.deformation, k) * dt;
+  control.rotation += rates.spin * dt;
+}
+
+}  // namespace pulvis
