@@ -67,8 +67,10 @@ LoadedScene scene_of(const fs::path& folder, const Checkpoint& checkpoint) {
 
 Checkpoints::Checkpoints(const LoadedScene& scene, fs::path folder,
                          const CheckpointOptions& options)
-    : info_{program_version(), program_commit(), hash_text(scene),
-            fmt::format("{:016x}", scene.powder_hash)},
+    : info_{.version = program_version(),
+            .commit = program_commit(),
+            .scene_hash = hash_text(scene),
+            .powder_hash = fmt::format("{:016x}", scene.powder_hash)},
       folder_(std::move(folder)),
       options_(options) {}
 

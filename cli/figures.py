@@ -28,6 +28,7 @@ try:
     from figures_bonds import BOND_FIELDS, breaking, cracks, draw_bonds, fragment_colours, fragment_sizes
     from figures_cell import Cell
     from figures_observed import contact_network, density_profile, local_density, rose
+    from figures_probe import figures_of_probe
     from figures_parts import (STYLE, Run, draw_lines, draw_tools, labelled, outlines, printable, refuse, unit_for,
                                write_csv)
 except ImportError as error:
@@ -210,8 +211,24 @@ def arguments():
     return options
 
 
+def save_probe(options):
+    if options.series or options.field or options.format == "csv":
+        refuse("a probe has its own figures: without --series, --field and csv")
+    plt.rcParams.update(STYLE)
+    folder = options.output or options.run_folder / "pictures"
+    try:
+        figures = figures_of_probe(options.run_folder)
+    except (OSError, ValueError, KeyError) as error:
+        refuse(f"{options.run_folder}: {error}")
+    for name, figure in figures:
+        save(figure, folder / f"{name}.{options.format}", options)
+
+
 def main():
     options = arguments()
+    if (options.run_folder / "probe.toml").exists():
+        save_probe(options)
+        return
     try:
         run = Run(options.run_folder)
     except (OSError, ValueError, KeyError) as error:

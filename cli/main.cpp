@@ -18,6 +18,7 @@
 #include "cli/figure.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
+#include "cli/probe/probe.hpp"
 #include "cli/reduce.hpp"
 #include "cli/report/report.hpp"
 #include "cli/run.hpp"
@@ -39,6 +40,7 @@
 #include "scenes/language/units.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/probe/probe_read.hpp"
 #include "scenes/read.hpp"
 #include "scenes/records/lab_settings.hpp"
 #include "scenes/simulation.hpp"
@@ -52,6 +54,7 @@ namespace {
 struct Options {
   RunOptions run;
   StudyOptions study;
+  ProbeOptions probe;
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
   bool print = false;     // the scene, whole
@@ -177,6 +180,32 @@ void add_scene(CLI::App& command, Options& options, bool required = true) {
   auto* scene = command.add_option("scene", options.run.scene, "scene file (TOML)");
   if (required) scene->required();
   add_overrides(command, options.run.overrides, "this run");
+}
+
+void add_probe(CLI::App& app, Options& options, ExitCode& code) {
+  auto* command = app.add_subcommand(
+      "probe", "find where a powder yields at set densities, and fit cap models to it");
+  command->add_option("probe", options.probe.probe, "probe file (TOML), docs/probe.md");
+  command
+      ->add_option("-o,--output", options.probe.folder,
+                   "results folder (default runs/<probe name>); what is finished in it is kept")
+      ->transform(without_detours);
+  command
+      ->add_option("--jobs", options.probe.jobs,
+                   "runs at once, one thread each (default: as many as there are processors)")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--fresh", options.probe.fresh, "run everything again");
+  command->add_flag("--list", options.probe.list, "check everything, print the runs, run nothing");
+  command->add_option("--reference", options.reference, "print the probe language instead: text")
+      ->check(CLI::IsMember({"text"}));
+  add_overrides(*command, options.probe.overrides, "the scene of every path");
+  command->callback([&] {
+    if (options.probe.probe.empty() && options.reference.empty()) throw CLI::RequiredError("probe");
+    if (options.reference.empty())
+      code = run_probe(options.probe);
+    else
+      tell("{}", probe_reference());
+  });
 }
 
 void add_study(CLI::App& app, Options& options, ExitCode& code) {
@@ -351,6 +380,7 @@ int parse_and_run(int argc, char** argv) {
   add_run(app, options, code);
   add_resume(app, options, code);
   add_study(app, options, code);
+  add_probe(app, options, code);
 
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);

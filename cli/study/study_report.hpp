@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/study/study_results.hpp"
+#include "cli/study/study_runner.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/study/study_fits.hpp"
 
@@ -19,11 +20,6 @@ namespace pulvis {
 struct StudyFindings {
   std::vector<Verdict> verdicts;
   std::vector<FittedLaw> fits;
-};
-
-struct StudyTimes {
-  double wall_seconds = 0;
-  int jobs = 1, threads = 1;
 };
 
 void write_study(const std::filesystem::path& folder, const Study& study,

@@ -25,10 +25,11 @@
 namespace pulvis {
 
 struct CheckpointInfo {
-  std::string version, commit, scene_hash, powder_hash;
+  std::string version, commit, scene_hash;
   std::int64_t step = 0;
   double time = 0;
   std::string run = {};  // the attribute of its run.h5
+  std::string powder_hash = {};
 };
 
 using StateParts = std::map<std::string, std::vector<std::byte>>;

@@ -20,6 +20,11 @@ class CellChecks {
     if (!scene_.tools.empty())
       refuse("tool[0]", "a periodic cell has no walls, allowed: [cell] or tools");
     packings();
+    for (std::size_t m = 0; m < scene_.materials.size(); ++m)
+      if (scene_.materials[m].mass_damping > 0)
+        refuse(fmt::format("material[{}].damping.mass_proportional", m),
+               "it brakes against the ground, and a cell has none, allowed: "
+               "stiffness_proportional");
   }
 
  private:

@@ -293,6 +293,9 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
     case Kind::integers:
       for (const Value& one : list(key, value)) result.integers.push_back(integer(key, one));
       break;
+    case Kind::numbers:
+      for (const Value& one : list(key, value)) result.numbers.push_back(bare_number(key, one));
+      break;
   }
   return result;
 }

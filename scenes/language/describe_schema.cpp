@@ -108,6 +108,8 @@ Json type_of(const schema::KeyInfo& key) {
       return list_type("string");
     case Kind::integers:
       return list_type("integer");
+    case Kind::numbers:
+      return list_type("number");
     case Kind::bound:
       return {{"anyOf", Json::array({Json{{"type", "number"}}, quantity_type()})}};
   }

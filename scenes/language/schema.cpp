@@ -172,6 +172,8 @@ std::string allowed(const KeyInfo& key) {
       return "one or more strings [\"a\", \"b\", ...]";
     case Kind::integers:
       return "one or more whole numbers [1, 2, ...]" + range_text(key.range);
+    case Kind::numbers:
+      return "one or more numbers [0.1, 0.2, ...]" + range_text(key.range);
     case Kind::file:
     case Kind::scene:
       return "a path of at most 1000 characters on one line";

@@ -35,6 +35,7 @@ enum class Kind {
   bound,      // a bare number, or a quantity in a unit that another key decides
   texts,      // one or more strings
   integers,   // one or more bare whole numbers
+  numbers,    // one or more bare numbers
   file,       // the path of a table, mesh or record, from the folder of the file that names it
   scene,      // likewise, of another scene
 };
@@ -102,6 +103,7 @@ struct Decoded {
   std::string text = {};
   std::vector<std::string> texts = {};
   std::vector<std::int64_t> integers = {};
+  std::vector<double> numbers = {};
   std::array<std::string, 2> names = {};
 };
 

@@ -71,6 +71,10 @@ class SeriesList {
     for (const char* part : {"xx", "yy", "xy"})
       add(std::string("cell/stress_") + part, "Pa",
           "Cauchy, of the forces across the cell's borders, or on the walls; tension > 0");
+    add("cell/stored_energy", "J/m^3",
+        "in elements, contact springs and bonds, over the volume of the cell now");
+    add("cell/dissipated_energy", "J/m^3",
+        "by plastic flow, friction, damping and fracture so far, over the same volume");
   }
 
   void add_energies() {

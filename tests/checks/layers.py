@@ -47,10 +47,12 @@ ROOMS = {
         "": "checks grains keys lever lever/mesh meshes packing tools results outlines spec language",
         "records": "lever keys spec language /",
         "study": "checks results keys spec language /",
+        "probe": "keys spec language /",
     },
     "cli": {
         "report": "",
         "study": "report /",
+        "probe": "report study /",
         "": "report",
     },
 }

@@ -124,6 +124,10 @@ std::vector<Value> values_for(const KeyInfo& key, const schema::TableView& view,
       for (const std::int64_t number : integers_for(key))
         values.push_back({document::Array{{number, {}}, {number + 1, {}}}, {}});
       break;
+    case Kind::numbers:
+      for (const double number : numbers_for(key, view, around))
+        values.push_back({document::Array{{number, {}}, {2 * number, {}}}, {}});
+      break;
     case Kind::flag:
       values.push_back({!key.fallback || !key.fallback->get<bool>(), {}});
       break;

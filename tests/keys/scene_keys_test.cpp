@@ -1,9 +1,13 @@
 // Every key of the scene language goes through save, check, stop, resume, report and figure; the scenes are
 // generated from the declarations (key_plan.hpp).
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
 
+#include "engine/files/checkpoint.hpp"
 #include "plan_checks.hpp"
 #include "scenes/build.hpp"
 #include "scenes/checks/overlaps.hpp"
@@ -12,6 +16,7 @@
 #include "scenes/meshes/mesh.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
+#include "scenes/simulation.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "tests/helpers/left.hpp"
 #include "tests/helpers/paths.hpp"
@@ -21,7 +26,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path bases = fs::path(paths::source_dir()) / "tests" / "keys" / "scenes";
+// The scenes, and a state that one of them begins with: made anew, since it is good for one powder as this program packs it.
+class Bases {
+ public:
+  const fs::path folder =
+      fs::temp_directory_path() / ("pulvis-keys-of-scenes-" + std::to_string(getpid()));
+
+  Bases() {
+    fs::copy(fs::path(paths::source_dir()) / "tests" / "keys" / "scenes", folder,
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    const LoadedScene loaded = load_scene(folder / "cell.toml");
+    Simulation simulation(loaded.scene);
+    simulation.run_until(loaded.scene.stages.front().duration);
+    CheckpointInfo info;
+    info.powder_hash = fmt::format("{:016x}", loaded.powder_hash);
+    write_state_file(folder / "data" / "state-press.h5", info, simulation.world());
+  }
+  Bases(const Bases&) = delete;
+  Bases& operator=(const Bases&) = delete;
+  ~Bases() { fs::remove_all(folder); }
+};
+
+const fs::path& bases() {
+  static const Bases made;
+  return made.folder;
+}
 
 // What `pulvis check` says of a scene of this text among the bases.
 std::string fault_of_scene(const std::string& text, const fs::path& folder) {
@@ -35,7 +64,7 @@ std::string fault_of_scene(const std::string& text, const fs::path& folder) {
 }
 
 const Plan& plan() {
-  static const Plan made = plan_or_fault(schema::scene_language(), bases, fault_of_scene);
+  static const Plan made = plan_or_fault(schema::scene_language(), bases(), fault_of_scene);
   return made;
 }
 
@@ -55,7 +84,7 @@ const std::set<std::string>& drawn() {
   static const std::set<std::string> names = [] {
     std::map<std::string, std::string> first;
     for (const Case& one : plan().cases)
-      first.try_emplace(kind_of(load_scene_text(one.text, bases / "case.toml").scene), one.name);
+      first.try_emplace(kind_of(load_scene_text(one.text, bases() / "case.toml").scene), one.name);
     std::set<std::string> all;
     for (const auto& [kind, name] : first) all.insert(name);
     return all;
@@ -69,7 +98,7 @@ class SceneKeys : public ProgramTest, public ::testing::WithParamInterface<Case>
 
   void SetUp() override {
     ProgramTest::SetUp();
-    fs::copy(bases, place / sources, fs::copy_options::recursive);
+    fs::copy(bases(), place / sources, fs::copy_options::recursive);
     std::ofstream(place / sources / "case.toml") << GetParam().text;
   }
 

@@ -43,6 +43,12 @@ constexpr const char* random_packing =
     "number = 9 }]\n";
 constexpr const char* body = "[[body]]\nparticle = \"disc\"\nposition = [\"2 mm\", \"2 mm\"]\n";
 
+std::string damped(std::string text) {
+  const std::string last = "poissons_ratio = 0.35\n";
+  return text.insert(text.find(last) + last.size(),
+                     "[material.damping]\nmass_proportional = \"1 1/s\"\n");
+}
+
 struct WrongCell {
   const char* name;
   std::string text;
@@ -65,6 +71,18 @@ INSTANTIATE_TEST_SUITE_P(
     Of, WrongCells,
     testing::Values(
         WrongCell{"none", scene("", body, "strain_yy = -0.1"), "stage[0].cell", "there is no cell"},
+        WrongCell{"ratio_and_strain",
+                  scene(cell, random_packing, "stress_ratio = 0.5\nstrain_xx = -0.1"),
+                  "stage[0].cell.stress_ratio", "one of strain_xx"},
+        WrongCell{"ratio_and_mean",
+                  scene(cell, random_packing, "stress_ratio = 0.5\nmean_stress = \"-1 MPa\""),
+                  "stage[0].cell.mean_stress", "one of strain_xx"},
+        WrongCell{"until_force",
+                  scene(cell, random_packing, "strain_yy = -0.1",
+                        "[stage.until]\nrelative_density = 0.9\nforce = \"1 N\""),
+                  "stage[0].until.force", "tool"},
+        WrongCell{"damped_by_its_mass", damped(scene(cell, random_packing, "strain_yy = -0.1")),
+                  "material[0].damping.mass_proportional", "against the ground"},
         WrongCell{"no_height", scene(cell, body, "strain_yy = -0.1"), "cell", "height is missing"},
         WrongCell{"height_twice", scene(tall, random_packing, "strain_yy = -0.1"), "cell.height",
                   "the random packing decides"},
@@ -78,9 +96,6 @@ INSTANTIATE_TEST_SUITE_P(
                         "[[tool]]\nname = \"floor\"\nshape = \"plane\"\npoint = [\"0 mm\", \"0 "
                         "mm\"]\nnormal = [0, 1]\n"),
                   "tool[0]", "has no walls"},
-        WrongCell{"until",
-                  scene(tall, body, "strain_yy = -0.1", "[stage.until]\nrelative_density = 0.9\n"),
-                  "stage[0].until", "last as long as they say"},
         WrongCell{"empty", scene(tall, body, "strain_zz = -0.1"), "stage[0].cell.strain_zz",
                   "unknown key"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });

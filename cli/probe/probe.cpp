@@ -1,0 +1,179 @@
+#include "cli/probe/probe.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "cli/interrupt.hpp"
+#include "cli/probe/probe_files.hpp"
+#include "cli/probe/probe_results.hpp"
+#include "cli/save_scene.hpp"
+#include "cli/study/study_runner.hpp"
+#include "cli/tell.hpp"
+#include "engine/files/own_files.hpp"
+#include "engine/files/run_folder.hpp"
+#include "scenes/probe/probe_read.hpp"
+#include "scenes/probe/probe_scenes.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* scenes_folder = "scenes";
+
+void require_own_probe(const fs::path& folder, const Probe& probe) {
+  std::vector<std::string> names{"probe.toml", "yield_points.csv", "moduli.csv", "caps.csv",
+                                 "summary.json"};
+  for (const ProbePath& path : probe.spec.paths)
+    for (const char* ending : {".inp", ".comm"}) names.push_back(path.name + ending);
+  for (const std::string& name : names) {
+    require_another(probe.file, folder / name);
+    require_own_or_none(folder / name, role::probe);
+  }
+  std::error_code ignored;
+  if (fs::exists(folder / "run.h5", ignored) || fs::exists(folder / "study.toml", ignored))
+    throw RunFolderTaken(folder, "probe here",
+                         "it holds a run or a study; allowed: a folder of its own");
+}
+
+// The scene as a file of the probe's folder, and as something to run.
+StudyRun written_run(const fs::path& folder, const std::string& name, const std::string& text) {
+  StudyRun run;
+  run.name = run.variation = name;
+  run.file = folder / scenes_folder / (name + ".toml");
+  write_own(run.file, role::probe, text);
+  LoadedScene loaded = load_scene(run.file);
+  run.scene = std::move(loaded.scene);
+  run.hash = loaded.hash;
+  return run;
+}
+
+std::vector<StudyRun> loading_runs(const fs::path& folder, const Probe& probe) {
+  std::vector<StudyRun> runs;
+  for (const ProbeLoading& loading : probe.loadings) {
+    save_inputs(folder / scenes_folder, loading.scene.inputs);
+    runs.push_back(written_run(folder, loading.name, loading_scene(loading.scene, probe.spec)));
+  }
+  return runs;
+}
+
+// The runs from one state; their angles, none for the shear.
+struct StateRuns {
+  std::vector<std::optional<double>> angles;
+  std::size_t first = 0;  // in the list of all
+};
+
+StateRuns add_probes(const fs::path& folder, const Probe& probe, const ProbeLoading& loading,
+                     const ProbeState& state, std::vector<StudyRun>& runs) {
+  StateRuns mine{{}, runs.size()};
+  const ProbeStart start{fmt::format("../{}/state-{}.h5", loading.name, density_name(state.asked)),
+                         {state.stress[0], state.stress[1]},
+                         state.pressure};
+  const std::string name = fmt::format("{},density={}", loading.name, density_name(state.asked));
+  for (int k = 0; k < probe.spec.directions; ++k) {
+    const double share = static_cast<double>(k) / probe.spec.directions;
+    mine.angles.emplace_back(2 * std::numbers::pi * share);
+    runs.push_back(
+        written_run(folder, fmt::format("{},direction={:g}", name, std::round(3600 * share) / 10),
+                    probing_scene(loading.scene, probe.spec, start, mine.angles.back())));
+  }
+  mine.angles.emplace_back(std::nullopt);
+  runs.push_back(written_run(folder, name + ",shear",
+                             probing_scene(loading.scene, probe.spec, start, std::nullopt)));
+  return mine;
+}
+
+// True when it went to its end.
+bool went(StudyRunner& runner, const char* what) {
+  tell("{}: ", what);
+  runner.go();
+  if (!interrupted()) return true;
+  tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command goes on\n",
+       runner.done(), runner.to_do());
+  return false;
+}
+
+void print_list(const Probe& probe) {
+  const std::size_t states = probe.loadings.size() * probe.spec.densities.size();
+  for (const ProbeLoading& loading : probe.loadings) tell("{}\n", loading.name);
+  tell("{}: good: {} loading runs, {} states, {} probes\n", probe.file.string(),
+       probe.loadings.size(), states, states * static_cast<std::size_t>(probe.spec.directions + 1));
+}
+
+class Probing {
+ public:
+  Probing(const ProbeOptions& options, const Probe& probe, fs::path folder)
+      : options_(options), probe_(probe), folder_(std::move(folder)) {}
+
+  ExitCode go() {
+    const auto begin = std::chrono::steady_clock::now();
+    const RunnerOptions how{options_.jobs, 1, options_.fresh};
+    const std::vector<StudyRun> loading = loading_runs(folder_, probe_);
+    StudyRunner loader(how, loading, folder_);
+    if (!went(loader, "loading")) return ExitCode::interrupted;
+    const std::vector<StudyResult>& loaded = loader.read();
+    std::size_t bad = loader.tell_bad();
+    for (std::size_t i = 0; i < loaded.size(); ++i)
+      for (ProbeState& state : states_of(probe_.loadings[i], probe_.spec, loaded[i])) {
+        parts_.push_back(add_probes(folder_, probe_, probe_.loadings[i], state, probes_));
+        states_.push_back(std::move(state));
+      }
+    StudyRunner prober(how, probes_, folder_);
+    if (!went(prober, "probes")) return ExitCode::interrupted;
+    const std::vector<StudyResult>& probed = prober.read();
+    bad += prober.tell_bad();
+    const std::vector<ProbeSurface> surfaces = surfaces_of(probed);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+    write_probe(folder_, probe_, surfaces, time.count());
+    tell("{}", caps_text(probe_, surfaces));
+    const std::size_t missing =
+        probe_.loadings.size() * probe_.spec.densities.size() - states_.size();
+    if (missing > 0) tell(stderr, "pulvis: {} states were not reached\n", missing);
+    tell("results in {}; pictures: pulvis figure {}\n", folder_.string(), folder_.string());
+    return bad > 0 || missing > 0 ? ExitCode::run_failed : ExitCode::done;
+  }
+
+ private:
+  std::vector<ProbeSurface> surfaces_of(const std::vector<StudyResult>& probed) const {
+    std::vector<ProbeSurface> surfaces;
+    for (std::size_t s = 0; s < states_.size(); ++s) {
+      std::vector<ProbeRun> runs;
+      for (std::size_t k = 0; k < parts_[s].angles.size(); ++k)
+        runs.push_back({parts_[s].angles[k], &probed[parts_[s].first + k]});
+      surfaces.push_back(surface_of(states_[s], probe_.spec, runs));
+    }
+    return surfaces;
+  }
+
+  const ProbeOptions& options_;
+  const Probe& probe_;
+  fs::path folder_;
+  std::vector<ProbeState> states_;
+  std::vector<StateRuns> parts_;  // of the states
+  std::vector<StudyRun> probes_;
+};
+
+}  // namespace
+
+ExitCode run_probe(const ProbeOptions& options) {
+  leave_at_interrupts();
+  const Probe probe = load_probe(options.probe, options.overrides);
+  if (options.list) {
+    print_list(probe);
+    return ExitCode::done;
+  }
+  take_interrupts();
+  const fs::path folder =
+      options.folder.empty() ? fs::path("runs") / options.probe.stem() : options.folder;
+  require_own_probe(folder, probe);
+  make_folder(folder / scenes_folder);
+  const FolderLock lock(folder, "another probe is running in it");
+  write_own(folder / "probe.toml", role::probe, probe.text);
+  return Probing(options, probe, folder).go();
+}
+
+}  // namespace pulvis

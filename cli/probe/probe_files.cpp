@@ -1,0 +1,257 @@
+#include "cli/probe/probe_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "cli/csv_cell.hpp"
+#include "cli/summary.hpp"
+#include "engine/files/own_files.hpp"
+#include "scenes/probe/keyword_blocks.hpp"
+
+namespace pulvis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+struct Criterion {
+  const char* name;
+  std::vector<YieldPoint> ProbeSurface::*points;
+  std::vector<FittedModel> ProbeSurface::*models;
+};
+constexpr std::array criteria{
+    Criterion{"offset_strain", &ProbeSurface::offset, &ProbeSurface::offset_models},
+    Criterion{"dissipation", &ProbeSurface::dissipation, &ProbeSurface::dissipation_models}};
+
+// All surfaces of a path at a density: one a seed.
+struct Group {
+  std::string path;
+  double asked;
+  std::vector<const ProbeSurface*> surfaces;
+
+  double mean(const std::function<double(const ProbeSurface&)>& of) const {
+    double sum = 0;
+    for (const ProbeSurface* surface : surfaces) sum += of(*surface);
+    return sum / static_cast<double>(surfaces.size());
+  }
+  double density() const {
+    return mean([](const ProbeSurface& s) { return s.state->density; });
+  }
+  std::vector<YieldPoint> pooled(const Criterion& criterion) const {
+    std::vector<YieldPoint> all;
+    for (const ProbeSurface* surface : surfaces)
+      all.insert(all.end(), (surface->*criterion.points).begin(),
+                 (surface->*criterion.points).end());
+    return all;
+  }
+};
+
+std::vector<Group> groups_of(const Probe& probe, const std::vector<ProbeSurface>& surfaces) {
+  std::vector<Group> groups;
+  for (const ProbePath& path : probe.spec.paths)
+    for (const double density : probe.spec.densities) {
+      Group group{path.name, density, {}};
+      for (const ProbeSurface& surface : surfaces)
+        if (surface.state->path == path.name && surface.state->asked == density)
+          group.surfaces.push_back(&surface);
+      if (!group.surfaces.empty()) groups.push_back(std::move(group));
+    }
+  return groups;
+}
+
+std::string points_csv(const std::vector<ProbeSurface>& surfaces) {
+  std::string text =
+      "path,seed,relative_density,criterion,direction [deg],stress_xx [Pa],stress_yy [Pa],"
+      "stress_xy [Pa],stress_zz [Pa],p [Pa],q [Pa],plastic_xx,plastic_yy,angle_to_normal [deg]\n";
+  for (const ProbeSurface& surface : surfaces)
+    for (const Criterion& criterion : criteria)
+      for (const YieldPoint& point : surface.*criterion.points) {
+        const auto& s = point.stress;
+        text += fmt::format(
+            "{},{},{:.6f},{},{:.1f},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},"
+            "{:.5f},{:.5f},{}\n",
+            csv_word(surface.state->path), surface.state->seed, surface.state->density,
+            criterion.name, point.angle * degrees, s[0], s[1], s[2], s[3], point.pressure(),
+            point.deviatoric(), point.plastic[0], point.plastic[1],
+            point.normality ? fmt::format("{:.2f}", *point.normality * degrees) : "");
+      }
+  return text;
+}
+
+std::string moduli_csv(const std::vector<ProbeSurface>& surfaces) {
+  std::string text =
+      "path,seed,relative_density,pressure [Pa],c11 [Pa],c12 [Pa],c22 [Pa],shear_modulus [Pa],"
+      "youngs_modulus [Pa],poissons_ratio\n";
+  for (const ProbeSurface& surface : surfaces) {
+    const PowderModuli& m = surface.moduli;
+    text += fmt::format("{},{},{:.6f},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.5f}\n",
+                        csv_word(surface.state->path), surface.state->seed, surface.state->density,
+                        surface.state->pressure, m.c11, m.c12, m.c22, m.g, m.youngs_modulus(),
+                        m.poissons_ratio());
+  }
+  return text;
+}
+
+std::string parameters_text(const FittedModel& model) {
+  std::string text;
+  for (const auto& [key, value] : model.parameters)
+    text += fmt::format("{}{}={:.6g}", text.empty() ? "" : " ", key, value);
+  return text;
+}
+
+std::string caps_csv(const std::vector<Group>& groups) {
+  std::string text = "path,seed,relative_density,criterion,model,misfit,parameters\n";
+  for (const Group& group : groups)
+    for (const Criterion& criterion : criteria) {
+      const auto add = [&](const std::string& seed, double density,
+                           const std::vector<FittedModel>& models) {
+        for (const FittedModel& model : models)
+          text += fmt::format("{},{},{:.6f},{},{},{:.4f},{}\n", csv_word(group.path), seed, density,
+                              criterion.name, model.name, model.misfit, parameters_text(model));
+      };
+      for (const ProbeSurface* surface : group.surfaces)
+        add(std::to_string(surface->state->seed), surface->state->density,
+            surface->*criterion.models);
+      add("all", group.density(), fit_caps(group.pooled(criterion), group.density()));
+    }
+  return text;
+}
+
+Json model_json(const FittedModel& model) {
+  Json json{{"name", model.name}, {"in_plane", model.in_plane}, {"misfit", model.misfit}};
+  for (const auto& [key, value] : model.parameters) json["parameters"][key] = value;
+  for (const auto& [p, q] : model.surface) json["surface"].push_back({p, q});
+  return json;
+}
+
+Json point_json(const YieldPoint& point) {
+  Json json{{"direction", point.angle},
+            {"stress", point.stress},
+            {"p", point.pressure()},
+            {"q", point.deviatoric()},
+            {"plane_p", point.plane_pressure()},
+            {"plane_shear", point.plane_shear()},
+            {"plastic", point.plastic}};
+  if (point.normality) json["angle_to_normal"] = *point.normality;
+  return json;
+}
+
+// Of a parameter over the seeds: mean and standard deviation.
+Json scatter_json(const Group& group, const Criterion& criterion, const FittedModel& pooled) {
+  Json json = Json::object();
+  for (const auto& [key, ignored] : pooled.parameters) {
+    double n = 0, sum = 0, squares = 0;
+    for (const ProbeSurface* surface : group.surfaces)
+      for (const FittedModel& model : surface->*criterion.models)
+        if (model.name == pooled.name) {
+          const double value = model.parameter(key);
+          n += 1, sum += value, squares += value * value;
+        }
+    if (n < 2) continue;
+    const double mean = sum / n;
+    json[key] = {{"mean", mean},
+                 {"deviation", std::sqrt(std::max(0.0, (squares - n * mean * mean) / (n - 1)))}};
+  }
+  return json;
+}
+
+Json group_json(const Group& group) {
+  Json json{{"path", group.path}, {"asked", group.asked}, {"relative_density", group.density()}};
+  for (const ProbeSurface* surface : group.surfaces) {
+    const PowderModuli& m = surface->moduli;
+    json["states"].push_back({{"seed", surface->state->seed},
+                              {"relative_density", surface->state->density},
+                              {"stress", surface->state->stress},
+                              {"pressure", surface->state->pressure},
+                              {"c11", m.c11},
+                              {"c12", m.c12},
+                              {"c22", m.c22},
+                              {"shear_modulus", m.g},
+                              {"youngs_modulus", m.youngs_modulus()},
+                              {"poissons_ratio", m.poissons_ratio()}});
+  }
+  for (const Criterion& criterion : criteria) {
+    Json& mine =
+        json["yield"][criterion.name] = {{"points", Json::array()}, {"models", Json::array()}};
+    const std::vector<YieldPoint> points = group.pooled(criterion);
+    for (const YieldPoint& point : points) mine["points"].push_back(point_json(point));
+    for (const FittedModel& model : fit_caps(points, group.density())) {
+      mine["models"].push_back(model_json(model));
+      mine["models"].back()["scatter"] = scatter_json(group, criterion, model);
+    }
+  }
+  return json;
+}
+
+// A row for every density of the path that has a cap, by the dissipated energy: where a powder comes apart, plastic strain
+// grows and nothing is dissipated.
+std::vector<CapRow> cap_rows(const std::string& path, const std::vector<Group>& groups) {
+  std::vector<CapRow> rows;
+  for (const Group& group : groups) {
+    if (group.path != path) continue;
+    const auto models = fit_caps(group.pooled(criteria[1]), group.density());
+    if (models.empty()) continue;
+    const FittedModel &cap = models[0], &clay = models[1];
+    rows.push_back({group.density(),
+                    group.mean([](const ProbeSurface& s) { return s.moduli.youngs_modulus(); }),
+                    group.mean([](const ProbeSurface& s) { return s.moduli.poissons_ratio(); }),
+                    cap.parameter("d"), cap.parameter("beta"), cap.parameter("R"),
+                    cap.parameter("p_b"), clay.parameter("M"), clay.parameter("p_c")});
+  }
+  return rows;
+}
+
+}  // namespace
+
+void write_probe(const std::filesystem::path& folder, const Probe& probe,
+                 const std::vector<ProbeSurface>& surfaces, double wall_seconds) {
+  const std::vector<Group> groups = groups_of(probe, surfaces);
+  write_own(folder / "yield_points.csv", role::probe, points_csv(surfaces));
+  write_own(folder / "moduli.csv", role::probe, moduli_csv(surfaces));
+  write_own(folder / "caps.csv", role::probe, caps_csv(groups));
+  for (const ProbePath& path : probe.spec.paths) {
+    const std::vector<CapRow> rows = cap_rows(path.name, groups);
+    if (rows.empty()) continue;
+    write_own(folder / (path.name + ".inp"), role::probe, abaqus_block(path.name, rows));
+    write_own(folder / (path.name + ".comm"), role::probe, code_aster_block(path.name, rows));
+  }
+  Json json{{"title", probe.spec.title},
+            {"version", program_version()},
+            {"commit", program_commit()},
+            {"wall_seconds", wall_seconds},
+            {"offset_strain", probe.spec.offset_strain},
+            {"dissipation", probe.spec.dissipation},
+            {"states", Json::array()}};
+  for (const Group& group : groups) json["states"].push_back(group_json(group));
+  write_own(folder / "summary.json", role::probe, json.dump(1) + "\n");
+}
+
+std::string caps_text(const Probe& probe, const std::vector<ProbeSurface>& surfaces) {
+  std::string text = fmt::format("{:<16}{:>8}{:>9}{:>9}{:>7}{:>10}{:>9}{:>7}{:>10}{:>8}{:>10}\n",
+                                 "path", "density", "E [GPa]", "nu", "points", "d [MPa]", "beta",
+                                 "R", "p_b [MPa]", "M", "p_c [MPa]");
+  const std::vector<Group> groups = groups_of(probe, surfaces);
+  for (const Group& group : groups) {
+    const std::vector<CapRow> rows = cap_rows(group.path, {group});
+    const std::size_t points = group.pooled(criteria[1]).size();
+    if (rows.empty()) {
+      text += fmt::format("{:<16}{:>8.4f}  {} yield points: too few for a surface\n", group.path,
+                          group.density(), points);
+      continue;
+    }
+    const CapRow& row = rows[0];
+    text += fmt::format(
+        "{:<16}{:>8.4f}{:>9.3g}{:>9.3f}{:>7}{:>10.3g}{:>9.1f}{:>7.3f}{:>10.4g}{:>8.3f}{:>10.4g}\n",
+        group.path, row.density, row.youngs_modulus * 1e-9, row.poissons_ratio, points,
+        row.d * 1e-6, row.beta * degrees, row.r, row.p_b * 1e-6, row.m, row.p_c * 1e-6);
+  }
+  return text;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,44 @@
+// What the probes of a powder tell: a surface for every path, density, seed and criterion, and the models fitted to it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/study/study_results.hpp"
+#include "scenes/probe/cap_models.hpp"
+#include "scenes/probe/probe.hpp"
+
+namespace pulvis {
+
+// A state that a loading run has kept.
+struct ProbeState {
+  std::string path;
+  std::int64_t seed = 1;
+  double asked = 0;                // -, the density of the probe file
+  std::string loading;             // name of the run
+  double density = 0;              // -, relative, as reached
+  std::array<double, 4> stress{};  // Pa: xx yy xy zz
+  double pressure = 0;             // Pa
+};
+
+// Of all states that the loading run has reached.
+std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& spec,
+                                  const StudyResult& result);
+
+struct ProbeSurface {
+  const ProbeState* state = nullptr;
+  PowderModuli moduli;
+  std::vector<YieldPoint> offset, dissipation;
+  std::vector<FittedModel> offset_models, dissipation_models;
+};
+
+// `angle` of each run of this state; none: the shear.
+struct ProbeRun {
+  std::optional<double> angle;
+  const StudyResult* result = nullptr;
+};
+ProbeSurface surface_of(const ProbeState& state, const ProbeSpec& spec,
+                        const std::vector<ProbeRun>& runs);
+
+}  // namespace pulvis

@@ -1,0 +1,50 @@
+// A probe: powders loaded along paths in a periodic cell, and from their states at set densities probed in many directions
+// for the stress at which they yield.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenes/read.hpp"
+
+namespace pulvis {
+
+struct ProbePath {  // [[path]]
+  std::string name, scene;
+  SourceMark mark;
+};
+
+struct ProbeSpec {
+  enum class Control { strain, stress };
+  std::string title;
+  std::vector<double> densities;    // -, relative, rising
+  std::vector<std::int64_t> seeds;  // none: each scene's own
+  std::vector<ProbePath> paths;
+  Control control = Control::strain;
+  int directions = 12;
+  double size = 0.02;            // -, strain; or stress over the pressure of the state
+  double duration = 0;           // s, of a probe, and of the release before it
+  double release = 0.5;          // -, of the state's stress
+  double elastic_strain = 2e-4;  // -, until which a probe is taken as elastic
+  double offset_strain = 0.002;  // -
+  double dissipation = 0.002;    // -, of pressure times volume
+};
+
+// A run that loads a powder, along one path and with one seed; it keeps a state at each density.
+struct ProbeLoading {
+  std::string name;  // "isostatic,seed=1"
+  std::string path;
+  std::int64_t seed = 1;
+  LoadedScene scene;
+};
+
+struct Probe {
+  ProbeSpec spec;
+  std::filesystem::path file;
+  std::string text;  // of the file
+  std::vector<ProbeLoading> loadings;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,142 @@
+#include "scenes/probe/probe_read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/language/describe.hpp"
+#include "scenes/language/table_reader.hpp"
+#include "scenes/probe/declare_probe.hpp"
+
+namespace pulvis {
+namespace {
+
+const char* const introduction = R"(# The probe file
+
+<!-- Generated from the declarations in scenes/probe/declare_probe.cpp: change those, not this file. -->
+
+A probe is a TOML file that names scenes of a powder in a periodic cell and asks where the powder yields. `pulvis probe
+PROBE.toml` loads the powder along every path, keeps its state at every density, unloads each state a little and loads it in
+many directions from there, several runs at once; then it tells the yield points, the elastic moduli and the parameters of
+cap models, and draws them. The same command goes on where it was broken off.
+
+```toml
+densities = [0.85, 0.90, 0.95]
+seeds = [1, 2]
+
+[[path]]
+name = "isostatic"
+scene = "copper-isostatic.toml"
+
+[probe]
+duration = "0.2 ms"
+```
+
+Strains and stresses are those of scenes: tension > 0. A direction is the angle of (xx, yy): 225 degrees presses both alike.
+Anything that is wrong, in the probe or in a scene it names, is refused before the first run as
+`file:line:col: key: what is wrong, allowed: what is allowed`.
+)";
+
+class ProbeReader {
+ public:
+  ProbeReader(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+      : overrides_(overrides), problems_(file, overrides) {
+    probe_.file = file;
+    probe_.text = toml_file_text(file, "a probe");
+    probe_.spec.title = file.stem().string();
+  }
+
+  Probe read() {
+    const document::Value root{parsed(), {{1, 1}, -1}};
+    const auto& table = root.get<document::Table>();
+    schema::TableReader reader(table, problems_, schema::probe_language());
+    reader.read(schema::probe_top_level(), root, "", "", probe_.spec);
+    for (const auto* one : {&schema::probe_probe(), &schema::probe_yield()}) {
+      const document::Entry* entry = document::find(table, one->info.path);
+      const document::Value none{document::Table{}, {{1, 1}, -1}};
+      reader.read(*one, entry != nullptr ? entry->value : none, one->info.path, "", probe_.spec);
+    }
+    const document::Array& paths = reader.elements(table, "", schema::probe_path().info);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      ProbePath& path = probe_.spec.paths.emplace_back();
+      path.mark = paths[i].origin.mark;
+      reader.read(schema::probe_path(), paths[i], fmt::format("path[{}]", i), "", path);
+    }
+    problems_.throw_if_any();
+    check(reader.origins());
+    problems_.throw_if_any();
+    for (std::size_t i = 0; i < probe_.spec.paths.size(); ++i) load(i, reader.origins());
+    problems_.throw_if_any();
+    return std::move(probe_);
+  }
+
+ private:
+  document::Table parsed() {
+    try {
+      return document::parse(probe_.text);
+    } catch (const document::SyntaxError& error) {
+      problems_.add({error.mark, -1}, "syntax", error.what());
+      problems_.throw_if_any();
+      throw;  // not reached
+    }
+  }
+
+  void check(const schema::Origins& origins) {
+    const std::vector<double>& densities = probe_.spec.densities;
+    if (std::ranges::adjacent_find(densities, std::greater_equal()) != densities.end())
+      problems_.add(origins.at("densities"), "densities",
+                    "they do not rise, allowed: each larger than the one before");
+    if (probe_.spec.paths.empty())
+      problems_.add({{1, 1}, -1}, "path", "none is given, allowed: at least one [[path]]");
+    for (std::size_t i = 0; i < probe_.spec.paths.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (probe_.spec.paths[i].name == probe_.spec.paths[k].name)
+          problems_.add({probe_.spec.paths[i].mark, -1}, fmt::format("path[{}].name", i),
+                        fmt::format("two are called '{}', allowed: each name once",
+                                    probe_.spec.paths[i].name));
+  }
+
+  void load(std::size_t i, const schema::Origins& origins) {
+    const ProbePath& path = probe_.spec.paths[i];
+    const document::Origin at = origins.at(fmt::format("path[{}].scene", i));
+    std::vector<std::int64_t> seeds = probe_.spec.seeds;
+    const bool own = seeds.empty();
+    if (own) seeds.push_back(0);
+    for (const std::int64_t seed : seeds) {
+      std::vector<std::string> overrides = overrides_;
+      if (!own) overrides.push_back(fmt::format("seed={}", seed));
+      ProbeLoading loading{path.name, path.name, seed, {}};
+      try {
+        loading.scene = load_scene(probe_.file.parent_path() / path.scene, overrides);
+      } catch (const SceneError& error) {
+        for (const SceneProblem& problem : error.errors())
+          problems_.add(at, "scene", problem.text());
+        return;
+      }
+      const Scene& scene = loading.scene.scene;
+      if (scene.afm || !scene.cell || scene.stages.empty() || !scene.stages.back().cell) {
+        problems_.add(at, "scene",
+                      "its last stage does not deform a periodic cell, allowed: a scene with "
+                      "[cell] whose last stage has [stage.cell]");
+        return;
+      }
+      loading.seed = static_cast<std::int64_t>(scene.seed);
+      if (!own) loading.name += fmt::format(",seed={}", seed);
+      probe_.loadings.push_back(std::move(loading));
+    }
+  }
+
+  std::vector<std::string> overrides_;
+  Problems problems_;
+  Probe probe_;
+};
+
+}  // namespace
+
+Probe load_probe(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return ProbeReader(file, overrides).read();
+}
+
+std::string probe_reference() { return reference_of(introduction, schema::probe_language()); }
+
+}  // namespace pulvis

@@ -1,0 +1,157 @@
+// pulvis probe as a user meets it: a solid whose yield surface is known is probed, what was broken off goes on, and what is
+// wrong is refused.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/helpers/program.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// A block that fills its cell: a powder without pores.
+constexpr const char* dense = R"(family = "compaction"
+[[material]]
+name = "steel"
+density = "7990 kg/m^3"
+youngs_modulus = "200 GPa"
+poissons_ratio = 0.3
+yield_stress = "240 MPa"
+hardening_modulus = "0 MPa"
+[[particle]]
+name = "block"
+material = "steel"
+outline = "rectangle"
+width = "10 mm"
+height = "10 mm"
+[particle.mesh]
+size = "1.25 mm"
+[contact]
+stiffness = 20
+damping = 0.1
+[cell]
+width = "10 mm"
+height = "10 mm"
+[[body]]
+particle = "block"
+position = ["5 mm", "5 mm"]
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "0.1 ms"
+[stage.cell]
+strain_xx = -0.01
+strain_yy = -0.01
+)";
+
+constexpr const char* probes = R"(densities = [1.006]
+[[path]]
+name = "isotropic"
+scene = "dense.toml"
+[probe]
+directions = 8
+size = 0.01
+duration = "0.1 ms"
+release = 0.9
+)";
+
+class ProbeCommand : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    std::ofstream(place / "dense.toml") << dense;
+    write(probes);
+  }
+  void write(const std::string& text) const { std::ofstream(place / "probe.toml") << text; }
+  Outcome probe(const Words& more = {}) const {
+    Words words{"probe", "probe.toml", "-o", "out", "--jobs", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return pulvis(words);
+  }
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(text_of(place / "out/summary.json"));
+  }
+};
+
+// Plane strain, no hardening: von Mises' stress is the yield stress wherever the block is sheared, whatever the pressure.
+TEST_F(ProbeCommand, FindsVonMisesCylinderInASolid) {
+  const Outcome outcome = probe();
+  ASSERT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  const auto state = summary().at("states").at(0);
+  const double e = 200e9, nu = 0.3;
+  EXPECT_NEAR(state.at("states").at(0).at("youngs_modulus").get<double>() / e, 1, 0.03);
+  EXPECT_NEAR(state.at("states").at(0).at("poissons_ratio").get<double>(), nu, 0.02);
+  EXPECT_NEAR(state.at("states").at(0).at("shear_modulus").get<double>() / (e / (2 * (1 + nu))), 1,
+              0.05);
+  int sheared = 0;
+  for (const char* criterion : {"offset_strain", "dissipation"})
+    for (const auto& point : state.at("yield").at(criterion).at("points")) {
+      const double angle = point.at("direction").get<double>();
+      const double shear = std::abs(std::cos(angle) - std::sin(angle));
+      if (shear < 0.5 || point.at("plane_p").get<double>() < 100e6) continue;
+      EXPECT_NEAR(std::abs(point.at("q").get<double>()) / 240e6, 1, 0.02) << criterion << angle;
+      ++sheared;
+    }
+  EXPECT_GE(sheared, 4);
+  for (const char* file : {"probe.toml", "yield_points.csv", "moduli.csv", "caps.csv"})
+    EXPECT_TRUE(fs::exists(place / "out" / file)) << file;
+
+  // What is finished is kept, and says the same.
+  const std::string before = text_of(place / "out/yield_points.csv");
+  fs::remove_all(place / "out/isotropic,density=1.006,direction=90");
+  const Outcome again = probe();
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("9 runs: 1 to do, 8 finished before"));
+  EXPECT_EQ(text_of(place / "out/yield_points.csv"), before);
+
+  const Outcome figure = pulvis({"figure", "out"});
+  EXPECT_EQ(figure.code, 0) << figure.err;
+  EXPECT_TRUE(fs::exists(place / "out/pictures/yield_surfaces.png"));
+}
+
+TEST_F(ProbeCommand, RefusesWhatCannotBeProbed) {
+  const auto refused = [&](const std::string& text, const char* says) {
+    write(text);
+    const Outcome outcome = probe();
+    EXPECT_EQ(outcome.code, 2) << text;
+    EXPECT_THAT(outcome.err, HasSubstr(says));
+    EXPECT_FALSE(fs::exists(place / "out")) << text;
+  };
+  const std::string good = probes;
+  const auto with = [&](const std::string& what, const std::string& instead) {
+    std::string text = good;
+    return text.replace(text.find(what), what.size(), instead);
+  };
+  refused(with("[1.006]", "[0.9, 0.8]"), "do not rise");
+  refused(with("[1.006]", "[]"), "densities");
+  refused(with("duration = \"0.1 ms\"\n", ""), "probe.duration");
+  refused(with("directions = 8", "directions = 3"), "directions");
+  refused(with("directions = 8", "direction = 8"), "did you mean");
+  refused(with("dense.toml", "none.toml"), "none.toml");
+  refused(good.substr(0, good.find("[[path]]")) + good.substr(good.find("[probe]")), "path");
+  std::ofstream(place / "dense.toml")
+      << std::string(dense).substr(0, std::string(dense).find("[stage.cell]"));
+  refused(good, "does not deform a periodic cell");
+}
+
+TEST_F(ProbeCommand, TellsOfADensityThatIsNotReached) {
+  write(std::string(probes).replace(std::string(probes).find("1.006"), 5, "1.2"));
+  const Outcome outcome = probe();
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("relative density is"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 states were not reached"));
+}
+
+TEST_F(ProbeCommand, ListsAndWritesNothing) {
+  const Outcome outcome = probe({"--list"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("1 loading runs, 1 states, 9 probes"));
+  EXPECT_FALSE(fs::exists(place / "out"));
+}
+
+}  // namespace
+}  // namespace pulvis
