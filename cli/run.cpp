@@ -12,6 +12,7 @@
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
 #include "components/body.hpp"
+#include "components/servo.hpp"
 #include "engine/files/hdf5.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/recorder.hpp"
@@ -177,8 +178,17 @@ struct Run {
     const std::size_t over = world.resource<ToolProgram>().stage_at(clock().time);
     for (; stages_over < over; ++stages_over) {
       const StageSpec& stage = loaded.scene.stages[stages_over];
-      if (stage.keep_state) checkpoints.keep_state(stage.name, clock().step, clock().time, world);
+      if (stage.keep_state && reached_its_end(stages_over))
+        checkpoints.keep_state(stage.name, clock().step, clock().time, world);
     }
+  }
+  // Not so where its time was over before what its `until` asks for.
+  bool reached_its_end(std::size_t stage) const {
+    if (!simulation->world().has<StageEnds>()) return true;
+    const auto& ends = simulation->world().resource<StageEnds>().ends;
+    return std::ranges::none_of(ends, [&](const StageEnds::End& end) {
+      return static_cast<std::size_t>(end.stage) == stage && !end.reached;
+    });
   }
   bool stage_is_over() const {
     const World& world = simulation->world();

@@ -72,7 +72,8 @@ class SeriesList {
       add(std::string("cell/stress_") + part, "Pa",
           "Cauchy, of the forces across the cell's borders, or on the walls; tension > 0");
     add("cell/stored_energy", "J/m^3",
-        "in elements, contact springs and bonds, over the volume of the cell now");
+        "in elements with their hourglass modes, contact springs and bonds, over the volume of the "
+        "cell now");
     add("cell/dissipated_energy", "J/m^3",
         "by plastic flow, friction, damping and fracture so far, over the same volume");
   }

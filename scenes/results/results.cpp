@@ -270,7 +270,7 @@ void Results::append_cell(std::vector<double>& row) const {
     row.insert(row.end(), control.stress.begin(), control.stress.end());
     const double volume = enclosed_area() * world_.resource<Bodies>().thickness;
     const Energies& e = energies_;
-    row.push_back((e.elastic + e.contact + e.bonds) / volume);
+    row.push_back((e.elastic + e.hourglass + e.contact + e.bonds) / volume);
     row.push_back((e.plastic + e.friction + e.damping + e.bulk_damping + e.fracture) / volume);
   };
   if (world_.has<PeriodicCell>()) {
