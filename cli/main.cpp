@@ -16,9 +16,10 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
+#include "cli/options.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
-#include "cli/probe/probe.hpp"
+#include "cli/probe/probe_options.hpp"
 #include "cli/reduce.hpp"
 #include "cli/report/report.hpp"
 #include "cli/run.hpp"
@@ -40,7 +41,6 @@
 #include "scenes/language/units.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
-#include "scenes/probe/probe_read.hpp"
 #include "scenes/read.hpp"
 #include "scenes/records/lab_settings.hpp"
 #include "scenes/simulation.hpp"
@@ -63,18 +63,6 @@ struct Options {
   std::filesystem::path comparison;
   std::filesystem::path packing = "packing.csv";
 };
-
-// "sub/../x" is x, whether there is a folder sub or not; links on the way are followed.
-const CLI::Validator without_detours(
-    [](std::string& text) {
-      std::error_code unknown;
-      const std::filesystem::path path(text);
-      if (std::ranges::find(path, "..") == path.end()) return std::string();
-      const auto straight = std::filesystem::weakly_canonical(path, unknown);
-      if (!unknown) text = straight.string();
-      return std::string();
-    },
-    "", "without_detours");
 
 ExitCode print_scene(const LoadedScene& loaded) {
   tell("{}", loaded.text_in_place);
@@ -168,44 +156,10 @@ ExitCode study(const Options& options) {
   return ExitCode::done;
 }
 
-void add_overrides(CLI::App& command, std::vector<std::string>& overrides, const char* of) {
-  command
-      .add_option("--set", overrides,
-                  fmt::format("change a key for {}: key.path=value, e.g. contact.friction=0.2", of))
-      ->allow_extra_args(false)
-      ->take_all();
-}
-
 void add_scene(CLI::App& command, Options& options, bool required = true) {
   auto* scene = command.add_option("scene", options.run.scene, "scene file (TOML)");
   if (required) scene->required();
   add_overrides(command, options.run.overrides, "this run");
-}
-
-void add_probe(CLI::App& app, Options& options, ExitCode& code) {
-  auto* command = app.add_subcommand(
-      "probe", "find where a powder yields at set densities, and fit cap models to it");
-  command->add_option("probe", options.probe.probe, "probe file (TOML), docs/probe.md");
-  command
-      ->add_option("-o,--output", options.probe.folder,
-                   "results folder (default runs/<probe name>); what is finished in it is kept")
-      ->transform(without_detours);
-  command
-      ->add_option("--jobs", options.probe.jobs,
-                   "runs at once, one thread each (default: as many as there are processors)")
-      ->check(CLI::Range(1, 1024));
-  command->add_flag("--fresh", options.probe.fresh, "run everything again");
-  command->add_flag("--list", options.probe.list, "check everything, print the runs, run nothing");
-  command->add_option("--reference", options.reference, "print the probe language instead: text")
-      ->check(CLI::IsMember({"text"}));
-  add_overrides(*command, options.probe.overrides, "the scene of every path");
-  command->callback([&] {
-    if (options.probe.probe.empty() && options.reference.empty()) throw CLI::RequiredError("probe");
-    if (options.reference.empty())
-      code = run_probe(options.probe);
-    else
-      tell("{}", probe_reference());
-  });
 }
 
 void add_study(CLI::App& app, Options& options, ExitCode& code) {
@@ -380,7 +334,7 @@ int parse_and_run(int argc, char** argv) {
   add_run(app, options, code);
   add_resume(app, options, code);
   add_study(app, options, code);
-  add_probe(app, options, code);
+  add_probe(app, options.probe, code);
 
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);

@@ -16,6 +16,7 @@ struct ProbeOptions {
   bool fresh = false;            // run everything again
   bool list = false;             // only say what would be run
   std::vector<std::string> overrides;
+  std::string reference;  // print the language instead
 };
 
 ExitCode run_probe(const ProbeOptions& options);

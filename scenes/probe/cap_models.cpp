@@ -9,37 +9,54 @@
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <unsupported/Eigen/NumericalDiff>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double transition = cap_transition;
-constexpr double open = 0.1;  // of the largest pressure in the plane
+constexpr double open = 0.1;        // of the largest pressure in the plane
+constexpr double other_side = 0.05;  // q below 0 by so much of the largest pressure
+// Weight of the logarithms' distance to the start, beside distances over the largest pressure: it decides where the points do
+// not, such as on the cohesion of a powder without any.
+constexpr double prior = 0.005;
 using Values = Eigen::VectorXd;
+
+double cosh_of(double x) { return 0.5 * (portable::exp(x) + portable::exp(-x)); }
+double acosh_of(double x) { return portable::log(x + std::sqrt(x * x - 1)); }
+Values exp_of(Values x) {
+  for (double& one : x) one = portable::exp(one);
+  return x;
+}
+Values log_of(Values x) {
+  for (double& one : x) one = portable::log(one);
+  return x;
+}
 
 struct Model {
   const char* name;
   std::vector<const char*> parameters;
   bool in_plane;
-  // Parameters at the start, all > 0; of the largest pressure and shear.
-  std::function<Values(double p, double q)> start;
+  // Parameters to start from, all > 0; of the largest pressure and shear. The best of them is taken.
+  std::function<std::vector<Values>(double p, double q)> starts;
   std::function<bool(const Values& x, double p, double q)> elastic;
 };
 
 // Abaqus Theory Guide, modified Drucker-Prager/Cap: shear failure q = d + p tan(beta); cap an ellipse about p_a of radius
 // R (d + p_a tan(beta)); between them an arc.
 bool in_cap(const Values& x, double p, double q) {
-  const double d = x[0], slope = std::tan(x[1]), r = x[2], p_b = x[3];
+  const double d = x[0], slope = portable::tan(x[1]), r = x[2], p_b = x[3];
   const double p_a = std::max((p_b - r * d) / (1 + r * slope), -d / slope);
-  const double strength = d + p_a * slope, cosine = std::cos(x[1]);
+  const double strength = d + p_a * slope, cosine = portable::cos(x[1]);
   if (p >= p_a) {
     const double scaled = r * q / (1 + transition - transition / cosine);
-    return std::hypot(p - p_a, scaled) <= r * strength;
+    return portable::hypot(p - p_a, scaled) <= r * strength;
   }
   if (q > d + p * slope) return false;
   const double foot = (1 - transition / cosine) * strength;
-  const bool below_the_arc = p_a - p > transition * std::sin(x[1]) * strength || q <= foot;
-  return below_the_arc || std::hypot(p - p_a, q - foot) <= transition * strength;
+  const bool below_the_arc = p_a - p > transition * portable::sin(x[1]) * strength || q <= foot;
+  return below_the_arc || portable::hypot(p - p_a, q - foot) <= transition * strength;
 }
 
 bool in_cam_clay(const Values& x, double p, double q) {
@@ -54,29 +71,38 @@ bool in_fleck_kuhn_mcmeeking(const Values& x, double p, double q) {
 
 bool in_gurson(const Values& x, double f, double p, double q) {
   const double shear = q / x[0];
-  return shear * shear + 2 * f * std::cosh(1.5 * p / x[0]) <= 1 + f * f;
+  return shear * shear + 2 * f * cosh_of(1.5 * p / x[0]) <= 1 + f * f;
 }
 
 // Contacts over all directions, those that close bear c: sigma = c int n n over them. With closing ones within theta of the
 // axis, p = c theta and tau = c/2 sin(2 theta).
 bool in_fleck_plane(const Values& x, double p, double tau) {
-  return p >= 0 && p <= x[0] && tau <= x[0] / pi * std::sin(pi * p / x[0]);
+  return p >= 0 && p <= x[0] && tau <= x[0] / pi * portable::sin(pi * p / x[0]);
 }
 // The others bear -c.
 bool in_fleck_plane_cohesive(const Values& x, double p, double tau) {
-  return std::abs(p) <= x[0] && tau <= 2 * x[0] / pi * std::cos(0.5 * pi * p / x[0]);
+  return std::abs(p) <= x[0] && tau <= 2 * x[0] / pi * portable::cos(0.5 * pi * p / x[0]);
 }
+
+std::vector<Values> cap_starts(double p, double q) {
+  std::vector<Values> all;
+  for (const double beta : {0.3, 0.6, 0.9})
+    for (const double r : {0.3, 0.7, 1.2}) {
+      Values x(4);
+      x << 0.05 * q, beta, r, p;
+      all.push_back(x);
+    }
+  return all;
+}
+
+std::vector<Values> one_start(double value) { return {Values::Constant(1, value)}; }
 
 std::vector<Model> models(double density) {
   const double f = std::max(1 - density, 1e-6);
   return {{"drucker_prager_cap",
            {"d", "beta", "R", "p_b"},
            false,
-           [](double p, double q) {
-             Values x(4);
-             x << 0.1 * q, std::atan(q / (0.6 * p)), 0.6, p;
-             return x;
-           },
+           cap_starts,
            in_cap},
           {"modified_cam_clay",
            {"M", "p_c"},
@@ -84,31 +110,31 @@ std::vector<Model> models(double density) {
            [](double p, double q) {
              Values x(2);
              x << 2 * q / p, p;
-             return x;
+             return std::vector{x};
            },
            in_cam_clay},
           {"fleck_kuhn_mcmeeking",
            {"p_y"},
            false,
-           [](double p, double) { return Values::Constant(1, p).eval(); },
+           [](double p, double) { return one_start(p); },
            in_fleck_kuhn_mcmeeking},
           {"gurson",
            {"sigma_y"},
            false,
            [f](double p, double q) {
-             const double limit = 2.0 / 3 * std::acosh((1 + f * f) / (2 * f));
-             return Values::Constant(1, std::max(q, p / limit)).eval();
+             const double limit = 2.0 / 3 * acosh_of((1 + f * f) / (2 * f));
+             return one_start(std::max(q, p / limit));
            },
            [f](const Values& x, double p, double q) { return in_gurson(x, f, p, q); }},
           {"fleck_plane",
            {"p_y"},
            true,
-           [](double p, double) { return Values::Constant(1, p).eval(); },
+           [](double p, double) { return one_start(p); },
            in_fleck_plane},
           {"fleck_plane_cohesive",
            {"p_y"},
            true,
-           [](double p, double) { return Values::Constant(1, p).eval(); },
+           [](double p, double) { return one_start(p); },
            in_fleck_plane_cohesive}};
 }
 
@@ -129,27 +155,51 @@ double radius(const Model& model, const Values& x, double centre, double cosine,
   return low;
 }
 
-// Residuals over the logarithms of the parameters, which keeps them above 0.
+// Residuals over the logarithms of the parameters, which keeps them above 0: of the points, then of the prior.
 struct Misfit : Eigen::DenseFunctor<double> {
   const Model& model;
   const std::vector<Plane>& points;
   double centre, scale;
-  Misfit(const Model& m, const std::vector<Plane>& all, double c, double s, int parameters)
-      : DenseFunctor(parameters, static_cast<int>(all.size())),
+  Values start;
+  Misfit(const Model& m, const std::vector<Plane>& all, double p_max, Values from)
+      : DenseFunctor(static_cast<int>(from.size()),
+                     static_cast<int>(all.size()) + static_cast<int>(from.size())),
         model(m),
         points(all),
-        centre(c),
-        scale(s) {}
+        centre(0.5 * p_max),
+        scale(p_max),
+        start(std::move(from)) {}
   int operator()(const Values& logarithms, Values& residuals) const {
-    const Values x = logarithms.array().exp();
+    const Values x = exp_of(logarithms);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double dp = points[i].p - centre, q = points[i].q, away = std::hypot(dp, q);
+      const double dp = points[i].p - centre, q = points[i].q, away = portable::hypot(dp, q);
       residuals[static_cast<Eigen::Index>(i)] =
           (radius(model, x, centre, dp / away, q / away) - away) / scale;
     }
+    residuals.tail(start.size()) = prior * (logarithms - start);
     return 0;
   }
 };
+
+struct Fit {
+  Values parameters;
+  double cost, misfit;
+};
+
+Fit fit_from(const Model& model, const std::vector<Plane>& points, double p_max,
+             const Values& start) {
+  Values x = log_of(start);
+  const Misfit misfit(model, points, p_max, x);
+  Eigen::NumericalDiff<Misfit> differences(misfit, 1e-10);
+  Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Misfit>> search(differences);
+  search.setMaxfev(2000);
+  search.minimize(x);
+  Values residuals(misfit.values());
+  misfit(x, residuals);
+  const auto n = static_cast<Eigen::Index>(points.size());
+  return {exp_of(x), residuals.squaredNorm(),
+          std::sqrt(residuals.head(n).squaredNorm() / static_cast<double>(n))};
+}
 
 FittedModel fitted(const Model& model, const std::vector<Plane>& points) {
   double p_max = 0, q_max = 0;
@@ -157,28 +207,22 @@ FittedModel fitted(const Model& model, const std::vector<Plane>& points) {
     p_max = std::max(p_max, point.p);
     q_max = std::max(q_max, point.q);
   }
-  const double centre = 0.5 * p_max;
-  Values x = model.start(p_max, std::max(q_max, 1e-3 * p_max)).array().log();
-  const Misfit misfit(model, points, centre, p_max, static_cast<int>(x.size()));
-  Eigen::NumericalDiff<Misfit> differences(misfit, 1e-10);
-  Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Misfit>> search(differences);
-  search.setMaxfev(2000);
-  if (points.size() >= static_cast<std::size_t>(x.size())) search.minimize(x);
-  Values residuals(static_cast<Eigen::Index>(points.size()));
-  misfit(x, residuals);
+  std::vector<Fit> fits;
+  for (const Values& start : model.starts(p_max, std::max(q_max, 1e-3 * p_max)))
+    fits.push_back(fit_from(model, points, p_max, start));
+  const Fit& best = *std::ranges::min_element(fits, {}, &Fit::cost);
 
   FittedModel fit;
   fit.name = model.name;
   fit.in_plane = model.in_plane;
-  const Values values = x.array().exp();
+  fit.misfit = best.misfit;
   for (std::size_t k = 0; k < model.parameters.size(); ++k)
-    fit.parameters.emplace_back(model.parameters[k], values[static_cast<Eigen::Index>(k)]);
-  fit.misfit = std::sqrt(residuals.squaredNorm() / static_cast<double>(points.size()));
+    fit.parameters.emplace_back(model.parameters[k], best.parameters[static_cast<Eigen::Index>(k)]);
   constexpr int steps = 90;
   for (int i = 0; i <= steps; ++i) {
-    const double angle = pi * i / steps, c = std::cos(angle), s = std::sin(angle);
-    const double r = radius(model, values, centre, c, s);
-    fit.surface.emplace_back(centre + r * c, r * s);
+    const double angle = pi * i / steps, c = portable::cos(angle), s = portable::sin(angle);
+    const double r = radius(model, best.parameters, 0.5 * p_max, c, s);
+    fit.surface.emplace_back(0.5 * p_max + r * c, r * s);
   }
   return fit;
 }
@@ -196,7 +240,8 @@ std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double 
   double largest = 0;
   for (const YieldPoint& point : points) largest = std::max(largest, point.plane_pressure());
   for (const YieldPoint& point : points) {
-    if (point.plane_pressure() < open * largest) continue;
+    if (point.plane_pressure() < open * largest || point.deviatoric() < -other_side * largest)
+      continue;
     all.push_back({point.pressure(), std::abs(point.deviatoric())});
     in_plane.push_back({point.plane_pressure(), std::abs(point.plane_shear())});
   }
@@ -205,7 +250,7 @@ std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double 
   for (const Model& model : models(relative_density)) {
     FittedModel fit = fitted(model, model.in_plane ? in_plane : all);
     if (fit.name == "drucker_prager_cap") {
-      const double slope = std::tan(fit.parameter("beta")), r = fit.parameter("R");
+      const double slope = portable::tan(fit.parameter("beta")), r = fit.parameter("R");
       fit.parameters.emplace_back("alpha", transition);
       fit.parameters.emplace_back(
           "p_a", (fit.parameter("p_b") - r * fit.parameter("d")) / (1 + r * slope));

@@ -23,7 +23,8 @@ struct FittedModel {
 };
 
 // Of the points whose pressure in the plane is above a tenth of the largest: where the powder comes apart, what is left is the
-// stress zz that plane strain locks into the particles, and no surface.
+// stress zz that plane strain locks into the particles, and no surface. And of those with q > 0, pressed more in y: what was
+// pressed in y has another surface on the other side, which no isotropic model can have.
 //   drucker_prager_cap      d, beta, R, p_b (cap on the p axis), alpha (transition), p_a: Abaqus, *CAP PLASTICITY
 //   modified_cam_clay       M, p_c
 //   fleck_kuhn_mcmeeking    p_y: spheres, isotropic, stage I (Fleck, Kuhn & McMeeking 1992, in the form of Redanz,

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -44,14 +46,15 @@ std::string abaqus_block(const std::string& name, const std::vector<CapRow>& row
       "** hydrostatic yield pressure p_b, volumetric plastic strain since the first row\n"
       "*CAP HARDENING\n";
   for (const CapRow& row : rows)
-    text += fmt::format("{:.6e}, {:.6f}\n", row.p_b, std::log(row.density / rows.front().density));
+    text +=
+        fmt::format("{:.6e}, {:.6f}\n", row.p_b, portable::log(row.density / rows.front().density));
   return text;
 }
 
 CamClay cam_clay_of(const std::vector<CapRow>& rows) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, m = 0;
   for (const CapRow& row : rows) {
-    const double pressure = std::log(row.p_c), e = void_ratio(row.density);
+    const double pressure = portable::log(row.p_c), e = void_ratio(row.density);
     n += 1, x += pressure, y += e, xx += pressure * pressure, xy += pressure * e, m += row.m;
   }
   const CapRow &first = rows.front(), &middle = rows[rows.size() / 2];

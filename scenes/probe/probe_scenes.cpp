@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/portable_math.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/scene_text.hpp"
 
@@ -61,13 +62,13 @@ std::string probing_scene(const LoadedScene& scene, const ProbeSpec& spec, const
   if (!angle) {
     drive = fmt::format("strain_xy = {:.17g}\n", spec.size);
   } else if (spec.control == ProbeSpec::Control::strain) {
-    drive = fmt::format("strain_xx = {:.17g}\nstrain_yy = {:.17g}\n", spec.size * std::cos(*angle),
-                        spec.size * std::sin(*angle));
+    drive = fmt::format("strain_xx = {:.17g}\nstrain_yy = {:.17g}\n",
+                        spec.size * portable::cos(*angle), spec.size * portable::sin(*angle));
   } else {
     const double size = spec.size * start.pressure;
     drive = fmt::format(
         "stress_xx = \"{:.17g} Pa\"\nstress_yy = \"{:.17g} Pa\"\nrise = 1\ntolerance = 1e9\n",
-        xx + size * std::cos(*angle), yy + size * std::sin(*angle));
+        xx + size * portable::cos(*angle), yy + size * portable::sin(*angle));
   }
   const std::string stages = fmt::format(
       R"([[stage]]

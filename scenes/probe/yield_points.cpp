@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/portable_math.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -120,7 +122,7 @@ std::optional<YieldPoint> dissipation_yield(const ProbeCurve& curve, const Powde
 
 void find_normality(std::vector<YieldPoint>& points, const std::array<double, 2>& centre) {
   const auto direction = [&](const YieldPoint& p) {
-    return std::atan2(p.stress[1] - centre[1], p.stress[0] - centre[0]);
+    return portable::atan2(p.stress[1] - centre[1], p.stress[0] - centre[0]);
   };
   std::ranges::sort(points, {}, direction);
   const std::size_t n = points.size();
@@ -134,7 +136,7 @@ void find_normality(std::vector<YieldPoint>& points, const std::array<double, 2>
     if (size == 0 || (plastic[0] == 0 && plastic[1] == 0)) continue;
     // Outwards of a surface that is gone round counter-clockwise: (ty, -tx).
     const double cosine = (ty * plastic[0] - tx * plastic[1]) / size;
-    points[i].normality = std::acos(std::clamp(cosine, -1.0, 1.0));
+    points[i].normality = portable::acos(std::clamp(cosine, -1.0, 1.0));
   }
 }
 

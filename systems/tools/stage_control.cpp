@@ -15,6 +15,7 @@
 #include "engine/portable_math.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/tools/relief_kernel.hpp"
+#include "systems/tools/tool_kernel.hpp"
 #include "systems/tools/systems.hpp"
 
 namespace pulvis {
@@ -29,10 +30,25 @@ double relative_density(const StageEnds::Cell& cell, const Read<ToolPosition>& a
   return cell.particle_area / kernels::die_area(sides, cell.relief);
 }
 
+// Of the area: how much is still to come of the strains that are driven, if they begin to come to rest now. Half of a ramp at
+// the speed of now.
+double strain_to_rest(const MixedControl& control, const ToolProgram& program, int stage,
+                      const Clock& clock) {
+  const MixedControl::Stage& asked = entry(control.stages, stage);
+  const double since = clock.time - entry(program.stages, stage).begin;
+  const double share =
+      0.5 * asked.ramp * kernels::smooth_speed(since / asked.duration, asked.ramp);
+  double strain = 0;
+  for (const int k : {MixedControl::xx, MixedControl::yy})
+    if (entry(asked.law, k) == MixedControl::Law::strain) strain += entry(asked.strain, k);
+  return share * strain;
+}
+
 double value_now(const End& end, const stage_control& s) {
   const StageEnds& ends = *s.ends;
   if (end.kind == StageEnds::Kind::density && s.cell)
-    return ends.cell.particle_area / (*s.cell)->area();
+    return ends.cell.particle_area / (*s.cell)->area() *
+           portable::exp(-strain_to_rest((*s.cell)->control, *s.program, end.stage, *s.clock));
   const Read<ToolPosition>& at = s.tools->position;
   const Read<ToolForce>& force = s.tools->force;
   const Row<Tool> tool(end.tool);

@@ -1,0 +1,34 @@
+#include "cli/probe/probe_options.hpp"
+
+#include "cli/tell.hpp"
+#include "scenes/probe/probe_read.hpp"
+
+namespace pulvis {
+
+void add_probe(CLI::App& app, ProbeOptions& options, ExitCode& code) {
+  auto* command = app.add_subcommand(
+      "probe", "find where a powder yields at set densities, and fit cap models to it");
+  command->add_option("probe", options.probe, "probe file (TOML), docs/probe.md");
+  command
+      ->add_option("-o,--output", options.folder,
+                   "results folder (default runs/<probe name>); what is finished in it is kept")
+      ->transform(without_detours);
+  command
+      ->add_option("--jobs", options.jobs,
+                   "runs at once, one thread each (default: as many as there are processors)")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--fresh", options.fresh, "run everything again");
+  command->add_flag("--list", options.list, "check everything, print the runs, run nothing");
+  command->add_option("--reference", options.reference, "print the probe language instead: text")
+      ->check(CLI::IsMember({"text"}));
+  add_overrides(*command, options.overrides, "the scene of every path");
+  command->callback([&options, &code] {
+    if (options.probe.empty() && options.reference.empty()) throw CLI::RequiredError("probe");
+    if (options.reference.empty())
+      code = run_probe(options.probe);
+    else
+      tell("{}", probe_reference());
+  });
+}
+
+}  // namespace pulvis
