@@ -321,7 +321,7 @@ std::vector<double> Results::sample() {
   row.push_back(min_jacobian());
   row.push_back(world_.resource<Clock>().dt);
   append_observed_sample(world_, enclosed_area(), row);
-  shear_.append_sample(row);
+  shear_.append_sample(energies_.plastic, row);
   last_ = row;
   return row;
 }

@@ -79,7 +79,11 @@ std::vector<SeriesInfo> ShearResults::series(const Scene& scene) {
        "displacement of the target along itself since the shear stage began"},
       {"shear/friction", "-", "lateral over normal force on the target; NaN where it bears none"},
       {"shear/work", "J", "of the target against friction and grooves"},
-      {"shear/locked", "-", "particles that touch the target and go along with it, within 10%"}};
+      {"shear/locked", "-", "particles that touch the target and go along with it, within 10%"},
+      {"shear/plastic_work", "J", "spent in plastic flow since the shear stage began"},
+      {"shear/ploughing", "-",
+       "shear/plastic_work over the normal force on the target, integrated over the distance: what "
+       "ploughing adds to the mean coefficient; NaN before the target has moved"}};
   if (setup->width > 0) {
     all.push_back({"shear/normal_stress", "Pa", "on the target: normal force / width x thickness"});
     all.push_back({"shear/lateral_stress", "Pa", "on the target, against its motion"});
@@ -146,7 +150,7 @@ int ShearResults::take_touching(bool sliding) {
   return locked;
 }
 
-void ShearResults::append_sample(std::vector<double>& row) {
+void ShearResults::append_sample(double plastic, std::vector<double>& row) {
   if (!setup_) return;
   const double* forces = world_.column<ToolForce>().values();
   const double* positions = world_.column<ToolPosition>().values();
@@ -156,8 +160,12 @@ void ShearResults::append_sample(std::vector<double>& row) {
   const double face = setup_->width * world_.resource<Bodies>().thickness;
   const double friction = normal > 0 ? lateral / normal : nothing;
   work_ += 0.5 * (lateral + lateral_before_) * (distance - distance_before_);
+  pressed_ += 0.5 * (normal + normal_before_) * (distance - distance_before_);
+  if (distance <= 0) plastic_at_begin_ = plastic;
+  const double flow = plastic - plastic_at_begin_;
   row.insert(row.end(),
-             {distance, friction, work_, static_cast<double>(take_touching(distance > 0))});
+             {distance, friction, work_, static_cast<double>(take_touching(distance > 0)), flow,
+              pressed_ > 0 ? flow / pressed_ : nothing});
   if (setup_->width > 0) {
     row.insert(row.end(), {normal / face, lateral / face});
     if (setup_->punch >= 0)
@@ -175,6 +183,7 @@ void ShearResults::append_sample(std::vector<double>& row) {
                               : nothing);
   if (distance > 0) samples_.push_back({distance, friction, face > 0 ? normal / face : 0});
   lateral_before_ = lateral;
+  normal_before_ = normal;
   distance_before_ = distance;
   time_before_ = world_.resource<Clock>().time;
 }

@@ -40,8 +40,9 @@ class ShearResults {
   static std::vector<SeriesInfo> series(const Scene& scene);
   static std::vector<FieldInfo> fields(const Scene& scene);
 
-  // In the order of series(); of an observed world. Sums up slip over samples.
-  void append_sample(std::vector<double>& row);
+  // In the order of series(); of an observed world and what it has spent in plastic flow [J]. Sums up slip over
+  // samples.
+  void append_sample(double plastic, std::vector<double>& row);
   void append_frame(std::vector<std::vector<double>>& fields) const;
   // None before the target has moved.
   std::optional<ShearFigures> figures() const;
@@ -50,7 +51,7 @@ class ShearResults {
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(punch_at_begin_, punch_before_, time_before_, work_, lateral_before_, distance_before_,
-          slip_, samples_, dilation_);
+          slip_, samples_, dilation_, plastic_at_begin_, pressed_, normal_before_);
   }
 
  private:
@@ -72,6 +73,8 @@ class ShearResults {
   std::vector<double> slip_;  // m, [particles]
   std::vector<Sample> samples_;
   double dilation_ = 0;
+  double plastic_at_begin_ = 0;             // J
+  double pressed_ = 0, normal_before_ = 0;  // N m, the normal force over the distance; N
 };
 
 }  // namespace pulvis

@@ -117,6 +117,23 @@ TEST(Servo, HoldsItsForceWhileTheTargetSlides) {
   EXPECT_NEAR(e.value("shear/distance"), 0.4e-3, 1e-9);
 }
 
+// Under a held force the normal force over the distance is the product of both.
+TEST(Shear, PloughingIsThePlasticWorkOverWhatPresses) {
+  Experiment e(
+      "shear/grooves-16.toml",
+      joined(one_sheared, {"stage.load.servo.top.force=1 kN", "stage.load.duration=0.6 ms",
+                           "stage.shear.servo.top.force=1 kN", "stage.shear.duration=0.8 ms",
+                           "stage.shear.move.target.displacement=[\"1 mm\", \"0 mm\"]"}));
+  double before = 0;
+  e.run(100, [&] {
+    if (e.value("shear/distance") == 0) before = e.value("energy/plastic");
+  });
+  const double flow = e.value("energy/plastic") - before;
+  EXPECT_GT(flow, 0.01 * 1000 * 1e-3);
+  EXPECT_NEAR(e.value("shear/plastic_work") / flow, 1, 1e-2);
+  EXPECT_NEAR(e.value("shear/ploughing") / (flow / (1000 * 1e-3)), 1, 5e-2);
+}
+
 TEST(Servo, StopsWithTheForceReachedWhereItCannotReachMore) {
   Experiment e("shear/flat-16.toml",
                joined(one_sheared, {"stage.load.servo.top.force=1 MN", "stage.load.duration=0.1 ms",
