@@ -25,7 +25,7 @@ void add_probe(CLI::App& app, ProbeOptions& options, ExitCode& code) {
   command->callback([&options, &code] {
     if (options.probe.empty() && options.reference.empty()) throw CLI::RequiredError("probe");
     if (options.reference.empty())
-      code = run_probe(options.probe);
+      code = run_probe(options);
     else
       tell("{}", probe_reference());
   });

@@ -39,7 +39,8 @@ const std::vector<Preset>& presets() {
       {"ellipse", star, {"size"}},
       {"superellipse", star, {"size"}},
       {"polygon", star, {"size"}},
-      {"points", star, {"size"}}};
+      {"points", star, {"size"}},
+      {"fourier", star, {"size"}}};
   return all;
 }
 

@@ -1,4 +1,4 @@
-// Declarations of what a powder is made of: the top level, materials, particle classes.
+// Declarations of what a powder is made of: the top level, materials, particle classes and their outlines.
 #include <concepts>
 
 #include "scenes/keys/declare.hpp"
@@ -23,11 +23,12 @@ void choose_outline(ParticleSpec& particle, const Decoded& value) {
                                                 emplace_outline<EllipseOutline>,
                                                 emplace_outline<SuperellipseOutline>,
                                                 emplace_outline<PolygonOutline>,
-                                                emplace_outline<PointsOutline>};
+                                                emplace_outline<PointsOutline>,
+                                                emplace_outline<FourierOutline>};
   choices[value.index](particle);
 }
 
-// A key of every outline (or mesh) that has the member: the one chosen does, only_for sees to that.
+// A key of every outline that has the member: the one chosen does, only_for sees to that.
 template <class Value = double, class Set>
 auto outline_to(Set set, Value Decoded::*member = &Decoded::number) {
   return [set, member](ParticleSpec& particle, const Decoded& value) {
@@ -37,17 +38,6 @@ auto outline_to(Set set, Value Decoded::*member = &Decoded::number) {
             set(outline, value.*member);
         },
         particle.outline);
-  };
-}
-template <class Set>
-auto mesh_to(Set set) {
-  return [set](ParticleSpec& particle, const Decoded& value) {
-    std::visit(
-        [&](auto& mesh) {
-          if constexpr (std::invocable<Set, decltype(mesh), int>)
-            set(mesh, static_cast<int>(value.integer));
-        },
-        particle.mesh);
   };
 }
 
@@ -107,7 +97,9 @@ const TableDeclaration<Scene>& top_level() {
          .range = within(0, 1e15),
          .fallback = value_of(1),
          .only_for = compaction_only,
-         .doc = "Seed of everything random; the same seed gives the same run."},
+         .doc = "Seed of everything random, but for the `variant` of outlines; the same seed gives "
+                "the "
+                "same run."},
         [](Scene& scene, const Decoded& value) {
           scene.seed = static_cast<std::uint64_t>(value.integer);
         }},
@@ -213,7 +205,8 @@ const TableDeclaration<ParticleSpec>& particle() {
                      {"ellipse", "of two axes"},
                      {"superellipse", "between a rhombus and a rectangle, by its exponent"},
                      {"polygon", "regular, or by its corners; sharp or rounded"},
-                     {"points", "a smooth curve through points of a file, a traced grain"}},
+                     {"points", "a smooth curve through points of a file, a traced grain"},
+                     {"fourier", "irregular, by the spectrum of its radius"}},
          .required = true,
          .doc = "Shape of the particle."},
         choose_outline},
@@ -233,10 +226,11 @@ const TableDeclaration<ParticleSpec>& particle() {
          .unit = "m",
          .range = within(smallest_size, largest_size),
          .required = true,
-         .only_for = {"disc", "ring", "polygon", "points"},
+         .only_for = {"disc", "ring", "polygon", "points", "fourier"},
          .optional_for = {"polygon", "points"},
          .doc = "Outer diameter; of a regular polygon that of the circle through its corners; with "
-                "points that of the circle of the same area, to which the outline is scaled."},
+                "points and fourier that of the circle of the same area, to which the outline is "
+                "scaled."},
         outline_to(
             [](auto& o, double value) requires requires { o.diameter; } { o.diameter = value; })},
        {{.name = "width",
@@ -353,6 +347,71 @@ const TableDeclaration<ParticleSpec>& particle() {
          .fallback_doc = "the file's own size, without `width` and `diameter`"},
         outline_to(
             [](auto& o, double value) requires requires { o.area; } { o.area = value; })},
+       {{.name = "aspect_ratio",
+         .kind = Kind::number,
+         .range = within(1, 4),
+         .fallback = value_of(1.0),
+         .only_for = "fourier",
+         .doc = "The outline is stretched along the particle's own x axis and shortened across, so "
+                "that a circle becomes an ellipse of this length over width."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.aspect_ratio; } {
+              o.aspect_ratio = value;
+            })},
+       {{.name = "irregularity",
+         .kind = Kind::number,
+         .range = within(0, 0.5),
+         .fallback = value_of(0.0),
+         .only_for = "fourier",
+         .doc = "How far from round: amplitude of the radius' mode 3 over the mean radius, from "
+                "which the modes up to 7 follow by `decay`. 0.1 is an angular grain."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.irregularity; } {
+              o.irregularity = value;
+            })},
+       {{.name = "roughness",
+         .kind = Kind::number,
+         .range = within(0, 0.2),
+         .fallback = value_of(0.0),
+         .only_for = "fourier",
+         .doc = "How bumpy: the same of mode 8, from which the modes up to `modes` follow. It asks "
+                "for a fine mesh."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.roughness; } { o.roughness = value; })},
+       {{.name = "decay",
+         .kind = Kind::number,
+         .range = within(0, 10),
+         .fallback = value_of(2.0),
+         .only_for = "fourier",
+         .doc = "Mode n has the amplitude irregularity (n/3)^-decay, from 8 on roughness "
+                "(n/8)^-decay."},
+        outline_to(
+            [](auto& o, double value) requires requires { o.decay; } { o.decay = value; })},
+       {{.name = "modes",
+         .kind = Kind::integer,
+         .range = within(8, 64),
+         .fallback = value_of(16),
+         .only_for = "fourier",
+         .needs = "roughness",
+         .doc = "The highest mode of the roughness."},
+        outline_to<std::int64_t>(
+            [](auto& o, std::int64_t value) requires requires { o.modes; } {
+              o.modes = static_cast<int>(value);
+            },
+            &Decoded::integer)},
+       {{.name = "variant",
+         .kind = Kind::integer,
+         .range = within(0, 1e15),
+         .fallback = value_of(1),
+         .only_for = "fourier",
+         .doc =
+             "Which outline of this spectrum: the modes' phases are drawn from this number "
+             "alone, not from the scene's `seed`, so that packings in files keep their outlines."},
+        outline_to<std::int64_t>(
+            [](auto& o, std::int64_t value) requires requires { o.variant; } {
+              o.variant = static_cast<std::uint64_t>(value);
+            },
+            &Decoded::integer)},
        {{.name = "mirrored",
          .kind = Kind::flag,
          .fallback = value_of(false),
@@ -361,96 +420,6 @@ const TableDeclaration<ParticleSpec>& particle() {
         outline_to<bool>(
             [](auto& o, bool value) requires requires { o.mirrored; } { o.mirrored = value; },
             &Decoded::flag)}}};
-  return declaration;
-}
-
-const TableDeclaration<ParticleSpec>& mesh() {
-  static const TableDeclaration<ParticleSpec> declaration{
-      {"particle.mesh", false, "outline", "Finite elements of one particle."},
-      {{{.name = "size",
-         .kind = Kind::quantity,
-         .unit = "m",
-         .range = within(smallest_size, largest_size),
-         .doc = "Wanted length of the edges along the outline, instead of their number and that of "
-                "the rings; finer where the outline turns sharply.",
-         .fallback_doc = "by `accuracy`"},
-        [](ParticleSpec& spec, const Decoded& value) { spec.mesh_size = value.number; }},
-       {{.name = "boundary_edges",
-         .kind = Kind::integer,
-         .range = within(4, 4096),
-         .multiple_of = 4,
-         .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
-                      "points"},
-         .doc = "Edges along the outline; an even core has (boundary_edges/4)^2 quads. Corners of "
-                "a small radius get four edges each, which grow towards the middle of the flats.",
-         .fallback_doc = "by `accuracy`; beside other sizes 40, of what is no disc or ring 48"},
-        mesh_to(
-            [](auto& mesh, int value) requires requires { mesh.boundary_edges; } {
-              mesh.boundary_edges = value;
-            })},
-       {{.name = "rings",
-         .kind = Kind::integer,
-         .range = within(0, 1024),
-         .only_for = {"disc", "rounded_rectangle", "ring", "ellipse", "superellipse", "polygon",
-                      "points"},
-         .doc =
-             "Rings of quads between the core and the outline, of a ring through its wall; 0: only "
-             "the core, for discs of at most 20 boundary edges or with a coarse core.",
-         .fallback_doc = "by `accuracy`; beside other sizes 1, of a ring 4"},
-        mesh_to(
-            [](auto& mesh, int value) requires requires { mesh.rings; } { mesh.rings = value; })},
-       {{.name = "core",
-         .kind = Kind::choice,
-         .choices = {{"even", "as fine as the outline"},
-                     {"coarse",
-                      "one edge for three of the outline, joined by a ring of transition quads; "
-                      "boundary_edges is a multiple of 12"}},
-         .only_for = "disc",
-         .doc = "The inside of the rings.",
-         .fallback_doc = "by `accuracy`; beside other sizes `\"even\"`"},
-        [](ParticleSpec& spec, const Decoded& value) {
-          std::get<DiscMesh>(spec.mesh).core = static_cast<DiscMesh::Core>(value.index);
-        }},
-       {{.name = "refinement",
-         .kind = Kind::number,
-         .range = within(1, 100),
-         .fallback = value_of(1.0),
-         .only_for = "disc",
-         .doc = "How much finer the edges at top and bottom are than those at the sides."},
-        [](ParticleSpec& spec, const Decoded& value) {
-          std::get<DiscMesh>(spec.mesh).refinement = value.number;
-        }},
-       {{.name = "phase",
-         .kind = Kind::phase,
-         .unit = "rad",
-         .range = within(-1000, 1000),
-         .word = "random",
-         .fallback = value_of("0 deg"),
-         .only_for = {"disc", "ring"},
-         .doc =
-             "Turn of the mesh inside the outline; \"random\" turns each particle's by its own."},
-        [](ParticleSpec& spec, const Decoded& value) {
-          spec.random_mesh_phase = value.is_word;
-          spec.mesh_phase = value.number;
-        }},
-       {{.name = "columns",
-         .kind = Kind::integer,
-         .range = within(1, 4096),
-         .only_for = "rectangle",
-         .doc = "Quads along the width.",
-         .fallback_doc = "by `accuracy`; beside `rows` 8"},
-        [](ParticleSpec& spec, const Decoded& value) {
-          std::get<RectangleMesh>(spec.mesh).columns = static_cast<int>(value.integer);
-        }},
-       {{.name = "rows",
-         .kind = Kind::integer,
-         .range = within(1, 4096),
-         .only_for = "rectangle",
-         .doc = "Quads along the height.",
-         .fallback_doc = "by `accuracy`; beside `columns` 8"},
-        [](ParticleSpec& spec, const Decoded& value) {
-          std::get<RectangleMesh>(spec.mesh).rows = static_cast<int>(value.integer);
-        }}}};
   return declaration;
 }
 

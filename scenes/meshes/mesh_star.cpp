@@ -1,4 +1,5 @@
-// An O-grid in any curve that one point inside sees as a whole: ellipse, superellipse, polygon, points.
+// An O-grid in any curve that one point inside sees as a whole: ellipse, superellipse, polygon,
+// points, fourier.
 #include "scenes/meshes/boundary_nodes.hpp"
 #include "scenes/meshes/contact_curve.hpp"
 #include "scenes/meshes/mesh_outlines.hpp"

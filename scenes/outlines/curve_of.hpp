@@ -6,11 +6,12 @@
 
 namespace pulvis {
 
-// The curve of an ellipse, superellipse, polygon or traced outline.
+// The curve of an ellipse, superellipse, polygon, traced or irregular outline.
 OutlineCurve curve_of(const EllipseOutline& outline);
 OutlineCurve curve_of(const SuperellipseOutline& outline);
 OutlineCurve curve_of(const PolygonOutline& outline);
 OutlineCurve curve_of(const PointsOutline& outline);
+OutlineCurve curve_of(const FourierOutline& outline);
 OutlineCurve curve_of(const GrainOutline& outline);
 
 // Of any outline without a hole.

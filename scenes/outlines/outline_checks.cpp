@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/portable_math.hpp"
+#include "scenes/outlines/fourier_outline.hpp"
 #include "scenes/outlines/outline_curve.hpp"
 #include "scenes/outlines/star.hpp"
 
@@ -20,6 +21,8 @@ using Faults = std::vector<OutlineFault>;
 constexpr double longest_over_shortest = 8;
 // Beyond this the two sides of a corner are nearly one.
 constexpr double max_turn = 170.0 / 180 * std::numbers::pi;
+// Of an irregular outline, over its mean: below 0 it crosses itself, and near it there is no room for elements.
+constexpr double min_radius = 0.2;
 
 std::string text_of(const Vec2& p) { return fmt::format("({:g}, {:g}) m", p.x(), p.y()); }
 
@@ -100,6 +103,28 @@ Faults bad_rounding(const PolygonOutline& polygon) {
   return {};
 }
 
+// The largest amplitude of some modes at which the radius keeps to its minimum everywhere, where others take
+// `taken` of it.
+template <class Taken>
+double max_amplitude(const std::vector<FourierModes::Mode>& modes, const Taken& taken) {
+  constexpr int angles = 1024;  // 16 of the shortest wave
+  double maximum = std::numeric_limits<double>::max();
+  for (int i = 0; i < angles; ++i) {
+    const double angle = 2 * std::numbers::pi * i / angles;
+    const portable::Turn turn{portable::cos(angle), portable::sin(angle)};
+    const double value = sum_at(modes, turn).value;
+    if (value < 0) maximum = std::min(maximum, (1 - min_radius + taken(turn)) / -value);
+  }
+  return std::max(0.0, maximum);
+}
+
+Faults hollow(const std::string& key, double given, double maximum) {
+  return {{key, fmt::format("{:g} brings the outline nearer to its middle than {:g} of the mean "
+                            "radius, where it soon crosses itself, allowed: <= {:.3g} with these "
+                            "phases",
+                            given, min_radius, std::floor(maximum * 1e3) / 1e3)}};
+}
+
 }  // namespace
 
 Faults faults_of(const EllipseOutline& outline) { return slender(outline.width, outline.height); }
@@ -133,6 +158,18 @@ Faults faults_of(const PointsOutline& outline) {
   if (faults.empty())
     faults = unseen(curve_of(outline), "file", ", more smoothing where the points are noisy");
   return faults;
+}
+
+Faults faults_of(const FourierOutline& outline) {
+  const FourierModes modes = fourier_modes(outline);
+  const double most_rough = max_amplitude(modes.rough, [](portable::Turn) { return 0.0; });
+  if (outline.roughness > most_rough) return hollow("roughness", outline.roughness, most_rough);
+  const double most_irregular = max_amplitude(modes.irregular, [&](portable::Turn turn) {
+    return outline.roughness * sum_at(modes.rough, turn).value;
+  });
+  if (outline.irregularity > most_irregular)
+    return hollow("irregularity", outline.irregularity, most_irregular);
+  return unseen(curve_of(outline), "irregularity", "");
 }
 
 }  // namespace pulvis

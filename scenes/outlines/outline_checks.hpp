@@ -18,5 +18,6 @@ std::vector<OutlineFault> faults_of(const EllipseOutline& outline);
 std::vector<OutlineFault> faults_of(const SuperellipseOutline& outline);
 std::vector<OutlineFault> faults_of(const PolygonOutline& outline);
 std::vector<OutlineFault> faults_of(const PointsOutline& outline);
+std::vector<OutlineFault> faults_of(const FourierOutline& outline);
 
 }  // namespace pulvis

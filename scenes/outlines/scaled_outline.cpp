@@ -29,6 +29,10 @@ PointsOutline scaled_by(double f, PointsOutline o) {
   if (o.area) *o.area *= f * f;
   return o;
 }
+FourierOutline scaled_by(double f, FourierOutline o) {
+  o.diameter *= f;
+  return o;
+}
 
 // Particles are scaled before they are cut into grains.
 GrainOutline scaled_by(double, const GrainOutline& o) { return o; }

@@ -117,6 +117,17 @@ struct PointsOutline {
   std::optional<double> area = {};      // m^2
   bool mirrored = false;                // x -> -x
 };
+// Irregular: a radius over the polar angle with a spectrum of given amplitudes and drawn phases, then stretched.
+struct FourierOutline {
+  using Mesh = StarMesh;
+  double diameter = 0;        // m, of the circle of the same area
+  double aspect_ratio = 1;    // -, stretch along the particle's own x axis over that along y
+  double irregularity = 0;    // -, amplitude of mode 3 over the mean radius
+  double roughness = 0;       // -, of mode 8
+  double decay = 2;           // -, exponent with which both fall with the mode's number
+  int modes = 16;             // the highest of the roughness
+  std::uint64_t variant = 1;  // the phases are drawn from it
+};
 class OutlineCurve;  // scenes/outlines/outline_curve.hpp
 
 // One grain of a particle: its faces to other grains are straight, the others lie on the particle's outline. No scene
@@ -132,9 +143,9 @@ struct GrainOutline {
   std::vector<Face> faces = {};
   std::shared_ptr<const OutlineCurve> particle = {};
 };
-using Outline =
-    std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline,
-                 EllipseOutline, SuperellipseOutline, PolygonOutline, PointsOutline, GrainOutline>;
+using Outline = std::variant<DiscOutline, RectangleOutline, RoundedRectangleOutline, RingOutline,
+                             EllipseOutline, SuperellipseOutline, PolygonOutline, PointsOutline,
+                             FourierOutline, GrainOutline>;
 
 struct GrainsSpec {  // what a particle is made of: a Voronoi tessellation
   std::optional<int> number;

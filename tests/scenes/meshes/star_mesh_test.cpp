@@ -1,4 +1,4 @@
-// Meshes and contact curves of ellipses, superellipses, polygons and traced outlines, over a range of shapes.
+// Meshes and contact curves of ellipses, superellipses, polygons, traced and irregular outlines, over a range of shapes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,6 +47,15 @@ PointsOutline grain(int points, bool mirrored = false) {
   return outline;
 }
 
+FourierOutline irregular(std::uint64_t variant) {
+  FourierOutline outline;
+  outline.diameter = 10e-3;
+  outline.aspect_ratio = 1.4;
+  outline.irregularity = 0.07;
+  outline.variant = variant;
+  return outline;
+}
+
 const std::vector<Vec2> five{{0, 0}, {8, -1}, {10, 4}, {6, 9}, {-1, 6}};
 const std::vector<Vec2> notched{{0, 0}, {10, 0}, {10, 9}, {5, 5.5}, {0, 9}};
 const std::vector<Vec2> angle{{0, 0}, {10, 0}, {10, 5}, {5, 5}, {5, 10}, {0, 10}};
@@ -70,6 +79,8 @@ std::vector<Case> cases() {
   list.push_back({"angle", polygon(angle, 1), 64});
   list.push_back({"grain", grain(60), 48});
   list.push_back({"fine grain", grain(60), 160, 4});
+  for (const std::uint64_t variant : {1, 2, 3, 4})
+    list.push_back({"irregular " + std::to_string(variant), irregular(variant), 64});
   return list;
 }
 
@@ -293,7 +304,8 @@ TEST(MeshSize, GivesEdgesOfThatLengthForEveryOutline) {
         {"rectangle", 0, RectangleOutline{12e-3, 8e-3}, RectangleMesh{}, false, 0, {}},
         {"ellipse", 0, EllipseOutline{12e-3, 8e-3}, StarMesh{}, false, 0, {}},
         {"hexagon", 0, regular(6), StarMesh{}, false, 0, {}},
-        {"grain", 0, grain(60), StarMesh{}, false, 0, {}}}) {
+        {"grain", 0, grain(60), StarMesh{}, false, 0, {}},
+        {"irregular", 0, irregular(1), StarMesh{}, false, 0, {}}}) {
     particle.mesh_size = size;
     mesh_of_size(particle);
     const Shape shape = make_shape(particle);

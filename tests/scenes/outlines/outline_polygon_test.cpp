@@ -76,7 +76,8 @@ std::vector<Outline> curved() {
           SuperellipseOutline{3, 2, 20},
           PolygonOutline{5, 2, {}, 0.2, false},
           PolygonOutline{0, 0, clockwise, 0.5, true},
-          traced};
+          traced,
+          FourierOutline{2, 1.5, 0.08, 0.01, 2, 16, 3}};
 }
 
 TEST(OutlinePolygon, OfACurvedOutlineIsAsCloseAsAskedAndCentred) {

@@ -88,6 +88,21 @@ TEST(WrongOutline, ExponentSlendernessAndMeshAreRefusedWithTheirBounds) {
   expect_refused(polygon(square, "mirrored = \"yes\""), ".mirrored", "wrong type", "true or false");
 }
 
+TEST(WrongOutline, IrregularIsRefusedWhereItWouldCrossItselfOrIsTooSharpForItsMesh) {
+  const std::string grain = "outline = \"fourier\"\ndiameter = \"10 mm\"\n";
+  const std::string coarse = "\n[particle.mesh]\nboundary_edges = 20";
+  expect_refused(grain + "irregularity = 0.5\ndecay = 0", ".irregularity", "soon crosses itself",
+                 "with these phases");
+  expect_refused(grain + "roughness = 0.2\ndecay = 0\nmodes = 40", ".roughness",
+                 "soon crosses itself", "with these phases");
+  expect_refused(grain + "irregularity = 0.6", ".irregularity", "0.6 is out of range", "<= 0.5");
+  expect_refused(grain + "aspect_ratio = 0.5", ".aspect_ratio", "0.5 is out of range", ">= 1");
+  expect_refused(grain + "roughness = 0.02\nmodes = 7", ".modes", "7 is out of range", ">= 8");
+  expect_refused(grain + "roughness = 0.02" + coarse, ".mesh.boundary_edges",
+                 "20 edges are too few", ">= ");
+  expect_refused("outline = \"fourier\"\n", ".diameter", "missing", "quantity");
+}
+
 class PointsFile : public testing::Test {
  protected:
   void write(const std::string& text) { std::ofstream(path_) << text; }
