@@ -29,13 +29,18 @@ Curve curve_of(const StudyResult& result, const StudyCurve& wanted) {
   return curve;
 }
 
-// Up to the first point that does not lie further on.
-Curve rising_part(Curve curve) {
-  std::size_t end = 1;
+// From where x leaves its beginning, as the distance of a target does that rests first, up to the first point that does
+// not lie further on.
+Curve rising_part(const Curve& curve) {
+  std::size_t begin = 0;
+  while (begin + 1 < curve.x.size() && curve.x[begin + 1] <= curve.x[begin]) ++begin;
+  std::size_t end = begin + 1;
   while (end < curve.x.size() && curve.x[end] > curve.x[end - 1]) ++end;
-  curve.x.resize(std::min(end, curve.x.size()));
-  curve.y.resize(curve.x.size());
-  return curve;
+  const auto part = [&](const std::vector<double>& values) {
+    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                               values.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  return {part(curve.x), part(curve.y)};
 }
 
 double at(const Curve& curve, double x) {
@@ -84,7 +89,7 @@ StudyLine line_of(const std::string& variation, const std::vector<StudyResult>& 
     line.x = std::move(curves.front().x);
     line.y = std::move(curves.front().y);
   } else if (!curves.empty()) {
-    for (Curve& curve : curves) curve = rising_part(std::move(curve));
+    for (Curve& curve : curves) curve = rising_part(curve);
     add_mean(line, curves);
   }
   return line;

@@ -191,6 +191,24 @@ TEST_F(StudyCommand, SeedsMakeABandAboutTheirMean) {
   EXPECT_TRUE(fs::exists(results / "friction=0.1,seed=3" / "run.h5"));
 }
 
+// A target rests until its stage begins: the band goes from there over its whole way.
+TEST_F(StudyCommand, SeedsMakeABandOverADistanceThatRestsFirst) {
+  std::ofstream(place / "study.toml")
+      << "scene = \"" << scene("studies/scenes/shear-regular.toml") << "\"\nseeds = [1, 2]\n[set]\n"
+      << "stage.load.duration = \"10 us\"\nstage.shear.duration = \"10 us\"\n"
+      << "stage.load.servo.top.tolerance = 1e6\n"
+      << "stage.shear.move.target.displacement = [\"0.01 mm\", \"0 mm\"]\n"
+      << "output.frames = 2\noutput.samples = 40\n"
+      << "[[curve]]\nx = \"shear/distance\"\ny = \"shear/work\"\n";
+  const Outcome end = study();
+  ASSERT_EQ(end.code, 0) << end.out << end.err;
+  const auto curves = nlohmann::json::parse(text_of(results / "curves.json"));
+  ASSERT_EQ(curves[0]["lines"].size(), 1U);
+  const auto& x = curves[0]["lines"][0]["x"];
+  EXPECT_EQ(x.front(), 0);
+  EXPECT_NEAR(x.back().get<double>(), 0.01e-3, 1e-9);
+}
+
 // A punch that goes through the particles costs its own run, and what was expected of it.
 TEST_F(StudyCommand, OneRunThatGoesBadCostsNoOther) {
   std::ofstream(place / "study.toml")
