@@ -32,15 +32,21 @@ struct Extent {
   double low, high;  // m
 };
 
+double farthest_point(const Outline& outline) {
+  double farthest = 0;
+  for (const Vec2& corner : outline_polygon(outline, 0.1 * std::sqrt(outline_area(outline))))
+    farthest = std::max(farthest, corner.norm());
+  return farthest;
+}
+
 // Of the powder along x, and as far as it can be pressed aside: to walls that are there.
 Extent powder_extent(const Scene& scene, const std::vector<BodySpec>& bodies) {
   Extent extent{1e300, -1e300};
+  std::vector<double> reaches(scene.particles.size(), -1);  // of the classes that bodies have
   for (const BodySpec& body : bodies) {
-    const Outline& outline = scene.particles[static_cast<std::size_t>(body.particle)].outline;
-    const double size = std::sqrt(outline_area(outline));
-    double reach = 0;
-    for (const Vec2& corner : outline_polygon(outline, 0.1 * size))
-      reach = std::max(reach, 1.1 * corner.norm());
+    const auto particle = static_cast<std::size_t>(body.particle);
+    double& reach = reaches[particle];
+    if (reach < 0) reach = 1.1 * farthest_point(scene.particles[particle].outline);
     extent.low = std::min(extent.low, body.position.x() - reach);
     extent.high = std::max(extent.high, body.position.x() + reach);
   }
