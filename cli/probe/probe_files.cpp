@@ -50,6 +50,9 @@ struct Group {
                  (surface->*criterion.points).end());
     return all;
   }
+  std::vector<FittedModel> fits(const Criterion& criterion) const {
+    return fit_caps(pooled(criterion), density(), surfaces.front()->state->bonded);
+  }
 };
 
 std::vector<Group> groups_of(const Probe& probe, const std::vector<ProbeSurface>& surfaces) {
@@ -118,7 +121,7 @@ std::string caps_csv(const std::vector<Group>& groups) {
       for (const ProbeSurface* surface : group.surfaces)
         add(std::to_string(surface->state->seed), surface->state->density,
             surface->*criterion.models);
-      add("all", group.density(), fit_caps(group.pooled(criterion), group.density()));
+      add("all", group.density(), group.fits(criterion));
     }
   return text;
 }
@@ -181,7 +184,7 @@ Json group_json(const Group& group) {
         json["yield"][criterion.name] = {{"points", Json::array()}, {"models", Json::array()}};
     const std::vector<YieldPoint> points = group.pooled(criterion);
     for (const YieldPoint& point : points) mine["points"].push_back(point_json(point));
-    for (const FittedModel& model : fit_caps(points, group.density())) {
+    for (const FittedModel& model : group.fits(criterion)) {
       mine["models"].push_back(model_json(model));
       mine["models"].back()["scatter"] = scatter_json(group, criterion, model);
     }
@@ -195,7 +198,7 @@ std::vector<CapRow> cap_rows(const std::string& path, const std::vector<Group>& 
   std::vector<CapRow> rows;
   for (const Group& group : groups) {
     if (group.path != path) continue;
-    const auto models = fit_caps(group.pooled(criteria[1]), group.density());
+    const auto models = group.fits(criteria[1]);
     if (models.empty()) continue;
     const FittedModel &cap = models[0], &clay = models[1];
     rows.push_back({group.density(),

@@ -79,6 +79,7 @@ std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& 
     state.stress = {value("cell/stress_xx"), value("cell/stress_yy"), value("cell/stress_xy"),
                     value("stress/zz")};
     state.pressure = -(state.stress[0] + state.stress[1] + state.stress[3]) / 3;
+    state.bonded = !loading.scene.scene.bonds.empty();
     states.push_back(std::move(state));
   }
   return states;
@@ -114,8 +115,8 @@ ProbeSurface surface_of(const ProbeState& state, const ProbeSpec& spec,
                                      spec.release * state.stress[1]};
   find_normality(surface.offset, centre);
   find_normality(surface.dissipation, centre);
-  surface.offset_models = fit_caps(surface.offset, state.density);
-  surface.dissipation_models = fit_caps(surface.dissipation, state.density);
+  surface.offset_models = fit_caps(surface.offset, state.density, state.bonded);
+  surface.dissipation_models = fit_caps(surface.dissipation, state.density, state.bonded);
   return surface;
 }
 

@@ -20,6 +20,7 @@ struct ProbeState {
   double density = 0;              // -, relative, as reached
   std::array<double, 4> stress{};  // Pa: xx yy xy zz
   double pressure = 0;             // Pa
+  bool bonded = false;             // its scene has bonds
 };
 
 // Of all states that the loading run has reached.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double transition = cap_transition;
-constexpr double open = 0.1;        // of the largest pressure in the plane
+constexpr double open = 0.1;         // of the largest pressure in the plane
 constexpr double other_side = 0.05;  // q below 0 by so much of the largest pressure
 // Weight of the logarithms' distance to the start, beside distances over the largest pressure: it decides where the points do
 // not, such as on the cohesion of a powder without any.
@@ -99,43 +99,36 @@ std::vector<Values> one_start(double value) { return {Values::Constant(1, value)
 
 std::vector<Model> models(double density) {
   const double f = std::max(1 - density, 1e-6);
-  return {{"drucker_prager_cap",
-           {"d", "beta", "R", "p_b"},
-           false,
-           cap_starts,
-           in_cap},
-          {"modified_cam_clay",
-           {"M", "p_c"},
-           false,
-           [](double p, double q) {
-             Values x(2);
-             x << 2 * q / p, p;
-             return std::vector{x};
-           },
-           in_cam_clay},
-          {"fleck_kuhn_mcmeeking",
-           {"p_y"},
-           false,
-           [](double p, double) { return one_start(p); },
-           in_fleck_kuhn_mcmeeking},
-          {"gurson",
-           {"sigma_y"},
-           false,
-           [f](double p, double q) {
-             const double limit = 2.0 / 3 * acosh_of((1 + f * f) / (2 * f));
-             return one_start(std::max(q, p / limit));
-           },
-           [f](const Values& x, double p, double q) { return in_gurson(x, f, p, q); }},
-          {"fleck_plane",
-           {"p_y"},
-           true,
-           [](double p, double) { return one_start(p); },
-           in_fleck_plane},
-          {"fleck_plane_cohesive",
-           {"p_y"},
-           true,
-           [](double p, double) { return one_start(p); },
-           in_fleck_plane_cohesive}};
+  return {
+      {"drucker_prager_cap", {"d", "beta", "R", "p_b"}, false, cap_starts, in_cap},
+      {"modified_cam_clay",
+       {"M", "p_c"},
+       false,
+       [](double p, double q) {
+         Values x(2);
+         x << 2 * q / p, p;
+         return std::vector{x};
+       },
+       in_cam_clay},
+      {"fleck_kuhn_mcmeeking",
+       {"p_y"},
+       false,
+       [](double p, double) { return one_start(p); },
+       in_fleck_kuhn_mcmeeking},
+      {"gurson",
+       {"sigma_y"},
+       false,
+       [f](double p, double q) {
+         const double limit = 2.0 / 3 * acosh_of((1 + f * f) / (2 * f));
+         return one_start(std::max(q, p / limit));
+       },
+       [f](const Values& x, double p, double q) { return in_gurson(x, f, p, q); }},
+      {"fleck_plane", {"p_y"}, true, [](double p, double) { return one_start(p); }, in_fleck_plane},
+      {"fleck_plane_cohesive",
+       {"p_y"},
+       true,
+       [](double p, double) { return one_start(p); },
+       in_fleck_plane_cohesive}};
 }
 
 struct Plane {
@@ -196,9 +189,13 @@ Fit fit_from(const Model& model, const std::vector<Plane>& points, double p_max,
   search.minimize(x);
   Values residuals(misfit.values());
   misfit(x, residuals);
-  const auto n = static_cast<Eigen::Index>(points.size());
-  return {exp_of(x), residuals.squaredNorm(),
-          std::sqrt(residuals.head(n).squaredNorm() / static_cast<double>(n))};
+  double squares = 0, n = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].p == 0 && points[i].q == 0) continue;  // no point of a probe
+    const double one = residuals[static_cast<Eigen::Index>(i)];
+    squares += one * one, n += 1;
+  }
+  return {exp_of(x), residuals.squaredNorm(), std::sqrt(squares / n)};
 }
 
 FittedModel fitted(const Model& model, const std::vector<Plane>& points) {
@@ -235,7 +232,8 @@ double FittedModel::parameter(const std::string& of) const {
   throw std::out_of_range(of);
 }
 
-std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double relative_density) {
+std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double relative_density,
+                                  bool bonded) {
   std::vector<Plane> all, in_plane;
   double largest = 0;
   for (const YieldPoint& point : points) largest = std::max(largest, point.plane_pressure());
@@ -248,8 +246,11 @@ std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double 
   std::vector<FittedModel> fits;
   if (all.size() < 5) return fits;
   for (const Model& model : models(relative_density)) {
-    FittedModel fit = fitted(model, model.in_plane ? in_plane : all);
-    if (fit.name == "drucker_prager_cap") {
+    const bool cap = std::string(model.name) == "drucker_prager_cap";
+    std::vector<Plane> mine = model.in_plane ? in_plane : all;
+    if (cap && !bonded) mine.push_back({0, 0});
+    FittedModel fit = fitted(model, mine);
+    if (cap) {
       const double slope = portable::tan(fit.parameter("beta")), r = fit.parameter("R");
       fit.parameters.emplace_back("alpha", transition);
       fit.parameters.emplace_back(

@@ -33,7 +33,9 @@ struct FittedModel {
 //   fleck_plane, fleck_plane_cohesive   p_y: cylinders, isotropic, frictionless contacts of a constant pressure that bear
 //                           no tension, or as much as compression: Fleck 1995 in two dimensions (docs/theory.md)
 // Fewer than five points: none.
-std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double relative_density);
+// Without bonds the stress 0 is one more point of the cap: nothing holds the powder together.
+std::vector<FittedModel> fit_caps(const std::vector<YieldPoint>& points, double relative_density,
+                                  bool bonded);
 
 // Whether the model with these parameters calls p, q elastic: what a fit, and whoever reads its parameters back, goes by.
 bool is_elastic(const std::string& model,
