@@ -151,6 +151,7 @@ std::string with_error(const char* name, const lab::Sample& sample, double confi
 void print_run(const lab::ReducedRun& run) {
   tell("{}: static {:.4f} at {:.2f} mm{}, dynamic {:.4f}", run.name, run.peak.value,
        run.peak.distance * 1e3, run.peak.is_distinct ? "" : " (not distinct)", run.dynamic.mean);
+  if (run.elastic_dynamic) tell(" ({:.4f} with K = nu/(1 - nu))", *run.elastic_dynamic);
   if (run.stick_slip)
     tell(", stick-slip {:.4f} every {:.2f} mm", run.stick_slip->amplitude,
          run.stick_slip->period * 1e3);

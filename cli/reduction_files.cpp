@@ -123,6 +123,7 @@ Json run_json(const lab::ReducedRun& run) {
             {"dynamic_trend", run.dynamic.trend},
             {"dynamic_from", run.dynamic.from},
             {"dynamic_until", run.dynamic.until}};
+  if (run.elastic_dynamic) json["elastic_dynamic_friction"] = *run.elastic_dynamic;
   if (run.stick_slip)
     json["stick_slip"] = stick_slip_json(*run.stick_slip);
   else

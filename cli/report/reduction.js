@@ -19,7 +19,9 @@ function fillFigures(summary) {
     const slip = run.stick_slip;
     addRow(table, [run.name,
       digits(run.static_friction) + (run.static_is_distinct ? "" : " (not distinct)"),
-      inMm(run.static_distance), digits(run.dynamic_friction),
+      inMm(run.static_distance), digits(run.dynamic_friction) +
+        (run.elastic_dynamic_friction === undefined ? ""
+          : ` (${digits(run.elastic_dynamic_friction)} with K = ν/(1 − ν))`),
       digits(run.dynamic_trend * 0.01, 2), slip && digits(slip.amplitude, 3),
       slip && withUnit(slip.shear_force_amplitude, "N", 3), slip && inMm(slip.period),
       withUnit(run.punch_force, "N"), percent(run.target_force / run.punch_force)]);

@@ -71,6 +71,14 @@ std::vector<Key<CompactSpec>> powder_keys() {
         .doc = "Takes Poisson's ratio from Table 3.2 of the thesis.",
         .fallback_doc = "none"},
        [](CompactSpec& spec, const Decoded& value) { spec.powder = value.index; }},
+      {{.name = "stress_ratio",
+        .kind = Kind::number,
+        .range = above(0, 2),
+        .doc =
+            "K, the radial over the axial stress of the compact, in (3.1). The report then shows "
+            "the coefficient of an elastic compact beside.",
+        .fallback_doc = "of an elastic compact, nu/(1 - nu)"},
+       to(&CompactSpec::stress_ratio)},
       {{.name = "wall_friction",
         .kind = Kind::number,
         .range = within(0, 5),
@@ -227,7 +235,7 @@ const TableDeclaration<CompactSpec>& declared_compact() {
     TableDeclaration<CompactSpec> made{
         {"compact", false, "",
          "The compact, as (3.1) needs it: force at its bottom = force on the punch x "
-         "exp(-4 mu nu L / (D (1 - nu)))."},
+         "exp(-4 mu K L / D)."},
         geometry_keys()};
     for (const auto& key : powder_keys()) made.keys.push_back(key);
     return made;

@@ -6,8 +6,8 @@
 
 namespace pulvis::lab {
 
-double wall_exponent(double poissons_ratio, double length, double diameter) {
-  return 4 * poissons_ratio * length / (diameter * (1 - poissons_ratio));
+double wall_exponent(double stress_ratio, double length, double diameter) {
+  return 4 * stress_ratio * length / diameter;
 }
 
 double largest_ratio(double exponent) {

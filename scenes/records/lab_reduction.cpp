@@ -38,7 +38,7 @@ class CurveMaker {
     const double displacement = interpolated(press_.time, press_.displacement, on_press);
     const double length = length_at(displacement, sample);
     const CompactSpec& compact = settings_.compact;
-    const double k = wall_exponent(compact.poisson(), length, compact.die_diameter);
+    const double k = wall_exponent(compact.radial_ratio(), length, compact.die_diameter);
     const double friction = friction_at(shear / punch, k, sample);
     curve.time.push_back(time - clocks_.logger_start.time);
     curve.distance.push_back(distance);
@@ -160,6 +160,25 @@ Dynamic dynamic_mean(const Curve& curve, const AnalysisSpec& spec) {
   return dynamic;
 }
 
+namespace {
+
+// The dynamic coefficient of an elastic compact; none where (3.1) with (3.2) has no solution for one.
+std::optional<double> elastic_dynamic(Curve curve, const Settings& settings) {
+  const CompactSpec& compact = settings.compact;
+  for (std::size_t i = 0; i < curve.friction.size(); ++i) {
+    const double k = wall_exponent(compact.elastic_ratio(), curve.length[i], compact.die_diameter);
+    const double ratio = curve.shear_force[i] / curve.punch_force[i];
+    const std::optional<double> friction = compact.wall_friction
+                                               ? ratio * std::exp(k * *compact.wall_friction)
+                                               : friction_coefficient(ratio, k);
+    if (!friction) return std::nullopt;
+    curve.friction[i] = *friction;
+  }
+  return dynamic_mean(curve, settings.analysis).mean;
+}
+
+}  // namespace
+
 ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Settings& settings,
                   const RunFiles& files) {
   ReducedRun run;
@@ -194,6 +213,7 @@ ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Se
   run.speed = end / (sliding.last_time - sliding.start.time);
   run.noise = rest.deviation * coefficient_for_force(run.curve, settings.compact);
   run.dynamic = dynamic_mean(run.curve, analysis);
+  if (settings.compact.stress_ratio) run.elastic_dynamic = elastic_dynamic(run.curve, settings);
   run.stick_slip = find_stick_slip(dynamic_part(run.curve, run.dynamic), run.noise);
   run.peak = static_peak(run.curve, analysis.static_within);
   const double swing = run.stick_slip ? run.stick_slip->amplitude / 2 : 2 * run.dynamic.deviation;

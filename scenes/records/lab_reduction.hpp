@@ -53,6 +53,7 @@ struct ReducedRun {
   Curve curve;
   Static peak;
   Dynamic dynamic;
+  std::optional<double> elastic_dynamic;  // -, where K is given: with that of an elastic compact
   std::optional<StickSlip> stick_slip;
 };
 

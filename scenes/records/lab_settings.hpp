@@ -42,10 +42,13 @@ struct CompactSpec {
   std::optional<double> length;       // m, when sliding starts
   std::optional<double> fill_height;  // m, at zero punch displacement
   std::optional<double> poissons_ratio;
+  std::optional<double> stress_ratio;   // -, radial over axial
   std::optional<int> powder;            // position in the list of powders
   std::optional<double> wall_friction;  // none: the coefficient that is measured
 
   double poisson() const;  // of the powder where no ratio is given
+  double elastic_ratio() const { return poisson() / (1 - poisson()); }
+  double radial_ratio() const { return stress_ratio.value_or(elastic_ratio()); }
 };
 
 struct ClockSpec {

@@ -18,6 +18,7 @@ struct SlidingTest {
   double press_start = 23.35, logger_start = 6.21;  // s, of sliding, on either clock
   double drift = 0;                                 // seconds the press's clock gains each second
   double force = 1000, length = 10e-3;              // N, m
+  double stress_ratio = 0.3 / 0.7;                  // -, K: elastic
   double settling = 3e-3;                           // m of punch travel for each m of the plate
   double noise = 0;                                 // times 1 um/m, 0.02 mV, 1 N, 0.5 um
   unsigned seed = 1;
@@ -42,7 +43,7 @@ struct SlidingTest {
   double shear(double time) const {  // (3.2) with (3.1), for the length that is left
     const double mu = friction(plate(time)), t = press_time(time);
     const double left = length - (punch(t) - punch(press_start));
-    return mu * force * std::exp(-wall_exponent(0.3, left, 15e-3) * mu);
+    return mu * force * std::exp(-wall_exponent(stress_ratio, left, 15e-3) * mu);
   }
 
   PressRecord press() const {

@@ -112,9 +112,23 @@ TEST(LabReduction, AWallCoefficientOfItsOwnStandsInTheTransmission) {
   const ReducedRun run = reduced(truth, {"compact.wall_friction=0.1"});
   const std::size_t i = 200;
   const Curve& c = run.curve;
-  const double k = wall_exponent(0.3, c.length[i], 15e-3);
+  const double k = wall_exponent(0.3 / 0.7, c.length[i], 15e-3);
   EXPECT_NEAR(c.target_force[i], c.punch_force[i] * std::exp(-0.1 * k), 1e-9);
   EXPECT_NEAR(c.friction[i], c.shear_force[i] / c.target_force[i], 1e-15);
+}
+
+// A compact whose radial stress is 0.65 of the axial one: with that K its coefficient comes back, with the elastic one too
+// small a coefficient does.
+TEST(LabReduction, AStressRatioOfItsOwnStandsInTheTransmission) {
+  SlidingTest truth;
+  truth.stress_ratio = 0.65;
+  const ReducedRun run = reduced(truth, {"compact.stress_ratio=0.65"});
+  EXPECT_NEAR(run.dynamic.mean, truth.level, 1e-9);
+  ASSERT_TRUE(run.elastic_dynamic);
+  const ReducedRun elastic = reduced(truth);
+  EXPECT_DOUBLE_EQ(*run.elastic_dynamic, elastic.dynamic.mean);
+  EXPECT_LT(elastic.dynamic.mean, 0.99 * truth.level);
+  EXPECT_FALSE(elastic.elastic_dynamic);
 }
 
 TEST(LabReduction, TheFillHeightGivesTheSameLength) {
