@@ -35,7 +35,15 @@ std::vector<Key<PackingSpec>> lattice_keys() {
             .only_for = lattices,
             .doc = "Distance from centre to centre; must be given for rectangles.",
             .fallback_doc = "the diameter of the discs or rings: they touch"},
-           to(&PackingSpec::spacing)}};
+           to(&PackingSpec::spacing)},
+          {{.name = "perturbation",
+            .kind = Kind::number,
+            .range = within(0, 0.5),
+            .fallback = value_of(0.0),
+            .only_for = lattices,
+            .doc = "How far a centre may be off its place, as a share of the spacing: at random by "
+                   "the scene's `seed`, evenly over a circle. The spacing must leave room for it."},
+           to(&PackingSpec::perturbation)}};
 }
 
 Key<PackingSpec> kind_key() {

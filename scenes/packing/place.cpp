@@ -1,8 +1,12 @@
 #include "scenes/packing/place.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "engine/portable_math.hpp"
+#include "scenes/outlines/portable.hpp"
 
 namespace pulvis {
 namespace {
@@ -23,13 +27,21 @@ std::vector<Source> sources_in_file_order(const Scene& scene) {
   return sources;
 }
 
-void add_packing(const PackingSpec& packing, std::vector<BodySpec>& bodies) {
+// Evenly over a circle of radius 1.
+Vec2 in_circle(portable::Random& random) {
+  const double radius = std::sqrt(random.uniform());
+  const double angle = random.between(0, 2 * std::numbers::pi);
+  return radius * Vec2(portable::cos(angle), portable::sin(angle));
+}
+
+void add_packing(const PackingSpec& packing, std::uint64_t seed, std::vector<BodySpec>& bodies) {
   if (!is_lattice(packing)) {
     bodies.insert(bodies.end(), packing.placed.begin(), packing.placed.end());
     return;
   }
   const bool hexagonal = packing.kind == PackingSpec::Kind::hexagonal;
   const double rise = hexagonal ? std::numbers::sqrt3 / 2 : 1;
+  portable::Random random(seed);
   for (int row = 0; row < packing.rows; ++row) {
     const int fewer = packing.columns - particles_in_row(packing, row);
     for (int column = 0; column < packing.columns - fewer; ++column) {
@@ -37,6 +49,8 @@ void add_packing(const PackingSpec& packing, std::vector<BodySpec>& bodies) {
       body.particle = packing.particle;
       body.position =
           packing.corner + packing.spacing * Vec2(column + 0.5 + 0.5 * fewer, rise * row + 0.5);
+      if (packing.perturbation > 0)
+        body.position += packing.perturbation * packing.spacing * in_circle(random);
       body.mark = packing.mark;
       bodies.push_back(body);
     }
@@ -77,7 +91,7 @@ std::vector<BodySpec> place_bodies(const Scene& scene) {
   std::vector<BodySpec> bodies;
   for (const Source& source : sources_in_file_order(scene)) {
     if (source.body != nullptr) bodies.push_back(*source.body);
-    if (source.packing != nullptr) add_packing(*source.packing, bodies);
+    if (source.packing != nullptr) add_packing(*source.packing, scene.seed, bodies);
   }
   return bodies;
 }

@@ -226,7 +226,8 @@ struct PackingSpec {
   int particle = 0;
   int rows = 1;
   int columns = 1;
-  double spacing = 0;  // m, centre to centre
+  double spacing = 0;       // m, centre to centre
+  double perturbation = 0;  // -, of the spacing: how far a centre may be off its place
   Vec2 corner =
       Vec2::Zero();  // m, lower left corner of the first particle's lattice cell, or the die
   double width = 0;  // m, of the die

@@ -98,6 +98,34 @@ Scene die(int rows, int columns, Vec2 corner) {
   return scene;
 }
 
+// Off their places by no more than is said, evenly over the circle, and by the seed alone.
+TEST(PerturbedLattice, MovesCentresWithinTheirCircles) {
+  Scene scene;
+  scene.particles = {disc()};
+  PackingSpec packing;
+  packing.rows = packing.columns = 40;
+  packing.spacing = 1.1 * size;
+  scene.packings = {packing};
+  const std::vector<BodySpec> regular = place_bodies(scene);
+  scene.packings[0].perturbation = 0.04;
+  const std::vector<BodySpec> moved = place_bodies(scene), again = place_bodies(scene);
+  scene.seed = 2;
+  const std::vector<BodySpec> other = place_bodies(scene);
+  const double radius = 0.04 * packing.spacing;
+  double squares = 0;
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t i = 0; i < regular.size(); ++i) {
+    const Vec2 way = (moved[i].position - regular[i].position) / radius;
+    EXPECT_LE(way.norm(), 1);
+    EXPECT_EQ(moved[i].position, again[i].position);
+    EXPECT_NE(moved[i].position, other[i].position);
+    squares += way.squaredNorm() / static_cast<double>(regular.size());
+    sum += way / static_cast<double>(regular.size());
+  }
+  EXPECT_NEAR(squares, 0.5, 0.03);  // of a circle of radius 1
+  EXPECT_LT(sum.norm(), 0.05);
+}
+
 TEST(PlaceBodies, APackingIsFilledRowByRowFromTheBottom) {
   const auto bodies = place_bodies(die(2, 3, Vec2(1, 2)));
   ASSERT_EQ(bodies.size(), 6U);
