@@ -88,12 +88,12 @@ TEST_F(ProbeCommand, FindsVonMisesCylinderInASolid) {
   EXPECT_NEAR(state.at("states").at(0).at("poissons_ratio").get<double>(), nu, 0.02);
   EXPECT_NEAR(state.at("states").at(0).at("shear_modulus").get<double>() / (e / (2 * (1 + nu))), 1,
               0.05);
-  int sheared = 0;
+  int sheared = 0;  // and not about to come apart: there the stress is not the same all over
   for (const char* criterion : {"offset_strain", "dissipation"})
     for (const auto& point : state.at("yield").at(criterion).at("points")) {
       const double angle = point.at("direction").get<double>();
       const double shear = std::abs(std::cos(angle) - std::sin(angle));
-      if (shear < 0.5 || point.at("plane_p").get<double>() < 100e6) continue;
+      if (shear < 0.5 || point.at("plane_p").get<double>() < 500e6) continue;
       EXPECT_NEAR(std::abs(point.at("q").get<double>()) / 240e6, 1, 0.005) << criterion << angle;
       ++sheared;
     }
