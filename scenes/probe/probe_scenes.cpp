@@ -59,9 +59,13 @@ std::string probing_scene(const LoadedScene& scene, const ProbeSpec& spec, const
   document::Table root = without_expectations(scene);
   const double xx = spec.release * start.stress[0], yy = spec.release * start.stress[1];
   std::string drive;
-  if (!angle) {
+  const bool by_strain = spec.control == ProbeSpec::Control::strain;
+  if (!angle && by_strain) {
     drive = fmt::format("strain_xy = {:.17g}\n", spec.size);
-  } else if (spec.control == ProbeSpec::Control::strain) {
+  } else if (!angle) {
+    drive = fmt::format("stress_xy = \"{:.17g} Pa\"\nrise = 1\ntolerance = 1e9\n",
+                        spec.size * start.pressure);
+  } else if (by_strain) {
     drive = fmt::format("strain_xx = {:.17g}\nstrain_yy = {:.17g}\n",
                         spec.size * portable::cos(*angle), spec.size * portable::sin(*angle));
   } else {

@@ -35,5 +35,28 @@ TEST(ProbeScenes, LoadToEveryDensity) {
   }
 }
 
+// By strain and by stress, in a direction and in shear.
+TEST(ProbeScenes, ProbeAsTheyAreAsked) {
+  Probe probe = load_probe(paths::source_dir() + "/scenes/probes/cap.toml");
+  const ProbeStart start{"state-0.9.h5", {-60e6, -70e6}, 64e6};
+  const auto drive = [&](std::optional<double> angle) {
+    const std::string text = probing_scene(probe.loadings[0].scene, probe.spec, start, angle);
+    const auto root = document::parse(text);
+    const auto& stages = document::find(root, "stage")->value.get<document::Array>();
+    EXPECT_EQ(stages.size(), 2U);
+    EXPECT_EQ(*document::find_text(root, "initial_state"), start.state);
+    const auto& release = document::find(stages[0].get<document::Table>(), "cell")->value;
+    EXPECT_EQ(*document::find_text(release.get<document::Table>(), "stress_yy"), "-35000000 Pa");
+    return document::find(stages[1].get<document::Table>(), "cell")->value.get<document::Table>();
+  };
+  EXPECT_EQ(document::find(drive(0.0), "strain_xx")->value.get<double>(), probe.spec.size);
+  EXPECT_EQ(document::find(drive({}), "strain_xy")->value.get<double>(), probe.spec.size);
+  probe.spec.control = ProbeSpec::Control::stress;
+  probe.spec.size = 0.5;
+  EXPECT_EQ(*document::find_text(drive(0.0), "stress_xx"), "2000000 Pa");  // -30 + 0.5 64 MPa
+  EXPECT_EQ(*document::find_text(drive({}), "stress_xy"), "32000000 Pa");
+  EXPECT_EQ(document::find(drive({}), "strain_xy"), nullptr);
+}
+
 }  // namespace
 }  // namespace pulvis
