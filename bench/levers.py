@@ -89,8 +89,8 @@ def thickness():
 
 
 FRONTS = {  # scene: meshes, coarse to fine
-    "tipless-beam.toml": [["lever.aspect=10"], ["lever.aspect=4"], ["lever.aspect=2"]],
-    "calibration-v.toml": [["lever.aspect=10"], ["lever.aspect=5"], ["lever.aspect=2.5"]],
+    "tipless-beam.toml": [["lever.aspect=9"], ["lever.aspect=4"], ["lever.aspect=2"]],
+    "calibration-v.toml": [["lever.aspect=9"], ["lever.aspect=5"], ["lever.aspect=2.5"]],
 }
 
 

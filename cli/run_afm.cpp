@@ -27,6 +27,7 @@
 #include "scenes/lever/afm_loop.hpp"
 #include "scenes/lever/afm_simulation.hpp"
 #include "scenes/lever/afm_size.hpp"
+#include "scenes/lever/mesh_error.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/results/state_hash.hpp"
 #include "scenes/spec/afm_scene.hpp"
@@ -287,6 +288,9 @@ struct Calibrated {
   Calibrated(const Scene& scene, int threads) : simulation(scene, threads) {
     try {
       calibration = simulation.calibrate();
+      // In long double another mesh would cost minutes.
+      if (!calibration->extended)
+        calibration->mesh_error = mesh_error(scene, *calibration, threads);
     } catch (const RunFailure& bad) {
       failure = bad.what();
     }

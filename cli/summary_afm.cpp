@@ -42,16 +42,22 @@ Json calibration_json(const Calibration& c) {
             {"imbalance", c.imbalance},
             {"error", c.error},
             {"precision", c.extended ? "long double" : "double"}};
+  if (c.mesh_error)
+    json["mesh_error"] = {{"k_n", c.mesh_error->normal},
+                          {"k_l", c.mesh_error->lateral},
+                          {"k_x", c.mesh_error->longitudinal}};
   if (std::isfinite(c.lateral_invols)) json["invols_lateral"] = c.lateral_invols;
   json["per_newton"] = {{"normal", response_json(c.normal)},
                         {"lateral", response_json(c.lateral)},
                         {"longitudinal", response_json(c.longitudinal)}};
-  for (const ClosedForm& form : c.closed_forms)
-    json["closed_forms"].push_back(
-        {{"quantity", form.quantity},
-         {"name", form.name},
-         {"value", form.value},
-         {"difference", finite_element(c, form.quantity) / form.value - 1}});
+  for (const ClosedForm& form : c.closed_forms) {
+    Json entry{{"quantity", form.quantity}, {"name", form.name}, {"value", form.value}};
+    if (form.not_for.empty())
+      entry["difference"] = finite_element(c, form.quantity) / form.value - 1;
+    else
+      entry["does_not_apply"] = form.not_for;
+    json["closed_forms"].push_back(std::move(entry));
+  }
   return json;
 }
 
@@ -72,6 +78,19 @@ Json loop_json(const FrictionLoop& loop) {
   if (loop.friction) json["friction"] = *loop.friction;
   if (loop.sensitivity) json["sensitivity"] = *loop.sensitivity;
   return json;
+}
+
+std::string closed_form_text(const Calibration& c, const std::string& quantity) {
+  std::string text;
+  for (const ClosedForm& form : c.closed_forms) {
+    if (form.quantity != quantity) continue;
+    text += fmt::format("  {:<42} {:.5g} N/m, ", form.name, form.value);
+    text += form.not_for.empty()
+                ? fmt::format("finite elements {:+.2f}%\n",
+                              100 * (finite_element(c, quantity) / form.value - 1))
+                : fmt::format("does not apply: {}\n", form.not_for);
+  }
+  return text;
 }
 
 std::string unsettled_text(const FrictionLoop& loop) {
@@ -144,23 +163,20 @@ std::string wedge_summary(const wedge::Calibration& c) {
 
 std::string calibration_text(const Calibration& c) {
   std::string text = fmt::format("normal stiffness    k_n {:.5g} N/m\n", c.normal_stiffness);
-  for (const ClosedForm& form : c.closed_forms)
-    if (form.quantity == "k_n")
-      text += fmt::format("  {:<42} {:.5g} N/m, finite elements {:+.2f}%\n", form.name, form.value,
-                          100 * (c.normal_stiffness / form.value - 1));
+  text += closed_form_text(c, "k_n");
   text +=
       fmt::format("lateral stiffness   k_l {:.5g} N/m (arm h {:.4g} um from the middle plane)\n",
                   c.lateral_stiffness, c.arm * 1e6);
-  for (const ClosedForm& form : c.closed_forms)
-    if (form.quantity == "k_l")
-      text += fmt::format("  {:<42} {:.5g} N/m, finite elements {:+.2f}%\n", form.name, form.value,
-                          100 * (c.lateral_stiffness / form.value - 1));
+  text += closed_form_text(c, "k_l");
   text += fmt::format("torsional stiffness {:.5g} N m/rad; along the lever {:.5g} N/m\n",
                       c.torsional_stiffness, c.longitudinal_stiffness);
   text += fmt::format(
       "lateral displacement of the tip's end: {:.1f}% twist, {:.1f}% lateral bending, "
       "{:.1f}% in the tip\n",
       100 * c.twist_share, 100 * c.bending_share, 100 * c.tip_share);
+  if (c.mesh_error)
+    text += fmt::format("the mesh makes them too stiff by about {:.1f}% (k_n) and {:.1f}% (k_l)\n",
+                        100 * c.mesh_error->normal, 100 * c.mesh_error->lateral);
   text += fmt::format("InvOLS normal {:.4g} m/V, lateral {:.4g} m/V\n", c.normal_invols,
                       c.lateral_invols);
   return text;

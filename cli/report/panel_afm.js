@@ -1,9 +1,11 @@
 // A lever of an atomic force microscope: force curve, loop, and its stiffness beside the closed forms.
 "use strict";
 
+const meshError = ({mesh_error: of}, name) => of ? `mesh: some ${percent(of[name])} too stiff` : "";
+
 addFigures(({summary: {calibration, loops}}) => [
-  ...(calibration ? [["normal stiffness", `${digits(calibration.k_n)} N/m`, ""],
-                     ["lateral stiffness", `${digits(calibration.k_l)} N/m`, ""]] : []),
+  ...(calibration ? [["normal stiffness", `${digits(calibration.k_n)} N/m`, meshError(calibration, "k_n")],
+                     ["lateral stiffness", `${digits(calibration.k_l)} N/m`, meshError(calibration, "k_l")]] : []),
   ...(loops || []).slice(0, 1).flatMap(loop => [["half width of the loop", withUnit(loop.half_width, "N"), ""],
     loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null])]);
 
@@ -27,8 +29,9 @@ addPanel({
     const {calibration} = run.summary, table = element("table", {className: "figures"});
     const row = (cells, tag = "td") => table.insertRow().append(...cells.map(textContent => element(tag, {textContent})));
     row(["", "formula", "value", "finite elements"], "th");
-    for (const {quantity, name, value, difference} of calibration.closed_forms) {
-      row([quantity, name, `${digits(value)} N/m`, `${difference > 0 ? "+" : ""}${percent(difference)}`]);
+    for (const {quantity, name, value, difference, does_not_apply: why} of calibration.closed_forms) {
+      row([quantity, name, `${digits(value)} N/m`,
+        why ? `does not apply: ${why}` : `${difference > 0 ? "+" : ""}${percent(difference)}`]);
     }
     host.append(element("div", {className: "scroll"}, table), element("p", {className: "note", textContent:
       `Lateral displacement of the tip's end: ${percent(calibration.share_twist)} twist, ` +

@@ -135,17 +135,48 @@ std::vector<Key<LeverSpec>> further_lever_keys() {
       {{.name = "aspect",
         .kind = Kind::number,
         .range = within(0.5, 100),
-        .fallback = value_of(10.0),
         .only_for = {"beam", "v"},
-        .doc = "Edge of the elements in the plane over the thickness; 20 to 150 elements "
-               "lie along the lever and at least 4 across it (an arm) all the same."},
+        .doc =
+            "Largest edge of the elements in the plane over the thickness; 20 to 150 of that "
+            "length lie along the lever and at least 4 across it (an arm). A value beyond that is "
+            "refused.",
+        .fallback_doc = "`6.0`"},
        to(&LeverSpec::aspect)},
+      {{.name = "side_aspect",
+        .kind = Kind::number,
+        .range = within(0.05, 100),
+        .only_for = {"beam", "v"},
+        .doc =
+            "Edge of the elements at the free sides, square to them, over the thickness: a layer "
+            "as wide as the lever is thick carries its torsion. A hundredth of the width at least; "
+            "further in they grow up to `aspect`.",
+        .fallback_doc = "`0.5`"},
+       to(&LeverSpec::side_aspect)},
+      {{.name = "foot_edge",
+        .kind = Kind::number,
+        .range = within(0.005, 0.5),
+        .only_for = {"beam", "v"},
+        .doc =
+            "Edge of the elements at the rim of the tip's foot over the foot's width, in the lever "
+            "and in the tip. At least `tip.elements` lie across the foot.",
+        .fallback_doc = "`0.03`"},
+       to(&LeverSpec::foot_edge)},
+      {{.name = "foot_layers",
+        .kind = Kind::integer,
+        .range = within(0, 16),
+        .only_for = {"beam", "v"},
+        .doc = "Of solid elements through the thickness, from the foot to one and a half "
+               "thicknesses around it; 0: none, plates go on under the foot.",
+        .fallback_doc = "as `foot_edge` says"},
+       [](LeverSpec& lever, const Decoded& value) {
+         lever.foot_layers = static_cast<int>(value.integer);
+       }},
       {{.name = "layers",
         .kind = Kind::integer,
         .range = within(1, 16),
         .fallback = value_of(1),
         .only_for = {"beam", "v"},
-        .doc = "Of elements through the thickness."},
+        .doc = "Of elements through the thickness, elsewhere."},
        integer_to(&LeverSpec::layers)},
       elements_of("elements_along", &LeverSpec::along,
                   "Elements along it, all as long, instead of `aspect`."),

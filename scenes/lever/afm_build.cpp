@@ -81,10 +81,10 @@ AfmModel build_afm(const Scene& scene) {
   const AfmScene& afm = *scene.afm;
   AfmModel model;
   SolidDraft draft;
-  const LeverMesh lever =
-      afm.lever.solid
-          ? add_meshed_lever(draft, afm.lever)
-          : add_lever(draft, afm.lever, lever_plan(afm.lever, lever_foot(afm.lever, afm.tip)));
+  const std::optional<FootPlan> foot = foot_plan(afm.lever, afm.tip);
+  const LeverMesh lever = afm.lever.solid ? add_meshed_lever(draft, afm.lever)
+                                          : add_lever(draft, afm.lever, lever_plan(afm.lever, foot),
+                                                      foot ? foot->edge : afm.lever.thickness);
   // Built flat, then turned: its end comes down by the chip's tilt.
   const Eigen::Matrix3d turn = rotation_about_y(afm.lever.tilt);
   model.tip = add_tip(draft, afm.lever, lever, afm.tip, adhesive_normal(scene, turn));

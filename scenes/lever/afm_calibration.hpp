@@ -20,6 +20,11 @@ struct UnitResponse {
   double error = 0;  // -, of the solution: last correction and error of energy
 };
 
+// -, of the stiffnesses, of which the mesh makes too much: scenes/lever/mesh_error.hpp.
+struct MeshError {
+  double normal = 0, lateral = 0, longitudinal = 0;
+};
+
 struct Calibration {
   UnitResponse normal, lateral, longitudinal;  // to forces along z, y, x
   double arm = 0;                              // m, h: from the middle plane to the tip's end
@@ -32,6 +37,7 @@ struct Calibration {
   double error = 0;                              // -, the largest of the three
   bool extended = false;                         // of the stiffness, in long double
   bool stable = true;                            // all pivots of the stiffness are positive
+  std::optional<MeshError> mesh_error;           // where it was estimated
   std::vector<ClosedForm> closed_forms;
 
   bool good(double tolerance) const { return stable && error <= tolerance; }

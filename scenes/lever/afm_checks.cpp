@@ -41,7 +41,9 @@ class AfmChecks {
       refuse(path, message);
     });
     coating();
-    if (!outline() || !mesh_size()) return;
+    if (!outline()) return;
+    divisions();
+    if (!mesh_size()) return;
     tip();
     laser();
     tetrahedra();
@@ -90,6 +92,36 @@ class AfmChecks {
                                             "end, allowed: > {:g} m",
                                             lever_.arm_width, minimum));
     return good_;
+  }
+
+  // A key of the mesh that changes nothing is a mistake.
+  void divisions() {
+    if (lever_.solid) return;
+    const auto given = [&](const char* key) {
+      return origins_.contains(std::string("lever.") + key);
+    };
+    const auto no_say = [&](const char* key, const char* why) {
+      if (given(key))
+        refuse(std::string("lever.") + key,
+               fmt::format("has no effect: {}, allowed: not given", why));
+    };
+    const bool along = lever_.along > 0, across = lever_.across > 0;
+    if (along && across) no_say("aspect", "elements_along and elements_across say it");
+    if (across) no_say("side_aspect", "elements_across says it");
+    if (along || across) no_say("foot_layers", "an even mesh has none");
+    if (tip_.shape == Shape::none) {
+      no_say("foot_edge", "there is no tip");
+      no_say("foot_layers", "there is no tip");
+    }
+    const AspectRange range = aspect_range(lever_);
+    constexpr double round_off = 1e-9;
+    if (!(along && across) && given("aspect") &&
+        (lever_.aspect < range.least * (1 - round_off) ||
+         lever_.aspect > range.most * (1 + round_off)))
+      refuse("lever.aspect",
+             fmt::format("{:g} has no more effect: 20 to 150 such edges lie along the lever, "
+                         "allowed: {:.3g} to {:.3g}",
+                         lever_.aspect, range.least, range.most));
   }
 
   double half_width_at(double x) const {
@@ -147,7 +179,8 @@ class AfmChecks {
   }
 
   bool foot_on_lever(double reach) const {
-    const PlanMesh plan = lever_plan(lever_, lever_foot(lever_, tip_));
+    const PlanMesh plan =
+        lever_.solid ? lever_.solid->face.plan : lever_plan(lever_, foot_plan(lever_, tip_)).mesh;
     const Vec2 axis = tip_axis(lever_, tip_);
     if (tip_.solid)
       return std::ranges::all_of(tip_.solid->foot, [&](int n) {
@@ -167,7 +200,7 @@ class AfmChecks {
   void laser() {
     const LaserSpec& laser = scene_.afm->laser;
     const PlanMesh plan =
-        lever_.solid ? lever_.solid->back.plan : lever_plan(lever_, lever_foot(lever_, tip_));
+        lever_.solid ? lever_.solid->back.plan : lever_plan(lever_, foot_plan(lever_, tip_)).mesh;
     const Vec2 middle(laser.position.value_or(lever_.length - tip_.set_back), laser.offset);
     for (int i = 0; i < 8; ++i) {
       const double angle = 0.25 * std::numbers::pi * i;

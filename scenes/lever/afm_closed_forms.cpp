@@ -2,25 +2,62 @@
 #include "scenes/spec/afm_scene.hpp"
 
 #include <cmath>
+#include <utility>
 
+#include "engine/portable_math.hpp"
 #include "scenes/lever/mesh/lever_mesh.hpp"
 #include "scenes/lever/mesh/tip_mesh.hpp"
 
 namespace pulvis {
 namespace closed_form {
 
-double beam_normal(double e, double l, double w, double t) {
-  return e * w * t * t * t / (4 * l * l * l);
+Strip strip_of(double w, const std::vector<Layer>& layers) {
+  const double middle = 0.5 * layers.front().t;
+  const auto shear = [](const Layer& layer) { return layer.e / (2 * (1 + layer.nu)); };
+  // Second moment about the axis where the forces of a linear strain balance.
+  const auto moment = [&](const auto& modulus) {
+    double sum = 0, first = 0, z = -middle;
+    for (const Layer& layer : layers) {
+      sum += modulus(layer) * layer.t;
+      first += modulus(layer) * layer.t * (z + 0.5 * layer.t);
+      z += layer.t;
+    }
+    const double axis = first / sum;
+    double second = 0;
+    z = -middle;
+    for (const Layer& layer : layers) {
+      const double off = z + 0.5 * layer.t - axis;
+      second += modulus(layer) * layer.t * (layer.t * layer.t / 12 + off * off);
+      z += layer.t;
+    }
+    return std::pair{second, axis};
+  };
+  Strip strip{w};
+  for (const Layer& layer : layers) {
+    strip.t += layer.t;
+    strip.sideways += layer.e * layer.t * w * w * w / 12;
+  }
+  strip.bending = w * moment([](const Layer& layer) { return layer.e; }).first;
+  const auto [twisting, axis] = moment(shear);
+  // Of a uniform strip G w t^3 (1/3 - 0.21 t/w).
+  strip.torsion = 4 * w * twisting * (1 - 0.63 * strip.t / w);
+  strip.twist_axis = axis;
+  return strip;
 }
 
-double beam_torsion(double e, double nu, double l, double w, double t, double h) {
-  const double g = e / (2 * (1 + nu));
-  const double k = w * t * t * t / 16 * (16.0 / 3 - 3.36 * t / w);
-  return g * k / (h * h * l);
+double beam_normal(const Strip& strip, const Load& load) {
+  const double c = portable::cos(load.tilt), s = portable::sin(load.tilt), l = load.l, h = load.h;
+  const double bent = l * l * l / 3 * c * c - l * l * h * s * c + l * h * h * s * s;
+  return 1 / (bent / strip.bending + load.e * load.e * l / strip.torsion * c * c);
 }
 
-double beam_lateral_bending(double e, double l, double w, double t) {
-  return e * t * w * w * w / (4 * l * l * l);
+double beam_torsion(const Strip& strip, const Load& load) {
+  const double arm = load.h + strip.twist_axis;
+  return strip.torsion / (arm * arm * load.l);
+}
+
+double beam_lateral_bending(const Strip& strip, const Load& load) {
+  return 3 * strip.sideways / (load.l * load.l * load.l);
 }
 
 double neumeister_ducker_normal(const V& v) {
@@ -64,49 +101,94 @@ double sader_parallel_beam(double e, double w, double t, double l, double b, dou
 
 namespace {
 
-std::vector<ClosedForm> of_beam(const LeverSpec& lever, const MaterialSpec& m, double load_at,
-                                double h) {
-  const double e = m.youngs_modulus, nu = m.poissons_ratio, w = lever.width, t = lever.thickness;
+closed_form::Strip strip_of(const Scene& scene, double w) {
+  const LeverSpec& lever = scene.afm->lever;
+  const auto layer = [&](int material, double t) {
+    const MaterialSpec& m = scene.materials[static_cast<std::size_t>(material)];
+    return closed_form::Layer{m.youngs_modulus, m.poissons_ratio, t};
+  };
+  std::vector<closed_form::Layer> layers{layer(lever.material, lever.thickness)};
+  if (lever.coating) layers.push_back(layer(*lever.coating, lever.coating_thickness));
+  return closed_form::strip_of(w, layers);
+}
+
+// The height of the tip's end under the lever's middle plane; 0 without a tip.
+double height_below(const AfmScene& afm) {
+  return afm.tip.shape == TipSpec::Shape::none ? 0
+                                               : tip_height(afm.tip) + 0.5 * afm.lever.thickness;
+}
+
+std::vector<ClosedForm> of_beam(const Scene& scene) {
+  const AfmScene& afm = *scene.afm;
+  const closed_form::Strip strip = strip_of(scene, afm.lever.width);
+  const double h = height_below(afm);
+  const closed_form::Load load{afm.lever.length - afm.tip.set_back,
+                               h > 0 ? h : 0.5 * afm.lever.thickness, afm.lever.tilt,
+                               afm.tip.offset};
+  const char* coated = afm.lever.coating ? ", composite" : "";
   std::vector<ClosedForm> forms{
-      {"k_n", "beam, 3EI/L^3", closed_form::beam_normal(e, load_at, w, t)}};
+      {"k_n",
+       std::string(load.tilt == 0 && load.e == 0 ? "beam, 3EI/L^3" : "beam, tilt and offset") +
+           coated,
+       closed_form::beam_normal(strip, load),
+       {}}};
   if (h == 0) return forms;
-  const double twist = closed_form::beam_torsion(e, nu, load_at, w, t, h);
-  const double bend = closed_form::beam_lateral_bending(e, load_at, w, t);
-  forms.push_back({"k_l", "torsion alone, GK/(h^2 L)", twist});
-  forms.push_back({"k_l", "torsion and lateral bending, rigid tip", 1 / (1 / twist + 1 / bend)});
+  const double twist = closed_form::beam_torsion(strip, load);
+  const double bend = closed_form::beam_lateral_bending(strip, load);
+  forms.push_back({"k_l", std::string("torsion alone, GK/(h^2 L)") + coated, twist, {}});
+  forms.push_back({"k_l",
+                   std::string("torsion and lateral bending, rigid tip") + coated,
+                   1 / (1 / twist + 1 / bend),
+                   {}});
   return forms;
 }
 
-std::vector<ClosedForm> of_v(const LeverSpec& lever, const TipSpec& tip, const MaterialSpec& m,
-                             double h) {
+// Of a V they know neither tilt nor offset in the normal stiffness; a coating counts as a plate that is so much
+// stiffer in bending, or in torsion.
+std::vector<ClosedForm> of_v(const Scene& scene) {
+  const LeverSpec& lever = scene.afm->lever;
+  const TipSpec& tip = scene.afm->tip;
+  const MaterialSpec& m = scene.materials[static_cast<std::size_t>(lever.material)];
   const VOutline o = v_outline(lever);
   const double e = m.youngs_modulus, nu = m.poissons_ratio, t = lever.thickness;
   const double w = lever.arm_width, load_at = lever.length - tip.set_back;
   const closed_form::V v{e, nu, o.inner, w, t, o.half_angle, o.apex - load_at};
-  const double noy = closed_form::noy_normal(e, w, t, load_at);
+  const closed_form::Strip coated = strip_of(scene, w);
+  const closed_form::Strip bare = closed_form::strip_of(w, {{e, nu, t}});
+  const double bending = coated.bending / bare.bending;
+  // Of wide plates: without what the strip's edges take from it.
+  const double torsion =
+      coated.torsion / (1 - 0.63 * coated.t / w) / (bare.torsion / (1 - 0.63 * bare.t / w));
+  const char* composite = lever.coating ? ", composite" : "";
+  const auto named = [&](const char* name) { return std::string(name) + composite; };
+  const double noy = bending * closed_form::noy_normal(e, w, t, load_at);
+  const std::string not_tilted = lever.tilt != 0   ? "the lever is tilted"
+                                 : tip.offset != 0 ? "the tip stands beside the axis"
+                                                   : "";
   std::vector<ClosedForm> forms{
-      {"k_n", "Neumeister & Ducker 1994, corrected", closed_form::neumeister_ducker_normal(v)},
-      {"k_n", "Noy 1995", noy},
-      {"k_n", "Sader 1995, parallel beams",
-       closed_form::sader_parallel_beam(e, w, t, load_at, o.base_width, o.half_angle)}};
-  if (h == 0) return forms;
+      {"k_n", named("Neumeister & Ducker 1994, corrected"),
+       bending * closed_form::neumeister_ducker_normal(v), not_tilted},
+      {"k_n", named("Noy 1995"), noy, not_tilted},
+      {"k_n", named("Sader 1995, parallel beams"),
+       bending * closed_form::sader_parallel_beam(e, w, t, load_at, o.base_width, o.half_angle),
+       not_tilted}};
+  if (height_below(*scene.afm) == 0) return forms;
+  const double h = height_below(*scene.afm) + coated.twist_axis;
+  const std::string not_beside = tip.offset != 0 ? "the tip stands beside the axis" : "";
   if (v.d > 0)
-    forms.push_back({"k_l", "Neumeister & Ducker 1994, torsion alone",
-                     closed_form::neumeister_ducker_torsion(v, h)});
-  forms.push_back({"k_l", "Noy 1995", closed_form::noy_lateral(noy, nu, o.half_angle, load_at, h)});
+    forms.push_back({"k_l", named("Neumeister & Ducker 1994, torsion alone"),
+                     torsion * closed_form::neumeister_ducker_torsion(v, h), not_beside});
+  forms.push_back({"k_l", named("Noy 1995"),
+                   closed_form::noy_lateral(noy, nu, o.half_angle, load_at, h), not_beside});
   return forms;
 }
 
 }  // namespace
 
 std::vector<ClosedForm> closed_forms(const Scene& scene) {
-  const LeverSpec& lever = scene.afm->lever;
-  const TipSpec& tip = scene.afm->tip;
-  const MaterialSpec& m = scene.materials[static_cast<std::size_t>(lever.material)];
-  const double h = tip.shape == TipSpec::Shape::none ? 0 : tip_height(tip) + 0.5 * lever.thickness;
-  if (lever.shape == LeverSpec::Shape::mesh) return {};  // of a drawing, which a mesh has not
-  return lever.shape == LeverSpec::Shape::beam ? of_beam(lever, m, lever.length - tip.set_back, h)
-                                               : of_v(lever, tip, m, h);
+  using Shape = LeverSpec::Shape;
+  if (scene.afm->lever.shape == Shape::mesh) return {};  // of a drawing, which a mesh has not
+  return scene.afm->lever.shape == Shape::beam ? of_beam(scene) : of_v(scene);
 }
 
 }  // namespace pulvis

@@ -5,6 +5,11 @@
 //          the lever under a rigid tip, 4 L^3/(E t w^3) (force and its moment about the lever's length)
 //          V: Neumeister & Ducker (1994), with Delta_1 integrated anew: 3N/(E t^3 tan a) [(c-2d)^2 +
 //          d^2 (2 ln(c/d) - 1)], c = w/sin a; Noy et al. (1995); Sader (1995), parallel beams
+//          coated: as a composite strip, classical laminate theory (Jones 1999, sec. 4.2): stretching and bending
+//          about the axis where axial forces balance, twisting about that of the shear forces
+//          tilted by a, tip of height h, axis e beside the beam's: 1/k_n = [L^3/3 cos^2 a - L^2 h sin a cos a
+//          + L h^2 sin^2 a]/(E I) + e^2 L/(G K) cos^2 a, from the beam's answers to a force and a moment at its
+//          end (Heim, Kappl & Butt 2004 without e)
 // Symbols  L, w, t length, width, thickness, m; alpha half-angle; d set-back of the load from the apex
 #pragma once
 
@@ -20,13 +25,31 @@ struct ClosedForm {
   std::string quantity;  // "k_n", "k_l"
   std::string name;      // "beam, 3EI/L^3"
   double value = 0;      // N/m
+  std::string not_for;   // why it does not apply to this lever; empty: it does
 };
 
 namespace closed_form {
 
-double beam_normal(double e, double l, double w, double t);
-double beam_torsion(double e, double nu, double l, double w, double t, double h);
-double beam_lateral_bending(double e, double l, double w, double t);
+// A strip of one layer, or of two with a coating on its back.
+struct Layer {
+  double e, nu, t;  // Pa, -, m
+};
+struct Strip {
+  double w = 0, t = 0;    // m, the coating included
+  double bending = 0;     // N m^2, E I
+  double sideways = 0;    // N m^2, E I in its plane
+  double torsion = 0;     // N m^2, G K
+  double twist_axis = 0;  // m, above the middle of the first layer
+};
+Strip strip_of(double w, const std::vector<Layer>& layers);
+
+struct Load {
+  double l = 0, h = 0;     // m, from the clamp; from the strip's middle down to the tip's end
+  double tilt = 0, e = 0;  // rad; m, beside the axis
+};
+double beam_normal(const Strip& strip, const Load& load);
+double beam_torsion(const Strip& strip, const Load& load);
+double beam_lateral_bending(const Strip& strip, const Load& load);
 
 struct V {
   double e, nu,

@@ -77,6 +77,10 @@ SolidSize ball_size(const TipSpec& tip) {
   return ball;
 }
 
+double stacked(const TipSpec& tip, const FootPlan& foot) {
+  return static_cast<double>(tip_levels(tip, foot.edge, 1).size()) - 1;
+}
+
 // Numbers of how the solid answers to forces on every point that touches: three fields each.
 double answers_of(const AfmScene& afm, const SolidSize& solid) {
   if (afm.actions.empty()) return 0;
@@ -96,9 +100,13 @@ SolidSize lever_size(const AfmScene& afm) {
   if (lever.solid)
     return as_cube(static_cast<double>(lever.solid->solid.hexahedra.size() +
                                        lever.solid->solid.tetrahedra.size()));
-  const PlanCount plan = plan_count(lever, lever_foot(lever, afm.tip));
-  return grid_size(static_cast<double>(plan.along), static_cast<double>(plan.across),
-                   lever.layers + (lever.coating ? 1 : 0));
+  const std::optional<FootPlan> foot = foot_plan(lever, afm.tip);
+  const PlanCount plan = plan_count(lever, foot);
+  const SolidSize plates =
+      grid_size(plan.along, plan.across, lever.layers + (lever.coating ? 1 : 0));
+  if (plan.solid_along == 0) return plates;
+  return sum(plates, grid_size(plan.solid_along, plan.solid_across,
+                               foot_layers(lever, foot->edge) - lever.layers));
 }
 
 SolidSize tip_size(const AfmScene& afm) {
@@ -108,10 +116,14 @@ SolidSize tip_size(const AfmScene& afm) {
     case Shape::none:
       return {};
     case Shape::block:
-    case Shape::pyramid:
-      return grid_size(n, n, tip_layers(tip));
+    case Shape::pyramid: {
+      const FootPlan foot = *foot_plan(afm.lever, tip);
+      const double across = foot.across();
+      return grid_size(across, across, stacked(tip, foot));
+    }
     case Shape::cone:  // a disc is a square core in a ring of half as many layers: 3 n^2 quads
-      return grid_size(std::sqrt(3.0) * n, std::sqrt(3.0) * n, tip_layers(tip));
+      return grid_size(std::sqrt(3.0) * n, std::sqrt(3.0) * n,
+                       stacked(tip, *foot_plan(afm.lever, tip)));
     case Shape::sphere:
       return ball_size(tip);
     case Shape::mesh:

@@ -27,12 +27,16 @@ struct LeverSpec {
   std::optional<double> half_angle;  // rad, V: between an arm and the axis
   std::optional<double> base_width;  // m, V: over both arms at the clamp, instead of the angle
   double apex_width = 0;             // m, V: of its blunt end; 0: it ends in a point
-  double tilt = 0;               // rad, of the chip: the end of the lever is lower than the clamp
-  std::optional<int> coating;    // material of the layer on its back
-  double coating_thickness = 0;  // m
-  double aspect = 10;            // -, edge of an element in the plane over the lever's thickness
-  int layers = 1;                // of elements through the thickness
-  int along = 0, across = 0;     // elements of a beam, evenly; 0: by aspect, finer at the foot
+  double tilt = 0;                 // rad, of the chip: the end of the lever is lower than the clamp
+  std::optional<int> coating;      // material of the layer on its back
+  double coating_thickness = 0;    // m
+  double aspect = 6;               // -, edge of an element in the plane over the lever's thickness
+  double side_aspect = 0.5;        // -, the same square to a free side, at it
+  double foot_edge = 0.03;         // -, at the rim of the tip's foot, over its width
+  std::optional<int> foot_layers;  // of solid elements there, 0: plates; absent: by foot_aspect
+  double coarser = 1;  // -, all those edges: for an estimate of their error
+  int layers = 1;                  // of elements through the thickness
+  int along = 0, across = 0;       // elements of a beam, evenly; 0: graded
   HexFormulation element = HexFormulation::plate;
   std::string file;                         // mesh: of Gmsh
   double unit = 1;                          // m, of the file's lengths

@@ -53,5 +53,7 @@ height = "3.7 um"
 foot = "1 um"
 set_back = "4 um"
 )";
+inline const std::string coarse_v_text = on_plates(v_with_tip);
+inline const char* const coarse_v = coarse_v_text.c_str();
 
 }  // namespace pulvis

@@ -39,6 +39,15 @@ foot = "2 um"
 set_back = "1 um"
 )";
 
+// The same on a coarse mesh of plates alone, for laws that hold on any mesh.
+inline std::string on_plates(const std::string& lever) {
+  const std::size_t at = lever.find('\n', lever.find("thickness = ")) + 1;
+  return lever.substr(0, at) + "side_aspect = 100\nfoot_edge = 0.5\nfoot_layers = 0\n" +
+         lever.substr(at);
+}
+inline const std::string coarse_beam_text = on_plates(beam_with_tip);
+inline const char* const coarse_beam = coarse_beam_text.c_str();
+
 // Pressed to a force in three steps, then a way forth and back at that force.
 inline std::string press_and_scan(int increments, const std::string& force = "100 nN") {
   return "[[action]]\nkind = \"press\"\nforce = \"" + force +

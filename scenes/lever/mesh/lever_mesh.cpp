@@ -4,129 +4,69 @@
 #include <cmath>
 
 #include "engine/portable_math.hpp"
-#include "scenes/lever/mesh/meshed_lever.hpp"
+#include "scenes/lever/mesh/grading.hpp"
 
 namespace pulvis {
 namespace {
 
-// However large the elements may be: as many as the shape of the deformation needs.
-constexpr int fewest_along = 20, fewest_across = 4;
+constexpr double growth_above_foot = 1.2;
 
-std::vector<double> shares_of(std::vector<double> lines) {
-  const double whole = lines.back();
-  for (double& x : lines) x /= whole;
-  return lines;
+// The faces between the layers, from the lower face up.
+struct Levels {
+  std::vector<double> z;   // m
+  std::vector<bool> main;  // all over the lever; the others lie around the foot alone
+  int own = 0;             // layers of the lever's own material
+};
+
+// From the lower face up.
+std::vector<double> lines_at_foot(const LeverSpec& lever, double foot_edge) {
+  const double t = lever.thickness;
+  if (lever.foot_layers)
+    return graded_lines(
+        {t, t, t, t},
+        std::max(1, static_cast<int>(std::round(*lever.foot_layers / lever.coarser))));
+  return graded_lines({t, foot_edge, t, 0.5 * t, growth_above_foot, lever.coarser});
 }
 
-// Shares of the length and of the width where its lines run.
-struct BeamLines {
-  std::vector<double> along, across;
-};
-BeamLines beam_lines(const LeverSpec& lever, double edge, const LeverFoot& foot) {
-  const double l = lever.length, w = lever.width;
-  const auto lines = [](int count, const std::vector<double>& graded) {
-    return count > 0 ? even_shares(count) : shares_of(graded);
+// Around the foot each layer is divided into as many as lie in it.
+Levels levels_of(const LeverSpec& lever, bool solid_foot, double foot_edge) {
+  const double t = lever.thickness;
+  Levels levels;
+  const auto add = [&](double z, bool main) {
+    levels.z.push_back(z);
+    levels.main.push_back(main);
   };
-  return {lines(lever.along, graded_lines(l, edge, foot.size, foot.x, fewest_along)),
-          lines(lever.across, graded_lines(w, edge, foot.size, foot.y + 0.5 * w, fewest_across))};
-}
-
-PlanMesh beam_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
-  const double l = lever.length, w = lever.width;
-  const BeamLines lines = beam_lines(lever, edge, foot);
-  PlanMesh mesh;
-  add_patch(mesh, {Vec2(0, -0.5 * w), Vec2(l, -0.5 * w), Vec2(l, 0.5 * w), Vec2(0, 0.5 * w)},
-            lines.along, lines.across, 1e-9 * l);
-  return mesh;
-}
-
-// Lines of the apex plate, from the inner corner to the end: as far apart as its width shrinks, so that
-// elements keep their shape towards a point, and finer at the foot.
-std::vector<double> apex_lines(const VOutline& v, double end, double edge, const LeverFoot& foot) {
-  const double length = end - v.inner;
-  const double slope = portable::tan(v.half_angle);
-  std::vector<double> lines{0};
-  while (lines.back() < length) {
-    const double x = v.inner + lines.back();
-    const double size =
-        std::min({edge, 0.3 * (v.apex - x) * slope, foot.size + 0.4 * std::abs(x - foot.x)});
-    lines.push_back(lines.back() + size);
+  const std::vector<double> fine = solid_foot ? lines_at_foot(lever, foot_edge) : std::vector{0.0};
+  for (int i = 0; i < lever.layers; ++i) {
+    const double lower = t * i / lever.layers, upper = t * (i + 1) / lever.layers;
+    add(lower - 0.5 * t, true);
+    if (lever.layers == 1) {
+      for (std::size_t l = 1; l + 1 < fine.size(); ++l) add(fine[l] - 0.5 * t, false);
+      continue;
+    }
+    const auto within = std::ranges::count_if(
+        fine, [&](double z) { return z > lower * (1 + 1e-9) && z < upper * (1 - 1e-9); });
+    for (int l = 1; l <= within; ++l)
+      add(lower + (upper - lower) * l / static_cast<double>(within + 1) - 0.5 * t, false);
   }
-  for (double& x : lines) x *= length / lines.back();
-  return lines;
+  add(0.5 * t, true);
+  levels.own = static_cast<int>(levels.z.size()) - 1;
+  if (lever.coating) add(0.5 * t + lever.coating_thickness, true);
+  return levels;
 }
 
-// A pointed lever is cut off where it is a fiftieth of an arm wide: nothing beyond carries load.
-double v_end(const LeverSpec& lever, const VOutline& v) {
-  return std::min(lever.length, v.apex - 0.01 * lever.arm_width / portable::tan(v.half_angle));
-}
-
-// Shares where the lines of its half run: along the arm, along the apex plate, and across both.
-struct VLines {
-  std::vector<double> arm, apex, across;
+// Which points belong to quads of either kind.
+struct Kinds {
+  std::vector<bool> solid, plate;
+  explicit Kinds(const LeverPlan& plan)
+      : solid(plan.mesh.points.size()), plate(plan.mesh.points.size()) {
+    for (std::size_t q = 0; q < plan.mesh.quads.size(); ++q)
+      for (const int p : plan.mesh.quads[q])
+        (plan.solid[q] ? solid : plate)[static_cast<std::size_t>(p)] = true;
+  }
 };
-VLines v_lines(const LeverSpec& lever, double edge, const LeverFoot& foot) {
-  const VOutline v = v_outline(lever);
-  const double end = v_end(lever, v), arm = v.inner / portable::cos(v.half_angle);
-  const double width =
-      std::max((v.apex - std::min(foot.x, end)) * portable::tan(v.half_angle), foot.size);
-  return {shares_of(graded_lines(arm, edge, lever.arm_width / 8, arm, fewest_along)),
-          shares_of(apex_lines(v, end, edge, foot)),
-          shares_of(graded_lines(1, edge / lever.arm_width, foot.size / width, 0, fewest_across))};
-}
-
-PlanMesh v_plan(const LeverSpec& lever, double edge, const LeverFoot& foot) {
-  const VOutline v = v_outline(lever);
-  const double slope = portable::tan(v.half_angle), tolerance = 1e-9 * lever.length;
-  const double end = v_end(lever, v);
-  const Vec2 inner(v.inner, 0), outer(v.inner, (v.apex - v.inner) * slope);
-  const VLines lines = v_lines(lever, edge, foot);
-  PlanMesh half;
-  add_patch(half, {Vec2(0, v.inner * slope), inner, outer, Vec2(0, v.apex * slope)}, lines.arm,
-            lines.across, tolerance);
-  add_patch(half, {inner, Vec2(end, 0), Vec2(end, (v.apex - end) * slope), outer}, lines.apex,
-            lines.across, tolerance);
-  return with_mirror_image(half, tolerance);
-}
-
-// More elements than that along a thin lever cost time and hardly add accuracy.
-constexpr double max_along = 150;
-double edge_of(const LeverSpec& lever) {
-  return std::max(lever.aspect * lever.thickness, lever.length / max_along);
-}
 
 }  // namespace
-
-VOutline v_outline(const LeverSpec& lever) {
-  VOutline v;
-  if (lever.half_angle)
-    v.half_angle = *lever.half_angle;
-  else
-    v.half_angle = portable::atan(0.5 * (*lever.base_width - lever.apex_width) / lever.length);
-  v.apex = lever.length + 0.5 * lever.apex_width / portable::tan(v.half_angle);
-  v.inner = v.apex - lever.arm_width / portable::sin(v.half_angle);
-  v.base_width = 2 * v.apex * portable::tan(v.half_angle);
-  return v;
-}
-
-PlanMesh lever_plan(const LeverSpec& lever, const LeverFoot& foot) {
-  if (lever.shape == LeverSpec::Shape::mesh) return lever.solid->face.plan;
-  const double edge = edge_of(lever);
-  return lever.shape == LeverSpec::Shape::beam ? beam_plan(lever, edge, foot)
-                                               : v_plan(lever, edge, foot);
-}
-
-PlanCount plan_count(const LeverSpec& lever, const LeverFoot& foot) {
-  const auto between = [](const std::vector<double>& lines) {
-    return static_cast<std::int64_t>(lines.size()) - 1;
-  };
-  if (lever.shape == LeverSpec::Shape::beam) {
-    const BeamLines lines = beam_lines(lever, edge_of(lever), foot);
-    return {between(lines.along), between(lines.across)};
-  }
-  const VLines lines = v_lines(lever, edge_of(lever), foot);
-  return {between(lines.arm) + between(lines.apex), 2 * between(lines.across)};
-}
 
 std::optional<LeverMesh::Point> LeverMesh::on(std::size_t level, const Vec2& point) const {
   const LeverLevel& at = levels[level];
@@ -134,17 +74,22 @@ std::optional<LeverMesh::Point> LeverMesh::on(std::size_t level, const Vec2& poi
   if (!place) return {};
   Point found;
   for (const auto& [p, weight] : *place) {
-    found.gauge.push_back({at.node[static_cast<std::size_t>(p)], weight});
+    const int node = at.node[static_cast<std::size_t>(p)];
+    if (node < 0) return {};
+    found.gauge.push_back({node, weight});
     found.z += weight * at.z[static_cast<std::size_t>(p)];
   }
   return found;
 }
 
 std::optional<LeverMesh::Point> LeverMesh::on_middle(const Vec2& point) const {
-  std::optional<Point> below = on(0, point), above = on(1, point);
-  for (std::size_t level = 2; above && above->z < 0 && level < levels.size(); ++level) {
-    below = std::move(above);
-    above = on(level, point);
+  std::optional<Point> below = on(0, point), above;
+  for (std::size_t level = 1; level < levels.size(); ++level) {
+    auto next = on(level, point);
+    if (!next) continue;
+    if (above && above->z < 0) below = std::move(above);
+    above = std::move(next);
+    if (above->z >= 0) break;
   }
   if (!below || !above) return {};
   const double s = -below->z / (above->z - below->z);
@@ -154,32 +99,70 @@ std::optional<LeverMesh::Point> LeverMesh::on_middle(const Vec2& point) const {
   return middle;
 }
 
-LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever, const PlanMesh& plan) {
+namespace {
+
+// Nodes of all levels; between plates and solid elements those of the solid hang on the plates' faces.
+LeverMesh add_levels(SolidDraft& draft, const LeverSpec& lever, const LeverPlan& plan,
+                     const Levels& levels) {
   LeverMesh mesh;
-  const auto shared = std::make_shared<const PlanMesh>(plan);
-  const double t = lever.thickness;
-  std::vector<double> levels;
-  for (int i = 0; i <= lever.layers; ++i) levels.push_back(t * i / lever.layers - 0.5 * t);
-  if (lever.coating) levels.push_back(0.5 * t + lever.coating_thickness);
-  for (const double z : levels) {
-    LeverLevel level{shared, {}, std::vector<double>(plan.points.size(), z)};
-    for (const Vec2& p : plan.points) {
-      level.node.push_back(draft.add_node({p.x(), p.y(), z}));
-      draft.held[static_cast<std::size_t>(level.node.back())] =
-          std::abs(p.x()) < 1e-9 * lever.length ? 1 : 0;
+  const auto shared = std::make_shared<const PlanMesh>(plan.mesh);
+  const Kinds kinds(plan);
+  const std::size_t points = plan.mesh.points.size();
+  for (std::size_t l = 0; l < levels.z.size(); ++l) {
+    LeverLevel level{shared, std::vector<int>(points, -1),
+                     std::vector<double>(points, levels.z[l])};
+    for (std::size_t p = 0; p < points; ++p) {
+      if (!levels.main[l] && !kinds.solid[p]) continue;
+      const Vec2& at = plan.mesh.points[p];
+      level.node[p] = draft.add_node({at.x(), at.y(), levels.z[l]});
+      draft.held[static_cast<std::size_t>(level.node[p])] =
+          std::abs(at.x()) < 1e-9 * lever.length ? 1 : 0;
     }
     mesh.levels.push_back(std::move(level));
   }
-  for (std::size_t level = 0; level + 1 < levels.size(); ++level)
-    for (const auto& q : plan.quads) {
+  for (std::size_t l = 0; l < levels.z.size(); ++l) {
+    if (levels.main[l]) continue;
+    std::size_t below = l, above = l;
+    while (!levels.main[below]) --below;
+    while (!levels.main[above]) ++above;
+    const double s = (levels.z[l] - levels.z[below]) / (levels.z[above] - levels.z[below]);
+    for (std::size_t p = 0; p < points; ++p)
+      if (kinds.solid[p] && kinds.plate[p])
+        draft.hang(mesh.levels[l].node[p],
+                   {{mesh.levels[below].node[p], 1 - s}, {mesh.levels[above].node[p], s}});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+int foot_layers(const LeverSpec& lever, double foot_edge) {
+  return levels_of(lever, true, foot_edge).own;
+}
+
+LeverMesh add_lever(SolidDraft& draft, const LeverSpec& lever, const LeverPlan& plan,
+                    double foot_edge) {
+  const bool solid_foot = std::ranges::find(plan.solid, true) != plan.solid.end();
+  const Levels levels = levels_of(lever, solid_foot, foot_edge);
+  LeverMesh mesh = add_levels(draft, lever, plan, levels);
+  const auto own = static_cast<std::size_t>(levels.own);
+  for (std::size_t q = 0; q < plan.mesh.quads.size(); ++q) {
+    const bool solid = plan.solid[q];
+    const bool plate = !solid || lever.element != HexFormulation::plate;
+    for (std::size_t lower = 0; lower + 1 < levels.z.size();) {
+      std::size_t upper = lower + 1;
+      while (!solid && !levels.main[upper]) ++upper;
       SolidMesh::Hexahedron corners;
       for (std::size_t c = 0; c < 4; ++c) {
-        corners[c] = mesh.levels[level].node[static_cast<std::size_t>(q[c])];
-        corners[c + 4] = mesh.levels[level + 1].node[static_cast<std::size_t>(q[c])];
+        const auto p = static_cast<std::size_t>(plan.mesh.quads[q][c]);
+        corners[c] = mesh.levels[lower].node[p];
+        corners[c + 4] = mesh.levels[upper].node[p];
       }
-      const bool coat = level >= static_cast<std::size_t>(lever.layers);
-      draft.add_hexahedron(corners, coat ? SolidPart::coating : SolidPart::lever, lever.element);
+      draft.add_hexahedron(corners, lower >= own ? SolidPart::coating : SolidPart::lever,
+                           plate ? lever.element : HexFormulation::solid);
+      lower = upper;
     }
+  }
   return mesh;
 }
 

@@ -93,69 +93,34 @@ std::vector<double> even_shares(int count) {
   return shares;
 }
 
-std::vector<double> graded_lines(double length, double edge, double fine, double at, int fewest) {
-  constexpr double growth = 0.4;
-  constexpr int samples = 4000;
-  edge = std::min(edge, length / fewest);
-  // Intervals so far, by the size that is wanted there.
-  std::vector<double> count{0};
-  for (int i = 0; i < samples; ++i) {
-    const double x = length * (i + 0.5) / samples;
-    count.push_back(count.back() +
-                    length / samples / std::min(edge, fine + growth * std::abs(x - at)));
-  }
-  const auto intervals = static_cast<int>(std::ceil(count.back() - 1e-9));
-  std::vector<double> lines{0};
-  std::size_t i = 0;
-  for (int n = 1; n < intervals; ++n) {
-    const double wanted = count.back() * n / intervals;
-    while (count[i + 1] < wanted) ++i;
-    lines.push_back(length / samples *
-                    (static_cast<double>(i) + (wanted - count[i]) / (count[i + 1] - count[i])));
-  }
-  lines.push_back(length);
-  return lines;
+namespace {
+
+Vec2 turned(int side, const Vec2& x) {
+  return side == 0   ? x
+         : side == 1 ? Vec2(-x.y(), x.x())
+         : side == 2 ? Vec2(-x.x(), -x.y())
+                     : Vec2(x.y(), -x.x());
 }
 
-PlanMesh unit_square(int across) {
-  PlanMesh mesh;
-  add_patch(mesh, {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}, even_shares(across),
-            even_shares(across), 1e-6);
-  return mesh;
+}  // namespace
+
+Vec2 rim_of_disc(int side, int j, int across) {
+  const double angle = 0.25 * std::numbers::pi * (2.0 * j / across - 1);
+  return turned(side, {portable::cos(angle), portable::sin(angle)});
 }
 
-PlanMesh unit_disc(int across) {
+PlanMesh unit_disc(int across, const std::vector<double>& ring) {
   constexpr double core = 0.5;  // half-width; with rim corners of 135 degrees the ring stays good
-  const int layers = std::max(1, across / 2);
   PlanMesh mesh;
   add_patch(mesh, {Vec2(-core, -core), Vec2(core, -core), Vec2(core, core), Vec2(-core, core)},
             even_shares(across), even_shares(across), 1e-6);
   for (int side = 0; side < 4; ++side)
-    add_grid(mesh, layers, across, 1e-6, [&](int i, int j) {
-      const double s = 2.0 * j / across - 1, t = static_cast<double>(i) / layers;
-      const double angle = 0.25 * std::numbers::pi * s;
-      const Vec2 inner(core, core * s), outer(portable::cos(angle), portable::sin(angle));
-      const Vec2 x = (1 - t) * inner + t * outer;
-      return side == 0   ? x
-             : side == 1 ? Vec2(-x.y(), x.x())
-             : side == 2 ? Vec2(-x.x(), -x.y())
-                         : Vec2(x.y(), -x.x());
+    add_grid(mesh, static_cast<int>(ring.size()) - 1, across, 1e-6, [&](int i, int j) {
+      const double t = ring[static_cast<std::size_t>(i)] / (1 - core);
+      const Vec2 inner = turned(side, {core, core * (2.0 * j / across - 1)});
+      return Vec2((1 - t) * inner + t * rim_of_disc(side, j, across));
     });
   return mesh;
-}
-
-PlanMesh with_mirror_image(const PlanMesh& half, double tolerance) {
-  PlanMesh whole = half;
-  std::vector<int> image;
-  for (const Vec2& p : half.points) {
-    const bool on_axis = std::abs(p.y()) < tolerance;
-    image.push_back(on_axis ? static_cast<int>(image.size())
-                            : static_cast<int>(whole.points.size()));
-    if (!on_axis) whole.points.emplace_back(p.x(), -p.y());
-  }
-  const auto of = [&](int i) { return image[static_cast<std::size_t>(i)]; };
-  for (const auto& q : half.quads) whole.quads.push_back({of(q[1]), of(q[0]), of(q[3]), of(q[2])});
-  return whole;
 }
 
 std::array<double, 4> PlaceInQuad::weights() const {

@@ -27,15 +27,12 @@ void add_grid(PlanMesh& mesh, int along, int across, double tolerance,
 void add_patch(PlanMesh& mesh, const std::array<Vec2, 4>& corners, const std::vector<double>& along,
                const std::vector<double>& across, double tolerance);
 std::vector<double> even_shares(int count);  // 0, 1/count, ..., 1
-// The disc of radius 1: a square core of `across` by `across` quads in a ring of half as many layers.
-PlanMesh unit_disc(int across);
-PlanMesh unit_square(int across);  // half-width 1
-// The same mesh and its image in the line y = 0.
-PlanMesh with_mirror_image(const PlanMesh& half, double tolerance);
+// The disc of radius 1: a square core, 1 wide, of `across` by `across` quads in a ring whose layers lie at `ring`,
+// from 0 at the core to 0.5 at the rim.
+PlanMesh unit_disc(int across, const std::vector<double>& ring);
+// The disc's rim on one of its four sides, from its lower right corner on counter-clockwise; j from 0 to `across`.
+Vec2 rim_of_disc(int side, int j, int across);
 
-// Places from 0 to `length`, apart by `fine` near `at` and by 0.4 of the way from there further off, by
-// `edge` at most; at least `fewest` intervals.
-std::vector<double> graded_lines(double length, double edge, double fine, double at, int fewest);
 struct PlaceInQuad {
   double xi = 0, eta = 0;  // in [-1, 1]
   std::array<double, 4> weights() const;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "scenes/lever/mesh/ball_mesh.hpp"
+#include "scenes/lever/mesh/foot_plan.hpp"
+#include "scenes/lever/mesh/grading.hpp"
 #include "scenes/lever/mesh/meshed_lever.hpp"
 #include "scenes/lever/mesh/meshed_tip.hpp"
 
@@ -76,16 +78,17 @@ std::vector<std::vector<int>> facets(const PlanMesh& plan) {
 
 TipMesh add_solid_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,
                       const TipSpec& tip) {
-  const bool round = tip.shape == TipShape::cone;
-  const PlanMesh plan = round ? unit_disc(tip.elements) : unit_square(tip.elements);
+  const FootPlan foot = *foot_plan(lever, tip);
+  const PlanMesh& plan = foot.unit;
   const double end = tip.shape == TipShape::block ? tip.foot : tip.end;
-  const int stacked = tip_layers(tip);
+  const std::vector<double> depths = tip_levels(tip, foot.edge, lever.coarser);
   const Vec2 axis = tip_axis(lever, tip);
   const double top = on_lower_face(mesh, axis).z;
+  const auto stacked = static_cast<int>(depths.size()) - 1;
   const auto first = add_column(draft, plan, stacked, SolidPart::tip, [&](const Vec2& p, int l) {
-    const double s = static_cast<double>(l) / stacked;
+    const double depth = depths[static_cast<std::size_t>(l)], s = depth / tip.height;
     const Vec2 xy = axis + 0.5 * ((1 - s) * tip.foot + s * end) * p;
-    return Vec3(xy.x(), xy.y(), top - s * tip.height);
+    return Vec3(xy.x(), xy.y(), top - depth);
   });
   for (std::size_t i = 0; i < plan.points.size(); ++i)
     tie_to_lever(draft, mesh, first.front() + static_cast<int>(i));
@@ -126,7 +129,7 @@ TipMesh add_sphere(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& m
 
   const int carried = out ? add_carried_node(draft, first_of_ball, centre - r * *out) : -1;
 
-  const PlanMesh plan = unit_disc(std::max(2, tip.elements / 2));
+  const PlanMesh plan = foot_plan(lever, tip)->unit;
   constexpr int layers = 2;
   const auto first = add_column(draft, plan, layers, SolidPart::glue, [&](const Vec2& p, int l) {
     const Vec2 off = tip.neck_radius * p;
@@ -158,28 +161,12 @@ double tip_height(const TipSpec& tip) {
   return tip.shape == TipShape::sphere ? tip.neck_height + 2 * tip.radius : tip.height;
 }
 
-Vec2 tip_axis(const LeverSpec& lever, const TipSpec& tip) {
-  return {lever.length - tip.set_back, tip.offset};
-}
-
-double foot_reach(const TipSpec& tip) {
-  if (tip.shape == TipShape::none) return 0;
-  if (tip.shape == TipShape::sphere) return tip.neck_radius;
-  return 0.5 * tip.foot;
-}
-
-int tip_layers(const TipSpec& tip) {
-  constexpr double maximum = 40;
+std::vector<double> tip_levels(const TipSpec& tip, double foot_edge, double coarser) {
+  constexpr double longest = 1;  // -, of an element over the tip's mean width
+  constexpr double growth = 1.2;
   const double end = tip.shape == TipShape::block ? tip.foot : tip.end;
-  const double cubes = std::round(tip.height / (0.5 * (tip.foot + end)) * tip.elements);
-  return static_cast<int>(std::clamp(cubes, 2.0, maximum));
-}
-
-LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip) {
-  const Vec2 axis = tip_axis(lever, tip);
-  const double reach = foot_reach(tip);
-  return {axis.x(), axis.y(),
-          reach > 0 ? std::max(reach, lever.thickness / 3) : lever.aspect * lever.thickness};
+  const double largest = longest * 0.5 * (tip.foot + end);
+  return graded_lines({tip.height, foot_edge, std::min(end, largest), largest, growth, coarser}, 2);
 }
 
 TipMesh add_tip(SolidDraft& draft, const LeverSpec& lever, const LeverMesh& mesh,

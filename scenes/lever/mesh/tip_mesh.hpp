@@ -13,17 +13,8 @@ struct TipMesh {
   std::vector<double> area;             // m^2, theirs
 };
 
-// Where the tip stands on the lever, in the plan.
-Vec2 tip_axis(const LeverSpec& lever, const TipSpec& tip);
-// Radius of the circle around the foot: what must lie on the lever.
-double foot_reach(const TipSpec& tip);
-
-// The foot's size decides how compliant the lever is around it; below a third of the thickness it is the
-// thickness that does. Without a tip: nothing in particular happens there.
-LeverFoot lever_foot(const LeverSpec& lever, const TipSpec& tip);
-
-// Of elements that a block, pyramid or cone is stacked of.
-int tip_layers(const TipSpec& tip);
+// Where the elements meet that a block, pyramid or cone is stacked of: m below the lever, shorter towards it.
+std::vector<double> tip_levels(const TipSpec& tip, double foot_edge, double coarser);
 
 // Without a tip: the point of the lever's lower face under its axis. A ball that touches by a law of its own
 // does so where the normal `out` of the sample, in the lever's frame, meets it: a point that moves with the

@@ -37,23 +37,21 @@ TEST_P(Wedge, AStiffTipDrawsWithTheForcesOfTheFormula) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Beam, Wedge,
-                         testing::Values(Slope{beam_with_tip, 0, 0.1},
-                                         Slope{beam_with_tip, -12.5, 0.1},
-                                         Slope{beam_with_tip, 14, 0.1},
-                                         Slope{beam_with_tip, 30, 0.4}));
+                         testing::Values(Slope{coarse_beam, 0, 0.1}, Slope{coarse_beam, -12.5, 0.1},
+                                         Slope{coarse_beam, 14, 0.1}, Slope{coarse_beam, 30, 0.4}));
 INSTANTIATE_TEST_SUITE_P(V, Wedge,
-                         testing::Values(Slope{v_with_tip, 0, 0.1}, Slope{v_with_tip, -12.5, 0.1},
-                                         Slope{v_with_tip, 14, 0.1}));
+                         testing::Values(Slope{coarse_v, 0, 0.1}, Slope{coarse_v, -12.5, 0.1},
+                                         Slope{coarse_v, 14, 0.1}));
 
 TEST(Wedge, ThreadsChangeNoBit) {
-  const Scene scene = afm_scene(on_incline(v_with_tip, 14, 0.1));
+  const Scene scene = afm_scene(on_incline(coarse_v, 14, 0.1));
   const AfmHistory one = history_of(scene, 1);
   for (const int threads : {2, 3}) EXPECT_EQ(history_of(scene, threads).rows, one.rows) << threads;
 }
 
 // On a slope of 1 a coefficient of 1 holds against any force uphill: a longer way only presses harder.
 TEST(Wedge, AProbeThatLocksIsReported) {
-  const Scene scene = afm_scene(on_incline(beam_with_tip, 45, 1));
+  const Scene scene = afm_scene(on_incline(coarse_beam, 45, 1));
   const std::string what = message_of<RunFailure>([&] { history_of(scene); });
   EXPECT_NE(what.find("scan: the probe has locked"), std::string::npos) << what;
   EXPECT_NE(what.find("allowed: < 1"), std::string::npos) << what;
@@ -61,7 +59,7 @@ TEST(Wedge, AProbeThatLocksIsReported) {
 
 // Just below that the formula still holds: T_u/L = (1 + mu)/(1 - mu).
 TEST(Wedge, AProbeThatHardlySlidesUphillStillDoes) {
-  const Scene scene = afm_scene(on_incline(beam_with_tip, 45, 0.9), {"action[1].distance=60 nm"});
+  const Scene scene = afm_scene(on_incline(coarse_beam, 45, 0.9), {"action[1].distance=60 nm"});
   const FrictionLoop loop = friction_loops(scene, history_of(scene)).front();
   EXPECT_NEAR(loop.forth / loop.load, 19, 0.1);
   EXPECT_NEAR(loop.back / loop.load, 1 / 19.0, 0.001);
@@ -71,8 +69,8 @@ TEST(Wedge, AProbeThatHardlySlidesUphillStillDoes) {
 // is read out of it.
 TEST(Wedge, ALoopOfAProbeThatSticksGivesNoFriction) {
   const auto loop_of = [](const char* distance) {
-    const Scene scene = afm_scene(on_incline(beam_with_tip, 14, 1),
-                                  {std::string("action[1].distance=") + distance});
+    const Scene scene =
+        afm_scene(on_incline(coarse_beam, 14, 1), {std::string("action[1].distance=") + distance});
     return friction_loops(scene, history_of(scene)).front();
   };
   const FrictionLoop sticks = loop_of("4 nm"), slides = loop_of("20 nm");
@@ -89,7 +87,7 @@ TEST(Wedge, ALoopWhoseFrictionHasNotTurnedGivesNoneAndTheScanThatWould) {
   for (const auto& [tilt, degrees, mu] : {std::tuple{12, 30, 0.5}, {12, 14, 0.2}}) {
     const auto loop_of = [&, d = degrees, m = mu, t = tilt](double distance) {
       const Scene scene =
-          afm_scene(on_incline(beam_with_tip, d, m),
+          afm_scene(on_incline(coarse_beam, d, m),
                     {"lever.thickness=0.5 um", "material.lever.youngs_modulus=20 GPa",
                      "lever.tilt=" + std::to_string(t) + " deg", "action[0].force=1 nN",
                      "action[1].distance=" + std::to_string(1e9 * distance) + " nm"});
@@ -110,7 +108,7 @@ TEST(Wedge, ALoopWhoseFrictionHasNotTurnedGivesNoneAndTheScanThatWould) {
 
 // At a kept height the load grows uphill: one way's half is pressed harder than the other's.
 TEST(Wedge, ALoopWhoseLoadDriftsGivesNoFriction) {
-  std::string text = on_incline(beam_with_tip, 14, 0.1);
+  std::string text = on_incline(coarse_beam, 14, 0.1);
   const auto kept = text.find("set_point = \"force\"\n");
   ASSERT_NE(kept, std::string::npos);
   text.erase(kept, std::string("set_point = \"force\"\n").size());
@@ -145,7 +143,7 @@ TEST(AfmContact, AFrictionlessSlopeOfOnePushesAsMuchSidewaysAsUp) {
 // while the sample is drawn along y. All the way the lever twists and bends as under a small lateral force;
 // in the end the tip slides along y at mu L and nothing moves any more.
 TEST(AfmContact, TheTipTwistsAndBendsItsLeverUntilItSlips) {
-  const Scene scene = afm_scene(std::string(beam_with_tip) + R"([surface]
+  const Scene scene = afm_scene(std::string(coarse_beam) + R"([surface]
 shape = "plane"
 friction = 0.1
 [[action]]
@@ -209,7 +207,7 @@ TEST_P(Turn, TwistsAndBendsTheLeverUntilTheTipSlips) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BeamAndV, Turn, testing::Values(beam_with_tip, v_with_tip));
+INSTANTIATE_TEST_SUITE_P(BeamAndV, Turn, testing::Values(coarse_beam, coarse_v));
 
 }  // namespace
 }  // namespace pulvis

@@ -13,11 +13,11 @@ void expect_the_formula(const std::string& lever, const std::vector<std::string>
 
 // 1,150 times longer than thick.
 TEST(AfmExtremes, ALeverOfATenthOfAMicrometreDrawsWithTheForcesOfTheFormula) {
-  expect_the_formula(v_with_tip, {"lever.thickness=0.1 um", "action[0].force=0.1 nN"});
+  expect_the_formula(coarse_v, {"lever.thickness=0.1 um", "action[0].force=0.1 nN"});
 }
 
 TEST(AfmExtremes, ALeverOfTenMicrometresDrawsWithTheForcesOfTheFormula) {
-  expect_the_formula(beam_with_tip, {"lever.thickness=10 um"});
+  expect_the_formula(coarse_beam, {"lever.thickness=10 um"});
 }
 
 // As stiff as the lever, a thousand times stiffer and softer: each presses with the stiffness that it was

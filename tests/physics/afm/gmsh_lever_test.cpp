@@ -234,7 +234,8 @@ TEST_F(GmshLever, ATipOfPulvisStandsUnderTetrahedra) {
   const Calibration c = calibration_of(
       scene_with(beam_of({88, 8, {-1.1, 1.1}, Grid().group, true}).text(), beam_with_tip));
   EXPECT_NEAR(c.normal_stiffness / own.normal_stiffness, 1, 0.01);
-  EXPECT_NEAR(c.lateral_stiffness / own.lateral_stiffness, 1, 0.02);
+  // Its elements are as large as the foot: that gives way less than in a mesh that follows its rim.
+  EXPECT_NEAR(c.lateral_stiffness / own.lateral_stiffness, 1, 0.05);
 }
 
 // A block of 10 x 10 x 12.6 um in the lever's own file, its axis 15 um from the end.

@@ -93,7 +93,6 @@ material = "stiff"
 length = "60 um"
 width = "60 um"
 thickness = "25 um"
-aspect = 0.5
 [tip]
 shape = "block"
 material = "cu"

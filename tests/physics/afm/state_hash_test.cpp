@@ -19,7 +19,7 @@ const std::vector<std::string> soft{"material.lever.yield_stress=0.4 MPa",
                                     "material.lever.hardening_modulus=100 GPa"};
 
 Scene loop(double friction = 0.1, const std::vector<std::string>& overrides = {}) {
-  return afm_scene(std::string(beam_with_tip) + inclined_plane(14, friction) + press_and_scan(4),
+  return afm_scene(std::string(coarse_beam) + inclined_plane(14, friction) + press_and_scan(4),
                    overrides);
 }
 

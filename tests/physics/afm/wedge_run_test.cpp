@@ -8,7 +8,7 @@ namespace pulvis {
 namespace {
 
 TEST(AfmWedge, FrictionAndSensitivityComeBackOutOfTheVolts) {
-  const Scene scene = afm_scene(std::string(beam_with_tip) + inclined_plane(-12.5, 0.1) +
+  const Scene scene = afm_scene(std::string(coarse_beam) + inclined_plane(-12.5, 0.1) +
                                     press_and_scan(12, "60 nN") + press_and_scan(12, "100 nN"),
                                 {"detector.lateral_gain=2e5 V/rad"});
   AfmSimulation simulation(scene);

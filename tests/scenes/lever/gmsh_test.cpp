@@ -105,11 +105,12 @@ class GmshTip : public testing::Test {
 };
 
 TEST_F(GmshTip, ABlockFromAFileIsTheBlockThatPulvisMakes) {
-  const Calibration own = calibration_of(beam_with_tip);
+  // Four even elements across both feet; along it the file's are all as long.
+  const Calibration own = calibration_of(beam_with_tip, {"lever.foot_edge=0.25"});
   for (const std::string& mesh : {version_2(), version_4()}) {
-    const Calibration c = calibration_of(scene_with(mesh));
-    EXPECT_NEAR(c.normal_stiffness / own.normal_stiffness, 1, 1e-8);
-    EXPECT_NEAR(c.lateral_stiffness / own.lateral_stiffness, 1, 1e-8);
+    const Calibration c = calibration_of(scene_with(mesh), {"lever.foot_edge=0.25"});
+    EXPECT_NEAR(c.normal_stiffness / own.normal_stiffness, 1, 1e-7);
+    EXPECT_NEAR(c.lateral_stiffness / own.lateral_stiffness, 1, 1e-3);
     EXPECT_NEAR(c.arm, own.arm, 1e-15);
   }
 }

@@ -159,5 +159,16 @@ set_back = "5 um"
   EXPECT_NE(refusal(v, {"lever.base_width=100 um"}).find("one of them"), std::string::npos);
 }
 
+TEST(WrongAfm, AKeyOfTheMeshThatChangesNothingIsRefused) {
+  expect_refusal({"lever.aspect=12"}, "lever.aspect: 12 has no more effect");
+  expect_refusal({"lever.aspect=0.6"}, "allowed: 1.33 to 10");
+  expect_refusal({"lever.elements_across=4", "lever.side_aspect=1"},
+                 "lever.side_aspect: has no effect");
+  expect_refusal({"lever.elements_along=40", "lever.foot_layers=2"},
+                 "lever.foot_layers: has no effect");
+  expect_refusal({"lever.elements_along=40", "lever.elements_across=4", "lever.aspect=6"},
+                 "lever.aspect: has no effect");
+}
+
 }  // namespace
 }  // namespace pulvis
