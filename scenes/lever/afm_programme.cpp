@@ -223,12 +223,15 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   // Factors of a solid that flowed are far too soft for one that unloads.
   settings.reuse_factors = !model_.world->has<SolidYield>();
   settings.may_jump = depth == max_halvings;
-  const NewtonReport report = solver_.equilibrate(settings);
-  iterations_ += static_cast<int>(report.residuals.size());
+  const IncrementStep step{travel[0], travel[1], travel[2], target.set_point - position_.set_point};
+  const NewtonReport report = equilibrium(settings, step);
   if (report.converged) {
     position_.released += report.released;
+    position_.set_point = target.set_point;
+    position_.trail.add(solver_.state(), step);
     return solver_.commit();
   }
+  position_.trail.clear();
   target.travel = before;
   if (depth == max_halvings || iterations_ > max_iterations)
     throw RunFailure(fmt::format(
@@ -239,6 +242,27 @@ void AfmProgramme::advance(const std::array<double, 3>& travel, bool servo, int 
   const std::array<double, 3> half{travel[0] / 2, travel[1] / 2, travel[2] / 2};
   advance(half, servo, depth + 1);
   advance(half, servo, depth + 1);
+}
+
+NewtonReport AfmProgramme::equilibrium(const NewtonSettings& settings, const IncrementStep& step) {
+  const auto search = [&] {
+    const NewtonReport report = solver_.equilibrate(settings);
+    iterations_ += static_cast<int>(report.residuals.size());
+    return report;
+  };
+  Target& target = model_.world->resource<Target>();
+  // Where the probe can jump there may be two equilibria: the nearer one is meant.
+  const bool adheres = target.pull_off > 0 || target.ball.work > 0;
+  const auto guess = adheres ? std::nullopt : position_.trail.next(step);
+  const StaticSolver::State start = solver_.state();
+  if (!guess || guess->displacement.size() != start.displacement.size() ||
+      guess->force.size() != start.force.size())
+    return search();
+  solver_.restore(*guess);
+  if (!target.servo) target.travel[2] = start.height;
+  if (const NewtonReport report = search(); report.converged) return report;
+  solver_.restore(start);
+  return search();
 }
 
 void AfmProgramme::refuse_lock(const std::array<double, 3>& travel) const {

@@ -7,7 +7,7 @@
 
 #include "engine/files/record.hpp"
 #include "scenes/lever/afm_build.hpp"
-#include "systems/lever/static_solver.hpp"
+#include "scenes/lever/equilibrium_trail.hpp"
 
 namespace pulvis {
 
@@ -24,10 +24,12 @@ struct AfmPosition {
   std::int64_t told = 0;  // rows of the history so far, the one before the first increment included
   double from = 0;        // N, vertical force when the press to a force began
   double released = 0;    // J, by the probe's jumps until now
+  double set_point = 0;   // N, of the last increment
+  EquilibriumTrail trail;
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(told, from, released);
+    bytes(told, from, released, set_point, trail);
   }
 };
 
@@ -55,6 +57,8 @@ class AfmProgramme {
   bool traverse(const std::array<double, 3>& travel, int increments, bool servo);
   // Moves the target; where no equilibrium is found, in halves.
   void advance(const std::array<double, 3>& travel, bool servo, int depth);
+  // An equilibrium for the target where it is, from where the last increments lead, if they lead anywhere.
+  NewtonReport equilibrium(const NewtonSettings& settings, const IncrementStep& step);
   // Friction that no force along the traverse overcomes, since it grows with the force: stops the run.
   void refuse_lock(const std::array<double, 3>& travel) const;
   bool tell();

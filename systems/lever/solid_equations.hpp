@@ -48,6 +48,7 @@ struct SolidEquations {
   double height_step = 0;      // m, of the servo
   double released = 0;         // J, by a jump
   bool jumped = false;         // in this search for an equilibrium
+  bool turns_far = false;      // within an increment: factors of the last one are of no use
   // [points] K^-1 to unit forces on the point, [3 unknowns, 3]; empty until it was asked for
   std::vector<Eigen::MatrixXd> answers;
 
@@ -70,7 +71,7 @@ struct SolidEquations {
   void state(Bytes& bytes) {
     std::vector<double> values = factorised();
     bytes(values, scale, set_point_error, contact_solved, contact_error, contact_change,
-          largest_force, height_step, released, jumped);
+          largest_force, height_step, released, jumped, turns_far);
     if constexpr (Bytes::reads) factorise_again(std::move(values));
   }
 };

@@ -216,8 +216,11 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   const State start = state();
   if (world_.has<Target>()) world_.resource<Target>().may_jump = settings.may_jump;
   world_.resource<SolidEquations>().jumped = false;
-  bool may_reuse = settings.reuse_factors;
-  bool reuse = may_reuse && equations.has_factors();
+  auto& memory = world_.resource<SolidEquations>();
+  const bool may_reuse = settings.reuse_factors;
+  // Where the last increment had no use for old factors this one will have none.
+  bool reuse = may_reuse && equations.has_factors() && !memory.turns_far;
+  bool old_at_first = reuse;
   for (int i = 0; i <= settings.iterations; ++i) {
     stop_if_asked();
     (reuse ? reuse_ : *iterate_).run();
@@ -228,11 +231,12 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
                       (i > 0 && error() < 0.1 * report.residuals[report.residuals.size() - 2]);
     // A very stiff tip that has turned by a thousandth of a radian is another one for the old factors:
     // what they made of it is too far off to go on from.
-    if (i == 2 && reuse && !(error() < 0.5 * report.residuals[1] || good)) {
+    if (i == 2 && old_at_first && reuse && !(error() < 0.5 * report.residuals[1] || good)) {
       restore(start);
       report = {};
       world_.resource<SolidEquations>().jumped = false;
-      may_reuse = reuse = false;
+      memory.turns_far = true;
+      old_at_first = reuse = false;
       i = -1;
       continue;
     }

@@ -68,6 +68,19 @@ class StaticSolver {
   // All pivots of the last factorisation are positive, as a solid's at rest must be.
   bool stable() const;
 
+  // What an equilibrium is searched in: displacements, forces of the contact, height of the target.
+  struct State {
+    std::vector<double> displacement, force;  // m [3 nodes], N [3 points]
+    double height = 0;                        // m
+
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(displacement, force, height);
+    }
+  };
+  State state() const;
+  void restore(const State& state);
+
   const GraphPlan& plan() const { return iterate_->plan(); }
 
  private:
@@ -75,12 +88,6 @@ class StaticSolver {
   void move(double share);
   double error() const;
   double step_size() const;
-  struct State {
-    std::vector<double> displacement, force;
-    double height = 0;
-  };
-  State state() const;
-  void restore(const State& state);
   bool settled(const std::vector<double>& residuals, const NewtonSettings& settings) const;
   void search(double allowed, int cuts);
 
