@@ -4,8 +4,9 @@
   /usr/bin/python3 bench/bands.py runs/wall-friction-seeds tool/bottom/force_y --from 0.84 --until 0.87
 
 The number is the mean of a series of history.csv between two values of another, or with --at its value there. --ratio A B
-divides A by B of the same seed, as often as it is given; --relative divides by the largest value before --from, so that
-a force is a share of what it was when shear began.
+divides A by B of the same seed, as often as it is given; --relative divides by the last value before --from, so that
+a force is a share of what it was when shear began. --largest-rise H: the largest rise of the series in steps H of the other
+between --from and --until, as a share of its value there: 1 over the number of steps if it grows evenly.
 """
 import argparse
 import csv
@@ -32,13 +33,21 @@ def crossing(samples, series, against, value):
     return None
 
 
+def largest_rise(samples, args):
+    steps = round((args.until - args.begin) / args.largest_rise)
+    values = [crossing(samples, args.series, args.against, args.begin + i * args.largest_rise) for i in range(steps + 1)]
+    return None if None in values else max(b - a for a, b in zip(map(abs, values), map(abs, values[1:]))) / abs(values[-1])
+
+
 def number_of(samples, args):
     """The number asked for, or none where the run does not come as far."""
+    if args.largest_rise:
+        return largest_rise(samples, args)
     if args.per:
         samples = [{**s, args.series: s[args.series] / s[args.per]} for s in samples if s[args.per] != 0]
     unit = 1.0
     if args.relative:
-        unit = max(s[args.series] for s in samples if s[args.against] <= args.begin)
+        unit = [s for s in samples if s[args.against] <= args.begin][-1][args.series]
     if args.at is not None:
         value = crossing(samples, args.series, args.against, args.at)
         return None if value is None else value / unit
@@ -75,6 +84,7 @@ def main():
     parser.add_argument("--from", dest="begin", type=float, default=float("-inf"), help="in SI units")
     parser.add_argument("--until", type=float, default=float("inf"))
     parser.add_argument("--at", type=float)
+    parser.add_argument("--largest-rise", type=float, metavar="H")
     parser.add_argument("--relative", action="store_true")
     parser.add_argument("--ratio", nargs=2, action="append", default=[], metavar=("A", "B"))
     args = parser.parse_args()
