@@ -36,9 +36,9 @@ def seconds_of_runs(folder):
     return len(times), sum(float(time) for time in times if time)
 
 
-def run(program, study, output, jobs):
+def run(program, study, output, options):
     folder = output / study.stem
-    command = [program, "study", study, "-o", folder] + (["--jobs", str(jobs)] if jobs else [])
+    command = [program, "study", study, "-o", folder, *options]
     print(f"{study.stem} ...", flush=True)
     with open(output / f"{study.stem}.log", "w", encoding="utf-8") as log:
         code = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT).returncode
@@ -64,7 +64,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", nargs="*", help="names of scenes/studies, or files; without any: all")
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "runs/nightly")
-    parser.add_argument("--jobs", type=int, help="runs at once, as of `pulvis study`")
+    for option in ("--jobs", "--threads-per-run"):
+        parser.add_argument(option, help="as of `pulvis study`")
     parser.add_argument("--program", type=Path, default=ROOT / "build/release/cli/pulvis")
     args = parser.parse_args()
     shipped = {file.stem: file for file in sorted(STUDIES.glob("*.toml"))}
@@ -78,9 +79,11 @@ def main():
         return 2
     version = subprocess.run([args.program, "--version"], capture_output=True, text=True).stdout.strip().splitlines()
     args.output.mkdir(parents=True, exist_ok=True)
+    options = [word for name in ("jobs", "threads_per_run") if (value := getattr(args, name))
+               for word in ("--" + name.replace("_", "-"), value)]
     results = []
     for study in chosen:
-        results.append(run(args.program, study, args.output, args.jobs))
+        results.append(run(args.program, study, args.output, options))
         write_log(args.output, version[0] if version else "unknown version", results)
         if results[-1]["code"] in (130, -2):
             return 130
