@@ -9,6 +9,7 @@
 
 #include "cli/reduction_files.hpp"
 #include "cli/tell.hpp"
+#include "cli/volts/volts_report.hpp"
 #include "cli/wedge_files.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
@@ -165,11 +166,25 @@ void print_run(const lab::ReducedRun& run) {
   tell("\n");
 }
 
+ExitCode reduce_volts(const ReduceOptions& options, const Inputs& inputs,
+                      const lab::LoadedSettings& loaded) {
+  if (!inputs.records.empty())
+    refuse(inputs.records.front(), "records",
+           "stands beside settings with afm.loops, allowed: files that the settings name");
+  const VoltsReduction done = volts_reduction(loaded);
+  open_folder(options, volts_files());
+  write_volts(options.folder, done);
+  write_volts_report(options.folder, done);
+  tell("{}results in {}\n", volts_text(done), options.folder.string());
+  return ExitCode::done;
+}
+
 }  // namespace
 
 ExitCode reduce_records(const ReduceOptions& options) {
   const Inputs inputs = sorted_inputs(options.files);
   const lab::LoadedSettings loaded = settings_of(inputs, options.overrides);
+  if (loaded.settings.volts.wanted()) return reduce_volts(options, inputs, loaded);
   if (!loaded.settings.wedge.loops.empty()) {
     const WedgeReduction calibrated = wedge_reduction(loaded);
     open_folder(options, {"reduce.toml", "summary.json", "report.html", "facets.csv"});

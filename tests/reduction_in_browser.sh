@@ -1,5 +1,5 @@
 #!/bin/bash
-# Opens the reports of both reductions in headless Chromium: they must draw their charts and raise no error, offline;
+# Opens the reports of the reductions in headless Chromium: they must draw their charts and raise no error, offline;
 # of the wedge calibration, figures and lines must be those of the loops.
 #
 # usage: reduction_in_browser.sh PULVIS SOURCE_DIR [FOLDER]
@@ -45,3 +45,14 @@ body=$(body_of wedge "$wedge/report.html" 1200,2000 ready)
   fail "the page of the wedge calibration"
 picture_of "$wedge/report.html" 1200,2000 "$wedge/report.png"
 echo "ok: wedge calibration"
+
+volts=$out/volts
+"$pulvis" reduce "$source_dir/scenes/lab/volts.toml" --overwrite -o "$volts" >"$work/out.txt" ||
+  fail "from volts to friction: $(tail -5 "$work/out.txt")"
+body=$(body_of volts "$volts/report.html" 1200,3600 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="7"'* ]] || fail "not ready: $body"
+/usr/bin/python3 "$(dirname "$0")/volts_page.py" "$work/page.html" "$volts/summary.json" ||
+  fail "the page from volts to friction"
+picture_of "$volts/report.html" 1200,3600 "$volts/report.png"
+echo "ok: from volts to friction"

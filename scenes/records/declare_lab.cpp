@@ -2,6 +2,7 @@
 #include "scenes/records/declare_lab.hpp"
 
 #include "scenes/keys/declare.hpp"
+#include "scenes/volts/declare_volts.hpp"
 
 #include <array>
 
@@ -350,11 +351,22 @@ double CompactSpec::poisson() const {
 }
 
 const Language& language() {
-  static const Language tables{
-      view_of(declared_top()),       view_of(declared_press()),    view_of(declared_logger()),
-      view_of(declared_load_cell()), view_of(declared_lvdt()),     view_of(declared_compact()),
-      view_of(declared_clock()),     view_of(declared_analysis()), view_of(declared_simulation()),
-      view_of(declared_wedge()),     view_of(declared_run())};
+  static const Language tables{view_of(declared_top()),
+                               view_of(declared_press()),
+                               view_of(declared_logger()),
+                               view_of(declared_load_cell()),
+                               view_of(declared_lvdt()),
+                               view_of(declared_compact()),
+                               view_of(declared_clock()),
+                               view_of(declared_analysis()),
+                               view_of(declared_simulation()),
+                               view_of(declared_wedge()),
+                               view_of(volts::declared_afm()),
+                               view_of(volts::declared_force_curves()),
+                               view_of(volts::declared_lever()),
+                               view_of(volts::declared_crosstalk()),
+                               view_of(volts::declared_test_probe()),
+                               view_of(declared_run())};
   return tables;
 }
 

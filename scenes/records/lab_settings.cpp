@@ -8,6 +8,7 @@
 #include "scenes/language/table_reader.hpp"
 #include "scenes/read.hpp"
 #include "scenes/records/declare_lab.hpp"
+#include "scenes/volts/declare_volts.hpp"
 
 #include <fmt/format.h>
 
@@ -45,12 +46,19 @@ class SettingsReader {
     read_one(declared_analysis(), all.analysis);
     read_one(declared_simulation(), all.simulation);
     read_one(declared_wedge(), all.wedge);
+    read_one(volts::declared_afm(), all.volts.afm);
+    read_one(volts::declared_force_curves(), all.volts.force_curves);
+    read_one(volts::declared_lever(), all.volts.lever);
+    read_one(volts::declared_crosstalk(), all.volts.crosstalk);
+    read_one(volts::declared_test_probe(), all.volts.test_probe);
     read_runs(all.runs);
     return all;
   }
 
   void check(const Settings& all) {
-    if (!all.wedge.loops.empty()) return;  // nothing of the compact is used
+    for (const volts::Fault& fault : volts::faults_of(all.volts, !all.wedge.loops.empty()))
+      add(fault.path, fault.what);
+    if (all.volts.wanted() || !all.wedge.loops.empty()) return;  // nothing of the compact is used
     exactly_one("compact.length", all.compact.length.has_value(), "compact.fill_height",
                 all.compact.fill_height.has_value(), "length = \"10 mm\"");
     exactly_one("compact.poissons_ratio", all.compact.poissons_ratio.has_value(), "compact.powder",

@@ -4,6 +4,7 @@
 
 #include "scenes/read.hpp"
 #include "scenes/scene_files.hpp"
+#include "scenes/volts/volts_spec.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -99,6 +100,7 @@ struct Settings {
   AnalysisSpec analysis;
   SimulationSpec simulation;
   WedgeSpec wedge;
+  volts::VoltsSpec volts;
   std::vector<RunSpec> runs;
 };
 

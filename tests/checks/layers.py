@@ -45,7 +45,8 @@ ROOMS = {
         "lever": "lever/mesh spec language",
         "checks": "lever meshes packing tools results outlines spec language",
         "": "checks grains keys lever lever/mesh meshes packing tools results outlines spec language",
-        "records": "lever keys spec language /",
+        "volts": "lever keys outlines spec language",
+        "records": "lever volts keys spec language /",
         "study": "checks results keys spec language /",
         "probe": "keys spec language /",
     },
@@ -53,7 +54,8 @@ ROOMS = {
         "report": "",
         "study": "report /",
         "probe": "report study /",
-        "": "report",
+        "volts": "report /",
+        "": "report volts",
     },
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
