@@ -145,8 +145,14 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
                    "file, .png .svg .pdf or .csv; without --field and --series a folder for all "
                    "figures (default: pictures/ in the run's folder)")
       ->transform(without_detours);
-  command->add_option("--format", options.format, "of all figures: png, svg, pdf or csv")
-      ->check(CLI::IsMember({"png", "svg", "pdf", "csv"}));
+  command
+      ->add_option("--format", options.format,
+                   "of all figures: png, svg, pdf or csv; gsf: a raster's images for Gwyddion")
+      ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "gsf"}));
+  command
+      ->add_option("--level", options.level,
+                   "levelling of a raster's images: none, plane, or lines (the median of each)")
+      ->check(CLI::IsMember({"none", "plane", "lines"}));
   command->callback([&] { code = draw_figures(options); });
 }
 
