@@ -72,6 +72,16 @@ const TableDeclaration<AfmSpec>& declared_afm() {
          .fallback = value_of("wedge"),
          .doc = "How the lateral detector is calibrated."},
         index_to(&AfmSpec::lateral)},
+       {{.name = "level_error",
+         .kind = Kind::quantity,
+         .unit = "V",
+         .range = within(0, 10),
+         .fallback = value_of("0 V"),
+         .doc =
+             "Standard uncertainty of the free level that the normal volts of the sample's loops "
+             "count from, the same for all of them: it goes to their loads, not to the slope of "
+             "the line."},
+        to(&AfmSpec::level_error)},
        {{.name = "draws",
          .kind = Kind::integer,
          .range = within(1000, 1000000),

@@ -62,6 +62,7 @@ Model::Model(const Measured& measured, const VoltsSpec& spec)
     add_wedge();
   else
     add_test_probe(spec);
+  add("free level of the loops", "level", "V", {0, spec.afm.level_error});
   sample_ = add_loops("loops on the sample", measured_.loops, false);
 }
 
@@ -219,7 +220,8 @@ Outcome Model::evaluate(const std::vector<double>& x) const {
   const LoopRecord& record = measured_.loops;
   for (std::size_t i = 0; i < record.loops.size(); ++i) {
     const VoltsLoop& loop = record.loops[i];
-    out.load.push_back(loop.load * (record.load_in_volts ? out.normal : 1));
+    out.load.push_back(loop.load * (record.load_in_volts ? out.normal : 1) +
+                       out.normal * of("level"));
     out.force.push_back(out.lateral * (x[sample_.width[i]] - crosstalk * loop.normal_half));
     out.friction_of_loop.push_back(out.force[i] / (out.load[i] + out.adhesion));
     out.friction_of_loops += out.friction_of_loop[i] / static_cast<double>(record.loops.size());

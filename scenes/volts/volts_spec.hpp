@@ -13,6 +13,7 @@ enum class CrosstalkMethod { force_curves, given, none };
 struct AfmSpec {
   std::string loops;  // file, from the folder of the settings; empty: nothing of this is wanted
   int lateral = 0;    // LateralMethod
+  double level_error = 0;  // V
   int draws = 0;
   int seed = 0;
 };

@@ -57,7 +57,7 @@ std::string way(const char* kind, const char* distance, int increments) {
 }
 
 // Displacement of the scanner against normal volts, from free to pressed and back.
-std::string curve_of(const AfmHistory& h) {
+std::string volts_curve(const AfmHistory& h) {
   std::string text;
   for (std::size_t i = 0; i < h.rows.size(); ++i)
     if (h.times[i] > 1 + 1e-9)
@@ -86,7 +86,7 @@ TEST_F(VoltsOfRun, GivesBackTheFrictionThatWasPutIn) {
       gains);
   AfmSimulation simulation(curve_scene);
   const Calibration c = simulation.calibrate();
-  put("curve.csv", "displacement [m],normal [V]\n" + curve_of(history_of(simulation)));
+  put("curve.csv", "displacement [m],normal [V]\n" + volts_curve(history_of(simulation)));
   const std::string loads = press_and_scan(12, "60 nN") + press_and_scan(12, "100 nN");
   put("wedge.csv",
       "slope [deg],load [V],half_width [V],offset [V],half_width_error [V],offset_error [V]\n" +

@@ -118,6 +118,17 @@ TEST(FromVolts, ByLoopsOnSlopesTheNormalStiffnessDoesNotCountForFriction) {
               1 / std::pow(std::cos(20 * std::numbers::pi / 180), 2), 1e-9);
 }
 
+// A shift of all loads moves the line, not its slope: A goes with it, volt by volt of the normal calibration.
+TEST(FromVolts, TheFreeLevelCountsForAdhesionAlone) {
+  const Reduced one = reduced_from("volts.toml", {"afm.level_error=20 mV"});
+  EXPECT_EQ(share(one, "friction", "free level of the loops"), 0);
+  const Quantity& line = quantity(one, "adhesion_of_line");
+  const double shift = 0.02 * quantity(one, "normal_sensitivity").value;
+  EXPECT_NEAR(share(one, "adhesion_of_line", "free level of the loops") * line.error * line.error /
+                  (shift * shift),
+              1, 0.1);
+}
+
 TEST(FromVolts, CrosstalkIsFoundAndRemoved) {
   const Reduced found = reduced_from("volts.toml");
   const double true_friction = truth()["friction"], true_crosstalk = truth()["crosstalk"];
