@@ -158,12 +158,16 @@ lab::Mean of_both(const lab::Mean& a, const lab::Mean& b) {
           portable::hypot(own, std::abs(a.value - b.value) / 2 / std::sqrt(3.0))};
 }
 
+// What a scatter of few values leaves open: the variance of Student's distribution with n - 1 degrees of freedom,
+// (n - 1)/(n - 3) (JCGM 101:2008, 6.4.9.4). It is infinite below four values: those get that of four.
+double few_values(double n) { return (n - 1) / std::max(n - 3, (n - 1) / 3); }
+
 lab::Mean mean_of_curves(const std::vector<lab::Mean>& values) {
   const auto n = static_cast<double>(values.size());
   double mean = 0, own = 0, scatter = 0;
   for (const lab::Mean& v : values) mean += v.value / n, own += v.error * v.error / (n * n);
   for (const lab::Mean& v : values) scatter += (v.value - mean) * (v.value - mean);
-  if (values.size() > 1) own = std::max(own, scatter / (n - 1) / n);
+  if (values.size() > 1) own = std::max(own, few_values(n) * scatter / (n - 1) / n);
   return {mean, std::sqrt(own)};
 }
 

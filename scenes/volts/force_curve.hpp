@@ -60,7 +60,8 @@ struct Sensitivity {
   std::optional<lab::Mean> crosstalk;  // where all curves have a lateral signal
 };
 
-// Means over curves: the error is the larger of the curves' own and of their scatter, and what both ways differ by.
+// Means over curves: the error is the larger of the curves' own and of their scatter (wider where they are few), and
+// what both ways differ by.
 Sensitivity mean_over(const std::vector<CurveFigures>& curves);
 
 }  // namespace pulvis::volts
