@@ -1,5 +1,5 @@
 #!/bin/bash
-# Opens the reports of both reductions in headless Chromium: they must draw their charts and raise no error, offline;
+# Opens the reports of all reductions in headless Chromium: they must draw their charts and raise no error, offline;
 # of the wedge calibration, figures and lines must be those of the loops.
 #
 # usage: reduction_in_browser.sh PULVIS SOURCE_DIR [FOLDER]
@@ -45,3 +45,13 @@ body=$(body_of wedge "$wedge/report.html" 1200,2000 ready)
   fail "the page of the wedge calibration"
 picture_of "$wedge/report.html" 1200,2000 "$wedge/report.png"
 echo "ok: wedge calibration"
+
+press=$out/press
+"$pulvis" reduce "$source_dir/scenes/lab/press.toml" --overwrite -o "$press" >"$work/out.txt" ||
+  fail "the compressions: $(tail -5 "$work/out.txt")"
+body=$(body_of press "$press/report.html" 1200,2600 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="4"'* ]] || fail "not ready: $body"
+grep -q '<td>yield_pressure</td><td>420' "$work/page.html" || fail "no yield pressure on the page"
+picture_of "$press/report.html" 1200,2600 "$press/report.png"
+echo "ok: compressions"

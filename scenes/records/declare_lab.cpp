@@ -311,7 +311,18 @@ const TableDeclaration<SimulationSpec>& declared_simulation() {
          .fallback = value_of("target"),
          .doc = "The tool that slides under the compact: its forces give the coefficient, its "
                 "travel along x the distance."},
-        to(&SimulationSpec::target)}}};
+        to(&SimulationSpec::target)},
+       {{.name = "density",
+         .kind = Kind::text,
+         .fallback = value_of("relative_density"),
+         .doc = "Series with the relative density, for compression curves."},
+        to(&SimulationSpec::density)},
+       {{.name = "pressure",
+         .kind = Kind::text,
+         .fallback = value_of("stress/axial_top"),
+         .doc = "Series with the axial stress, for compression curves; its sign does not matter. "
+                "Of a periodic cell \"cell/stress_yy\"."},
+        to(&SimulationSpec::pressure)}}};
   return declaration;
 }
 
@@ -351,10 +362,11 @@ double CompactSpec::poisson() const {
 
 const Language& language() {
   static const Language tables{
-      view_of(declared_top()),       view_of(declared_press()),    view_of(declared_logger()),
-      view_of(declared_load_cell()), view_of(declared_lvdt()),     view_of(declared_compact()),
-      view_of(declared_clock()),     view_of(declared_analysis()), view_of(declared_simulation()),
-      view_of(declared_wedge()),     view_of(declared_run())};
+      view_of(declared_top()),         view_of(declared_press()),    view_of(declared_logger()),
+      view_of(declared_load_cell()),   view_of(declared_lvdt()),     view_of(declared_compact()),
+      view_of(declared_clock()),       view_of(declared_analysis()), view_of(declared_simulation()),
+      view_of(declared_wedge()),       view_of(declared_run()),      view_of(declared_die()),
+      view_of(declared_compression()), view_of(declared_curve())};
   return tables;
 }
 

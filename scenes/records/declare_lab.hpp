@@ -16,5 +16,8 @@ const schema::TableDeclaration<AnalysisSpec>& declared_analysis();
 const schema::TableDeclaration<SimulationSpec>& declared_simulation();
 const schema::TableDeclaration<WedgeSpec>& declared_wedge();
 const schema::TableDeclaration<RunSpec>& declared_run();
+const schema::TableDeclaration<DieSpec>& declared_die();
+const schema::TableDeclaration<CompressionSpec>& declared_compression();
+const schema::TableDeclaration<CurveSpec>& declared_curve();
 
 }  // namespace pulvis::lab

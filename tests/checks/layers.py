@@ -45,7 +45,7 @@ ROOMS = {
         "lever": "lever/mesh spec language",
         "checks": "lever meshes packing tools results outlines spec language",
         "": "checks grains keys lever lever/mesh meshes packing tools results outlines spec language",
-        "records": "lever keys spec language /",
+        "records": "lever keys results spec language /",
         "study": "checks results keys spec language /",
         "probe": "keys spec language /",
     },
@@ -53,6 +53,7 @@ ROOMS = {
         "report": "",
         "study": "report /",
         "probe": "report study /",
+        "lab": "report /",
         "": "report",
     },
 }

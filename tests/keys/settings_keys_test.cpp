@@ -1,4 +1,5 @@
 // Every key of the settings of `reduce`: what it keeps of them does the same again.
+#include "cli/lab/compression_output.hpp"
 #include "cli/wedge_files.hpp"
 #include "plan_checks.hpp"
 #include "scenes/records/lab_reduction.hpp"
@@ -19,6 +20,7 @@ std::string fault_of_settings(const std::string& text, const fs::path&) {
     const auto loaded = lab::load_settings_text(text, records / "case.toml", {});
     const lab::Settings& settings = loaded.settings;
     if (!settings.wedge.loops.empty()) wedge_reduction(loaded);
+    if (!settings.curves.empty()) compression_output(loaded, {});
     for (const lab::RunSpec& run : settings.runs)
       lab::reduce(lab::read_press(records / run.press, settings),
                   lab::read_logger(records / run.logger, settings), settings,

@@ -1,4 +1,6 @@
-#include "cli/reduce.hpp"
+#include "cli/lab/reduce.hpp"
+
+#include "cli/lab/compression_output.hpp"
 #include "cli/reduction_report.hpp"
 #include "cli/wedge_report.hpp"
 
@@ -165,11 +167,27 @@ void print_run(const lab::ReducedRun& run) {
   tell("\n");
 }
 
+// Kinds whose records stand in the settings alone.
+std::optional<LabOutput> output_of(const ReduceOptions& options,
+                                   const lab::LoadedSettings& loaded) {
+  if (!loaded.settings.curves.empty()) return compression_output(loaded, options.simulations);
+  return std::nullopt;
+}
+
 }  // namespace
 
 ExitCode reduce_records(const ReduceOptions& options) {
   const Inputs inputs = sorted_inputs(options.files);
   const lab::LoadedSettings loaded = settings_of(inputs, options.overrides);
+  if (const auto output = output_of(options, loaded)) {
+    if (!inputs.records.empty())
+      refuse(inputs.records.front(), "records",
+             "stands beside settings that name their records, allowed: the settings alone");
+    open_folder(options, output->names());
+    write_lab(options.folder, *output, loaded);
+    tell("{}results in {}\n", output->told, options.folder.string());
+    return ExitCode::done;
+  }
   if (!loaded.settings.wedge.loops.empty()) {
     const WedgeReduction calibrated = wedge_reduction(loaded);
     open_folder(options, {"reduce.toml", "summary.json", "report.html", "facets.csv"});
