@@ -55,3 +55,12 @@ body=$(body_of press "$press/report.html" 1200,2600 ready)
 grep -q '<td>yield_pressure</td><td>420' "$work/page.html" || fail "no yield pressure on the page"
 picture_of "$press/report.html" 1200,2600 "$press/report.png"
 echo "ok: compressions"
+
+die=$out/die
+"$pulvis" reduce "$source_dir/scenes/lab/die.toml" --overwrite -o "$die" >"$work/out.txt" ||
+  fail "the instrumented die: $(tail -5 "$work/out.txt")"
+body=$(body_of die "$die/report.html" 1200,2000 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="3"'* ]] || fail "not ready: $body"
+picture_of "$die/report.html" 1200,2000 "$die/report.png"
+echo "ok: instrumented die"

@@ -22,15 +22,12 @@ struct Compressions {
 };
 
 Compressions compressed(const lab::LoadedSettings& loaded,
-                     const std::vector<std::filesystem::path>& simulations) {
+                        const std::vector<std::filesystem::path>& simulations) {
   const lab::Settings& settings = loaded.settings;
   const std::filesystem::path folder = settings.file.parent_path();
   Compressions all;
   all.confidence = settings.analysis.confidence;
-  all.machine.coefficients = settings.compression.compliance;
-  if (!settings.compression.empty.empty())
-    all.machine = lab::compliance_of(lab::read_press(folder / settings.compression.empty, settings),
-                                     settings.compression);
+  all.machine = lab::machine_of(settings);
   for (const lab::CurveSpec& spec : settings.curves)
     all.curves.push_back(lab::reduce_curve(lab::read_press(folder / spec.press, settings), spec,
                                            settings, all.machine));

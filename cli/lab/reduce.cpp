@@ -1,6 +1,7 @@
 #include "cli/lab/reduce.hpp"
 
 #include "cli/lab/compression_output.hpp"
+#include "cli/lab/die_output.hpp"
 #include "cli/reduction_report.hpp"
 #include "cli/wedge_report.hpp"
 
@@ -171,6 +172,7 @@ void print_run(const lab::ReducedRun& run) {
 std::optional<LabOutput> output_of(const ReduceOptions& options,
                                    const lab::LoadedSettings& loaded) {
   if (!loaded.settings.curves.empty()) return compression_output(loaded, options.simulations);
+  if (!loaded.settings.transmissions.empty()) return die_output(loaded, options.simulations);
   return std::nullopt;
 }
 

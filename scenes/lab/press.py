@@ -73,11 +73,11 @@ def forces():
         yield 0.0, False
 
 
-def write(path, height_at, noisy):
+def write(path, height_at, noisy, zero=MEETING):
     lines = ["# Synthetic record, made by scenes/lab/press.py: not measured",
              "time [s],force [kN],displacement [mm]"]
     for i, (force, is_loading) in enumerate(forces()):
-        place = MEETING - height_at(force, is_loading) + give(force)
+        place = zero - height_at(force, is_loading) + give(force)
         lines.append(f"{i * INTERVAL:.2f},{(force + noisy('force')) / 1e3:.5f},"
                      f"{place + noisy('displacement'):.5f}")
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -110,7 +110,8 @@ def main():
     truth = {"unloading_modulus_MPa": UNLOADING_MODULUS, "give_mm": GIVE, "seed": options.seed,
              "noise_factor": options.noise, "curves": {}}
     for name, (law, values) in laws.items():
-        write(options.out / f"press-{name}.csv", height_of(law), noisy)
+        zero = FILL if name == "cooper-eaton" else MEETING  # that press was set to zero at the fill level
+        write(options.out / f"press-{name}.csv", height_of(law), noisy, zero)
         truth["curves"][name] = {**values, "mass_g": round(mass(law(0.0)), 6), "fill_height_mm": FILL,
                                  "final_height_mm": height_of(law)(0.0, False)}
     (options.out / "press-truth.json").write_text(json.dumps(truth, indent=2) + "\n", encoding="utf-8")

@@ -1,5 +1,6 @@
 // Declarations of reduce.toml: records of a press whose die is filled, for compression curves.
 #include "scenes/keys/declare.hpp"
+#include "scenes/records/declare_columns.hpp"
 #include "scenes/records/declare_lab.hpp"
 
 namespace pulvis::lab {
@@ -85,7 +86,7 @@ std::vector<Key<Spec>> filling_keys() {
         .kind = Kind::quantity,
         .unit = "m",
         .range = above(0, 10),
-        .doc = "Height of the powder where its loading begins.",
+        .doc = "Height of the powder where the displacement of the punch is zero.",
         .fallback_doc = "from `final_height`, or from `compression.empty`"},
        to(&Spec::fill_height)},
       {{.name = "final_height",
@@ -104,7 +105,8 @@ std::vector<Key<Spec>> filling_keys() {
 
 const TableDeclaration<DieSpec>& declared_die() {
   static const TableDeclaration<DieSpec> declaration{
-      {"die", false, "shape", "The die that a press fills, for `[[curve]]` records."},
+      {"die", false, "shape",
+       "The die that a press fills, for `[[curve]]` and `[[transmission]]`."},
       {{{.name = "shape",
          .kind = Kind::choice,
          .choices = {{"round", "a cylinder"}, {"slot", "two walls, as a plane strain model has"}},
@@ -139,7 +141,7 @@ const TableDeclaration<DieSpec>& declared_die() {
          .kind = Kind::quantity,
          .unit = "kg/m^3",
          .range = above(0, 1e5),
-         .doc = "Density of the powder's solid; required for `[[curve]]`.",
+         .doc = "Density of the powder's solid; required for `[[curve]]` and `[[transmission]]`.",
          .fallback_doc = "none"},
         to(&DieSpec::solid_density)},
        error_key("mass_error", &DieSpec::mass_error,
@@ -191,6 +193,70 @@ const TableDeclaration<CurveSpec>& declared_curve() {
           .doc = "Relative density that Kawakita's and Cooper and Eaton's laws begin at.",
           .fallback_doc = "that where the loading begins"},
          to(&CurveSpec::initial_density)});
+    return made;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<GaugesSpec>& declared_gauges() {
+  static const TableDeclaration<GaugesSpec> declaration = [] {
+    TableDeclaration<GaugesSpec> made{
+        {"gauges", false, "",
+         "Records of an instrumented die: forces on both punches, and the wall's stress."},
+        {column_key("time", "time", &GaugesSpec::time, "Name of the column with the time."),
+         column_key("displacement", "displacement", &GaugesSpec::displacement,
+                    "Name of the column with the displacement of the top punch."),
+         column_key("top", "top", &GaugesSpec::top,
+                    "Name of the column with the force on the top punch, which is the one that "
+                    "moves."),
+         column_key("bottom", "bottom", &GaugesSpec::bottom,
+                    "Name of the column with the force on the bottom punch."),
+         column_key("radial", "radial", &GaugesSpec::radial,
+                    "Name of the column with the stress on the wall (Pa)."),
+         header_key<GaugesSpec>(),
+         {{.name = "radial_height",
+           .kind = Kind::quantity,
+           .unit = "m",
+           .range = within(0, 10),
+           .doc = "Height of the wall's gauge above the bottom punch.",
+           .fallback_doc = "it measures the mean over the compact's height"},
+          to(&GaugesSpec::radial_height)},
+         {{.name = "from",
+           .kind = Kind::number,
+           .range = above(0, 1),
+           .fallback = value_of(0.05),
+           .doc =
+               "Share of the largest axial pressure from which on K and the friction are taken."},
+          to(&GaugesSpec::from)},
+         {{.name = "density_step",
+           .kind = Kind::number,
+           .range = within(1e-4, 1),
+           .fallback = value_of(0.02),
+           .doc = "Step of the relative density at which they are told."},
+          to(&GaugesSpec::density_step)}}};
+    made.keys.push_back(error_key("top_error", &GaugesSpec::top_error,
+                                  "Standard uncertainty of the top force, as a share."));
+    made.keys.push_back(error_key("bottom_error", &GaugesSpec::bottom_error,
+                                  "The same of the bottom force; both count as independent."));
+    made.keys.push_back(
+        error_key("radial_error", &GaugesSpec::radial_error, "The same of the wall's stress."));
+    return made;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<TransmissionSpec>& declared_transmission() {
+  static const TableDeclaration<TransmissionSpec> declaration = [] {
+    TableDeclaration<TransmissionSpec> made{
+        {"transmission", true, "",
+         "One compression in an instrumented die, instead of sliding-plate tests."},
+        filling_keys<TransmissionSpec>()};
+    made.keys.push_back({{.name = "record",
+                          .kind = Kind::file,
+                          .required = true,
+                          .doc = "Record (CSV), as a path from the folder of this file; its "
+                                 "columns are those of `[gauges]`."},
+                         to(&TransmissionSpec::record)});
     return made;
   }();
   return declaration;

@@ -2,6 +2,7 @@
 #include "scenes/records/declare_lab.hpp"
 
 #include "scenes/keys/declare.hpp"
+#include "scenes/records/declare_columns.hpp"
 
 #include <array>
 
@@ -10,24 +11,6 @@ namespace pulvis::lab {
 using namespace schema;
 
 namespace {
-
-template <class Spec>
-Key<Spec> column_key(const char* name, const char* fallback, std::string Spec::*member,
-                     const char* doc) {
-  return {{.name = name, .kind = Kind::text, .fallback = value_of(fallback), .doc = doc},
-          to(member)};
-}
-
-template <class Spec>
-Key<Spec> header_key() {
-  return {{.name = "header_line",
-           .kind = Kind::integer,
-           .range = within(0, 10000),
-           .fallback = value_of(0),
-           .doc = "Line of the file that holds the names of the columns; 0: the first line that is "
-                  "neither empty nor a comment (#)."},
-          integer_to(&Spec::header_line)};
-}
 
 std::vector<Key<CompactSpec>> geometry_keys() {
   return {
@@ -366,7 +349,8 @@ const Language& language() {
       view_of(declared_load_cell()),   view_of(declared_lvdt()),     view_of(declared_compact()),
       view_of(declared_clock()),       view_of(declared_analysis()), view_of(declared_simulation()),
       view_of(declared_wedge()),       view_of(declared_run()),      view_of(declared_die()),
-      view_of(declared_compression()), view_of(declared_curve())};
+      view_of(declared_compression()), view_of(declared_curve()),    view_of(declared_gauges()),
+      view_of(declared_transmission())};
   return tables;
 }
 

@@ -84,6 +84,12 @@ Compliance compliance_of(const PressRecord& empty, const CompressionSpec& spec) 
   return found;
 }
 
+Compliance machine_of(const Settings& settings) {
+  const CompressionSpec& spec = settings.compression;
+  if (spec.empty.empty()) return {spec.compliance, {}, 0, 0, 0};
+  return compliance_of(read_press(settings.file.parent_path() / spec.empty, settings), spec);
+}
+
 PressCurve press_curve(const PressRecord& record, const Filling& filling, const DieSpec& die,
                        const CompressionSpec& spec, const Compliance& machine) {
   const std::size_t peak = peak_of(record.force);
@@ -97,7 +103,7 @@ PressCurve press_curve(const PressRecord& record, const Filling& filling, const 
     return record.displacement[i] - machine.at(record.force[i]);
   };
   double zero = machine.meeting.value_or(0);
-  if (filling.fill_height) zero = *filling.fill_height + shortening(begin);
+  if (filling.fill_height) zero = *filling.fill_height;
   if (filling.final_height) zero = *filling.final_height + shortening(record.force.size() - 1);
   PressCurve curve;
   const double solid_height = filling.mass / (die.solid_density * die.area());
@@ -112,6 +118,7 @@ PressCurve press_curve(const PressRecord& record, const Filling& filling, const 
     curve.density.push_back(solid_height / height);
     curve.pressure.push_back(record.force[i] / die.area());
   }
+  curve.first = begin;
   curve.peak = peak - begin;
   curve.machine_give = machine.at(record.force[peak]);
   return curve;

@@ -6,7 +6,7 @@
 //
 // g        a polynomial of the force, given or fitted to the loading of the empty press, whose constant is the
 //          displacement u_0 at which the punches meet
-// u_0      of three: a height where the loading begins, one of the unloaded compact at the end of the record, or that
+// u_0      of three: the height where the displacement is zero, that of the unloaded compact at the end of the record, or that
 //          of the empty press, if both records count their displacement from the same zero
 // Loading  from where the force passes compression.contact of its largest value, up to that; unloading from there on
 #pragma once
@@ -30,9 +30,12 @@ struct Compliance {                  // g(F) = c[0] F + c[1] F^2 + ...
 };
 
 Compliance compliance_of(const PressRecord& empty, const CompressionSpec& spec);
+// As the settings say: of the empty press's record, given, or rigid.
+Compliance machine_of(const Settings& settings);
 
 struct PressCurve {  // one value a sample, from the begin of the loading on
   std::vector<double> height, density, pressure;  // m, -, Pa
+  std::size_t first = 0;                          // the record's sample that is the first here
   std::size_t peak = 0;                           // the sample of the largest force
   double machine_give = 0;                        // m, there
 

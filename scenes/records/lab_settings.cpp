@@ -50,13 +50,15 @@ class SettingsReader {
     read_one(declared_compression(), all.compression);
     read_each(declared_run(), all.runs);
     read_each(declared_curve(), all.curves);
+    read_one(declared_gauges(), all.gauges);
+    read_each(declared_transmission(), all.transmissions);
     return all;
   }
 
   void check(const Settings& all) {
     check_kinds(all);
-    if (!all.curves.empty()) check_curves(all);
-    if (!all.wedge.loops.empty() || !all.curves.empty()) return;  // no compact on a plate
+    if (all.fills_die()) check_die(all);
+    if (!all.wedge.loops.empty() || all.fills_die()) return;  // no compact on a plate
     exactly_one("compact.length", all.compact.length.has_value(), "compact.fill_height",
                 all.compact.fill_height.has_value(), "length = \"10 mm\"");
     exactly_one("compact.poissons_ratio", all.compact.poissons_ratio.has_value(), "compact.powder",
@@ -95,6 +97,7 @@ class SettingsReader {
     if (!all.wedge.loops.empty()) kinds.emplace_back("wedge");
     if (!all.runs.empty()) kinds.emplace_back("run");
     if (!all.curves.empty()) kinds.emplace_back("curve");
+    if (!all.transmissions.empty()) kinds.emplace_back("transmission");
     if (kinds.size() > 1)
       add(kinds.back(),
           fmt::format("stands beside {}, allowed: records of one kind in one file", kinds.front()));
@@ -119,7 +122,7 @@ class SettingsReader {
     }
   }
 
-  void check_curves(const Settings& all) {
+  void check_die(const Settings& all) {
     const CompressionSpec& c = all.compression;
     if (all.die.solid_density == 0)
       add("die.solid_density", "is not given, allowed: > 0 kg/m^3, for relative densities");
@@ -129,6 +132,7 @@ class SettingsReader {
       add("compression.fit_until", fmt::format("{:g} Pa is not beyond fit_from, allowed: > {:g} Pa",
                                                *c.fit_until, *c.fit_from));
     check_fillings("curve", all.curves, !c.empty.empty());
+    check_fillings("transmission", all.transmissions, !c.empty.empty());
   }
 
   void add(const std::string& path, const std::string& message) {

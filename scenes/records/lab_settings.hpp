@@ -118,6 +118,19 @@ struct WedgeSpec {         // another kind of record: friction loops of an AFM
   double skip = 0;         // -, of a raw trace at each end
 };
 
+struct GaugesSpec {                                     // of an instrumented die
+  std::string time, displacement, top, bottom, radial;  // names of columns
+  int header_line = 0;
+  std::optional<double> radial_height;                       // m, above the bottom punch
+  double from = 0;                                           // -, of the largest pressure
+  double density_step = 0;                                   // -
+  double top_error = 0, bottom_error = 0, radial_error = 0;  // -
+};
+
+struct TransmissionSpec : Filling {
+  std::string record;  // file
+};
+
 struct RunSpec {
   std::string name;
   std::string press, logger;     // files, from the folder of the settings
@@ -141,6 +154,11 @@ struct Settings {
   DieSpec die;
   CompressionSpec compression;
   std::vector<CurveSpec> curves;
+  GaugesSpec gauges;
+  std::vector<TransmissionSpec> transmissions;
+
+  // Records that fill the die of [die]: no compact on a plate.
+  bool fills_die() const { return !curves.empty() || !transmissions.empty(); }
 };
 
 struct LoadedSettings {

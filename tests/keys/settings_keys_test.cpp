@@ -1,5 +1,6 @@
 // Every key of the settings of `reduce`: what it keeps of them does the same again.
 #include "cli/lab/compression_output.hpp"
+#include "cli/lab/die_output.hpp"
 #include "cli/wedge_files.hpp"
 #include "plan_checks.hpp"
 #include "scenes/records/lab_reduction.hpp"
@@ -21,6 +22,7 @@ std::string fault_of_settings(const std::string& text, const fs::path&) {
     const lab::Settings& settings = loaded.settings;
     if (!settings.wedge.loops.empty()) wedge_reduction(loaded);
     if (!settings.curves.empty()) compression_output(loaded, {});
+    if (!settings.transmissions.empty()) die_output(loaded, {});
     for (const lab::RunSpec& run : settings.runs)
       lab::reduce(lab::read_press(records / run.press, settings),
                   lab::read_logger(records / run.logger, settings), settings,
@@ -55,7 +57,8 @@ TEST_P(SettingsKeys, GoThroughSaveAndReduceAgain) {
     if (entry.is_regular_file()) fs::remove(entry.path());
   fs::rename(place / "first", place / "moved où ça");
   reduce("moved où ça/reduce.toml", "again");
-  for (const char* file : {"reduce.toml", "curves.csv", "facets.csv"})
+  for (const char* file :
+       {"reduce.toml", "curves.csv", "facets.csv", "curve-one.csv", "slices.csv"})
     EXPECT_EQ(text_of(place / "moved où ça" / file), text_of(place / "again" / file)) << file;
 }
 
