@@ -102,7 +102,7 @@ Json misfit_json(const lab::CompressionMisfit& m) {
           {"rms_density", m.rms_density}};
 }
 
-Json summary_of(const Compressions& all) {
+Json compressions_json(const Compressions& all) {
   Json json{{"kind", "compression"},
             {"confidence", all.confidence},
             {"machine", machine_json(all.machine)}};
@@ -212,7 +212,7 @@ Json misfits_table(const Compressions& all) {
   return table;
 }
 
-std::string told(const Compressions& all) {
+std::string compressions_text(const Compressions& all) {
   std::string text;
   for (const auto& curve : all.curves) {
     text += fmt::format("{}: density {:.4f} at {:.4g} MPa", curve.name,
@@ -263,7 +263,7 @@ LabOutput compression_output(const lab::LoadedSettings& loaded,
   LabOutput output;
   output.title = named.empty() ? "Compression curves" : named;
   output.lead = lead_of(all);
-  output.summary = summary_of(all);
+  output.summary = compressions_json(all);
   for (const auto& one : all.curves)
     output.files.emplace_back("curve-" + one.name + ".csv", curve_csv(one.curve));
   output.charts.push_back(densities_chart(all));
@@ -271,7 +271,7 @@ LabOutput compression_output(const lab::LoadedSettings& loaded,
   output.tables.push_back(curves_table(all));
   output.tables.push_back(laws_table(all));
   if (!all.misfits.empty()) output.tables.push_back(misfits_table(all));
-  output.told = told(all);
+  output.told = compressions_text(all);
   return output;
 }
 

@@ -121,7 +121,7 @@ Json steps_table(const DieResult& one) {
   return table;
 }
 
-std::string told(const std::vector<DieResult>& all) {
+std::string slices_text(const std::vector<DieResult>& all) {
   std::string text;
   for (const DieResult& one : all) {
     text += one.label() + ":\n";
@@ -153,7 +153,7 @@ LabOutput die_output(const lab::LoadedSettings& loaded,
       steps_chart(all, "Wall friction", "friction coefficient", &lab::SliceStep::friction));
   for (const DieResult& one : all) output.charts.push_back(stresses_chart(one));
   for (const DieResult& one : all) output.tables.push_back(steps_table(one));
-  output.told = told(all);
+  output.told = slices_text(all);
   return output;
 }
 

@@ -1,4 +1,4 @@
-// Keys that say how a record's columns are named and where they begin.
+// What several tables of reduce.toml share: keys for a record's columns, and the powders of Table 3.2.
 #pragma once
 
 #include <string>
@@ -6,6 +6,10 @@
 #include "scenes/keys/declare.hpp"
 
 namespace pulvis::lab {
+
+inline std::vector<schema::Choice> powders() {  // with their Poisson's ratios
+  return {{"OFHC Cu", "0.35"}, {"316L", "0.3"}, {"salt", "0.252"}, {"sugar", "0.25"}};
+}
 
 template <class Spec>
 schema::Key<Spec> column_key(const char* name, const char* fallback, std::string Spec::*member,

@@ -50,7 +50,7 @@ std::vector<Key<CompactSpec>> powder_keys() {
        to(&CompactSpec::poissons_ratio)},
       {{.name = "powder",
         .kind = Kind::choice,
-        .choices = {{"OFHC Cu", "0.35"}, {"316L", "0.3"}, {"salt", "0.252"}, {"sugar", "0.25"}},
+        .choices = powders(),
         .doc = "Takes Poisson's ratio from Table 3.2 of the thesis.",
         .fallback_doc = "none"},
        [](CompactSpec& spec, const Decoded& value) { spec.powder = value.index; }},
@@ -309,33 +309,9 @@ const TableDeclaration<SimulationSpec>& declared_simulation() {
   return declaration;
 }
 
-const TableDeclaration<RunSpec>& declared_run() {
-  static const TableDeclaration<RunSpec> declaration{
-      {"run", true, "", "One test. Records given on the command line are added behind these."},
-      {{{.name = "name",
-         .kind = Kind::name,
-         .doc = "Names the run's file and curve.",
-         .fallback_doc = "`run-1`, `run-2`, ..."},
-        to(&RunSpec::name)},
-       {{.name = "press",
-         .kind = Kind::file,
-         .required = true,
-         .doc = "Record of the press (CSV), as a path from the folder of this file."},
-        to(&RunSpec::press)},
-       {{.name = "logger",
-         .kind = Kind::file,
-         .required = true,
-         .doc = "Record of the data logger (CSV), likewise."},
-        to(&RunSpec::logger)},
-       {{.name = "offset",
-         .kind = Kind::quantity,
-         .unit = "s",
-         .range = within(-1e9, 1e9),
-         .doc = "Time on the press's clock less that on the logger's, where a trigger told it; no "
-                "event is looked for in the press's record then.",
-         .fallback_doc = "found from the start of sliding"},
-        to(&RunSpec::offset)}}};
-  return declaration;
+const char* powder_name(int powder) {
+  static const std::vector<schema::Choice> known = powders();
+  return known.at(static_cast<std::size_t>(powder)).word.c_str();
 }
 
 double CompactSpec::poisson() const {

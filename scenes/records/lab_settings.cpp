@@ -55,14 +55,39 @@ class SettingsReader {
     return all;
   }
 
+  void check_conditions(const std::vector<RunSpec>& runs) {
+    const auto stated = [](const RunSpec& run) {
+      std::vector<std::string> names;
+      if (run.load) names.emplace_back("load");
+      if (run.roughness) names.emplace_back("roughness");
+      if (!run.direction.empty()) names.emplace_back("direction");
+      if (run.speed) names.emplace_back("speed");
+      if (run.powder) names.emplace_back("powder");
+      return names;
+    };
+    for (std::size_t i = 1; i < runs.size(); ++i)
+      if (stated(runs[i]) != stated(runs.front()))
+        add(fmt::format("run[{}]", i),
+            fmt::format("states {} as its condition, the first run {}, allowed: the same ones",
+                        listed(stated(runs[i])), listed(stated(runs.front()))));
+  }
+
   void check(const Settings& all) {
     check_kinds(all);
     if (all.fills_die()) check_die(all);
     if (!all.wedge.loops.empty() || all.fills_die()) return;  // no compact on a plate
-    exactly_one("compact.length", all.compact.length.has_value(), "compact.fill_height",
-                all.compact.fill_height.has_value(), "length = \"10 mm\"");
-    exactly_one("compact.poissons_ratio", all.compact.poissons_ratio.has_value(), "compact.powder",
-                all.compact.powder.has_value(), "powder = \"316L\"");
+    const auto every = [&](auto RunSpec::*member) {
+      return !all.runs.empty() && std::ranges::all_of(all.runs, [=](const RunSpec& run) {
+        return (run.*member).has_value();
+      });
+    };
+    if (!every(&RunSpec::length))
+      exactly_one("compact.length", all.compact.length.has_value(), "compact.fill_height",
+                  all.compact.fill_height.has_value(), "length = \"10 mm\"");
+    if (!every(&RunSpec::powder))
+      exactly_one("compact.poissons_ratio", all.compact.poissons_ratio.has_value(),
+                  "compact.powder", all.compact.powder.has_value(), "powder = \"316L\"");
+    check_conditions(all.runs);
     if (all.load_cell.gain == 0)
       add("load_cell.gain", "is 0 N, allowed: the load cell's force for each strain");
     const AnalysisSpec& a = all.analysis;
@@ -157,6 +182,19 @@ class SettingsReader {
   Problems& problems_;
   schema::TableReader tables_;
 };
+
+}  // namespace
+
+Settings Settings::of_run(const RunSpec& run) const {
+  Settings own = *this;
+  if (run.length) own.compact.length = run.length;
+  if (run.length) own.compact.fill_height.reset();
+  if (run.powder) own.compact.powder = run.powder;
+  if (run.powder) own.compact.poissons_ratio.reset();
+  return own;
+}
+
+namespace {
 
 document::Table parsed(const std::string& text, Problems& problems) {
   try {

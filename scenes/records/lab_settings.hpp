@@ -135,8 +135,17 @@ struct RunSpec {
   std::string name;
   std::string press, logger;     // files, from the folder of the settings
   std::optional<double> offset;  // s
-  SourceMark mark;
+  // The condition it was made under: all runs state the same ones of these.
+  std::optional<double> load, roughness, speed;  // N, m, m/s
+  std::string direction;
+  std::optional<int> powder;     // position in the list of powders
+  std::optional<double> length;  // m, of this run's compact
+  SourceMark mark = {};
+
+  bool has_condition() const { return load || roughness || speed || powder || !direction.empty(); }
 };
+
+const char* powder_name(int powder);
 
 struct Settings {
   std::filesystem::path file;
@@ -157,6 +166,8 @@ struct Settings {
   GaugesSpec gauges;
   std::vector<TransmissionSpec> transmissions;
 
+  // With the compact of one run.
+  Settings of_run(const RunSpec& run) const;
   // Records that fill the die of [die]: no compact on a plate.
   bool fills_die() const { return !curves.empty() || !transmissions.empty(); }
 };

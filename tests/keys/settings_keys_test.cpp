@@ -25,7 +25,7 @@ std::string fault_of_settings(const std::string& text, const fs::path&) {
     if (!settings.transmissions.empty()) die_output(loaded, {});
     for (const lab::RunSpec& run : settings.runs)
       lab::reduce(lab::read_press(records / run.press, settings),
-                  lab::read_logger(records / run.logger, settings), settings,
+                  lab::read_logger(records / run.logger, settings), settings.of_run(run),
                   {run.name, run.press, run.logger, run.offset});
   });
 }
@@ -58,7 +58,7 @@ TEST_P(SettingsKeys, GoThroughSaveAndReduceAgain) {
   fs::rename(place / "first", place / "moved où ça");
   reduce("moved où ça/reduce.toml", "again");
   for (const char* file :
-       {"reduce.toml", "curves.csv", "facets.csv", "curve-one.csv", "slices.csv"})
+       {"reduce.toml", "curves.csv", "facets.csv", "curve-one.csv", "slices.csv", "conditions.csv"})
     EXPECT_EQ(text_of(place / "moved où ça" / file), text_of(place / "again" / file)) << file;
 }
 
