@@ -16,6 +16,7 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
+#include "cli/fit/fit_options.hpp"
 #include "cli/lab/reduce_options.hpp"
 #include "cli/options.hpp"
 #include "cli/pack.hpp"
@@ -54,6 +55,7 @@ struct Options {
   RunOptions run;
   StudyOptions study;
   ProbeOptions probe;
+  FitOptions fit;
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
   bool print = false;     // the scene, whole
@@ -279,6 +281,7 @@ int parse_and_run(int argc, char** argv) {
   add_resume(app, options, code);
   add_study(app, options, code);
   add_probe(app, options.probe, code);
+  add_fit(app, options.fit, code);
 
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);

@@ -48,12 +48,14 @@ ROOMS = {
         "records": "lever keys results spec language /",
         "study": "checks results keys spec language /",
         "probe": "keys spec language /",
+        "fit": "records keys outlines packing spec language /",
     },
     "cli": {
         "report": "",
         "study": "report /",
         "probe": "report study /",
         "lab": "report /",
+        "fit": "lab report study /",
         "": "report",
     },
 }
