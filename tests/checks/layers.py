@@ -48,7 +48,7 @@ ROOMS = {
         "records": "lever keys results spec language /",
         "study": "checks results keys spec language /",
         "probe": "keys spec language /",
-        "fit": "records keys outlines packing spec language /",
+        "fit": "records keys lever outlines packing spec language /",
     },
     "cli": {
         "report": "",
