@@ -283,6 +283,10 @@ struct MoveSpec {
   Vec2 displacement = Vec2::Zero();  // m, travelled over the stage
   double ramp =
       0.1;  // -, share of the stage in which the speed rises smoothly from zero, and falls again at its end
+  // A drive that gives: the displacement is that of its far end.
+  std::optional<double> stiffness;  // N/m, along the displacement
+  std::optional<double> mass;       // kg, of the tool
+  double damping = 0;               // -, of the critical one of both
   SourceMark mark;
 };
 
@@ -325,6 +329,8 @@ struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names 
   std::optional<double> static_coefficient;  // -, before sliding
   std::optional<double> decay_length;    // m, sliding distance in which the difference fades by 1/e
   std::optional<double> shear_strength;  // Pa
+  std::optional<double> rate;  // -, what the coefficient gains for ln(1 + v/reference_speed)
+  std::optional<double> reference_speed;  // m/s
   SourceMark mark;
 };
 
