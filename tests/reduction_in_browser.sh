@@ -64,3 +64,13 @@ body=$(body_of die "$die/report.html" 1200,2000 ready)
 [[ $body == *'data-ready="1"'* && $body == *'data-charts="3"'* ]] || fail "not ready: $body"
 picture_of "$die/report.html" 1200,2000 "$die/report.png"
 echo "ok: instrumented die"
+
+matrix=$out/matrix
+"$pulvis" reduce "$source_dir/scenes/lab/matrix.toml" --overwrite -o "$matrix" >"$work/out.txt" ||
+  fail "the matrix of conditions: $(tail -5 "$work/out.txt")"
+body=$(body_of matrix "$matrix/report.html" 1200,2600 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="3"'* ]] || fail "not ready: $body"
+grep -q '<td>interactions</td>' "$work/page.html" || fail "no interactions on the page"
+picture_of "$matrix/report.html" 1200,2600 "$matrix/report.png"
+echo "ok: matrix of conditions"
