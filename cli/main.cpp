@@ -16,11 +16,12 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
+#include "cli/fit/fit_options.hpp"
+#include "cli/lab/reduce_options.hpp"
 #include "cli/options.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
 #include "cli/probe/probe_options.hpp"
-#include "cli/reduce.hpp"
 #include "cli/report/report.hpp"
 #include "cli/run.hpp"
 #include "cli/run_afm.hpp"
@@ -42,7 +43,6 @@
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
-#include "scenes/records/lab_settings.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/study/study_read.hpp"
 #include "scenes/tools/bond_rules.hpp"
@@ -55,6 +55,7 @@ struct Options {
   RunOptions run;
   StudyOptions study;
   ProbeOptions probe;
+  FitOptions fit;
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
   bool print = false;     // the scene, whole
@@ -196,63 +197,6 @@ void add_study(CLI::App& app, Options& options, ExitCode& code) {
   });
 }
 
-struct ReduceCommand {
-  ReduceOptions options;
-  std::string reference;  // settings: "text" or "schema"
-};
-
-ExitCode reduce(const ReduceCommand& command) {
-  if (command.reference.empty()) return reduce_records(command.options);
-  tell("{}", command.reference == "schema" ? lab::json_schema() : lab::reference());
-  return ExitCode::done;
-}
-
-void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
-  ReduceOptions& options = command.options;
-  auto* reduces = app.add_subcommand("reduce",
-                                     "reduce raw records of sliding-plate friction tests, or an "
-                                     "AFM's friction loops on slopes, to "
-                                     "curves, figures, a report");
-  reduces->add_option(
-      "files", options.files,
-      "records (CSV) of press and data logger, told apart by their columns and paired "
-      "in order; or one file of an AFM's friction loops; settings (.toml)");
-  reduces
-      ->add_option("--set", options.overrides,
-                   "a key of the settings: key.path=value, e.g. \"compact.length=10 mm\"")
-      ->allow_extra_args(false)
-      ->take_all();
-  reduces
-      ->add_option("--simulation", options.simulations,
-                   "run folder of a simulated test, drawn over the measured curves")
-      ->allow_extra_args(false)
-      ->take_all();
-  reduces->add_option("-o,--output", options.folder, "results folder")
-      ->capture_default_str()
-      ->transform(without_detours);
-  reduces->add_flag("--overwrite", options.overwrite, "replace results in the folder");
-  reduces->add_option("--reference", command.reference, "print the settings' reference instead")
-      ->check(CLI::IsMember({"text", "schema"}));
-  reduces->footer(
-      "Sliding-plate tests: the compact's length and Poisson's ratio (or powder) have to be "
-      "given.\n"
-      "  pulvis reduce press-1.csv logger-1.csv press-2.csv logger-2.csv \\\n"
-      "      --set \"compact.length=10 mm\" --set compact.powder=316L -o reduced\n"
-      "Friction loops on slopes that are known (columns slope, load, and half_width, offset or "
-      "raw\n"
-      "traces forth, back, in volts): friction coefficient and sensitivity of the lateral "
-      "detector.\n"
-      "  pulvis reduce loops.csv --set \"wedge.slope_error=0.2 deg\" -o wedge\n"
-      "From an AFM's volts to friction: settings that name force curves, loops and the lever.\n"
-      "  pulvis reduce scenes/lab/volts.toml -o volts\n"
-      "File formats, equations and how each figure is taken: docs/laboratory.md; all settings:\n"
-      "docs/reduce.md, or --reference text.");
-  reduces->callback([&] {
-    if (options.files.empty() && command.reference.empty()) throw CLI::RequiredError("files");
-    code = reduce(command);
-  });
-}
-
 // CLI11's own checks let "nan" and "inf" pass.
 const CLI::Validator finite_number(
     [](const std::string& text) {
@@ -343,6 +287,7 @@ int parse_and_run(int argc, char** argv) {
   add_resume(app, options, code);
   add_study(app, options, code);
   add_probe(app, options.probe, code);
+  add_fit(app, options.fit, code);
 
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);

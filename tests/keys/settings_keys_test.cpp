@@ -1,5 +1,7 @@
 // Every key of the settings of `reduce`: what it keeps of them does the same again.
 #include "cli/volts/volts_files.hpp"
+#include "cli/lab/compression_output.hpp"
+#include "cli/lab/die_output.hpp"
 #include "cli/wedge_files.hpp"
 #include "plan_checks.hpp"
 #include "scenes/records/lab_reduction.hpp"
@@ -25,9 +27,11 @@ std::string fault_of_settings(const std::string& text, const fs::path&) {
       return;
     }
     if (!settings.wedge.loops.empty()) wedge_reduction(loaded);
+    if (!settings.curves.empty()) compression_output(loaded, {});
+    if (!settings.transmissions.empty()) die_output(loaded, {});
     for (const lab::RunSpec& run : settings.runs)
       lab::reduce(lab::read_press(records / run.press, settings),
-                  lab::read_logger(records / run.logger, settings), settings,
+                  lab::read_logger(records / run.logger, settings), settings.of_run(run),
                   {run.name, run.press, run.logger, run.offset});
   });
 }
@@ -61,7 +65,8 @@ TEST_P(SettingsKeys, GoThroughSaveAndReduceAgain) {
   fs::rename(place / "first", place / "moved où ça");
   reduce("moved où ça/reduce.toml", "again");
   for (const char* file :
-       {"reduce.toml", "curves.csv", "facets.csv", "friction.csv", "contributions.csv"})
+       {"reduce.toml", "curves.csv", "facets.csv", "friction.csv", "contributions.csv",
+        "curve-one.csv", "slices.csv", "conditions.csv"})
     EXPECT_EQ(text_of(place / "moved où ça" / file), text_of(place / "again" / file)) << file;
 }
 
