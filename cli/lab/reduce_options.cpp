@@ -52,6 +52,8 @@ void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
       "traces forth, back, in volts): friction coefficient and sensitivity of the lateral "
       "detector.\n"
       "  pulvis reduce loops.csv --set \"wedge.slope_error=0.2 deg\" -o wedge\n"
+      "From an AFM's volts to friction: settings that name force curves, loops and the lever.\n"
+      "  pulvis reduce scenes/lab/volts.toml -o volts\n"
       "File formats, equations and how each figure is taken: docs/laboratory.md; all settings:\n"
       "docs/reduce.md, or --reference text.");
   reduces->callback([&] {

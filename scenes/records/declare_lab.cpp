@@ -2,8 +2,8 @@
 #include "scenes/records/declare_lab.hpp"
 
 #include "scenes/keys/declare.hpp"
-#include "scenes/volts/declare_volts.hpp"
 #include "scenes/records/declare_columns.hpp"
+#include "scenes/volts/declare_volts.hpp"
 
 #include <array>
 

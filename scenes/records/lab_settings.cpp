@@ -83,7 +83,8 @@ class SettingsReader {
       add(fault.path, fault.what);
     check_kinds(all);
     if (all.fills_die()) check_die(all);
-    if (all.volts.wanted() || !all.wedge.loops.empty() || all.fills_die()) return;  // no compact on a plate
+    if (all.volts.wanted() || !all.wedge.loops.empty() || all.fills_die())
+      return;  // no compact on a plate
     const auto every = [&](auto RunSpec::*member) {
       return !all.runs.empty() && std::ranges::all_of(all.runs, [=](const RunSpec& run) {
         return (run.*member).has_value();

@@ -1,7 +1,7 @@
 // Every key of the settings of `reduce`: what it keeps of them does the same again.
-#include "cli/volts/volts_files.hpp"
 #include "cli/lab/compression_output.hpp"
 #include "cli/lab/die_output.hpp"
+#include "cli/volts/volts_files.hpp"
 #include "cli/wedge_files.hpp"
 #include "plan_checks.hpp"
 #include "scenes/records/lab_reduction.hpp"
@@ -64,9 +64,8 @@ TEST_P(SettingsKeys, GoThroughSaveAndReduceAgain) {
     if (entry.is_regular_file()) fs::remove(entry.path());
   fs::rename(place / "first", place / "moved où ça");
   reduce("moved où ça/reduce.toml", "again");
-  for (const char* file :
-       {"reduce.toml", "curves.csv", "facets.csv", "friction.csv", "contributions.csv",
-        "curve-one.csv", "slices.csv", "conditions.csv"})
+  for (const char* file : {"reduce.toml", "curves.csv", "facets.csv", "friction.csv",
+                           "contributions.csv", "curve-one.csv", "slices.csv", "conditions.csv"})
     EXPECT_EQ(text_of(place / "moved où ça" / file), text_of(place / "again" / file)) << file;
 }
 
