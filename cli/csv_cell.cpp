@@ -1,5 +1,8 @@
 #include "cli/csv_cell.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
 
 namespace pulvis {
@@ -37,6 +40,23 @@ std::string csv_word(std::string_view text) {
   std::string word(text);
   if (is_formula(text)) word.insert(word.begin(), '\'');
   return csv_cell(word);
+}
+
+std::string csv_columns(const std::vector<CsvColumn>& columns) {
+  std::string text;
+  std::size_t rows = 0;
+  for (const CsvColumn& column : columns) {
+    if (!text.empty()) text += ',';
+    text += csv_word(column.heading);
+    rows = std::max(rows, column.values->size());
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      text += i == 0 ? '\n' : ',';
+      if (row < columns[i].values->size()) text += fmt::format("{:.9g}", (*columns[i].values)[row]);
+    }
+  }
+  return text + "\n";
 }
 
 }  // namespace pulvis

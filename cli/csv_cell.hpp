@@ -1,8 +1,9 @@
-// Text as a cell of a CSV file.
+// Text as a cell of a CSV file, and numbers as columns of one.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pulvis {
 
@@ -11,5 +12,13 @@ std::string csv_cell(std::string_view text);
 // The same of words that a user chose: behind an apostrophe where a spreadsheet would take them for a formula
 // (= + - @ first), but not numbers and quantities.
 std::string csv_word(std::string_view text);
+
+struct CsvColumn {
+  std::string heading;
+  const std::vector<double>* values;
+};
+
+// A table of numbers; columns of different length end in empty cells.
+std::string csv_columns(const std::vector<CsvColumn>& columns);
 
 }  // namespace pulvis

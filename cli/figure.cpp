@@ -50,8 +50,11 @@ class ScriptFolder {
 };
 
 std::vector<std::string> arguments(const fs::path& scripts, const FigureOptions& options) {
-  std::vector<std::string> all{"python3", "-B", (scripts / "figures.py").string(),
+  std::vector<std::string> all{"python3",
+                               "-B",
+                               (scripts / "figures.py").string(),
                                "--format=" + options.format,
+                               "--level=" + options.level,
                                "--draw-into=" + (scripts / drawn_folder).string()};
   if (!options.output.empty()) all.push_back("--output=" + options.output.string());
   if (!options.field.empty()) all.push_back("--field=" + options.field);

@@ -19,6 +19,7 @@ struct FigureOptions {
   std::vector<std::string> series;
   std::string against;
   std::string format = "png";  // of all figures
+  std::string level = "none";  // of a raster's images
 };
 
 ExitCode draw_figures(const FigureOptions& options);

@@ -4,11 +4,12 @@ energies, local densities, the contact network, cracks and fragments; of a lever
 `pulvis figure` runs it.
 
 usage: figures.py RUN_FOLDER [--frame N] [--field NAME] [--series NAME]... [--against NAME]
-                  [--format png|svg|pdf|csv] [-o FILE_OR_FOLDER]
+                  [--format png|svg|pdf|csv|gsf] [--level none|plane|lines] [-o FILE_OR_FOLDER]
 
 Reads RUN_FOLDER/run.h5 (complete frames only) and summary.json where there is one. All figures go into
 RUN_FOLDER/pictures/ (or the folder of -o); what a run has not recorded is left out, with a line that says
-so. With --series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its numbers in SI.
+so. With --series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its numbers in SI. With
+--format gsf the images of a raster are written as Gwyddion Simple Fields, one a file.
 Needs python3-h5py, python3-numpy and python3-matplotlib. Exit codes: 2 for what is not there, 4 for a machine
 that lacks something.
 """
@@ -24,7 +25,7 @@ try:
     import matplotlib.pyplot as plt
     from matplotlib.collections import LineCollection, PolyCollection
 
-    from figures_afm import AFM_FIGURES
+    from figures_afm import AFM_FIGURES, LEVELS, simple_fields
     from figures_bonds import BOND_FIELDS, breaking, cracks, draw_bonds, fragment_colours, fragment_sizes
     from figures_cell import Cell
     from figures_observed import contact_network, density_profile, local_density, rose
@@ -160,6 +161,9 @@ PLANE_FIGURES = {"force": force, "stress_ratio": stress_ratio, "energies": energ
 
 def drawn(figure, path):
     path.parent.mkdir(parents=True, exist_ok=True)
+    if isinstance(figure, bytes):
+        path.write_bytes(figure)
+        return
     if path.suffix == ".csv":
         write_csv(path, figure.table)
     else:
@@ -179,6 +183,13 @@ def save(figure, path, options):
         refuse(f"{printable(path)} is there already; pulvis figure replaces what it drew itself")
     drawn(figure, path)
     print(printable(path))
+
+
+def save_fields(run, options):
+    if "images" not in run.file:
+        refuse(f"{options.run_folder} has no images; gsf is for rasters of a lever")
+    for name, field in simple_fields(run, options.level):
+        save(field, (options.output or options.run_folder / "pictures") / f"{name}.gsf", options)
 
 
 def save_all(run, options):
@@ -202,7 +213,8 @@ def arguments():
                         help=f"field of cells or particles, {DEFAULT_FIELD} if not said; NAME:k for component k")
     parser.add_argument("--series", action="append", default=[], help="series of the history to draw")
     parser.add_argument("--against", help="series of the other axis, time if not said")
-    parser.add_argument("--format", choices=["png", "svg", "pdf", "csv"], default="png")
+    parser.add_argument("--format", choices=["png", "svg", "pdf", "csv", "gsf"], default="png")
+    parser.add_argument("--level", choices=LEVELS, default="none", help="levelling of a raster's images")
     parser.add_argument("-o", "--output", type=Path, help="a file, or a folder for all figures")
     parser.add_argument("--draw-into", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args()
@@ -212,7 +224,7 @@ def arguments():
 
 
 def save_probe(options):
-    if options.series or options.field or options.format == "csv":
+    if options.series or options.field or options.format in ("csv", "gsf"):
         refuse("a probe has its own figures: without --series, --field and csv")
     plt.rcParams.update(STYLE)
     folder = options.output or options.run_folder / "pictures"
@@ -235,6 +247,11 @@ def main():
         refuse(f"{options.run_folder}: {error}")
     plt.rcParams.update(STYLE)
     file = options.output if options.output and options.output.suffix in FORMATS else None
+    if options.format == "gsf":
+        if options.series or options.field or file:
+            refuse("gsf is a format of images: without --series, --field and a file")
+        save_fields(run, options)
+        return
     if not options.series and not file:
         save_all(run, options)
         return

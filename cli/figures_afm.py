@@ -4,7 +4,7 @@ from matplotlib import pyplot as plt
 from matplotlib.collections import PolyCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from figures_parts import draw_lines
+from figures_parts import draw_lines, unit_for
 
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
@@ -128,24 +128,85 @@ def curve(x, y, title):
     return draw
 
 
-def images(run, _):
-    """Rasters, way forth above way back; friction also as half of their difference."""
+CHANNELS = ["topography", "deflection", "friction"]
+LEVELS = ["none", "plane", "lines"]
+
+
+def levelled(values, level):
+    """`plane`: the least-squares plane is taken off; `lines`: of every line its median."""
+    if level == "lines":
+        return values - np.median(values, axis=1, keepdims=True)
+    if level != "plane":
+        return values
+    y, x = np.mgrid[:values.shape[0], :values.shape[1]]
+    terms = np.column_stack([np.ones(values.size), x.ravel(), y.ravel()])
+    plane = np.linalg.lstsq(terms, values.ravel(), rcond=None)[0]
+    return values - (terms @ plane).reshape(values.shape)
+
+
+def maps_of(run, level):
+    """Every picture of every raster, levelled: (action, channel, way, unit, values, (pixel width, height) in m or None).
+    The difference is half of trace less retrace, of friction: what topography puts into both is not in it."""
+    for action in sorted(run.file.get("images", [])):
+        for channel in CHANNELS:
+            ways = {}
+            for way, name in (("trace", "forth"), ("retrace", "back")):
+                data = run.file[f"images/{action}/{channel}_{name}"]
+                size = (data.attrs["pixel_width"], data.attrs["pixel_height"]) if "pixel_width" in data.attrs else None
+                ways[way] = data[:]
+                yield action, channel, way, data.attrs["unit"], levelled(data[:], level), size
+            if channel == "friction":
+                half = (ways["trace"] - ways["retrace"]) / 2
+                yield action, channel, "difference", data.attrs["unit"], levelled(half, level), size
+
+
+def draw_map(figure, axis, action, channel, way, unit, values, size):
+    factor, shown = unit_for(unit, values)
+    lines, pixels = values.shape
+    extent = [0, 1e6 * size[0] * pixels, 0, 1e6 * size[1] * lines] if size else None
+    axis.grid(False)
+    picture = axis.imshow(factor * values, origin="lower", cmap="afmhot", extent=extent)
+    named = "(trace − retrace)/2" if way == "difference" else way
+    axis.set(title=f"{action}: {channel}, {named}", xlabel="along the scan [µm]" if size else "pixel",
+             ylabel="across [µm]" if size else "line")
+    figure.colorbar(picture, ax=axis, label=f"{channel} [{shown}]", shrink=0.8)
+
+
+def images(run, options):
+    """Rasters, trace above retrace; of friction half of their difference, too."""
     if "images" not in run.file:
         return None
-    actions, channels = sorted(run.file["images"]), ["topography", "deflection", "friction"]
-    figure, axes = plt.subplots(2 * len(actions), 3, figsize=(15, 9 * len(actions)), squeeze=False)
+    actions, ways = sorted(run.file["images"]), ["trace", "retrace", "difference"]
+    figure, axes = plt.subplots(3 * len(actions), 3, figsize=(15, 13 * len(actions)), squeeze=False)
+    for axis in axes.flat:
+        axis.set_visible(False)
     figure.table = []
-    for i, action in enumerate(actions):
-        for j, way in enumerate(["forth", "back"]):
-            for axis, channel in zip(axes[2 * i + j], channels):
-                data = run.file[f"images/{action}/{channel}_{way}"]
-                axis.grid(False)
-                picture = axis.imshow(data[:], origin="lower", cmap="afmhot")
-                axis.set(title=f"{action}: {channel}, {way}", xlabel="pixel", ylabel="line")
-                figure.colorbar(picture, ax=axis, label=f"{channel} in {data.attrs['unit']}", shrink=0.8)
-                figure.table.append((f"{action} {channel} {way}, line by line", data.attrs["unit"], data[:].ravel()))
+    for action, channel, way, unit, values, size in maps_of(run, options.level):
+        axis = axes[3 * actions.index(action) + ways.index(way), CHANNELS.index(channel)]
+        axis.set_visible(True)
+        draw_map(figure, axis, action, channel, way, unit, values, size)
+        figure.table.append((f"{action} {channel} {way}, line by line", unit, values.ravel()))
     figure.tight_layout()
     return figure
+
+
+def simple_field(title, unit, values, size):
+    """A Gwyddion Simple Field: magic line, header, one to four NULs up to a multiple of four bytes, 32-bit floats,
+    little end first. Its first row is the upper one: the last line of the raster."""
+    lines, pixels = values.shape
+    wide, tall = size or (1, 1)
+    fields = [("XRes", pixels), ("YRes", lines), ("XReal", repr(float(wide * pixels))), ("YReal", repr(float(tall * lines))),
+              *([("XYUnits", "m")] if size else []), ("ZUnits", unit), ("Title", title)]
+    head = "Gwyddion Simple Field 1.0\n" + "".join(f"{name} = {value}\n" for name, value in fields)
+    head = head.encode("utf-8")
+    return head + b"\0" * (4 - len(head) % 4) + values[::-1].astype("<f4").tobytes()
+
+
+def simple_fields(run, level):
+    """Of every picture: (name of the file, bytes)."""
+    for action, channel, way, unit, values, size in maps_of(run, level):
+        named = f"{action}-{channel}-{way}" + ("" if level == "none" else f"-{level}")
+        yield named, simple_field(f"{action}: {channel}, {way}", unit, values, size)
 
 
 AFM_FIGURES = {"solid": solid, "plastic_zones": plastic_zones, "images": images,

@@ -11,7 +11,7 @@ from matplotlib import pyplot as plt
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#8c6d1f",
            "#882255", "#117733"]
 PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")]
-SCALED = {"m", "N", "Pa", "J", "s", "m/s", "N/m"}
+SCALED = {"m", "N", "Pa", "J", "s", "m/s", "N/m", "V"}
 STYLE = {"figure.dpi": 200, "font.size": 10, "axes.grid": True, "grid.color": "#e3e8ee",
          "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
          "svg.fonttype": "none", "pdf.fonttype": 42, "lines.linewidth": 1.6, "legend.frameon": False, "axes.titlesize": 11,

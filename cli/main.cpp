@@ -16,11 +16,12 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
+#include "cli/fit/fit_options.hpp"
+#include "cli/lab/reduce_options.hpp"
 #include "cli/options.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
 #include "cli/probe/probe_options.hpp"
-#include "cli/reduce.hpp"
 #include "cli/report/report.hpp"
 #include "cli/run.hpp"
 #include "cli/run_afm.hpp"
@@ -42,7 +43,6 @@
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
-#include "scenes/records/lab_settings.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/study/study_read.hpp"
 #include "scenes/tools/bond_rules.hpp"
@@ -55,6 +55,7 @@ struct Options {
   RunOptions run;
   StudyOptions study;
   ProbeOptions probe;
+  FitOptions fit;
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
   bool print = false;     // the scene, whole
@@ -145,8 +146,14 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
                    "file, .png .svg .pdf or .csv; without --field and --series a folder for all "
                    "figures (default: pictures/ in the run's folder)")
       ->transform(without_detours);
-  command->add_option("--format", options.format, "of all figures: png, svg, pdf or csv")
-      ->check(CLI::IsMember({"png", "svg", "pdf", "csv"}));
+  command
+      ->add_option("--format", options.format,
+                   "of all figures: png, svg, pdf or csv; gsf: a raster's images for Gwyddion")
+      ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "gsf"}));
+  command
+      ->add_option("--level", options.level,
+                   "levelling of a raster's images: none, plane, or lines (the median of each)")
+      ->check(CLI::IsMember({"none", "plane", "lines"}));
   command->callback([&] { code = draw_figures(options); });
 }
 
@@ -187,61 +194,6 @@ void add_study(CLI::App& app, Options& options, ExitCode& code) {
   command->callback([&options, &code] {
     if (options.study.study.empty() && options.reference.empty()) throw CLI::RequiredError("study");
     code = study(options);
-  });
-}
-
-struct ReduceCommand {
-  ReduceOptions options;
-  std::string reference;  // settings: "text" or "schema"
-};
-
-ExitCode reduce(const ReduceCommand& command) {
-  if (command.reference.empty()) return reduce_records(command.options);
-  tell("{}", command.reference == "schema" ? lab::json_schema() : lab::reference());
-  return ExitCode::done;
-}
-
-void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
-  ReduceOptions& options = command.options;
-  auto* reduces = app.add_subcommand("reduce",
-                                     "reduce raw records of sliding-plate friction tests, or an "
-                                     "AFM's friction loops on slopes, to "
-                                     "curves, figures, a report");
-  reduces->add_option(
-      "files", options.files,
-      "records (CSV) of press and data logger, told apart by their columns and paired "
-      "in order; or one file of an AFM's friction loops; settings (.toml)");
-  reduces
-      ->add_option("--set", options.overrides,
-                   "a key of the settings: key.path=value, e.g. \"compact.length=10 mm\"")
-      ->allow_extra_args(false)
-      ->take_all();
-  reduces
-      ->add_option("--simulation", options.simulations,
-                   "run folder of a simulated test, drawn over the measured curves")
-      ->allow_extra_args(false)
-      ->take_all();
-  reduces->add_option("-o,--output", options.folder, "results folder")
-      ->capture_default_str()
-      ->transform(without_detours);
-  reduces->add_flag("--overwrite", options.overwrite, "replace results in the folder");
-  reduces->add_option("--reference", command.reference, "print the settings' reference instead")
-      ->check(CLI::IsMember({"text", "schema"}));
-  reduces->footer(
-      "Sliding-plate tests: the compact's length and Poisson's ratio (or powder) have to be "
-      "given.\n"
-      "  pulvis reduce press-1.csv logger-1.csv press-2.csv logger-2.csv \\\n"
-      "      --set \"compact.length=10 mm\" --set compact.powder=316L -o reduced\n"
-      "Friction loops on slopes that are known (columns slope, load, and half_width, offset or "
-      "raw\n"
-      "traces forth, back, in volts): friction coefficient and sensitivity of the lateral "
-      "detector.\n"
-      "  pulvis reduce loops.csv --set \"wedge.slope_error=0.2 deg\" -o wedge\n"
-      "File formats, equations and how each figure is taken: docs/laboratory.md; all settings:\n"
-      "docs/reduce.md, or --reference text.");
-  reduces->callback([&] {
-    if (options.files.empty() && command.reference.empty()) throw CLI::RequiredError("files");
-    code = reduce(command);
   });
 }
 
@@ -335,6 +287,7 @@ int parse_and_run(int argc, char** argv) {
   add_resume(app, options, code);
   add_study(app, options, code);
   add_probe(app, options.probe, code);
+  add_fit(app, options.fit, code);
 
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);

@@ -17,40 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Series {
-  std::string heading;
-  const std::vector<double>* values;
-};
-
-// Columns of different length end in empty cells.
-std::string csv_of(const std::vector<Series>& columns) {
-  std::string text;
-  std::size_t rows = 0;
-  for (const Series& column : columns) {
-    if (!text.empty()) text += ',';
-    text += csv_word(column.heading);
-    rows = std::max(rows, column.values->size());
-  }
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      text += i == 0 ? '\n' : ',';
-      if (row < columns[i].values->size()) text += fmt::format("{:.9g}", (*columns[i].values)[row]);
-    }
-  }
-  return text + "\n";
-}
-
-std::string run_csv(const lab::Curve& curve) {
-  return csv_of({{"time [s]", &curve.time},
-                 {"distance [m]", &curve.distance},
-                 {"shear_force [N]", &curve.shear_force},
-                 {"punch_force [N]", &curve.punch_force},
-                 {"punch_travel [m]", &curve.punch_travel},
-                 {"compact_length [m]", &curve.length},
-                 {"target_force [N]", &curve.target_force},
-                 {"friction [-]", &curve.friction}});
-}
-
 std::string curves_csv(const Reduction& reduction) {
   const lab::AnalysisSpec& analysis = reduction.loaded.settings.analysis;
   const double step = analysis.distance_step;
@@ -72,9 +38,9 @@ std::string curves_csv(const Reduction& reduction) {
   std::size_t rows = 0;
   for (const auto& column : values) rows = std::max(rows, column.size());
   for (std::size_t i = 0; i < rows; ++i) values[0].push_back(static_cast<double>(i) * step);
-  std::vector<Series> columns;
+  std::vector<CsvColumn> columns;
   for (std::size_t i = 0; i < names.size(); ++i) columns.push_back({names[i], &values[i]});
-  return csv_of(columns);
+  return csv_columns(columns);
 }
 
 Json clock_json(const lab::Clocks& clocks) {
@@ -101,7 +67,28 @@ Json stick_slip_json(const lab::StickSlip& s) {
           {"spectral_period", s.spectral_period}};
 }
 
-Json run_json(const lab::ReducedRun& run) {
+Json sample_json(const lab::Sample& sample, double confidence) {
+  if (sample.count == 0) return nullptr;
+  Json json{{"count", sample.count}, {"mean", sample.mean}};
+  if (sample.count > 1) json["deviation"] = sample.deviation;
+  if (const auto half = lab::half_width(sample, confidence)) json["half_width"] = *half;
+  return json;
+}
+
+}  // namespace
+
+std::string run_csv(const lab::Curve& curve) {
+  return csv_columns({{"time [s]", &curve.time},
+                      {"distance [m]", &curve.distance},
+                      {"shear_force [N]", &curve.shear_force},
+                      {"punch_force [N]", &curve.punch_force},
+                      {"punch_travel [m]", &curve.punch_travel},
+                      {"compact_length [m]", &curve.length},
+                      {"target_force [N]", &curve.target_force},
+                      {"friction [-]", &curve.friction}});
+}
+
+nlohmann::ordered_json run_json(const lab::ReducedRun& run) {
   const lab::Curve& curve = run.curve;
   Json json{{"name", run.name},
             {"press", run.press.string()},
@@ -130,16 +117,6 @@ Json run_json(const lab::ReducedRun& run) {
     json["stick_slip"] = nullptr;
   return json;
 }
-
-Json sample_json(const lab::Sample& sample, double confidence) {
-  if (sample.count == 0) return nullptr;
-  Json json{{"count", sample.count}, {"mean", sample.mean}};
-  if (sample.count > 1) json["deviation"] = sample.deviation;
-  if (const auto half = lab::half_width(sample, confidence)) json["half_width"] = *half;
-  return json;
-}
-
-}  // namespace
 
 nlohmann::ordered_json reduction_json(const Reduction& reduction) {
   const lab::Settings& settings = reduction.loaded.settings;

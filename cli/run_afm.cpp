@@ -22,6 +22,7 @@
 #include "engine/interruption.hpp"
 #include "engine/run_failure.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/lever/afm_curve.hpp"
 #include "scenes/lever/afm_figures.hpp"
 #include "scenes/lever/afm_image.hpp"
 #include "scenes/lever/afm_loop.hpp"
@@ -201,7 +202,7 @@ struct ProgrammeRun {
     }
     if (!history.times.empty() && !end.given_up) frame(history.times.back());
     for (const AfmImage& image : raster_images(loaded.scene, history))
-      recorder->image(image.info, image.lines, image.pixels, image.values);
+      recorder->image(image.info, image.lines, image.pixels, image.values, image.spacing);
     recorder->finish(end.done ? "done" : end.failure.empty() ? "interrupted" : end.failure);
     if (end.done) checkpoints.remove();
     return end;
@@ -250,6 +251,7 @@ std::vector<Verdict> judge(const LoadedScene& loaded, const AfmHistory& history,
 void print_afm_end(const AfmReport& report, const std::filesystem::path& folder) {
   tell("{}", calibration_text(*report.calibration));
   for (const FrictionLoop& loop : report.loops) tell("{}", loop_text(loop));
+  for (const ForceCurveFigures& curve : report.curves) tell("{}", curve_text(curve));
   if (report.wedge && report.loops.size() > 1) tell("{}", wedge_summary(*report.wedge));
   tell("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
        report.increments, report.wall_seconds);
@@ -317,6 +319,7 @@ ExitCode complete_programme(const LoadedScene& loaded, const RunOptions& options
   else
     end = run_programme(folder, loaded, options, threads, from, simulation, history);
   if (end.done) report.loops = friction_loops(loaded.scene, history);
+  if (end.done) report.curves = force_curves(loaded.scene, history);
   report.wedge = calibrate_wedge(loaded.scene, report.loops);
   report.increments = history.rows.empty() ? 0 : history.rows.size() - 1;
   report.state_hash = state_hash_text(simulation.world());
@@ -326,8 +329,9 @@ ExitCode complete_programme(const LoadedScene& loaded, const RunOptions& options
                    : end.failure.empty() ? "interrupted"
                                          : "failed: " + end.failure;
   if (end.done || !end.failure.empty())
-    report.verdicts = judge(loaded, history, afm_figure_values(*report.calibration, report.loops),
-                            end.failure, threads);
+    report.verdicts =
+        judge(loaded, history, afm_figure_values(*report.calibration, report.loops, report.curves),
+              end.failure, threads);
   remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
   write_own(folder / "summary.json", role::run, afm_summary(loaded, report));
   write_report(folder);

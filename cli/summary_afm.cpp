@@ -85,12 +85,20 @@ std::string closed_form_text(const Calibration& c, const std::string& quantity) 
   for (const ClosedForm& form : c.closed_forms) {
     if (form.quantity != quantity) continue;
     text += fmt::format("  {:<42} {:.5g} N/m, ", form.name, form.value);
-    text += form.not_for.empty()
-                ? fmt::format("finite elements {:+.2f}%\n",
-                              100 * (finite_element(c, quantity) / form.value - 1))
-                : fmt::format("does not apply: {}\n", form.not_for);
+    text += form.not_for.empty() ? fmt::format("finite elements {:+.2f}%\n",
+                                               100 * (finite_element(c, quantity) / form.value - 1))
+                                 : fmt::format("does not apply: {}\n", form.not_for);
   }
   return text;
+}
+
+Json curve_json(const ForceCurveFigures& curve) {
+  Json json{{"action", curve.action},
+            {"greatest_force", curve.greatest},
+            {"pull_off", curve.pull_off},
+            {"work", curve.work}};
+  if (curve.work_of_adhesion) json["work_of_adhesion"] = *curve.work_of_adhesion;
+  return json;
 }
 
 std::string unsettled_text(const FrictionLoop& loop) {
@@ -127,6 +135,8 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
             {"state_hash", report.state_hash}};
   if (report.calibration) json["calibration"] = calibration_json(*report.calibration);
   for (const FrictionLoop& loop : report.loops) json["loops"].push_back(loop_json(loop));
+  for (const ForceCurveFigures& curve : report.curves)
+    json["force_curves"].push_back(curve_json(curve));
   if (report.wedge)
     json["wedge"] = {{"loops", report.loops.size()},
                      {"friction", report.wedge->friction.value},
@@ -140,6 +150,15 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
     json["expectations"].push_back(entry);
   }
   return json.dump(2) + "\n";
+}
+
+std::string curve_text(const ForceCurveFigures& curve) {
+  std::string text =
+      fmt::format("force curve, retracting from action {}: pull-off {:.5g} N, work {:.4g} J",
+                  curve.action, curve.pull_off, curve.work);
+  if (curve.work_of_adhesion)
+    text += fmt::format(", work of adhesion {:.4g} J/m^2", *curve.work_of_adhesion);
+  return text + "\n";
 }
 
 std::string loop_text(const FrictionLoop& loop) {

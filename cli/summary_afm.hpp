@@ -8,6 +8,7 @@
 #include "cli/summary.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/lever/afm_calibration.hpp"
+#include "scenes/lever/afm_curve.hpp"
 #include "scenes/lever/afm_loop.hpp"
 #include "scenes/read.hpp"
 
@@ -16,6 +17,7 @@ namespace pulvis {
 struct AfmReport {
   std::optional<Calibration> calibration;  // none where it found no answer
   std::vector<FrictionLoop> loops;
+  std::vector<ForceCurveFigures> curves;
   std::optional<wedge::Calibration> wedge;
   std::vector<Verdict> verdicts;
   std::size_t elements = 0, nodes = 0, increments = 0;
@@ -26,6 +28,7 @@ struct AfmReport {
 
 std::string afm_summary(const LoadedScene& loaded, const AfmReport& report);
 std::string calibration_text(const Calibration& calibration);
+std::string curve_text(const ForceCurveFigures& curve);
 std::string loop_text(const FrictionLoop& loop);
 std::string wedge_summary(const wedge::Calibration& calibration);
 

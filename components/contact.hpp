@@ -122,14 +122,17 @@ struct ElasticSlip : Component<At, double, edge_points> {
 };
 // ---- only where a pair's friction is more than Coulomb's coefficient ------------------------------
 template <class At>
-struct FrictionMore : Component<At, double, 4> {
-  static constexpr ComponentInfo info{
-      "friction_more", "SI",
-      "static less dynamic coefficient, 1/decay length, most shear stress, nothing"};
+struct FrictionMore : Component<At, double, 6> {
+  static constexpr ComponentInfo info{"friction_more", "SI",
+                                      "static less dynamic coefficient, 1/decay length, most shear "
+                                      "stress, rate, 1/reference speed, "
+                                      "nothing"};
   enum Number {
     drop,       // -, static less dynamic coefficient
     inv_decay,  // 1/m, over the sliding distance in which that fades by 1/e
-    strength    // Pa, shear stress that the surfaces do not pass
+    strength,   // Pa, shear stress that the surfaces do not pass
+    rate,       // -, of ln(1 + v/v_0)
+    inv_speed   // s/m, 1/v_0
   };
 };
 template <class At>

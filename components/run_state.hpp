@@ -100,7 +100,9 @@ struct ContactRules {
     double drop = 0;         // -, static less dynamic coefficient
     double inv_decay = 0;    // 1/m
     double strength = std::numeric_limits<double>::infinity();  // Pa, shear stress at most
-    bool only_coulomb() const { return drop == 0 && std::isinf(strength); }
+    double rate = 0;                                            // -, of ln(1 + v inv_speed)
+    double inv_speed = 0;                                       // s/m
+    bool only_coulomb() const { return drop == 0 && rate == 0 && std::isinf(strength); }
   };
   std::vector<Friction> friction;       // [materials * materials]
   std::vector<Friction> tool_friction;  // [tools * materials]

@@ -25,8 +25,10 @@ struct ServoDragged : Component<Tool, double, 2> {
                                       "velocity of the mass that it drags along through a dashpot"};
 };
 struct ServoForce : Component<Tool, double, 2> {
-  static constexpr ComponentInfo info{"servo_force", "N",
-                                      "asked for now, and what the tool bore when its stage began"};
+  static constexpr ComponentInfo info{
+      "servo_force", "N",
+      "asked for now, or of a drive that gives on its tool, and what "
+      "the tool bore when its stage began"};
 };
 
 // What drives a tool while a stage lasts: the set force, a mass of its own, and a second one dragged along
@@ -44,6 +46,9 @@ struct ToolServos {
     double damping = 0;       // N s/m, of its dashpot with that mass; grows with the mass's root
     double max_speed = 0;     // m/s
     double tolerance = 0.05;  // -, of the force, at the end of the stage
+    // A drive that gives, instead of a force that is held: 0, or N/m; `damping` is then that of its dashpot.
+    double stiffness = 0;
+    bool holds_force() const { return stiffness == 0; }
   };
   std::vector<Servo> servos;
   std::size_t stage = static_cast<std::size_t>(-1);  // in which the last step was

@@ -3,5 +3,5 @@
 set(readers language/csv_table language/document language/document_guard language/override language/scene_text
             language/table_reader lever/mesh/gmsh_file lever/mesh/gmsh_solid lever/mesh/meshed_lever
             lever/mesh/meshed_tip lever/target_shape outlines/points_file packing/packing_file records/lab_record
-            records/wedge_records tools/profile_file)
+            records/wedge_records tools/profile_file volts/volts_records)
 list(TRANSFORM readers REPLACE "(.+)" "scenes/\\1.cpp")

@@ -3,6 +3,7 @@
 
 usage: figures_test.py SOURCE_DIR
 """
+import struct
 import sys
 import types
 import unittest
@@ -15,6 +16,7 @@ matplotlib.use("Agg")
 import numpy as np
 from matplotlib import pyplot as plt
 
+import figures_afm
 import figures_bonds
 import figures_cell
 import figures_observed
@@ -89,6 +91,44 @@ class FiguresTest(unittest.TestCase):
         cell = figures_cell.Cell(types.SimpleNamespace(file=mesh), {"position": Shares([[0, 0], [1, 2]])})
         self.assertFalse(cell.here or cell.images or cell.shift.any())
         np.testing.assert_allclose(cell.limits(), [[-0.06, -0.06], [1.06, 2.06]])
+
+    def test_a_simple_field_is_what_gwyddions_manual_describes(self):
+        values = np.arange(12, dtype=float).reshape(3, 4) * 1e-9 + 1e-7
+        for title in ("a", "ab", "abc", "abcd", "Höhe"):  # all lengths of the padding
+            fields, data = simple_field_of(figures_afm.simple_field(title, "m", values, (2e-8, 5e-8)))
+            self.assertEqual((fields["XRes"], fields["YRes"]), ("4", "3"))
+            self.assertAlmostEqual(float(fields["XReal"]), 8e-8, places=20)
+            self.assertAlmostEqual(float(fields["YReal"]), 15e-8, places=20)
+            self.assertEqual((fields["XYUnits"], fields["ZUnits"], fields["Title"]), ("m", "m", title))
+            for row in range(3):  # the upper row first: the last line of the scan
+                np.testing.assert_allclose(data[row], values[2 - row], rtol=1e-6)
+
+    def test_levelling_takes_a_plane_or_the_median_of_each_line_off(self):
+        y, x = np.mgrid[:7, :9]
+        plane, bump = 3 + 0.5 * x - 0.25 * y, np.zeros((7, 9))
+        np.testing.assert_allclose(figures_afm.levelled(plane, "plane"), 0, atol=1e-12)
+        bump[3, 4] = 1
+        off = figures_afm.levelled(plane + bump, "plane")
+        self.assertAlmostEqual(off[3, 4] - off.mean(), 1 - 1 / 63, places=12)  # the bump is in the middle
+        lines = figures_afm.levelled(bump + 10.0 * y, "lines")
+        np.testing.assert_allclose(lines, bump, atol=1e-12)
+        self.assertIs(figures_afm.levelled(plane, "none"), plane)
+
+
+def simple_field_of(content):
+    """Reads a Gwyddion Simple Field byte by byte, by its description alone."""
+    magic = b"Gwyddion Simple Field 1.0\n"
+    assert content.startswith(magic)
+    end = content.index(b"\0")
+    fields = dict(line.split(" = ", 1) for line in content[len(magic):end].decode("utf-8").splitlines())
+    begin = end
+    while begin == end or begin % 4:
+        assert content[begin] == 0
+        begin += 1
+    wide, tall = int(fields["XRes"]), int(fields["YRes"])
+    assert len(content) == begin + 4 * wide * tall
+    numbers = struct.unpack(f"<{wide * tall}f", content[begin:])
+    return fields, [numbers[wide * row:wide * (row + 1)] for row in range(tall)]
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Opens the reports of both reductions in headless Chromium: they must draw their charts and raise no error, offline;
+# Opens the reports of all reductions in headless Chromium: they must draw their charts and raise no error, offline;
 # of the wedge calibration, figures and lines must be those of the loops.
 #
 # usage: reduction_in_browser.sh PULVIS SOURCE_DIR [FOLDER]
@@ -45,3 +45,42 @@ body=$(body_of wedge "$wedge/report.html" 1200,2000 ready)
   fail "the page of the wedge calibration"
 picture_of "$wedge/report.html" 1200,2000 "$wedge/report.png"
 echo "ok: wedge calibration"
+
+volts=$out/volts
+"$pulvis" reduce "$source_dir/scenes/lab/volts.toml" --overwrite -o "$volts" >"$work/out.txt" ||
+  fail "from volts to friction: $(tail -5 "$work/out.txt")"
+body=$(body_of volts "$volts/report.html" 1200,3600 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="7"'* ]] || fail "not ready: $body"
+/usr/bin/python3 "$(dirname "$0")/volts_page.py" "$work/page.html" "$volts/summary.json" ||
+  fail "the page from volts to friction"
+picture_of "$volts/report.html" 1200,3600 "$volts/report.png"
+echo "ok: from volts to friction"
+press=$out/press
+"$pulvis" reduce "$source_dir/scenes/lab/press.toml" --overwrite -o "$press" >"$work/out.txt" ||
+  fail "the compressions: $(tail -5 "$work/out.txt")"
+body=$(body_of press "$press/report.html" 1200,2600 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="4"'* ]] || fail "not ready: $body"
+grep -q '<td>yield_pressure</td><td>420' "$work/page.html" || fail "no yield pressure on the page"
+picture_of "$press/report.html" 1200,2600 "$press/report.png"
+echo "ok: compressions"
+
+die=$out/die
+"$pulvis" reduce "$source_dir/scenes/lab/die.toml" --overwrite -o "$die" >"$work/out.txt" ||
+  fail "the instrumented die: $(tail -5 "$work/out.txt")"
+body=$(body_of die "$die/report.html" 1200,2000 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="3"'* ]] || fail "not ready: $body"
+picture_of "$die/report.html" 1200,2000 "$die/report.png"
+echo "ok: instrumented die"
+
+matrix=$out/matrix
+"$pulvis" reduce "$source_dir/scenes/lab/matrix.toml" --overwrite -o "$matrix" >"$work/out.txt" ||
+  fail "the matrix of conditions: $(tail -5 "$work/out.txt")"
+body=$(body_of matrix "$matrix/report.html" 1200,2600 ready)
+[[ $body != *data-error* ]] || fail "$body"
+[[ $body == *'data-ready="1"'* && $body == *'data-charts="3"'* ]] || fail "not ready: $body"
+grep -q '<td>interactions</td>' "$work/page.html" || fail "no interactions on the page"
+picture_of "$matrix/report.html" 1200,2600 "$matrix/report.png"
+echo "ok: matrix of conditions"

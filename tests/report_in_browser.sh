@@ -105,6 +105,18 @@ grep -q 'Lever, [0-9.]* actions done' "$work/page.html" && fail "levers: a calib
 picture_of "$reports/levers.html" 1200,2000 "$reports/levers.png"
 echo "ok: comparison of levers"
 
+# A raster: both ways in the page, their ranges those of run.h5, levelled as the figures are; and the same as fields.
+"$pulvis" run "$source_dir/tests/keys/scenes/raster.toml" --threads 1 --overwrite -o "$reports/raster" >"$work/run.txt" 2>&1 ||
+  fail "the raster: $(tail -3 "$work/run.txt")"
+"$pulvis" figure "$reports/raster" --format gsf -o "$work/fields" >/dev/null || fail "the fields of the raster"
+"$pulvis" figure "$reports/raster" --format gsf --level plane -o "$work/fields" >/dev/null || fail "its levelled fields"
+body=$(body_of raster "$reports/raster/report.html" 1200,2400 levelled "$(dirname "$0")/raster_driver.js")
+[[ $body == *'data-levelled="1"'* && $body != *data-error* ]] || fail "raster: $body"
+/usr/bin/python3 "$(dirname "$0")/raster_page.py" "$source_dir" "$work/page.html" "$reports/raster/run.h5" "$work/fields" ||
+  fail "the images of the raster"
+picture_of "$reports/raster/report.html" 1200,2400 "$reports/raster.png"
+echo "ok: images of a raster"
+
 # The panel that docs/extending.md gives as an example, put where a panel's file would be read.
 /usr/bin/python3 - "$source_dir/docs/extending.md" "$reports/compaction/report.html" >"$work/panel.html" <<'PYTHON'
 import re

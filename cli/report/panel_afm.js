@@ -3,11 +3,14 @@
 
 const meshError = ({mesh_error: of}, name) => of ? `mesh: some ${percent(of[name])} too stiff` : "";
 
-addFigures(({summary: {calibration, loops}}) => [
+addFigures(({summary: {calibration, loops, force_curves: curves}}) => [
   ...(calibration ? [["normal stiffness", `${digits(calibration.k_n)} N/m`, meshError(calibration, "k_n")],
                      ["lateral stiffness", `${digits(calibration.k_l)} N/m`, meshError(calibration, "k_l")]] : []),
   ...(loops || []).slice(0, 1).flatMap(loop => [["half width of the loop", withUnit(loop.half_width, "N"), ""],
-    loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null])]);
+    loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null]),
+  ...(curves || []).slice(0, 1).flatMap(curve => [["pull-off force", withUnit(curve.pull_off, "N"), "of the force curve"],
+    ["work of pulling off", withUnit(curve.work, "J"), "over the way of the scanner"],
+    curve.work_of_adhesion ? ["work of adhesion", `${digits(1e3 * curve.work_of_adhesion)} mJ/m²`, "of pull-off and radius"] : null])]);
 
 addCurves(run => {
   if (run.family !== "afm") return [];

@@ -5,6 +5,7 @@
 
 #include "cli/report/report_encoding.hpp"
 #include "cli/report/report_frames.hpp"
+#include "cli/report/report_images.hpp"
 #include "cli/report/report_solid.hpp"
 #include "engine/files/hdf5.hpp"
 #include "engine/files/input_file.hpp"
@@ -26,6 +27,7 @@ class Reader {
     read_history();
     file_.contains("/mesh/hexahedra") ? add_solid(file_, head, sections)
                                       : add_frames(file_, budget, head, sections);
+    add_images(file_, head, sections);
   }
 
   Json head = Json::object();

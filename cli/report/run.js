@@ -12,6 +12,8 @@ class Run {
       [series.name, {...series, label: series.name, values: all.subarray(k * count, (k + 1) * count)}]));
     run.times = run.values("time");
     run.frames = head.frames || [];
+    run.images = await Promise.all((head.images || []).map(async (image, i) =>
+      ({...image, values: await floats(`${prefix}image-${i}`)})));
     if (head.mesh && run.frames.length) {
       run.cells = await integers(prefix + "cells", 4);
       run.particleOf = particlesOf(run.cells, head.mesh.drawn_nodes);

@@ -31,6 +31,7 @@ namespace role {
 inline constexpr const char* run = "run";
 inline constexpr const char* study = "study";
 inline constexpr const char* probe = "probe";
+inline constexpr const char* fit = "fit";
 inline constexpr const char* reduction = "reduction";
 inline constexpr const char* packing = "packing";
 inline constexpr const char* comparison = "comparison";

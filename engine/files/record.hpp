@@ -15,6 +15,11 @@ struct SeriesInfo {     // one series of the history: a number a sample
   bool whole = false;   // whole numbers, and stored as such: of tables only
 };
 
+// How far the pixels of a picture are apart, m; 0: they have no size.
+struct PixelSpacing {
+  double along = 0, across = 0;  // of a line; from line to line
+};
+
 // Rows of their own, which come when they come: column "x" of table "cracks" is /cracks/x of run.h5.
 struct TableInfo {
   std::string name;

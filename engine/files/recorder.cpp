@@ -404,12 +404,15 @@ void Recorder::write_field(const std::string& group, const FieldInfo& field,
 }
 
 void Recorder::image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
-                     std::span<const double> values) {
+                     std::span<const double> values, const PixelSpacing& spacing) {
   require(lines * pixels == values.size(), "image " + info.name + " has a wrong length");
   begin_change();
   const std::string dataset = "/images/" + info.name;
   file_.write(dataset, values, {lines, pixels});
   describe(dataset, info.unit, info.meaning);
+  if (!(spacing.along > 0)) return;
+  file_.set_attribute(dataset, "pixel_width", spacing.along);
+  file_.set_attribute(dataset, "pixel_height", spacing.across);
 }
 
 void Recorder::finish(std::string_view outcome) {

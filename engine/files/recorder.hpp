@@ -9,7 +9,7 @@
 //                               complete = 1, written last: a frame without it is not to be read
 //        /history/<name>        one 1-D dataset a series; /history/time
 //        /<table>/<name>        one 1-D dataset a column, where the run has tables: rows come with the history
-//        /images/<name>         [lines, pixels], of a raster
+//        /images/<name>         [lines, pixels], of a raster; attributes pixel_width, pixel_height in m
 // Every dataset has the attributes unit and meaning, a field also place (node, cell, particle, list) and
 // components. A field of nodes or cells with two components is stored with a third one of zeros, because
 // XDMF has no plane vectors (components = 2 tells); `position` is not. XDMF shows these fields only.
@@ -75,9 +75,9 @@ class Recorder {
   // One frame: the values of each field, in their order, the components of a place together.
   void frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
 
-  // A picture, row by row: [lines, pixels].
+  // A picture, row by row: [lines, pixels]. Where its pixels have a size, it is kept as pixel_width, pixel_height (m).
   void image(const SeriesInfo& info, std::uint64_t lines, std::uint64_t pixels,
-             std::span<const double> values);
+             std::span<const double> values, const PixelSpacing& spacing = {});
 
   // Writes what is left and closes the files; `outcome` says in words how the run ended. Without it
   // the destructor does the same as well as it can, and run.h5 has no outcome.

@@ -100,7 +100,35 @@ const TableDeclaration<MoveSpec>& move() {
          .fallback = value_of(0.1),
          .doc =
              "Share of the stage in which the speed rises smoothly, and falls again at its end."},
-        to(&MoveSpec::ramp)}}};
+        to(&MoveSpec::ramp)},
+       {{.name = "stiffness",
+         .kind = Kind::quantity,
+         .unit = "N/m",
+         .range = above(0, 1e15),
+         .needs = "mass",
+         .doc = "Of a drive that gives, along the displacement, which is then that of its far end: "
+                "the tool follows as a mass on a spring, on the slice of the scene's thickness. In "
+                "the stage after it the tool stands where it was left, unless that drives it so, "
+                "too.",
+         .fallback_doc = "rigid: the tool moves as the displacement says"},
+        to(&MoveSpec::stiffness)},
+       {{.name = "mass",
+         .kind = Kind::quantity,
+         .unit = "kg",
+         .range = above(0, 1e9),
+         .needs = "stiffness",
+         .doc = "Of the tool with what is fixed to it. What touches the tool may ask for more: a "
+                "run stops where the mass is too small for its time step.",
+         .fallback_doc = "required with `stiffness`"},
+        to(&MoveSpec::mass)},
+       {{.name = "damping",
+         .kind = Kind::number,
+         .range = within(0, 10),
+         .fallback = value_of(0.0),
+         .needs = "stiffness",
+         .doc =
+             "Dashpot beside the spring, as a share of the critical damping of spring and mass."},
+        to(&MoveSpec::damping)}}};
   return declaration;
 }
 
@@ -144,7 +172,24 @@ const TableDeclaration<FrictionSpec>& friction() {
          .range = above(0, 1e13),
          .doc = "Shear stress that the surfaces do not pass at any pressure.",
          .fallback_doc = "none"},
-        to(&FrictionSpec::shear_strength)}}};
+        to(&FrictionSpec::shear_strength)},
+       {{.name = "rate",
+         .kind = Kind::number,
+         .range = within(-1, 1),
+         .needs = "reference_speed",
+         .doc = "What sliding with the speed v adds to the coefficients: rate x ln(1 + v/v_0); "
+                "negative where friction falls with speed. They do not fall below 0.",
+         .fallback_doc = "friction does not depend on speed"},
+        to(&FrictionSpec::rate)},
+       {{.name = "reference_speed",
+         .kind = Kind::quantity,
+         .unit = "m/s",
+         .range = within(1e-9, 1e4),
+         .needs = "rate",
+         .doc = "v_0: well below it the coefficients are those given. A rising law of a v_0 far "
+                "below the speeds that occur is stiff and chatters.",
+         .fallback_doc = "required with `rate`"},
+        to(&FrictionSpec::reference_speed)}}};
   return declaration;
 }
 

@@ -24,9 +24,11 @@ FORCE, RATE = 1000.0, 500.0          # N, N/s (3.2.3)
 SPEED, DISTANCE = 1.3, 50.0          # mm/s, mm
 LOADED_AT = 1.5                      # s on the press's clock
 STOP_AFTER = 4.0                     # s that the logger runs on after sliding
+PRESS_INTERVAL, PRESS_AFTER = 0.05, 9.0  # s: of the press's samples; that it runs on
 TAKE_UP, SETTLED = 0.52, 4.0         # mm: the static peak, the dynamic level
 SLIP_FROM, SLIP_PERIOD, SLIP_HEIGHT = 8.0, 2.4, 0.012  # mm, mm, - (a sawtooth about the level)
 NOISE = {"strain": 1.0, "lvdt": 0.02, "force": 1.0, "displacement": 5e-4}  # um/m, mV, N, mm
+MAKER = "synthetic.py"
 RUNS = [  # mu static, mu dynamic; start of sliding on either clock, s; drift of the press's clock
     {"static": 0.231, "dynamic": 0.184, "press": 23.37, "logger": 6.21, "drift": 3e-4},
     {"static": 0.225, "dynamic": 0.179, "press": 19.82, "logger": 5.04, "drift": -2e-4},
@@ -80,11 +82,11 @@ def shear_force(run, t):
 
 
 def write_press(path, run, noisy):
-    end = run["press"] + DISTANCE / SPEED + 9.0
-    lines = ["# Synthetic record, made by scenes/lab/synthetic.py: not measured",
+    end = run["press"] + DISTANCE / SPEED + PRESS_AFTER
+    lines = [f"# Synthetic record, made by scenes/lab/{MAKER}: not measured",
              "Time;Force;Displacement", "s;N;mm"]
-    for i in range(int(end * 20)):
-        t = i * 0.05
+    for i in range(int(end / PRESS_INTERVAL)):
+        t = i * PRESS_INTERVAL
         row = [f"{t:.2f}", f"{normal_force(t) + noisy('force'):.3f}",
                f"{punch(run, t) + noisy('displacement'):.5f}"]
         lines.append(";".join(row).replace(".", ","))
@@ -93,7 +95,7 @@ def write_press(path, run, noisy):
 
 def write_logger(path, run, noisy):
     end = run["logger"] + DISTANCE / SPEED + STOP_AFTER
-    lines = ["# Synthetic record, made by scenes/lab/synthetic.py: not measured",
+    lines = [f"# Synthetic record, made by scenes/lab/{MAKER}: not measured",
              "time [s],strain [um/m],lvdt [mV]"]
     for i in range(int(end * 10)):
         t = i * 0.1

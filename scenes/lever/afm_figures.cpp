@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scenes/lever/afm_calibration.hpp"
+#include "scenes/lever/afm_curve.hpp"
 #include "scenes/lever/afm_loop.hpp"
 #include "scenes/lever/afm_programme.hpp"
 #include "scenes/spec/afm_scene.hpp"
@@ -13,6 +14,10 @@ namespace {
 struct Figure {
   SeriesInfo info;
   double (*of)(const Calibration&);
+};
+struct CurveFigure {
+  SeriesInfo info;
+  double (*of)(const ForceCurveFigures&);
 };
 struct LoopFigure {
   SeriesInfo info;
@@ -70,12 +75,26 @@ const std::vector<LoopFigure>& loop_figures() {
   return all;
 }
 
+const std::vector<CurveFigure>& curve_figures() {
+  using C = const ForceCurveFigures&;
+  static const std::vector<CurveFigure> all{
+      {{"curve/pull_off", "N", "greatest pull while the probe is drawn off"},
+       [](C c) { return c.pull_off; }},
+      {{"curve/work", "J",
+        "area under the line of no force meanwhile, over the way of the scanner"},
+       [](C c) { return c.work; }},
+      {{"curve/work_of_adhesion", "J/m^2", "of the pull-off and the tip's radius, by DMT or JKR"},
+       [](C c) { return c.work_of_adhesion.value_or(std::nan("")); }}};
+  return all;
+}
+
 }  // namespace
 
 std::vector<SeriesInfo> afm_figures() {
   std::vector<SeriesInfo> all;
   for (const Figure& figure : calibration_figures()) all.push_back(figure.info);
   for (const LoopFigure& figure : loop_figures()) all.push_back(figure.info);
+  for (const CurveFigure& figure : curve_figures()) all.push_back(figure.info);
   return all;
 }
 
@@ -88,17 +107,23 @@ std::vector<SeriesInfo> afm_expectable_series(const Scene& scene) {
     loops = loops || (action.kind == ActionSpec::Kind::scan && action.back);
   if (loops)
     for (const LoopFigure& figure : loop_figures()) all.push_back(figure.info);
+  if (has_force_curve(scene))
+    for (const CurveFigure& figure : curve_figures()) all.push_back(figure.info);
   return all;
 }
 
 std::map<std::string, double> afm_figure_values(const Calibration& calibration,
-                                                const std::vector<FrictionLoop>& loops) {
+                                                const std::vector<FrictionLoop>& loops,
+                                                const std::vector<ForceCurveFigures>& curves) {
   std::map<std::string, double> values;
   for (const Figure& figure : calibration_figures())
     values[figure.info.name] = figure.of(calibration);
   if (!loops.empty())
     for (const LoopFigure& figure : loop_figures())
       values[figure.info.name] = figure.of(loops.back());
+  if (!curves.empty())
+    for (const CurveFigure& figure : curve_figures())
+      values[figure.info.name] = figure.of(curves.back());
   return values;
 }
 

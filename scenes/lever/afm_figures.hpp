@@ -12,13 +12,15 @@ namespace pulvis {
 
 struct Calibration;
 struct FrictionLoop;
+struct ForceCurveFigures;
 
-// Of every AFM run, and of its last friction loop where it has one.
+// Of every AFM run, and of its last friction loop and its last force curve where it has one.
 std::vector<SeriesInfo> afm_figures();
 // Those the scene's run has, and its history where it has a programme.
 std::vector<SeriesInfo> afm_expectable_series(const Scene& scene);
 
 std::map<std::string, double> afm_figure_values(const Calibration& calibration,
-                                                const std::vector<FrictionLoop>& loops);
+                                                const std::vector<FrictionLoop>& loops,
+                                                const std::vector<ForceCurveFigures>& curves);
 
 }  // namespace pulvis

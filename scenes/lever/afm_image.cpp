@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/spec/afm_scene.hpp"
 
@@ -25,11 +26,13 @@ std::size_t first_row(const Scene& scene, std::size_t action) {
 }
 
 AfmImage image_of(const AfmHistory& history, const Channel& channel, std::size_t action, bool back,
-                  std::size_t first, std::size_t lines, std::size_t pixels) {
+                  std::size_t first, std::size_t lines, std::size_t pixels,
+                  const PixelSpacing& spacing) {
   AfmImage image{{fmt::format("action_{}/{}_{}", action, channel.name, back ? "back" : "forth"),
                   channel.unit, channel.meaning},
                  lines,
                  pixels,
+                 spacing,
                  {}};
   for (std::size_t line = 0; line < lines; ++line)
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
@@ -52,9 +55,12 @@ std::vector<AfmImage> raster_images(const Scene& scene, const AfmHistory& histor
     const std::size_t told = (history.rows.size() - first) / (2 * pixels);
     const std::size_t lines = std::min(told, static_cast<std::size_t>(action.lines));
     if (lines == 0) continue;
+    const double along = std::abs(action.distance) / static_cast<double>(pixels);
+    const PixelSpacing spacing{
+        along, action.lines > 1 ? std::abs(action.width) / (action.lines - 1) : along};
     for (const Channel& channel : channels)
       for (const bool back : {false, true})
-        images.push_back(image_of(history, channel, a, back, first, lines, pixels));
+        images.push_back(image_of(history, channel, a, back, first, lines, pixels, spacing));
   }
   return images;
 }

@@ -95,6 +95,36 @@ std::optional<BendEvent> event_near(std::span<const double> t, std::span<const d
   return BendEvent{*bend, {bend->time, std::hypot(bend->uncertainty, shift)}};
 }
 
+double inflation_of(std::span<const double> rest) {
+  double squares = 0, neighbours = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    squares += rest[i] * rest[i];
+    if (i > 0) neighbours += rest[i] * rest[i - 1];
+  }
+  const double r = squares > 0 ? std::clamp(neighbours / squares, 0.0, 0.99) : 0;
+  return std::sqrt((1 + r) / (1 - r));
+}
+
+Mean correlated_mean(std::span<const double> y) {
+  const auto n = static_cast<double>(y.size());
+  double mean = 0, squares = 0;
+  for (const double v : y) mean += v / n;
+  std::vector<double> rest(y.begin(), y.end());
+  for (double& v : rest) v -= mean, squares += v * v;
+  return {mean, std::sqrt(squares / (n - 1) / n) * inflation_of(rest)};
+}
+
+double slope_error(const Line& line, double inflation) {
+  const auto freedom = static_cast<double>(line.count - 2);
+  return inflation * std::sqrt(line.residual / freedom / line.spread);
+}
+
+double value_error(const Line& line, double t, double inflation) {
+  const auto n = static_cast<double>(line.count);
+  const double from = t - line.middle;
+  return inflation * std::sqrt(line.residual / (n - 2) * (1 / n + from * from / line.spread));
+}
+
 Samples between(std::span<const double> t, double low, double high) {
   const auto begin = std::lower_bound(t.begin(), t.end(), low);
   const auto end = std::upper_bound(begin, t.end(), high);

@@ -60,6 +60,19 @@ struct BendEvent {
 std::optional<BendEvent> event_near(std::span<const double> t, std::span<const double> y,
                                     double middle, double window);
 
+// The error of a mean whose neighbours hang together is s/sqrt(n_eff), n_eff = n (1 - r)/(1 + r), with r their
+// correlation.
+struct Mean {
+  double value = 0;
+  double error = 0;  // one standard deviation
+};
+Mean correlated_mean(std::span<const double> y);
+double inflation_of(std::span<const double> rest);  // sqrt(n/n_eff) of what a fit leaves
+
+// One standard deviation of a line's slope and of its value at t; what it leaves may be correlated.
+double slope_error(const Line& line, double inflation);
+double value_error(const Line& line, double t, double inflation);
+
 // The samples with low <= t <= high, as positions [begin, end).
 struct Samples {
   std::size_t begin = 0, end = 0;

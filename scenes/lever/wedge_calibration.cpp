@@ -11,12 +11,15 @@
 #include <set>
 #include <stdexcept>
 
+#include "engine/portable_math.hpp"
 #include "scenes/lever/lab_fit.hpp"
 
 namespace pulvis::wedge {
 namespace {
 
 constexpr double flat = 1e-6;  // rad: nothing to be learned from such a slope
+
+double squared(double x) { return x * x; }
 
 struct Fit {
   Value slope, zero;  // by load; at no load
@@ -37,8 +40,8 @@ Fit line_through(const std::vector<Loop>& loops, const Of& of, const ErrorOf& er
     known = known && error;
     const double on_slope = (loop.load - line.middle) / line.spread;
     const double on_zero = 1 / n - line.middle * on_slope;
-    slope2 += std::pow(on_slope * error.value_or(0), 2);
-    zero2 += std::pow(on_zero * error.value_or(0), 2);
+    slope2 += squared(on_slope * error.value_or(0));
+    zero2 += squared(on_zero * error.value_or(0));
   }
   if (loops.size() > 2) {
     const double scatter2 = line.residual / (n - 2);
@@ -62,7 +65,7 @@ Value mean_by_load(const std::vector<Loop>& loops, const Of& of, const ErrorOf& 
     sum += value;
     squares += value * value;
     known = known && error_of(loop);
-    error2 += std::pow(error_of(loop).value_or(0) / loop.load / n, 2);
+    error2 += squared(error_of(loop).value_or(0) / loop.load / n);
   }
   const double mean = sum / n;
   if (loops.size() > 2) {
@@ -94,11 +97,12 @@ Facet facet_of(const std::vector<Loop>& loops) {
   const Fit w = line_through(loops, width, width_error);
   facet.half_width = w.slope;
   facet.offset = line_through(loops, offset, offset_error).slope;
-  const double adhesion = w.zero.value / (w.slope.value * std::cos(facet.slope));
+  const double adhesion = w.zero.value / (w.slope.value * portable::cos(facet.slope));
   facet.adhesion = Value{adhesion, {}};
   if (w.zero.error && w.slope.error)
-    facet.adhesion->error = std::hypot(*w.zero.error / (w.slope.value * std::cos(facet.slope)),
-                                       adhesion * *w.slope.error / w.slope.value);
+    facet.adhesion->error =
+        portable::hypot(*w.zero.error / (w.slope.value * portable::cos(facet.slope)),
+                        adhesion * *w.slope.error / w.slope.value);
   return facet;
 }
 
@@ -110,7 +114,7 @@ struct Pair {
 std::optional<Pair> solve(double width, double offset, double adhesion, double slope) {
   const auto mu = friction_of_ratio(offset / width, 1, adhesion, slope);
   if (!mu) return std::nullopt;
-  const double s = std::sin(slope), c = std::cos(slope);
+  const double s = portable::sin(slope), c = portable::cos(slope);
   return Pair{*mu, *mu * (1 + adhesion * c) / (c * c - *mu * *mu * s * s) / width};
 }
 
@@ -133,7 +137,7 @@ FacetEstimates calibrate_facet(const Facet& facet, double adhesion, double slope
     throw std::runtime_error(fmt::format(
         "on the slope of {:g} deg no friction coefficient fits: 2 (Delta/W)/sin 2 theta is {:.4g}, "
         "allowed: >= 2",
-        facet.slope * 180 / std::numbers::pi, 2 * at[1] / at[0] / std::sin(2 * facet.slope)));
+        facet.slope * 180 / std::numbers::pi, 2 * at[1] / at[0] / portable::sin(2 * facet.slope)));
   FacetEstimates e{{{pair->friction, {}}, 0}, {{pair->sensitivity, {}}, 0}};
   if (!facet.half_width.error || !facet.offset.error) return e;
   const std::array<double, 3> error{*facet.half_width.error, *facet.offset.error, slope_error};
@@ -146,8 +150,8 @@ FacetEstimates calibrate_facet(const Facet& facet, double adhesion, double slope
     if (!a || !b) return e;  // on the edge of what fits: nothing can be said
     const double by_friction = (a->friction - b->friction) / (2 * step);
     const double by_sensitivity = (a->sensitivity - b->sensitivity) / (2 * step);
-    friction2 += std::pow(by_friction * error[i], 2);
-    sensitivity2 += std::pow(by_sensitivity * error[i], 2);
+    friction2 += squared(by_friction * error[i]);
+    sensitivity2 += squared(by_sensitivity * error[i]);
     if (i == 1) e.friction.by_offset = by_friction, e.sensitivity.by_offset = by_sensitivity;
   }
   e.friction.own.error = std::sqrt(friction2);
@@ -158,11 +162,18 @@ FacetEstimates calibrate_facet(const Facet& facet, double adhesion, double slope
 Value with_crosstalk(const Estimate& e, const std::optional<Value>& crosstalk) {
   if (!crosstalk || !e.own.error) return e.own;
   if (!crosstalk->error) return {e.own.value, {}};
-  return {e.own.value, std::hypot(*e.own.error, e.by_offset * *crosstalk->error)};
+  return {e.own.value, portable::hypot(*e.own.error, e.by_offset * *crosstalk->error)};
 }
 
 // Mean of estimates whose errors hang together (Aitken 1936); without errors a plain mean and its scatter.
-Value mean_of(const std::vector<Estimate>& estimates, const std::optional<Value>& crosstalk) {
+struct MeanOfFacets {
+  Value mean;
+  std::vector<double> weights;  // their sum is 1
+  double disagreement = 0;      // square of the factor of Birge; only of estimates with errors
+};
+
+MeanOfFacets mean_of(const std::vector<Estimate>& estimates,
+                     const std::optional<Value>& crosstalk) {
   const auto n = static_cast<Eigen::Index>(estimates.size());
   Eigen::VectorXd value(n), by_offset(n);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
@@ -187,9 +198,13 @@ Value mean_of(const std::vector<Estimate>& estimates, const std::optional<Value>
   const Eigen::VectorXd rest = (value.array() - mean).matrix() / (weighted ? unit : 1);
   const double freedom = std::max(1.0, static_cast<double>(n - 1));
   const double disagreement = rest.dot(factors.solve(rest)) / freedom;
-  if (weighted) return {mean, unit * std::sqrt(std::max(1.0, disagreement) / weight.sum())};
-  if (n == 1) return {mean, {}};
-  return {mean, std::sqrt(disagreement / weight.sum())};
+  MeanOfFacets all{{mean, {}}, {}, weighted ? disagreement : 0};
+  for (const double w : weight) all.weights.push_back(w / weight.sum());
+  if (weighted)
+    all.mean.error = unit * std::sqrt(std::max(1.0, disagreement) / weight.sum());
+  else if (n > 1)
+    all.mean.error = std::sqrt(disagreement / weight.sum());
+  return all;
 }
 
 std::vector<Facet> facets_of(const std::vector<Loop>& loops) {
@@ -218,7 +233,7 @@ double adhesion_by_load(const Facet& facet, const std::vector<Loop>& loops, doub
 }  // namespace
 
 std::optional<double> friction_of_ratio(double ratio, double load, double adhesion, double slope) {
-  const double s = std::sin(slope), c = std::cos(slope);
+  const double s = portable::sin(slope), c = portable::cos(slope);
   const double a = load * s * c + adhesion * s, b = ratio * (load + adhesion * c);
   const double end = load * s * c, root = b * b - 4 * a * end;
   // mu > 0 needs both terms of the same sign.
@@ -245,11 +260,14 @@ Calibration calibrate(const std::vector<Loop>& loops, const Known& known) {
   }
   if (friction.empty())
     throw std::runtime_error("there is no facet with a slope, allowed: loops on one at least");
-  all.friction = mean_of(friction, all.crosstalk);
-  all.sensitivity = mean_of(sensitivity, all.crosstalk);
+  all.friction = mean_of(friction, all.crosstalk).mean;
+  const MeanOfFacets mean = mean_of(sensitivity, all.crosstalk);
+  all.sensitivity = mean.mean;
+  all.weights = mean.weights;
+  all.disagreement = mean.disagreement;
   if (all.sensitivity.error)
     all.sensitivity.error =
-        std::hypot(*all.sensitivity.error, all.sensitivity.value * known.load_error);
+        portable::hypot(*all.sensitivity.error, all.sensitivity.value * known.load_error);
   if (level != all.facets.end())
     all.flat_friction = level->half_width.value * all.sensitivity.value /
                         (1 + adhesion_by_load(*level, loops, known.adhesion));

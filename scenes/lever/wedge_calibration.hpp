@@ -54,6 +54,8 @@ struct Calibration {
   std::optional<Value> crosstalk;       // V/N, by the flat facet
   Value friction, sensitivity;          // of all inclined facets
   std::optional<double> flat_friction;  // with that sensitivity: a check
+  std::vector<double> weights;          // of the inclined facets in the mean sensitivity
+  double disagreement = 0;              // of their sensitivities: square of the factor of Birge
 };
 
 // Throws std::runtime_error with what is wrong and what is allowed.

@@ -2,6 +2,8 @@
 #include "scenes/records/declare_lab.hpp"
 
 #include "scenes/keys/declare.hpp"
+#include "scenes/records/declare_columns.hpp"
+#include "scenes/volts/declare_volts.hpp"
 
 #include <array>
 
@@ -10,24 +12,6 @@ namespace pulvis::lab {
 using namespace schema;
 
 namespace {
-
-template <class Spec>
-Key<Spec> column_key(const char* name, const char* fallback, std::string Spec::*member,
-                     const char* doc) {
-  return {{.name = name, .kind = Kind::text, .fallback = value_of(fallback), .doc = doc},
-          to(member)};
-}
-
-template <class Spec>
-Key<Spec> header_key() {
-  return {{.name = "header_line",
-           .kind = Kind::integer,
-           .range = within(0, 10000),
-           .fallback = value_of(0),
-           .doc = "Line of the file that holds the names of the columns; 0: the first line that is "
-                  "neither empty nor a comment (#)."},
-          integer_to(&Spec::header_line)};
-}
 
 std::vector<Key<CompactSpec>> geometry_keys() {
   return {
@@ -67,7 +51,7 @@ std::vector<Key<CompactSpec>> powder_keys() {
        to(&CompactSpec::poissons_ratio)},
       {{.name = "powder",
         .kind = Kind::choice,
-        .choices = {{"OFHC Cu", "0.35"}, {"316L", "0.3"}, {"salt", "0.252"}, {"sugar", "0.25"}},
+        .choices = powders(),
         .doc = "Takes Poisson's ratio from Table 3.2 of the thesis.",
         .fallback_doc = "none"},
        [](CompactSpec& spec, const Decoded& value) { spec.powder = value.index; }},
@@ -311,37 +295,24 @@ const TableDeclaration<SimulationSpec>& declared_simulation() {
          .fallback = value_of("target"),
          .doc = "The tool that slides under the compact: its forces give the coefficient, its "
                 "travel along x the distance."},
-        to(&SimulationSpec::target)}}};
+        to(&SimulationSpec::target)},
+       {{.name = "density",
+         .kind = Kind::text,
+         .fallback = value_of("relative_density"),
+         .doc = "Series with the relative density, for compression curves."},
+        to(&SimulationSpec::density)},
+       {{.name = "pressure",
+         .kind = Kind::text,
+         .fallback = value_of("stress/axial_top"),
+         .doc = "Series with the axial stress, for compression curves; its sign does not matter. "
+                "Of a periodic cell \"cell/stress_yy\"."},
+        to(&SimulationSpec::pressure)}}};
   return declaration;
 }
 
-const TableDeclaration<RunSpec>& declared_run() {
-  static const TableDeclaration<RunSpec> declaration{
-      {"run", true, "", "One test. Records given on the command line are added behind these."},
-      {{{.name = "name",
-         .kind = Kind::name,
-         .doc = "Names the run's file and curve.",
-         .fallback_doc = "`run-1`, `run-2`, ..."},
-        to(&RunSpec::name)},
-       {{.name = "press",
-         .kind = Kind::file,
-         .required = true,
-         .doc = "Record of the press (CSV), as a path from the folder of this file."},
-        to(&RunSpec::press)},
-       {{.name = "logger",
-         .kind = Kind::file,
-         .required = true,
-         .doc = "Record of the data logger (CSV), likewise."},
-        to(&RunSpec::logger)},
-       {{.name = "offset",
-         .kind = Kind::quantity,
-         .unit = "s",
-         .range = within(-1e9, 1e9),
-         .doc = "Time on the press's clock less that on the logger's, where a trigger told it; no "
-                "event is looked for in the press's record then.",
-         .fallback_doc = "found from the start of sliding"},
-        to(&RunSpec::offset)}}};
-  return declaration;
+const char* powder_name(int powder) {
+  static const std::vector<schema::Choice> known = powders();
+  return known.at(static_cast<std::size_t>(powder)).word.c_str();
 }
 
 double CompactSpec::poisson() const {
@@ -350,11 +321,27 @@ double CompactSpec::poisson() const {
 }
 
 const Language& language() {
-  static const Language tables{
-      view_of(declared_top()),       view_of(declared_press()),    view_of(declared_logger()),
-      view_of(declared_load_cell()), view_of(declared_lvdt()),     view_of(declared_compact()),
-      view_of(declared_clock()),     view_of(declared_analysis()), view_of(declared_simulation()),
-      view_of(declared_wedge()),     view_of(declared_run())};
+  static const Language tables{view_of(declared_top()),
+                               view_of(declared_press()),
+                               view_of(declared_logger()),
+                               view_of(declared_load_cell()),
+                               view_of(declared_lvdt()),
+                               view_of(declared_compact()),
+                               view_of(declared_clock()),
+                               view_of(declared_analysis()),
+                               view_of(declared_simulation()),
+                               view_of(declared_wedge()),
+                               view_of(volts::declared_afm()),
+                               view_of(volts::declared_force_curves()),
+                               view_of(volts::declared_lever()),
+                               view_of(volts::declared_crosstalk()),
+                               view_of(volts::declared_test_probe()),
+                               view_of(declared_run()),
+                               view_of(declared_die()),
+                               view_of(declared_compression()),
+                               view_of(declared_curve()),
+                               view_of(declared_gauges()),
+                               view_of(declared_transmission())};
   return tables;
 }
 

@@ -16,5 +16,10 @@ const schema::TableDeclaration<AnalysisSpec>& declared_analysis();
 const schema::TableDeclaration<SimulationSpec>& declared_simulation();
 const schema::TableDeclaration<WedgeSpec>& declared_wedge();
 const schema::TableDeclaration<RunSpec>& declared_run();
+const schema::TableDeclaration<DieSpec>& declared_die();
+const schema::TableDeclaration<CompressionSpec>& declared_compression();
+const schema::TableDeclaration<CurveSpec>& declared_curve();
+const schema::TableDeclaration<GaugesSpec>& declared_gauges();
+const schema::TableDeclaration<TransmissionSpec>& declared_transmission();
 
 }  // namespace pulvis::lab

@@ -109,6 +109,19 @@ void turn(std::vector<double>& values, double sign) {
     for (double& value : values) value = -value;
 }
 
+void take_press(const csv::Table& table, std::size_t force, std::size_t displacement,
+                double capacity, PressRecord& record) {
+  record.force = csv::numbers(table, force, "N");
+  record.displacement = csv::numbers(table, displacement, "m");
+  refuse_beyond({table, force, record.force}, capacity, "N", "press.capacity");
+  turn(record.force, largest_size(record.force));
+  const auto loaded = std::max_element(record.force.begin(), record.force.end());
+  if (!(*loaded > 0))
+    csv::refuse(table, table.columns[force].name, "is zero throughout, allowed: a loaded press");
+  const auto at = static_cast<std::size_t>(loaded - record.force.begin());
+  turn(record.displacement, record.displacement[at] - record.displacement.front());
+}
+
 }  // namespace
 
 Instrument instrument_of(const std::filesystem::path& file, const Settings& settings) {
@@ -137,15 +150,23 @@ PressRecord read_press(const std::filesystem::path& file, const Settings& settin
   read_time(table, spec.time, settings.clock.longest_gap, record);
   const std::size_t force = csv::column_at(table, spec.force);
   const std::size_t displacement = csv::column_at(table, spec.displacement);
-  record.force = csv::numbers(table, force, "N");
-  record.displacement = csv::numbers(table, displacement, "m");
-  refuse_beyond({table, force, record.force}, spec.capacity, "N", "press.capacity");
-  turn(record.force, largest_size(record.force));
-  const auto loaded = std::max_element(record.force.begin(), record.force.end());
-  if (!(*loaded > 0))
-    csv::refuse(table, table.columns[force].name, "is zero throughout, allowed: a loaded press");
-  const auto at = static_cast<std::size_t>(loaded - record.force.begin());
-  turn(record.displacement, record.displacement[at] - record.displacement.front());
+  take_press(table, force, displacement, spec.capacity, record);
+  return record;
+}
+
+DieRecord read_die(const std::filesystem::path& file, const Settings& settings) {
+  const GaugesSpec& spec = settings.gauges;
+  const csv::Table table = csv::read(file, {spec.header_line});
+  DieRecord record;
+  read_time(table, spec.time, settings.clock.longest_gap, record);
+  take_press(table, csv::column_at(table, spec.top), csv::column_at(table, spec.displacement),
+             settings.press.capacity, record);
+  const std::size_t bottom = csv::column_at(table, spec.bottom);
+  record.bottom = csv::numbers(table, bottom, "N");
+  refuse_beyond({table, bottom, record.bottom}, settings.press.capacity, "N", "press.capacity");
+  record.radial = csv::numbers(table, csv::column_at(table, spec.radial), "Pa");
+  turn(record.bottom, largest_size(record.bottom));
+  turn(record.radial, largest_size(record.radial));
   return record;
 }
 

@@ -25,6 +25,12 @@ struct PressRecord : Record {
   std::vector<double> displacement;  // m, into the die is positive
 };
 
+// Of an instrumented die; `force` is that on the top punch.
+struct DieRecord : PressRecord {
+  std::vector<double> bottom;  // N, pressing is positive
+  std::vector<double> radial;  // Pa, likewise
+};
+
 struct LoggerRecord : Record {
   std::vector<double> strain;  // -
   std::vector<double> lvdt;    // V
@@ -36,6 +42,7 @@ enum class Instrument { press, logger };
 Instrument instrument_of(const std::filesystem::path& file, const Settings& settings);
 
 PressRecord read_press(const std::filesystem::path& file, const Settings& settings);
+DieRecord read_die(const std::filesystem::path& file, const Settings& settings);
 LoggerRecord read_logger(const std::filesystem::path& file, const Settings& settings);
 
 // What is wrong with a record at one of its samples, or as a whole (line 1).

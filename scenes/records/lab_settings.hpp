@@ -1,9 +1,11 @@
-// What the reduction of sliding-plate tests, or of an AFM's friction loops, has to know beside the records: reduce.toml.
+// What a reduction has to know beside the records (sliding-plate tests, compressions, an AFM's friction loops):
+// reduce.toml.
 // Sources of the defaults: Kim (thesis), sections 3.2.2 to 3.2.6; declared in declare_lab.cpp.
 #pragma once
 
 #include "scenes/read.hpp"
 #include "scenes/scene_files.hpp"
+#include "scenes/volts/volts_spec.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -70,6 +72,43 @@ struct AnalysisSpec {
 
 struct SimulationSpec {
   std::string target;
+  std::string density, pressure;  // series, for compression curves
+};
+
+struct DieSpec {
+  enum class Shape { round, slot };
+  int shape = 0;             // Shape
+  double diameter = 15e-3;   // m, round
+  double width = 0;          // m, slot
+  double thickness = 0;      // m, slot
+  double solid_density = 0;  // kg/m^3; 0: not given
+  double mass_error = 0;     // -
+  double height_error = 0;   // m
+
+  bool is_slot() const { return shape == static_cast<int>(Shape::slot); }
+  double area() const;         // m^2, of the punch
+  double wall_length() const;  // m, round: D/4; slot: W/2: area over the perimeter that rubs
+};
+
+struct Filling {  // of the die
+  std::string name;
+  double mass = 0;                                  // kg
+  std::optional<double> fill_height, final_height;  // m
+  SourceMark mark;
+};
+
+struct CompressionSpec {
+  std::string empty;  // file of the empty press's record
+  int empty_degree = 0;
+  std::vector<double> compliance;             // m/N, m/N^2, ...
+  double contact = 0, largest_fall = 0;       // -, of the largest force
+  std::optional<double> fit_from, fit_until;  // Pa
+  double compliance_error = 0;                // -
+};
+
+struct CurveSpec : Filling {
+  std::string press;                      // file
+  std::optional<double> initial_density;  // -
 };
 
 struct WedgeSpec {         // another kind of record: friction loops of an AFM
@@ -80,12 +119,34 @@ struct WedgeSpec {         // another kind of record: friction loops of an AFM
   double skip = 0;         // -, of a raw trace at each end
 };
 
+struct GaugesSpec {                                     // of an instrumented die
+  std::string time, displacement, top, bottom, radial;  // names of columns
+  int header_line = 0;
+  std::optional<double> radial_height;                       // m, above the bottom punch
+  double from = 0;                                           // -, of the largest pressure
+  double density_step = 0;                                   // -
+  double top_error = 0, bottom_error = 0, radial_error = 0;  // -
+};
+
+struct TransmissionSpec : Filling {
+  std::string record;  // file
+};
+
 struct RunSpec {
   std::string name;
   std::string press, logger;     // files, from the folder of the settings
   std::optional<double> offset;  // s
-  SourceMark mark;
+  // The condition it was made under: all runs state the same ones of these.
+  std::optional<double> load, roughness, speed;  // N, m, m/s
+  std::string direction;
+  std::optional<int> powder;     // position in the list of powders
+  std::optional<double> length;  // m, of this run's compact
+  SourceMark mark = {};
+
+  bool has_condition() const { return load || roughness || speed || powder || !direction.empty(); }
 };
+
+const char* powder_name(int powder);
 
 struct Settings {
   std::filesystem::path file;
@@ -99,7 +160,18 @@ struct Settings {
   AnalysisSpec analysis;
   SimulationSpec simulation;
   WedgeSpec wedge;
+  volts::VoltsSpec volts;
   std::vector<RunSpec> runs;
+  DieSpec die;
+  CompressionSpec compression;
+  std::vector<CurveSpec> curves;
+  GaugesSpec gauges;
+  std::vector<TransmissionSpec> transmissions;
+
+  // With the compact of one run.
+  Settings of_run(const RunSpec& run) const;
+  // Records that fill the die of [die]: no compact on a plate.
+  bool fills_die() const { return !curves.empty() || !transmissions.empty(); }
 };
 
 struct LoadedSettings {

@@ -31,6 +31,11 @@ void make_positive(std::vector<double>& values) {
 
 }  // namespace
 
+std::string name_of_run(const std::filesystem::path& run_folder) {
+  const auto path = std::filesystem::absolute(run_folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 SimulatedCurve read_simulation(const std::filesystem::path& run_folder, const std::string& target) {
   const csv::Table history = csv::read(run_folder / "history.csv");
   const std::string tool = "tool/" + target + "/";
@@ -44,8 +49,7 @@ SimulatedCurve read_simulation(const std::filesystem::path& run_folder, const st
   const std::vector<double> x = series("position_x", "m");
   const std::vector<double> lateral = series("force_x", "N"), normal = series("force_y", "N");
   SimulatedCurve curve;
-  const auto path = std::filesystem::absolute(run_folder).lexically_normal();
-  curve.name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  curve.name = name_of_run(run_folder);
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] == x.front() || normal[i] == 0) continue;
     curve.distance.push_back(std::abs(x[i] - x.front()));

@@ -13,6 +13,9 @@ struct SimulatedCurve {
   std::vector<double> friction;  // -, lateral over normal force on the target
 };
 
+// What a run is called: its folder.
+std::string name_of_run(const std::filesystem::path& run_folder);
+
 // Refused: no history, no such tool, a target that does not move along x.
 SimulatedCurve read_simulation(const std::filesystem::path& run_folder, const std::string& target);
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <span>
 
+#include "engine/portable_math.hpp"
 #include "scenes/language/csv_table.hpp"
+#include "scenes/lever/lab_fit.hpp"
 
 namespace pulvis::wedge {
 namespace {
@@ -15,19 +17,6 @@ constexpr std::size_t fewest_places = 10;  // of a trace, the ends left out
 
 std::vector<double> column(const csv::Table& table, const char* name, const char* unit) {
   return csv::numbers(table, csv::column_at(table, name), unit);
-}
-
-Value mean_of(std::span<const double> y) {
-  const auto n = static_cast<double>(y.size());
-  double mean = 0, squares = 0, neighbours = 0;
-  for (const double v : y) mean += v / n;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    squares += (y[i] - mean) * (y[i] - mean);
-    if (i > 0) neighbours += (y[i] - mean) * (y[i - 1] - mean);
-  }
-  const double r = squares > 0 ? std::clamp(neighbours / squares, 0.0, 0.99) : 0;
-  const double independent = n * (1 - r) / (1 + r);
-  return {mean, std::sqrt(squares / (n - 1) / independent)};
 }
 
 std::vector<Loop> loops_of_figures(const csv::Table& table) {
@@ -64,9 +53,9 @@ std::vector<Loop> loops_of_traces(const csv::Table& table, double skip) {
                   fmt::format("the loop ends after {} places, {} of them at its ends, allowed: at "
                               "least {} others",
                               end - begin, 2 * left_out, fewest_places));
-    const Value f = mean_of(std::span(forth).subspan(begin + left_out, count));
-    const Value b = mean_of(std::span(back).subspan(begin + left_out, count));
-    const double error = 0.5 * std::hypot(*f.error, *b.error);
+    const lab::Mean f = lab::correlated_mean(std::span(forth).subspan(begin + left_out, count));
+    const lab::Mean b = lab::correlated_mean(std::span(back).subspan(begin + left_out, count));
+    const double error = 0.5 * portable::hypot(f.error, b.error);
     loops.push_back({slope[begin], load[begin], 0.5 * (f.value - b.value),
                      0.5 * (f.value + b.value), error, error});
   }

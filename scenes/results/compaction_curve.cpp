@@ -79,6 +79,13 @@ std::vector<std::vector<CompactionSample>> loading(const std::vector<CompactionS
 
 }  // namespace
 
+std::optional<double> wall_friction(const Scene& scene) {
+  const std::optional<DieCell> cell = die_cell(scene);
+  if (!cell) return std::nullopt;
+  const Walls walls = walls_of(scene, *cell);
+  return walls.unlike.empty() ? std::optional(walls.friction) : std::nullopt;
+}
+
 CompactionCurve::CompactionCurve(const Scene& scene)
     : cell_(die_cell(scene)), thickness_(scene.thickness) {
   if (!cell_) return;

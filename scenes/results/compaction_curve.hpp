@@ -38,6 +38,8 @@ class CompactionCurve {
   std::vector<double> punch_pressures() const;  // Pa, top force / (width thickness)
   const std::string& top() const { return top_; }
   const std::string& bottom() const { return bottom_; }
+  const std::string& left() const { return left_; }
+  const std::string& right() const { return right_; }
 
   // What a checkpoint keeps; the rest is the scene's.
   template <class Bytes>
@@ -51,6 +53,9 @@ class CompactionCurve {
   double thickness_ = 0;
   std::vector<CompactionSample> samples_;
 };
+
+// Coefficient at the die's walls; none where there is no die, or no single one.
+std::optional<double> wall_friction(const Scene& scene);
 
 struct TransmissionShare {  // means over a piece of the loading
   double density = 0;

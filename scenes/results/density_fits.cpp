@@ -11,7 +11,6 @@
 namespace pulvis {
 namespace {
 
-constexpr double min_pressure_share = 0.01;
 constexpr double allowed_fall =
     1e-6;  // of the density between samples: round-off of tool positions
 
@@ -91,6 +90,19 @@ std::string unusable(const FitRange& range) {
 
 }  // namespace
 
+FitRange range_between(double first_density, std::span<const double> density,
+                       std::span<const double> pressure, double low, double high) {
+  FitRange range;
+  range.first_density = first_density;
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    if (!(pressure[i] > 0) || pressure[i] < low || pressure[i] > high || density[i] >= 1) continue;
+    range.density.push_back(density[i]);
+    range.pressure.push_back(pressure[i]);
+  }
+  range.unusable = unusable(range);
+  return range;
+}
+
 FitRange fit_range(std::span<const double> density, std::span<const double> pressure) {
   FitRange range;
   const auto finite = [](double value) { return std::isfinite(value); };
@@ -108,13 +120,8 @@ FitRange fit_range(std::span<const double> density, std::span<const double> pres
   if (range.unusable.empty()) range.unusable = too_little(density[last] - density.front());
   if (!range.unusable.empty()) return range;
   const double maximum = std::ranges::max(pressure.first(last + 1));
-  for (std::size_t i = 0; i <= last; ++i) {
-    if (!(maximum > 0) || pressure[i] < min_pressure_share * maximum || density[i] >= 1) continue;
-    range.density.push_back(density[i]);
-    range.pressure.push_back(pressure[i]);
-  }
-  range.unusable = unusable(range);
-  return range;
+  return range_between(density.front(), density.first(last + 1), pressure.first(last + 1),
+                       min_pressure_share * maximum, maximum);
 }
 
 DensityFit fit_heckel(const FitRange& range) {

@@ -43,9 +43,14 @@ struct FitRange {
 
 inline constexpr std::size_t fewest_fit_samples = 8;
 inline constexpr double min_density_change = 1e-3;
+inline constexpr double min_pressure_share = 0.01;  // of the largest
 
 // Of a whole history; pressure in Pa, compression > 0.
 FitRange fit_range(std::span<const double> density, std::span<const double> pressure);
+
+// Of a loading that somebody else has cut out, samples with low <= pressure <= high.
+FitRange range_between(double first_density, std::span<const double> density,
+                       std::span<const double> pressure, double low, double high);
 
 DensityFit fit_heckel(const FitRange& range);
 DensityFit fit_kawakita(const FitRange& range);

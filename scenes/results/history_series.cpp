@@ -14,6 +14,14 @@
 namespace pulvis {
 namespace {
 
+bool is_driven_through_a_spring(const Scene& scene, const ToolSpec& tool) {
+  return std::ranges::any_of(scene.stages, [&](const StageSpec& stage) {
+    return std::ranges::any_of(stage.moves, [&](const MoveSpec& move) {
+      return move.stiffness && &scene.tools[static_cast<std::size_t>(move.tool)] == &tool;
+    });
+  });
+}
+
 bool is_servo_driven(const Scene& scene, const ToolSpec& tool) {
   return std::ranges::any_of(scene.stages, [&](const StageSpec& stage) {
     return std::ranges::any_of(stage.servos, [&](const ServoSpec& servo) {
@@ -42,6 +50,8 @@ class SeriesList {
     add(name + "force_y", "N", "of the particles, on the tool");
     if (is_servo_driven(scene_, tool))
       add(name + "force_asked", "N", "that its servo is to hold now, in the direction it pushes");
+    else if (is_driven_through_a_spring(scene_, tool))
+      add(name + "drive_force", "N", "of its drive's spring and dashpot on it, along its move");
   }
 
   void add_die() {

@@ -281,8 +281,9 @@ struct ToolSpec {
 struct MoveSpec {
   int tool = 0;                      // position in Scene::tools
   Vec2 displacement = Vec2::Zero();  // m, travelled over the stage
-  double ramp =
-      0.1;  // -, share of the stage in which the speed rises smoothly from zero, and falls again at its end
+  double ramp = 0.1;  // -, share of the stage in which the speed rises smoothly, and falls again
+  std::optional<double> stiffness, mass;  // N/m, kg: a drive that gives, moved at its far end
+  double damping = 0;                     // -, of the critical one of both
   SourceMark mark;
 };
 
@@ -301,9 +302,7 @@ struct ServoSpec {                // a tool that holds a force, through one stag
 // What ends a stage before its time is over: one of the three.
 struct UntilSpec {
   std::optional<int> tool;
-  std::optional<double> force;         // N
-  std::optional<double> displacement;  // m
-  std::optional<double> relative_density;
+  std::optional<double> force, displacement, relative_density;  // N, m, -
   SourceMark mark;
 };
 
@@ -325,6 +324,7 @@ struct FrictionSpec {  // overrides ContactSpec::friction for one pair of names 
   std::optional<double> static_coefficient;  // -, before sliding
   std::optional<double> decay_length;    // m, sliding distance in which the difference fades by 1/e
   std::optional<double> shear_strength;  // Pa
+  std::optional<double> rate, reference_speed;  // -, m/s: gains rate ln(1 + v/reference_speed)
   SourceMark mark;
 };
 

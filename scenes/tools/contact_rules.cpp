@@ -15,6 +15,10 @@ ContactRules::Friction friction_of(const Scene& scene, const std::string& a, con
       friction.inv_decay = 1 / *f.decay_length;
     }
     if (f.shear_strength) friction.strength = *f.shear_strength;
+    if (f.rate) {
+      friction.rate = *f.rate;
+      friction.inv_speed = 1 / *f.reference_speed;
+    }
     return friction;
   }
   return {.coefficient = scene.contact.friction};

@@ -57,6 +57,21 @@ double width_of(const Scene& scene, const std::vector<BodySpec>& bodies, const V
   return high - low;
 }
 
+void add_elastic_drives(const Scene& scene, ToolServos& servos) {
+  for (std::size_t s = 0; s < scene.stages.size(); ++s)
+    for (const MoveSpec& move : scene.stages[s].moves) {
+      if (!move.stiffness) continue;
+      const Vec2 direction = move.displacement.normalized();
+      servos.servos.push_back(
+          {.tool = move.tool,
+           .stage = static_cast<int>(s),
+           .direction = {direction.x(), direction.y()},
+           .mass = *move.mass,
+           .damping = 2 * move.damping * std::sqrt(*move.stiffness * *move.mass),
+           .stiffness = *move.stiffness});
+    }
+}
+
 ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) {
   const Powder powder = powder_of(scene, bodies);
   ToolServos servos;
@@ -78,6 +93,7 @@ ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) 
                                .max_speed = spec.max_speed,
                                .tolerance = spec.tolerance});
     }
+  add_elastic_drives(scene, servos);
   return servos;
 }
 
@@ -114,7 +130,11 @@ StageEnds stage_ends(const World& world, const Scene& scene, const std::vector<B
 }
 
 bool has_servos(const Scene& scene) {
-  return std::ranges::any_of(scene.stages, [](const StageSpec& s) { return !s.servos.empty(); });
+  return std::ranges::any_of(scene.stages, [](const StageSpec& s) {
+    return !s.servos.empty() || std::ranges::any_of(s.moves, [](const MoveSpec& move) {
+      return move.stiffness.has_value();
+    });
+  });
 }
 bool has_early_ends(const Scene& scene) {
   return std::ranges::any_of(scene.stages, [](const StageSpec& s) { return s.until.has_value(); });

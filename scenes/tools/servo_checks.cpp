@@ -31,6 +31,8 @@ class ServoChecks {
       if (stage_.servos[i].rate && given(path + ".rise"))
         refuse(path, "rise", "has no effect together with rate, allowed: one of the two");
     }
+    for (std::size_t i = 0; i < stage_.moves.size(); ++i)
+      if (stage_.moves[i].stiffness) elastic(i, fmt::format("{}.move[{}]", path_, i));
     if (stage_.until) until(*stage_.until);
   }
 
@@ -64,6 +66,26 @@ class ServoChecks {
             fmt::format("'{}' is moved along its servo's direction in the same stage, allowed: a "
                         "move across it",
                         tool(servo).name));
+  }
+
+  // A move behind a spring.
+  void elastic(std::size_t number, const std::string& path) {
+    const MoveSpec& move = stage_.moves[number];
+    const ToolSpec& moved = scene_.tools[static_cast<std::size_t>(move.tool)];
+    if (moved.shape == ToolSpec::Shape::constraint)
+      refuse(path, "stiffness",
+             fmt::format("'{}' is a constraint, allowed: a plane or a polyline", moved.name));
+    if (move.displacement.isZero(0))
+      refuse(path, "displacement", "is zero, allowed: a direction for the drive that gives");
+    for (const ServoSpec& servo : stage_.servos)
+      if (servo.tool == move.tool)
+        refuse(
+            path, "stiffness",
+            fmt::format("'{}' has a servo in the same stage, allowed: one of the two", moved.name));
+    for (std::size_t k = 0; k < stage_.moves.size(); ++k)
+      if (k != number && stage_.moves[k].tool == move.tool)
+        refuse(path, "stiffness",
+               fmt::format("'{}' has another move in the same stage, allowed: one", moved.name));
   }
 
   void until(const UntilSpec& until) {

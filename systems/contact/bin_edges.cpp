@@ -102,6 +102,8 @@ void set_row(Row<At> row, const Bodies& bodies, const RowKey& key, const PairLaw
     (*rows.more)(row, More::drop) = law.friction.drop;
     (*rows.more)(row, More::inv_decay) = law.friction.inv_decay;
     (*rows.more)(row, More::strength) = law.friction.strength;
+    (*rows.more)(row, More::rate) = law.friction.rate;
+    (*rows.more)(row, More::inv_speed) = law.friction.inv_speed;
   }
   if (rows.adhesion) {
     using Adhesive = AdhesionLaw<At>;

@@ -90,28 +90,48 @@ template <class At>
   if (c.bonding) motion.gap = select(bonded_lanes(c, two), Lane{} - 1.0, motion.gap);
 }
 
+struct Slip {
+  Lane distance, rate;  // m of the step, m/s
+};
+struct TangentSpring {
+  Lane kappa, inv_kappa;  // Pa/m, of the pass, and its inverse
+};
+
+// What the sliding speed adds to the coefficients.
+template <class At>
+Lane speed_effect(const RowColumns<At>& c, const TwoCandidates<At>& two, const Lane& slip_rate) {
+  using More = FrictionMore<At>;
+  const auto& more = *c.sliding->more;
+  if (more(two[0], More::rate) == 0 && more(two[1], More::rate) == 0) return {};
+  return kernels::rate_effect(abs(slip_rate), at_candidates(more, two, More::rate),
+                              at_candidates(more, two, More::inv_speed));
+}
+
 // Answers of the friction law of two candidates; keeps what sliding has done to those that touch (bits 0 and 1).
 // Of the narrow phase, for which bonded points have no spring to let go; bond_forces asks for none that touch.
 // `share` of kappa: one half where the other particle samples back.
 template <class At>
 kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates<At>& two,
-                                    unsigned touching, double share, const Lane& slip,
-                                    const Lane& pressure, const Lane& kappa,
-                                    const Lane& inv_kappa) {
+                                    unsigned touching, double share, const Slip& slip,
+                                    const Lane& pressure, const TangentSpring& spring) {
   const auto& sliding = *c.sliding;
   Lane before = at_points(sliding.elastic_slip, two);
   if (c.bonding && touching != 0) before = select(bonded_lanes(c, two), Lane{}, before);
   const Lane mu = at_candidates(c.law, two, ContactLaw<At>::friction);
   if (!sliding.more) {
     kernels::Coulomb<Lane> law{mu};
-    return kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
+    return kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
+                                    spring.inv_kappa);
   }
   using More = FrictionMore<At>;
-  kernels::Weakening<Lane> law{mu, at_candidates(*sliding.more, two, More::drop),
+  kernels::Weakening<Lane> law{mu,
+                               at_candidates(*sliding.more, two, More::drop),
                                at_candidates(*sliding.more, two, More::inv_decay),
                                share * at_candidates(*sliding.more, two, More::strength),
-                               at_points(*sliding.lost, two)};
-  const auto friction = kernels::friction_return(before, slip, pressure, law, kappa, inv_kappa);
+                               at_points(*sliding.lost, two),
+                               speed_effect(c, two, slip.rate)};
+  const auto friction = kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
+                                                 spring.inv_kappa);
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0)
       store_points(free_points(c, entry(two, half)), law.lost, half,
@@ -146,13 +166,14 @@ template <class At>
   const PointLaw law{at_points(c.law, two, Law::weight), halves(stiffness[0], stiffness[1]),
                      share * at_candidates(c.law, two, Law::damping),
                      at_candidates(c.law, two, Law::inv_length)};
-  PointForces f =
-      c.sliding ? forces_of(law, m, dt,
-                            [&](const Lane& slip, const Lane& pressure) {
-                              return friction_of(c, two, touching, share, slip, pressure, law.kappa,
-                                                 halves(1 / stiffness[0], 1 / stiffness[1]));
-                            })
-                : forces_of(law, m, dt, Frictionless{});
+  PointForces f = c.sliding
+                      ? forces_of(law, m, dt,
+                                  [&](const Lane& slip, const Lane& pressure) {
+                                    return friction_of(
+                                        c, two, touching, share, Slip{slip, m.slip_rate}, pressure,
+                                        {law.kappa, halves(1 / stiffness[0], 1 / stiffness[1])});
+                                  })
+                      : forces_of(law, m, dt, Frictionless{});
   if (c.adhesion) attract(c, two, m, share * law.weight, f);
   return f;
 }

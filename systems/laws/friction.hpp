@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/lane.hpp"
+#include "systems/laws/elementary.hpp"
 
 namespace pulvis::kernels {
 
@@ -27,6 +28,15 @@ struct Coulomb {
   void slide(T) {}
 };
 
+// What speed does to the coefficient: mu(v) = mu + a ln(1 + v/v_0), the direct effect of rate-dependent friction
+// (Dieterich 1979, Ruina 1983), which is mu at rest. v is the whole relative speed of the last step: that of the
+// tangential spring is small against it once the surfaces slide.
+template <class T>
+T rate_effect(T speed, T rate, T inv_speed) {
+  return rate *
+         each_number(fma(speed, inv_speed, T{} + 1.0), [](double x) { return portable::log(x); });
+}
+
 // Static and dynamic friction: the static part fades as e^(-distance/decay) (backward Euler), and comes back when
 // the surfaces part. No more than the shear strength of the softer surface.
 template <class T>
@@ -36,7 +46,10 @@ struct Weakening {
   T inv_decay;  // 1/m
   T maximum;    // Pa; of one pass
   T lost;       // share of the static part that has faded
-  T strength(T pressure) const { return min(fma(drop, 1.0 - lost, mu) * pressure, maximum); }
+  T by_speed;   // what the speed adds to the coefficient
+  T strength(T pressure) const {
+    return min(max(fma(drop, 1.0 - lost, mu) + by_speed, T{}) * pressure, maximum);
+  }
   void slide(T distance) { lost = 1.0 - (1.0 - lost) / fma(distance, inv_decay, T{} + 1.0); }
 };
 

@@ -78,4 +78,19 @@ inline ServoState servo_step(const ServoState& s, double missing, double damping
   return {s.mass, next, s.dragged + through * h / m * (next - s.dragged)};
 }
 
+// ---- a drive that gives ---------------------------------------------------------------------------------
+// A tool X of mass M behind a spring k and a dashpot c whose far end D moves as its programme says:
+//   M dV/dt = k (D - X) + c (U - V) - F,   U = dD/dt
+// by the leapfrog, the dashpot implicit:
+//   V+ = V + h/M (k (D - X)_n + c (U+ - V+) - F_n)
+// Stable as above, with k among what touches the tool.
+struct ElasticDrive {
+  double mass, stiffness, damping;  // kg, N/m, N s/m
+};
+inline double elastic_speed(const ElasticDrive& drive, double speed, double behind,
+                            double end_speed, double borne, double h) {
+  return (drive.mass * speed + h * (drive.stiffness * behind - borne + drive.damping * end_speed)) /
+         (drive.mass + drive.damping * h);
+}
+
 }  // namespace pulvis::kernels

@@ -42,6 +42,7 @@ struct tool_servo {
   Read<ContactRules> rules;
   Write<ToolServos> servos;
   struct Drive {
+    Read<ServoTravel> travel;
     Write<ServoMass> mass;
     Write<ServoVelocity> velocity;
     Write<ServoDragged> dragged;

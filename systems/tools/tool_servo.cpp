@@ -2,8 +2,8 @@
 //
 // Source   systems/tools/servo_kernel.hpp
 // Runs     after tool_reaction; tool_motion adds the displacement in the next step
-// Active   when a stage of the scene has a servo
-// Watches  that the force is held when its stage ends
+// Active   when a stage of the scene has a servo, or a drive that gives
+// Watches  that the force is held when its stage ends; that the mass on a spring is large enough for the time step
 #include <fmt/format.h>
 
 #include <cmath>
@@ -42,6 +42,7 @@ const Servo* servo_of(const ToolServos& servos, int tool, std::size_t stage) {
 }
 
 void check_held(const Servo& servo, const ToolProgram& program, const Clock& clock, double force) {
+  if (!servo.holds_force()) return;
   if (std::abs(force - servo.force) <= servo.tolerance * std::abs(servo.force)) return;
   throw RunFailure(fmt::format(
       "tool_servo: '{}' bears {:.6g} N at the end of stage '{}', step {}, t = {:.6g} s; asked for "
@@ -71,6 +72,36 @@ double asked_for(const Servo& servo, double at_begin, double since) {
   return at_begin + share * (servo.force - at_begin);
 }
 
+// Speed of the drive's far end along its direction between two times.
+double end_speed(const ToolProgram& program, const Servo& servo, double from, double until) {
+  if (!(until > from)) return 0;
+  const Point a = tool_position_at(program, servo.tool, from);
+  const Point b = tool_position_at(program, servo.tool, until);
+  return ((b[0] - a[0]) * servo.direction[0] + (b[1] - a[1]) * servo.direction[1]) / (until - from);
+}
+
+// The next step of a tool behind a spring; the velocity that is kept is the one relative to the drive's far end.
+void follow(const Servo& servo, Row<Tool> tool, const Clock& clock, const ToolProgram& program,
+            const tool_servo::Drive& drive, double bears) {
+  const double before = end_speed(program, servo, clock.time - clock.dt_before, clock.time);
+  const double next = end_speed(program, servo, clock.time, clock.time + clock.dt);
+  const double behind = -along(drive.travel, tool, servo.direction);
+  const double slower = -along(drive.velocity, tool, servo.direction);
+  drive.asked(tool, 0) = servo.stiffness * behind + servo.damping * slower;
+  const double speed =
+      kernels::elastic_speed({servo.mass, servo.stiffness, servo.damping}, before - slower, behind,
+                             next, bears, 0.5 * (clock.dt_before + clock.dt));
+  set_along(drive.velocity, tool, servo.direction, speed - next);
+}
+
+void check_mass(const Servo& servo, const ToolProgram& program, const Clock& clock, double needed) {
+  if (servo.mass >= needed) return;
+  throw RunFailure(fmt::format(
+      "tool_servo: the mass of '{}' behind its drive is {:.4g} kg, step {}, t = {:.6g} s; allowed: "
+      "at least {:.4g} kg with what touches it, or a smaller time step",
+      entry(program.names, servo.tool), servo.mass, clock.step, clock.time, needed));
+}
+
 }  // namespace
 
 void tool_servo::operator()() const {
@@ -86,6 +117,13 @@ void tool_servo::operator()() const {
       continue;
     }
     const double bears = borne(*servo, force);
+    if (!servo->holds_force()) {
+      kernels::TouchSums sums = touching(t, rows, law, rules->stiffest_weld());
+      sums.stiffness += servo->stiffness;
+      check_mass(*servo, *program, *clock, kernels::min_tool_mass(sums, clock->dt, clock->safety));
+      follow(*servo, tool, *clock, *program, drive, bears);
+      continue;
+    }
     if (new_stage) drive.asked(tool, 1) = bears;
     if (new_stage && last == nullptr) drive.mass(tool) = servo->mass;
     drive.asked(tool, 0) =

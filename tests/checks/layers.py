@@ -45,15 +45,20 @@ ROOMS = {
         "lever": "lever/mesh spec language",
         "checks": "lever meshes packing tools results outlines spec language",
         "": "checks grains keys lever lever/mesh meshes packing tools results outlines spec language",
-        "records": "lever keys spec language /",
+        "volts": "lever keys outlines spec language",
+        "records": "lever volts keys results spec language /",
         "study": "checks results keys spec language /",
         "probe": "keys spec language /",
+        "fit": "records keys lever outlines packing spec language /",
     },
     "cli": {
         "report": "",
         "study": "report /",
         "probe": "report study /",
-        "": "report",
+        "volts": "report /",
+        "lab": "report volts /",
+        "fit": "lab report study /",
+        "": "report volts",
     },
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms

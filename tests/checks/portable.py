@@ -18,7 +18,7 @@ OTHERS = {"asin", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp2", "ex
           "erf", "erfc", "tgamma", "lgamma", "beta", "riemann_zeta", "legendre", "ellint_1", "ellint_2",
           "cyl_bessel_j", "polar", "arg", "sincos", "complex"}
 TOLD = {  # reductions of records, fits of curves, laws that a result is laid beside, warnings at a run's end
-    "scenes": ("lab_", "wedge_", "study_", "cooper_eaton", "density_fits", "compaction_curve",
+    "scenes": ("lab_", "wedge_", "study_", "cooper_eaton", "density_fits", "density_fit_errors", "compaction_curve",
                "afm_closed_forms", "loop_plateau", "contact_findings"),
 }
 NAMES = "|".join(sorted(OURS | OTHERS))

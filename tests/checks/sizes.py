@@ -22,7 +22,7 @@ SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}
 MOST_LINES = 60
 MOST_PARAMETERS = 8
 MOST_MEMBERS = 8
-KEY_TABLES = re.compile(r"^scenes/(keys|records|study)/declare_\w+\.cpp$")
+KEY_TABLES = re.compile(r"^scenes/(keys|records|study|volts)/declare_\w+\.cpp$")
 
 Function = namedtuple("Function", "file line name lines parameters")
 Record = namedtuple("Record", "file line name members is_system")

@@ -30,6 +30,7 @@
 #include "scenes/records/wedge_records.hpp"
 #include "scenes/study/study_read.hpp"
 #include "scenes/tools/profile_file.hpp"
+#include "scenes/volts/volts_records.hpp"
 
 namespace pulvis::fuzz {
 namespace {
@@ -212,6 +213,13 @@ void record(Input input) {
   refused_or_read([&] { lab::read_press(file, settings); });
   refused_or_read([&] { lab::read_logger(file, settings); });
   if (wedge::holds_loops(file)) refused_or_read([&] { wedge::read_loops(file, 0.1); });
+  refused_or_read([&] { volts::read_loops(file, false, 0.1); });
+  refused_or_read([&] {
+    for (const volts::ForceCurve& curve : volts::read_curves(file, "normal")) try {
+        volts::figures_of(curve, {0.3, 0.25, 0.95, true});
+      } catch (const std::runtime_error&) {
+      }
+  });
 }
 
 void state(Input input) {

@@ -1,4 +1,7 @@
 // Every key of the settings of `reduce`: what it keeps of them does the same again.
+#include "cli/lab/compression_output.hpp"
+#include "cli/lab/die_output.hpp"
+#include "cli/volts/volts_files.hpp"
 #include "cli/wedge_files.hpp"
 #include "plan_checks.hpp"
 #include "scenes/records/lab_reduction.hpp"
@@ -16,12 +19,19 @@ const fs::path records = fs::path(paths::source_dir()) / "scenes" / "lab";
 
 std::string fault_of_settings(const std::string& text, const fs::path&) {
   return fault_in([&] {
-    const auto loaded = lab::load_settings_text(text, records / "case.toml", {});
+    auto loaded = lab::load_settings_text(text, records / "case.toml", {});
     const lab::Settings& settings = loaded.settings;
+    if (settings.volts.wanted()) {
+      loaded.settings.volts.afm.draws = 1000;  // enough to tell whether the settings are fit
+      volts_reduction(loaded);
+      return;
+    }
     if (!settings.wedge.loops.empty()) wedge_reduction(loaded);
+    if (!settings.curves.empty()) compression_output(loaded, {});
+    if (!settings.transmissions.empty()) die_output(loaded, {});
     for (const lab::RunSpec& run : settings.runs)
       lab::reduce(lab::read_press(records / run.press, settings),
-                  lab::read_logger(records / run.logger, settings), settings,
+                  lab::read_logger(records / run.logger, settings), settings.of_run(run),
                   {run.name, run.press, run.logger, run.offset});
   });
 }
@@ -46,14 +56,16 @@ class SettingsKeys : public ProgramTest, public ::testing::WithParamInterface<Ca
 
 TEST_P(SettingsKeys, GoThroughSaveAndReduceAgain) {
   for (const auto& entry : fs::directory_iterator(records))
-    if (entry.path().extension() == ".csv") fs::copy(entry.path(), place / entry.path().filename());
+    if (entry.path().extension() == ".csv" || entry.path().extension() == ".json")
+      fs::copy(entry.path(), place / entry.path().filename());
   std::ofstream(place / "case.toml") << GetParam().text;
   reduce("case.toml", "first");
   for (const auto& entry : fs::directory_iterator(place))
     if (entry.is_regular_file()) fs::remove(entry.path());
   fs::rename(place / "first", place / "moved où ça");
   reduce("moved où ça/reduce.toml", "again");
-  for (const char* file : {"reduce.toml", "curves.csv", "facets.csv"})
+  for (const char* file : {"reduce.toml", "curves.csv", "facets.csv", "friction.csv",
+                           "contributions.csv", "curve-one.csv", "slices.csv", "conditions.csv"})
     EXPECT_EQ(text_of(place / "moved où ça" / file), text_of(place / "again" / file)) << file;
 }
 

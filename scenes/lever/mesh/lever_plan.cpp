@@ -284,17 +284,28 @@ void add_round_foot(PlanMesh& mesh, const FootPlan& foot, int i0, int j0, double
     });
 }
 
-// A grid with the foot in it.
-void add_grid_around(PlanMesh& mesh, int along, int across, const Lines& columns, int row0,
-                     const FootPlan* foot, double tolerance, double coarser, const Place& place) {
-  if (foot == nullptr || !foot->round || !columns.crossed())
-    return add_part(mesh, 0, along, 0, across, tolerance, place);
-  const int n = foot->across(), i0 = columns.foot_begin, i1 = columns.foot_end;
+// A round foot's place in a grid: its first column and row.
+struct FootHole {
+  const FootPlan* foot = nullptr;
+  int column = 0, row = 0;
+  double coarser = 1;
+};
+
+// A grid with a hole for a round foot, and the foot in it.
+void add_grid_around(PlanMesh& mesh, int along, int across, const FootHole& hole, double tolerance,
+                     const Place& place) {
+  if (hole.foot == nullptr) return add_part(mesh, 0, along, 0, across, tolerance, place);
+  const int n = hole.foot->across(), i0 = hole.column, j0 = hole.row;
   add_part(mesh, 0, i0, 0, across, tolerance, place);
-  add_part(mesh, i0, i1, 0, row0, tolerance, place);
-  add_part(mesh, i0, i1, row0 + n, across, tolerance, place);
-  add_part(mesh, i1, along, 0, across, tolerance, place);
-  add_round_foot(mesh, *foot, i0, row0, tolerance, coarser, place);
+  add_part(mesh, i0, i0 + n, 0, j0, tolerance, place);
+  add_part(mesh, i0, i0 + n, j0 + n, across, tolerance, place);
+  add_part(mesh, i0 + n, along, 0, across, tolerance, place);
+  add_round_foot(mesh, *hole.foot, i0, j0, tolerance, hole.coarser, place);
+}
+
+FootHole hole_for(const FootPlan* foot, const Lines& columns, int row, double coarser) {
+  if (foot == nullptr || !foot->round || !columns.crossed()) return {};
+  return {foot, columns.foot_begin, row, coarser};
 }
 
 PlanMesh beam_mesh(const LeverSpec& lever, const FootPlan* foot) {
@@ -304,8 +315,9 @@ PlanMesh beam_mesh(const LeverSpec& lever, const FootPlan* foot) {
     return Vec2(lines.along.at[static_cast<std::size_t>(i)],
                 lines.across.at[static_cast<std::size_t>(j)]);
   };
-  add_grid_around(mesh, lines.along.count(), lines.across.count(), lines.along,
-                  lines.across.foot_begin, foot, 1e-9 * lever.length, lever.coarser, place);
+  add_grid_around(mesh, lines.along.count(), lines.across.count(),
+                  hole_for(foot, lines.along, lines.across.foot_begin, lever.coarser),
+                  1e-9 * lever.length, place);
   return mesh;
 }
 
@@ -318,8 +330,9 @@ PlanMesh v_mesh(const LeverSpec& lever, const FootPlan* foot) {
   const int lower = v.lower.count();
   add_grid(mesh, v.arms.count(), lower, tolerance,
            [&](int i, int k) { return arm_point(v, v.lower, -1, i, lower - k); });
-  add_grid_around(mesh, v.apex.count(), v.rows(), v.apex, lower - v.lower.foot, v.foot, tolerance,
-                  lever.coarser, [&](int i, int j) { return apex_point(v, i, j); });
+  add_grid_around(mesh, v.apex.count(), v.rows(),
+                  hole_for(v.foot, v.apex, lower - v.lower.foot, lever.coarser), tolerance,
+                  [&](int i, int j) { return apex_point(v, i, j); });
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "scenes/lever/adhesion.hpp"
+#include "scenes/lever/afm_curve.hpp"
 #include "systems/lever/probe_contact_kernel.hpp"
 #include "tests/helpers/afm_run.hpp"
 #include "tests/helpers/wrong.hpp"
@@ -114,6 +115,22 @@ double energy(const AdhesiveBall& ball, double a) {
          2 * s * std::pow(a, 3.5) / (3.5 * r) + s * t * a * a / 4;
 }
 
+// Area under the line of no force by the closed form; pull-off and work of adhesion as put in.
+void expect_figures_of(const Scene& scene, const AfmHistory& h, double k) {
+  const AdhesiveBall ball = adhesive_ball(scene);
+  constexpr double step = 2e-11;
+  double area = 0;
+  bool holds = true;
+  for (double z = 5e-8; holds; z -= step)
+    area += step * std::max(-on_spring(ball, k, z, holds), 0.0);
+  const std::vector<ForceCurveFigures> curves = force_curves(scene, h);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].action, 2);
+  EXPECT_NEAR(curves[0].pull_off / pull_off_force(scene), 1, 1e-3);
+  EXPECT_NEAR(curves[0].work / area, 1, 2e-3);
+  EXPECT_NEAR(*curves[0].work_of_adhesion / 0.01, 1, 1e-3);
+}
+
 TEST(Jkr, AForceCurveOfALeverIsTheClosedForm) {
   const Scene scene = shipped_afm("jkr-force-curve.toml");
   AfmSimulation simulation(scene);
@@ -163,6 +180,7 @@ TEST(Jkr, AForceCurveOfALeverIsTheClosedForm) {
   EXPECT_GT(released_in, 0);
   EXPECT_GT(released_out, released_in);
   EXPECT_NEAR(work / (released_in + released_out), 1, 0.005);
+  expect_figures_of(scene, h, k);
 }
 
 // A soft ball on a stiff lever: the force passes its lowest value and comes back before the ball lets go, as a kept

@@ -1,6 +1,8 @@
 // Tips pulled off planes, drawn over bumps and maps.
 #include <cmath>
+#include <numbers>
 
+#include "scenes/lever/afm_curve.hpp"
 #include "scenes/lever/afm_image.hpp"
 #include "tests/helpers/afm_run.hpp"
 
@@ -30,6 +32,18 @@ TEST(ForceCurve, TheTipLeavesWhereTheLeverDrawsWithTheAdhesion) {
   EXPECT_GT(last(h, "energy/released"), 0.8 * stored);
   EXPECT_LT(last(h, "energy/released"), stored);
   EXPECT_NEAR(last(h, "clamp/force_z"), -last(h, "probe/force_z"), 1e-12);
+  const std::vector<ForceCurveFigures> curves = force_curves(scene, h);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].action, 4);  // the first action draws off what has not touched yet
+  EXPECT_NEAR(curves[0].pull_off / 20e-9, 1, 0.005);
+  EXPECT_NEAR(curves[0].work / stored, 1, 0.005);
+  EXPECT_NEAR(*curves[0].work_of_adhesion, curves[0].pull_off / (2 * std::numbers::pi * 20e-9),
+              1e-12);
+}
+
+TEST(ForceCurve, AProgrammeWithoutAPressHasNone) {
+  EXPECT_FALSE(has_force_curve(shipped_afm("raster.toml")));
+  EXPECT_TRUE(has_force_curve(shipped_afm("jkr-force-curve.toml")));
 }
 
 // The tip follows a slope of 0.5 with the force of the formula, from the foot of a bump on.
@@ -59,6 +73,8 @@ TEST(Raster, TheTopographyIsTheSurface) {
   const AfmImage &forth = images[0], &back = images[1];
   EXPECT_EQ(forth.info.name, "action_3/topography_forth");
   ASSERT_EQ(forth.values.size(), 18u);
+  EXPECT_NEAR(forth.spacing.along, 20e-9, 1e-20);
+  EXPECT_NEAR(forth.spacing.across, 20e-9, 1e-20);
   // Without friction the way back is the way forth: a pixel's near end is the last one's far end.
   for (std::size_t line = 0; line < 3; ++line)
     for (std::size_t pixel = 1; pixel < 6; ++pixel)

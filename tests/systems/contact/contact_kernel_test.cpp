@@ -251,7 +251,7 @@ TEST(WeakeningFriction, FallsFromStaticToDynamicAsAnExponential) {
   const double kappa = 3e15, p = 1e8, length = 1e-4, infinite = 1e300;
   double worst[2] = {0, 0};
   for (int fine = 0; fine < 2; ++fine) {
-    Weakening<double> law{0.2, 0.3, 1 / length, infinite, 0};
+    Weakening<double> law{0.2, 0.3, 1 / length, infinite, 0, 0};
     const double step = fine == 0 ? 1e-6 : 1e-7;
     double slip = 0, way = 0;
     for (int i = 0; i < (fine == 0 ? 400 : 4000); ++i) {
@@ -269,7 +269,7 @@ TEST(WeakeningFriction, FallsFromStaticToDynamicAsAnExponential) {
 
 TEST(WeakeningFriction, HoldsWhatIsBelowTheStaticStrength) {
   const double kappa = 3e15, p = 1e8;
-  Weakening<double> law{0.2, 0.3, 1e4, 1e300, 0};
+  Weakening<double> law{0.2, 0.3, 1e4, 1e300, 0, 0};
   const auto f = friction_return(0.0, 0.45 * p / kappa, p, law, kappa, 1 / kappa);
   EXPECT_DOUBLE_EQ(f.traction, -0.45 * p);
   EXPECT_EQ(law.lost, 0);
@@ -278,10 +278,22 @@ TEST(WeakeningFriction, HoldsWhatIsBelowTheStaticStrength) {
 
 TEST(WeakeningFriction, NeverPassesTheShearStrength) {
   const double kappa = 3e15;
-  Weakening<double> law{0.3, 0, 0, 5e7, 0};
+  Weakening<double> law{0.3, 0, 0, 5e7, 0, 0};
   for (const double p : {1e8, 1e9, 1e10}) {
     const auto f = friction_return(0.0, 1.0, p, law, kappa, 1 / kappa);
     EXPECT_DOUBLE_EQ(f.traction, -std::min(0.3 * p, 5e7));
+  }
+}
+
+TEST(RateFriction, AddsALogarithmAndNeverFallsBelowNothing) {
+  const double kappa = 3e15, p = 1e8;
+  EXPECT_EQ(rate_effect(0.0, -0.1, 100.0), 0);
+  EXPECT_NEAR(rate_effect(0.99, 0.02, 100.0), 0.02 * std::log(100.0), 1e-15);
+  for (const double by_speed : {0.05, -0.05, -0.5}) {
+    Weakening<double> law{0.3, 0, 0, 1e300, 0, by_speed};
+    const auto f = friction_return(0.0, 1.0, p, law, kappa, 1 / kappa);
+    EXPECT_DOUBLE_EQ(f.traction, -std::max(0.0, 0.3 + by_speed) * p);
+    EXPECT_GE(f.work, 0);
   }
 }
 

@@ -1,4 +1,8 @@
-#include "cli/reduce.hpp"
+#include "cli/lab/reduce.hpp"
+
+#include "cli/lab/compression_output.hpp"
+#include "cli/lab/die_output.hpp"
+#include "cli/lab/matrix_output.hpp"
 #include "cli/reduction_report.hpp"
 #include "cli/wedge_report.hpp"
 
@@ -9,6 +13,7 @@
 
 #include "cli/reduction_files.hpp"
 #include "cli/tell.hpp"
+#include "cli/volts/volts_report.hpp"
 #include "cli/wedge_files.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
@@ -64,12 +69,13 @@ std::vector<lab::RunSpec> pairs_of(const Paths& records, const lab::Settings& se
                        "every run, in the same order",
                        presses.size(), loggers.size()));
   std::vector<lab::RunSpec> runs;
-  for (std::size_t i = 0; i < presses.size(); ++i)
-    runs.push_back({fmt::format("run-{}", settings.runs.size() + i + 1),
-                    std::filesystem::absolute(presses[i]).string(),
-                    std::filesystem::absolute(loggers[i]).string(),
-                    std::nullopt,
-                    {}});
+  for (std::size_t i = 0; i < presses.size(); ++i) {
+    lab::RunSpec run;
+    run.name = fmt::format("run-{}", settings.runs.size() + i + 1);
+    run.press = std::filesystem::absolute(presses[i]).string();
+    run.logger = std::filesystem::absolute(loggers[i]).string();
+    runs.push_back(run);
+  }
   return runs;
 }
 
@@ -102,6 +108,9 @@ Reduction reduced(const ReduceOptions& options, const Inputs& inputs,
   const lab::Settings& settings = all.loaded.settings;
   std::vector<lab::RunSpec> runs = settings.runs;
   const std::vector<lab::RunSpec> given = pairs_of(inputs.records, settings);
+  if (!given.empty() && !runs.empty() && runs.front().has_condition())
+    refuse(given.front().press, "records",
+           "has no condition, allowed: [[run]] tables alone, each with the condition");
   lab::add_runs(all.loaded, given);
   runs.insert(runs.end(), given.begin(), given.end());
   std::vector<lab::RunFiles> files = files_of(runs, settings.file.parent_path());
@@ -112,8 +121,10 @@ Reduction reduced(const ReduceOptions& options, const Inputs& inputs,
   for (const lab::RunFiles& run : files) {
     all.presses.push_back(lab::read_press(run.press, settings));
     all.loggers.push_back(lab::read_logger(run.logger, settings));
-    all.runs.push_back(lab::reduce(all.presses.back(), all.loggers.back(), settings, run));
+    const lab::Settings own = settings.of_run(runs[all.runs.size()]);
+    all.runs.push_back(lab::reduce(all.presses.back(), all.loggers.back(), own, run));
   }
+  all.specs = runs;
   for (const std::filesystem::path& folder : options.simulations)
     all.simulations.push_back(lab::read_simulation(folder, settings.simulation.target));
   all.over_runs = lab::repeatability(all.runs, settings.analysis.distance_step);
@@ -165,11 +176,47 @@ void print_run(const lab::ReducedRun& run) {
   tell("\n");
 }
 
+ExitCode reduce_volts(const ReduceOptions& options, const Inputs& inputs,
+                      const lab::LoadedSettings& loaded) {
+  if (!inputs.records.empty())
+    refuse(inputs.records.front(), "records",
+           "stands beside settings with afm.loops, allowed: files that the settings name");
+  const VoltsReduction done = volts_reduction(loaded);
+  open_folder(options, volts_files());
+  write_volts(options.folder, done);
+  write_volts_report(options.folder, done);
+  tell("{}results in {}\n", volts_text(done), options.folder.string());
+  return ExitCode::done;
+}
+
+void write_output(const ReduceOptions& options, const LabOutput& output,
+                  const lab::LoadedSettings& loaded) {
+  open_folder(options, output.names());
+  write_lab(options.folder, output, loaded);
+  tell("{}results in {}\n", output.told, options.folder.string());
+}
+
+// Kinds whose records stand in the settings alone.
+std::optional<LabOutput> output_of(const ReduceOptions& options,
+                                   const lab::LoadedSettings& loaded) {
+  if (!loaded.settings.curves.empty()) return compression_output(loaded, options.simulations);
+  if (!loaded.settings.transmissions.empty()) return die_output(loaded, options.simulations);
+  return std::nullopt;
+}
+
 }  // namespace
 
 ExitCode reduce_records(const ReduceOptions& options) {
   const Inputs inputs = sorted_inputs(options.files);
   const lab::LoadedSettings loaded = settings_of(inputs, options.overrides);
+  if (loaded.settings.volts.wanted()) return reduce_volts(options, inputs, loaded);
+  if (const auto output = output_of(options, loaded)) {
+    if (!inputs.records.empty())
+      refuse(inputs.records.front(), "records",
+             "stands beside settings that name their records, allowed: the settings alone");
+    write_output(options, *output, loaded);
+    return ExitCode::done;
+  }
   if (!loaded.settings.wedge.loops.empty()) {
     const WedgeReduction calibrated = wedge_reduction(loaded);
     open_folder(options, {"reduce.toml", "summary.json", "report.html", "facets.csv"});
@@ -179,6 +226,10 @@ ExitCode reduce_records(const ReduceOptions& options) {
     return ExitCode::done;
   }
   const Reduction all = reduced(options, inputs, loaded);
+  if (all.specs.front().has_condition()) {
+    write_output(options, matrix_output(all), all.loaded);
+    return ExitCode::done;
+  }
   open_folder(options, files_of(all));
   write_reduction(options.folder, all);
   write_reduction_report(options.folder, all);

@@ -1,0 +1,33 @@
+#include "cli/fit/fit_options.hpp"
+
+#include "cli/tell.hpp"
+#include "scenes/fit/plate_fit.hpp"
+
+namespace pulvis {
+
+void add_fit(CLI::App& app, FitOptions& options, ExitCode& code) {
+  auto* command = app.add_subcommand(
+      "fit", "find the friction at which a simulated sliding-plate test is a measured one");
+  command->add_option("fit", options.fit, "fit file (TOML), docs/fit.md");
+  command
+      ->add_option("-o,--output", options.folder,
+                   "results folder (default runs/<fit name>); what is finished in it is kept")
+      ->transform(without_detours);
+  command
+      ->add_option("--jobs", options.jobs,
+                   "runs at once, one thread each (default: as many as there are processors)")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--fresh", options.fresh, "run everything again");
+  command->add_option("--reference", options.reference, "print the fit language instead: text")
+      ->check(CLI::IsMember({"text"}));
+  add_overrides(*command, options.overrides, "every run");
+  command->callback([&options, &code] {
+    if (options.fit.empty() && options.reference.empty()) throw CLI::RequiredError("fit");
+    if (options.reference.empty())
+      code = run_fit(options);
+    else
+      tell("{}", plate_fit_reference());
+  });
+}
+
+}  // namespace pulvis

@@ -1,0 +1,11 @@
+// Compression curves of a press: reduced, fitted, and laid over simulations.
+#pragma once
+
+#include "cli/lab/lab_output.hpp"
+
+namespace pulvis {
+
+LabOutput compression_output(const lab::LoadedSettings& loaded,
+                             const std::vector<std::filesystem::path>& simulations);
+
+}  // namespace pulvis

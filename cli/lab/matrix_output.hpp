@@ -1,0 +1,12 @@
+// Sliding-plate tests under a matrix of conditions: means with their intervals, and the effects of the factors.
+#pragma once
+
+#include "cli/lab/lab_output.hpp"
+#include "cli/reduction_files.hpp"
+
+namespace pulvis {
+
+// Of runs that all state their condition.
+LabOutput matrix_output(const Reduction& all);
+
+}  // namespace pulvis

@@ -1,0 +1,42 @@
+// The page of records that are reduced to tables and curves: what stands on it is told by its head, as charts
+// (those of chart.js) and tables. A cell is text, a number, or {value, error, unit}.
+// <body> tells how it went: data-ready, data-charts, or data-error.
+"use strict";
+
+const forPeople = cell => cell.unit !== "1/Pa" ? cell
+  : {value: cell.value * 1e6, error: cell.error === undefined ? undefined : cell.error * 1e6, unit: "1/MPa"};
+
+function cellText(cell) {
+  if (cell === null || cell === undefined) return "–";
+  if (typeof cell === "object") return measured(forPeople(cell), forPeople(cell).unit || "-");
+  return typeof cell === "number" ? digits(cell) : cell;
+}
+
+function placeTable({title, head, rows, note}) {
+  const table = element("table", {className: "figures"}), scroll = element("div", {className: "scroll"}, table);
+  addRow(table, head, true);
+  for (const row of rows) addRow(table, row.map(cellText));
+  const box = element("section", {}, element("h2", {textContent: title}), scroll);
+  if (note) box.append(element("p", {className: "note", textContent: note}));
+  document.getElementById("settings").before(box);
+}
+
+const inColours = line => ({...line, colour: line.isSimulated ? theme().ink : line.colour,
+                            dash: line.isSimulated ? [8, 4] : line.dash});
+
+function main() {
+  const page = JSON.parse(document.getElementById("head").textContent);
+  document.getElementById("lead").textContent = page.lead;
+  document.getElementById("version").textContent = `Version ${page.version} (${page.commit}).`;
+  document.getElementById("settings-text").textContent = page.settings;
+  for (const {title, x, y, lines, note} of page.charts) {
+    const place = card(title);
+    drawChart(place, {x: {...x, values: []}, y, lines: lines.map(inColours)});
+    if (note) place.parentElement.append(element("p", {className: "note", textContent: note}));
+  }
+  page.tables.forEach(placeTable);
+  document.body.dataset.charts = page.charts.length;
+  document.body.dataset.ready = "1";
+}
+
+main();

@@ -1,0 +1,12 @@
+// The page of the way from an AFM's volts to friction.
+#pragma once
+
+#include <filesystem>
+
+#include "cli/volts/volts_files.hpp"
+
+namespace pulvis {
+
+void write_volts_report(const std::filesystem::path& folder, const VoltsReduction& reduction);
+
+}  // namespace pulvis

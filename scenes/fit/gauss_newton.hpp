@@ -1,0 +1,59 @@
+// Few parameters of something that is dear to evaluate, fitted to residuals by Gauss and Newton's method with damping.
+//
+// Source   Levenberg (1944), Marquardt (1963): (J'J + lambda diag(J'J)) d = -J' r; lambda falls by ten with every round that
+//          gains and rises by ten with every one that does not
+// Rounds   a point and, beside it, one more for each parameter, which gives J by differences: all of a round can run at once
+// End      when the next move is a small share of every parameter's step
+#pragma once
+
+#include <Eigen/Dense>
+#include <functional>
+#include <vector>
+
+namespace pulvis {
+
+struct FreeParameter {
+  double start = 0, low = 0, high = 0;
+  double step = 0;  // of the differences
+};
+
+class GaussNewton {
+ public:
+  using Point = std::vector<double>;
+  using Allowed = std::function<bool(const Point&)>;
+  enum class State { going, converged, gave_up };
+
+  // `tolerance`: share of a step. Points that are not allowed are not asked for; `start` is.
+  GaussNewton(std::vector<FreeParameter> parameters, double tolerance, int most_rounds,
+              Allowed is_allowed);
+
+  State state() const { return state_; }
+  int rounds() const { return rounds_; }
+  // The points of this round: the one in question, then one beside it for each parameter.
+  const std::vector<Point>& asks() const { return asks_; }
+  // Residuals of each of them, all of one length.
+  void tell(const std::vector<Eigen::VectorXd>& residuals);
+
+  // The best so far, once told.
+  const Point& best() const { return best_; }
+  const Eigen::VectorXd& residuals() const { return residuals_; }
+  const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+  bool is_at_bound(std::size_t parameter) const;
+
+ private:
+  void ask(const Point& point);
+  void move();
+
+  std::vector<FreeParameter> parameters_;
+  double tolerance_;
+  int most_rounds_, rounds_ = 0;
+  Allowed is_allowed_;
+  State state_ = State::going;
+  std::vector<Point> asks_;
+  double lambda_ = 1e-3;
+  Point best_;
+  Eigen::VectorXd residuals_;
+  Eigen::MatrixXd jacobian_;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,182 @@
+#include "scenes/fit/plate_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/language/csv_table.hpp"
+#include "scenes/lever/lab_fit.hpp"
+#include "scenes/outlines/outline.hpp"
+#include "scenes/packing/place.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr std::size_t fewest_compared = 20;  // samples of a record
+constexpr double certain = 1e6;              // degrees of freedom of a stated uncertainty
+
+double mean_diameter(const Scene& scene) {
+  const std::vector<BodySpec> bodies = place_bodies(scene);
+  double sum = 0;
+  for (const BodySpec& body : bodies) {
+    const auto& outline = scene.particles[static_cast<std::size_t>(body.particle)].outline;
+    sum += std::sqrt(4 * outline_area(outline) / std::numbers::pi);
+  }
+  return sum / static_cast<double>(bodies.size());
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& key,
+                         const std::string& what) {
+  throw SceneError({{file.string(), 1, 1, "", key, what}});
+}
+
+}  // namespace
+
+double static_coefficient(const lab::SimulatedCurve& curve, double within) {
+  double largest = curve.friction.front();
+  for (std::size_t i = 0; i < curve.distance.size() && curve.distance[i] <= within; ++i)
+    largest = std::max(largest, curve.friction[i]);
+  return largest;
+}
+
+double dynamic_coefficient(const lab::SimulatedCurve& curve, double from) {
+  double area = 0, way = 0;
+  for (std::size_t i = 1; i < curve.distance.size(); ++i) {
+    if (curve.distance[i - 1] < from) continue;
+    const double step = curve.distance[i] - curve.distance[i - 1];
+    area += step * (curve.friction[i] + curve.friction[i - 1]) / 2;
+    way += step;
+  }
+  return area / way;
+}
+
+PlateComparison::PlateComparison(const PlateFit& fit)
+    : fit_(fit), simulated_diameter_(mean_diameter(fit.scene)) {
+  const PlateMeasured& m = fit.spec.measured;
+  if (m.record.empty()) return;
+  const csv::Table table = csv::read(fit.file.parent_path() / m.record);
+  const std::vector<double> distance = csv::numbers(table, csv::column_at(table, m.distance), "m");
+  const std::vector<double> friction = csv::numbers(table, csv::column_at(table, m.friction), "");
+  measured_way_ = std::ranges::max(distance);
+  const double scale = m.by_diameters() ? simulated_diameter_ / *m.particle_diameter : 1;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (distance[i] < 0) continue;  // before the plate started
+    distance_.push_back(scale * distance[i]);
+    friction_.push_back(friction[i]);
+  }
+}
+
+void PlateComparison::set_reach(const lab::SimulatedCurve& simulated) {
+  const PlateMeasured& m = fit_.spec.measured;
+  simulated_way_ = simulated.distance.back();
+  until_ = simulated_way_;
+  if (!has_record()) {
+    if (m.dynamic && !(fit_.spec.dynamic_from < 0.95 * simulated_way_))
+      refuse(fit_.file, "fit.dynamic_from",
+             fmt::format("{:.4g} mm, and the simulated target slides {:.4g} mm, allowed: less than "
+                         "95% of that",
+                         fit_.spec.dynamic_from * 1e3, simulated_way_ * 1e3));
+    return;
+  }
+  until_ = std::min({until_, std::ranges::max(distance_), m.until.value_or(until_)});
+  compared_.clear();
+  for (std::size_t i = 0; i < distance_.size(); ++i)
+    if (distance_[i] >= from() && distance_[i] <= until_) compared_.push_back(i);
+  if (compared_.size() < fewest_compared)
+    refuse(fit_.file, "measured.record",
+           fmt::format("{} of its samples lie within {:.4g} and {:.4g} mm, allowed: at least {} "
+                       "where it is compared",
+                       compared_.size(), from() * 1e3, until_ * 1e3, fewest_compared));
+}
+
+Eigen::VectorXd PlateComparison::residuals(const lab::SimulatedCurve& simulated) const {
+  const PlateMeasured& m = fit_.spec.measured;
+  std::vector<double> all;
+  for (const std::size_t i : compared_)
+    all.push_back(
+        (lab::interpolated(simulated.distance, simulated.friction, distance_[i]) - friction_[i]) /
+        m.error.value_or(1));
+  if (m.peak)
+    all.push_back((static_coefficient(simulated, fit_.spec.static_within) - *m.peak) /
+                  *m.peak_error);
+  if (m.dynamic)
+    all.push_back((dynamic_coefficient(simulated, fit_.spec.dynamic_from) - *m.dynamic) /
+                  *m.dynamic_error);
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+std::vector<std::string> PlateComparison::limits() const {
+  const PlateMeasured& m = fit_.spec.measured;
+  std::vector<std::string> told;
+  const double own = simulated_way_ / simulated_diameter_;
+  told.push_back(
+      fmt::format("The simulated target slides {:.4g} mm, {:.2g} of its particles' "
+                  "diameters ({:.4g} mm).",
+                  simulated_way_ * 1e3, own, simulated_diameter_ * 1e3));
+  if (has_record() && m.particle_diameter)
+    told.push_back(fmt::format(
+        "The record is {:.4g} mm long, {:.3g} of its particles' diameters "
+        "({:.4g} mm).",
+        measured_way_ * 1e3, measured_way_ / *m.particle_diameter, *m.particle_diameter * 1e3));
+  if (has_record() && std::ranges::max(distance_) > until_)
+    told.push_back(fmt::format("Not compared: the record beyond {:.4g} mm of the simulated way.",
+                               until_ * 1e3));
+  if (has_record() && from() > 0)
+    told.push_back(fmt::format("Not compared: the first {:.4g} mm.", from() * 1e3));
+  if (own < 1)
+    told.push_back(
+        "No particle of the simulation has passed its own diameter: what the record "
+        "shows by particles that rearrange must not be compared.");
+  if (has_record() && m.particle_diameter && !m.by_diameters()) {
+    const double ratio = simulated_diameter_ / *m.particle_diameter;
+    if (ratio > 2 || ratio < 0.5)
+      told.push_back(
+          fmt::format("Compared at equal distances, while the diameters differ by a "
+                      "factor of {:.3g}: only what slip of the surfaces does may be "
+                      "compared, not what rearrangement does.",
+                      ratio));
+  }
+  if (has_record() && m.by_diameters())
+    told.push_back(
+        "Compared at equal multiples of the diameters: lengths of the surfaces, as a "
+        "decay length, are then those of the simulation, not of the plate.");
+  return told;
+}
+
+std::vector<lab::Measured> PlateComparison::parameters(const std::vector<double>& values,
+                                                       const Eigen::VectorXd& residuals,
+                                                       const Eigen::MatrixXd& jacobian) const {
+  const PlateMeasured& m = fit_.spec.measured;
+  const Eigen::MatrixXd inverse =
+      (jacobian.transpose() * jacobian).completeOrthogonalDecomposition().pseudoInverse();
+  double variance = 1, freedom = certain;
+  const char* source = "stated";
+  if (has_record()) {
+    const auto n = static_cast<double>(residuals.size()), p = static_cast<double>(values.size());
+    const Eigen::Index count = residuals.size();
+    const double squares = residuals.squaredNorm();
+    const double r =
+        squares > 0 ? std::clamp(residuals.head(count - 1).dot(residuals.tail(count - 1)) / squares,
+                                 0.0, 0.99)
+                    : 0;
+    variance = squares / (n - p) * (1 + r) / (1 - r);
+    freedom = std::max(1.0, n * (1 - r) / (1 + r) - p);
+    source = "scatter";
+    if (m.error && variance < 1) variance = 1, freedom = certain, source = "stated";
+  }
+  std::vector<lab::Measured> found;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const SoughtKey& sought = fit_.spec.parameters[k];
+    const auto at = static_cast<Eigen::Index>(k);
+    found.push_back({sought.short_name(),
+                     sought.unit.empty() ? "-" : sought.unit,
+                     values[k],
+                     freedom,
+                     {{source, std::sqrt(variance * std::max(0.0, inverse(at, at)))}}});
+  }
+  return found;
+}
+
+}  // namespace pulvis

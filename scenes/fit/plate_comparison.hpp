@@ -1,0 +1,57 @@
+// A simulated sliding-plate test beside a measured one: where they can be compared, how they differ there, and how sure
+// fitted values are.
+//
+// Compared  samples of the record (or coefficients) at distances that both cover: equal ones, or equal multiples of the
+//           particles' diameters
+// Interval  (J'J)^-1 s^2 (1 + r)/(1 - r), s^2 the mean square of the residuals over n - p, r the correlation of
+//           neighbouring ones; a stated uncertainty counts where it is larger. Student's distribution with n (1 - r)/(1 + r)
+//           - p degrees of freedom; of coefficients alone, the normal one by their stated uncertainties
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "scenes/fit/plate_fit.hpp"
+#include "scenes/records/lab_simulation.hpp"
+#include "scenes/records/lab_uncertainty.hpp"
+
+namespace pulvis {
+
+class PlateComparison {
+ public:
+  // Reads the record; throws SceneError where it is none.
+  explicit PlateComparison(const PlateFit& fit);
+
+  // The first simulated curve decides how far is compared; refused where that is nowhere.
+  void set_reach(const lab::SimulatedCurve& simulated);
+  Eigen::VectorXd residuals(const lab::SimulatedCurve& simulated) const;
+
+  bool has_record() const { return !distance_.empty(); }
+  // The record on the simulation's scale of distances.
+  const std::vector<double>& distance() const { return distance_; }
+  const std::vector<double>& friction() const { return friction_; }
+  double from() const { return fit_.spec.measured.from; }
+  double until() const { return until_; }
+  std::size_t compared() const { return compared_.size(); }
+  double simulated_diameter() const { return simulated_diameter_; }
+
+  // What is not to be compared, and why, a sentence each.
+  std::vector<std::string> limits() const;
+
+  std::vector<lab::Measured> parameters(const std::vector<double>& values,
+                                        const Eigen::VectorXd& residuals,
+                                        const Eigen::MatrixXd& jacobian) const;
+
+ private:
+  const PlateFit& fit_;
+  double simulated_diameter_ = 0;         // m, mean of equal areas
+  double measured_way_ = 0;               // m, as in the record
+  double simulated_way_ = 0, until_ = 0;  // m
+  std::vector<double> distance_, friction_;
+  std::vector<std::size_t> compared_;  // samples of the record
+};
+
+// The largest friction within a distance, and the mean over distance from another on.
+double static_coefficient(const lab::SimulatedCurve& curve, double within);
+double dynamic_coefficient(const lab::SimulatedCurve& curve, double from);
+
+}  // namespace pulvis

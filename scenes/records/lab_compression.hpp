@@ -1,0 +1,62 @@
+// Compression curves reduced: the laws of Heckel, Kawakita and Cooper and Eaton fitted to the loading with intervals,
+// and a simulation laid over.
+//
+// Interval  scatter of the samples about the law (scenes/results/density_fit_errors.hpp), and what one standard
+//           uncertainty of height, mass and compliance changes: the curve is reduced and fitted anew with each
+// Misfit    over the densities that both loadings cover, at evenly spaced ones of them: mean and root mean square of
+//           ln(P_simulated/P_measured); and of the density at equal pressures
+#pragma once
+
+#include <filesystem>
+
+#include "scenes/records/lab_press.hpp"
+#include "scenes/records/lab_statistics.hpp"
+#include "scenes/records/lab_uncertainty.hpp"
+#include "scenes/results/density_fits.hpp"
+
+namespace pulvis::lab {
+
+struct LawFit {
+  DensityFit fit;                    // with the reason where it is not fitted
+  std::vector<Measured> parameters;  // in the order of the fit's
+};
+
+struct ReducedCurve {
+  std::string name;
+  std::filesystem::path press;
+  PressCurve curve;
+  std::optional<Unloading> unloading;
+  FitRange range;
+  std::vector<LawFit> laws;
+};
+
+ReducedCurve reduce_curve(const PressRecord& record, const CurveSpec& spec,
+                          const Settings& settings, const Compliance& machine);
+
+// A parameter of one law over all curves that have it.
+struct OverCurves {
+  std::string law, name, unit;
+  Sample sample;
+};
+std::vector<OverCurves> over_curves(const std::vector<ReducedCurve>& curves);
+
+struct SimulatedCompression {
+  std::string name;
+  std::vector<double> density,
+      pressure;  // of the loading, up to the largest density; density grows
+};
+
+SimulatedCompression read_compression(const std::filesystem::path& run_folder,
+                                      const SimulationSpec& spec);
+
+struct CompressionMisfit {
+  std::string simulation, curve;
+  std::string not_compared;                       // why; empty: it is
+  double from = 0, until = 0;                     // -, densities
+  double log_pressure = 0, rms_log_pressure = 0;  // -
+  double rms_density = 0;                         // -
+};
+
+CompressionMisfit misfit_of(const SimulatedCompression& simulated, const ReducedCurve& measured);
+
+}  // namespace pulvis::lab

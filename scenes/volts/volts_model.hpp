@@ -1,0 +1,102 @@
+// The way from an AFM's volts to friction: one function of all inputs, each with its standard uncertainty.
+//
+// Source   normal force F_n = k_n V/S (S: slope of force curves on a hard surface, V/m of the piezo);
+//          lateral force by loops on slopes (scenes/lever/wedge_calibration.hpp), or by a test probe (Cannara,
+//          Eglin & Carpick 2006): a side contact at the arm h_t turns the test lever by q_t y/h_t, so a radian
+//          gives S_t h_t/q_t volts, times the ratio r of the light; the lever turns by F q h/(k_l h^2), so
+//            F/V = k_l h q_t/(q r S_t h_t)
+//          with q the shares of twist in the lateral displacements
+//          crosstalk c: lateral volts less c times the normal ones
+//          Slopes that disagree by more than they are uncertain: the factor of Birge (1932) on the error of their
+//          mean is an input of its own
+//          sample: friction F = mu (L + A): mu is the slope over the loads, A follows from where the line is
+//          zero; or, of each loop, mu = F/(L + A) with A of the pull-off
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/lever/wedge_calibration.hpp"
+#include "scenes/volts/lever_input.hpp"
+#include "scenes/volts/volts_records.hpp"
+
+namespace pulvis::volts {
+
+struct Input {
+  std::string name;
+  std::string unit;
+  int group = 0;  // of Model::groups: what is drawn together, and told together
+  double value = 0, error = 0;
+};
+
+struct WedgeKnown {  // of the settings of the wedge
+  double adhesion = 0, slope_error = 0, load_error = 0;
+};
+
+struct Measured {
+  Lever lever;
+  Sensitivity hard, sample;       // force curves
+  std::optional<lab::Mean> side;  // V/m, slope of the test probe's side contacts
+  std::optional<lab::Mean> crosstalk;
+  LoopRecord loops;
+  std::optional<LoopRecord> wedge;
+  WedgeKnown known;
+};
+
+// What comes out, by position.
+struct Outcome {
+  double normal = 0, lateral = 0;          // N/V
+  double adhesion = 0;                     // N, pull-off
+  double friction = 0;                     // slope over the loads, or mean of the loops at one load
+  std::optional<double> adhesion_of_line;  // N
+  double friction_of_loops = 0;            // mean of F/(L + A)
+  std::vector<double> friction_of_loop;
+  std::vector<double> load, force;  // N, of the loops
+};
+
+class Model {
+ public:
+  // Throws SceneError where the loops do not say how uncertain they are.
+  Model(const Measured& measured, const VoltsSpec& spec);
+
+  const std::vector<Input>& inputs() const { return inputs_; }
+  const std::vector<std::string>& groups() const { return groups_; }
+  std::vector<double> values() const;  // of all inputs
+
+  // Throws std::runtime_error where the loops on slopes fit no friction.
+  Outcome evaluate(const std::vector<double>& x) const;
+
+ private:
+  struct LoopInputs {
+    std::vector<std::size_t> width, offset;
+  };
+  std::size_t add(const std::string& group, const std::string& name, const char* unit,
+                  const lab::Mean& value);
+  LoopInputs add_loops(const std::string& group, const LoopRecord& record, bool offsets);
+  void add_wedge();
+  void add_test_probe(const VoltsSpec& spec);
+  std::vector<wedge::Loop> loops_on_slopes(const std::vector<double>& x, double normal,
+                                           double crosstalk) const;
+  wedge::Calibration on_slopes(const std::vector<wedge::Loop>& loops) const;
+  double weighted(const wedge::Calibration& calibration) const;
+  void weigh_slopes();
+  double lateral_by_wedge(const std::vector<double>& x, double normal, double crosstalk) const;
+  double lateral_by_probe(const std::vector<double>& x) const;
+  double normal_volts(const LoopRecord& record, const VoltsLoop& loop, double normal) const;
+
+  Measured measured_;
+  LateralMethod lateral_;
+  std::vector<Input> inputs_;
+  std::vector<std::string> groups_;
+  std::map<std::string, std::size_t> at_;  // of single inputs, by name
+  LoopInputs sample_, wedge_;
+  std::map<double, std::size_t> slope_at_;
+  std::vector<double> weights_;  // of the slopes, the same in every draw
+  bool disagree_ = false;
+};
+
+}  // namespace pulvis::volts

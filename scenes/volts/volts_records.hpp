@@ -1,0 +1,49 @@
+// Records of an AFM in volts, as its software exports them (CSV).
+//
+// Force curves   `displacement` of the piezo and `normal` volts, row by row as they were taken: towards the
+//                surface, then back; perhaps `lateral` volts. Where there is a column `curve`, its numbers part
+//                the rows into curves.
+// Side contacts  `displacement` along the sample and `lateral` volts, likewise; the way back may be missing.
+// Loops          as scenes/records/wedge_records.hpp has them, but `load` in volts above the free level or in
+//                newtons, `slope` only on a wedge, and perhaps the normal volts of raw traces (normal_forth,
+//                normal_back, above the free level)
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "scenes/volts/force_curve.hpp"
+
+namespace pulvis::volts {
+
+// `signal`: the column that is taken as the curve's normal signal.
+std::vector<ForceCurve> read_curves(const std::filesystem::path& file, const char* signal);
+
+struct Traces {
+  std::vector<double> position;  // m; the number of the place where the file has none
+  std::vector<double> forth, back;
+};
+
+struct VoltsLoop {
+  double slope = 0;                                      // rad
+  double load = 0;                                       // V or N
+  double half_width = 0, offset = 0;                     // V
+  std::optional<double> half_width_error, offset_error;  // V
+  double normal_half = 0;             // V, half of what the normal signal differs by
+  std::optional<double> normal_mean;  // V
+  Traces traces;                      // of raw ones
+};
+
+struct LoopRecord {
+  std::filesystem::path file;
+  bool load_in_volts = true;
+  bool has_positions = false;
+  std::vector<VoltsLoop> loops;
+};
+
+// `on_slopes`: the column `slope` is needed; otherwise there must be none. `skip`: share of a raw trace that is left
+// out at each end. Throws SceneError with file, line and what is allowed.
+LoopRecord read_loops(const std::filesystem::path& file, bool on_slopes, double skip);
+
+}  // namespace pulvis::volts

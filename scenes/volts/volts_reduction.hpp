@@ -1,0 +1,39 @@
+// The records of an AFM read and taken together: force curves, loops, lever; then friction with its uncertainty.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "scenes/volts/force_curve.hpp"
+#include "scenes/volts/monte_carlo.hpp"
+#include "scenes/volts/volts_model.hpp"
+
+namespace pulvis::volts {
+
+struct CurveSet {
+  std::filesystem::path file;
+  std::vector<ForceCurve> curves;
+  std::vector<CurveFigures> figures;  // of each
+  Sensitivity mean;
+};
+
+struct WedgeLoops {
+  std::filesystem::path file;  // empty: none
+  WedgeKnown known;
+  double skip = 0;
+};
+
+struct Reduced {
+  CurveSet hard;
+  std::optional<CurveSet> sample, side;
+  Measured measured;
+  std::vector<Input> inputs;
+  std::vector<std::string> groups;
+  MonteCarlo result;
+};
+
+// `folder`: that of the settings. Throws SceneError.
+Reduced reduce(const VoltsSpec& spec, const WedgeLoops& wedge, const std::filesystem::path& folder,
+               double confidence);
+
+}  // namespace pulvis::volts

@@ -1,0 +1,66 @@
+// From an AFM's volts to the friction coefficient of a sample: what has to be known beside the records. Declared in
+// declare_volts.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace pulvis::volts {
+
+enum class LateralMethod { wedge, test_probe };
+enum class CrosstalkMethod { force_curves, given, none };
+
+struct AfmSpec {
+  std::string loops;  // file, from the folder of the settings; empty: nothing of this is wanted
+  int lateral = 0;    // LateralMethod
+  double level_error = 0;  // V
+  int draws = 0;
+  int seed = 0;
+};
+
+struct ForceCurvesSpec {
+  std::string hard,
+      sample;  // files; sample empty: adhesion is taken from the curves of the hard surface
+  double piezo_error = 0;      // -
+  double free = 0;             // -, of the displacement to the turning point
+  double from = 0, until = 0;  // -, of the greatest signal
+};
+
+struct LeverSpec {
+  std::string calibration;          // summary.json of a run; empty: the numbers below
+  std::optional<double> k_n;        // N/m
+  std::optional<double> k_n_error;  // -
+  std::optional<double> tilt;       // rad
+  std::optional<double> k_l;        // N/m
+  std::optional<double> k_l_error;  // -
+  std::optional<double> arm;        // m
+  double arm_error = 0;             // -
+  std::optional<double> twist_share;
+};
+
+struct CrosstalkSpec {
+  int method = 0;  // CrosstalkMethod
+  double coefficient = 0, error = 0;
+};
+
+struct TestProbeSpec {
+  std::string contacts;       // file
+  std::optional<double> arm;  // m
+  double arm_error = 0;       // -
+  double twist_share = 0;
+  double intensity_ratio = 0, intensity_error = 0;  // -
+  double piezo_error = 0;
+};
+
+struct VoltsSpec {
+  AfmSpec afm;
+  ForceCurvesSpec force_curves;
+  LeverSpec lever;
+  CrosstalkSpec crosstalk;
+  TestProbeSpec test_probe;
+
+  bool wanted() const { return !afm.loops.empty(); }
+  LateralMethod lateral() const { return static_cast<LateralMethod>(afm.lateral); }
+};
+
+}  // namespace pulvis::volts

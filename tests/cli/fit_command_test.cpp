@@ -1,0 +1,167 @@
+// pulvis fit as a user meets it: a known friction is found again, what was done is kept, and what cannot be compared is
+// said or refused.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "scenes/fit/plate_comparison.hpp"
+#include "tests/helpers/paths.hpp"
+#include "tests/helpers/program.hpp"
+#include "tests/helpers/wrong.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const fs::path sources = paths::source_dir();
+
+// Four discs on a plate.
+const std::string four_discs =
+    "extends = \"" + (sources / "scenes/shear/flat-16.toml").string() + R"("
+remove = ["expect"]
+
+[[packing]]
+kind = "square"
+particle = "disc"
+rows = 2
+columns = 2
+
+[[tool]]
+name = "right"
+point = ["20 mm", "0 mm"]
+
+[[tool]]
+name = "top"
+point = ["0 mm", "20 mm"]
+
+[[stage]]
+name = "load"
+servo = [{ tool = "top", force = "4 kN", rise = 0.8 }]
+
+[[stage]]
+name = "shear"
+servo = [{ tool = "top", force = "4 kN" }]
+
+[[friction]]
+between = ["316L", "target"]
+coefficient = 0.2
+)";
+const std::string one_key = R"(scene = "plate.toml"
+
+[[parameter]]
+key = "friction[0].coefficient"
+start = 0.15
+low = 0.0
+high = 0.5
+step = 0.02
+
+[measured]
+record = "measured.csv"
+from = "1 mm"
+)";
+
+class FitCommand : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("plate.toml", four_discs);
+    write("fit.toml", one_key);
+  }
+  void write(const char* name, const std::string& text) const {
+    std::ofstream(place / name) << text;
+  }
+  // The friction of a run, with noise.
+  void record(const fs::path& run, double noise, double scale = 1) const {
+    const lab::SimulatedCurve curve = lab::read_simulation(run, "target");
+    std::mt19937 source(5);
+    std::normal_distribution<double> normal(0, noise);
+    std::ofstream file(place / "measured.csv");
+    file << "distance [m],friction\n";
+    for (std::size_t i = 0; i < curve.distance.size(); ++i)
+      file << scale * curve.distance[i] << ',' << curve.friction[i] + normal(source) << '\n';
+  }
+  std::string refusal() const {
+    return message_of([&] { PlateComparison(load_plate_fit(place / "fit.toml")); });
+  }
+};
+
+TEST_F(FitCommand, FindsAKnownFrictionAgainAndKeepsItsRuns) {
+  const Words truth{"run",       "plate.toml", "-o",    "truth",
+                    "--threads", "1",          "--set", "friction[0].coefficient=0.23"};
+  ASSERT_EQ(pulvis(truth).code, 0);
+  record(place / "truth", 0.002);
+  const Words words{"fit", "fit.toml", "-o", "fitted", "--jobs", "2"};
+  const Outcome outcome = pulvis(words);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(text_of(place / "fitted/fit.json"));
+  EXPECT_EQ(json["state"], "converged");
+  const double found = json["parameters"][0]["value"], half = json["parameters"][0]["half_width"];
+  EXPECT_NEAR(found, 0.23, half);
+  EXPECT_GT(half, 1e-4);
+  EXPECT_LT(half, 2e-3);
+  EXPECT_NEAR(json["misfit_rms"], 0.002, 0.0005);
+  EXPECT_THAT(outcome.out, HasSubstr("No particle of the simulation has passed its own diameter"));
+  EXPECT_THAT(text_of(place / "fitted/report.html"), HasSubstr("Misfit of all runs"));
+  const Outcome again = pulvis(words);
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.out, HasSubstr("0 to do"));
+  EXPECT_THAT(again.out, Not(HasSubstr("[1/")));
+  EXPECT_EQ(nlohmann::json::parse(text_of(place / "fitted/fit.json")), json);
+  // At equal multiples of the diameters: the same record of particles a hundred times smaller.
+  record(place / "truth", 0.002, 0.01);
+  write("fit.toml", one_key + "compare = \"diameters\"\nparticle_diameter = \"0.1 mm\"\n");
+  const Outcome small = pulvis({"fit", "fit.toml", "-o", "fitted", "--jobs", "2"});
+  EXPECT_EQ(small.code, 0) << small.err;
+  EXPECT_THAT(small.out, HasSubstr("Compared at equal multiples of the diameters"));
+  EXPECT_NEAR(nlohmann::json::parse(text_of(place / "fitted/fit.json"))["parameters"][0]["value"],
+              0.23, half);
+}
+
+TEST_F(FitCommand, RefusesWhatCannotBeSought) {
+  write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n");
+  EXPECT_EQ(refusal(), "");
+  write("fit.toml", one_key + "[fit]\ntarget = \"plate\"\n");
+  EXPECT_THAT(refusal(), HasSubstr("fit.target: the scene has no tool 'plate'"));
+  write("fit.toml", one_key + "static = 0.2\nstatic_error = 0.01\n");
+  EXPECT_THAT(refusal(), HasSubstr("a record and coefficients are given, allowed: one of them"));
+  write("fit.toml", one_key + "compare = \"diameters\"\n");
+  EXPECT_THAT(refusal(), HasSubstr("measured.particle_diameter: is not given, allowed: > 0 m"));
+  std::string other = one_key;
+  other.replace(other.find("coefficient"), 11, "coefficent");
+  write("fit.toml", other);
+  EXPECT_THAT(refusal(), HasSubstr("unknown key"));
+  other = one_key;
+  other.replace(other.find("start = 0.15"), 12, "start = 0.75");
+  write("fit.toml", other);
+  EXPECT_THAT(refusal(), HasSubstr("parameter[0].start: 0.75, allowed: within 0 and 0.5"));
+  EXPECT_EQ(pulvis({"fit", "fit.toml", "-o", "fitted"}).code, 2);
+  EXPECT_FALSE(fs::exists(place / "fitted"));
+}
+
+// Where the record has few samples within the simulated way nothing is compared.
+TEST_F(FitCommand, RefusesARecordThatDoesNotReachTheSimulation) {
+  write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n50,0.2\n");
+  const PlateFit read = load_plate_fit(place / "fit.toml");
+  PlateComparison comparison(read);
+  EXPECT_NEAR(comparison.simulated_diameter(), 10e-3, 1e-5);
+  EXPECT_THAT(message_of([&] {
+                comparison.set_reach({"s", {0, 1e-3, 2e-3}, {0, 0.1, 0.1}});
+              }),
+              HasSubstr("1 of its samples lie within 1 and 2 mm, allowed: at least 20"));
+}
+
+TEST_F(FitCommand, TheShippedFitAndItsReferenceAreWhole) {
+  const PlateFit shipped = load_plate_fit(sources / "scenes/lab/plate-fit.toml");
+  EXPECT_EQ(shipped.spec.parameters.size(), 2u);
+  EXPECT_TRUE(PlateComparison(shipped).has_record());
+  EXPECT_EQ(text_of(sources / "docs/fit.md"), plate_fit_reference());
+}
+
+}  // namespace
+}  // namespace pulvis
