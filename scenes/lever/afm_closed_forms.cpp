@@ -68,12 +68,13 @@ std::vector<ClosedForm> of_beam(const LeverSpec& lever, const MaterialSpec& m, d
                                 double h) {
   const double e = m.youngs_modulus, nu = m.poissons_ratio, w = lever.width, t = lever.thickness;
   std::vector<ClosedForm> forms{
-      {"k_n", "beam, 3EI/L^3", closed_form::beam_normal(e, load_at, w, t)}};
+      {"k_n", "beam", "beam, 3EI/L^3", closed_form::beam_normal(e, load_at, w, t)}};
   if (h == 0) return forms;
   const double twist = closed_form::beam_torsion(e, nu, load_at, w, t, h);
   const double bend = closed_form::beam_lateral_bending(e, load_at, w, t);
-  forms.push_back({"k_l", "torsion alone, GK/(h^2 L)", twist});
-  forms.push_back({"k_l", "torsion and lateral bending, rigid tip", 1 / (1 / twist + 1 / bend)});
+  forms.push_back({"k_l", "torsion", "torsion alone, GK/(h^2 L)", twist});
+  forms.push_back({"k_l", "torsion_and_bending", "torsion and lateral bending, rigid tip",
+                   1 / (1 / twist + 1 / bend)});
   return forms;
 }
 
@@ -85,26 +86,35 @@ std::vector<ClosedForm> of_v(const LeverSpec& lever, const TipSpec& tip, const M
   const closed_form::V v{e, nu, o.inner, w, t, o.half_angle, o.apex - load_at};
   const double noy = closed_form::noy_normal(e, w, t, load_at);
   std::vector<ClosedForm> forms{
-      {"k_n", "Neumeister & Ducker 1994, corrected", closed_form::neumeister_ducker_normal(v)},
-      {"k_n", "Noy 1995", noy},
-      {"k_n", "Sader 1995, parallel beams",
+      {"k_n", "neumeister_ducker", "Neumeister & Ducker 1994, corrected",
+       closed_form::neumeister_ducker_normal(v)},
+      {"k_n", "noy", "Noy 1995", noy},
+      {"k_n", "sader", "Sader 1995, parallel beams",
        closed_form::sader_parallel_beam(e, w, t, load_at, o.base_width, o.half_angle)}};
   if (h == 0) return forms;
   if (v.d > 0)
-    forms.push_back({"k_l", "Neumeister & Ducker 1994, torsion alone",
+    forms.push_back({"k_l", "neumeister_ducker", "Neumeister & Ducker 1994, torsion alone",
                      closed_form::neumeister_ducker_torsion(v, h)});
-  forms.push_back({"k_l", "Noy 1995", closed_form::noy_lateral(noy, nu, o.half_angle, load_at, h)});
+  forms.push_back(
+      {"k_l", "noy", "Noy 1995", closed_form::noy_lateral(noy, nu, o.half_angle, load_at, h)});
   return forms;
 }
 
 }  // namespace
+
+std::vector<ClosedFormId> closed_form_ids(LeverSpec::Shape shape) {
+  if (shape == LeverSpec::Shape::mesh) return {};  // of a drawing, which a mesh has not
+  if (shape == LeverSpec::Shape::beam)
+    return {{"beam", true, false}, {"torsion", false, true}, {"torsion_and_bending", false, true}};
+  return {{"neumeister_ducker", true, true}, {"noy", true, true}, {"sader", true, false}};
+}
 
 std::vector<ClosedForm> closed_forms(const Scene& scene) {
   const LeverSpec& lever = scene.afm->lever;
   const TipSpec& tip = scene.afm->tip;
   const MaterialSpec& m = scene.materials[static_cast<std::size_t>(lever.material)];
   const double h = tip.shape == TipSpec::Shape::none ? 0 : tip_height(tip) + 0.5 * lever.thickness;
-  if (lever.shape == LeverSpec::Shape::mesh) return {};  // of a drawing, which a mesh has not
+  if (lever.shape == LeverSpec::Shape::mesh) return {};
   return lever.shape == LeverSpec::Shape::beam ? of_beam(lever, m, lever.length - tip.set_back, h)
                                                : of_v(lever, tip, m, h);
 }
