@@ -194,21 +194,25 @@ std::vector<Key<StudyExpect>> across_keys() {
 template <class Spec>
 std::vector<Key<Spec>> bound_keys(const std::string& of, const std::string& smallest,
                                   const std::string& largest, Kind kind, const Words& only_for) {
+  const Range range = kind == Kind::number ? within(-1e6, 1e6) : Range{};
   return {
       {{.name = "above",
         .kind = kind,
+        .range = range,
         .only_for = only_for,
         .doc = smallest,
         .fallback_doc = "no such bound"},
        bound_to(&StudyBounds::above)},
       {{.name = "below",
         .kind = kind,
+        .range = range,
         .only_for = only_for,
         .doc = largest,
         .fallback_doc = "no such bound"},
        bound_to(&StudyBounds::below)},
       {{.name = "equals",
         .kind = kind,
+        .range = range,
         .only_for = only_for,
         .doc = "The value that is expected of " + of + ".",
         .fallback_doc = "none"},
@@ -329,7 +333,7 @@ const TableDeclaration<StudyFit>& study_fit() {
     made.keys.insert(made.keys.begin() + 1, more.begin(), more.end());
     const auto bounds =
         bound_keys<StudyFit>("the exponent", "Smallest exponent that will do.",
-                             "Largest exponent that will do.", Kind::bound, "power");
+                             "Largest exponent that will do.", Kind::number, "power");
     made.keys.insert(made.keys.end(), bounds.begin(), bounds.end());
     return made;
   }();

@@ -125,6 +125,9 @@ key = "lever.thickness"
   EXPECT_EQ(run["figures"]["k_l"], run["calibration"]["k_l"]);
   const std::string csv = text_of(results / "study.csv");
   EXPECT_THAT(csv, HasSubstr(",k_n [N/m],k_l [N/m],k_l/k_n [-],"));
+  EXPECT_TRUE(run["figures"].contains("k_l/torsion_and_bending"));
+  for (const auto& figure : run["figures"].items())
+    EXPECT_THAT(csv, HasSubstr("," + figure.key() + " [")) << "is no column";
   EXPECT_EQ(std::ranges::count(text_of(results / "sensitivities.csv"), '\n'), 1 + 3);
   EXPECT_FALSE(fs::exists(results / "strengths.csv"));
 
