@@ -328,10 +328,9 @@ ExitCode complete_programme(const LoadedScene& loaded, const RunOptions& options
   report.outcome = end.done              ? "done"
                    : end.failure.empty() ? "interrupted"
                                          : "failed: " + end.failure;
+  report.figures = afm_figure_values(*report.calibration, report.loops, report.curves);
   if (end.done || !end.failure.empty())
-    report.verdicts =
-        judge(loaded, history, afm_figure_values(*report.calibration, report.loops, report.curves),
-              end.failure, threads);
+    report.verdicts = judge(loaded, history, report.figures, end.failure, threads);
   remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
   write_own(folder / "summary.json", role::run, afm_summary(loaded, report));
   write_report(folder);

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Pictures of a study for papers and slides: every chart of its report, one curve a variation, and its laws of strength.
+"""Pictures of a study for papers and slides: every chart of its report, one curve a variation, and its fitted laws.
 
 usage: study_figures.py STUDY_FOLDER
 
@@ -67,6 +67,31 @@ def draw_porosity(axes, group, factor, label):
               color=marks.get_color())
 
 
+def draw_power(axes, group, factor, label, key_factor):
+    key = np.array([point["key"] for point in group["points"]])
+    marks, = axes.plot(key_factor * key, [factor * point["value"] for point in group["points"]], "o", markersize=4,
+                       label=label)
+    along = np.geomspace(key.min(), key.max(), 60)
+    law = value_of(group, "value") * (along / value_of(group, "at")) ** value_of(group, "exponent")
+    axes.plot(key_factor * along, factor * law, color=marks.get_color())
+
+
+def draw_powers(fit, groups, title):
+    def scale(unit, name):
+        return unit_for("" if unit == "-" else unit,
+                        np.array([point[name] for group in groups for point in group["points"]]))
+    factor, unit = scale(fit["unit"], "value")
+    key_factor, key_unit = scale(fit["key_unit"], "key")
+    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    for group in groups:
+        draw_power(axes, group, factor, f"{group['name']}: exponent {value_of(group, 'exponent'):.3g}", key_factor)
+    axes.set_xlabel(labelled(fit["key"], key_unit))
+    axes.set_ylabel(labelled(fit["series"], unit))
+    axes.set_title(f"{fit['title'].replace('_', ' ')}\n{title}", loc="left")
+    axes.legend(fontsize=8)
+    return figure
+
+
 def plain_ticks(axes):
     """On an axis of less than a decade: numbers instead of powers of ten."""
     for set_formatter in (axes.xaxis.set_major_formatter, axes.xaxis.set_minor_formatter):
@@ -77,6 +102,8 @@ def draw_fit(fit, title):
     groups = [group for group in fit["groups"] if "not_fitted" not in group]
     if not groups:
         return None
+    if fit["law"] == "power":
+        return draw_powers(fit, groups, title)
     factor, unit = unit_for("" if fit["unit"] == "-" else fit["unit"],
                             np.array([point["strength"] for group in groups for point in group["points"]]))
     weibull = fit["law"] == "weibull"

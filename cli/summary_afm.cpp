@@ -137,6 +137,8 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
   for (const FrictionLoop& loop : report.loops) json["loops"].push_back(loop_json(loop));
   for (const ForceCurveFigures& curve : report.curves)
     json["force_curves"].push_back(curve_json(curve));
+  for (const auto& [name, value] : report.figures)
+    if (std::isfinite(value)) json["figures"][name] = value;
   if (report.wedge)
     json["wedge"] = {{"loops", report.loops.size()},
                      {"friction", report.wedge->friction.value},

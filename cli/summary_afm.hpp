@@ -1,6 +1,7 @@
 // summary.json of an AFM run, and the same figures for the terminal.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct AfmReport {
   std::vector<FrictionLoop> loops;
   std::vector<ForceCurveFigures> curves;
   std::optional<wedge::Calibration> wedge;
+  std::map<std::string, double> figures;  // scenes/lever/afm_figures.hpp
   std::vector<Verdict> verdicts;
   std::size_t elements = 0, nodes = 0, increments = 0;
   int threads = 1;

@@ -54,6 +54,14 @@ function figureText(figure) {
 const COLUMNS = [["particles", "particles"], ["steps", "steps"], ["wall_seconds", "computing time"],
                  ["relative_density", "relative density"], ["stress_ratio/axial", "σ axial / σy"],
                  ["stress_ratio/lateral", "σ lateral / σy"], ["top_force_end", "top force"],
+                 ["elements", "elements"], ["increments", "increments"],
+                 ["k_n", "k_n"], ["k_l", "k_l"], ["k_x", "k_x"], ["k_l/k_n", "k_l/k_n"],
+                 ["torsional_stiffness", "torsional stiffness"], ["share_twist", "share of twist"],
+                 ["share_bending", "of lateral bending"], ["share_tip", "of the tip"],
+                 ["invols_normal", "InvOLS normal"], ["invols_lateral", "InvOLS lateral"],
+                 ["loop/load", "load of the loop"], ["loop/half_width", "W"], ["loop/offset", "Δ"],
+                 ["loop/friction", "friction"], ["loop/sensitivity", "sensitivity"],
+                 ["curve/pull_off", "pull-off"], ["curve/work_of_adhesion", "work of adhesion"],
                  ["bottom_force_end", "bottom force"], ["top_force_max", "largest top force"],
                  ["energy_balance_error", "energy balance error"], ["kinetic_ratio", "kinetic ratio"],
                  ["expectations_met", "expectations met"]];
@@ -153,8 +161,21 @@ function porosityPlot(law) {
   return {title: law.title, x: {label: "porosity", unit: "-", values: []}, y: "strength", lines};
 }
 
+function powerPlot(law) {
+  const lines = law.groups.filter(group => group.points.length).map(group => {
+    const x = group.points.map(point => point.key), values = group.points.map(point => point.value);
+    return markedLine(law, group, law.unit, x, values, () => {
+      const [exponent, value, at] = ["exponent", "value", "at"].map(name => parameterOf(group, name));
+      const along = spread(x);
+      return {x: along, values: along.map(key => value * (key / at) ** exponent)};
+    });
+  });
+  return {title: law.title, x: {label: law.key, unit: law.key_unit, values: []}, y: law.series, lines};
+}
+
+const PLOTS = {weibull: weibullPlot, ryshkewitch_duckworth: porosityPlot, power: powerPlot};
 const strengthPlots = head => strengthLaws(head)
-  .map(law => law.law === "weibull" ? weibullPlot(law) : porosityPlot(law))
+  .map(law => PLOTS[law.law](law))
   .filter(plot => plot.lines.length);
 
 function lineData(line, numbers) {

@@ -20,8 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 // Of the study itself.
 void require_own_study(const fs::path& folder, const fs::path& study) {
-  for (const char* const name : {"study.toml", "study.csv", "fits.csv", "strengths.csv",
-                                 "summary.json", "curves.json", "report.html"}) {
+  for (const char* const name :
+       {"study.toml", "study.csv", "fits.csv", "strengths.csv", "sensitivities.csv", "summary.json",
+        "curves.json", "report.html"}) {
     require_another(study, folder / name);
     require_own_or_none(folder / name, role::study);
   }
@@ -43,8 +44,8 @@ ExitCode finish(StudyRunner& runner, const Study& study, const fs::path& folder)
     const StudyResult& result = of(run);
     return result.usable ? std::string() : result.failure;
   };
-  const StudyFindings findings{judge_study(study, series, failed),
-                               fit_study(study, series, failed)};
+  StudyFindings findings{judge_study(study, series, failed), fit_study(study, series, failed)};
+  for (const Verdict& verdict : judge_fits(findings.fits)) findings.verdicts.push_back(verdict);
   const std::vector<Verdict>& verdicts = findings.verdicts;
   write_study(folder, study, results, findings, runner.times());
   if (!findings.fits.empty()) tell("{}", fits_text(findings.fits));

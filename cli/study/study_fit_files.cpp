@@ -24,8 +24,12 @@ bool is_weibull(const FittedLaw& law) { return law.fit->law == StudyFit::Law::we
 Json group_json(const FittedLaw& law, const FittedGroup& group) {
   Json points = Json::array();
   for (const FittedPoint& point : group.points) {
-    points.push_back({{"run", point.run->name}, {"strength", point.strength}});
-    if (!is_weibull(law))
+    points.push_back(
+        {{"run", point.run->name}, {is_power(law) ? "value" : "strength", point.strength}});
+    if (is_power(law)) {
+      points.back()["key"] = point.key;
+      points.back()["local_exponent"] = point.local_exponent;
+    } else if (!is_weibull(law))
       points.back()["porosity"] = point.porosity;
     else if (point.failure_probability > 0)
       points.back()["failure_probability"] = point.failure_probability;
@@ -64,6 +68,8 @@ std::string parameters_text(const std::vector<FittedParameter>& parameters) {
 
 }  // namespace
 
+bool is_power(const FittedLaw& law) { return law.fit->law == StudyFit::Law::power; }
+
 Json fits_json(const std::vector<FittedLaw>& laws) {
   Json list = Json::array();
   for (const FittedLaw& law : laws) {
@@ -72,6 +78,10 @@ Json fits_json(const std::vector<FittedLaw>& laws) {
     list.push_back(
         {{"title", law.title}, {"law", law.law}, {"unit", law.unit}, {"groups", groups}});
     if (!law.size_effect.empty()) list.back()["size_effect"] = parameters_json(law.size_effect);
+    if (!is_power(law)) continue;
+    list.back()["key"] = law.fit->key;
+    list.back()["key_unit"] = law.key_unit;
+    list.back()["series"] = law.fit->series;
   }
   return list;
 }
@@ -97,6 +107,7 @@ std::string strengths_csv(const std::vector<FittedLaw>& laws) {
   for (const FittedLaw& law : laws)
     for (const FittedGroup& group : law.groups)
       for (const FittedPoint& point : group.points) {
+        if (is_power(law)) continue;
         const bool ranked = point.failure_probability > 0;
         text += fmt::format("{},{},{},{},{},{},{},{:.9g},{},{}\n", csv_word(law.title), law.law,
                             csv_word(group.name), csv_word(point.run->name), point.run->scene.seed,
@@ -105,6 +116,20 @@ std::string strengths_csv(const std::vector<FittedLaw>& laws) {
                             point.strength, law.unit,
                             ranked ? fmt::format("{:.9g}", point.failure_probability) : "");
       }
+  return text;
+}
+
+std::string sensitivities_csv(const std::vector<FittedLaw>& laws) {
+  std::string text = "fit,group,run,key,key_value,key_unit,series,value,unit,local_exponent [-]\n";
+  for (const FittedLaw& law : laws)
+    for (const FittedGroup& group : law.groups)
+      for (const FittedPoint& point : group.points)
+        if (is_power(law))
+          text += fmt::format(
+              "{},{},{},{},{:.9g},{},{},{:.9g},{},{}\n", csv_word(law.title), csv_word(group.name),
+              csv_word(point.run->name), csv_word(law.fit->key), point.key, law.key_unit,
+              csv_word(law.fit->series), point.strength, law.unit,
+              group.not_fitted.empty() ? fmt::format("{:.6g}", point.local_exponent) : "");
   return text;
 }
 

@@ -11,8 +11,11 @@
 namespace pulvis {
 
 nlohmann::ordered_json fits_json(const std::vector<FittedLaw>& laws);
-std::string fits_csv(const std::vector<FittedLaw>& laws);       // one row a parameter
-std::string strengths_csv(const std::vector<FittedLaw>& laws);  // one row a run
-std::string fits_text(const std::vector<FittedLaw>& laws);      // one line a group
+std::string fits_csv(const std::vector<FittedLaw>& laws);  // one row a parameter
+std::string strengths_csv(
+    const std::vector<FittedLaw>& laws);  // one row a run, of laws of strength
+std::string sensitivities_csv(const std::vector<FittedLaw>& laws);  // the same, of power laws
+bool is_power(const FittedLaw& law);
+std::string fits_text(const std::vector<FittedLaw>& laws);  // one line a group
 
 }  // namespace pulvis

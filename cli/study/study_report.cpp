@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "cli/report/report_encoding.hpp"
@@ -115,14 +116,16 @@ ReportData page_data(const Study& study, Json head, const std::vector<DrawnCurve
           {{"numbers", encoded(numbers)}}};
 }
 
+// Those without a law are of the same study before it was changed.
 void write_fits(const std::filesystem::path& folder, const std::vector<FittedLaw>& fits) {
-  if (fits.empty()) {  // of the same study before it was changed
-    remove_own(folder / "fits.csv", role::study);
-    remove_own(folder / "strengths.csv", role::study);
-    return;
-  }
-  write_own(folder / "fits.csv", role::study, fits_csv(fits));
-  write_own(folder / "strengths.csv", role::study, strengths_csv(fits));
+  const auto write = [&](const char* name, bool any, const auto& text) {
+    any ? write_own(folder / name, role::study, text(fits))
+        : remove_own(folder / name, role::study);
+  };
+  const auto powers = static_cast<std::size_t>(std::ranges::count_if(fits, is_power));
+  write("fits.csv", !fits.empty(), fits_csv);
+  write("strengths.csv", powers < fits.size(), strengths_csv);
+  write("sensitivities.csv", powers > 0, sensitivities_csv);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "cli/csv_cell.hpp"
 #include "engine/files/hdf5.hpp"
 #include "engine/files/input_file.hpp"
+#include "scenes/checks/expect_checks.hpp"
+#include "scenes/lever/afm_figures.hpp"
 #include "scenes/results/results.hpp"
 #include "scenes/study/study_series.hpp"
 
@@ -107,6 +109,24 @@ void add_transmission(std::vector<Figure>& figures, const StudyResult& result) {
     figures.push_back({std::string("transmission_") + name, "-", number_in(share, name)});
 }
 
+Json afm_figure(const Json& summary, const std::string& name) {
+  return summary.contains("figures") ? number_in(summary["figures"], name.c_str()) : Json();
+}
+
+std::vector<Figure> afm_figures_in(const StudyResult& result) {
+  const Json& s = result.summary;
+  std::vector<Figure> figures{{"outcome", "", text_in(s, "outcome")},
+                              {"expectations_met", "", expectations_met(s)},
+                              {"elements", "", number_in(s, "elements")},
+                              {"increments", "", number_in(s, "increments")},
+                              {"wall_seconds", "s", number_in(s, "wall_seconds")}};
+  for (const SeriesInfo& info : afm_figures_of(result.run->scene))
+    figures.push_back({info.name, info.unit, afm_figure(s, info.name)});
+  figures.push_back({"scene_hash", "", text_in(s, "scene_hash")});
+  figures.push_back({"commit", "", text_in(s, "commit")});
+  return figures;
+}
+
 std::string cell_text(const Json& value) {
   if (value.is_null()) return "";
   if (value.is_string()) return csv_word(value.get<std::string>());
@@ -127,7 +147,10 @@ const std::vector<double>& StudyResult::series(const std::string& name) const {
   const auto known = read_.find(name);
   if (known != read_.end()) return known->second;
   std::vector<double> values;
-  if (std::filesystem::exists(folder / "run.h5")) {
+  if (run->scene.afm && is_figure_of_a_run(name)) {
+    if (const Json figure = afm_figure(summary, name); !figure.is_null())
+      values.push_back(figure.get<double>());
+  } else if (std::filesystem::exists(folder / "run.h5")) {
     const auto file = hdf5::File::open(folder / "run.h5");
     const auto rows = file.contains("/history/time") ? file.shape("/history/time").at(0) : 0;
     const auto history = [&](const std::string& series) {
@@ -160,6 +183,7 @@ void read_result(StudyResult& result) {
 
 std::vector<Figure> figures_of(const StudyResult& result) {
   const Json& s = result.summary;
+  if (result.run->scene.afm) return afm_figures_in(result);
   std::vector<Figure> figures{{"outcome", "", text_in(s, "outcome")},
                               {"expectations_met", "", expectations_met(s)},
                               {"particles", "", number_in(s, "particles")},

@@ -128,6 +128,7 @@ std::vector<ClosedForm> of_beam(const Scene& scene) {
   const char* coated = afm.lever.coating ? ", composite" : "";
   std::vector<ClosedForm> forms{
       {"k_n",
+       "beam",
        std::string(load.tilt == 0 && load.e == 0 ? "beam, 3EI/L^3" : "beam, tilt and offset") +
            coated,
        closed_form::beam_normal(strip, load),
@@ -135,8 +136,9 @@ std::vector<ClosedForm> of_beam(const Scene& scene) {
   if (h == 0) return forms;
   const double twist = closed_form::beam_torsion(strip, load);
   const double bend = closed_form::beam_lateral_bending(strip, load);
-  forms.push_back({"k_l", std::string("torsion alone, GK/(h^2 L)") + coated, twist, {}});
+  forms.push_back({"k_l", "torsion", std::string("torsion alone, GK/(h^2 L)") + coated, twist, {}});
   forms.push_back({"k_l",
+                   "torsion_and_bending",
                    std::string("torsion and lateral bending, rigid tip") + coated,
                    1 / (1 / twist + 1 / bend),
                    {}});
@@ -166,24 +168,31 @@ std::vector<ClosedForm> of_v(const Scene& scene) {
                                  : tip.offset != 0 ? "the tip stands beside the axis"
                                                    : "";
   std::vector<ClosedForm> forms{
-      {"k_n", named("Neumeister & Ducker 1994, corrected"),
+      {"k_n", "neumeister_ducker", named("Neumeister & Ducker 1994, corrected"),
        bending * closed_form::neumeister_ducker_normal(v), not_tilted},
-      {"k_n", named("Noy 1995"), noy, not_tilted},
-      {"k_n", named("Sader 1995, parallel beams"),
+      {"k_n", "noy", named("Noy 1995"), noy, not_tilted},
+      {"k_n", "sader", named("Sader 1995, parallel beams"),
        bending * closed_form::sader_parallel_beam(e, w, t, load_at, o.base_width, o.half_angle),
        not_tilted}};
   if (height_below(*scene.afm) == 0) return forms;
   const double h = height_below(*scene.afm) + coated.twist_axis;
   const std::string not_beside = tip.offset != 0 ? "the tip stands beside the axis" : "";
   if (v.d > 0)
-    forms.push_back({"k_l", named("Neumeister & Ducker 1994, torsion alone"),
+    forms.push_back({"k_l", "neumeister_ducker", named("Neumeister & Ducker 1994, torsion alone"),
                      torsion * closed_form::neumeister_ducker_torsion(v, h), not_beside});
-  forms.push_back({"k_l", named("Noy 1995"),
+  forms.push_back({"k_l", "noy", named("Noy 1995"),
                    closed_form::noy_lateral(noy, nu, o.half_angle, load_at, h), not_beside});
   return forms;
 }
 
 }  // namespace
+
+std::vector<ClosedFormId> closed_form_ids(LeverSpec::Shape shape) {
+  if (shape == LeverSpec::Shape::mesh) return {};  // of a drawing, which a mesh has not
+  if (shape == LeverSpec::Shape::beam)
+    return {{"beam", true, false}, {"torsion", false, true}, {"torsion_and_bending", false, true}};
+  return {{"neumeister_ducker", true, true}, {"noy", true, true}, {"sader", true, false}};
+}
 
 std::vector<ClosedForm> closed_forms(const Scene& scene) {
   using Shape = LeverSpec::Shape;

@@ -17,12 +17,14 @@
 #include <string>
 #include <vector>
 
+#include "scenes/spec/afm_scene.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 
 struct ClosedForm {
   std::string quantity;  // "k_n", "k_l"
+  std::string id;        // "beam", of figures that have it in their names
   std::string name;      // "beam, 3EI/L^3"
   double value = 0;      // N/m
   std::string not_for;   // why it does not apply to this lever; empty: it does
@@ -64,6 +66,13 @@ double noy_lateral(double normal, double nu, double alpha, double l, double h);
 double sader_parallel_beam(double e, double w, double t, double l, double b, double alpha);
 
 }  // namespace closed_form
+
+// Ids of those of a shape, each with the quantities that it gives.
+struct ClosedFormId {
+  std::string id;
+  bool normal, lateral;
+};
+std::vector<ClosedFormId> closed_form_ids(LeverSpec::Shape shape);
 
 // Those that fit the lever's shape; lateral ones only with a tip.
 std::vector<ClosedForm> closed_forms(const Scene& scene);

@@ -30,6 +30,9 @@ const std::vector<Figure>& calibration_figures() {
       {{"k_n", "N/m", "vertical force on the tip's end over its displacement"},
        [](C c) { return c.normal_stiffness; }},
       {{"k_l", "N/m", "the same, lateral"}, [](C c) { return c.lateral_stiffness; }},
+      {{"k_l/k_n", "-", "lateral over normal stiffness"},
+       [](C c) { return c.lateral_stiffness / c.normal_stiffness; }},
+      {{"arm", "m", "h: from the middle plane to the tip's end"}, [](C c) { return c.arm; }},
       {{"k_x", "N/m", "the same, along the lever"}, [](C c) { return c.longitudinal_stiffness; }},
       {{"torsional_stiffness", "N m/rad", "moment of a lateral force over the twist of the foot"},
        [](C c) { return c.torsional_stiffness; }},
@@ -88,6 +91,31 @@ const std::vector<CurveFigure>& curve_figures() {
   return all;
 }
 
+// What stands beside the closed forms of a lever's shape.
+void add_closed_form_figures(std::vector<SeriesInfo>& all, LeverSpec::Shape shape) {
+  for (const ClosedFormId& form : closed_form_ids(shape)) {
+    for (const auto& [quantity, has] : {std::pair{"k_n", form.normal}, {"k_l", form.lateral}}) {
+      if (!has) continue;
+      all.push_back({"closed/" + form.id + "/" + quantity, "N/m", "by the closed form"});
+      all.push_back({std::string(quantity) + "/" + form.id, "-", "over that of the closed form"});
+    }
+    if (form.normal && form.lateral)
+      all.push_back({"k_l/k_n/" + form.id, "-", "over the closed forms' ratio"});
+  }
+}
+
+void add_closed_form_values(std::map<std::string, double>& values, const Calibration& c) {
+  for (const ClosedForm& form : c.closed_forms) {
+    const bool normal = form.quantity == "k_n";
+    values["closed/" + form.id + "/" + form.quantity] = form.value;
+    values[form.quantity + "/" + form.id] =
+        (normal ? c.normal_stiffness : c.lateral_stiffness) / form.value;
+  }
+  for (const ClosedForm& form : c.closed_forms)  // normal ones come first
+    if (form.quantity == "k_l" && values.contains("k_n/" + form.id))
+      values["k_l/k_n/" + form.id] = values["k_l/" + form.id] / values["k_n/" + form.id];
+}
+
 }  // namespace
 
 std::vector<SeriesInfo> afm_figures() {
@@ -95,13 +123,22 @@ std::vector<SeriesInfo> afm_figures() {
   for (const Figure& figure : calibration_figures()) all.push_back(figure.info);
   for (const LoopFigure& figure : loop_figures()) all.push_back(figure.info);
   for (const CurveFigure& figure : curve_figures()) all.push_back(figure.info);
+  for (const auto shape : {LeverSpec::Shape::beam, LeverSpec::Shape::v})
+    add_closed_form_figures(all, shape);
   return all;
 }
 
 std::vector<SeriesInfo> afm_expectable_series(const Scene& scene) {
   std::vector<SeriesInfo> all =
       scene.afm->actions.empty() ? std::vector<SeriesInfo>{} : afm_series();
+  for (const SeriesInfo& info : afm_figures_of(scene)) all.push_back(info);
+  return all;
+}
+
+std::vector<SeriesInfo> afm_figures_of(const Scene& scene) {
+  std::vector<SeriesInfo> all;
   for (const Figure& figure : calibration_figures()) all.push_back(figure.info);
+  add_closed_form_figures(all, scene.afm->lever.shape);
   bool loops = false;
   for (const ActionSpec& action : scene.afm->actions)
     loops = loops || (action.kind == ActionSpec::Kind::scan && action.back);
@@ -118,6 +155,7 @@ std::map<std::string, double> afm_figure_values(const Calibration& calibration,
   std::map<std::string, double> values;
   for (const Figure& figure : calibration_figures())
     values[figure.info.name] = figure.of(calibration);
+  add_closed_form_values(values, calibration);
   if (!loops.empty())
     for (const LoopFigure& figure : loop_figures())
       values[figure.info.name] = figure.of(loops.back());

@@ -16,7 +16,8 @@ struct ForceCurveFigures;
 
 // Of every AFM run, and of its last friction loop and its last force curve where it has one.
 std::vector<SeriesInfo> afm_figures();
-// Those the scene's run has, and its history where it has a programme.
+std::vector<SeriesInfo> afm_figures_of(const Scene& scene);  // those the scene's run has
+// The same, and its history where it has a programme.
 std::vector<SeriesInfo> afm_expectable_series(const Scene& scene);
 
 std::map<std::string, double> afm_figure_values(const Calibration& calibration,

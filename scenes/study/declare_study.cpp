@@ -7,8 +7,10 @@ namespace {
 
 using Bound = StudyQuantity::Bound;
 
-template <class Spec>
-auto bound_to(std::optional<Bound> Spec::*member) {
+auto bound_to(std::optional<Bound> StudyBounds::*member) {
+  return [member](auto& spec, const Decoded& value) { spec.*member = {value.number, value.text}; };
+}
+auto bound_to(std::optional<Bound> StudyQuantity::*member) {
   return [member](auto& spec, const Decoded& value) { spec.*member = {value.number, value.text}; };
 }
 template <class Spec>
@@ -26,7 +28,7 @@ std::vector<Key<Spec>> quantity_keys(const std::vector<Choice>& when) {
       {{.name = "series",
         .kind = Kind::text,
         .required = true,
-        .doc = "A series of `history.csv`, or one made from it (see above)."},
+        .doc = "A series of `history.csv`, one made from it, or a figure of the run (see above)."},
        text_to(&StudyQuantity::series)},
       {{.name = "at",
         .kind = Kind::bound,
@@ -82,7 +84,11 @@ std::vector<Key<StudyFit>> strength_keys() {
                      "P = 1 - exp(-(strength/scale)^modulus) of the strengths of a variation, one "
                      "a seed, by maximum likelihood"},
                     {"ryshkewitch_duckworth",
-                     "strength = strength_0 exp(-k porosity) over the runs of different density"}},
+                     "strength = strength_0 exp(-k porosity) over the runs of different density"},
+                    {"power",
+                     "value = c key^exponent over the runs that set `key`, those alike in all else "
+                     "that varies; the exponent is d ln(value)/d ln(key), the relative "
+                     "sensitivity"}},
         .required = true,
         .doc = "The law that is fitted."},
        [](StudyFit& fit, const Decoded& value) {
@@ -114,6 +120,12 @@ std::vector<Key<StudyFit>> strength_keys() {
         .doc = "Keys that the study varies: runs in which they are alike are fitted together.",
         .fallback_doc = "all runs are"},
        texts_to(&StudyFit::by)},
+      {{.name = "key",
+        .kind = Kind::text,
+        .required = true,
+        .only_for = "power",
+        .doc = "The key of the scene, of numbers or quantities above 0, that the study varies."},
+       to(&StudyFit::key)},
       {{.name = "title",
         .kind = Kind::text,
         .doc = "Above the chart.",
@@ -178,30 +190,41 @@ std::vector<Key<StudyExpect>> across_keys() {
   };
 }
 
-std::vector<Key<StudyExpect>> bound_keys() {
+// `of` is what the bounds are of; only_for as in KeyInfo.
+template <class Spec>
+std::vector<Key<Spec>> bound_keys(const std::string& of, const std::string& smallest,
+                                  const std::string& largest, Kind kind, const Words& only_for) {
+  const Range range = kind == Kind::number ? within(-1e6, 1e6) : Range{};
   return {
       {{.name = "above",
-        .kind = Kind::bound,
-        .doc = "Smallest value of `of` or `ratio` that will do; a ratio is a number.",
+        .kind = kind,
+        .range = range,
+        .only_for = only_for,
+        .doc = smallest,
         .fallback_doc = "no such bound"},
-       bound_to(&StudyExpect::above)},
+       bound_to(&StudyBounds::above)},
       {{.name = "below",
-        .kind = Kind::bound,
-        .doc = "Largest value of `of` or `ratio` that will do.",
+        .kind = kind,
+        .range = range,
+        .only_for = only_for,
+        .doc = largest,
         .fallback_doc = "no such bound"},
-       bound_to(&StudyExpect::below)},
+       bound_to(&StudyBounds::below)},
       {{.name = "equals",
-        .kind = Kind::bound,
-        .doc = "The value that is expected of `of` or `ratio`.",
+        .kind = kind,
+        .range = range,
+        .only_for = only_for,
+        .doc = "The value that is expected of " + of + ".",
         .fallback_doc = "none"},
-       bound_to(&StudyExpect::equals)},
+       bound_to(&StudyBounds::equals)},
       {{.name = "within",
         .kind = Kind::number,
         .range = within(0, 1e30),
+        .only_for = only_for,
         .needs = "equals",
         .doc = "How far off is near enough: a share of |equals|, in the SI unit where that is 0.",
         .fallback_doc = "required with `equals`"},
-       to(&StudyExpect::within)},
+       [](Spec& spec, const Decoded& value) { spec.within = value.number; }},
   };
 }
 
@@ -284,7 +307,10 @@ const TableDeclaration<StudyExpect>& study_expect() {
          "seeds their mean, and variations are compared by exactly one of `order`, `ratio`, "
          "`effect` or `of`."},
         quantity_keys<StudyExpect>(samples_and_roughness())};
-    for (const auto& more : {across_keys(), bound_keys()})
+    const auto bounds = bound_keys<StudyExpect>(
+        "`of` or `ratio`", "Smallest value of `of` or `ratio` that will do; a ratio is a number.",
+        "Largest value of `of` or `ratio` that will do.", Kind::bound, {});
+    for (const auto& more : {across_keys(), bounds})
       made.keys.insert(made.keys.end(), more.begin(), more.end());
     return made;
   }();
@@ -295,16 +321,20 @@ const TableDeclaration<StudyFit>& study_fit() {
   static const TableDeclaration<StudyFit> declaration = [] {
     TableDeclaration<StudyFit> made{
         {"fit", true, "law",
-         "A law of strength fitted across the runs: its parameters and what they were fitted to "
-         "are "
-         "in the report, in `fits.csv` and in `strengths.csv`. One number is taken of each run "
-         "(`series` with `at` or `when`). A Weibull plot has the probability of failure "
+         "A law fitted across the runs: its parameters and what they were fitted to are in the "
+         "report, in `fits.csv` and in `strengths.csv`, of power laws in `sensitivities.csv`. One "
+         "number is taken of each run (`series` with `at` or `when`), a strength or, for a power "
+         "law, any. A Weibull plot has the probability of failure "
          "P = (i - 0.5)/N of the i-th strength of N; modulus and scale come with limits of 90% "
          "confidence. Of discs of several sizes the weakest link says scale ~ D^(-2/modulus): the "
          "report has the exponent that was found beside it."},
         strength_keys()};
     const auto more = quantity_keys<StudyFit>(samples());
     made.keys.insert(made.keys.begin() + 1, more.begin(), more.end());
+    const auto bounds =
+        bound_keys<StudyFit>("the exponent", "Smallest exponent that will do.",
+                             "Largest exponent that will do.", Kind::number, "power");
+    made.keys.insert(made.keys.end(), bounds.begin(), bounds.end());
     return made;
   }();
   return declaration;

@@ -44,25 +44,29 @@ struct StudyQuantity {  // one number of a run
   std::optional<Bound> at, from, until;  // of `against`
 };
 
-struct StudyExpect : StudyQuantity {  // [[expect]]
+struct StudyBounds {
+  std::optional<ExpectSpec::Bound> above, below, equals;
+  std::optional<double> within;
+};
+
+struct StudyExpect : StudyQuantity, StudyBounds {  // [[expect]]
   enum class Trend { increasing, decreasing };
   std::vector<std::string> order, ratio, effect, exceeds;
   std::optional<Trend> trend;
   double by = 0, factor = 1;
   std::string of;
-  std::optional<Bound> above, below, equals;
-  std::optional<double> within;
   SourceMark mark;
 };
 
-struct StudyFit : StudyQuantity {  // [[fit]], of a strength
-  enum class Law { weibull, ryshkewitch_duckworth };
+struct StudyFit : StudyQuantity, StudyBounds {  // [[fit]], of a strength or a figure
+  enum class Law { weibull, ryshkewitch_duckworth, power };
   std::string title;
   Law law = Law::weibull;
   std::optional<double> area;                // m^2, that the force is divided by
   std::string disc;                          // class of the particle that is crushed
   std::string density = "relative_density";  // series
   std::vector<std::string> by;               // keys whose values divide the runs into groups
+  std::string key;                           // of the scene, whose power law it is
   SourceMark mark;
 };
 

@@ -7,6 +7,7 @@
 
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/study/study_fits.hpp"
+#include "scenes/study/study_power.hpp"
 #include "scenes/study/study_series.hpp"
 
 namespace pulvis {
@@ -75,6 +76,7 @@ class StudyChecks {
     std::vector<std::string> known;
     for (const StudyRun& run : study_.runs) {
       known = names_of(study_series(run.scene));
+      std::erase_if(known, is_figure_of_a_run);  // one number, no curve
       if (std::ranges::find(known, name) != known.end()) return;
     }
     refuse(key, fmt::format("no run has the series '{}'{}, allowed: {}", name,
@@ -91,6 +93,8 @@ class StudyChecks {
     add("tool/top/force_y", "travel/top");
     add("transmission", "relative_density");
     if (study_.spec.curves.empty()) add("energy/external", "time");
+    add("probe/force_y", "scanner/y");
+    add("probe/force_z", "scanner/z");
   }
 
   void expect(StudyExpect& expect) {
@@ -125,7 +129,7 @@ class StudyChecks {
       refuse("exceeds", "allowed: the two variations that `effect` is compared with");
   }
 
-  void one_kind_of_bound(const StudyExpect& expect) {
+  void one_kind_of_bound(const StudyBounds& expect) {
     const bool range = expect.above || expect.below, equals = expect.equals.has_value();
     if (range == equals)
       refuse("", fmt::format("{}, allowed: `above` and `below`, or `equals` with `within`",
@@ -151,7 +155,7 @@ class StudyChecks {
       if (!has_series(expect, *run)) return;
       if (first == nullptr) first = run;
     }
-    if (first != nullptr) units(expect, study_series(first->scene));
+    if (first != nullptr) units(expect, first->scene);
   }
 
   static std::string key_of(const StudyExpect& expect, const std::string& name) {
@@ -168,7 +172,7 @@ class StudyChecks {
   bool has_series(const StudyQuantity& quantity, const StudyRun& run) {
     const std::vector<SeriesInfo> all = study_series(run.scene);
     for (const auto& [key, name] :
-         {std::pair{"series", quantity.series}, {"against", abscissa(quantity)}})
+         {std::pair{"series", quantity.series}, {"against", abscissa(quantity, run.scene)}})
       if (find_series(all, name) == nullptr) {
         const bool said = std::string(key) == "series" || !quantity.against.empty();
         refuse(said ? key : "",
@@ -179,14 +183,23 @@ class StudyChecks {
     return true;
   }
 
-  // Without a place on it the abscissa does not matter; every run has the time.
-  static std::string abscissa(const StudyQuantity& quantity) {
+  // Without a place on it the abscissa does not matter.
+  static std::string abscissa(const StudyQuantity& quantity, const Scene& scene) {
     const bool placed = quantity.at || quantity.from || quantity.until;
-    if (!quantity.against.empty()) return quantity.against;
-    return placed ? "relative_density" : "time";
+    return quantity.against.empty() ? study_abscissa(scene, placed) : quantity.against;
   }
 
-  void place(StudyQuantity& quantity, const std::vector<SeriesInfo>& all) {
+  void place(StudyQuantity& quantity, const Scene& scene) {
+    const std::vector<SeriesInfo> all = study_series(scene);
+    if (is_figure_of_a_run(quantity.series))
+      for (const auto& [key, given] : {std::pair{"when", quantity.when.has_value()},
+                                       {"at", quantity.at.has_value()},
+                                       {"from", quantity.from.has_value()},
+                                       {"until", quantity.until.has_value()}})
+        if (given)
+          refuse(key, fmt::format("has no effect: '{}' is one figure of the whole run, allowed: "
+                                  "`series` alone",
+                                  quantity.series));
     if (quantity.at && quantity.when)
       refuse("when", "has no effect together with `at`, allowed: one of them");
     if (!quantity.against.empty() && !quantity.at && !quantity.from && !quantity.until)
@@ -195,38 +208,71 @@ class StudyChecks {
     if (quantity.at && (quantity.from || quantity.until))
       refuse(quantity.from ? "from" : "until",
              "has no effect together with `at`, allowed: with `when`");
-    quantity.against = abscissa(quantity);
+    quantity.against = abscissa(quantity, scene);
     const std::string unit = unit_in(all, quantity.against);
     convert(quantity.at, "at", unit);
     convert(quantity.from, "from", unit);
     convert(quantity.until, "until", unit);
   }
 
-  void units(StudyExpect& expect, const std::vector<SeriesInfo>& all) {
-    place(expect, all);
+  void units(StudyExpect& expect, const Scene& scene) {
+    place(expect, scene);
+    const std::vector<SeriesInfo> all = study_series(scene);
     const bool share = expect.of.empty() || expect.when == StudyExpect::When::roughness;
     const std::string unit = share ? "-" : unit_in(all, expect.series);
-    convert(expect.above, "above", unit);
-    convert(expect.below, "below", unit);
-    convert(expect.equals, "equals", unit);
-    if (expect.above && expect.below && expect.above->number > expect.below->number)
+    bounds(expect, unit);
+  }
+
+  void bounds(StudyBounds& given, const std::string& unit) {
+    convert(given.above, "above", unit);
+    convert(given.below, "below", unit);
+    convert(given.equals, "equals", unit);
+    if (given.above && given.below && given.above->number > given.below->number)
       refuse("above", "is above the other bound, allowed: above <= below");
   }
 
   void fit(StudyFit& fit) {
+    const bool power = fit.law == StudyFit::Law::power;
+    const StudyRun* first = nullptr;
     for (const StudyRun& run : study_.runs) {
+      if (power && !sets_key(run, fit.key)) continue;
       if (!has_series(fit, run) || !fits_run(fit, run)) return;
+      if (first == nullptr) first = &run;
     }
-    const std::vector<SeriesInfo> all = study_series(study_.runs.front().scene);
+    if (first == nullptr) return varied("key", fit.key);
+    const std::vector<SeriesInfo> all = study_series(first->scene);
+    if (power) this->power(fit);
     if (fit.area && !fit.disc.empty())
       refuse("disc", "has no effect together with `area`, allowed: one of them");
     if ((fit.area || !fit.disc.empty()) && unit_in(all, fit.series) != "N")
       refuse("series", fmt::format("'{}' is no force, allowed: a series in N, which `{}` makes a "
                                    "strength",
                                    fit.series, fit.area ? "area" : "disc"));
-    for (const std::string& key : fit.by) varied(key);
+    for (const std::string& key : fit.by) varied("by", key);
     enough(fit);
-    place(fit, all);
+    place(fit, first->scene);
+  }
+
+  void power(StudyFit& fit) {
+    bounds(fit, "-");
+    if (fit.above || fit.below || fit.equals) one_kind_of_bound(fit);
+    std::set<std::pair<std::string, double>> met;
+    for (const FitRuns& group : groups_of(study_, fit))
+      for (const StudyRun* run : group.runs) {
+        const std::optional<double> number = number_of_key(*run, fit.key);
+        if (!number || !(*number > 0)) {
+          refuse("key", fmt::format("'{}' is no number above 0 in a run of '{}', allowed: a key "
+                                    "whose values are numbers or quantities above 0",
+                                    fit.key, run->variation));
+          return;
+        }
+        if (!met.emplace(group.name, *number).second) {
+          refuse("key", fmt::format("'{}' has the same value in two runs of '{}', allowed: "
+                                    "different ones, without `seeds`",
+                                    fit.key, group.name));
+          return;
+        }
+      }
   }
 
   // What a fit needs of every run besides the series.
@@ -252,14 +298,14 @@ class StudyChecks {
     return false;
   }
 
-  void varied(const std::string& key) {
+  void varied(const std::string& where, const std::string& key) {
     std::vector<std::string> known;
     for (const StudyRun& run : study_.runs)
       for (const StudySetting& setting : run.varied)
         if (std::ranges::find(known, setting.path) == known.end()) known.push_back(setting.path);
     if (std::ranges::find(known, key) == known.end())
-      refuse("by", fmt::format("the study does not vary '{}'{}, allowed: {}", key,
-                               suggestion(key, known), listed(known)));
+      refuse(where, fmt::format("the study does not vary '{}'{}, allowed: {}", key,
+                                suggestion(key, known), listed(known)));
   }
 
   void enough(const StudyFit& fit) {

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
 #include <variant>
 
 #include "scenes/study/study_porosity.hpp"
+#include "scenes/study/study_power.hpp"
 #include "scenes/study/study_series.hpp"
 #include "scenes/study/study_weibull.hpp"
 
@@ -31,6 +33,24 @@ std::string group_name(const StudyRun& run, const std::vector<std::string>& by) 
   }
   return by.empty() ? "all runs" : fmt::format("{}", fmt::join(parts, ","));
 }
+
+// What tells the run from the others but for `key`.
+std::string group_without(const Study& study, const StudyRun& run, const std::string& key) {
+  std::vector<std::string> parts;
+  const auto other = [&](const StudyRun& one) { return one.file != run.file; };
+  if (std::ranges::any_of(study.runs, other)) parts.push_back(run.file.stem().string());
+  for (std::size_t i = 0; i < run.varied.size(); ++i) {
+    const std::string& path = run.varied[i].path;
+    const auto same = [&](const StudySetting& later) { return later.path == path; };
+    const auto rest = run.varied.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    if (path != key && std::none_of(rest, run.varied.end(), same))
+      parts.push_back(run.varied[i].text());
+  }
+  return parts.empty() ? "all runs" : fmt::format("{}", fmt::join(parts, ","));
+}
+
+constexpr std::array law_words{"weibull", "ryshkewitch_duckworth", "power"};
+constexpr std::array law_titles{"Weibull's law", "Ryshkewitch and Duckworth", "Power law"};
 
 std::string unit_of_series(const Scene& scene, const std::string& name) {
   for (const SeriesInfo& info : study_series(scene))
@@ -62,20 +82,23 @@ class StudyFitter {
       : study_(study), series_(series), failed_(failed), fit_(fit) {}
 
   FittedLaw fitted() {
-    const bool weibull = fit_.law == Law::weibull;
+    const bool weibull = fit_.law == Law::weibull, power = fit_.law == Law::power;
+    const auto which = static_cast<std::size_t>(fit_.law);
     FittedLaw law;
     law.fit = &fit_;
-    law.law = weibull ? "weibull" : "ryshkewitch_duckworth";
+    law.law = law_words[which];
+    if (power) law.key_unit = unit_of_key(fit_.key);
     const bool over_area = fit_.area || !fit_.disc.empty();
     law.unit = over_area ? "Pa" : unit_of_series(study_.runs.front().scene, fit_.series);
-    law.title = !fit_.title.empty()
-                    ? fit_.title
-                    : fmt::format("{}: {}", weibull ? "Weibull's law" : "Ryshkewitch and Duckworth",
-                                  words_of(fit_));
+    law.title =
+        !fit_.title.empty() ? fit_.title : fmt::format("{}: {}", law_titles[which], words_of(fit_));
+    if (power && fit_.title.empty()) law.title += " against " + fit_.key;
     for (const FitRuns& runs : groups_of(study_, fit_)) {
       FittedGroup group = measured(runs);
       if (group.not_fitted.empty())
-        weibull ? weibull_of(group, law.unit) : porosity_of(group, law.unit);
+        weibull ? weibull_of(group, law.unit)
+        : power ? power_of(group, law)
+                : porosity_of(group, law.unit);
       law.groups.push_back(std::move(group));
     }
     if (weibull && !fit_.disc.empty()) size_effect(law);
@@ -83,6 +106,8 @@ class StudyFitter {
   }
 
  private:
+  bool power() const { return fit_.law == Law::power; }
+
   FittedGroup measured(const FitRuns& runs) const {
     FittedGroup group;
     group.name = runs.name;
@@ -94,8 +119,9 @@ class StudyFitter {
       else if (!std::isfinite(point.strength))
         group.not_fitted = fmt::format("{} has no such value: it does not get there", run->name);
       else if (!(point.strength > 0))
-        group.not_fitted = fmt::format("{:.4g} of {} is no strength: only numbers above 0 are",
-                                       point.strength, run->name);
+        group.not_fitted =
+            fmt::format("{:.4g} of {} {}: only numbers above 0 {}", point.strength, run->name,
+                        power() ? "has no power law" : "is no strength", power() ? "have" : "are");
       else
         group.points.push_back(point);
     }
@@ -108,6 +134,10 @@ class StudyFitter {
     point.strength = figure_of(fit_, series_(run, fit_.against), series_(run, fit_.series)) /
                      area_of(fit_, run.scene);
     if (fit_.law == Law::weibull) return point;
+    if (power()) {
+      point.key = number_of_key(run, fit_.key).value();
+      return point;
+    }
     double density = 0;
     for (const double value : series_(run, fit_.density))
       if (value > density) density = value;
@@ -148,6 +178,21 @@ class StudyFitter {
                         {"r_squared", "-", found.r_squared, {}, {}}};
   }
 
+  void power_of(FittedGroup& group, const FittedLaw& law) const {
+    std::ranges::stable_sort(group.points, {}, &FittedPoint::key);
+    std::vector<double> key;
+    for (const FittedPoint& point : group.points) key.push_back(point.key);
+    const std::vector<double> values = strengths_of(group);
+    const PowerFit found = fit_power(key, values);
+    const std::vector<double> local = local_exponents(key, values);
+    for (std::size_t i = 0; i < local.size(); ++i) group.points[i].local_exponent = local[i];
+    group.parameters = {{"exponent", "-", found.exponent, {}, {}},
+                        {"value", law.unit, found.value, {}, {}},
+                        {"at", law.key_unit, found.middle, {}, {}}};
+    if (std::isfinite(found.r_squared))
+      group.parameters.push_back({"r_squared", "-", found.r_squared, {}, {}});
+  }
+
   void size_effect(FittedLaw& law) const {
     std::vector<std::vector<double>> samples;
     std::vector<double> diameters;
@@ -176,7 +221,10 @@ class StudyFitter {
 std::vector<FitRuns> groups_of(const Study& study, const StudyFit& fit) {
   std::vector<FitRuns> groups;
   for (const StudyRun& run : study.runs) {
-    const std::string name = fit.law == Law::weibull ? run.variation : group_name(run, fit.by);
+    if (fit.law == Law::power && !sets_key(run, fit.key)) continue;
+    const std::string name = fit.law == Law::weibull ? run.variation
+                             : fit.law == Law::power ? group_without(study, run, fit.key)
+                                                     : group_name(run, fit.by);
     auto group = std::ranges::find(groups, name, &FitRuns::name);
     if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});
     group->runs.push_back(&run);
@@ -184,7 +232,7 @@ std::vector<FitRuns> groups_of(const Study& study, const StudyFit& fit) {
   return groups;
 }
 
-std::size_t fewest_runs(Law law) { return law == Law::weibull ? 5 : 3; }
+std::size_t fewest_runs(Law law) { return law == Law::weibull ? 5 : law == Law::power ? 2 : 3; }
 
 std::optional<double> disc_diameter(const Scene& scene, const std::string& particle) {
   const auto found = std::ranges::find(scene.particles, particle, &ParticleSpec::name);
@@ -199,6 +247,29 @@ std::vector<FittedLaw> fit_study(const Study& study, const SeriesOfRun& series,
   for (const StudyFit& fit : study.spec.fits)
     laws.push_back(StudyFitter(study, series, failed, fit).fitted());
   return laws;
+}
+
+std::vector<Verdict> judge_fits(const std::vector<FittedLaw>& laws) {
+  std::vector<Verdict> verdicts;
+  for (const FittedLaw& law : laws) {
+    const StudyFit& fit = *law.fit;
+    if (!fit.above && !fit.below && !fit.equals) continue;
+    for (const FittedGroup& group : law.groups) {
+      Verdict verdict;
+      verdict.what =
+          fmt::format("exponent of {} against {}, of {}", words_of(fit), fit.key, group.name);
+      const double exponent = group.not_fitted.empty() ? group.parameters.front().value : 0;
+      judge_bounds(verdict, fit, exponent, "");
+      verdict.measured = fmt::format("{:.5g}", exponent);
+      if (!group.not_fitted.empty()) {
+        verdict.value.reset();
+        verdict.measured = group.not_fitted;
+        verdict.met = false;
+      }
+      verdicts.push_back(verdict);
+    }
+  }
+  return verdicts;
 }
 
 }  // namespace pulvis

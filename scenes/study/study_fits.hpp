@@ -1,4 +1,4 @@
-// Laws of strength fitted across the runs of a study.
+// Laws of strength, and power laws of figures, fitted across the runs of a study.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,8 @@ struct FitRuns {  // that are fitted together
   std::vector<const StudyRun*> runs;
 };
 
-// One a variation for Weibull's law; for the other one by the values of `by`, or all runs.
+// One a variation for Weibull's law; for Ryshkewitch and Duckworth's by the values of `by`, or all runs; for a power law
+// those runs that set its key, by their scene and by what else they set.
 std::vector<FitRuns> groups_of(const Study& study, const StudyFit& fit);
 std::size_t fewest_runs(StudyFit::Law law);  // of a group
 
@@ -27,6 +28,8 @@ struct FittedPoint {
   double strength = 0;             // in FittedLaw::unit
   double failure_probability = 0;  // Weibull
   double porosity = 0;             // Ryshkewitch and Duckworth
+  double key = 0;                  // power law, in FittedLaw::key_unit
+  double local_exponent = 0;
 };
 
 struct FittedParameter {
@@ -39,7 +42,7 @@ struct FittedGroup {
   std::string name;
   std::string not_fitted;           // why; empty: it is fitted
   std::optional<double> diameter;   // m, of the disc, where all runs have the same
-  std::vector<FittedPoint> points;  // by rising strength, or porosity
+  std::vector<FittedPoint> points;  // by rising strength, porosity or key
   std::vector<FittedParameter> parameters;
 };
 
@@ -47,7 +50,8 @@ struct FittedLaw {
   const StudyFit* fit = nullptr;
   std::string law;  // "weibull"
   std::string title;
-  std::string unit;  // of the strengths
+  std::string unit;  // of the strengths, or of what the power law is of
+  std::string key_unit;
   std::vector<FittedGroup> groups;
   // The weakest link, where there are discs of different sizes: the modulus that all groups have in common, the
   // exponent -2/modulus of scale against diameter that follows, and the one that was found.
@@ -56,5 +60,8 @@ struct FittedLaw {
 
 std::vector<FittedLaw> fit_study(const Study& study, const SeriesOfRun& series,
                                  const FailureOfRun& failed);
+
+// One verdict a group, of the laws whose exponent has bounds.
+std::vector<Verdict> judge_fits(const std::vector<FittedLaw>& laws);
 
 }  // namespace pulvis

@@ -51,6 +51,24 @@ that is wrong, in the study or in a scene it makes, is refused before the first 
 **Series** are those of `history.csv` and `time`; for every tool `travel/<tool>`, its displacement since the start
 [m]; and in a die of four plane tools `pressure/<tool>`, the force towards the tool over its face [Pa], and
 `transmission`, the bottom punch's force over the top punch's.
+
+Studies of levers (scenes with `family = "afm"`) have the history of the programme, against `actions`, how many are done,
+and the **figures of a run**, one number each, which need no `when`: those that an `[[expect]]` of the scene may name
+(docs/afm.md#studies-of-levers).
+
+```toml
+scene = "../afm/calibration-v.toml"
+
+[grid]
+tip.height = ["2.7 um", "3.7 um", "4.7 um"]
+
+[[fit]]
+law = "power"                          # k_l = c height^exponent
+series = "k_l"
+key = "tip.height"
+above = -2
+below = -1.6
+```
 )";
 
 // Settings of a table whose keys are paths into a scene; nested tables are paths, too.
@@ -98,8 +116,9 @@ std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) 
 }
 
 // What lies beside the folders of the runs.
-constexpr std::array files_of_a_study{"study.toml",   "study.csv",   "fits.csv",    "strengths.csv",
-                                      "summary.json", "curves.json", "report.html", "pictures"};
+constexpr std::array files_of_a_study{"study.toml",    "study.csv",         "fits.csv",
+                                      "strengths.csv", "sensitivities.csv", "summary.json",
+                                      "curves.json",   "report.html",       "pictures"};
 
 // File systems that know no capital letters take two such names for one.
 bool can_be_folder(std::string name) {

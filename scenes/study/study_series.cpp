@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/checks/expect_checks.hpp"
 #include "scenes/results/results.hpp"
 
 namespace pulvis {
@@ -67,6 +68,12 @@ std::vector<double> share_below(const Scene& scene, const History& history) {
 }  // namespace
 
 std::vector<SeriesInfo> study_series(const Scene& scene) {
+  if (scene.afm) {
+    std::vector<SeriesInfo> all{
+        {study_abscissa(scene, false), "-", "of the programme that are done, parts included"}};
+    for (const SeriesInfo& series : expectable_series(scene)) all.push_back(series);
+    return all;
+  }
   std::vector<SeriesInfo> all{{"time", "s", "of the sample"}};
   for (const SeriesInfo& series : history_series(scene)) all.push_back(series);
   for (const ToolSpec& tool : scene.tools)
@@ -80,8 +87,13 @@ std::vector<SeriesInfo> study_series(const Scene& scene) {
   return all;
 }
 
+std::string study_abscissa(const Scene& scene, bool placed) {
+  return scene.afm ? "actions" : placed ? "relative_density" : "time";
+}
+
 std::vector<double> study_values(const Scene& scene, const std::string& name,
                                  const History& history) {
+  if (scene.afm) return history(name == study_abscissa(scene, false) ? "time" : name);
   const auto after = [&](const char* prefix) {
     return name.starts_with(prefix) ? name.substr(std::string(prefix).size()) : std::string();
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/checks/expect_checks.hpp"
 #include "scenes/study/study_checks.hpp"
 #include "scenes/study/study_series.hpp"
 
@@ -150,36 +151,17 @@ class Judge {
     if (expect_.by > 0) result.allowed += fmt::format(", by at least {:g} %", 100 * expect_.by);
   }
 
-  void bounds(Verdict& result, double value, const std::string& unit) {
-    result.value = value;
-    if (expect_.equals) {
-      const double wanted = expect_.equals->number;
-      result.allowed = fmt::format("{:.5g}{} within {:g}{}", wanted, unit, *expect_.within,
-                                   wanted == 0 ? unit : " of it");
-      result.met =
-          std::abs(value - wanted) <= *expect_.within * (wanted == 0 ? 1 : std::abs(wanted));
-      return;
-    }
-    std::vector<std::string> said;
-    if (expect_.above)
-      said.push_back(fmt::format("at least {:.5g}{}", expect_.above->number, unit));
-    if (expect_.below) said.push_back(fmt::format("at most {:.5g}{}", expect_.below->number, unit));
-    result.allowed = fmt::format("{}", fmt::join(said, ", "));
-    result.met = (!expect_.above || value >= expect_.above->number) &&
-                 (!expect_.below || value <= expect_.below->number);
-  }
-
   void ratio(Verdict& result) {
     const double first = value(expect_.ratio[0]), second = value(expect_.ratio[1]);
     result.what += fmt::format(", {} over {}", expect_.ratio[0], expect_.ratio[1]);
-    bounds(result, first / second, "");
+    judge_bounds(result, expect_, first / second, "");
     result.measured = fmt::format("{:.5g} / {:.5g} = {:.5g}", first, second, first / second);
   }
 
   void one(Verdict& result) {
     const double found = value(expect_.of);
     result.what += ", of " + expect_.of;
-    bounds(result, found, unit());
+    judge_bounds(result, expect_, found, unit());
     result.measured = fmt::format("{:.5g}{}", found, unit());
   }
 
@@ -206,9 +188,28 @@ class Judge {
 
 }  // namespace
 
+void judge_bounds(Verdict& result, const StudyBounds& bounds, double value,
+                  const std::string& unit) {
+  result.value = value;
+  if (bounds.equals) {
+    const double wanted = bounds.equals->number;
+    result.allowed = fmt::format("{:.5g}{} within {:g}{}", wanted, unit, *bounds.within,
+                                 wanted == 0 ? unit : " of it");
+    result.met = std::abs(value - wanted) <= *bounds.within * (wanted == 0 ? 1 : std::abs(wanted));
+    return;
+  }
+  std::vector<std::string> said;
+  if (bounds.above) said.push_back(fmt::format("at least {:.5g}{}", bounds.above->number, unit));
+  if (bounds.below) said.push_back(fmt::format("at most {:.5g}{}", bounds.below->number, unit));
+  result.allowed = fmt::format("{}", fmt::join(said, ", "));
+  result.met = (!bounds.above || value >= bounds.above->number) &&
+               (!bounds.below || value <= bounds.below->number);
+}
+
 std::string words_of(const StudyQuantity& quantity) {
   static constexpr const char* words[] = {"at the end", "largest", "smallest", "mean", "roughness"};
   std::string text = quantity.series;
+  if (!quantity.at && is_figure_of_a_run(quantity.series)) return text;
   if (quantity.at)
     return text + fmt::format(" at {} = {:g}", quantity.against, quantity.at->number);
   text += fmt::format(", {}", words[static_cast<int>(quantity.when.value_or(When::end))]);
@@ -235,6 +236,8 @@ double roughness(std::span<const double> values) {
 
 double figure_of(const StudyQuantity& quantity, std::span<const double> against,
                  std::span<const double> series) {
+  const bool whole = !quantity.at && quantity.when != When::roughness;
+  if (series.size() == 1 && against.size() != 1 && whole) return series[0];  // a figure of the run
   if (series.empty() || against.size() != series.size()) return no_number;
   if (quantity.at) return passing(against, series, quantity.at->number);
   return reduced(quantity.when.value_or(When::end), window(quantity, against, series));

@@ -25,6 +25,9 @@ using SeriesOfRun = std::function<std::vector<double>(const StudyRun&, const std
 // `failed` tells why a run has no results to trust, or nothing.
 using FailureOfRun = std::function<std::string(const StudyRun&)>;
 
+void judge_bounds(Verdict& result, const StudyBounds& bounds, double value,
+                  const std::string& unit);
+
 std::string words_of(const StudyQuantity& quantity);  // "tool/top/force_y, largest"
 
 // One verdict an expectation; not met where a run that it needs has failed.

@@ -95,6 +95,80 @@ trend = "increasing"
   EXPECT_GT(curves[0]["lines"][0]["x"].size(), 30U);
 }
 
+// Calibrations of a beam: bending stiffness goes as the cube of the thickness, the closed form's answer is beside.
+TEST_F(StudyCommand, LeversHaveFiguresAndSensitivities) {
+  const auto write_study = [&](const std::string& more) {
+    std::ofstream(place / "study.toml")
+        << "scene = \"" << scene("afm/calibration-beam.toml") << R"("
+[grid]
+lever.thickness = ["2 um", "2.2 um", "2.4 um"]
+[[fit]]
+law = "power"
+series = "k_n"
+key = "lever.thickness"
+)" << more;
+  };
+  write_study(
+      "above = 2.9\nbelow = 3.1\n[[expect]]\nseries = \"k_n/beam\"\nof = "
+      "\"thickness=2um\"\nequals = 1\nwithin = 0.05\n");
+  const Outcome end = study();
+  EXPECT_EQ(end.code, 0) << end.out << end.err;
+  EXPECT_THAT(end.out, HasSubstr("met      exponent of k_n against lever.thickness, of all runs"));
+  const auto json = summary(results);
+  EXPECT_EQ(json["expectations"].size(), 2U);
+  const auto& fit = json["fits"][0];
+  EXPECT_EQ(fit["key_unit"], "m");
+  EXPECT_NEAR(fit["groups"][0]["points"][1]["key"].get<double>(), 2.2e-6, 1e-18);
+  // The figure is that of the run's own calibration.
+  const auto run = summary(results / "thickness=2.2um");
+  EXPECT_EQ(fit["groups"][0]["points"][1]["value"], run["calibration"]["k_n"]);
+  EXPECT_EQ(run["figures"]["k_l"], run["calibration"]["k_l"]);
+  const std::string csv = text_of(results / "study.csv");
+  EXPECT_THAT(csv, HasSubstr(",k_n [N/m],k_l [N/m],k_l/k_n [-],"));
+  EXPECT_TRUE(run["figures"].contains("k_l/torsion_and_bending"));
+  for (const auto& figure : run["figures"].items())
+    EXPECT_THAT(csv, HasSubstr("," + figure.key() + " [")) << "is no column";
+  EXPECT_EQ(std::ranges::count(text_of(results / "sensitivities.csv"), '\n'), 1 + 3);
+  EXPECT_FALSE(fs::exists(results / "strengths.csv"));
+
+  write_study("above = -1\nbelow = 1\n");  // what is finished is not run again
+  const Outcome again = study();
+  EXPECT_EQ(again.code, 3);
+  EXPECT_THAT(again.out, HasSubstr("0 to do, 3 finished before"));
+  EXPECT_THAT(again.out, HasSubstr("NOT met"));
+}
+
+TEST_F(StudyCommand, WhatNoLeverHasIsRefused) {
+  const auto refused = [&](const std::string& grid, const std::string& more) {
+    std::ofstream(place / "study.toml")
+        << "scene = \"" << scene("afm/calibration-beam.toml") << "\"\n[grid]\n"
+        << grid << "\n"
+        << more;
+    const Outcome end = study();
+    EXPECT_EQ(end.code, 2) << end.out;
+    EXPECT_FALSE(fs::exists(results));
+    return end.err;
+  };
+  const std::string heights = "tip.height = [\"10 um\", \"12 um\"]";
+  EXPECT_THAT(refused(heights,
+                      "[[fit]]\nlaw = \"power\"\nseries = \"loop/friction\"\nkey = "
+                      "\"tip.height\"\n"),
+              HasSubstr("has no series 'loop/friction'"));
+  EXPECT_THAT(refused(heights,
+                      "[[fit]]\nlaw = \"power\"\nseries = \"k_l\"\nkey = "
+                      "\"tip.hight\"\n"),
+              HasSubstr("the study does not vary 'tip.hight'"));
+  EXPECT_THAT(refused("tip.offset = [\"0 um\", \"2 um\"]",
+                      "[[fit]]\nlaw = \"power\"\nseries = \"k_l\"\nkey = \"tip.offset\"\n"),
+              HasSubstr("'tip.offset' is no number above 0"));
+  EXPECT_THAT(refused(heights,
+                      "[[expect]]\nseries = \"k_l\"\nwhen = \"max\"\nof = "
+                      "\"height=10um\"\nabove = 1\n"),
+              HasSubstr("'k_l' is one figure of the whole run"));
+  EXPECT_THAT(refused(heights, "[[curve]]\ny = \"k_l\"\nx = \"actions\"\n"),
+              HasSubstr("no run has the series 'k_l'"));
+}
+
 // Meshes that are turned by chance make the forces of the seeds differ.
 TEST_F(StudyCommand, LeavesLawsOfStrength) {
   std::ofstream(place / "study.toml") << "scene = \"" << scene("compaction/regular-25.toml") << R"("

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenes/study/study_power.hpp"
 #include "scenes/study/study_weibull.hpp"
 
 namespace pulvis {
@@ -100,6 +101,44 @@ TEST_F(StudyFits, WhatFailedOrIsNoStrengthIsTold) {
   EXPECT_EQ(law.groups[0].not_fitted, "");
   forces[3] = -2;
   EXPECT_THAT(fitted().groups[0].not_fitted, HasSubstr("of small3 is no strength"));
+}
+
+// Of a key's exact power law every exponent is that power, over all runs and at each; the unit is that of the key.
+TEST(StudyPower, ExponentsOfAnExactLaw) {
+  const std::vector<double> key{1e-6, 2e-6, 3e-6, 7e-6};
+  std::vector<double> value;
+  for (const double k : key) value.push_back(5 * std::pow(k / 3e-6, -2.5));
+  const PowerFit fit = fit_power(key, value);
+  EXPECT_NEAR(fit.exponent, -2.5, 1e-12);
+  EXPECT_NEAR(fit.value * std::pow(3e-6 / fit.middle, -2.5), 5, 1e-11);
+  EXPECT_NEAR(fit.r_squared, 1, 1e-12);
+  for (const double local : local_exponents(key, value)) EXPECT_NEAR(local, -2.5, 1e-12);
+}
+
+// The tangent of a curved line of logarithms, exact for a parabola inside.
+TEST(StudyPower, LocalExponentsFollowACurve) {
+  std::vector<double> key, value;
+  for (const double x : {0.0, 0.3, 0.4, 0.9}) {
+    key.push_back(std::exp(x));
+    value.push_back(std::exp(1 + 2 * x - 3 * x * x));
+  }
+  const std::vector<double> local = local_exponents(key, value);
+  EXPECT_NEAR(local[1], 2 - 6 * 0.3, 1e-12);
+  EXPECT_NEAR(local[2], 2 - 6 * 0.4, 1e-12);
+}
+
+TEST(StudyPower, KeysHaveTheUnitOfTheirDeclaration) {
+  EXPECT_EQ(unit_of_key("tip.height"), "m");
+  EXPECT_EQ(unit_of_key("material.lever.youngs_modulus"), "Pa");
+  EXPECT_EQ(unit_of_key("material[0].poissons_ratio"), "-");
+  EXPECT_EQ(unit_of_key("lever.half_angle"), "rad");
+  StudyRun run;
+  run.varied = {{"tip.height", {std::string("3 um"), {}}, {}},
+                {"tip.height", {std::string("4 um"), {}}, {}}};
+  EXPECT_NEAR(number_of_key(run, "tip.height").value(), 4e-6, 1e-20);  // the last one wins
+  EXPECT_FALSE(number_of_key(run, "tip.offset"));
+  run.varied = {{"tip.shape", {std::string("cone"), {}}, {}}};
+  EXPECT_FALSE(number_of_key(run, "tip.shape"));
 }
 
 }  // namespace

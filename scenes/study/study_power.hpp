@@ -1,0 +1,41 @@
+// How a figure of the runs goes with a key that is varied: value = c key^exponent.
+//
+// exponent  d ln(value)/d ln(key), the relative sensitivity: by least squares of the logarithms over the runs, and at
+//           each run from its neighbours
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/study/study.hpp"
+
+namespace pulvis {
+
+// A straight line of ln(y) against x by least squares; every point weighs the same.
+struct LogLine {
+  double at_zero = 0;    // y at x = 0
+  double slope = 0;      // of ln(y)
+  double r_squared = 0;  // of ln(y); no number where all y are alike
+};
+LogLine fit_log_line(const std::vector<double>& x, const std::vector<double>& y);
+
+struct PowerFit {
+  double exponent = 0;
+  double middle = 0;  // geometric mean of the key
+  double value = 0;   // of the law, there
+  double r_squared = 0;
+};
+// At least two different keys; all numbers > 0.
+PowerFit fit_power(const std::vector<double>& key, const std::vector<double>& value);
+// One a point, by the parabola of the logarithms through it and its neighbours, at the ends by the straight line; keys rise.
+std::vector<double> local_exponents(const std::vector<double>& key,
+                                    const std::vector<double>& value);
+
+// The SI unit of a key of the scene language; "-" where it has none.
+std::string unit_of_key(const std::string& path);
+bool sets_key(const StudyRun& run, const std::string& path);
+// What the run sets it to, in that unit; nothing where that is no number or quantity.
+std::optional<double> number_of_key(const StudyRun& run, const std::string& path);
+
+}  // namespace pulvis
