@@ -1,7 +1,7 @@
 """Levers: stiffness against mesh, element, thickness and run time; prints the tables of docs/accuracy.md and of
 bench/results/levers.md.
 
-  /usr/bin/python3 bench/levers.py [table-4.2] [table-4.3] [thickness] [fronts]      (all: a quarter of an hour)
+  /usr/bin/python3 bench/levers.py [table-4.2] [table-4.3] [thickness] [fronts] [feet]      (all: a quarter of an hour)
 
 Fronts are printed as tables and drawn (--draw FILE.png).
 """
@@ -88,33 +88,64 @@ def thickness():
               f"| {seconds:.2f} |")
 
 
-FRONTS = {  # scene: meshes, coarse to fine
-    "tipless-beam.toml": [["lever.aspect=9"], ["lever.aspect=4"], ["lever.aspect=2"]],
-    "calibration-v.toml": [["lever.aspect=9"], ["lever.aspect=5"], ["lever.aspect=2.5"]],
-}
+# Coarse to fine: largest edge, that at the sides, that at the foot's rim; the last one is the reference.
+MESHES = {"half": (9, 1, 0.06), "default": (6, 0.5, 0.03), "twice": (3, 0.25, 0.015),
+          "reference": (2, 0.2, 0.01)}
+FRONTS = ("tipless-beam.toml", "calibration-beam.toml", "calibration-v.toml")
+
+
+def keys_of(mesh, tip):
+    aspect, side, foot = MESHES[mesh]
+    return [f"lever.aspect={aspect}", f"lever.side_aspect={side}"] + ([f"lever.foot_edge={foot}"] if tip else [])
 
 
 def fronts(picture):
     curves = []
-    for scene, meshes in FRONTS.items():
-        finest = ["lever.aspect=1.35", "lever.layers=2"]
-        reference = calibrate(scene, finest)[0]
-        keys = ["k_n"] if "tipless" in scene else ["k_n", "k_l"]
-        print(f"\n{scene}: reference {finest}, " +
+    for scene in FRONTS:
+        tip = "tipless" not in scene
+        reference = calibrate(scene, keys_of("reference", tip), 1)[0]
+        keys = ["k_n", "k_l"] if tip else ["k_n"]
+        print(f"\n{scene}: reference {' '.join(keys_of('reference', tip))}, " +
               ", ".join(f"{key} {reference[key]:.5g} N/m" for key in keys) + "\n")
-        print("| element | mesh | elements | wall s | " + " | ".join(keys) + " |")
-        print("|" + "---|" * (4 + len(keys)))
+        print("| element | mesh | elements | wall s | " + " | ".join(keys) + " | told |")
+        print("|" + "---|" * (5 + len(keys)))
         for element in ("plate", "solid", "standard"):
             points = []
-            for mesh in meshes:
-                c, seconds, elements = calibrate(scene, mesh + [f"lever.element={element}"])
+            for mesh in ("half", "default", "twice"):
+                c, seconds, elements = calibrate(scene, keys_of(mesh, tip) + [f"lever.element={element}"])
                 errors = [c[key] / reference[key] - 1 for key in keys]
                 points.append((seconds, max(map(abs, errors))))
-                print(f"| {element} | {mesh[0][6:].replace('=', ' ')} | {elements} | {seconds:.3f} | " +
-                      " | ".join(f"{100 * e:+.2f}%" for e in errors) + " |")
+                told = ", ".join(f"{100 * c['mesh_error'][key]:.2f}%" for key in keys)
+                print(f"| {element} | {mesh} | {elements} | {seconds:.2f} | " +
+                      " | ".join(f"{100 * e:+.2f}%" for e in errors) + f" | {told} |")
             curves.append((f"{scene[:-5]}, {element}", points))
     if picture:
         draw(curves, picture)
+
+
+SOLIDS = {  # graded meshes of solid elements alone, of another program: k_l, N/m
+    "beam, 2 um, 1 um from its end": ("calibration-beam.toml", [], 76.46),
+    "beam, 4 um at its end, tip 13.7 um high": (
+        "calibration-beam.toml", ["tip.height=13.7 um", "tip.foot=4 um", "tip.set_back=2 um"], 73.9),
+    "the same, of the lever's material": (
+        "calibration-beam.toml",
+        ["tip.height=13.7 um", "tip.foot=4 um", "tip.set_back=2 um", "tip.material=lever"], 72.6),
+    "V, 1 um": ("calibration-v.toml", [], 91.8),
+    "beam, 1.1 um (half a thickness)": ("calibration-beam.toml", ["tip.foot=1.1 um"], None),
+    "beam, 12.5 um (a quarter of the width)": (
+        "calibration-beam.toml", ["tip.foot=12.5 um", "tip.set_back=10 um"], None),
+}
+
+
+def feet():
+    print("| foot | elements | wall s | k_l, N/m | told | solids | reference mesh |")
+    print("|---|---|---|---|---|---|---|")
+    for name, (scene, keys, solids) in SOLIDS.items():
+        c, seconds, elements = calibrate(scene, keys)
+        fine = calibrate(scene, keys + keys_of("reference", True), 1)[0]["k_l"]
+        beside = f"{solids} ({100 * (c['k_l'] / solids - 1):+.2f}%)" if solids else ""
+        print(f"| {name} | {elements} | {seconds:.2f} | {c['k_l']:.2f} | {100 * c['mesh_error']['k_l']:.1f}% | "
+              f"{beside} | {fine:.2f} ({100 * (c['k_l'] / fine - 1):+.2f}%) |")
 
 
 def draw(curves, picture):
@@ -136,9 +167,9 @@ def draw(curves, picture):
 def main():
     words = sys.argv[1:]
     picture = words.pop(words.index("--draw") + 1) if "--draw" in words else None
-    wanted = [w for w in words if w != "--draw"] or ["table-4.2", "table-4.3", "thickness", "fronts"]
+    wanted = [w for w in words if w != "--draw"] or ["table-4.2", "table-4.3", "thickness", "fronts", "feet"]
     for name, make in (("table-4.2", table_42), ("table-4.3", table_43), ("thickness", thickness),
-                       ("fronts", lambda: fronts(picture))):
+                       ("fronts", lambda: fronts(picture)), ("feet", feet)):
         if name in wanted:
             print(f"\n## {name}\n")
             make()
