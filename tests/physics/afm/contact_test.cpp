@@ -86,11 +86,11 @@ TEST(Wedge, ALoopOfAProbeThatSticksGivesNoFriction) {
 TEST(Wedge, ALoopWhoseFrictionHasNotTurnedGivesNoneAndTheScanThatWould) {
   for (const auto& [tilt, degrees, mu] : {std::tuple{12, 30, 0.5}, {12, 14, 0.2}}) {
     const auto loop_of = [&, d = degrees, m = mu, t = tilt](double distance) {
-      const Scene scene =
-          afm_scene(on_incline(coarse_beam, d, m),
-                    {"lever.thickness=0.5 um", "material.lever.youngs_modulus=20 GPa",
-                     "lever.tilt=" + std::to_string(t) + " deg", "action[0].force=1 nN",
-                     "action[1].distance=" + std::to_string(1e9 * distance) + " nm"});
+      const Scene scene = afm_scene(
+          on_incline(coarse_beam, d, m),
+          {"lever.thickness=0.5 um", "lever.aspect=44", "material.lever.youngs_modulus=20 GPa",
+           "lever.tilt=" + std::to_string(t) + " deg", "action[0].force=1 nN",
+           "action[1].distance=" + std::to_string(1e9 * distance) + " nm"});
       return friction_loops(scene, history_of(scene)).front();
     };
     const FrictionLoop first = loop_of(100e-9);

@@ -13,7 +13,8 @@ void expect_the_formula(const std::string& lever, const std::vector<std::string>
 
 // 1,150 times longer than thick.
 TEST(AfmExtremes, ALeverOfATenthOfAMicrometreDrawsWithTheForcesOfTheFormula) {
-  expect_the_formula(coarse_v, {"lever.thickness=0.1 um", "action[0].force=0.1 nN"});
+  expect_the_formula(coarse_v,
+                     {"lever.thickness=0.1 um", "lever.aspect=57", "action[0].force=0.1 nN"});
 }
 
 TEST(AfmExtremes, ALeverOfTenMicrometresDrawsWithTheForcesOfTheFormula) {
