@@ -162,7 +162,7 @@ double tip_height(const TipSpec& tip) {
 }
 
 std::vector<double> tip_levels(const TipSpec& tip, double foot_edge, double coarser) {
-  constexpr double longest = 1;  // -, of an element over the tip's mean width
+  constexpr double longest = 0.5;  // -, of an element over the tip's mean width
   constexpr double growth = 1.2;
   const double end = tip.shape == TipShape::block ? tip.foot : tip.end;
   const double largest = longest * 0.5 * (tip.foot + end);

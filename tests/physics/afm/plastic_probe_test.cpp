@@ -93,6 +93,9 @@ material = "stiff"
 length = "60 um"
 width = "60 um"
 thickness = "25 um"
+foot_edge = 0.25
+foot_layers = 0
+side_aspect = 10
 [tip]
 shape = "block"
 material = "cu"
@@ -118,23 +121,29 @@ Pillar pillar_of(double force, double area) {
   return p;
 }
 
-// How much nearer the end has come to the nodes `length` above it, over that length.
+// How much nearer the end has come to the level of nodes nearest to `length` above it, over their distance.
 double shortening(AfmSimulation& simulation, double length) {
   const double* u = simulation.world().column<Displacement>().values();
   const double* x = simulation.world().column<ReferencePosition>().values();
   const double end = read(simulation.model().end, x).z();
+  double level = 0;
+  for (std::size_t n = 0; n < simulation.model().nodes; ++n)
+    if (const double height = x[3 * n + 2] - end;
+        std::abs(height - length) < std::abs(level - length))
+      level = height;
+  EXPECT_NEAR(level, length, 0.2 * length);
   double sum = 0;
   int nodes = 0;
   for (std::size_t n = 0; n < simulation.model().nodes; ++n)
-    if (std::abs(x[3 * n + 2] - end - length) < 1e-9) sum += u[3 * n + 2], ++nodes;
-  EXPECT_EQ(nodes, 25);
-  return (read(simulation.model().end, u).z() - sum / nodes) / length;
+    if (std::abs(x[3 * n + 2] - end - level) < 1e-9) sum += u[3 * n + 2], ++nodes;
+  EXPECT_GE(nodes, 25);
+  return (read(simulation.model().end, u).z() - sum / nodes) / level;
 }
 
 TEST(PlasticProbe, APillarKeepsThePlasticStrainOfSimpleCompression) {
   const Scene scene = afm_scene(pillar);
   AfmSimulation simulation(scene);
-  const double area = 4e-12, length = 8e-6;
+  const double area = 4e-12, length = 4e-6;
   for (const double stress : {40e6, 52e6, 54e6, 56e6})
     ASSERT_TRUE(simulation.load_tip({0, 0, stress * area}).converged) << stress;
   const Pillar law = pillar_of(56e6 * area, area);
