@@ -1,0 +1,33 @@
+"""Pulvis from Python: the combined discrete/finite element method for powders.
+
+Scenes and simulations are those of the command line: the same compiled systems, the same scene language, the
+same bits. What reads results (`pulvis.open`, `pulvis.open_study`) and draws them needs no compiled module.
+"""
+
+import importlib
+
+# Where each public name lives. A name is imported when it is first used: results are read and drawn without the
+# compiled module, and without pandas where no table is asked for.
+_HOMES = {
+    "open": "pulvis.results",
+    "Run": "pulvis.results",
+    "open_study": "pulvis.study",
+    "Study": "pulvis.study",
+    "Scene": "pulvis.scene",
+    "Simulation": "pulvis.simulation",
+    "PulvisError": "pulvis.errors",
+}
+
+__all__ = sorted(_HOMES)
+
+
+def __getattr__(name):
+    if name not in _HOMES:
+        raise AttributeError(f"module 'pulvis' has no attribute '{name}'")
+    value = getattr(importlib.import_module(_HOMES[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})
