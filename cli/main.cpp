@@ -17,6 +17,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/figure.hpp"
 #include "cli/fit/fit_options.hpp"
+#include "cli/kinds/toml_kind.hpp"
 #include "cli/lab/reduce_options.hpp"
 #include "cli/options.hpp"
 #include "cli/pack.hpp"
@@ -33,6 +34,7 @@
 #include "engine/files/run_folder.hpp"
 #include "engine/instruction_set.hpp"
 #include "engine/machine_memory.hpp"
+#include "engine/printable.hpp"
 #include "scenes/build.hpp"
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
@@ -262,6 +264,26 @@ void add_resume(CLI::App& app, Options& options, ExitCode& code) {
   resume->callback([&options, &code] { code = resume_run(options.run); });
 }
 
+// A first word that is no command: `pulvis rnu`.
+bool refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  if (std::ranges::find(commands, argv[1]) != commands.end()) return false;
+  tell(stderr, "pulvis: there is no command '{}'{}, allowed: {}; pulvis --help says more\n",
+       printable(argv[1]), suggestion(argv[1], commands), listed(commands));
+  return true;
+}
+
+// Where a command refuses a TOML file of another kind, its errors would mislead.
+std::string explained(const SceneError& error, int argc, char** argv) {
+  for (int i = 2; i < argc; ++i)
+    if (std::filesystem::path(argv[i]).extension() == ".toml")
+      if (const auto other = other_kind(argv[1], argv[i])) return *other;
+  return error.what();
+}
+
 // Help, or what is wrong with the words on the command line.
 int tell_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
@@ -323,6 +345,7 @@ int parse_and_run(int argc, char** argv) {
   ReduceCommand reduce_command;
   add_reduce(app, reduce_command, code);
 
+  if (refuse_unknown_command(app, argc, argv)) return static_cast<int>(ExitCode::usage);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -351,7 +374,7 @@ int main(int argc, char** argv) {
       throw OutputError("standard output", "write", std::strerror(errno));
     return code;
   } catch (const SceneError& error) {
-    return fail(error.what(), ExitCode::usage);
+    return fail(explained(error, argc, argv).c_str(), ExitCode::usage);
   } catch (const RunFolderTaken& error) {
     return fail(error.what(), ExitCode::usage);
   } catch (const ForeignFile& error) {

@@ -1,5 +1,6 @@
 #include "scenes/build.hpp"
 #include "scenes/checks/overlaps.hpp"
+#include "scenes/checks/travel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -376,6 +377,7 @@ void add_clock(World& world, const Scene& scene) {
 std::unique_ptr<World> build_world(const Scene& scene) {
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);
+  check_travel(scene, particles);
   const std::vector<BodySpec> bodies = grains_of(scene, particles);
   const Needs needs = needs_of(scene, bodies.size());
   const auto classes = by_class(scene, bodies);

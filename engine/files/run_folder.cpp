@@ -119,7 +119,8 @@ FolderLock open_run_folder(const fs::path& given, bool overwrite) {
   const std::string result = result_in(folder);
   if (!result.empty() && !overwrite)
     throw RunFolderTaken(given, "start a run here",
-                         "the folder already holds one (" + result + ")");
+                         "the folder already holds one (" + result +
+                             "); allowed: another folder, or --overwrite");
   make_results_folder(given);
   FolderLock lock(folder);
   remove_old_run(folder);

@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 
 namespace pulvis {
@@ -109,6 +110,22 @@ class OverlapSearch {
 
   std::size_t pairs() const { return pairs_; }
 
+  // Turned round, the tool has every particle in front of it.
+  bool is_reversed(const ToolSpec& tool) const {
+    if (tool.shape == ToolSpec::Shape::polyline) {
+      const std::vector<Vec2> points(tool.points.rbegin(), tool.points.rend());
+      const ToolSurface surface = make_surface(points, 0);
+      return all_of_bodies([&](std::size_t i) {
+        return depth_in_tool(surface, bodies_[i].position - points.front(), bodies_[i].angle,
+                             check_polygon(outline(bodies_[i])));
+      });
+    }
+    ToolSpec turned = tool;
+    turned.normal = -tool.normal;
+    return all_of_bodies(
+        [&](std::size_t i) { return depth_behind(turned, bodies_[i], outline(bodies_[i])); });
+  }
+
   // The tools are asked one by one: the boxes of oblique planes are infinite, which a tree cannot
   // balance.
   std::vector<Overlap> with_tools() {
@@ -148,6 +165,13 @@ class OverlapSearch {
   }
 
   static std::size_t kind(const BodySpec& body) { return static_cast<std::size_t>(body.particle); }
+
+  template <class Depth>
+  bool all_of_bodies(const Depth& depth) const {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (depth(i) > allowed(i)) return false;
+    return true;
+  }
 
   double allowed(std::size_t i) const { return touching_tolerance * sizes_[kind(bodies_[i])]; }
 
@@ -212,13 +236,14 @@ class Report {
     }
   }
 
-  void tools(const std::vector<Overlap>& overlaps) {
-    for (const Overlap& overlap : overlaps)
-      add(overlap,
-          fmt::format("{} is outside the die: it reaches {:.6g} m behind tool '{}', allowed: "
-                      "particles in front of every tool",
-                      described(overlap.particle), overlap.depth,
-                      scene_.tools[overlap.other].name));
+  void tools(const std::vector<Overlap>& overlaps, const OverlapSearch& search) {
+    std::map<std::size_t, bool> reversed;
+    for (const Overlap& overlap : overlaps) {
+      const auto [tool, fresh] = reversed.try_emplace(overlap.other, false);
+      if (fresh) tool->second = search.is_reversed(scene_.tools[overlap.other]);
+      if (fresh && tool->second) turned_away(overlap.other);
+      if (!tool->second) outside(overlap);
+    }
   }
 
   void throw_if_any() const {
@@ -226,6 +251,28 @@ class Report {
   }
 
  private:
+  void turned_away(std::size_t number) {
+    const ToolSpec& tool = scene_.tools[number];
+    const bool plane = tool.shape == ToolSpec::Shape::plane;
+    problems_.push_back(
+        {scene_.file_of(tool.mark).string(), tool.mark.line, tool.mark.column, "",
+         fmt::format("tool[{}].{}", number, plane ? "normal" : "points"),
+         plane
+             ? fmt::format("tool '{}' faces away from the powder: every particle lies behind it, "
+                           "allowed: the normal out of the tool into the powder, [{:g}, {:g}]",
+                           tool.name, 0 - tool.normal.x(), 0 - tool.normal.y())
+             : fmt::format("tool '{}' faces away from the powder: every particle lies inside it, "
+                           "allowed: the points in the opposite order, with the powder to the left",
+                           tool.name)});
+  }
+
+  void outside(const Overlap& overlap) {
+    add(overlap,
+        fmt::format("{} is outside the die: it reaches {:.6g} m behind tool '{}', allowed: "
+                    "particles in front of every tool",
+                    described(overlap.particle), overlap.depth, scene_.tools[overlap.other].name));
+  }
+
   void add(const Overlap& overlap, const std::string& message) {
     if (problems_.size() > max_reports) return;
     const BodySpec& body = bodies_[overlap.particle];
@@ -284,7 +331,7 @@ std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodi
   const std::vector<BodySpec> all = with_images(scene, bodies);
   OverlapSearch search(scene, all);
   Report report(scene, all, bodies.size());
-  report.tools(search.with_tools());
+  report.tools(search.with_tools(), search);
   report.particles(search.between_particles());
   report.throw_if_any();
   return search.pairs();

@@ -1,5 +1,7 @@
 #include "scenes/language/csv_table.hpp"
 
+#include "scenes/language/csv_preamble.hpp"
+#include "scenes/language/encoding.hpp"
 #include "scenes/language/units.hpp"
 
 #include <fmt/format.h>
@@ -68,49 +70,6 @@ bool is_left_out(std::string_view line) {
   return content.empty() || content.front() == '#';
 }
 
-char separator_of(std::string_view header) {
-  for (const char separator : {';', '\t'})
-    if (header.find(separator) != std::string_view::npos) return separator;
-  return ',';
-}
-
-Cell cell_of(std::string_view line, std::size_t begin, std::size_t end) {
-  std::string_view text = trimmed(line.substr(begin, end - begin));
-  const auto start = text.empty() ? begin : static_cast<std::size_t>(text.data() - line.data());
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
-    text = trimmed(text.substr(1, text.size() - 2));
-  return {std::string(text), static_cast<int>(start) + 1};
-}
-
-std::vector<Cell> cells_of(std::string_view line, char separator) {
-  std::vector<Cell> cells;
-  bool quoted = false;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') quoted = !quoted;
-    if (i < line.size() && (quoted || line[i] != separator)) continue;
-    cells.push_back(cell_of(line, begin, i));
-    begin = i + 1;
-  }
-  return cells;
-}
-
-// "force [N]" and "force (N)": a name, and a unit in brackets at its end.
-Column column_of(const std::string& text) {
-  for (const char* pair : {"[]", "()"}) {
-    const std::size_t open = text.rfind(pair[0]);
-    if (open == std::string::npos || text.back() != pair[1]) continue;
-    return {std::string(trimmed(std::string_view(text).substr(0, open))),
-            std::string(trimmed(std::string_view(text).substr(open + 1, text.size() - open - 2)))};
-  }
-  return {text, ""};
-}
-
-bool could_be_number(const std::string& text) {
-  const std::size_t first = text.find_first_not_of("+-.,");
-  return first != std::string::npos && std::isdigit(static_cast<unsigned char>(text[first])) != 0;
-}
-
 bool holds_no_number(const std::vector<Cell>& cells) {
   return std::none_of(cells.begin(), cells.end(),
                       [](const Cell& cell) { return could_be_number(cell.text); });
@@ -119,7 +78,7 @@ bool holds_no_number(const std::vector<Cell>& cells) {
 class Reader {
  public:
   Reader(std::string_view text, const std::filesystem::path& file, const Options& options)
-      : lines_(lines_of(text, file)) {
+      : lines_(lines_of(text, file)), has_key_(options.has_key) {
     table_.file = file;
     table_.header_line = options.header_line;
   }
@@ -145,7 +104,7 @@ class Reader {
     if (table_.header_line > 0)
       at = static_cast<std::size_t>(table_.header_line) - 1;
     else
-      while (at < lines_.size() && is_left_out(lines_[at].text)) ++at;
+      at = found_header();
     if (at >= lines_.size())
       refuse_at(table_.file, 1, 1, "table",
                 table_.header_line > 0
@@ -158,6 +117,28 @@ class Reader {
     if (cells.back().text.empty()) cells.pop_back();  // a separator at the end of each line
     for (const Cell& cell : cells) table_.columns.push_back(column_of(cell.text));
     return at + 1;
+  }
+
+  // The first line that is not left out, or the one below a preamble.
+  std::size_t found_header() const {
+    std::vector<std::size_t> numbers;
+    std::vector<std::string_view> texts;
+    constexpr std::size_t deepest = 1000;  // of a preamble
+    for (std::size_t i = 0; i < lines_.size() && texts.size() < deepest; ++i) {
+      if (is_left_out(lines_[i].text)) continue;
+      numbers.push_back(i);
+      texts.push_back(lines_[i].text);
+    }
+    if (texts.empty()) return lines_.size();
+    const HeaderSearch found = find_header(texts);
+    if (!found.problem.empty())
+      refuse_at(
+          table_.file, lines_[numbers[found.at]].number, 1, "table",
+          fmt::format("{}, below lines of text that begin the file; allowed: one line of names, "
+                      "{}'#' before each line of text",
+                      found.problem,
+                      has_key_ ? "the key header_line = its number in the file, or " : "or "));
+    return numbers[found.at];
   }
 
   // A line of units only, where the names carry none.
@@ -175,6 +156,21 @@ class Reader {
     return next + 1;
   }
 
+  static std::string sign(char separator) {
+    return separator == '\t' ? std::string("tab") : std::string(1, separator);
+  }
+
+  // Why a row has another number of fields than the header.
+  std::string explained(std::string_view line, std::size_t fields) const {
+    const std::size_t wanted = table_.columns.size();
+    const char other = separator_of(line);
+    if (other != separator_ && cells_of(line, other).size() > 1)
+      return fmt::format("; here '{}' separates them: one sign for the whole file", sign(other));
+    if (separator_ == ',' && fields > wanted && fields <= 2 * wanted)
+      return "; if the numbers have decimal commas (1,5), separate the columns by ';' or tabs";
+    return "";
+  }
+
   void row(const Line& line) {
     std::vector<Cell> cells = cells_of(line.text, separator_);
     const std::size_t wanted = table_.columns.size();
@@ -182,9 +178,9 @@ class Reader {
     if (cells.size() != wanted)
       refuse_at(table_.file, line.number, 1, "row",
                 fmt::format("has {} fields, allowed: {}, as the column names in line {} ('{}' "
-                            "separates them)",
-                            cells.size(), wanted, table_.header_line,
-                            separator_ == '\t' ? std::string("tab") : std::string(1, separator_)));
+                            "separates them){}",
+                            cells.size(), wanted, table_.header_line, sign(separator_),
+                            explained(line.text, cells.size())));
     table_.lines.push_back(line.number);
     table_.rows.push_back(std::move(cells));
   }
@@ -203,6 +199,7 @@ class Reader {
   }
 
   std::vector<Line> lines_;
+  bool has_key_;
   char separator_ = ',';
   Table table_;
 };
@@ -254,7 +251,10 @@ Table read(const std::filesystem::path& file, const Options& options) {
 }
 
 Table read_text(std::string_view text, const std::filesystem::path& file, const Options& options) {
-  return Reader(text, file, options).read();
+  if (is_utf16(text))
+    refuse_at(file, 1, 1, "table", "the file is UTF-16, allowed: text in UTF-8; save it as such");
+  const std::string whole = as_utf8(std::string(text));
+  return Reader(whole, file, options).read();
 }
 
 bool has_column(const Table& table, const std::string& name) {

@@ -4,6 +4,8 @@
 //              no comma. One file has one decimal sign.
 // Header       one line of column names, each with its unit: "force [N]" or "force (N)"; or the units
 //              in a line of their own below it. Names are compared without regard to case.
+// Preamble     lines of text before the header are left out where the header is certain (csv_preamble.hpp)
+// Encoding     UTF-8; what is none is taken for Latin-1, whose µ, ° and ² are what units need
 // Left out     empty lines and lines that start with '#'; spaces around fields; quotes around fields
 //
 // Cells stay text until numbers() asks for a column in an SI unit, so columns that nobody asks for may
@@ -49,7 +51,8 @@ struct Table {
 };
 
 struct Options {
-  int header_line = 0;  // the line of the column names; 0: the first that is not left out
+  int header_line = 0;   // the line of the column names; 0: the first that is not left out
+  bool has_key = false;  // the user can say it, by the key header_line
 };
 
 Table read(const std::filesystem::path& file, const Options& options = {});

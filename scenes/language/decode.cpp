@@ -1,11 +1,13 @@
 #include "scenes/language/decode.hpp"
 
 #include "scenes/language/problem.hpp"
+#include "scenes/language/unit_hint.hpp"
 #include "scenes/language/units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace pulvis::schema {
@@ -25,7 +27,27 @@ bool is_number(const Value& value) {
   return value.as<double>() != nullptr || value.as<std::int64_t>() != nullptr;
 }
 
+// A string that is a number and nothing else.
+std::optional<double> only_number(const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return number;
+}
+
+// "0.5" and "0,5" where a bare number stands.
+void refuse_text(const KeyInfo& key, const Value& value, const std::string& text) {
+  if (only_number(text))
+    refuse(key, value, fmt::format("a number in quotes is given: write {} without them", text));
+  std::string with_point = text;
+  if (std::ranges::count(text, ',') == 1) std::ranges::replace(with_point, ',', '.');
+  if (with_point != text && only_number(with_point))
+    refuse(key, value, fmt::format("\"{}\" has a decimal comma: write {}", text, with_point));
+}
+
 double bare_number(const KeyInfo& key, const Value& value) {
+  if (const auto* text = value.as<std::string>()) refuse_text(key, value, *text);
   if (!is_number(value)) refuse_type(key, value);
   const auto* integer = value.as<std::int64_t>();
   const double number = integer != nullptr ? static_cast<double>(*integer) : value.get<double>();
@@ -42,10 +64,14 @@ void check_range(const KeyInfo& key, const Value& value, double number) {
 }
 
 double quantity(const KeyInfo& key, const Value& value) {
-  if (is_number(value))
-    refuse(key, value,
-           fmt::format("missing unit: write \"{} {}\"", document::value_text(value), key.unit));
   const auto* text = value.as<std::string>();
+  const std::optional<double> bare = is_number(value)  ? bare_number(key, value)
+                                     : text != nullptr ? only_number(*text)
+                                                       : std::nullopt;
+  if (bare && std::isfinite(*bare))
+    refuse(key, value,
+           fmt::format("missing unit: {} has none, {} is wanted: write one, such as {}",
+                       document::value_text(value), key.unit, quantity_example(key, *bare)));
   if (text == nullptr) refuse_type(key, value);
   try {
     const double number = parse_quantity(*text, key.unit);

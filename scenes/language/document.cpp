@@ -90,10 +90,31 @@ struct WriteValue {
   }
 };
 
+std::string_view line_of(std::string_view text, int number) {
+  for (int line = 1; line < number; ++line)
+    text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
+  return text.substr(0, text.find('\n'));
+}
+
+// "friction = 0,5": a number, a comma and a digit right behind the equals sign.
+bool has_decimal_comma(std::string_view line) {
+  const auto is_digit = [&](std::size_t i) {
+    return i < line.size() && line[i] >= '0' && line[i] <= '9';
+  };
+  const std::size_t comma = line.find(','), equals = line.find('=');
+  if (comma == std::string_view::npos || equals >= comma || !is_digit(comma - 1)) return false;
+  const std::string_view number = line.substr(equals + 1, comma - equals - 1);
+  return is_digit(comma + 1) &&
+         number.find_first_not_of(" \t+-0123456789") == std::string_view::npos;
+}
+
 // The library says what went wrong, not what would be right.
-std::string explained(const std::string& description) {
+std::string explained(const std::string& description, std::string_view line) {
   const bool twice = description.find("cannot redefine") != std::string::npos;
-  return description + (twice ? ", allowed: each key once" : ", allowed: TOML 1.0");
+  if (twice) return description + ", allowed: each key once";
+  if (has_decimal_comma(line))
+    return "a decimal comma in a number, allowed: a decimal point, such as 0.5";
+  return description + ", allowed: TOML 1.0";
 }
 
 }  // namespace
@@ -103,7 +124,8 @@ Table parse(std::string_view text) {
   try {
     return copy_table(toml::parse(text));
   } catch (const toml::parse_error& error) {
-    throw SyntaxError(origin_of(error.source()).mark, explained(std::string(error.description())));
+    const SourceMark mark = origin_of(error.source()).mark;
+    throw SyntaxError(mark, explained(std::string(error.description()), line_of(text, mark.line)));
   }
 }
 

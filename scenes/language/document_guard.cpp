@@ -3,6 +3,7 @@
 #include "scenes/language/document_guard.hpp"
 
 #include "scenes/language/document.hpp"
+#include "scenes/language/encoding.hpp"
 
 #include <fmt/format.h>
 
@@ -11,29 +12,6 @@ namespace {
 
 constexpr int deepest_nesting = 16;  // scenes need five
 
-// Length of the UTF-8 sequence at the front of `text`, 0 when it is none (RFC 3629: no surrogates,
-// no overlong forms, nothing above U+10FFFF).
-std::size_t sequence_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0U;
-  };
-  const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
-  const unsigned first = byte(0), second = byte(1);
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-  if (first >= 0xE0 && first <= 0xEF) {
-    const bool overlong = first == 0xE0 && second < 0xA0;
-    const bool surrogate = first == 0xED && second > 0x9F;
-    return follows(1) && follows(2) && !overlong && !surrogate ? 3 : 0;
-  }
-  if (first >= 0xF0 && first <= 0xF4) {
-    const bool overlong = first == 0xF0 && second < 0x90;
-    const bool beyond = first == 0xF4 && second > 0x8F;
-    return follows(1) && follows(2) && follows(3) && !overlong && !beyond ? 4 : 0;
-  }
-  return 0;
-}
-
 class Guard {
  public:
   explicit Guard(std::string_view text) : rest_(text) {
@@ -41,6 +19,7 @@ class Guard {
   }
 
   void run() {
+    if (is_utf16(rest_)) fail("the file is UTF-16, allowed: text in UTF-8; save it as UTF-8");
     while (!rest_.empty()) {
       if (rest_.front() == '#')
         skip_comment();
@@ -88,7 +67,10 @@ class Guard {
   void advance() {
     if (rest_.front() == '\0') fail("a NUL byte, allowed: text in UTF-8");
     const std::size_t length = sequence_length(rest_);
-    if (length == 0) fail("bytes that are no UTF-8, allowed: text in UTF-8");
+    if (length == 0)
+      fail(fmt::format(
+          "bytes that are no UTF-8 ({}), allowed: text in UTF-8; save the file as UTF-8",
+          latin1_text(rest_.front())));
     const bool new_line = rest_.front() == '\n';
     rest_.remove_prefix(length);
     mark_ = new_line ? SourceMark{mark_.line + 1, 1} : SourceMark{mark_.line, mark_.column + 1};

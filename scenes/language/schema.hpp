@@ -88,6 +88,7 @@ struct KeyInfo {
   std::string needs = {};   // another key without which this one has no effect
   std::string doc = {};
   std::string fallback_doc = {};  // what happens without the key, where that is no value
+  bool of_lever = false;          // of a table of levers, whose lengths are micrometres (view_of)
 };
 
 // A value as its setter gets it; which members hold something follows from the kind.
@@ -140,7 +141,10 @@ using Language = std::vector<TableView>;
 template <class Spec>
 TableView view_of(const TableDeclaration<Spec>& declaration) {
   TableView result{declaration.info, {}};
-  for (const Key<Spec>& key : declaration.keys) result.keys.push_back(key.info);
+  for (const Key<Spec>& key : declaration.keys) {
+    result.keys.push_back(key.info);
+    result.keys.back().of_lever = declaration.info.families.list == afm_only.list;
+  }
   return result;
 }
 

@@ -120,7 +120,7 @@ std::optional<Decoded> TableReader::value_of(const KeyInfo& key) {
   const std::string path = joined_path(path_, key.name);
   origins_[path] = entry->value.origin;
   try {
-    return decode(key, entry->value, names_);
+    return decode(*find_key(*view_, key.name), entry->value, names_);
   } catch (const Refusal& refusal) {
     problems_.add(refusal.origin, path, refusal.what());
     return std::nullopt;

@@ -138,10 +138,29 @@ double converted(double value, ut_unit* given, const std::string& wanted, std::s
 
 }  // namespace
 
+namespace {
+
+// "0,5 mm": `rest` begins with the comma.
+void refuse_decimal_comma(std::string_view whole, std::string_view rest) {
+  if (rest.size() < 2 || rest.front() != ',' || !is_digit(rest[1])) return;
+  const auto number = static_cast<std::size_t>(rest.data() - whole.data());
+  std::size_t digits = 0;
+  while (1 + digits < rest.size() && is_digit(rest[1 + digits])) ++digits;
+  const std::string before(whole.substr(0, number)), after(rest.substr(1));
+  throw UnitError(
+      fmt::format("\"{}\" has a comma in its number: write \"{}.{}\"{}", whole, before, after,
+                  digits == 3 && before != "0"
+                      ? fmt::format(", or \"{}{}\" if it separates thousands", before, after)
+                      : ""));
+}
+
+}  // namespace
+
 double parse_quantity(std::string_view text, const std::string& wanted) {
   const std::string_view whole = trimmed(text);
   std::string_view rest = whole;
   const double number = take_number(rest);
+  refuse_decimal_comma(whole, rest);
   const std::string_view name = trimmed(rest);
   // The library's strings end there.
   if (name.find('\0') != std::string_view::npos) throw UnitError("a quantity with a NUL character");

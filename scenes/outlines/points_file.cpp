@@ -11,6 +11,7 @@
 
 #include "engine/files/input_file.hpp"
 #include "scenes/language/csv_table.hpp"
+#include "scenes/language/encoding.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/outlines/closed_spline.hpp"
 
@@ -33,11 +34,14 @@ std::string trimmed(const std::string& text) {
                                    : text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
+// "1.5, 2.3", or "1,5; 2,3" with decimal commas.
+std::vector<std::string> cells_of(std::string line) {
   std::vector<std::string> cells;
   std::size_t from = 0;
-  for (std::size_t at = line.find_first_of(",;"); at != std::string::npos;
-       at = line.find_first_of(",;", from)) {
+  const char separator = line.find(';') == std::string::npos ? ',' : ';';
+  if (separator == ';') std::ranges::replace(line, ',', '.');
+  for (std::size_t at = line.find(separator); at != std::string::npos;
+       at = line.find(separator, from)) {
     cells.push_back(trimmed(line.substr(from, at - from)));
     from = at + 1;
   }
@@ -152,7 +156,7 @@ std::vector<Vec2> points_in(const std::filesystem::path& path, const std::string
   } catch (const UnfitInput& unfit) {
     throw BadFile{0, fmt::format("{}, allowed: a CSV file of points", unfit.what())};
   }
-  std::istringstream stream(std::move(text));
+  std::istringstream stream(as_utf8(std::move(text)));
   return PointsReader(unit).read(stream);
 }
 

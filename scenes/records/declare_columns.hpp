@@ -27,7 +27,8 @@ schema::Key<Spec> header_key() {
            .range = within(0, 10000),
            .fallback = value_of(0),
            .doc = "Line of the file that holds the names of the columns; 0: the first line that is "
-                  "neither empty nor a comment (#)."},
+                  "neither empty nor a comment (#), or below lines of text the one right above the "
+                  "numbers, where that is certain."},
           integer_to(&Spec::header_line)};
 }
 

@@ -125,10 +125,10 @@ void take_press(const csv::Table& table, std::size_t force, std::size_t displace
 }  // namespace
 
 Instrument instrument_of(const std::filesystem::path& file, const Settings& settings) {
-  const csv::Table press = csv::read(file, {settings.press.header_line});
+  const csv::Table press = csv::read(file, {settings.press.header_line, true});
   const bool is_press = csv::has_column(press, settings.press.force) &&
                         csv::has_column(press, settings.press.displacement);
-  const csv::Table logger = csv::read(file, {settings.logger.header_line});
+  const csv::Table logger = csv::read(file, {settings.logger.header_line, true});
   const bool is_logger = csv::has_column(logger, settings.logger.strain) &&
                          csv::has_column(logger, settings.logger.lvdt);
   if (is_press != is_logger) return is_press ? Instrument::press : Instrument::logger;
@@ -145,7 +145,7 @@ Instrument instrument_of(const std::filesystem::path& file, const Settings& sett
 
 PressRecord read_press(const std::filesystem::path& file, const Settings& settings) {
   const PressSpec& spec = settings.press;
-  const csv::Table table = csv::read(file, {spec.header_line});
+  const csv::Table table = csv::read(file, {spec.header_line, true});
   PressRecord record;
   read_time(table, spec.time, settings.clock.longest_gap, record);
   const std::size_t force = csv::column_at(table, spec.force);
@@ -156,7 +156,7 @@ PressRecord read_press(const std::filesystem::path& file, const Settings& settin
 
 DieRecord read_die(const std::filesystem::path& file, const Settings& settings) {
   const GaugesSpec& spec = settings.gauges;
-  const csv::Table table = csv::read(file, {spec.header_line});
+  const csv::Table table = csv::read(file, {spec.header_line, true});
   DieRecord record;
   read_time(table, spec.time, settings.clock.longest_gap, record);
   take_press(table, csv::column_at(table, spec.top), csv::column_at(table, spec.displacement),
@@ -172,7 +172,7 @@ DieRecord read_die(const std::filesystem::path& file, const Settings& settings) 
 
 LoggerRecord read_logger(const std::filesystem::path& file, const Settings& settings) {
   const LoggerSpec& spec = settings.logger;
-  const csv::Table table = csv::read(file, {spec.header_line});
+  const csv::Table table = csv::read(file, {spec.header_line, true});
   LoggerRecord record;
   read_time(table, spec.time, settings.clock.longest_gap, record);
   const std::size_t strain = csv::column_at(table, spec.strain);

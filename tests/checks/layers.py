@@ -58,6 +58,8 @@ ROOMS = {
         "volts": "report /",
         "lab": "report volts /",
         "fit": "lab report study /",
+        "kinds": "",
+        "preview": "report /",
         "": "report volts",
     },
 }

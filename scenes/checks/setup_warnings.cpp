@@ -1,0 +1,111 @@
+#include "scenes/checks/setup_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scenes/checks/travel.hpp"
+#include "scenes/packing/place.hpp"
+#include "scenes/tools/die_sides.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double quasi_static = 0.01;  // -, largest share of the strength
+constexpr double elastic_strain = 0.01;
+
+double strength_of(const MaterialSpec& m) {
+  return m.yield_stress.value_or(elastic_strain * m.youngs_modulus);
+}
+
+// m/s, where the ramps at both ends take their share of the stage.
+double highest_speed(const MoveSpec& move, double duration) {
+  return move.displacement.norm() / (duration * (1 - move.ramp));
+}
+
+// Away from the powder a tool presses nothing.
+bool leaves(const ToolSpec& tool, const MoveSpec& move) {
+  return tool.shape == ToolSpec::Shape::constraint || move.displacement.dot(face_normal(tool)) < 0;
+}
+
+std::string too_fast(const Scene& scene) {
+  const FastTool fast = fastest_tool(scene);
+  if (fast.share <= quasi_static) return "";
+  const StageSpec& stage = scene.stages[static_cast<std::size_t>(fast.stage)];
+  return fmt::format(
+      "stage '{}': tool '{}' moves at up to {:.3g} m/s: the kinetic energy of powder at that "
+      "speed, {:.2g} MPa, "
+      "is {:.2g} of what the particles bear; quasi-static is <= {:g}, here up to {:.2g} m/s (a "
+      "duration of {:.2g} s)",
+      stage.name, scene.tools[static_cast<std::size_t>(fast.tool)].name, fast.speed,
+      fast.energy / 1e6, fast.share, quasi_static,
+      fast.speed * std::sqrt(quasi_static / fast.share),
+      stage.duration * std::sqrt(fast.share / quasi_static));
+}
+
+struct Extent {
+  double left = std::numeric_limits<double>::infinity();
+  double right = -std::numeric_limits<double>::infinity();
+};
+
+// The room that packings are made for: of a lattice its cells.
+std::optional<Extent> room_of(const PackingSpec& packing) {
+  double width = packing.width;
+  if (is_lattice(packing)) width = packing.columns * packing.spacing;
+  if (packing.kind == PackingSpec::Kind::csv || !(width > 0)) return std::nullopt;
+  return Extent{packing.corner.x(), packing.corner.x() + width};
+}
+
+// A wall that stands beside the room of the packing: behind its border, or in front of it.
+std::string wall_apart(const Scene& scene) {
+  const auto die = die_sides(scene);
+  if (!die || scene.packings.size() != 1 || scene.initial_state) return "";
+  const auto room = room_of(scene.packings.front());
+  const ToolSpec& left = scene.tools[static_cast<std::size_t>((*die)[0])];
+  const ToolSpec& right = scene.tools[static_cast<std::size_t>((*die)[1])];
+  if (!room || left.shape != ToolSpec::Shape::plane || right.shape != ToolSpec::Shape::plane)
+    return "";
+  const double width = room->right - room->left;
+  const double between = right.point.x() - left.point.x();
+  const double apart =
+      std::max(std::abs(room->left - left.point.x()), std::abs(room->right - right.point.x()));
+  constexpr double close = 1e-3;  // -, of the width
+  if (apart <= close * width) return "";
+  return fmt::format(
+      "packing[0] is made for a die {:.6g} m wide (x = {:.6g} to {:.6g} m), but the walls '{}' and "
+      "'{}' stand {:.6g} "
+      "m apart (x = {:.6g} and {:.6g} m)",
+      width, room->left, room->right, left.name, right.name, between, left.point.x(),
+      right.point.x());
+}
+
+}  // namespace
+
+FastTool fastest_tool(const Scene& scene) {
+  double heaviest = 0, weakest = std::numeric_limits<double>::infinity();
+  for (const MaterialSpec& material : scene.materials) {
+    heaviest = std::max(heaviest, material.density);
+    weakest = std::min(weakest, strength_of(material));
+  }
+  FastTool fast;
+  for (std::size_t s = 0; s < scene.stages.size(); ++s)
+    for (const MoveSpec& move : scene.stages[s].moves) {
+      const double speed = highest_speed(move, scene.stages[s].duration);
+      if (speed <= fast.speed || leaves(scene.tools[static_cast<std::size_t>(move.tool)], move))
+        continue;
+      fast = {static_cast<int>(s), move.tool, speed, 0.5 * heaviest * speed * speed, 0};
+      fast.share = fast.energy / weakest;
+    }
+  return fast;
+}
+
+std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  std::vector<std::string> lines = travel_warnings(scene, bodies);
+  for (const std::string& line : {too_fast(scene), wall_apart(scene)})
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace pulvis
