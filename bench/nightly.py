@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 STUDIES = ROOT / "scenes/studies"
-MEANING = {0: "good", 2: "refused", 3: "a run went bad, or an expectation is not met", 4: "disk or memory"}
+MEANING = {0: "good", 2: "refused", 3: "a run failed, or an expectation is not met", 4: "disk or memory"}
 
 
 def expectations(text):

@@ -145,28 +145,28 @@ def levelled(values, level):
 
 
 def maps_of(run, level):
-    """Every picture of every raster, levelled: (action, channel, way, unit, values, (pixel width, height) in m or None).
+    """Every picture of every raster, levelled: (action, channel, direction, unit, values, (pixel width, height) in m or None).
     The difference is half of trace less retrace, of friction: what topography puts into both is not in it."""
     for action in sorted(run.file.get("images", [])):
         for channel in CHANNELS:
-            ways = {}
-            for way, name in (("trace", "forth"), ("retrace", "back")):
-                data = run.file[f"images/{action}/{channel}_{name}"]
+            traces = {}
+            for direction in ("trace", "retrace"):
+                data = run.file[f"images/{action}/{channel}_{direction}"]
                 size = (data.attrs["pixel_width"], data.attrs["pixel_height"]) if "pixel_width" in data.attrs else None
-                ways[way] = data[:]
-                yield action, channel, way, data.attrs["unit"], levelled(data[:], level), size
+                traces[direction] = data[:]
+                yield action, channel, direction, data.attrs["unit"], levelled(data[:], level), size
             if channel == "friction":
-                half = (ways["trace"] - ways["retrace"]) / 2
+                half = (traces["trace"] - traces["retrace"]) / 2
                 yield action, channel, "difference", data.attrs["unit"], levelled(half, level), size
 
 
-def draw_map(figure, axis, action, channel, way, unit, values, size):
+def draw_map(figure, axis, action, channel, direction, unit, values, size):
     factor, shown = unit_for(unit, values)
     lines, pixels = values.shape
     extent = [0, 1e6 * size[0] * pixels, 0, 1e6 * size[1] * lines] if size else None
     axis.grid(False)
     picture = axis.imshow(factor * values, origin="lower", cmap="afmhot", extent=extent)
-    named = "(trace − retrace)/2" if way == "difference" else way
+    named = "(trace − retrace)/2" if direction == "difference" else direction
     axis.set(title=f"{action}: {channel}, {named}", xlabel="along the scan [µm]" if size else "pixel",
              ylabel="across [µm]" if size else "line")
     figure.colorbar(picture, ax=axis, label=f"{channel} [{shown}]", shrink=0.8)
@@ -176,16 +176,16 @@ def images(run, options):
     """Rasters, trace above retrace; of friction half of their difference, too."""
     if "images" not in run.file:
         return None
-    actions, ways = sorted(run.file["images"]), ["trace", "retrace", "difference"]
+    actions, traces = sorted(run.file["images"]), ["trace", "retrace", "difference"]
     figure, axes = plt.subplots(3 * len(actions), 3, figsize=(15, 13 * len(actions)), squeeze=False)
     for axis in axes.flat:
         axis.set_visible(False)
     figure.table = []
-    for action, channel, way, unit, values, size in maps_of(run, options.level):
-        axis = axes[3 * actions.index(action) + ways.index(way), CHANNELS.index(channel)]
+    for action, channel, direction, unit, values, size in maps_of(run, options.level):
+        axis = axes[3 * actions.index(action) + traces.index(direction), CHANNELS.index(channel)]
         axis.set_visible(True)
-        draw_map(figure, axis, action, channel, way, unit, values, size)
-        figure.table.append((f"{action} {channel} {way}, line by line", unit, values.ravel()))
+        draw_map(figure, axis, action, channel, direction, unit, values, size)
+        figure.table.append((f"{action} {channel} {direction}, line by line", unit, values.ravel()))
     figure.tight_layout()
     return figure
 
@@ -204,9 +204,9 @@ def simple_field(title, unit, values, size):
 
 def simple_fields(run, level):
     """Of every picture: (name of the file, bytes)."""
-    for action, channel, way, unit, values, size in maps_of(run, level):
-        named = f"{action}-{channel}-{way}" + ("" if level == "none" else f"-{level}")
-        yield named, simple_field(f"{action}: {channel}, {way}", unit, values, size)
+    for action, channel, direction, unit, values, size in maps_of(run, level):
+        named = f"{action}-{channel}-{direction}" + ("" if level == "none" else f"-{level}")
+        yield named, simple_field(f"{action}: {channel}, {direction}", unit, values, size)
 
 
 AFM_FIGURES = {"solid": solid, "plastic_zones": plastic_zones, "images": images,

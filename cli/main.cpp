@@ -41,6 +41,7 @@
 #include "scenes/checks/mesh_summary.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/keys/scene_reference.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
@@ -93,11 +94,11 @@ ExitCode check(const Options& options) {
   tell("{}", mesh_summary(scene));
   for (const std::string& line : warnings) tell("warning: {}\n", line);
   const MemoryNeed need = memory_need(scene);
-  tell("memory: about {}: {} of particles, {} of contacts, {} of results, {} of program\n",
+  tell("memory: about {}: particles {}, contacts {}, results {}, program {}\n",
        bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
        bytes_text(need.results), bytes_text(need.program));
-  tell("{}: good: {} particles, {} tools, {} stages\n", options.run.scene.string(), bodies.size(),
-       scene.tools.size(), scene.stages.size());
+  tell("{}: good: {}, {}, {}\n", options.run.scene.string(), counted(bodies.size(), "particle"),
+       counted(scene.tools.size(), "tool"), counted(scene.stages.size(), "stage"));
   return ExitCode::done;
 }
 
@@ -301,7 +302,7 @@ int parse_and_run(int argc, char** argv) {
       "--version", program_version() + " (" + program_commit() + ", " + instruction_set() + ")");
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done; 2 bad usage, or a scene that was refused; 3 the run went bad, or not "
+      "Exit codes: 0 done; 2 bad usage, or a scene that was refused; 3 the run failed, or not "
       "as\n"
       "the scene's [[expect]] tables say; 4 disk or memory; 130 interrupted, see resume.");
 

@@ -5,6 +5,7 @@
 
 #include "cli/tell.hpp"
 #include "engine/files/own_files.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/packing_file.hpp"
 #include "scenes/packing/place.hpp"
@@ -17,10 +18,10 @@ std::string packing_summary(const Scene& scene) {
     const PackingSpec& packing = scene.packings[i];
     if (packing.kind != PackingSpec::Kind::random) continue;
     text += fmt::format(
-        "packing[{}]: {} particles, relative density {:.4f}, die {:.6g} m x {:.6g} "
-        "m, mean gap to the three nearest neighbours {:.3g} diameters, {:.3g} "
-        "touches a particle\n",
-        i, packing.placed.size(), packing.reached.density, packing.width,
+        "packing[{}]: {}, relative density {:.4f}, die {:.6g} m x {:.6g} "
+        "m, mean gap to the three nearest neighbours {:.3g} diameters, contacts of a particle "
+        "(mean) {:.3g}\n",
+        i, counted(packing.placed.size(), "particle"), packing.reached.density, packing.width,
         packing.top - packing.corner.y(), packing.reached.mean_gap,
         2.0 * packing.reached.touches / static_cast<double>(packing.placed.size()));
   }
@@ -36,7 +37,7 @@ ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   write_own(file, role::packing, packing_text(scene, bodies));
-  tell("{}{}: {} particles\n", packing_summary(scene), file.string(), bodies.size());
+  tell("{}{}: {}\n", packing_summary(scene), file.string(), counted(bodies.size(), "particle"));
   return ExitCode::done;
 }
 

@@ -21,6 +21,7 @@
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/read.hpp"
 #include "scenes/results/bond_results.hpp"
@@ -252,8 +253,8 @@ void print_end(const Run& run) {
   const Results& r = run.results;
   const double seconds = run.progress->seconds();
   const std::int64_t steps = run.simulation->clock().step;
-  tell("{} steps in {:.2f} s, {:.1f} M element-updates/s; energy balance error {:.3g}\n", steps,
-       seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
+  tell("{} in {:.2f} s, {:.1f} M element updates/s; energy balance error {:.3g}\n",
+       counted(steps, "step"), seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
        r.energy_balance_error());
   if (r.has("stress_ratio/axial"))
     tell("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",
@@ -275,7 +276,7 @@ ExitCode stopped(Run& run, const std::string& message) {
   const bool expected = ended_as_expected(run.loaded.scene, message);
   run.finish((expected ? "stopped as expected: " : "failed: ") + message);
   if (!expected)
-    tell(stderr, "pulvis: the run went bad: {}\nwhat was written before is in {}\n", message,
+    tell(stderr, "pulvis: the run failed: {}\nwhat was written before is in {}\n", message,
          run.folder.string());
   if (!run.verdicts.empty() || run.options.json) print_end(run);
   return expected && all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
@@ -291,7 +292,7 @@ void tell_what_is_left(const std::filesystem::path& folder) {
         folder.string());
   else
     tell(stderr,
-         "pulvis: what was written before is in {}; once the cause is gone it goes on with: "
+         "pulvis: what was written before is in {}; once the cause is gone continue with: "
          "pulvis resume {}\n",
          folder.string(), folder.string());
 }
@@ -309,7 +310,7 @@ ExitCode complete(Run& run) {
       run.checkpoints.remove();
       return all_met(run.verdicts) ? ExitCode::done : ExitCode::run_failed;
     }
-    tell(stderr, "pulvis: interrupted at step {}; it goes on with: pulvis resume {}\n",
+    tell(stderr, "pulvis: interrupted at step {}; continue with: pulvis resume {}\n",
          run.clock().step, run.folder.string());
     return ExitCode::interrupted;
   } catch (const RunFailure& failure) {

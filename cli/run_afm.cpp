@@ -22,6 +22,7 @@
 #include "engine/interruption.hpp"
 #include "engine/run_failure.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/lever/afm_curve.hpp"
 #include "scenes/lever/afm_figures.hpp"
 #include "scenes/lever/afm_image.hpp"
@@ -253,8 +254,8 @@ void print_afm_end(const AfmReport& report, const std::filesystem::path& folder)
   for (const FrictionLoop& loop : report.loops) tell("{}", loop_text(loop));
   for (const ForceCurveFigures& curve : report.curves) tell("{}", curve_text(curve));
   if (report.wedge && report.loops.size() > 1) tell("{}", wedge_summary(*report.wedge));
-  tell("{} elements, {} nodes, {} increments, {:.2f} s\n", report.elements, report.nodes,
-       report.increments, report.wall_seconds);
+  tell("{}, {}, {}, {:.2f} s\n", counted(report.elements, "element"), counted(report.nodes, "node"),
+       counted(report.increments, "increment"), report.wall_seconds);
   if (!report.verdicts.empty()) tell("expectations\n");
   for (const Verdict& verdict : report.verdicts) tell("  {}\n", verdict.text());
   tell("results in {}\n", folder.string());
@@ -270,7 +271,7 @@ ExitCode not_calibrated(const LoadedScene& loaded, const RunOptions& options,
   write_own(folder / "summary.json", role::run, afm_summary(loaded, report));
   if (options.json) print_summary(folder);
   const bool expected = ended_as_expected(loaded.scene, failure);
-  if (!expected) tell(stderr, "pulvis: the run went bad: {}\n", failure);
+  if (!expected) tell(stderr, "pulvis: the run failed: {}\n", failure);
   return expected && all_met(report.verdicts) ? ExitCode::done : ExitCode::run_failed;
 }
 
@@ -337,9 +338,9 @@ ExitCode complete_programme(const LoadedScene& loaded, const RunOptions& options
   if (options.json) print_summary(folder);
   if (options.talks()) print_afm_end(report, folder);
   const bool expected = end.failure.empty() || ended_as_expected(loaded.scene, end.failure);
-  if (!expected) tell(stderr, "pulvis: the run went bad: {}\n", end.failure);
+  if (!expected) tell(stderr, "pulvis: the run failed: {}\n", end.failure);
   if (!end.done && end.failure.empty()) {
-    tell(stderr, "pulvis: interrupted at increment {}; it goes on with: pulvis resume {}\n",
+    tell(stderr, "pulvis: interrupted at increment {}; continue with: pulvis resume {}\n",
          report.increments, folder.string());
     return ExitCode::interrupted;
   }
@@ -374,7 +375,8 @@ ExitCode check_afm_scene(const Scene& scene) {
   std::fflush(stdout);
   require_afm_memory(scene);
   const AfmModel model = build_afm(scene);
-  tell("{}: good: {} elements, {} nodes\n", scene.file.string(), model.elements, model.nodes);
+  tell("{}: good: {}, {}\n", scene.file.string(), counted(model.elements, "element"),
+       counted(model.nodes, "node"));
   return ExitCode::done;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/instruction_set.hpp"
+#include "scenes/language/counted.hpp"
 
 namespace pulvis {
 namespace {
@@ -68,8 +69,8 @@ Json loop_json(const FrictionLoop& loop) {
             {"turned", loop.turned},
             {"drift", loop.drift},
             {"settled", loop.full()},
-            {"forth", loop.forth},
-            {"back", loop.back},
+            {"trace", loop.trace},
+            {"retrace", loop.retrace},
             {"half_width", loop.half_width},
             {"offset", loop.offset},
             {"volts_half_width", loop.volts_half_width},
@@ -138,7 +139,7 @@ std::string afm_summary(const LoadedScene& loaded, const AfmReport& report) {
   for (const ForceCurveFigures& curve : report.curves)
     json["force_curves"].push_back(curve_json(curve));
   for (const auto& [name, value] : report.figures)
-    if (std::isfinite(value)) json["figures"][name] = value;
+    if (std::isfinite(value)) json["values"][name] = value;
   if (report.wedge)
     json["wedge"] = {{"loops", report.loops.size()},
                      {"friction", report.wedge->friction.value},
@@ -178,8 +179,9 @@ std::string loop_text(const FrictionLoop& loop) {
 
 std::string wedge_summary(const wedge::Calibration& c) {
   const wedge::Facet& facet = c.facets.front();
-  return fmt::format("wedge calibration over {} loops at {} loads: friction {:.5f}, {:.5g} N/V\n",
-                     facet.loops, facet.loads, c.friction.value, c.sensitivity.value);
+  return fmt::format("wedge calibration over {} at {}: friction {:.5f}, {:.5g} N/V\n",
+                     counted(facet.loops, "loop"), counted(facet.loads, "load"), c.friction.value,
+                     c.sensitivity.value);
 }
 
 std::string calibration_text(const Calibration& c) {

@@ -10,6 +10,7 @@
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
 #include "engine/files/own_files.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/records/wedge_records.hpp"
 
 namespace pulvis {
@@ -98,9 +99,9 @@ void write_wedge(const std::filesystem::path& folder, const WedgeReduction& redu
 std::string wedge_text(const wedge::Calibration& calibration) {
   std::string text;
   for (const wedge::Facet& f : calibration.facets) {
-    text +=
-        fmt::format("slope {:+.4g} deg, {} loops at {} loads: W {}, Delta {}\n", f.slope / degree,
-                    f.loops, f.loads, text_of(f.half_width, 1, "V/N"), text_of(f.offset, 1, "V/N"));
+    text += fmt::format("slope {:+.4g} deg, {} at {}: W {}, Delta {}\n", f.slope / degree,
+                        counted(f.loops, "loop"), counted(f.loads, "load"),
+                        text_of(f.half_width, 1, "V/N"), text_of(f.offset, 1, "V/N"));
     if (f.friction)
       text += fmt::format("  friction {}, sensitivity {}\n", text_of(*f.friction, 1, ""),
                           text_of(*f.sensitivity, 1e9, "nN/V"));

@@ -176,7 +176,7 @@ double deviation(const ExpectSpec& expect, const Values& here, const Values& oth
 Verdict compare(const ExpectSpec& expect, const Values& here, const OtherRun& other) {
   Verdict verdict{what_of(expect), "", allowed_of(expect, ""), {}, false};
   if (!other.failure.empty()) {
-    verdict.measured = "the other run went bad: " + other.failure;
+    verdict.measured = "the other run failed: " + other.failure;
     return verdict;
   }
   const bool figure = is_figure_of_a_run(expect.series);

@@ -33,6 +33,6 @@ eval "$(sed -n '/^demo() {/,/^}/p' "$source_dir/pulvis")"
 
 body_of demo "$work/runs/demo/report.html" 1200,2000 ready >/dev/null
 lead=$(grep -o '<p id="lead">[^<]*' "$work/page.html")
-[[ $lead == *"Every quality figure is within its limit."* ]] || fail "the demo's report: $lead"
+[[ $lead == *"Every quality value is within its limit."* ]] || fail "the demo's report: $lead"
 if grep -q '"warnings"' "$work/runs/demo/summary.json"; then fail "the demo's summary has warnings"; fi
 echo "ok: ${lead#*>}"

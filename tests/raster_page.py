@@ -36,10 +36,10 @@ def main():
     with h5py.File(sys.argv[3]) as run:
         (action,) = run["images"]
         for channel in figures_afm.CHANNELS:
-            forth, back = (run[f"images/{action}/{channel}_{way}"][:] for way in ("forth", "back"))
-            maps = [("trace", forth), ("retrace", back)]
+            trace, retrace = (run[f"images/{action}/{channel}_{way}"][:] for way in ("trace", "retrace"))
+            maps = [("trace", trace), ("retrace", retrace)]
             if channel == "friction":
-                maps.append(("difference", (forth - back) / 2))
+                maps.append(("difference", (trace - retrace) / 2))
             size = max(np.abs(values).max() for _, values in maps)
             for level in figures_afm.LEVELS:
                 wanted = [end for _, values in maps for end in

@@ -51,7 +51,7 @@ class Fitting {
         fit_(fit),
         folder_(std::move(folder)),
         comparison_(fit),
-        search_(free_parameters(fit), fit.spec.tolerance, fit.spec.most_rounds,
+        search_(free_parameters(fit), fit.spec.tolerance, fit.spec.max_rounds,
                 [&fit](const std::vector<double>& values) { return is_scene(fit, values); }) {}
 
   ExitCode go() {
@@ -95,7 +95,7 @@ class Fitting {
     tell("round {}: ", search_.rounds() + 1);
     runner.go();
     if (interrupted()) {
-      tell(stderr, "pulvis: interrupted; the same command goes on\n");
+      tell(stderr, "pulvis: interrupted; the same command continues\n");
       return ExitCode::interrupted;
     }
     std::vector<Eigen::VectorXd> residuals;

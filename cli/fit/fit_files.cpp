@@ -7,6 +7,7 @@
 #include "cli/lab/lab_output.hpp"
 #include "cli/summary.hpp"
 #include "engine/files/own_files.hpp"
+#include "scenes/language/counted.hpp"
 
 namespace pulvis {
 namespace {
@@ -147,8 +148,9 @@ std::string fit_text(const FitResult& result) {
   std::string text;
   for (const lab::Measured& p : result.parameters)
     text += measured_text(p, result.fit.spec.confidence) + "; ";
-  return text + fmt::format("{} after {} rounds, {} runs", state_text(result.search.state()),
-                            result.search.rounds(), result.trials.size());
+  return text + fmt::format("{} after {}, {}", state_text(result.search.state()),
+                            counted(result.search.rounds(), "round"),
+                            counted(result.trials.size(), "run"));
 }
 
 }  // namespace pulvis

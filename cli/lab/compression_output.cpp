@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/csv_cell.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/records/lab_compression.hpp"
 
 namespace pulvis {
@@ -242,7 +243,7 @@ std::string compressions_text(const Compressions& all) {
 
 std::string lead_of(const Compressions& all) {
   const std::size_t count = all.curves.size();
-  std::string lead = fmt::format("{} compression curve{}", count, count == 1 ? "" : "s");
+  std::string lead = counted(count, "compression curve");
   if (all.machine.meeting)
     lead += fmt::format(
         "; the press gives {:.4g} mm at {:.4g} kN (record of the empty press, {:.2g} "

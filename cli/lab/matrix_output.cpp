@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/csv_cell.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/records/lab_matrix.hpp"
 
 namespace pulvis {
@@ -256,7 +257,7 @@ std::string matrix_text(const Matrix& m) {
       if (const auto half = lab::half_width(sample, m.confidence))
         text += fmt::format(" +- {:.4f}", *half);
     }
-    text += fmt::format(" ({} runs)\n", condition.runs.size());
+    text += fmt::format(" ({})\n", counted(condition.runs.size(), "run"));
   }
   for (const Response& r : m.responses) {
     if (!r.effects.not_found.empty())
@@ -279,7 +280,8 @@ LabOutput matrix_output(const Reduction& all) {
   const std::string& named = all.loaded.settings.title;
   LabOutput output;
   output.title = named.empty() ? "Sliding-plate tests under a matrix of conditions" : named;
-  output.lead = fmt::format("{} runs under {} conditions.", all.runs.size(), m.conditions.size());
+  output.lead = fmt::format("{} under {}.", counted(all.runs.size(), "run"),
+                            counted(m.conditions.size(), "condition"));
   output.summary = matrix_json(m);
   output.files = {{"conditions.csv", conditions_csv(m)}, {"effects.csv", effects_csv(m)}};
   for (const lab::ReducedRun& run : all.runs)

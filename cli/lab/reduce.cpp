@@ -17,6 +17,7 @@
 #include "cli/wedge_files.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/records/wedge_records.hpp"
 
 namespace pulvis {
@@ -155,8 +156,9 @@ void open_folder(const ReduceOptions& options, const std::vector<std::string>& f
 std::string with_error(const char* name, const lab::Sample& sample, double confidence) {
   const auto half = lab::half_width(sample, confidence);
   if (!half) return fmt::format("{} {:.4f}", name, sample.mean);
-  return fmt::format("{} {:.4f} +- {:.4f} ({:g} % of {} runs; deviation {:.4f})", name, sample.mean,
-                     *half, 100 * confidence, sample.count, sample.deviation);
+  return fmt::format("{} {:.4f} +- {:.4f} ({:g} % of {}; standard deviation {:.4f})", name,
+                     sample.mean, *half, 100 * confidence, counted(sample.count, "run"),
+                     sample.deviation);
 }
 
 void print_run(const lab::ReducedRun& run) {
@@ -167,7 +169,7 @@ void print_run(const lab::ReducedRun& run) {
     tell(", stick-slip {:.4f} every {:.2f} mm", run.stick_slip->amplitude,
          run.stick_slip->period * 1e3);
   const lab::Clocks& clocks = run.clocks;
-  tell("; clocks: {:.3f} s", clocks.offset);
+  tell("; clock offset {:.3f} s", clocks.offset);
   if (clocks.is_given) tell(" as given");
   if (!clocks.is_given) tell(" +- {:.3f} s", clocks.offset_uncertainty);
   if (clocks.drift)

@@ -19,7 +19,7 @@ void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
   auto* reduces = app.add_subcommand("reduce",
                                      "reduce raw records of sliding-plate friction tests, "
                                      "compressions, or an AFM's friction loops on slopes, to "
-                                     "curves, figures, a report");
+                                     "curves, values, a report");
   reduces->add_option(
       "files", options.files,
       "records (CSV) of press and data logger, told apart by their columns and paired "
@@ -49,12 +49,12 @@ void add_reduce(CLI::App& app, ReduceCommand& command, ExitCode& code) {
       "  pulvis reduce scenes/lab/press.toml -o pressed\n"
       "Friction loops on slopes that are known (columns slope, load, and half_width, offset or "
       "raw\n"
-      "traces forth, back, in volts): friction coefficient and sensitivity of the lateral "
+      "columns trace and retrace, in volts): friction coefficient and sensitivity of the lateral "
       "detector.\n"
       "  pulvis reduce loops.csv --set \"wedge.slope_error=0.2 deg\" -o wedge\n"
       "From an AFM's volts to friction: settings that name force curves, loops and the lever.\n"
       "  pulvis reduce scenes/lab/volts.toml -o volts\n"
-      "File formats, equations and how each figure is taken: docs/laboratory.md; all settings:\n"
+      "File formats, equations and how each value is taken: docs/laboratory.md; all settings:\n"
       "docs/reduce.md, or --reference text.");
   reduces->callback([&] {
     if (options.files.empty() && command.reference.empty()) throw CLI::RequiredError("files");

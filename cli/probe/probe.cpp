@@ -15,6 +15,7 @@
 #include "cli/tell.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/probe/probe_read.hpp"
 #include "scenes/probe/probe_scenes.hpp"
 
@@ -92,7 +93,7 @@ bool went(StudyRunner& runner, const char* what) {
   tell("{}: ", what);
   runner.go();
   if (!interrupted()) return true;
-  tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command goes on\n",
+  tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command continues\n",
        runner.done(), runner.to_do());
   return false;
 }
@@ -100,8 +101,9 @@ bool went(StudyRunner& runner, const char* what) {
 void print_list(const Probe& probe) {
   const std::size_t states = probe.loadings.size() * probe.spec.densities.size();
   for (const ProbeLoading& loading : probe.loadings) tell("{}\n", loading.name);
-  tell("{}: good: {} loading runs, {} states, {} probes\n", probe.file.string(),
-       probe.loadings.size(), states, states * static_cast<std::size_t>(probe.spec.directions + 1));
+  tell("{}: good: {}, {}, {}\n", probe.file.string(), counted(probe.loadings.size(), "loading run"),
+       counted(states, "state"),
+       counted(states * static_cast<std::size_t>(probe.spec.directions + 1), "probe"));
 }
 
 class Probing {
@@ -132,7 +134,7 @@ class Probing {
     tell("{}", caps_text(probe_, surfaces));
     const std::size_t missing =
         probe_.loadings.size() * probe_.spec.densities.size() - states_.size();
-    if (missing > 0) tell(stderr, "pulvis: {} states were not reached\n", missing);
+    if (missing > 0) tell(stderr, "pulvis: not reached: {}\n", counted(missing, "state"));
     tell("results in {}; pictures: pulvis figure {}\n", folder_.string(), folder_.string());
     return bad > 0 || missing > 0 ? ExitCode::run_failed : ExitCode::done;
   }

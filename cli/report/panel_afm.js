@@ -9,7 +9,7 @@ addFigures(({summary: {calibration, loops, force_curves: curves}}) => [
   ...(loops || []).slice(0, 1).flatMap(loop => [["half width of the loop", withUnit(loop.half_width, "N"), ""],
     loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null]),
   ...(curves || []).slice(0, 1).flatMap(curve => [["pull-off force", withUnit(curve.pull_off, "N"), "of the force curve"],
-    ["work of pulling off", withUnit(curve.work, "J"), "over the way of the scanner"],
+    ["pull-off work", withUnit(curve.work, "J"), "over the travel of the scanner"],
     curve.work_of_adhesion ? ["work of adhesion", `${digits(1e3 * curve.work_of_adhesion)} mJ/m²`, "of pull-off and radius"] : null])]);
 
 addCurves(run => {

@@ -29,11 +29,11 @@ function levelledLines(values, pixels) {
 const LEVELS = {none: ["as measured", values => values], plane: ["plane taken off", levelledPlane],
                 lines: ["median of each line taken off", levelledLines]};
 
-// The rasters of a run: {action, channels: {topography: {forth, back}, ...}}.
+// The rasters of a run: {action, channels: {topography: {trace, retrace}, ...}}.
 function rastersOf(run) {
   const rasters = new Map();
   for (const image of run.images) {
-    const [, action, channel, way] = /^(.+)\/(.+)_(forth|back)$/.exec(image.name) || [];
+    const [, action, channel, way] = /^(.+)\/(.+)_(trace|retrace)$/.exec(image.name) || [];
     if (!action) continue;
     if (!rasters.has(action)) rasters.set(action, {action, channels: {}});
     (rasters.get(action).channels[channel] ||= {})[way] = image;
@@ -43,12 +43,12 @@ function rastersOf(run) {
 
 // What is drawn of a channel: trace, retrace, and of friction half of their difference, whose sign does not hang on
 // topography. Each is levelled by itself.
-function mapsOf(channel, {forth, back}, level) {
+function mapsOf(channel, {trace, retrace}, level) {
   const levelled = image => LEVELS[level][1](image.values, image.pixels, image.lines);
-  const maps = [["trace", levelled(forth)], ...(back ? [["retrace", levelled(back)]] : [])];
-  if (channel === "friction" && back) {
-    const half = forth.values.map((v, i) => (v - back.values[i]) / 2);
-    maps.push(["(trace − retrace)/2", LEVELS[level][1](half, forth.pixels, forth.lines)]);
+  const maps = [["trace", levelled(trace)], ...(retrace ? [["retrace", levelled(retrace)]] : [])];
+  if (channel === "friction" && retrace) {
+    const half = trace.values.map((v, i) => (v - retrace.values[i]) / 2);
+    maps.push(["(trace − retrace)/2", LEVELS[level][1](half, trace.pixels, trace.lines)]);
   }
   return maps.map(([title, values]) => ({title, values, range: bounds([values])}));
 }
@@ -102,7 +102,7 @@ function drawRaster(canvas, image, maps) {
 
 function placeRaster({action, channels}, host) {
   const channel = element("select", {className: "channel"}), level = element("select", {className: "level"});
-  Object.keys(channels).filter(name => channels[name].forth).forEach(name => channel.add(new Option(name, name)));
+  Object.keys(channels).filter(name => channels[name].trace).forEach(name => channel.add(new Option(name, name)));
   Object.entries(LEVELS).forEach(([name, [label]]) => level.add(new Option(label, name)));
   const canvas = element("canvas", {className: "figure", role: "img"}), note = element("p", {className: "note"});
   host.append(element("div", {className: "controls"}, element("label", {}, "Channel ", channel),
@@ -112,11 +112,11 @@ function placeRaster({action, channels}, host) {
   const chosen = () => channels[channel.value];
   const maps = () => mapsOf(channel.value, chosen(), level.value);
   const paint = () => {
-    const {forth} = chosen(), drawn = maps();
-    drawRaster(canvas, forth, drawn);
-    note.textContent = `${forth.pixels} × ${forth.lines} pixels` +
-      (forth.stride > 1 ? ` (every ${forth.stride} of run.h5)` : "") +
-      drawn.map(({title, range: [low, high]}) => `; ${title} from ${withUnit(low, forth.unit)} to ${withUnit(high, forth.unit)}`).join("") + ".";
+    const {trace} = chosen(), drawn = maps();
+    drawRaster(canvas, trace, drawn);
+    note.textContent = `${trace.pixels} × ${trace.lines} pixels` +
+      (trace.stride > 1 ? ` (every ${trace.stride} of run.h5)` : "") +
+      drawn.map(({title, range: [low, high]}) => `; ${title} from ${withUnit(low, trace.unit)} to ${withUnit(high, trace.unit)}`).join("") + ".";
     canvas.setAttribute("aria-label", `${titled(channel.value)}, ${LEVELS[level.value][0]}. ${note.textContent}`);
   };
   channel.onchange = level.onchange = paint;
@@ -127,7 +127,7 @@ function placeRaster({action, channels}, host) {
   host.parentElement.querySelector(".card-head").append(saveButtons(`images of ${action}`, {
     PNG: () => saveCanvas(name() + ".png", canvas),
     CSV: () => saveText(name() + ".csv", csvOf(maps().map(({title, values}) =>
-      ({label: `${channel.value}, ${title}`, unit: chosen().forth.unit, values}))), "text/csv")}));
+      ({label: `${channel.value}, ${title}`, unit: chosen().trace.unit, values}))), "text/csv")}));
   paint();
 }
 

@@ -1,21 +1,21 @@
-// Shear over a target: friction, stresses, dilation and work against the way of the target.
+// Shear over a target: friction, stresses, dilation and work against the travel of the target.
 "use strict";
 
 addFigures(({summary: {shear}}) => shear ? [
-  ["static friction", digits(shear.static_friction, 3), "largest in the first quarter of the way"],
+  ["static friction", digits(shear.static_friction, 3), "largest in the first quarter of the travel"],
   ["dynamic friction", digits(shear.dynamic_friction, 3), `± ${digits(shear.dynamic_deviation, 2)} over the second half`],
   ["normal stress", withUnit(shear.normal_stress, "Pa", 3), "on the target"],
-  ["dilation", withUnit(shear.dilation, "m", 3), "way of the punch off the target"]] : []);
+  ["dilation", withUnit(shear.dilation, "m", 3), "travel of the punch off the target"]] : []);
 
 // [title, what stands at the axis, [[series, label], ...]]
 const OF_SHEAR = [
   ["Friction of the target", "coefficient", [["friction", "lateral / normal force"]]],
   ["Stresses in shear", "stress", [["normal_stress", "normal, on the target"], ["lateral_stress", "lateral, on the target"],
                                    ["punch_lateral_stress", "lateral, on the punch"]]],
-  ["Dilation", "way off the target", [["dilation", "way of the punch outwards"]]],
+  ["Dilation", "travel off the target", [["dilation", "travel of the punch outwards"]]],
   ["Share of the lateral force that the wall bears", "share", [["wall_share", "wall / target"]]],
   ["Particles that go along with the target", "particles", [["locked", "within 10 % of its speed"]]],
-  ["Work of the target", "work", [["work", "lateral force times way"]]]];
+  ["Work of the target", "work", [["work", "lateral force times travel"]]]];
 
 // Static and dynamic coefficients as lines across, where the summary has them.
 function frictionLevels({summary: {shear}, times}) {
@@ -26,7 +26,7 @@ function frictionLevels({summary: {shear}, times}) {
 
 addCurves(run => {
   if (!run.has("shear/distance") || !(largest(run.values("shear/distance")) > 0)) return [];
-  const xs = [run.series("shear/distance", "way of the target"), timeAxis(run)];
+  const xs = [run.series("shear/distance", "travel of the target"), timeAxis(run)];
   return OF_SHEAR.map(([title, y, names]) => {
     const lines = names.filter(([name]) => run.has(`shear/${name}`)).map(([name, label]) => run.series(`shear/${name}`, label));
     const friction = names[0][0] === "friction";

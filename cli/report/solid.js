@@ -110,7 +110,7 @@ class SolidView {
     this.drawAxes(ctx);
     drawScale(ctx, room + 14, 26, height - 60, {low: range[0], high: range[1], unit: "m"});
     const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `drawn ${digits(this.larger)} times larger`;
-    this.note.textContent = `Lever, ${this.run.isCalibration ? LOAD_CASES[Math.round(time)] : digits(time, 3) + " actions done"}, ${drawn}; most displacement ${withUnit(this.most, "m")}. Drag to turn.`;
+    this.note.textContent = `Lever, ${this.run.isCalibration ? LOAD_CASES[Math.round(time)] : digits(time, 3) + " actions done"}, ${drawn}; largest displacement ${withUnit(this.most, "m")}. Drag to turn.`;
     canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent}`);
     canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }

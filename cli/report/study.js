@@ -8,12 +8,12 @@ const linkTo = run => element("a", {textContent: run.name,
 function leadText(head) {
   const bad = head.runs.filter(run => run.failure).length;
   const unmet = head.expectations.filter(one => !one.met).length;
-  const parts = [`${head.runs.length} runs of ` +
-                 `${new Set(head.runs.map(run => run.variation)).size} variations`,
-                 bad ? `${bad} went bad` : "all good"];
+  const parts = [`${counted(head.runs.length, "run")} of ` +
+                 counted(new Set(head.runs.map(run => run.variation)).size, "variation"),
+                 bad ? `${bad} failed` : "all good"];
   if (head.expectations.length) {
-    parts.push(unmet ? `${unmet} of ${head.expectations.length} expectations not met`
-                     : `all ${head.expectations.length} expectations met`);
+    parts.push(unmet ? `${unmet} of ${counted(head.expectations.length, "expectation")} not met`
+                     : `${head.expectations.length > 1 ? "all " : ""}${counted(head.expectations.length, "expectation")} met`);
   }
   return parts.join(", ") + `. Version ${head.version} (${head.commit}).`;
 }
@@ -42,7 +42,7 @@ function fillTable(id, titles, rows, isBad = () => false) {
   });
 }
 
-const figureOf = (run, name) => run.figures.find(figure => figure.name === name);
+const figureOf = (run, name) => run.values.find(figure => figure.name === name);
 
 function figureText(figure) {
   if (!figure || figure.value === null || figure.value === "") return "–";
@@ -57,7 +57,7 @@ const COLUMNS = [["particles", "particles"], ["steps", "steps"], ["wall_seconds"
                  ["elements", "elements"], ["increments", "increments"],
                  ["k_n", "k_n"], ["k_l", "k_l"], ["k_x", "k_x"], ["k_l/k_n", "k_l/k_n"],
                  ["torsional_stiffness", "torsional stiffness"], ["share_twist", "share of twist"],
-                 ["share_bending", "of lateral bending"], ["share_tip", "of the tip"],
+                 ["share_bending", "share of lateral bending"], ["share_tip", "share of the tip"],
                  ["invols_normal", "InvOLS normal"], ["invols_lateral", "InvOLS lateral"],
                  ["loop/load", "load of the loop"], ["loop/half_width", "W"], ["loop/offset", "Δ"],
                  ["loop/friction", "friction"], ["loop/sensitivity", "sensitivity"],
@@ -73,7 +73,7 @@ function fillRuns(head) {
     return figure && figure.value !== null && figure.value !== "";
   }));
   const rows = head.runs.map(run => [
-    run.figures.some(figure => figure.name === "outcome" && figure.value) ? linkTo(run) : run.name,
+    run.values.some(figure => figure.name === "outcome" && figure.value) ? linkTo(run) : run.name,
     ...keys.map(key => run.varied[key] || "–"), String(run.seed),
     run.failure ? run.failure : figureText(figureOf(run, "outcome")),
     ...columns.map(([name]) => figureText(figureOf(run, name)))]);
@@ -131,7 +131,7 @@ const spread = (values, count = 60) => {
 const parameterOf = (group, name) => group.parameters.find(parameter => parameter.name === name).value;
 
 function markedLine(law, group, unit, x, values, fit) {
-  return {label: law.groups.length > 1 ? group.name : `${group.points.length} runs`, unit, x, values, low: values,
+  return {label: law.groups.length > 1 ? group.name : counted(group.points.length, "run"), unit, x, values, low: values,
           high: values, isMarks: true, fit: group.not_fitted ? null : fit()};
 }
 
@@ -189,7 +189,7 @@ const seriesLabel = name => words(name).replaceAll("/", " ");
 function overlay(curve, numbers) {
   const lines = curve.lines.map(line => {
     const {x, y, low, high} = lineData(line, numbers);
-    const label = line.band ? `${line.variation}, mean of ${line.runs} seeds, band from least to most` : line.variation;
+    const label = line.band ? `${line.variation}, mean of ${line.runs} seeds, band from min to max` : line.variation;
     return {label, unit: curve.y_unit, x, values: y, low, high};
   });
   return {title: seriesLabel(curve.title), x: {label: seriesLabel(curve.x), unit: curve.x_unit, values: []},

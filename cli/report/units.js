@@ -60,6 +60,8 @@ function element(tag, properties, ...children) {
 // After the layout that the change of size belongs to.
 const onResize = (host, action) => new ResizeObserver(() => requestAnimationFrame(action)).observe(host);
 const percent = value => digits(100 * value, 3) + " %";
+// "1 run", "2 runs".
+const counted = (count, one) => `${count.toLocaleString("en")} ${one}${count === 1 ? "" : "s"}`;
 const words = name => name.replaceAll("_", " ");
 const titled = name => words(name).replace(/^./, letter => letter.toUpperCase());
 const labelled = (name, unit) => unit ? `${name} [${unit}]` : name;

@@ -26,15 +26,15 @@ function drawCurves(title, curves, y) {
   draw(title, {x: {label: "displacement of the piezo", unit: "m", values: []}, y, lines});
 }
 
-// The loops as they were taken: forth and back of the least, a middle and the greatest load.
+// The loops as they were taken: trace and retrace of the smallest, a middle and the largest load.
 function drawTraces(title, record) {
   const raw = record.loops.filter(loop => loop.traces);
   if (!raw.length) return;
   const chosen = [...new Set([0, raw.length >> 1, raw.length - 1])].map(i => raw[i]);
   const colours = theme().lines;
-  const lines = chosen.flatMap((loop, i) => ["forth", "back"].map((way, k) =>
-    ({label: `${withUnit(loop.load, record.load_unit, 3)}, ${way}`, unit: "V", x: loop.traces.position,
-      values: loop.traces[way], colour: colours[i], dash: k ? [5, 3] : undefined})));
+  const lines = chosen.flatMap((loop, i) => ["trace", "retrace"].map((direction, k) =>
+    ({label: `${withUnit(loop.load, record.load_unit, 3)}, ${direction}`, unit: "V", x: loop.traces.position,
+      values: loop.traces[direction], colour: colours[i], dash: k ? [5, 3] : undefined})));
   draw(title, {x: {label: record.position_unit ? "position" : "place", unit: record.position_unit, values: []},
                y: "lateral signal", lines});
 }
@@ -92,7 +92,7 @@ function drawHistogram({from, until, counts}, {friction, confidence}, draws) {
   const upright = (label, at, dash) => ({label, unit: "-", x: [at, at], values: [0, top], dash});
   draw("Friction coefficient: what the draws gave",
        {x: {label: "friction coefficient", unit: "-", values: []}, y: "probability density",
-        lines: [{label: `${draws} draws`, unit: "-", x, values}, upright("value", friction.value),
+        lines: [{label: counted(draws, "draw"), unit: "-", x, values}, upright("value", friction.value),
                 upright(`${percent(confidence)} from`, friction.low, [5, 4]),
                 upright("to", friction.high, [5, 4])]});
 }
@@ -146,7 +146,7 @@ function fillResults(summary) {
     addRow(table, [labelled(name, label), of(known.value), of(known.error, 2), of(known.low), of(known.high), of(known.linear_error, 2)]);
   }
   document.getElementById("results-note").textContent =
-    `${summary.draws} draws of all inputs with normal laws (seed ${summary.seed})` +
+    `${counted(summary.draws, "draw")} of all inputs with normal laws (seed ${summary.seed})` +
     (summary.failed_draws ? `; ${summary.failed_draws} fit no friction and were left out.` : ".");
 }
 
@@ -173,7 +173,7 @@ function fillTables({summary, groups, loops}) {
                    withUnit(raw.offset, "V"), withUnit(loop.force, "N"), measured(summary[`friction_of_loop_${i + 1}`])]);
   });
   const curves = document.getElementById("force-curves");
-  addRow(curves, ["surface", "curve", "slope, approach [V/nm]", "slope, retract [V/nm]", "curvature", "pull-off", "work of pulling off", "crosstalk"], true);
+  addRow(curves, ["surface", "curve", "slope, approach [V/nm]", "slope, retract [V/nm]", "curvature", "pull-off", "pull-off work", "crosstalk"], true);
   const perNm = known => known ? withError(known.value * 1e-9, known.error * 1e-9, 4) : "–";
   for (const [surface, set] of Object.entries(summary.force_curves)) {
     for (const one of set.curves) {
@@ -200,9 +200,9 @@ function fillTiles(summary) {
 
 function main() {
   const head = JSON.parse(document.getElementById("head").textContent), {summary} = head;
-  document.getElementById("lead").textContent = `${summary.loops.length} friction loops on the sample from ${head.loops.file}, ` +
-    `${summary.force_curves.hard.curves.length} force curves on a hard surface, ` +
-    (head.wedge ? `${head.wedge.loops.length} loops on slopes.` : "side contacts of a test probe.");
+  document.getElementById("lead").textContent = `${counted(summary.loops.length, "friction loop")} on the sample from ${head.loops.file}, ` +
+    `${counted(summary.force_curves.hard.curves.length, "force curve")} on a hard surface, ` +
+    (head.wedge ? `${counted(head.wedge.loops.length, "loop")} on slopes.` : "side contacts of a test probe.");
   document.getElementById("version").textContent = `Version ${summary.version} (${summary.commit}).`;
   document.getElementById("settings-text").textContent = head.settings;
   fillTiles(summary);

@@ -60,8 +60,8 @@ function fillTiles(summary) {
 
 function main() {
   const {summary, loops, file, settings} = JSON.parse(document.getElementById("head").textContent);
-  document.getElementById("lead").textContent = `${loops.length} friction loops on ${summary.facets.length} ` +
-    `facet${summary.facets.length > 1 ? "s" : ""}, from ${file}.`;
+  document.getElementById("lead").textContent = `${counted(loops.length, "friction loop")} on ` +
+    `${counted(summary.facets.length, "facet")}, from ${file}.`;
   document.getElementById("version").textContent = `Version ${summary.version} (${summary.commit}).`;
   document.getElementById("settings-text").textContent = settings;
   fillTiles(summary);

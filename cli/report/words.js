@@ -6,10 +6,11 @@ const countOf = value => Math.round(value).toLocaleString("en");
 function did({family, head, summary}) {
   if (family === "afm") return "A lever was calibrated" + (summary.loops ? " and scanned over a surface" :
                                (head.frames || []).length && summary.increments ? " and moved against a surface" : "");
-  const particles = `${countOf(head.mesh.particles)} particle${head.mesh.particles === 1 ? "" : "s"}`;
+  const particles = counted(head.mesh.particles, "particle");
   if (family === "shear") return `A target was drawn under a compact of ${particles}`;
-  return summary.relative_density === undefined ? `${titled(particles)} were moved and deformed`
-    : `${titled(particles)} ${head.mesh.particles === 1 ? "was" : "were"} pressed to a relative density of ` +
+  const were = head.mesh.particles === 1 ? "was" : "were";
+  return summary.relative_density === undefined ? `${titled(particles)} ${were} moved and deformed`
+    : `${titled(particles)} ${were} pressed to a relative density of ` +
       digits(summary.relative_density, 3);
 }
 
@@ -17,16 +18,16 @@ function did({family, head, summary}) {
 function leadOf(run) {
   const {summary, head} = run, figures = qualityFigures(run);
   const elements = head.mesh ? head.mesh.cells : head.solid ? head.solid.cells : 0;
-  const parts = [`${did(run)}, in ${countOf(elements)} elements.`];
+  const parts = [`${did(run)}, in ${counted(elements, "element")}.`];
   if (summary.wall_seconds > 0) parts.push(`Computed in ${duration(summary.wall_seconds)}.`);
-  if (summary.outcome && summary.outcome !== "done") parts.push(`The run ${summary.outcome}.`.replace("run failed", "run went bad"));
+  if (summary.outcome && summary.outcome !== "done") parts.push(`The run ${summary.outcome}.`);
   const beyond = figures.filter(figure => Math.abs(figure.value) > figure.limit);
   const limited = figures.filter(figure => typeof figure.limit === "number");
   if (beyond.length) parts.push(`Beyond its limit: ${beyond.map(figure => figure.name.toLowerCase()).join(", ")}.`);
-  else if (limited.length) parts.push("Every quality figure is within its limit.");
+  else if (limited.length) parts.push("Every quality value is within its limit.");
   const missed = (summary.expectations || []).filter(one => !one.met).length;
-  if (summary.expectations) parts.push(missed ? `${missed} of ${summary.expectations.length} expectations not met.`
-                                              : `All ${summary.expectations.length} expectations met.`);
+  if (summary.expectations) parts.push(missed ? `${missed} of ${counted(summary.expectations.length, "expectation")} not met.`
+                                              : summary.expectations.length > 1 ? `All ${summary.expectations.length} expectations met.` : "The expectation is met.");
   return parts.join(" ");
 }
 
@@ -83,7 +84,7 @@ function knownRows(run) {
     ["Simulated time", has("time") ? withUnit(s.time, "s") : null, ["time"]],
     ["Steps", has("steps") ? count(s.steps) : null, ["steps"]],
     ["Computing time", has("wall_seconds") ? duration(s.wall_seconds) +
-      (has("threads") ? ` on ${s.threads} thread${s.threads === 1 ? "" : "s"}` : "") : null,
+      (has("threads") ? ` on ${counted(s.threads, "thread")}` : "") : null,
      ["wall_seconds", "threads"]],
     ["Speed", has("element_updates_per_second") ?
       `${digits(s.element_updates_per_second / 1e6, 3)} million element updates a second` : null,

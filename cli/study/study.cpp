@@ -11,6 +11,7 @@
 #include "engine/files/output_error.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/study/study_read.hpp"
 #include "scenes/study/study_trends.hpp"
 
@@ -52,7 +53,7 @@ ExitCode finish(StudyRunner& runner, const Study& study, const fs::path& folder)
   const std::size_t bad = runner.tell_bad();
   if (!verdicts.empty()) tell("expectations\n");
   for (const Verdict& verdict : verdicts) tell("  {}\n", verdict.text());
-  tell("{} of {} runs good; results in {}\n", results.size() - bad, results.size(),
+  tell("{} of {} good; results in {}\n", results.size() - bad, counted(results.size(), "run"),
        folder.string());
   return bad > 0 || !all_met(verdicts) ? ExitCode::run_failed : ExitCode::done;
 }
@@ -62,8 +63,9 @@ void print_list(const Study& study) {
     tell("{}\n  {}\n", run.name, run.file.string());
     for (const std::string& change : run.overrides) tell("  --set '{}'\n", change);
   }
-  tell("{}: good: {} runs of {} variations, {} expectations\n", study.file.string(),
-       study.runs.size(), study.variations.size(), study.spec.expects.size());
+  tell("{}: good: {} of {}, {}\n", study.file.string(), counted(study.runs.size(), "run"),
+       counted(study.variations.size(), "variation"),
+       counted(study.spec.expects.size(), "expectation"));
 }
 
 }  // namespace
@@ -86,7 +88,7 @@ ExitCode run_study(const StudyOptions& options) {
   write_own(folder / "study.toml", role::study, study.text);
   runner.go();
   if (interrupted()) {
-    tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command goes on\n",
+    tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command continues\n",
          runner.done(), runner.to_do());
     return ExitCode::interrupted;
   }

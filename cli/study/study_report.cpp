@@ -27,9 +27,9 @@ Json run_json(const Study& study, const StudyResult& result) {
             {"varied", varied},
             {"code", result.code}};
   if (!result.failure.empty()) json["failure"] = result.failure;
-  json["figures"] = Json::array();
+  json["values"] = Json::array();
   for (const Figure& figure : figures_of(result))
-    json["figures"].push_back(
+    json["values"].push_back(
         {{"name", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
   for (const char* part : {"fits", "transmission"})
     if (result.summary.contains(part)) json[part] = result.summary[part];

@@ -110,7 +110,7 @@ void add_transmission(std::vector<Figure>& figures, const StudyResult& result) {
 }
 
 Json afm_figure(const Json& summary, const std::string& name) {
-  return summary.contains("figures") ? number_in(summary["figures"], name.c_str()) : Json();
+  return summary.contains("values") ? number_in(summary["values"], name.c_str()) : Json();
 }
 
 std::vector<Figure> afm_figures_in(const StudyResult& result) {

@@ -18,6 +18,7 @@
 #include "engine/files/output_error.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
+#include "scenes/language/counted.hpp"
 
 namespace pulvis {
 namespace {
@@ -45,7 +46,7 @@ std::string last_line(const fs::path& log) {
   return last;
 }
 
-// What the log of a run that went bad says about it.
+// What the log of a failed run says about it.
 std::string failure_of(const JobEnd& end, const fs::path& log) {
   if (end.signal != 0)
     return fmt::format("crashed: signal {} ({})", end.signal, strsignal(end.signal));
@@ -100,10 +101,10 @@ class StudyRunner::Parts {
 
   void go() {
     const auto kept = results_.size() - waiting_.size();
-    tell("{} runs: {} to do, {} finished before; {} at once, {} thread{} each\n", results_.size(),
-         waiting_.size(), kept, times_.jobs, times_.threads, times_.threads == 1 ? "" : "s");
+    tell("{}: {} to do, {} finished before; {} at once, {} each\n", counted(results_.size(), "run"),
+         waiting_.size(), kept, times_.jobs, counted(times_.threads, "thread"));
     const auto resumed = std::ranges::count(results_, true, &StudyResult::resumed);
-    if (resumed > 0) tell("broken off before, resumed at their checkpoints: {}\n", resumed);
+    if (resumed > 0) tell("interrupted before, resumed from their checkpoints: {}\n", resumed);
     std::fflush(stdout);
     std::vector<Job> jobs;
     for (const std::size_t i : waiting_) jobs.push_back(job_of(results_[i]));
@@ -130,7 +131,7 @@ class StudyRunner::Parts {
     std::size_t bad = 0;
     for (const StudyResult& result : results_) {
       if (result.failure.empty()) continue;
-      tell(stderr, "pulvis: {} went bad: {}\n", result.run->name, result.failure);
+      tell(stderr, "pulvis: {}: {}\n", result.run->name, result.failure);
       ++bad;
     }
     return bad;

@@ -6,6 +6,7 @@
 #include "cli/save_scene.hpp"
 #include "cli/summary.hpp"
 #include "engine/files/own_files.hpp"
+#include "scenes/language/counted.hpp"
 
 namespace pulvis {
 namespace {
@@ -24,7 +25,7 @@ Json quantity_json(const volts::Quantity& quantity, const std::vector<std::strin
   return json;
 }
 
-// The work of pulling off is in V m until the normal calibration is known.
+// The pull-off work is in V m until the normal calibration is known.
 Json curves_json(const volts::CurveSet& set, double normal) {
   Json json{{"file", set.file.filename().string()}, {"slope", mean_json(set.mean.slope)}};
   for (std::size_t i = 0; i < set.figures.size(); ++i) {
@@ -150,9 +151,9 @@ std::string volts_text(const VoltsReduction& reduction) {
     return line_of(label, named(result, name), scale, unit, confidence);
   };
   const lab::Mean& slope = reduced.hard.mean.slope;
-  std::string text =
-      fmt::format("{:<32} {:.5g} +- {:.2g} V/nm over {} curves\n", "slope of force curves",
-                  slope.value * 1e-9, slope.error * 1e-9, reduced.hard.curves.size());
+  std::string text = fmt::format("{:<32} {:.5g} +- {:.2g} V/nm over {}\n", "slope of force curves",
+                                 slope.value * 1e-9, slope.error * 1e-9,
+                                 counted(reduced.hard.curves.size(), "curve"));
   if (reduced.measured.crosstalk)
     text += fmt::format("{:<32} {:.5g} +- {:.2g} V/V, removed\n", "crosstalk",
                         reduced.measured.crosstalk->value, reduced.measured.crosstalk->error);

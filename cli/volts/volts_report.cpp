@@ -82,10 +82,10 @@ Json loops_json(const volts::LoopRecord& record, const std::vector<volts::Input>
     const auto error = std::ranges::find(
         inputs, group + " " + std::to_string(i + 1) + ", half-width", &volts::Input::name);
     if (error != inputs.end()) one["half_width_error"] = error->error;
-    if (!loop.traces.forth.empty())
+    if (!loop.traces.trace.empty())
       one["traces"] = {{"position", thin(loop.traces.position)},
-                       {"forth", thin(loop.traces.forth)},
-                       {"back", thin(loop.traces.back)}};
+                       {"trace", thin(loop.traces.trace)},
+                       {"retrace", thin(loop.traces.retrace)}};
     json["loops"].push_back(one);
   }
   return json;

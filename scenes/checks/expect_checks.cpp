@@ -113,7 +113,7 @@ class ExpectChecks {
   void window(const ExpectSpec& expect) {
     const When when = expect.when.value_or(expect.like.empty() ? When::end : When::always);
     if (when != When::end && is_figure_of_a_run(expect.series))
-      refuse("when", "this is one figure of the whole run, allowed: when = \"end\"");
+      refuse("when", "this is one value of the whole run, allowed: when = \"end\"");
     if (when != When::end && when != When::always && !expect.like.empty())
       refuse("when", "scenes are compared sample by sample, allowed: \"always\" or \"end\"");
     for (const auto& [key, share] : {std::pair{"from", expect.from}, {"until", expect.until}})

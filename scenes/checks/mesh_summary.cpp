@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scenes/language/counted.hpp"
 #include "scenes/meshes/mesh.hpp"
 
 namespace pulvis {
@@ -22,9 +23,10 @@ std::string summary_of_grains(const Scene& scene, const ParticleSpec& particle) 
       edge = std::min(edge, shortest_edge(shape));
     }
   return fmt::format(
-      "{}: {} grains and {} elements in {} tessellations, worst corner sine {:.3f}, shortest edge "
+      "{}: {} and {} in {}, worst corner sine {:.3f}, shortest edge "
       "{:.4g} m\n",
-      particle.name, grains, elements, particle.tessellations.size(), sine, edge);
+      particle.name, counted(grains, "grain"), counted(elements, "element"),
+      counted(particle.tessellations.size(), "tessellation"), sine, edge);
 }
 
 }  // namespace
@@ -37,10 +39,10 @@ std::string mesh_summary(const Scene& scene) {
       continue;
     }
     const Shape shape = make_shape(particle);
-    text += fmt::format(
-        "{}: {} elements, {} boundary edges, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
-        particle.name, shape.elements(), shape.boundary_nodes, min_corner_sine(shape),
-        shortest_edge(shape));
+    text += fmt::format("{}: {}, {}, worst corner sine {:.3f}, shortest edge {:.4g} m\n",
+                        particle.name, counted(shape.elements(), "element"),
+                        counted(shape.boundary_nodes, "boundary edge"), min_corner_sine(shape),
+                        shortest_edge(shape));
   }
   return text;
 }

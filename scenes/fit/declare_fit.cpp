@@ -194,12 +194,13 @@ const TableDeclaration<PlateFitSpec>& fit_fit() {
          .fallback = value_of(0.95),
          .doc = "Level of the intervals."},
         to(&PlateFitSpec::confidence)},
-       {{.name = "most_rounds",
+       {{.name = "max_rounds",
+         .formerly = "most_rounds",
          .kind = Kind::integer,
          .range = within(1, 100),
          .fallback = value_of(8),
          .doc = "After so many rounds it gives up; each has one run and one for each parameter."},
-        integer_to(&PlateFitSpec::most_rounds)}}};
+        integer_to(&PlateFitSpec::max_rounds)}}};
   return declaration;
 }
 

@@ -5,11 +5,11 @@
 
 namespace pulvis {
 
-GaussNewton::GaussNewton(std::vector<FreeParameter> parameters, double tolerance, int most_rounds,
+GaussNewton::GaussNewton(std::vector<FreeParameter> parameters, double tolerance, int max_rounds,
                          Allowed is_allowed)
     : parameters_(std::move(parameters)),
       tolerance_(tolerance),
-      most_rounds_(most_rounds),
+      max_rounds_(max_rounds),
       is_allowed_(std::move(is_allowed)) {
   Point start;
   for (const FreeParameter& p : parameters_) start.push_back(p.start);
@@ -62,9 +62,9 @@ void GaussNewton::move() {
   const Eigen::VectorXd change =
       -damped.completeOrthogonalDecomposition().solve(jacobian_.transpose() * residuals_);
   Point next = best_;
-  constexpr int most_halvings = 20;
+  constexpr int max_halvings = 20;
   double share = 1;
-  for (int halving = 0; halving < most_halvings; ++halving, share /= 2) {
+  for (int halving = 0; halving < max_halvings; ++halving, share /= 2) {
     for (std::size_t k = 0; k < next.size(); ++k)
       next[k] = std::clamp(best_[k] + share * change[static_cast<Eigen::Index>(k)],
                            parameters_[k].low, parameters_[k].high);
@@ -76,7 +76,7 @@ void GaussNewton::move() {
     is_small &= std::abs(next[k] - best_[k]) <= tolerance_ * parameters_[k].step;
   if (is_small)
     state_ = State::converged;
-  else if (rounds_ >= most_rounds_)
+  else if (rounds_ >= max_rounds_)
     state_ = State::gave_up;
   else
     ask(next);

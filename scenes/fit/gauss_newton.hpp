@@ -24,7 +24,7 @@ class GaussNewton {
   enum class State { going, converged, gave_up };
 
   // `tolerance`: share of a step. Points that are not allowed are not asked for; `start` is.
-  GaussNewton(std::vector<FreeParameter> parameters, double tolerance, int most_rounds,
+  GaussNewton(std::vector<FreeParameter> parameters, double tolerance, int max_rounds,
               Allowed is_allowed);
 
   State state() const { return state_; }
@@ -46,7 +46,7 @@ class GaussNewton {
 
   std::vector<FreeParameter> parameters_;
   double tolerance_;
-  int most_rounds_, rounds_ = 0;
+  int max_rounds_, rounds_ = 0;
   Allowed is_allowed_;
   State state_ = State::going;
   std::vector<Point> asks_;

@@ -121,7 +121,7 @@ std::vector<std::string> PlateComparison::limits() const {
         "({:.4g} mm).",
         measured_way_ * 1e3, measured_way_ / *m.particle_diameter, *m.particle_diameter * 1e3));
   if (has_record() && std::ranges::max(distance_) > until_)
-    told.push_back(fmt::format("Not compared: the record beyond {:.4g} mm of the simulated way.",
+    told.push_back(fmt::format("Not compared: the record beyond {:.4g} mm of the simulated travel.",
                                until_ * 1e3));
   if (has_record() && from() > 0)
     told.push_back(fmt::format("Not compared: the first {:.4g} mm.", from() * 1e3));

@@ -40,7 +40,7 @@ struct PlateFitSpec {
   std::string target;
   double static_within = 0, dynamic_from = 0;  // m
   double tolerance = 0, confidence = 0;        // -
-  int most_rounds = 0;
+  int max_rounds = 0;
 };
 
 struct PlateFit {

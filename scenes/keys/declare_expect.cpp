@@ -15,7 +15,7 @@ std::vector<Key<ExpectSpec>> series_keys() {
       {{.name = "series",
         .kind = Kind::text,
         .doc = "A series of `history.csv`; `momentum/x`, `momentum/y` or `momentum/angular` (about "
-               "the origin) of the whole powder; or a figure of the whole run: "
+               "the origin) of the whole powder; or a value of the whole run: "
                "`energy_balance_error`, "
                "`kinetic_ratio`.",
         .fallback_doc = "none: the expectation is about the `outcome`"},

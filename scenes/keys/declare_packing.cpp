@@ -73,7 +73,7 @@ Key<PackingSpec> density_key() {
            .choices = {{"touching", "until nothing moves any more"},
                        {"densest",
                         "then shaken on and pressed again, as long as that pays; equal discs "
-                        "order themselves on the way"}},
+                        "order themselves meanwhile"}},
            .only_for = "random",
            .doc = "Relative density of the die up to its top: area of the particles over that of "
                   "the die. Discs and the like come to rest at 0.76 to 0.84 by themselves; from "

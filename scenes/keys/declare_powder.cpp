@@ -78,7 +78,7 @@ const TableDeclaration<Scene>& top_level() {
          .kind = Kind::choice,
          .choices = {{"draft", "a quick look"},
                      {"standard", "where more costs much and brings little"},
-                     {"fine", "for figures to rely on"}},
+                     {"fine", "for results to rely on"}},
          .only_for = compaction_only,
          .doc = "How fine the meshes are that do not say it themselves; the error to expect: "
                 "docs/accuracy.md.",

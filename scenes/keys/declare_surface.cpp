@@ -168,7 +168,7 @@ const TableDeclaration<ActionSpec>& action() {
                      {"scan", "the probe is drawn over the surface"},
                      {"retract", "the surface moves down"},
                      {"hold", "nothing moves"},
-                     {"raster", "line by line forth and back over an area"}},
+                     {"raster", "line by line, trace and retrace, over an area"}},
          .required = true,
          .doc = "What is done."},
         [](ActionSpec& a, const Decoded& value) {
@@ -200,13 +200,14 @@ const TableDeclaration<ActionSpec>& action() {
         [](ActionSpec& a, const Decoded& value) {
           a.direction = static_cast<TargetSpec::Direction>(value.index);
         }},
-       {{.name = "back",
+       {{.name = "retrace",
+         .formerly = "back",
          .kind = Kind::choice,
-         .choices = {{"yes", "forth and back"}, {"no", "forth"}},
+         .choices = {{"yes", "trace and retrace"}, {"no", "trace alone"}},
          .fallback = value_of("yes"),
          .only_for = "scan",
          .doc = "Whether the scan returns."},
-        [](ActionSpec& a, const Decoded& value) { a.back = value.index == 0; }},
+        [](ActionSpec& a, const Decoded& value) { a.retrace = value.index == 0; }},
        {{.name = "set_point",
          .kind = Kind::choice,
          .choices = {{"height", "the scanner keeps its height"},

@@ -35,19 +35,19 @@ class Noise:
 
 
 def force_curves(dice, noise, adhesion, stiffness, count, lateral):
-    """Rows of curves: there and back, with a tilted line of no force, a small jump into contact, a pull-off."""
+    """Rows of curves: there and retrace, with a tilted line of no force, a small jump into contact, a pull-off."""
     rows = []
     for curve in range(1, count + 1):
         touch, slope = dice.uniform(190, 210), stiffness * TRUTH["slope"] * 1e-9 * (1 + dice.gauss(0, 0.003))
         pull = adhesion * (1 + dice.gauss(0, 0.04)) / TRUTH["normal_sensitivity"] if lateral is None else \
             adhesion / TRUTH["normal_sensitivity"]
-        for back in (False, True):
+        for retrace in (False, True):
             for i in range(0, 401, 2):
-                d = 400 - i if back else i
-                if back and i == 0:
+                d = 400 - i if retrace else i
+                if retrace and i == 0:
                     continue
-                y = slope * (d - touch) * (1.004 if back else 1.0)
-                y = (y if y > -pull else 0.0) if back else (y if y > -0.15 * pull else 0.0)
+                y = slope * (d - touch) * (1.004 if retrace else 1.0)
+                y = (y if y > -pull else 0.0) if retrace else (y if y > -0.15 * pull else 0.0)
                 row = [str(curve), str(d), f"{0.1 + 1.2e-4 * d + y + noise():.5f}"]
                 if lateral is not None:
                     row.append(f"{-0.05 + TRUTH['crosstalk'] * y + lateral():.5f}")
@@ -65,8 +65,8 @@ def loop(load, up, down, noise, head):
     rows, normal = [], (load * (1 + SWAY), load * (1 - SWAY))
     for i in range(PLACES):
         there = up + (down - up) * max(0.0, 1 - i / STICKING)
-        back = down + (up - down) * max(0.0, 1 - (PLACES - 1 - i) / STICKING)
-        volts = [v + 0.04 + TRUTH["crosstalk"] * n + noise() for v, n in zip((there, back), normal)]
+        retrace = down + (up - down) * max(0.0, 1 - (PLACES - 1 - i) / STICKING)
+        volts = [v + 0.04 + TRUTH["crosstalk"] * n + noise() for v, n in zip((there, retrace), normal)]
         rows.append(f"{head}{load},{5 * i}," + ",".join(f"{v:.5f}" for v in (*volts, *(n + noise() for n in normal))))
     return rows
 
@@ -105,12 +105,12 @@ def main():
             up, down = (sideways(load * normal, math.radians(degrees), sign, TRUTH["wedge_friction"],
                                  TRUTH["wedge_adhesion"]) / lateral for sign in (1, -1))
             rows += loop(load, up, down, noise, f"{degrees - math.copysign(0.1, degrees):g},")
-    write("wedge", "slope [deg],load [V],position [nm],forth [V],back [V],normal_forth [V],normal_back [V]", rows)
+    write("wedge", "slope [deg],load [V],position [nm],trace [V],retrace [V],normal_trace [V],normal_retrace [V]", rows)
     rows = []
     for load in (1, 2, 3, 4, 5, 6):
         up = sideways(load * normal, 0, 1, TRUTH["friction"], TRUTH["adhesion"]) / lateral
         rows += loop(float(load), up, -up, noise, "")
-    write("loops", "load [V],position [nm],forth [V],back [V],normal_forth [V],normal_back [V]", rows)
+    write("loops", "load [V],position [nm],trace [V],retrace [V],normal_trace [V],normal_retrace [V]", rows)
     write("side", "curve,displacement [nm],lateral [V]", side_contacts(dice, noise))
     stated = {name: TRUTH[name] * STATED.get(name, 1) for name in ("k_n", "k_l", "arm", "share_twist")}
     (options.out / "volts-lever.json").write_text(json.dumps({"calibration": stated}, indent=2) + "\n")

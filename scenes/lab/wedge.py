@@ -3,7 +3,7 @@
 
 usage: wedge.py [--out FOLDER] [--seed N] [--noise VOLTS]
 
-Facets of a grating at +14.0, 0 and -12.5 degrees, five loads each, raw traces of 256 places forth and back
+Facets of a grating at +14.0, 0 and -12.5 degrees, five loads each, raw traces of 256 places trace and retrace
 with correlated noise and the tip sticking where it has turned. Beside them wedge-truth.json.
 """
 import argparse
@@ -31,7 +31,7 @@ def main():
     options = parser.parse_args()
     dice = random.Random(options.seed)
     lines = ["# Synthetic: made by wedge.py from wedge-truth.json.",
-             "slope [deg],load [nN],position [nm],forth [V],back [V]"]
+             "slope [deg],load [nN],position [nm],trace [V],retrace [V]"]
     for degrees in SLOPES:
         for load in LOADS:
             up, down = (force(load * 1e-9, math.radians(degrees), sign) / TRUTH["sensitivity"]
@@ -40,10 +40,10 @@ def main():
             noise = [0.0, 0.0]
             for i in range(PLACES):
                 noise = [0.6 * n + dice.gauss(0, options.noise) for n in noise]
-                forth = up + (down - up) * math.exp(-i / STICKING)
-                back = down + (up - down) * math.exp(-(PLACES - 1 - i) / STICKING)
-                lines.append(f"{degrees},{load},{2 * i},{forth + seen + noise[0]:.5f},"
-                             f"{back + seen + noise[1]:.5f}")
+                trace = up + (down - up) * math.exp(-i / STICKING)
+                retrace = down + (up - down) * math.exp(-(PLACES - 1 - i) / STICKING)
+                lines.append(f"{degrees},{load},{2 * i},{trace + seen + noise[0]:.5f},"
+                             f"{retrace + seen + noise[1]:.5f}")
     (options.out / "wedge-traces.csv").write_text("\n".join(lines) + "\n")
     (options.out / "wedge-truth.json").write_text(json.dumps(TRUTH, indent=2) + "\n")
 

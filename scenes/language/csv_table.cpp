@@ -284,6 +284,13 @@ void only(const Table& table, const std::vector<std::string>& names) {
   }
 }
 
+void refuse_former(const Table& table,
+                   const std::vector<std::pair<std::string, std::string>>& former_and_new) {
+  for (const auto& [former, name] : former_and_new)
+    if (has_column(table, former))
+      refuse(table, former, fmt::format("is called '{0}' now, allowed: {0}", name));
+}
+
 std::vector<double> numbers(const Table& table, std::size_t column, double factor) {
   std::vector<double> values;
   values.reserve(table.rows.size());

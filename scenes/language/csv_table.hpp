@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pulvis::csv {
@@ -64,6 +65,10 @@ std::size_t column_at(const Table& table, const std::string& name);  // refused 
 
 // Refuses a header with other columns than these, or with one of them twice.
 void only(const Table& table, const std::vector<std::string>& names);
+
+// Refuses columns of older tables with the new name: {{"forth", "trace"}, ...}.
+void refuse_former(const Table& table,
+                   const std::vector<std::pair<std::string, std::string>>& former_and_new);
 
 // A column in the SI unit `unit`; "" for numbers without one. Every cell must hold a finite number,
 // not beyond the largest.

@@ -352,8 +352,9 @@ class AfmChecks {
     const TargetSpec& target = *scene_.afm->target;
     const std::size_t corners = profile_corners(target, reach_of(*scene_.afm));
     if (corners > maximum)
-      refuse("surface.wavelength", fmt::format("{:g} m: {} facets on the way, allowed: {} at most",
-                                               target.wavelength, corners, maximum));
+      refuse("surface.wavelength",
+             fmt::format("{:g} m: {} facets along the path, allowed: {} at most", target.wavelength,
+                         corners, maximum));
   }
 
   // Where the probe's end comes to on the map, its own deflection left aside.
@@ -371,7 +372,7 @@ class AfmChecks {
         refuse(fmt::format("action[{}].{}", i, fast ? "distance" : "width"),
                fmt::format("the scan leaves the map: it comes to {:g} m, allowed: {:g} to {:g} m",
                            at + distance, -bound, bound));
-      if (raster ? !fast : !action.back) at += distance;
+      if (raster ? !fast : !action.retrace) at += distance;
     }
   }
 

@@ -1,7 +1,7 @@
 // Force curves of a programme: what pulls the probe back when it is drawn off the sample.
 //
 // A curve is a press (or several actions, with holds between) and all retracting actions that follow it. Pull-off is
-// the greatest pull over them; its work is the area under the line of no force, F against the way of the scanner, so
+// the greatest pull over them; its work is the area under the line of no force, F against the travel of the scanner, so
 // that it holds what the lever stored, (pull-off)^2/(2 k_n) of a stiff contact, and is that of a measured curve
 // (scenes/volts/force_curve.hpp). The work of adhesion follows from the pull-off by the law of the contact:
 //   DMT  F = 2 pi w R,  sharp tips by their rounding        JKR  F = 3/2 pi w R

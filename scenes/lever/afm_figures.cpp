@@ -62,9 +62,9 @@ const std::vector<LoopFigure>& loop_figures() {
       {{"loop/turned", "-", "share of friction there that points along the scan"},
        [](L l) { return l.turned; }},
       {{"loop/drift", "-", "of the force there, over W"}, [](L l) { return l.drift; }},
-      {{"loop/forth", "N", "mean lateral force that draws the probe forth"},
-       [](L l) { return l.forth; }},
-      {{"loop/back", "N", "the same on the way back"}, [](L l) { return l.back; }},
+      {{"loop/trace", "N", "mean lateral force that draws the probe on the trace"},
+       [](L l) { return l.trace; }},
+      {{"loop/retrace", "N", "the same on the retrace"}, [](L l) { return l.retrace; }},
       {{"loop/half_width", "N", "W"}, [](L l) { return l.half_width; }},
       {{"loop/offset", "N", "Delta"}, [](L l) { return l.offset; }},
       {{"loop/volts_half_width", "V", "W of the lateral detector"},
@@ -84,7 +84,7 @@ const std::vector<CurveFigure>& curve_figures() {
       {{"curve/pull_off", "N", "greatest pull while the probe is drawn off"},
        [](C c) { return c.pull_off; }},
       {{"curve/work", "J",
-        "area under the line of no force meanwhile, over the way of the scanner"},
+        "area under the line of no force meanwhile, over the travel of the scanner"},
        [](C c) { return c.work; }},
       {{"curve/work_of_adhesion", "J/m^2", "of the pull-off and the tip's radius, by DMT or JKR"},
        [](C c) { return c.work_of_adhesion.value_or(std::nan("")); }}};
@@ -141,7 +141,7 @@ std::vector<SeriesInfo> afm_figures_of(const Scene& scene) {
   add_closed_form_figures(all, scene.afm->lever.shape);
   bool loops = false;
   for (const ActionSpec& action : scene.afm->actions)
-    loops = loops || (action.kind == ActionSpec::Kind::scan && action.back);
+    loops = loops || (action.kind == ActionSpec::Kind::scan && action.retrace);
   if (loops)
     for (const LoopFigure& figure : loop_figures()) all.push_back(figure.info);
   if (has_force_curve(scene))

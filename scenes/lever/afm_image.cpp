@@ -25,18 +25,19 @@ std::size_t first_row(const Scene& scene, std::size_t action) {
   return row;
 }
 
-AfmImage image_of(const AfmHistory& history, const Channel& channel, std::size_t action, bool back,
-                  std::size_t first, std::size_t lines, std::size_t pixels,
+AfmImage image_of(const AfmHistory& history, const Channel& channel, std::size_t action,
+                  bool retrace, std::size_t first, std::size_t lines, std::size_t pixels,
                   const PixelSpacing& spacing) {
-  AfmImage image{{fmt::format("action_{}/{}_{}", action, channel.name, back ? "back" : "forth"),
-                  channel.unit, channel.meaning},
-                 lines,
-                 pixels,
-                 spacing,
-                 {}};
+  AfmImage image{
+      {fmt::format("action_{}/{}_{}", action, channel.name, retrace ? "retrace" : "trace"),
+       channel.unit, channel.meaning},
+      lines,
+      pixels,
+      spacing,
+      {}};
   for (std::size_t line = 0; line < lines; ++line)
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-      const std::size_t on_line = back ? 2 * pixels - 1 - pixel : pixel;
+      const std::size_t on_line = retrace ? 2 * pixels - 1 - pixel : pixel;
       image.values.push_back(channel.sign *
                              history.value(first + 2 * pixels * line + on_line, channel.series));
     }
@@ -59,8 +60,8 @@ std::vector<AfmImage> raster_images(const Scene& scene, const AfmHistory& histor
     const PixelSpacing spacing{
         along, action.lines > 1 ? std::abs(action.width) / (action.lines - 1) : along};
     for (const Channel& channel : channels)
-      for (const bool back : {false, true})
-        images.push_back(image_of(history, channel, a, back, first, lines, pixels, spacing));
+      for (const bool retrace : {false, true})
+        images.push_back(image_of(history, channel, a, retrace, first, lines, pixels, spacing));
   }
   return images;
 }

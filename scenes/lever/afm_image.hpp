@@ -11,7 +11,7 @@
 namespace pulvis {
 
 struct AfmImage {
-  SeriesInfo info;  // name: action_2/topography_forth
+  SeriesInfo info;  // name: action_2/topography_trace
   std::uint64_t lines = 0, pixels = 0;
   PixelSpacing spacing;
   std::vector<double> values;  // line by line, pixels in the order of the forward scan

@@ -53,13 +53,13 @@ Means means(const AfmHistory& history, const std::string& force, const std::stri
 }
 
 // Whether the means are those of a plateau.
-void judge(FrictionLoop& loop, const Plateau& forth, const Plateau& back) {
-  loop.slides = std::min(forth.slides, back.slides);
-  loop.turned = std::min(forth.turned, back.turned);
-  const double maximum = std::max(std::abs(forth.drift), std::abs(back.drift));
+void judge(FrictionLoop& loop, const Plateau& trace, const Plateau& retrace) {
+  loop.slides = std::min(trace.slides, retrace.slides);
+  loop.turned = std::min(trace.turned, retrace.turned);
+  const double maximum = std::max(std::abs(trace.drift), std::abs(retrace.drift));
   loop.drift = maximum == 0 ? 0 : maximum / std::max(maximum, std::abs(loop.half_width));
   if (loop.slides <= 1 - 1e-3 || loop.turned <= 1 - 1e-3)
-    loop.needed = std::max(forth.needed, back.needed);
+    loop.needed = std::max(trace.needed, retrace.needed);
 }
 
 bool on_incline(const TargetSpec& target, const ActionSpec& scan) {
@@ -101,24 +101,24 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
   std::vector<FrictionLoop> loops;
   for (std::size_t a = 0; a < scene.afm->actions.size(); ++a) {
     const ActionSpec& action = scene.afm->actions[a];
-    if (action.kind != ActionSpec::Kind::scan || !action.back) continue;
+    if (action.kind != ActionSpec::Kind::scan || !action.retrace) continue;
     const bool lateral = action.direction == TargetSpec::Direction::lateral;
     const std::string force = lateral ? "probe/force_y" : "probe/force_x";
     const std::string volts = lateral ? "detector/lateral" : "detector/normal";
     const auto start = static_cast<double>(a);
-    const Means forth = means(history, force, volts, start + 0.25, start + 0.5 + tolerance);
-    const Means back = means(history, force, volts, start + 0.75, start + 1 + tolerance);
+    const Means trace = means(history, force, volts, start + 0.25, start + 0.5 + tolerance);
+    const Means retrace = means(history, force, volts, start + 0.75, start + 1 + tolerance);
     // A scan along - runs the loop the other way round.
     const double sign = action.distance < 0 ? -1 : 1;
     FrictionLoop loop;
     loop.action = static_cast<int>(a);
-    loop.load = 0.5 * (forth.load + back.load);
-    loop.forth = forth.force;
-    loop.back = back.force;
-    loop.half_width = 0.5 * sign * (forth.force - back.force);
-    loop.offset = 0.5 * (forth.force + back.force);
-    loop.volts_half_width = 0.5 * sign * (forth.volts - back.volts);
-    loop.volts_offset = 0.5 * (forth.volts + back.volts);
+    loop.load = 0.5 * (trace.load + retrace.load);
+    loop.trace = trace.force;
+    loop.retrace = retrace.force;
+    loop.half_width = 0.5 * sign * (trace.force - retrace.force);
+    loop.offset = 0.5 * (trace.force + retrace.force);
+    loop.volts_half_width = 0.5 * sign * (trace.volts - retrace.volts);
+    loop.volts_offset = 0.5 * (trace.volts + retrace.volts);
     judge(loop, plateau_of(scene, history, a, false), plateau_of(scene, history, a, true));
     const TargetSpec& target = *scene.afm->target;
     if (loop.full() && on_incline(target, action)) {

@@ -1,7 +1,7 @@
-// Friction loops: what a scan forth and back over the sample says about friction and slope.
+// Friction loops: what the trace and retrace of a scan over the sample says about friction and slope.
 //
 // Source   wedge calibration, one load: Varenberg et al. (2003); Ogletree et al. (1996) in this form, with
-//          the load L vertical, adhesion A along the normal, slope theta uphill on the way forth:
+//          the load L vertical, adhesion A along the normal, slope theta uphill on the trace:
 //            T_u = [L (sin + mu cos) + mu A]/(cos - mu sin),  T_d = [L (sin - mu cos) - mu A]/(cos + mu sin)
 //            W = (T_u - T_d)/2 = mu (L + A cos)/(cos^2 - mu^2 sin^2),  Delta = (T_u + T_d)/2
 //          Without adhesion mu + 1/mu = 2 (Delta/W)/sin 2 theta, whatever the unit of W and Delta: friction
@@ -33,11 +33,11 @@ struct FrictionLoop {
   // probe to let go: W is not that of friction, and nothing is recovered from it.
   double slides = 0;
   // What else W rests on, in the same half of each traverse: friction has turned from along the lever to along the scan
-  // (least of both ways), and the force stands still.
+  // (the smaller of both), and the force stands still.
   double turned = 1;  // -, share of friction along the scan; 1 where the surface does not tell it
   double drift = 0;   // -, of the force on a plane, over W
   double needed = 0;  // m, scan that would do, by how the force has gone so far; 0: it does
-  double forth = 0, back = 0;         // N, mean force along the scan that draws the probe
+  double trace = 0, retrace = 0;      // N, mean force along the scan that draws the probe
   double half_width = 0, offset = 0;  // N, W and Delta
   double volts_half_width = 0, volts_offset = 0;  // V, of the lateral detector
   std::optional<double> friction;     // recovered from the volts, on an incline along the scan
@@ -60,7 +60,7 @@ struct AfmHistory {
 std::optional<wedge::Calibration> calibrate_wedge(const Scene& scene,
                                                   const std::vector<FrictionLoop>& loops);
 
-// Of every scan that goes forth and back; means over the last half of each traverse.
+// Of every scan that has a trace and a retrace; means over the last half of each traverse.
 std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& history);
 
 }  // namespace pulvis

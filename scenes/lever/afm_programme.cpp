@@ -333,29 +333,29 @@ bool AfmProgramme::press_to_force(const ActionSpec& action) {
 bool AfmProgramme::scan(const ActionSpec& action) {
   const bool lateral = action.direction == TargetSpec::Direction::lateral;
   const double d = action.distance;
-  const std::array<double, 3> forth{lateral ? 0 : -d, lateral ? -d : 0, 0};
-  const std::array<double, 3> back{-forth[0], -forth[1], 0};
-  share_ = action.back ? 0.5 : 1;
-  const bool done = traverse(forth, action.increments, action.servo) &&
-                    (!action.back || traverse(back, action.increments, action.servo));
+  const std::array<double, 3> trace{lateral ? 0 : -d, lateral ? -d : 0, 0};
+  const std::array<double, 3> retrace{-trace[0], -trace[1], 0};
+  share_ = action.retrace ? 0.5 : 1;
+  const bool done = traverse(trace, action.increments, action.servo) &&
+                    (!action.retrace || traverse(retrace, action.increments, action.servo));
   share_ = 1;
   return done;
 }
 
-// A pixel is told when the probe leaves it, at its far end on the traverse forth, at its near end on the traverse
-// back. Between the lines the probe is drawn along the slow axis.
+// A pixel is told when the probe leaves it, at its far end on the trace, at its near end on the
+// retrace. Between the lines the probe is drawn along the slow axis.
 bool AfmProgramme::raster(const ActionSpec& action) {
   const bool lateral = action.direction == TargetSpec::Direction::lateral;
   const double d = action.distance;
-  const std::array<double, 3> forth{lateral ? 0 : -d, lateral ? -d : 0, 0};
-  const std::array<double, 3> back{-forth[0], -forth[1], 0};
+  const std::array<double, 3> trace{lateral ? 0 : -d, lateral ? -d : 0, 0};
+  const std::array<double, 3> retrace{-trace[0], -trace[1], 0};
   const double apart = action.lines > 1 ? action.width / (action.lines - 1) : 0;
   const std::array<double, 3> aside{lateral ? -apart : 0, lateral ? 0 : -apart, 0};
   share_ = 0.5 / action.lines;
   for (int line = 0; line < action.lines; ++line) {
     if (line > 0 && to_skip_ == 0) advance(aside, action.servo, 0);
-    if (!traverse(forth, action.increments, action.servo)) return false;
-    if (!traverse(back, action.increments, action.servo)) return false;
+    if (!traverse(trace, action.increments, action.servo)) return false;
+    if (!traverse(retrace, action.increments, action.servo)) return false;
   }
   share_ = 1;
   return true;

@@ -26,13 +26,13 @@ struct Sample {
 
 class HalfLoop {
  public:
-  HalfLoop(const Scene& scene, const AfmHistory& history, std::size_t action, bool back)
+  HalfLoop(const Scene& scene, const AfmHistory& history, std::size_t action, bool retrace)
       : target_(*scene.afm->target),
         action_(scene.afm->actions[action]),
         adhesion_(pull_off_force(scene)),
         lateral_(action_.direction == TargetSpec::Direction::lateral) {
     constexpr double tolerance = 1e-9;
-    const double start = static_cast<double>(action) + (back ? 0.5 : 0);
+    const double start = static_cast<double>(action) + (retrace ? 0.5 : 0);
     for (std::size_t i = 0; i < history.rows.size(); ++i) {
       const double progress = 2 * (history.times[i] - start);
       if (progress > -tolerance && progress < 1 + tolerance)
@@ -136,8 +136,9 @@ class HalfLoop {
 
 }  // namespace
 
-Plateau plateau_of(const Scene& scene, const AfmHistory& history, std::size_t action, bool back) {
-  return HalfLoop(scene, history, action, back).plateau();
+Plateau plateau_of(const Scene& scene, const AfmHistory& history, std::size_t action,
+                   bool retrace) {
+  return HalfLoop(scene, history, action, retrace).plateau();
 }
 
 }  // namespace pulvis

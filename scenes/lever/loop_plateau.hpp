@@ -22,7 +22,7 @@ struct Plateau {
   double needed = 0;  // m, a scan whose second half lies on the plateau; 0: nothing tells it
 };
 
-// Of one direction of the scan `action`, forth or back, over its second half.
-Plateau plateau_of(const Scene& scene, const AfmHistory& history, std::size_t action, bool back);
+// Of one direction of the scan `action`, trace or retrace, over its second half.
+Plateau plateau_of(const Scene& scene, const AfmHistory& history, std::size_t action, bool retrace);
 
 }  // namespace pulvis

@@ -24,7 +24,7 @@ namespace pulvis::wedge {
 std::optional<double> friction_of_ratio(double ratio, double load, double adhesion, double slope);
 
 struct Loop {
-  double slope = 0;                                      // rad, > 0: forth is uphill
+  double slope = 0;                                      // rad, > 0: the trace is uphill
   double load = 0;                                       // N
   double half_width = 0, offset = 0;                     // V
   std::optional<double> half_width_error, offset_error;  // V

@@ -115,7 +115,7 @@ class Mixer {
     if (normal && !law.minimum && 3 * law.deviation >= law.mean)
       refuse(class_key(c, "deviation"),
              fmt::format("{:g} m makes sizes of nothing, allowed: < {:g} m, a third of the mean, "
-                         "or a least size",
+                         "or a minimum size",
                          law.deviation, law.mean / 3));
     if (!normal && law.kind != SizeLaw::Kind::lognormal) return;
     const double far = 6 * law.deviation;

@@ -53,7 +53,7 @@ std::string header(const Scene& scene) {
     const PackingReached& r = packing.reached;
     text += fmt::format(
         "# random: {} particles, relative density {:.6f}, mean gap {:.4f} "
-        "diameters, least gap {:.3g} m, die {:.9g} m x {:.9g} m\n",
+        "diameters, smallest gap {:.3g} m, die {:.9g} m x {:.9g} m\n",
         packing.placed.size(), r.density, r.mean_gap, r.min_gap, packing.width,
         packing.top - packing.corner.y());
   }

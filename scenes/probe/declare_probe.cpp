@@ -32,7 +32,7 @@ const TableDeclaration<ProbeSpec>& probe_top_level() {
 const TableDeclaration<ProbePath>& probe_path() {
   static const TableDeclaration<ProbePath> declaration{
       {"path", true, "",
-       "A way to load the powder: what it was pressed by shapes its yield surface."},
+       "A load path of the powder: what it was pressed by shapes its yield surface."},
       {{{.name = "name",
          .kind = Kind::name,
          .required = true,

@@ -1,6 +1,6 @@
-// Sliding-plate tests from their raw records to friction curves, figures and repeatability.
+// Sliding-plate tests from their raw records to friction curves, values and repeatability.
 //
-//   records -> sliding (LVDT) -> one clock -> forces -> friction coefficient -> figures -> over the runs
+//   records -> sliding (LVDT) -> one clock -> forces -> friction coefficient -> values -> over the runs
 //
 // Curve    samples of the logger from the start of sliding to its end; the press's force and
 //          displacement are interpolated between its samples
@@ -66,7 +66,7 @@ struct RunFiles {
 ReducedRun reduce(const PressRecord& press, const LoggerRecord& logger, const Settings& settings,
                   const RunFiles& run);
 
-// The figures of a curve that is there already; `noise` as in ReducedRun.
+// The values of a curve that is there already; `noise` as in ReducedRun.
 Static static_peak(const Curve& curve, double within);
 Dynamic dynamic_mean(const Curve& curve, const AnalysisSpec& spec);
 

@@ -26,7 +26,7 @@ constexpr const char* introduction = R"(# The settings of `pulvis reduce`
 A TOML file (`reduce.toml`) that tells `pulvis reduce` about instruments, compact or die, and records. Every key
 can also be given as `--set key.path=value`. Quantities are strings with a unit, as in a scene; ranges
 below are in SI units. Numbers in brackets, as (3.1), are equations and sections of the thesis; how the
-figures are taken is in [laboratory.md](laboratory.md).
+values are taken is in [laboratory.md](laboratory.md).
 )";
 
 class SettingsReader {

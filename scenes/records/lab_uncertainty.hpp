@@ -1,4 +1,4 @@
-// A figure with what makes it unsure: the scatter of its samples, and instruments whose uncertainty is stated.
+// A value with what makes it unsure: the scatter of its samples, and instruments whose uncertainty is stated.
 //
 // Source   JCGM 100:2008 (GUM): contributions add as squares; the interval is that of Student's distribution with
 //          u^4 / (u_scatter^4 / v_scatter) degrees of freedom (Welch-Satterthwaite, G.4; those of stated
@@ -13,7 +13,7 @@ namespace pulvis::lab {
 
 struct Contribution {
   std::string source;  // "scatter", "height", ...
-  double error = 0;    // one standard uncertainty, in the figure's unit
+  double error = 0;    // one standard uncertainty, in the value's unit
 };
 
 struct Measured {

@@ -40,21 +40,21 @@ std::vector<Loop> loops_of_figures(const csv::Table& table) {
 }
 
 std::vector<Loop> loops_of_traces(const csv::Table& table, double skip) {
-  csv::only(table, {"slope", "load", "forth", "back", "position"});
+  csv::only(table, {"slope", "load", "trace", "retrace", "position"});
   const auto slope = column(table, "slope", "rad"), load = column(table, "load", "N");
-  const auto forth = column(table, "forth", "V"), back = column(table, "back", "V");
+  const auto trace = column(table, "trace", "V"), retrace = column(table, "retrace", "V");
   std::vector<Loop> loops;
   for (std::size_t begin = 0, end = 0; begin < slope.size(); begin = end) {
     while (end < slope.size() && slope[end] == slope[begin] && load[end] == load[begin]) ++end;
     const auto left_out = static_cast<std::size_t>(skip * static_cast<double>(end - begin));
     const std::size_t count = end - begin - 2 * left_out;
     if (count < fewest_places)
-      csv::refuse(table, end - 1, csv::column_at(table, "forth"),
+      csv::refuse(table, end - 1, csv::column_at(table, "trace"),
                   fmt::format("the loop ends after {} places, {} of them at its ends, allowed: at "
                               "least {} others",
                               end - begin, 2 * left_out, fewest_places));
-    const lab::Mean f = lab::correlated_mean(std::span(forth).subspan(begin + left_out, count));
-    const lab::Mean b = lab::correlated_mean(std::span(back).subspan(begin + left_out, count));
+    const lab::Mean f = lab::correlated_mean(std::span(trace).subspan(begin + left_out, count));
+    const lab::Mean b = lab::correlated_mean(std::span(retrace).subspan(begin + left_out, count));
     const double error = 0.5 * portable::hypot(f.error, b.error);
     loops.push_back({slope[begin], load[begin], 0.5 * (f.value - b.value),
                      0.5 * (f.value + b.value), error, error});
@@ -69,7 +69,8 @@ bool holds_loops(const std::filesystem::path& file) {
   try {
     const csv::Table table = csv::read(file);
     return csv::has_column(table, "slope") && csv::has_column(table, "load") &&
-           (csv::has_column(table, "half_width") || csv::has_column(table, "forth"));
+           (csv::has_column(table, "half_width") || csv::has_column(table, "trace") ||
+            csv::has_column(table, "forth"));  // refused with its new name
   } catch (const SceneError&) {
     return false;
   }
@@ -77,8 +78,9 @@ bool holds_loops(const std::filesystem::path& file) {
 
 std::vector<Loop> read_loops(const std::filesystem::path& file, double skip) {
   const csv::Table table = csv::read(file);
+  csv::refuse_former(table, {{"forth", "trace"}, {"back", "retrace"}});
   std::vector<Loop> loops =
-      csv::has_column(table, "forth") ? loops_of_traces(table, skip) : loops_of_figures(table);
+      csv::has_column(table, "trace") ? loops_of_traces(table, skip) : loops_of_figures(table);
   if (loops.empty()) csv::refuse(table, "slope", "there is no loop, allowed: rows of numbers");
   return loops;
 }

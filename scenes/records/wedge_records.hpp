@@ -1,8 +1,8 @@
 // Friction loops as an experimenter has them, for the wedge calibration (scenes/lever/wedge_calibration.hpp).
 //
-// One CSV file: `slope` of the facet (> 0: the trace forth runs uphill), `load`, and either
+// One CSV file: `slope` of the facet (> 0: the trace runs uphill), `load`, and either
 //   half_width, offset   volts of each loop, if known with half_width_error, offset_error
-//   forth, back          raw traces in volts, one row a place; rows of the same slope and load that follow
+//   trace, retrace       raw traces in volts, one row a place; rows of the same slope and load that follow
 //                        each other are one loop, and `skip` of them is left out at both ends, where the tip
 //                        sticks after it has turned
 // Half-width and offset of raw traces are half the difference and half the sum of their means. The error of

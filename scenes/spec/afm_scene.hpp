@@ -34,7 +34,7 @@ struct LeverSpec {
   double side_aspect = 0.5;        // -, the same square to a free side, at it
   double foot_edge = 0.03;         // -, at the rim of the tip's foot, over its width
   std::optional<int> foot_layers;  // of solid elements there, 0: plates; absent: by foot_aspect
-  double coarser = 1;  // -, all those edges: for an estimate of their error
+  double coarser = 1;              // -, all those edges: for an estimate of their error
   int layers = 1;                  // of elements through the thickness
   int along = 0, across = 0;       // elements of a beam, evenly; 0: graded
   HexFormulation element = HexFormulation::plate;
@@ -105,7 +105,7 @@ struct ActionSpec {
   double distance = 0;          // m, of the scanner: up (press, retract: down) or sideways (scan)
   std::optional<double> force;  // N, press: the height follows until the target pushes with this
   TargetSpec::Direction direction = TargetSpec::Direction::lateral;  // scan, raster: of the probe
-  bool back = true;                                                  // scan: and back again
+  bool retrace = true;                                               // scan: and the retrace
   bool servo = false;  // scan, hold: the height follows so that the force stays
   int increments = 20;
   double width = 0;  // m, raster: extent along the slow axis, square to the fast one
@@ -113,7 +113,9 @@ struct ActionSpec {
   SourceMark mark;
 
   std::size_t samples() const {  // of the history
-    const int lines_scanned = kind == Kind::raster ? 2 * lines : kind == Kind::scan && back ? 2 : 1;
+    const int lines_scanned = kind == Kind::raster            ? 2 * lines
+                              : kind == Kind::scan && retrace ? 2
+                                                              : 1;
     return static_cast<std::size_t>(increments) * static_cast<std::size_t>(lines_scanned);
   }
 };

@@ -28,7 +28,7 @@ std::vector<Key<Spec>> quantity_keys(const std::vector<Choice>& when) {
       {{.name = "series",
         .kind = Kind::text,
         .required = true,
-        .doc = "A series of `history.csv`, one made from it, or a figure of the run (see above)."},
+        .doc = "A series of `history.csv`, one made from it, or a value of the run (see above)."},
        text_to(&StudyQuantity::series)},
       {{.name = "at",
         .kind = Kind::bound,
@@ -146,7 +146,7 @@ std::vector<Key<StudyExpect>> across_keys() {
         .choices = {{"increasing", "each value is larger than the one before"},
                     {"decreasing", "each is smaller"}},
         .needs = "order",
-        .doc = "Which way.",
+        .doc = "Which direction.",
         .fallback_doc = "required with `order`"},
        [](StudyExpect& spec, const Decoded& value) {
          spec.trend = static_cast<StudyExpect::Trend>(value.index);
@@ -155,7 +155,7 @@ std::vector<Key<StudyExpect>> across_keys() {
         .kind = Kind::number,
         .range = within(0, 1e6),
         .needs = "order",
-        .doc = "Least step between neighbours, as a share of the larger of the two.",
+        .doc = "Smallest step between neighbours, as a share of the larger of the two.",
         .fallback_doc = "0"},
        to(&StudyExpect::by)},
       {{.name = "ratio",

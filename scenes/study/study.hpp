@@ -58,7 +58,7 @@ struct StudyExpect : StudyQuantity, StudyBounds {  // [[expect]]
   SourceMark mark;
 };
 
-struct StudyFit : StudyQuantity, StudyBounds {  // [[fit]], of a strength or a figure
+struct StudyFit : StudyQuantity, StudyBounds {  // [[fit]], of a strength or a value
   enum class Law { weibull, ryshkewitch_duckworth, power };
   std::string title;
   Law law = Law::weibull;

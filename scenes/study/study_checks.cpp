@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scenes/checks/expect_checks.hpp"
+#include "scenes/language/counted.hpp"
 #include "scenes/study/study_fits.hpp"
 #include "scenes/study/study_power.hpp"
 #include "scenes/study/study_series.hpp"
@@ -197,7 +198,7 @@ class StudyChecks {
                                        {"from", quantity.from.has_value()},
                                        {"until", quantity.until.has_value()}})
         if (given)
-          refuse(key, fmt::format("has no effect: '{}' is one figure of the whole run, allowed: "
+          refuse(key, fmt::format("has no effect: '{}' is one value of the whole run, allowed: "
                                   "`series` alone",
                                   quantity.series));
     if (quantity.at && quantity.when)
@@ -311,10 +312,10 @@ class StudyChecks {
   void enough(const StudyFit& fit) {
     for (const FitRuns& group : groups_of(study_, fit))
       if (group.runs.size() < fewest_runs(fit.law))
-        refuse("law", fmt::format("{} run{} of '{}' can be fitted, allowed: at least {}{}",
-                                  group.runs.size(), group.runs.size() == 1 ? "" : "s", group.name,
-                                  fewest_runs(fit.law),
-                                  fit.law == StudyFit::Law::weibull ? " (`seeds`)" : ""));
+        refuse("law",
+               fmt::format("{} of '{}' can be fitted, allowed: at least {}{}",
+                           counted(group.runs.size(), "run"), group.name, fewest_runs(fit.law),
+                           fit.law == StudyFit::Law::weibull ? " (`seeds`)" : ""));
   }
 
   void convert(std::optional<StudyExpect::Bound>& bound, const std::string& key,

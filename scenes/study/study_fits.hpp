@@ -1,4 +1,4 @@
-// Laws of strength, and power laws of figures, fitted across the runs of a study.
+// Laws of strength, and power laws of values, fitted across the runs of a study.
 #pragma once
 
 #include <optional>

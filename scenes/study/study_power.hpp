@@ -1,4 +1,4 @@
-// How a figure of the runs goes with a key that is varied: value = c key^exponent.
+// How a value of the runs goes with a key that is varied: value = c key^exponent.
 //
 // exponent  d ln(value)/d ln(key), the relative sensitivity: by least squares of the logarithms over the runs, and at
 //           each run from its neighbours

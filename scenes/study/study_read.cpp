@@ -28,7 +28,7 @@ const char* const introduction = R"(# The study file
 <!-- Generated from the declarations in scenes/study/declare_study.cpp: change those, not this file. -->
 
 A study is a TOML file that names a scene and what to vary in it. `pulvis study STUDY.toml` runs every
-variation, several at once, and puts their figures into one table and their curves into one report.
+variation, several at once, and puts their values into one table and their curves into one report.
 
 ```toml
 scene = "../compaction/regular-100.toml"
@@ -53,7 +53,7 @@ that is wrong, in the study or in a scene it makes, is refused before the first 
 `transmission`, the bottom punch's force over the top punch's.
 
 Studies of levers (scenes with `family = "afm"`) have the history of the programme, against `actions`, how many are done,
-and the **figures of a run**, one number each, which need no `when`: those that an `[[expect]]` of the scene may name
+and the **values of a run**, one number each, which need no `when`: those that an `[[expect]]` of the scene may name
 (docs/afm.md#studies-of-levers).
 
 ```toml

@@ -14,7 +14,7 @@ namespace pulvis {
 //   travel/<tool>        m, displacement of the tool since the first sample
 //   pressure/<tool>      Pa, of the four tools of a die: force towards the tool over its face
 //   transmission         -, F_bottom / F_top; no number while F_top is below 1% of its largest value
-// Of levers: `actions` (how many are done) and the history of a programme, and figures of the whole run, which are no
+// Of levers: `actions` (how many are done) and the history of a programme, and values of the whole run, which are no
 // series in time but one number: k_n, loop/friction ... (scenes/lever/afm_figures.hpp).
 std::vector<SeriesInfo> study_series(const Scene& scene);
 

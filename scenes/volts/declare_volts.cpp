@@ -114,7 +114,7 @@ const TableDeclaration<ForceCurvesSpec>& declared_force_curves() {
        error_key("piezo_error", &ForceCurvesSpec::piezo_error,
                  "Standard uncertainty of the piezo's displacement, as a share of it."),
        share_key("free", &ForceCurvesSpec::free, 0.02, 0.9, 0.3,
-                 "Share of the way to the turning point over which the probe is free of the "
+                 "Share of the travel to the turning point over which the probe is free of the "
                  "surface: the line of no force is fitted there."),
        share_key("from", &ForceCurvesSpec::from, 0, 0.9, 0.25,
                  "The contact line is fitted from this share of the greatest signal on."),

@@ -116,7 +116,7 @@ void find_pull_off(const ForceCurve& curve, const CurveWindow& window, const Tra
   if (least == 0 || back.d[least] <= window.free * curve.displacement[curve.turn])
     wrong(curve,
           fmt::format("the probe leaves the surface at {:.4g} m, where force_curves.free takes it "
-                      "for free already, allowed: a longer way back, or a smaller share than {:g}",
+                      "for free already, allowed: a longer retract, or a smaller share than {:g}",
                       back.d[least], window.free));
   // Noise may put the smallest sample before the last one under tension.
   for (const double half = back.y[least] / 2; least > 1 && back.y[least - 1] < half;) --least;

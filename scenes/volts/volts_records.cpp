@@ -45,24 +45,24 @@ void order(const csv::Table& table, std::size_t row, ForceCurve& curve) {
   for (std::size_t i = 1; i < d.size(); ++i)
     if (i <= curve.turn ? d[i] <= d[i - 1] : d[i] >= d[i - 1])
       csv::refuse(table, row + 1 - d.size() + i, csv::column_at(table, "displacement"),
-                  fmt::format("{:.6g} m does not go on from {:.6g} m, allowed: one way to the "
-                              "surface and one back, without a stop",
+                  fmt::format("{:.6g} m does not go on from {:.6g} m, allowed: one approach to "
+                              "the surface and one retract, without a stop",
                               d[i], d[i - 1]));
 }
 
 // Where the normal signal stands beside a trace it is the load that crosstalk is taken of, place by place.
 void add_normal(const csv::Table& table, std::vector<std::vector<double>>& normal) {
-  const bool forth = csv::has_column(table, "normal_forth");
-  if (forth != csv::has_column(table, "normal_back"))
-    csv::refuse(table, forth ? "normal_forth" : "normal_back",
-                "stands alone, allowed: normal_forth and normal_back, or none of both");
-  if (!forth) return;
-  normal = {numbers_of(table, "normal_forth", "V"), numbers_of(table, "normal_back", "V")};
+  const bool trace = csv::has_column(table, "normal_trace");
+  if (trace != csv::has_column(table, "normal_retrace"))
+    csv::refuse(table, trace ? "normal_trace" : "normal_retrace",
+                "stands alone, allowed: normal_trace and normal_retrace, or none of both");
+  if (!trace) return;
+  normal = {numbers_of(table, "normal_trace", "V"), numbers_of(table, "normal_retrace", "V")};
 }
 
 struct Columns {
-  std::vector<double> slope, load, forth, back, position;
-  std::vector<std::vector<double>> normal;  // forth, back; or none
+  std::vector<double> slope, load, trace, retrace, position;
+  std::vector<std::vector<double>> normal;  // trace, retrace; or none
 };
 
 VoltsLoop loop_of(const csv::Table& table, const Columns& columns, std::size_t begin,
@@ -70,20 +70,20 @@ VoltsLoop loop_of(const csv::Table& table, const Columns& columns, std::size_t b
   const auto left_out = static_cast<std::size_t>(skip * static_cast<double>(end - begin));
   const std::size_t count = end - begin - 2 * left_out;
   if (count < fewest_in_trace)
-    csv::refuse(table, end - 1, csv::column_at(table, "forth"),
+    csv::refuse(table, end - 1, csv::column_at(table, "trace"),
                 fmt::format("the loop ends after {} places, {} of them at its ends, allowed: at "
                             "least {} others",
                             end - begin, 2 * left_out, fewest_in_trace));
   const auto mean = [&](const std::vector<double>& values) {
     return lab::correlated_mean(std::span(values).subspan(begin + left_out, count));
   };
-  const lab::Mean forth = mean(columns.forth), back = mean(columns.back);
+  const lab::Mean trace = mean(columns.trace), retrace = mean(columns.retrace);
   VoltsLoop loop;
   loop.slope = columns.slope[begin];
   loop.load = columns.load[begin];
-  loop.half_width = (forth.value - back.value) / 2;
-  loop.offset = (forth.value + back.value) / 2;
-  loop.half_width_error = loop.offset_error = 0.5 * portable::hypot(forth.error, back.error);
+  loop.half_width = (trace.value - retrace.value) / 2;
+  loop.offset = (trace.value + retrace.value) / 2;
+  loop.half_width_error = loop.offset_error = 0.5 * portable::hypot(trace.error, retrace.error);
   if (!columns.normal.empty()) {
     const double there = mean(columns.normal[0]).value, return_ = mean(columns.normal[1]).value;
     loop.normal_half = (there - return_) / 2;
@@ -92,16 +92,17 @@ VoltsLoop loop_of(const csv::Table& table, const Columns& columns, std::size_t b
   for (std::size_t i = begin; i < end; ++i) {
     loop.traces.position.push_back(columns.position.empty() ? static_cast<double>(i - begin)
                                                             : columns.position[i]);
-    loop.traces.forth.push_back(columns.forth[i]);
-    loop.traces.back.push_back(columns.back[i]);
+    loop.traces.trace.push_back(columns.trace[i]);
+    loop.traces.retrace.push_back(columns.retrace[i]);
   }
   return loop;
 }
 
 std::vector<VoltsLoop> loops_of_raw(const csv::Table& table, Columns& columns, double skip) {
-  csv::only(table, {"slope", "load", "forth", "back", "position", "normal_forth", "normal_back"});
-  columns.forth = numbers_of(table, "forth", "V");
-  columns.back = numbers_of(table, "back", "V");
+  csv::only(table,
+            {"slope", "load", "trace", "retrace", "position", "normal_trace", "normal_retrace"});
+  columns.trace = numbers_of(table, "trace", "V");
+  columns.retrace = numbers_of(table, "retrace", "V");
   if (csv::has_column(table, "position")) columns.position = numbers_of(table, "position", "m");
   add_normal(table, columns.normal);
   std::vector<VoltsLoop> loops;
@@ -164,6 +165,10 @@ std::vector<ForceCurve> read_curves(const std::filesystem::path& file, const cha
 
 LoopRecord read_loops(const std::filesystem::path& file, bool on_slopes, double skip) {
   const csv::Table table = csv::read(file);
+  csv::refuse_former(table, {{"forth", "trace"},
+                             {"back", "retrace"},
+                             {"normal_forth", "normal_trace"},
+                             {"normal_back", "normal_retrace"}});
   LoopRecord record;
   record.file = file;
   const std::size_t at = csv::column_at(table, "load");
@@ -181,7 +186,7 @@ LoopRecord read_loops(const std::filesystem::path& file, bool on_slopes, double 
                 "to wedge.loops");
   columns.slope =
       on_slopes ? numbers_of(table, "slope", "rad") : std::vector<double>(columns.load.size(), 0.0);
-  const bool raw = csv::has_column(table, "forth");
+  const bool raw = csv::has_column(table, "trace");
   record.has_positions = raw && csv::has_column(table, "position");
   record.loops = raw ? loops_of_raw(table, columns, skip) : loops_of_means(table, columns);
   return record;

@@ -3,10 +3,10 @@
 // Force curves   `displacement` of the piezo and `normal` volts, row by row as they were taken: towards the
 //                surface, then back; perhaps `lateral` volts. Where there is a column `curve`, its numbers part
 //                the rows into curves.
-// Side contacts  `displacement` along the sample and `lateral` volts, likewise; the way back may be missing.
+// Side contacts  `displacement` along the sample and `lateral` volts, likewise; the retrace may be missing.
 // Loops          as scenes/records/wedge_records.hpp has them, but `load` in volts above the free level or in
-//                newtons, `slope` only on a wedge, and perhaps the normal volts of raw traces (normal_forth,
-//                normal_back, above the free level)
+//                newtons, `slope` only on a wedge, and perhaps the normal volts of raw traces (normal_trace,
+//                normal_retrace, above the free level)
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ std::vector<ForceCurve> read_curves(const std::filesystem::path& file, const cha
 
 struct Traces {
   std::vector<double> position;  // m; the number of the place where the file has none
-  std::vector<double> forth, back;
+  std::vector<double> trace, retrace;
 };
 
 struct VoltsLoop {

@@ -145,7 +145,7 @@ TEST_F(ProbeCommand, TellsOfADensityThatIsNotReached) {
   const Outcome outcome = probe();
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.err, HasSubstr("relative density is"));
-  EXPECT_THAT(outcome.err, HasSubstr("1 states were not reached"));
+  EXPECT_THAT(outcome.err, HasSubstr("not reached: 1 state\n"));
 }
 
 TEST_F(ProbeCommand, ListsAndWritesNothing) {

@@ -73,7 +73,7 @@ TEST_P(Courses, GoOnBitByBit) {
   for (const auto& [step, threads] : course.stops) {
     const Outcome part = pulvis(until(words, step, threads));
     ASSERT_EQ(part.code, 130) << part.err;
-    EXPECT_THAT(part.err, HasSubstr("it goes on with: pulvis resume parts"));
+    EXPECT_THAT(part.err, HasSubstr("continue with: pulvis resume parts"));
     words = {"resume", "parts"};
   }
   const Outcome last = pulvis(until(words, course.end, 2));

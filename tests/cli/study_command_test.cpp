@@ -122,11 +122,11 @@ key = "lever.thickness"
   // The figure is that of the run's own calibration.
   const auto run = summary(results / "thickness=2.2um");
   EXPECT_EQ(fit["groups"][0]["points"][1]["value"], run["calibration"]["k_n"]);
-  EXPECT_EQ(run["figures"]["k_l"], run["calibration"]["k_l"]);
+  EXPECT_EQ(run["values"]["k_l"], run["calibration"]["k_l"]);
   const std::string csv = text_of(results / "study.csv");
   EXPECT_THAT(csv, HasSubstr(",k_n [N/m],k_l [N/m],k_l/k_n [-],"));
-  EXPECT_TRUE(run["figures"].contains("k_l/torsion_and_bending"));
-  for (const auto& figure : run["figures"].items())
+  EXPECT_TRUE(run["values"].contains("k_l/torsion_and_bending"));
+  for (const auto& figure : run["values"].items())
     EXPECT_THAT(csv, HasSubstr("," + figure.key() + " [")) << "is no column";
   EXPECT_EQ(std::ranges::count(text_of(results / "sensitivities.csv"), '\n'), 1 + 3);
   EXPECT_FALSE(fs::exists(results / "strengths.csv"));
@@ -164,7 +164,7 @@ TEST_F(StudyCommand, WhatNoLeverHasIsRefused) {
   EXPECT_THAT(refused(heights,
                       "[[expect]]\nseries = \"k_l\"\nwhen = \"max\"\nof = "
                       "\"height=10um\"\nabove = 1\n"),
-              HasSubstr("'k_l' is one figure of the whole run"));
+              HasSubstr("'k_l' is one value of the whole run"));
   EXPECT_THAT(refused(heights, "[[curve]]\ny = \"k_l\"\nx = \"actions\"\n"),
               HasSubstr("no run has the series 'k_l'"));
 }
@@ -208,7 +208,7 @@ when = "max"
   // The strengths are the table's forces over pi D t/2.
   double largest = 0;
   for (const auto& run : json["runs"])
-    for (const auto& figure : run["figures"])
+    for (const auto& figure : run["values"])
       if (run["variation"] == "more" && figure["name"] == "top_force_max")
         largest = std::max(largest, figure["value"].get<double>());
   EXPECT_NEAR(points[4]["strength"].get<double>() * 3.14159265358979 * 0.01 * 1e-3 / 2, largest,
@@ -293,7 +293,7 @@ TEST_F(StudyCommand, OneRunThatGoesBadCostsNoOther) {
       << "[[expect]]\nseries = \"energy/external\"\nof = \"displacement=0mm_-20mm\"\nabove = 0\n";
   const Outcome end = study();
   EXPECT_EQ(end.code, 3);
-  EXPECT_THAT(end.err, HasSubstr("displacement=0mm_-20mm went bad: failed: "));
+  EXPECT_THAT(end.err, HasSubstr("displacement=0mm_-20mm: failed: "));
   EXPECT_THAT(end.out, HasSubstr("NOT met  energy/external, at the end, of displacement"));
   EXPECT_THAT(end.out, HasSubstr("2 of 3 runs good"));
   EXPECT_EQ(summary(results / "displacement=0mm_-0.3mm")["outcome"], "done");
@@ -347,7 +347,7 @@ TEST_F(StudyCommand, InterruptStopsCleanly) {
   kill(program, SIGINT);
   const Outcome end = end_of(program);
   EXPECT_EQ(end.code, 130);
-  EXPECT_THAT(end.err, HasSubstr("the same command goes on"));
+  EXPECT_THAT(end.err, HasSubstr("the same command continues"));
   EXPECT_EQ(summary(results / "friction=0.1")["outcome"], "interrupted");
   EXPECT_FALSE(fs::exists(results / "friction=0.3"));
   EXPECT_FALSE(fs::exists(results / "report.html"));
@@ -367,7 +367,7 @@ TEST_F(StudyCommand, AnInterruptedRunGoesOnAtItsCheckpoint) {
 
   const Outcome rest = study();
   EXPECT_EQ(rest.code, 0) << rest.err;
-  EXPECT_THAT(rest.out, HasSubstr("broken off before, resumed at their checkpoints: 1\n"));
+  EXPECT_THAT(rest.out, HasSubstr("interrupted before, resumed from their checkpoints: 1\n"));
   EXPECT_THAT(text_of(results / "friction=0.1" / "log.txt"),
               HasSubstr("resumed at step " + stopped["steps"].dump() + ","));
   const auto ended = summary(results / "friction=0.1");
@@ -423,7 +423,7 @@ TEST_F(StudyCommand, ARunThatIsRefusedSaysWhy) {
         "set = { \"packing[0].columns\" = 6 }\n");
   const Outcome end = study();
   EXPECT_EQ(end.code, 3);
-  EXPECT_THAT(end.err, HasSubstr("wide,friction=0.1 went bad: exit code 2: "));
+  EXPECT_THAT(end.err, HasSubstr("wide,friction=0.1: exit code 2: "));
   EXPECT_THAT(end.out, HasSubstr("1 of 2 runs good"));
 }
 

@@ -48,7 +48,7 @@ inline std::string on_plates(const std::string& lever) {
 inline const std::string coarse_beam_text = on_plates(beam_with_tip);
 inline const char* const coarse_beam = coarse_beam_text.c_str();
 
-// Pressed to a force in three steps, then a way forth and back at that force.
+// Pressed to a force in three steps, then a trace and a retrace at that force.
 inline std::string press_and_scan(int increments, const std::string& force = "100 nN") {
   return "[[action]]\nkind = \"press\"\nforce = \"" + force +
          "\"\nincrements = 3\n"

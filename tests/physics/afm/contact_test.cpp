@@ -29,8 +29,8 @@ TEST_P(Wedge, AStiffTipDrawsWithTheForcesOfTheFormula) {
   const double up = wedge::uphill(1, 0, slope.friction, angle);
   const double down = wedge::downhill(1, 0, slope.friction, angle);
   EXPECT_NEAR(loop.load, 100e-9, 1e-14);
-  EXPECT_NEAR(loop.forth / loop.load, up, 0.005 * std::abs(up));
-  EXPECT_NEAR(loop.back / loop.load, down, 0.005 * std::abs(down));
+  EXPECT_NEAR(loop.trace / loop.load, up, 0.005 * std::abs(up));
+  EXPECT_NEAR(loop.retrace / loop.load, down, 0.005 * std::abs(down));
   if (slope.degrees == 0) return;
   ASSERT_TRUE(loop.friction);  // from volts alone
   EXPECT_NEAR(*loop.friction, slope.friction, 0.02 * slope.friction);
@@ -61,8 +61,8 @@ TEST(Wedge, AProbeThatLocksIsReported) {
 TEST(Wedge, AProbeThatHardlySlidesUphillStillDoes) {
   const Scene scene = afm_scene(on_incline(coarse_beam, 45, 0.9), {"action[1].distance=60 nm"});
   const FrictionLoop loop = friction_loops(scene, history_of(scene)).front();
-  EXPECT_NEAR(loop.forth / loop.load, 19, 0.1);
-  EXPECT_NEAR(loop.back / loop.load, 1 / 19.0, 0.001);
+  EXPECT_NEAR(loop.trace / loop.load, 19, 0.1);
+  EXPECT_NEAR(loop.retrace / loop.load, 1 / 19.0, 0.001);
 }
 
 // A lever drawn by less than what friction of 1 holds it back (1.4 nm each way): the loop is told, and no friction
@@ -154,7 +154,7 @@ increments = 3
 kind = "scan"
 distance = "1 nm"
 set_point = "force"
-back = "no"
+retrace = "no"
 increments = 40
 )");
   AfmSimulation simulation(scene);

@@ -70,15 +70,15 @@ TEST(Raster, TheTopographyIsTheSurface) {
   const AfmHistory h = history_of(scene);
   const auto images = raster_images(scene, h);
   ASSERT_EQ(images.size(), 6u);
-  const AfmImage &forth = images[0], &back = images[1];
-  EXPECT_EQ(forth.info.name, "action_3/topography_forth");
-  ASSERT_EQ(forth.values.size(), 18u);
-  EXPECT_NEAR(forth.spacing.along, 20e-9, 1e-20);
-  EXPECT_NEAR(forth.spacing.across, 20e-9, 1e-20);
-  // Without friction the way back is the way forth: a pixel's near end is the last one's far end.
+  const AfmImage &trace = images[0], &retrace = images[1];
+  EXPECT_EQ(trace.info.name, "action_3/topography_trace");
+  ASSERT_EQ(trace.values.size(), 18u);
+  EXPECT_NEAR(trace.spacing.along, 20e-9, 1e-20);
+  EXPECT_NEAR(trace.spacing.across, 20e-9, 1e-20);
+  // Without friction the retrace is the trace: a pixel's near end is the last one's far end.
   for (std::size_t line = 0; line < 3; ++line)
     for (std::size_t pixel = 1; pixel < 6; ++pixel)
-      EXPECT_NEAR(back.values[6 * line + pixel], forth.values[6 * line + pixel - 1], 2e-12);
+      EXPECT_NEAR(retrace.values[6 * line + pixel], trace.values[6 * line + pixel - 1], 2e-12);
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ TEST_F(ThinLeverProgram, StopsWithTheReasonAndKeepsItInTheSummary) {
   const Outcome run = pulvis(
       {"run", scene("afm/tipless-beam.toml"), "-o", "thin", "--set", "lever.thickness=1 nm"});
   EXPECT_EQ(run.code, 3) << run.err;
-  EXPECT_NE(run.err.find("the run went bad: calibration: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("the run failed: calibration: "), std::string::npos) << run.err;
   const std::string summary = text_of(place / "thin" / "summary.json");
   EXPECT_NE(summary.find("\"outcome\": \"failed: calibration: "), std::string::npos) << summary;
   EXPECT_EQ(summary.find("\"k_n\":"), std::string::npos) << summary;

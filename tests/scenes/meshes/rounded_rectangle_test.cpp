@@ -58,7 +58,7 @@ TEST(RoundedRectangle, EveryCornerOfAnElementIsWellShaped) {
     EXPECT_GT(min_corner_sine(c.shape), 0.5) << c.name;
     worst = std::min(worst, min_corner_sine(c.shape));
   }
-  RecordProperty("least_corner_sine", std::to_string(worst));
+  RecordProperty("min_corner_sine", std::to_string(worst));
 }
 
 TEST(RoundedRectangle, DefaultMeshHasAboutTwoHundredQuads) {

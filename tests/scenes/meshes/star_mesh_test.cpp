@@ -105,7 +105,7 @@ TEST(StarMesh, EveryElementIsWellShaped) {
     EXPECT_GT(min_corner_sine(shape), 0.35) << c.name;
     worst = std::min(worst, min_corner_sine(shape));
   }
-  RecordProperty("least_corner_sine", std::to_string(worst));
+  RecordProperty("min_corner_sine", std::to_string(worst));
 }
 
 TEST(StarMesh, PolygonAndElementsHaveTheOutlinesArea) {

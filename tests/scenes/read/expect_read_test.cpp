@@ -96,7 +96,7 @@ const WrongExpect wrongs[] = {
     {"EmptyShare", "series = \"dt\"\nwhen = \"max\"\nbelow = 1\nfrom = 0.5\nuntil = 0.5", ".from",
      "from < until"},
     {"FigureNotAtTheEnd", "series = \"kinetic_ratio\"\nwhen = \"max\"\nbelow = 1", ".when",
-     "one figure"},
+     "one value"},
     {"UnknownWhen", "series = \"dt\"\nwhen = \"alwais\"\nbelow = 1", ".when",
      "did you mean 'always'?"},
     {"NoMessage", "outcome = \"stops\"", ".message", "required key"},

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/helpers/lever.hpp"
 #include "tests/helpers/right_scene.hpp"
 
 namespace pulvis {
@@ -26,6 +27,9 @@ TEST(FormerNames, AreRefusedWithTheNewOne) {
               "packing[1].class[0].least", "is called 'minimum' now, allowed: minimum");
   expect_only(right + "[[tool]]\nname = \"third\"\nshape = \"grip\"\n", "tool[2].shape",
               "'grip' is called 'constraint' now");
+  expect_only(
+      std::string(beam_with_tip) + inclined_plane(0, 0.1) + press_and_scan(4) + "back = \"no\"\n",
+      "action[1].back", "is called 'retrace' now, allowed: retrace");
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ TEST_F(Limits, ALeversRunGivenUpHalfWayGoesOnToTheSameBits) {
     const Outcome end = end_or_hang(child);
     if (end.code == 0) break;
     ASSERT_EQ(end.code, 130) << end.err;
-    const char* told = stops == 0 ? "it goes on with: pulvis resume given-up" : "interrupted";
+    const char* told = stops == 0 ? "continue with: pulvis resume given-up" : "interrupted";
     EXPECT_THAT(end.err, HasSubstr(told));
     child = start({"resume", "given-up", "--threads", "1"});
     std::this_thread::sleep_for(700ms);

@@ -113,20 +113,20 @@ TEST(WedgeRecords, RawTracesGiveTheTruthBackWithinTheStatedUncertainty) {
   std::normal_distribution<double> normal(0, 0.004);
   {
     std::ofstream out(file);
-    out << "slope [deg],load [nN],position [nm],forth [V],back [V]\n";
+    out << "slope [deg],load [nN],position [nm],trace [V],retrace [V]\n";
     constexpr int places = 256;
     for (const double slope : {14.0, 0.0, -12.5})
       for (const double load : loads) {
         const Loop loop = truth.loop(slope, load);
-        double drift_forth = 0, drift_back = 0;
+        double drift_trace = 0, drift_retrace = 0;
         for (int i = 0; i < places; ++i) {
-          drift_forth = 0.7 * drift_forth + normal(random);
-          drift_back = 0.7 * drift_back + normal(random);
-          const double stick_forth = std::exp(-i / 6.0);
+          drift_trace = 0.7 * drift_trace + normal(random);
+          drift_retrace = 0.7 * drift_retrace + normal(random);
+          const double stick = std::exp(-i / 6.0);
           const double stick_back = std::exp(-(places - 1 - i) / 6.0);
           out << fmt::format("{},{},{},{:.6f},{:.6f}\n", slope, load * 1e9, i,
-                             loop.offset + loop.half_width * (1 - 2 * stick_forth) + drift_forth,
-                             loop.offset - loop.half_width * (1 - 2 * stick_back) + drift_back);
+                             loop.offset + loop.half_width * (1 - 2 * stick) + drift_trace,
+                             loop.offset - loop.half_width * (1 - 2 * stick_back) + drift_retrace);
         }
       }
   }

@@ -293,9 +293,11 @@ TEST_F(WrongVolts, RecordsAreRefusedWithTheirLine) {
               HasSubstr("loops on slopes belong to wedge.loops"));
   EXPECT_THAT(with_file("l.csv", "load [V],half_width [V],offset [V]\n1,1,1\n2,2,2\n", key),
               HasSubstr("half_width_error"));
-  EXPECT_THAT(with_file("l.csv", "load [V],forth [V],back [V],normal_forth [V]\n1,1,1,1\n", key),
-              HasSubstr("normal_forth: stands alone"));
-  EXPECT_THAT(with_file("l.csv", "load [V],forth [V],back [V]\n1,1,0\n1,1,0\n", key),
+  EXPECT_THAT(with_file("l.csv", "load [V],forth [V],back [V]\n1,1,0\n", key),
+              HasSubstr("forth: is called 'trace' now, allowed: trace"));
+  EXPECT_THAT(with_file("l.csv", "load [V],trace [V],retrace [V],normal_trace [V]\n1,1,1,1\n", key),
+              HasSubstr("normal_trace: stands alone"));
+  EXPECT_THAT(with_file("l.csv", "load [V],trace [V],retrace [V]\n1,1,0\n1,1,0\n", key),
               HasSubstr("l.csv:3:"));
   const std::string hard = "force_curves.hard";
   EXPECT_THAT(with_file("h.csv", "displacement [nm],normal [V]\n0,0\n1,0\n", hard),
