@@ -22,6 +22,7 @@
 #include "cli/options.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
+#include "cli/preview/scene_check.hpp"
 #include "cli/probe/probe_options.hpp"
 #include "cli/report/report.hpp"
 #include "cli/run.hpp"
@@ -36,15 +37,8 @@
 #include "engine/machine_memory.hpp"
 #include "engine/printable.hpp"
 #include "scenes/build.hpp"
-#include "scenes/checks/bending_error.hpp"
-#include "scenes/checks/bond_checks.hpp"
-#include "scenes/checks/mesh_summary.hpp"
-#include "scenes/checks/overlaps.hpp"
 #include "scenes/keys/scene_reference.hpp"
-#include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
-#include "scenes/memory_need.hpp"
-#include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/study/study_read.hpp"
@@ -82,24 +76,7 @@ ExitCode check(const Options& options) {
   if (options.print) return print_scene(loaded);
   const Scene& scene = loaded.scene;
   if (scene.afm) return check_afm_scene(scene);
-  const std::vector<BodySpec> bodies = place_bodies(scene);
-  check_overlaps(scene, bodies);
-  std::vector<std::string> warnings = bending_warnings(scene);
-  if (has_bonds(scene))  // what is bonded is known once contacts have been looked for
-    std::ranges::move(bond_warnings(scene, Simulation(scene).world()),
-                      std::back_inserter(warnings));
-  else if (std::ranges::any_of(scene.tools, is_constraint))
-    build_world(scene);  // it finds their nodes
-  tell("{}", packing_summary(scene));
-  tell("{}", mesh_summary(scene));
-  for (const std::string& line : warnings) tell("warning: {}\n", line);
-  const MemoryNeed need = memory_need(scene);
-  tell("memory: about {}: particles {}, contacts {}, results {}, program {}\n",
-       bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
-       bytes_text(need.results), bytes_text(need.program));
-  tell("{}: good: {}, {}, {}\n", options.run.scene.string(), counted(bodies.size(), "particle"),
-       counted(scene.tools.size(), "tool"), counted(scene.stages.size(), "stage"));
-  return ExitCode::done;
+  return check_particle_scene(scene);
 }
 
 ExitCode plan(const Options& options) {

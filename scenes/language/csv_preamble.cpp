@@ -32,12 +32,12 @@ std::vector<Cell> fields_of(std::string_view line, char separator) {
   return cells;
 }
 
-bool is_number(const Cell& cell) { return could_be_number(cell.text); }
-bool is_name(const Cell& cell) { return !cell.text.empty() && !is_number(cell); }
+bool is_number_cell(const Cell& cell) { return could_be_number(cell.text); }
+bool is_name(const Cell& cell) { return !cell.text.empty() && !is_number_cell(cell); }
 
 // Half of the fields at least are numbers.
 bool are_numbers(const std::vector<Cell>& cells) {
-  const auto numbers = std::ranges::count_if(cells, is_number);
+  const auto numbers = std::ranges::count_if(cells, is_number_cell);
   const auto empty = std::ranges::count_if(cells, [](const Cell& c) { return c.text.empty(); });
   return numbers > 0 && 2 * numbers >= static_cast<std::ptrdiff_t>(cells.size()) - empty;
 }

@@ -59,7 +59,7 @@ ROOMS = {
         "lab": "report volts /",
         "fit": "lab report study /",
         "kinds": "",
-        "preview": "report /",
+        "preview": "/",
         "": "report volts",
     },
 }
