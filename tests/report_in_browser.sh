@@ -117,6 +117,17 @@ body=$(body_of raster "$reports/raster/report.html" 1200,2400 levelled "$(dirnam
 picture_of "$reports/raster/report.html" 1200,2400 "$reports/raster.png"
 echo "ok: images of a raster"
 
+# A loop and a force curve: what goes there and what comes back are lines of their own, the tables have one unit a column,
+# and forces can be read in nN.
+for named in "plane Friction loop" "jkr Force curve"; do
+  scene=${named%% *}
+  "$pulvis" run "$source_dir/tests/keys/scenes/$scene.toml" --threads 1 --overwrite -o "$reports/$scene" >"$work/run.txt" 2>&1 ||
+    fail "$scene: $(tail -3 "$work/run.txt")"
+  body=$(body_of "$scene" "$reports/$scene/report.html" 1000,2400 probed "$(dirname "$0")/probe_driver.js")
+  [[ $body == *"data-probed=\"${named#* }\""* && $body != *data-error* ]] || fail "$scene: $body"
+done
+echo "ok: loop and force curve"
+
 # The panel that docs/extending.md gives as an example, put where a panel's file would be read.
 /usr/bin/python3 - "$source_dir/docs/extending.md" "$reports/compaction/report.html" >"$work/panel.html" <<'PYTHON'
 import re
