@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -48,9 +49,17 @@ struct SolidEquations {
   double height_step = 0;      // m, of the servo
   double released = 0;         // J, by a jump
   bool jumped = false;         // in this search for an equilibrium
-  bool turns_far = false;      // within an increment: factors of the last one are of no use
+  // Increments to come that do not try the factors of the one before, and how many those will be after the next failure:
+  int fresh_increments = 0, fresh_after_failure = 1;
   // [points] K^-1 to unit forces on the point, [3 unknowns, 3]; empty until it was asked for
   std::vector<Eigen::MatrixXd> answers;
+
+  // Where an increment had no use for old factors the next ones hardly will: twice as many after every failure, since a
+  // press that turns the tip far may be followed by a scan that does not.
+  void rest_from_old_factors() {
+    fresh_increments = fresh_after_failure;
+    fresh_after_failure = std::min(2 * fresh_after_failure, 16);
+  }
 
   bool has_factors() const { return plain.factors != nullptr || extended.factors != nullptr; }
   bool positive() const { return in_extended ? extended.positive() : plain.positive(); }
@@ -71,7 +80,7 @@ struct SolidEquations {
   void state(Bytes& bytes) {
     std::vector<double> values = factorised();
     bytes(values, scale, set_point_error, contact_solved, contact_error, contact_change,
-          largest_force, height_step, released, jumped, turns_far);
+          largest_force, height_step, released, jumped, fresh_increments, fresh_after_failure);
     if constexpr (Bytes::reads) factorise_again(std::move(values));
   }
 };

@@ -218,9 +218,9 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
   world_.resource<SolidEquations>().jumped = false;
   auto& memory = world_.resource<SolidEquations>();
   const bool may_reuse = settings.reuse_factors;
-  // Where the last increment had no use for old factors this one will have none.
-  bool reuse = may_reuse && equations.has_factors() && !memory.turns_far;
+  bool reuse = may_reuse && equations.has_factors() && memory.fresh_increments == 0;
   bool old_at_first = reuse;
+  if (memory.fresh_increments > 0) --memory.fresh_increments;
   for (int i = 0; i <= settings.iterations; ++i) {
     stop_if_asked();
     (reuse ? reuse_ : *iterate_).run();
@@ -235,7 +235,7 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
       restore(start);
       report = {};
       world_.resource<SolidEquations>().jumped = false;
-      memory.turns_far = true;
+      memory.rest_from_old_factors();
       old_at_first = reuse = false;
       i = -1;
       continue;
@@ -243,7 +243,10 @@ NewtonReport StaticSolver::equilibrate(const NewtonSettings& settings) {
     if (i > 0) reuse = may_reuse && good;
     if (!std::isfinite(report.residuals.back())) break;
     report.converged = settled(report.residuals, settings);
-    if (report.converged) return report;
+    if (report.converged) {
+      if (old_at_first) memory.fresh_after_failure = 1;
+      return report;
+    }
     if (!equations.contact_solved) break;
     report.released += equations.released;
     move(1);

@@ -78,7 +78,7 @@ class VoltsOfRun : public ::testing::Test {
 };
 
 TEST_F(VoltsOfRun, GivesBackTheFrictionThatWasPutIn) {
-  const std::string lever = beam_with_tip;
+  const std::string lever = coarse_beam;
   const Scene curve_scene = afm_scene(
       lever + "[surface]\nshape = \"plane\"\npull_off = \"20 nN\"\nadhesion_range = \"1 nm\"\n" +
           way("retract", "150 nm", 2) + way("press", "400 nm", 80) + way("retract", "300 nm", 30) +
