@@ -98,7 +98,7 @@ echo "ok: comparison of runs of other signs and densities"
   fail "report of levers"
 body=$(body_of levers "$reports/levers.html" 1200,2000 ready)
 [[ $body == *'data-ready="1"'* && $body == *'data-views="3"'* ]] || fail "levers: $body"
-[[ $(grep -o '<h2>Stiffness beside the closed forms: ' "$work/page.html" | wc -l) -eq 2 ]] || fail "levers: not both calibrations"
+[[ $(grep -o '<h2>Stiffness compared with closed forms: ' "$work/page.html" | wc -l) -eq 2 ]] || fail "levers: not both calibrations"
 [[ $(grep -o 'data-drawn="' "$work/page.html" | wc -l) -eq 3 ]] || fail "levers: a picture is missing"
 grep -q 'Lever, under a force along the lever' "$work/page.html" || fail "levers: not told what a calibration shows"
 grep -q 'Lever, [0-9.]* actions done' "$work/page.html" && fail "levers: a calibration has no actions"

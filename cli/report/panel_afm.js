@@ -1,12 +1,12 @@
 // A lever of an atomic force microscope: force curve, loop, and its stiffness beside the closed forms.
 "use strict";
 
-const meshError = ({mesh_error: of}, name) => of ? `mesh: some ${percent(of[name])} too stiff` : "";
+const meshError = ({mesh_error: of}, name) => of ? `mesh: about ${percent(of[name])} too stiff` : "";
 
 addFigures(({summary: {calibration, loops, force_curves: curves}}) => [
   ...(calibration ? [["normal stiffness", `${digits(calibration.k_n)} N/m`, meshError(calibration, "k_n")],
                      ["lateral stiffness", `${digits(calibration.k_l)} N/m`, meshError(calibration, "k_l")]] : []),
-  ...(loops || []).slice(0, 1).flatMap(loop => [["half width of the loop", withUnit(loop.half_width, "N"), ""],
+  ...(loops || []).slice(0, 1).flatMap(loop => [["half-width of the loop", withUnit(loop.half_width, "N"), ""],
     loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null]),
   ...(curves || []).slice(0, 1).flatMap(curve => [["pull-off force", withUnit(curve.pull_off, "N"), "of the force curve"],
     ["pull-off work", withUnit(curve.work, "J"), "over the travel of the scanner"],
@@ -88,7 +88,7 @@ function placeColumns(host, columns) {
 }
 
 addPanel({
-  title: "Stiffness beside the closed forms", order: 20,
+  title: "Stiffness compared with closed forms", order: 20,
   when: ({summary: {calibration}}) => Boolean(calibration && calibration.closed_forms),
   draw({run}, host) {
     const {calibration} = run.summary, forms = calibration.closed_forms, of = pick => forms.map(form => pick(form) ?? null);

@@ -84,6 +84,7 @@ bool is_balanced(const std::vector<RunRow>& rows, std::size_t key,
     if (!row.result->usable) continue;
     std::vector<std::string> others = row.settings;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(key));
+    others.push_back(row.result->run->file.string());
     ++counts[others][row.settings[key]];
   }
   const auto even = [&](const auto& of_levels) {
@@ -93,6 +94,16 @@ bool is_balanced(const std::vector<RunRow>& rows, std::size_t key,
            });
   };
   return std::ranges::all_of(counts, even);
+}
+
+// Of runs of different scenes only where each of them sets the key: elsewhere the scenes would be compared.
+bool has_effect(const std::vector<RunRow>& rows, std::size_t key) {
+  const auto scene = [](const RunRow& row) { return row.result->run->file; };
+  const bool one_scene = std::ranges::all_of(
+      rows, [&](const RunRow& row) { return scene(row) == scene(rows.front()); });
+  const bool all_set =
+      std::ranges::none_of(rows, [&](const RunRow& row) { return row.settings[key].empty(); });
+  return (one_scene || all_set) && levels_of(rows, key).size() > 1;
 }
 
 MainEffect effect_of(const std::string& name, std::size_t key, const std::vector<RunRow>& rows) {
@@ -142,7 +153,7 @@ StudyStatistics statistics_of(const Study& study, const std::vector<StudyResult>
          samples_of(mine)});
   }
   for (std::size_t key = 0; key < keys.size(); ++key)
-    if (levels_of(rows, key).size() > 1) all.effects.push_back(effect_of(keys[key], key, rows));
+    if (has_effect(rows, key)) all.effects.push_back(effect_of(keys[key], key, rows));
   return all;
 }
 

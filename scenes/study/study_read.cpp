@@ -86,6 +86,7 @@ sample with the highest relative density: `peak/relative_density`, `peak/top_for
 `peak/transmission`, `peak/stress_ratio/axial`, `peak/stress_ratio/lateral`. `quality` names each value of the quality card
 that is beyond its limit, of levers each friction loop without a plateau; otherwise it is `within limits`. Where not every
 combination of keys was run alike often, a main effect holds part of those of other keys; the report marks it with *.
+Of variations with scenes of their own, keys that some of them do not set have no main effect.
 All pictures of last frames together have at most 3 million pixels, one byte each before they are deflated; studies of more
 than 1302 runs have none.
 )";
