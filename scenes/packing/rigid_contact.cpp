@@ -20,19 +20,36 @@ struct Widest {
   std::size_t corner = 0;  // of the other one, deepest behind that side
 };
 
-// The side of `piece` that the other one lies farthest in front of.
+// The corner of a convex piece that lies deepest behind a side, sought from another one. Of two the first.
+std::size_t deepest_behind(V2 n, V2 from, const std::vector<V2>& corners, std::size_t begin) {
+  const std::size_t count = corners.size();
+  const auto gap = [&](std::size_t c) { return dot(n, corners[c] - from); };
+  std::size_t at = begin, before = (at + count - 1) % count, after = (at + 1) % count;
+  double here = gap(at), gap_before = gap(before), gap_after = gap(after);
+  while (gap_after < here) {
+    before = at, gap_before = here;
+    at = after, here = gap_after;
+    after = (at + 1) % count, gap_after = gap(after);
+  }
+  while (gap_before < here) {
+    after = at, gap_after = here;
+    at = before, here = gap_before;
+    before = (at + count - 1) % count, gap_before = gap(before);
+  }
+  if (gap_before == here) at = std::min(at, before);
+  if (gap_after == here) at = std::min(at, after);
+  return at;
+}
+
+// The side of `piece` that the other one lies farthest in front of. From side to side the deepest corner moves on by few.
 Widest widest_gap(const RigidPiece& piece, const RigidPiece& other, double enough) {
   Widest best;
+  std::size_t deepest = 0;
   for (std::size_t s = 0; s < piece.normals.size() && best.gap <= enough; ++s) {
     const V2 n = piece.normals[s], from = piece.corners[s];
-    double minimum = std::numeric_limits<double>::max();
-    std::size_t deepest = 0;
-    for (std::size_t c = 0; c < other.corners.size(); ++c)
-      if (const double gap = dot(n, other.corners[c] - from); gap < minimum) {
-        minimum = gap;
-        deepest = c;
-      }
-    if (minimum > best.gap) best = {minimum, s, deepest};
+    deepest = deepest_behind(n, from, other.corners, deepest);
+    const double gap = dot(n, other.corners[deepest] - from);
+    if (gap > best.gap) best = {gap, s, deepest};
   }
   return best;
 }
