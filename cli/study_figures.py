@@ -4,7 +4,7 @@
 usage: study_figures.py STUDY_FOLDER
 
 Reads STUDY_FOLDER/curves.json and summary.json and writes STUDY_FOLDER/pictures/*.png; the band of a variation with several
-seeds lies between the smallest and the largest. Needs python3-numpy and python3-matplotlib.
+seeds lies between the smallest and the largest, its bars are the standard deviation. Needs python3-numpy and python3-matplotlib.
 """
 import argparse
 import json
@@ -38,6 +38,11 @@ def draw(curve, title):
         if "low" in line:
             axes.fill_between(x_factor * line["x"], factor * line["low"], factor * line["high"],
                               color=drawn.get_color(), alpha=0.2, linewidth=0)
+        if "standard_deviation" in line:
+            some = slice(len(line["x"]) // 24, None, max(1, len(line["x"]) // 12))
+            axes.errorbar(x_factor * line["x"][some], factor * line["y"][some],
+                          factor * line["standard_deviation"][some], color=drawn.get_color(), fmt="none",
+                          capsize=2, linewidth=1)
     axes.set_xlabel(labelled(curve["x"].replace("_", " "), x_unit))
     axes.set_ylabel(labelled(curve["y"].replace("_", " "), unit))
     axes.set_title(f"{curve['title'].replace('_', ' ')}\n{title}", loc="left")

@@ -98,7 +98,7 @@ echo "ok: comparison of runs of other signs and densities"
   fail "report of levers"
 body=$(body_of levers "$reports/levers.html" 1200,2000 ready)
 [[ $body == *'data-ready="1"'* && $body == *'data-views="3"'* ]] || fail "levers: $body"
-[[ $(grep -o '<h2>Stiffness beside the closed forms: ' "$work/page.html" | wc -l) -eq 2 ]] || fail "levers: not both calibrations"
+[[ $(grep -o '<h2>Stiffness compared with closed forms: ' "$work/page.html" | wc -l) -eq 2 ]] || fail "levers: not both calibrations"
 [[ $(grep -o 'data-drawn="' "$work/page.html" | wc -l) -eq 3 ]] || fail "levers: a picture is missing"
 grep -q 'Lever, under a force along the lever' "$work/page.html" || fail "levers: not told what a calibration shows"
 grep -q 'Lever, [0-9.]* actions done' "$work/page.html" && fail "levers: a calibration has no actions"
@@ -116,6 +116,17 @@ body=$(body_of raster "$reports/raster/report.html" 1200,2400 levelled "$(dirnam
   fail "the images of the raster"
 picture_of "$reports/raster/report.html" 1200,2400 "$reports/raster.png"
 echo "ok: images of a raster"
+
+# A loop and a force curve: what goes there and what comes back are lines of their own, the tables have one unit a column,
+# and forces can be read in nN.
+for named in "plane Friction loop" "jkr Force curve"; do
+  scene=${named%% *}
+  "$pulvis" run "$source_dir/tests/keys/scenes/$scene.toml" --threads 1 --overwrite -o "$reports/$scene" >"$work/run.txt" 2>&1 ||
+    fail "$scene: $(tail -3 "$work/run.txt")"
+  body=$(body_of "$scene" "$reports/$scene/report.html" 1000,2400 probed "$(dirname "$0")/probe_driver.js")
+  [[ $body == *"data-probed=\"${named#* }\""* && $body != *data-error* ]] || fail "$scene: $body"
+done
+echo "ok: loop and force curve"
 
 # The panel that docs/extending.md gives as an example, put where a panel's file would be read.
 /usr/bin/python3 - "$source_dir/docs/extending.md" "$reports/compaction/report.html" >"$work/panel.html" <<'PYTHON'

@@ -1,6 +1,7 @@
 #!/bin/bash
-# Runs a small study and opens its report in headless Chromium: it must draw every curve, with the band over
-# its seeds, and a law of strength, and raise no error, offline.
+# Runs a small study and opens its report in headless Chromium: it must draw every curve, with band and bars over
+# its seeds, a law of strength, main effects and the last frames, keep its tables inside the page, and raise no
+# error, offline.
 #
 # usage: study_in_browser.sh PULVIS SCENE [FOLDER]
 #   PULVIS   the program
@@ -40,7 +41,16 @@ body=$(body_of study "$study/report.html" 1200,2400 ready)
 [[ $(grep -o 'class="mark" cx="[0-9]' "$work/page.html" | wc -l) -eq 4 ]] || fail "not 4 strengths at their law"
 grep -q 'dense strength = ' "$work/page.html" || fail "no parameters of the law"
 grep -q 'href="friction%3D0.1%2Cseed%3D2/report.html"' "$work/page.html" || fail "no link to a run"
+[[ $body == *'data-effects="1"'* && $(grep -o 'class="effect" stroke-width="1.8"></path>' "$work/page.html" | wc -l) -eq 1 ]] || fail "no main effect: $body"
+[[ $(grep -o 'class="error-bar" d="M' "$work/page.html" | wc -l) -ge 6 ]] || fail "no bars of the standard deviation"
+[[ $(grep -o '<img src="data:image/png;base64,' "$work/page.html" | wc -l) -eq 4 ]] || fail "not a last frame of each run"
+grep -q '<td class="number">[0-9.e-]* ± [0-9.e-]*</td>' "$work/page.html" || fail "no mean with its standard deviation"
+grep -q '<th scope="col" class="number">top force at peak density \[N\]</th>' "$work/page.html" || fail "no unit in the head of a column"
+grep -q 'class="beyond flag">⚠ [^<]* (limit ' "$work/page.html" || fail "no run is flagged with why"
+grep -q '<option value="n">nN</option>' "$work/page.html" || fail "no nN among the units"
 [[ -f $study/friction=0.1,seed=2/report.html ]] || fail "the link leads nowhere"
+body=$(body_of fits "$study/report.html" 1000,2400 fits "$(dirname "$0")/study_driver.js")
+[[ $body == *'data-fits="1"'* ]] || fail "a table leaves the page, or its first column scrolls away: $body"
 picture_of "$study/report.html" 1200,2400 "$study/report.png"
 /usr/bin/python3 - "$study/report.png" <<'PYTHON' || fail "a curve or its colour is missing"
 import sys

@@ -1,6 +1,7 @@
 // The curves. A chart is {title, x, y, lines}: x and each line are {label, unit, values}, values in SI; y is
-// what stands at the axis. A line may have x values of its own (x), and a band around it (low, high). One that
-// isMarks is drawn as marks with bars from low to high, and over them the line that was fitted (fit: x, values).
+// what stands at the axis. A line may have x values of its own (x), and a band around it (low, high), and bars
+// of its standard deviation (deviation) at some samples. One that isMarks is drawn as marks with bars from low to
+// high, and over them the line that was fitted (fit: x, values).
 "use strict";
 
 const LIGHT = {ink: "#1d2733", soft: "#56616f", grid: "#e8ecf1", edge: "#c4cdd8", paper: "#ffffff",
@@ -50,10 +51,11 @@ function shownChart(spec, hidden) {
   const x = unitFor(spec.x.unit, most(spec.lines.map(xsOf)));
   const y = unitFor(spec.lines[0].unit, most(spec.lines.map(line => line.values)));
   const shown = spec.lines.filter((_, i) => !hidden.has(i));
+  const ends = line => !line.deviation ? [] : barSamples(line).flatMap(i => [line.values[i] - line.deviation[i], line.values[i] + line.deviation[i]]);
   const fits = shown.map(line => line.fit).filter(Boolean);
   return {x, y, xLabel: labelled(spec.x.label, x.label), yLabel: labelled(spec.y, y.label),
           whole: {x: withMargin(bounds([...shown.map(xsOf), ...fits.map(fit => fit.x)]), 0.02).map(v => v * x.factor),
-                  y: withMargin(bounds([...shown.flatMap(line => [line.values, line.low || [], line.high || []]),
+                  y: withMargin(bounds([...shown.flatMap(line => [line.values, line.low || [], line.high || [], ends(line)]),
                                         ...fits.map(fit => fit.values)]), 0.05).map(v => v * y.factor)}};
 }
 
@@ -79,6 +81,20 @@ function pathOf(xs, ys, kx, ky, {px, py}) {
 function bandOf(xs, line, kx, ky, place) {
   const there = Array.from(xs), back = there.slice().reverse();
   return pathOf([...there, ...back], [...line.low, ...Array.from(line.high).reverse()], kx, ky, place) + "Z";
+}
+
+// Where a line has bars of its standard deviation: a dozen samples, one line's beside the other's.
+function barSamples(line, shift = 0) {
+  const count = line.values.length, step = Math.max(1, Math.floor(count / 12));
+  return Array.from({length: Math.ceil(count / step)}, (_, k) => Math.min(count - 1, k * step + (step >> 1) + shift % step));
+}
+
+function barsOf(xs, line, kx, ky, {px, py}, stroke, shift) {
+  const bar = i => {
+    const x = px(xs[i] * kx), y = sign => py((line.values[i] + sign * line.deviation[i]) * ky).toFixed(1), [left, right] = [x - 3, x + 3].map(v => v.toFixed(1));
+    return `M${left} ${y(-1)}H${right}M${x.toFixed(1)} ${y(-1)}V${y(1)}M${left} ${y(1)}H${right}`;
+  };
+  return `<path class="error-bar" d="${barSamples(line, shift).map(bar).join("")}" stroke="${stroke}" stroke-width="1.2"/>`;
 }
 
 // Circles, and bars where an error is known.
@@ -131,6 +147,11 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
     }
     out.push(`<path class="curve" d="${pathOf(xs, one.values, shown.x.factor, shown.y.factor, place)}" ` +
              `stroke="${stroke}"${one.dash ? ` stroke-dasharray="${one.dash.join(" ")}"` : ""}/>`);
+  });
+  spec.lines.forEach((one, i) => {
+    if (hidden.has(i) || !one.deviation) return;
+    const stroke = one.colour || colours.lines[i % colours.lines.length];
+    out.push(barsOf(one.x || spec.x.values, one, shown.x.factor, shown.y.factor, place, stroke, 4 * i));
   });
   out.push("</g>");
   if (legend) {
@@ -251,7 +272,8 @@ class Chart {
     const {spec, shown} = this;
     if (sample === null || sample === undefined) { this.readout.textContent = ""; return; }
     const value = (v, unit) => digits(v * unit.factor) + (unit.label ? " " + unit.label : "");
-    const lines = spec.lines.filter((_, i) => !this.hidden.has(i))
+    const read = spec.lines.filter((line, i) => !this.hidden.has(i) && !Number.isNaN(line.values[Math.min(sample, line.values.length - 1)]));
+    const lines = (read.length ? read : spec.lines.filter((_, i) => !this.hidden.has(i)))
       .map(line => `${line.label} ${value(line.values[Math.min(sample, line.values.length - 1)], shown.y)}`);
     const xs = spec.x.values || [];
     this.readout.textContent = (xs.length ? `${spec.x.label} ${value(xs[sample], shown.x)}: ` : "") + lines.join(", ");

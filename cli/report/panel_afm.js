@@ -1,42 +1,105 @@
 // A lever of an atomic force microscope: force curve, loop, and its stiffness beside the closed forms.
 "use strict";
 
-const meshError = ({mesh_error: of}, name) => of ? `mesh: some ${percent(of[name])} too stiff` : "";
+const meshError = ({mesh_error: of}, name) => of ? `mesh: about ${percent(of[name])} too stiff` : "";
 
 addFigures(({summary: {calibration, loops, force_curves: curves}}) => [
   ...(calibration ? [["normal stiffness", `${digits(calibration.k_n)} N/m`, meshError(calibration, "k_n")],
                      ["lateral stiffness", `${digits(calibration.k_l)} N/m`, meshError(calibration, "k_l")]] : []),
-  ...(loops || []).slice(0, 1).flatMap(loop => [["half width of the loop", withUnit(loop.half_width, "N"), ""],
+  ...(loops || []).slice(0, 1).flatMap(loop => [["half-width of the loop", withUnit(loop.half_width, "N"), ""],
     loop.friction ? ["friction coefficient", digits(loop.friction, 4), "wedge calibration"] : null]),
   ...(curves || []).slice(0, 1).flatMap(curve => [["pull-off force", withUnit(curve.pull_off, "N"), "of the force curve"],
     ["pull-off work", withUnit(curve.work, "J"), "over the travel of the scanner"],
     curve.work_of_adhesion ? ["work of adhesion", `${digits(1e3 * curve.work_of_adhesion)} mJ/m²`, "of pull-off and radius"] : null])]);
+
+// A series where `kept(sample)` holds, with the samples beside those: a line of its own over the axis of all.
+function partOf(series, label, kept, more = {}) {
+  const values = Array.from(series.values, (v, i) => kept(i) || (i + 1 < series.values.length && kept(i + 1)) ? v : NaN);
+  return {...series, label, values, ...more};
+}
+
+// Which samples are of an approach, of a retract: the scanner goes up or down and nowhere else.
+function verticalMotion(run) {
+  const [x, y, z] = ["x", "y", "z"].map(axis => run.values(`scanner/${axis}`));
+  const still = (values, i) => !values.length || values[i] === values[i - 1];
+  const moves = (i, sign) => i > 0 && still(x, i) && still(y, i) && sign * (z[i] - z[i - 1]) > 0;
+  return z.length ? {approach: i => moves(i, 1), retract: i => moves(i, -1)} : null;
+}
+
+// Of every loop that the program took: its samples, the axis it goes along.
+function loopParts(run) {
+  const {times} = run, loops = run.summary.loops || [];
+  const extent = (name, from, to) => {
+    const [low, high] = bounds([run.values(name).filter((_, i) => times[i] > from && times[i] <= to)]);
+    return high - low || 0;
+  };
+  return loops.map(({action}) => {
+    const lateral = extent("scanner/y", action, action + 1) >= extent("scanner/x", action, action + 1);
+    const within = (from, to) => i => times[i] > from + 1e-9 && times[i] <= to + 1e-9;
+    return {action, axis: lateral ? "y" : "x", trace: within(action, action + 0.5), retrace: within(action + 0.5, action + 1)};
+  });
+}
+
+const RETURN = [6, 4];  // dashes of what goes back: a retract, a retrace
+
+function curveLines(run, name, label) {
+  const motion = run.has(name) && verticalMotion(run), colours = LIGHT.lines;
+  if (!motion) return [];
+  const there = part => run.values(name).some((_, i) => motion[part](i));
+  return ["approach", "retract"].filter(there).map((part, k) =>
+    partOf(run.series(name), label ? `${label}, ${part}` : part, motion[part], {colour: colours[k], dash: k ? RETURN : undefined}));
+}
+
+function loopLines(run, axis, name) {
+  const loops = loopParts(run).filter(loop => loop.axis === axis);
+  if (!run.has(name)) return [];
+  const label = (loop, part) => loops.length > 1 ? `action ${loop.action}, ${part}` : part;
+  return loops.flatMap((loop, i) => ["trace", "retrace"].map((part, k) => partOf(run.series(name), label(loop, part), loop[part],
+    {colour: LIGHT.lines[(loops.length > 1 ? i : k) % LIGHT.lines.length], dash: k ? RETURN : undefined})));
+}
 
 addCurves(run => {
   if (run.family !== "afm") return [];
   const x = (name, label) => run.has(name) ? [run.series(name, label)] : [];
   const moved = [...x("scanner/y", "scanner, y"), ...x("scanner/x", "scanner, x"), ...x("scanner/z", "scanner, z")];
   const xs = moved.filter(axis => largest(axis.values) > 0);
-  const group = (title, first, y, names) => ({title, y, xs: [...xs.filter(a => a.label.endsWith(first)),
-    ...xs.filter(a => !a.label.endsWith(first)), timeAxis(run)],
-    lines: names.filter(name => run.has(name)).map(name => run.series(name, words(name.replace("/", ", "))))});
-  return [group("Force curve", "z", "force", ["probe/force_z"]),
-          {...group("Friction loop", "y", "force", ["probe/force_y"]), first: Boolean(run.summary.loops)},
-          group("Detector", "y", "signal", ["detector/lateral", "detector/normal"])];
+  const against = first => [...xs.filter(a => a.label.endsWith(first)), ...xs.filter(a => !a.label.endsWith(first)), timeAxis(run)];
+  const whole = names => names.filter(name => run.has(name)).map(name => run.series(name, words(name.replace("/", ", "))));
+  const group = (title, first, y, lines, more) => ({title, y, xs: against(first), lines, ...more});
+  const loops = ["y", "x"].flatMap(axis => {
+    const lateral = axis === "y", along = lateral ? "" : " along the lever";
+    return [group(`Friction loop${along}`, axis, "lateral force on the tip", loopLines(run, axis, `probe/force_${axis}`), {first: true}),
+            group(`Friction loop${along}, volts`, axis, "signal", loopLines(run, axis, `detector/${lateral ? "lateral" : "normal"}`))];
+  });
+  return [group("Force curve", "z", "vertical force", curveLines(run, "probe/force_z"), {first: Boolean(run.summary.force_curves)}),
+          group("Force curve, volts", "z", "normal signal", curveLines(run, "detector/normal")), ...loops,
+          group("Lateral force, whole programme", "y", "lateral force on the tip", whole(["probe/force_y"])),
+          group("Detector, whole programme", "y", "signal", whole(["detector/lateral", "detector/normal"]))];
 });
 
+// A table that scrolls inside its card, drawn anew where the reader chooses a unit.
+function placeColumns(host, columns) {
+  const table = element("table", {className: "figures"});
+  const fill = () => fillColumns(table, columns);
+  host.append(element("div", {className: "scroll"}, table));
+  host.parentElement.classList.add("wide");
+  fill();
+  onUnits(fill);
+}
+
 addPanel({
-  title: "Stiffness beside the closed forms", order: 20,
+  title: "Stiffness compared with closed forms", order: 20,
   when: ({summary: {calibration}}) => Boolean(calibration && calibration.closed_forms),
   draw({run}, host) {
-    const {calibration} = run.summary, table = element("table", {className: "figures"});
-    const row = (cells, tag = "td") => table.insertRow().append(...cells.map(textContent => element(tag, {textContent})));
-    row(["", "formula", "value", "finite elements"], "th");
-    for (const {quantity, name, value, difference, does_not_apply: why} of calibration.closed_forms) {
-      row([quantity, name, `${digits(value)} N/m`,
-        why ? `does not apply: ${why}` : `${difference > 0 ? "+" : ""}${percent(difference)}`]);
-    }
-    host.append(element("div", {className: "scroll"}, table), element("p", {className: "note", textContent:
+    const {calibration} = run.summary, forms = calibration.closed_forms, of = pick => forms.map(form => pick(form) ?? null);
+    const difference = ({difference: off, does_not_apply: why}) =>
+      why ? `does not apply: ${why}` : `${off > 0 ? "+" : ""}${percent(off)}`;
+    placeColumns(host, [
+      {title: "quantity", cells: of(({quantity}) => quantity)},
+      {title: "formula", cells: of(({name}) => name)},
+      {title: "value", unit: "N/m", cells: of(({value}) => value)},
+      {title: "finite elements", cells: of(difference)}]);
+    host.append(element("p", {className: "note", textContent:
       `Lateral displacement of the tip's end: ${percent(calibration.share_twist)} twist, ` +
       `${percent(calibration.share_bending)} lateral bending, ${percent(calibration.share_tip)} in the tip. ` +
       `Torsional stiffness ${digits(calibration.torsional_stiffness)} N m/rad; InvOLS ${digits(calibration.invols_normal)} m/V normal` +
@@ -48,16 +111,20 @@ addPanel({
   title: "Friction loops", order: 21,
   when: ({summary: {loops}}) => Boolean(loops && loops.length),
   draw({run}, host) {
-    const table = element("table", {className: "figures"});
-    const row = (cells, tag = "td") => table.insertRow().append(...cells.map(textContent => element(tag, {textContent})));
-    row(["action", "load", "half width W", "offset Δ", "W / load", "Δ / load", "W, volts", "Δ, volts", "friction", "N/V"], "th");
-    for (const loop of run.summary.loops) {
-      row([String(loop.action), withUnit(loop.load, "N"), withUnit(loop.half_width, "N"), withUnit(loop.offset, "N"),
-           digits(loop.half_width / loop.load), digits(loop.offset / loop.load),
-           withUnit(loop.volts_half_width, "V"), withUnit(loop.volts_offset, "V"),
-           loop.friction ? digits(loop.friction) : "–", loop.sensitivity ? digits(loop.sensitivity) : "–"]);
-    }
-    host.append(element("div", {className: "scroll"}, table));
+    const {loops} = run.summary, of = pick => loops.map(loop => pick(loop) ?? null);
+    placeColumns(host, [
+      {title: "action", cells: of(loop => String(loop.action))},
+      {title: "load L", unit: "N", cells: of(loop => loop.load)},
+      {title: "trace", unit: "N", cells: of(loop => loop.trace)},
+      {title: "retrace", unit: "N", cells: of(loop => loop.retrace)},
+      {title: "half-width W", unit: "N", cells: of(loop => loop.half_width)},
+      {title: "offset Δ", unit: "N", cells: of(loop => loop.offset)},
+      {title: "W / L", unit: "-", cells: of(loop => loop.half_width / loop.load)},
+      {title: "Δ / L", unit: "-", cells: of(loop => loop.offset / loop.load)},
+      {title: "W", unit: "V", cells: of(loop => loop.volts_half_width)},
+      {title: "Δ", unit: "V", cells: of(loop => loop.volts_offset)},
+      {title: "friction", unit: "-", cells: of(loop => loop.friction)},
+      {title: "sensitivity", unit: "N/V", cells: of(loop => loop.sensitivity)}]);
     for (const loop of run.summary.loops.filter(loop => loop.settled === false)) {
       const why = loop.slides < 1 - 1e-3 ? "the probe still sticks" :
         loop.turned < 1 - 1e-3 ? "friction has not turned along the scan" : "the force still drifts";
@@ -65,5 +132,21 @@ addPanel({
       host.append(element("p", {className: "note", textContent:
         `In action ${loop.action} ${why} where W is taken from: ${scan} is needed.`}));
     }
+  },
+});
+
+addPanel({
+  title: "Force curves", order: 22,
+  when: ({summary: {force_curves: curves}}) => Boolean(curves && curves.length),
+  draw({run}, host) {
+    const of = key => run.summary.force_curves.map(curve => curve[key] ?? null);
+    placeColumns(host, [
+      {title: "retract from action", cells: of("action").map(String)},
+      {title: "largest force", unit: "N", cells: of("greatest_force")},
+      {title: "pull-off force", unit: "N", cells: of("pull_off")},
+      {title: "pull-off work", unit: "J", cells: of("work")},
+      {title: "work of adhesion", unit: "J/m^2", cells: of("work_of_adhesion")}]);
+    host.append(element("p", {className: "note", textContent:
+      "Work: area under the line of no force while the probe is drawn off, over the travel of the scanner."}));
   },
 });

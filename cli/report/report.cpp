@@ -12,7 +12,7 @@ namespace {
 std::vector<std::string> scripts(const char* page) {
   std::vector<std::string> names{"units.js",    "payload.js", "save.js",  "chart.js", "maps.js",
                                  "raster.js",   "run.js",     "field.js", "solid.js", "timeline.js",
-                                 "settings.js", "panels.js",  "fits.js",  "words.js"};
+                                 "settings.js", "panels.js",  "fits.js",  "words.js", "tables.js"};
   for (const auto& panel : report_assets_named("panel_")) names.push_back(panel);
   names.emplace_back(page);
   return names;

@@ -25,7 +25,9 @@ Bytes planes_of_differences(std::span<const Unsigned> values, std::size_t stride
   return planes;
 }
 
-Bytes deflated(const Bytes& bytes) {
+}  // namespace
+
+std::vector<unsigned char> deflated(const std::vector<unsigned char>& bytes) {
   uLongf size = compressBound(bytes.size());
   Bytes packed(size);
   const int status = compress2(packed.data(), &size, bytes.data(), bytes.size(), 6);
@@ -34,7 +36,7 @@ Bytes deflated(const Bytes& bytes) {
   return packed;
 }
 
-std::string base64(const Bytes& bytes) {
+std::string base64(const std::vector<unsigned char>& bytes) {
   static constexpr const char* letters =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -49,8 +51,6 @@ std::string base64(const Bytes& bytes) {
   }
   return text;
 }
-
-}  // namespace
 
 std::string encoded(std::span<const std::uint16_t> values, std::size_t stride) {
   return base64(deflated(planes_of_differences(values, stride)));

@@ -12,6 +12,9 @@
 
 namespace pulvis {
 
+std::vector<unsigned char> deflated(const std::vector<unsigned char>& bytes);
+std::string base64(const std::vector<unsigned char>& bytes);
+
 // `stride`: how far back the alike neighbour is (2 for interleaved x and y).
 std::string encoded(std::span<const std::uint16_t> values, std::size_t stride);
 std::string encoded(std::span<const std::int32_t> values, std::size_t stride);

@@ -73,6 +73,12 @@ std::vector<std::size_t> renumber(std::vector<std::int32_t>& faces) {
 
 }  // namespace
 
+std::vector<std::int32_t> surface_faces(const hdf5::File& file) {
+  return surface_of(file.read_integers("/mesh/hexahedra"),
+                    file.read_integers("/mesh/cell_particle"))
+      .faces;
+}
+
 void add_solid(const hdf5::File& file, Json& head, std::vector<ReportSection>& sections) {
   const auto part = file.read_integers("/mesh/cell_particle");
   Surface surface = surface_of(file.read_integers("/mesh/hexahedra"), part);

@@ -2,6 +2,7 @@
 // far their corners have moved.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "engine/files/hdf5.hpp"
 
 namespace pulvis {
+
+// Faces that one hexahedron alone has, four nodes of the mesh each.
+std::vector<std::int32_t> surface_faces(const hdf5::File& file);
 
 void add_solid(const hdf5::File& file, nlohmann::ordered_json& head,
                std::vector<ReportSection>& sections);

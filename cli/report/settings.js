@@ -1,7 +1,7 @@
 // What the reader chooses for the whole page: units, colour map, light or dark.
 "use strict";
 
-const UNIT_CHOICES = {N: ["", "k", "M"], Pa: ["k", "M", "G"], m: ["", "m", "µ", "n"], s: ["", "m", "µ"], J: ["", "m", "µ"]};
+const UNIT_CHOICES = {N: ["n", "µ", "m", "", "k", "M"], Pa: ["k", "M", "G"], m: ["", "m", "µ", "n"], s: ["", "m", "µ"], J: ["", "m", "µ", "n", "p", "f"], V: ["", "m", "µ"]};
 
 function picker(label, options, chosen, action) {
   const select = element("select", {});
@@ -11,14 +11,14 @@ function picker(label, options, chosen, action) {
   return element("label", {}, label + " ", select);
 }
 
-// units: those of the page's numbers.
-function placeSettings(host, units) {
+// units: those of the page's numbers; hasMap: whether anything is drawn in a colour map.
+function placeSettings(host, units, hasMap = true) {
   const choices = Object.entries(UNIT_CHOICES).filter(([unit]) => units.has(unit)).map(([unit, prefixes]) =>
     picker(unit, [["auto", "auto"], ...prefixes.map(prefix => [prefix, prefix + unit])], "auto",
            value => chooseUnit(unit, value === "auto" ? null : value)));
   const menu = element("details", {className: "menu"}, element("summary", {textContent: "Units"}),
                        element("div", {}, ...choices));
-  const map = picker("Colours", Object.keys(MAPS).map(name => [name, name]), chosenMap, chooseMap);
+  const map = hasMap && picker("Colours", Object.keys(MAPS).map(name => [name, name]), chosenMap, chooseMap);
   const shade = element("button", {type: "button", id: "shade"});
   const tell = () => {
     shade.textContent = isDark() ? "Light" : "Dark";
@@ -30,5 +30,5 @@ function placeSettings(host, units) {
   };
   onTheme(tell);
   tell();
-  host.append(menu, map, shade);
+  host.append(...(choices.length ? [menu] : []), ...(map ? [map] : []), shade);
 }

@@ -1,9 +1,6 @@
 // The report of a study: verdicts, curves of all variations over each other, and the table of its runs.
-// <body> tells how it went: data-ready with the number of lines drawn, or data-error.
+// <body> tells how it went: data-ready, data-drawn-lines and data-effects with their numbers, or data-error.
 "use strict";
-
-const linkTo = run => element("a", {textContent: run.name,
-                                    href: `${encodeURIComponent(run.name)}/report.html`});
 
 function leadText(head) {
   const bad = head.runs.filter(run => run.failure).length;
@@ -30,56 +27,9 @@ function fillExpectations(list) {
   }
 }
 
-// rows: [[cell, ...]] of texts or elements.
-function fillTable(id, titles, rows, isBad = () => false) {
-  const head = document.querySelector(`#${id} thead`).insertRow();
-  titles.forEach(title => head.append(element("th", {textContent: title})));
-  const body = document.querySelector(`#${id} tbody`);
-  rows.forEach((cells, i) => {
-    const row = body.insertRow();
-    if (isBad(i)) row.className = "bad";
-    cells.forEach(cell => row.insertCell().append(cell));
-  });
-}
-
-const figureOf = (run, name) => run.values.find(figure => figure.name === name);
-
-function figureText(figure) {
-  if (!figure || figure.value === null || figure.value === "") return "–";
-  if (typeof figure.value === "string") return figure.value;
-  if (figure.unit === "") return figure.value.toLocaleString("en");
-  return withUnit(figure.value, figure.unit);
-}
-
-const COLUMNS = [["particles", "particles"], ["steps", "steps"], ["wall_seconds", "computing time"],
-                 ["relative_density", "relative density"], ["stress_ratio/axial", "σ axial / σy"],
-                 ["stress_ratio/lateral", "σ lateral / σy"], ["top_force_end", "top force"],
-                 ["elements", "elements"], ["increments", "increments"],
-                 ["k_n", "k_n"], ["k_l", "k_l"], ["k_x", "k_x"], ["k_l/k_n", "k_l/k_n"],
-                 ["torsional_stiffness", "torsional stiffness"], ["share_twist", "share of twist"],
-                 ["share_bending", "share of lateral bending"], ["share_tip", "share of the tip"],
-                 ["invols_normal", "InvOLS normal"], ["invols_lateral", "InvOLS lateral"],
-                 ["loop/load", "load of the loop"], ["loop/half_width", "W"], ["loop/offset", "Δ"],
-                 ["loop/friction", "friction"], ["loop/sensitivity", "sensitivity"],
-                 ["curve/pull_off", "pull-off"], ["curve/work_of_adhesion", "work of adhesion"],
-                 ["bottom_force_end", "bottom force"], ["top_force_max", "largest top force"],
-                 ["energy_balance_error", "energy balance error"], ["kinetic_ratio", "kinetic ratio"],
-                 ["expectations_met", "expectations met"]];
-
-function fillRuns(head) {
-  const keys = Object.keys(head.runs[0].varied);
-  const columns = COLUMNS.filter(([name]) => head.runs.some(run => {
-    const figure = figureOf(run, name);
-    return figure && figure.value !== null && figure.value !== "";
-  }));
-  const rows = head.runs.map(run => [
-    run.values.some(figure => figure.name === "outcome" && figure.value) ? linkTo(run) : run.name,
-    ...keys.map(key => run.varied[key] || "–"), String(run.seed),
-    run.failure ? run.failure : figureText(figureOf(run, "outcome")),
-    ...columns.map(([name]) => figureText(figureOf(run, name)))]);
-  fillTable("runs", ["run", ...keys, "seed", "outcome", ...columns.map(([, title]) => title)], rows,
-            i => Boolean(head.runs[i].failure));
-}
+// rows: [[cell, ...]] of texts.
+const fillTexts = (id, titles, rows) =>
+  fillTable(id, titles.map((title, k) => ({title, cells: rows.map(row => row[k])})));
 
 function fillLaws(head) {
   const runs = head.runs.filter(run => run.fits && Array.isArray(run.fits.laws));
@@ -90,7 +40,7 @@ function fillLaws(head) {
     run.name, (LAWS[law.law] || [law.law])[0], told(law),
     law.not_fitted ? "–" : digits(law.r_squared, 5),
     law.not_fitted ? "–" : digits(law.rms_density, 3)]));
-  fillTable("laws", ["run", "law", "parameters", "R²", "rms of D"], rows);
+  fillTexts("laws", ["run", "law", "parameters", "R²", "rms of D"], rows);
 }
 
 function fillBelow(head) {
@@ -100,7 +50,7 @@ function fillBelow(head) {
     name, digits(transmission.wall_friction),
     ...TRANSMISSION.map(([key]) => digits(transmission.shares.at(-1)[key])),
     transmission.not_compared || ""]);
-  fillTable("below", ["run", "wall µ", ...TRANSMISSION.map(([, title]) => title), ""], rows);
+  fillTexts("below", ["run", "wall µ", ...TRANSMISSION.map(([, title]) => title), ""], rows);
 }
 
 const strengthLaws = head => Array.isArray(head.fits) ? head.fits : [];
@@ -121,7 +71,7 @@ function fillStrength(head) {
     ...law.groups.map(group => row(law, group.name, group)),
     ...(law.size_effect ? [row(law, "size effect", {points: law.groups.flatMap(group => group.points),
                                                     parameters: law.size_effect})] : [])]);
-  fillTable("strength", ["fit", "of", "diameter", "runs", "found"], rows);
+  fillTexts("strength", ["fit", "of", "diameter", "runs", "found"], rows);
 }
 
 const spread = (values, count = 60) => {
@@ -180,20 +130,24 @@ const strengthPlots = head => strengthLaws(head)
 
 function lineData(line, numbers) {
   const part = k => numbers.subarray(line.first + k * line.count, line.first + (k + 1) * line.count);
-  return {x: part(0), y: part(1), low: line.band ? part(2) : null, high: line.band ? part(3) : null};
+  return {x: part(0), y: part(1), ...(line.band ? {low: part(2), high: part(3), deviation: part(4)} : {})};
 }
 
 const seriesLabel = name => words(name).replaceAll("/", " ");
 
+function seedsNote(lines) {
+  const seeds = [...new Set(lines.filter(line => line.band).map(line => line.runs))].sort((a, b) => a - b);
+  return seeds.length ? `Mean over ${seeds.join(" or ")} seeds; bars: ± standard deviation; band: from min to max.` : "";
+}
+
 // Every curve has an abscissa of its own, and a band over its seeds.
 function overlay(curve, numbers) {
   const lines = curve.lines.map(line => {
-    const {x, y, low, high} = lineData(line, numbers);
-    const label = line.band ? `${line.variation}, mean of ${line.runs} seeds, band from min to max` : line.variation;
-    return {label, unit: curve.y_unit, x, values: y, low, high};
+    const {x, y, low, high, deviation} = lineData(line, numbers);
+    return {label: line.variation, unit: curve.y_unit, x, values: y, low, high, deviation};
   });
   return {title: seriesLabel(curve.title), x: {label: seriesLabel(curve.x), unit: curve.x_unit, values: []},
-          y: seriesLabel(curve.y), lines};
+          y: seriesLabel(curve.y), lines, seeds: seedsNote(curve.lines)};
 }
 
 async function main() {
@@ -201,7 +155,12 @@ async function main() {
   const numbers = await floats("numbers");
   document.getElementById("lead").textContent = leadText(head);
   fillExpectations(head.expectations);
-  fillRuns(head);
+  const units = [...head.runs.flatMap(run => run.values), ...head.curves.flatMap(({x_unit, y_unit}) => [{unit: x_unit}, {unit: y_unit}])];
+  placeSettings(document.getElementById("settings"), new Set(units.map(({unit}) => unit)), false);
+  const fillTables = () => { fillRuns(head); fillVariations(head); };
+  fillTables();
+  onUnits(fillTables);
+  fillThumbnails(head);
   fillLaws(head);
   fillBelow(head);
   fillStrength(head);
@@ -209,6 +168,10 @@ async function main() {
                  ...head.curves.filter(curve => curve.lines.length).map(curve => overlay(curve, numbers))];
   const hosts = drawn.map(chart => card(chart.title));  // first all places: they share the width
   drawn.forEach((chart, i) => drawChart(hosts[i], chart, {height: 340}));
+  drawn.forEach((chart, i) => {
+    if (chart.seeds) hosts[i].parentElement.append(element("p", {className: "note", textContent: chart.seeds}));
+  });
+  document.body.dataset.effects = drawEffects(head);
   document.body.dataset.drawnLines = drawn.reduce((sum, chart) => sum + chart.lines.length, 0);
   document.body.dataset.ready = "1";
 }

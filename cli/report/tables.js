@@ -1,4 +1,4 @@
-// Tables of figures with their uncertainties.
+// Tables of values with their uncertainties.
 "use strict";
 
 function addRow(table, cells, isHead) {
@@ -17,4 +17,44 @@ function measured(known, unit = "-") {
   const {factor, label} = unitFor(unit, Math.abs(known.value));
   const error = known.error === undefined ? undefined : known.error * factor;
   return withError(known.value * factor, error, 4) + (label ? " " + label : "");
+}
+
+// columns: [{title, unit, cells}]; a cell is a number, {mean, deviation}, a text, an element or null. A column of numbers
+// with a unit has one unit for all of them.
+function fillColumns(table, columns, isBad = () => false) {
+  const shown = columns.map(shownColumn), head = element("tr", {}), body = element("tbody", {});
+  table.replaceChildren(element("thead", {}, head), body);
+  shown.forEach(({title, isNumber}) => head.append(element("th", {textContent: title, scope: "col",
+                                                                  className: isNumber ? "number" : ""})));
+  for (let i = 0; i < columns[0].cells.length; ++i) {
+    const row = body.insertRow();
+    if (isBad(i)) row.className = "bad";
+    shown.forEach(({cells, isNumber}, k) => {
+      const cell = k ? element("td", {className: isNumber ? "number" : ""}) : element("th", {scope: "row"});
+      cell.append(cells[i]);
+      row.append(cell);
+    });
+  }
+}
+
+const isSample = cell => cell !== null && typeof cell === "object" && "mean" in cell;
+const numberOf = cell => isSample(cell) ? cell.mean : cell;
+
+function shownColumn({title, unit, cells}) {
+  const numbers = cells.map(numberOf).filter(Number.isFinite);
+  if (!numbers.length) return {title, cells: cells.map(cell => cell === null || cell === "" ? "–" : cell)};
+  const {factor, label} = unitFor(unit || "-", largest(numbers));
+  const text = cell => isSample(cell) ? withSpread(cell.mean * factor, cell.deviation, factor)
+    : !Number.isFinite(cell) ? "–" : unit ? digits(cell * factor) : cell.toLocaleString("en");
+  return {title: labelled(title, label), cells: cells.map(text), isNumber: true};
+}
+
+// The mean to the second digit of its deviation, six at most.
+function withSpread(mean, deviation, factor = 1) {
+  if (deviation === undefined || deviation === null) return digits(mean);
+  const spread = deviation * factor;
+  if (!(spread > 0)) return `${digits(mean)} ± 0`;
+  const wanted = 2 + Math.floor(Math.log10(Math.abs(mean) || spread)) - Math.floor(Math.log10(spread));
+  const count = Math.min(6, Math.max(2, wanted));
+  return `${digits(mean, count)} ± ${digits(spread, 2)}`;
 }

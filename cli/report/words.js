@@ -116,7 +116,7 @@ function fillSummary(run) {
   const known = knownRows(run);
   const told = new Set(["title", "tools", "limits", "quality", "energy_balance_error", "family", "shear",
                         "kinetic_ratio", "penetration", "fits", "transmission", "expectations", "calibration",
-                        "loops", "cost", "contact_quality", "warnings", ...known.flatMap(row => row[2])]);
+                        "loops", "force_curves", "cost", "contact_quality", "warnings", ...known.flatMap(row => row[2])]);
   const rows = known.filter(row => row[1]);
   for (const [key, value] of Object.entries(run.summary)) {
     if (!told.has(key)) otherRows(value, key, rows);

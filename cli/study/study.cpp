@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 // Of the study itself.
 void require_own_study(const fs::path& folder, const fs::path& study) {
   for (const char* const name :
-       {"study.toml", "study.csv", "fits.csv", "strengths.csv", "sensitivities.csv", "summary.json",
-        "curves.json", "report.html"}) {
+       {"study.toml", "study.csv", "variations.csv", "effects.csv", "fits.csv", "strengths.csv",
+        "sensitivities.csv", "summary.json", "curves.json", "report.html"}) {
     require_another(study, folder / name);
     require_own_or_none(folder / name, role::study);
   }

@@ -52,6 +52,13 @@ double at(const Curve& curve, double x) {
   return curve.y[i - 1] + share * (curve.y[i] - curve.y[i - 1]);
 }
 
+// Standard deviation over the seeds, n - 1.
+double deviation_at(const std::vector<Curve>& curves, double x, double mean) {
+  double squares = 0;
+  for (const Curve& curve : curves) squares += (at(curve, x) - mean) * (at(curve, x) - mean);
+  return std::sqrt(squares / static_cast<double>(curves.size() - 1));
+}
+
 void add_mean(StudyLine& line, const std::vector<Curve>& curves) {
   double low = -INFINITY, high = INFINITY;
   for (const Curve& curve : curves) {
@@ -72,12 +79,13 @@ void add_mean(StudyLine& line, const std::vector<Curve>& curves) {
     line.y.push_back(sum / static_cast<double>(curves.size()));
     line.low.push_back(minimum);
     line.high.push_back(maximum);
+    line.deviation.push_back(deviation_at(curves, x, line.y.back()));
   }
 }
 
 StudyLine line_of(const std::string& variation, const std::vector<StudyResult>& results,
                   const StudyCurve& wanted) {
-  StudyLine line{variation, 0, {}, {}, {}, {}};
+  StudyLine line{variation, 0, {}, {}, {}, {}, {}};
   std::vector<Curve> curves;
   for (const StudyResult& result : results) {
     if (result.run->variation != variation || !result.usable) continue;

@@ -1,5 +1,5 @@
-// The curves of a study: one a variation, over several seeds their mean and the band between the smallest
-// and the largest.
+// The curves of a study: one a variation, over several seeds their mean, standard deviation and the band between the
+// smallest and the largest.
 #pragma once
 
 #include "cli/study/study_results.hpp"
@@ -10,7 +10,7 @@ struct StudyLine {
   std::string variation;
   std::size_t runs = 0;
   std::vector<double> x, y;
-  std::vector<double> low, high;  // over seeds, at the same x; empty of a single run
+  std::vector<double> low, high, deviation;  // over seeds, at the same x; empty of a single run
 };
 
 struct DrawnCurve {

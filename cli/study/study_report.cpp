@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <optional>
 
 #include "cli/report/report_encoding.hpp"
 #include "cli/report/report_page.hpp"
+#include "cli/report/report_thumbnail.hpp"
 #include "cli/study/study_curves.hpp"
 #include "cli/study/study_fit_files.hpp"
+#include "cli/study/study_quality.hpp"
+#include "cli/study/study_statistics.hpp"
 #include "cli/summary.hpp"
 #include "engine/files/own_files.hpp"
 
@@ -16,6 +21,9 @@ namespace pulvis {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t thumbnail_pixels =
+    3'000'000;  // of all together: bytes before they are deflated
 
 Json run_json(const Study& study, const StudyResult& result) {
   Json varied = Json::object();
@@ -31,6 +39,7 @@ Json run_json(const Study& study, const StudyResult& result) {
   for (const Figure& figure : figures_of(result))
     json["values"].push_back(
         {{"name", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
+  json["quality"] = quality_flags(result);
   for (const char* part : {"fits", "transmission"})
     if (result.summary.contains(part)) json[part] = result.summary[part];
   return json;
@@ -73,6 +82,7 @@ Json curves_json(const std::vector<DrawnCurve>& curves) {
       if (!line.low.empty()) {
         one["low"] = line.low;
         one["high"] = line.high;
+        one["standard_deviation"] = line.deviation;
       }
       lines.push_back(one);
     }
@@ -84,6 +94,38 @@ Json curves_json(const std::vector<DrawnCurve>& curves) {
                     {"lines", lines}});
   }
   return list;
+}
+
+// The last frame of every run, as far as there is room; colours of one field have one scale.
+Json with_thumbnails(Json head, const std::vector<StudyResult>& results) {
+  const int side = thumbnail_side(results.size(), thumbnail_pixels);
+  if (side == 0) return head;
+  std::map<std::string, Json> scales;
+  std::vector<std::optional<Thumbnail>> all;
+  for (const StudyResult& result : results) {
+    all.push_back(thumbnail_of(result.folder / "run.h5", side));
+    const std::optional<Thumbnail>& one = all.back();
+    if (!one || one->field.empty()) continue;
+    Json& scale = scales
+                      .try_emplace(one->field, Json{{"field", one->field},
+                                                    {"unit", one->unit},
+                                                    {"low", one->range.low},
+                                                    {"high", one->range.high}})
+                      .first->second;
+    scale["low"] = std::min(scale["low"].get<double>(), one->range.low);
+    scale["high"] = std::max(scale["high"].get<double>(), one->range.high);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i]) continue;
+    const auto scale = scales.find(all[i]->field);
+    const Range colours = scale == scales.end() ? Range{}
+                                                : Range{scale->second["low"].get<double>(),
+                                                        scale->second["high"].get<double>()};
+    head["runs"][i]["thumbnail"] = thumbnail_png(*all[i], colours);
+  }
+  head["thumbnails"] = Json::array();
+  for (const auto& [field, scale] : scales) head["thumbnails"].push_back(scale);
+  return head;
 }
 
 // In the page the numbers of all lines are one packed list; each line says how many it has.
@@ -102,7 +144,8 @@ ReportData page_data(const Study& study, Json head, const std::vector<DrawnCurve
                        {"first", numbers.size()},
                        {"count", line.x.size()},
                        {"band", band}});
-      for (const auto* values : {&line.x, &line.y, &line.low, &line.high}) put(*values);
+      for (const auto* values : {&line.x, &line.y, &line.low, &line.high, &line.deviation})
+        put(*values);
     }
     head["curves"].push_back({{"title", curve.title},
                               {"x", curve.x},
@@ -133,15 +176,23 @@ void write_fits(const std::filesystem::path& folder, const std::vector<FittedLaw
 void write_study(const std::filesystem::path& folder, const Study& study,
                  const std::vector<StudyResult>& results, const StudyFindings& findings,
                  const StudyTimes& times) {
-  const Json summary = study_json(study, results, findings, times);
+  Json summary = study_json(study, results, findings, times);
+  const StudyStatistics statistics = statistics_of(study, results);
+  summary["variations"] = variations_json(statistics);
+  summary["effects"] = effects_json(statistics);
   const std::vector<DrawnCurve> curves = study_curves(study, results);
   write_own(folder / "study.csv", role::study, study_csv(study, results));
   write_own(folder / "summary.json", role::study, summary.dump(2) + "\n");
+  write_own(folder / "variations.csv", role::study, variations_csv(study, statistics));
+  statistics.effects.empty()
+      ? remove_own(folder / "effects.csv", role::study)
+      : write_own(folder / "effects.csv", role::study, effects_csv(statistics));
   write_own(folder / "curves.json", role::study, curves_json(curves).dump() + "\n");
   write_fits(folder, findings.fits);
   write_page(folder / "report.html", "study.html",
-             {"units.js", "payload.js", "save.js", "chart.js", "fits.js", "study.js"},
-             page_data(study, summary, curves), role::study);
+             {"units.js", "payload.js", "save.js", "chart.js", "maps.js", "settings.js", "fits.js",
+              "tables.js", "study_tables.js", "study_effects.js", "study.js"},
+             page_data(study, with_thumbnails(summary, results), curves), role::study);
 }
 
 }  // namespace pulvis

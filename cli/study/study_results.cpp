@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "cli/csv_cell.hpp"
+#include "cli/study/study_peak.hpp"
+#include "cli/study/study_quality.hpp"
 #include "engine/files/hdf5.hpp"
 #include "engine/files/input_file.hpp"
 #include "scenes/checks/expect_checks.hpp"
@@ -109,14 +111,29 @@ void add_transmission(std::vector<Figure>& figures, const StudyResult& result) {
     figures.push_back({std::string("transmission_") + name, "-", number_in(share, name)});
 }
 
+void add_shear(std::vector<Figure>& figures, const Json& summary) {
+  if (!summary.contains("shear")) return;
+  for (const auto& [name, unit] :
+       {std::pair{"static_friction", "-"}, {"dynamic_friction", "-"}, {"dilation", "m"}})
+    figures.push_back({name, unit, number_in(summary["shear"], name)});
+}
+
 Json afm_figure(const Json& summary, const std::string& name) {
   return summary.contains("values") ? number_in(summary["values"], name.c_str()) : Json();
+}
+
+// Nothing to say of a run that left no summary.
+std::string quality_text(const StudyResult& result) {
+  if (result.summary.empty()) return "";
+  const std::vector<std::string> flags = quality_flags(result);
+  return flags.empty() ? "within limits" : fmt::format("{}", fmt::join(flags, "; "));
 }
 
 std::vector<Figure> afm_figures_in(const StudyResult& result) {
   const Json& s = result.summary;
   std::vector<Figure> figures{{"outcome", "", text_in(s, "outcome")},
                               {"expectations_met", "", expectations_met(s)},
+                              {"quality", "", quality_text(result)},
                               {"elements", "", number_in(s, "elements")},
                               {"increments", "", number_in(s, "increments")},
                               {"wall_seconds", "s", number_in(s, "wall_seconds")}};
@@ -186,6 +203,7 @@ std::vector<Figure> figures_of(const StudyResult& result) {
   if (result.run->scene.afm) return afm_figures_in(result);
   std::vector<Figure> figures{{"outcome", "", text_in(s, "outcome")},
                               {"expectations_met", "", expectations_met(s)},
+                              {"quality", "", quality_text(result)},
                               {"particles", "", number_in(s, "particles")},
                               {"elements", "", number_in(s, "elements")},
                               {"steps", "", number_in(s, "steps")},
@@ -193,7 +211,9 @@ std::vector<Figure> figures_of(const StudyResult& result) {
                               {"relative_density", "-", number_in(s, "relative_density")},
                               {"stress_ratio/axial", "-", number_in(s, "stress_ratio/axial")},
                               {"stress_ratio/lateral", "-", number_in(s, "stress_ratio/lateral")}};
+  std::ranges::move(peak_values(result), std::back_inserter(figures));
   add_forces(figures, result);
+  add_shear(figures, s);
   add_transmission(figures, result);
   figures.push_back({"energy_balance_error", "-", number_in(s, "energy_balance_error")});
   figures.push_back({"kinetic_ratio", "-", number_in(s, "kinetic_ratio")});

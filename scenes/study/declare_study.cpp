@@ -250,7 +250,7 @@ const TableDeclaration<StudySpec>& study_top_level() {
          .kind = Kind::integers,
          .range = within(0, 1e15),
          .doc = "Every variation is run once with each of these as the scene's `seed`; the report "
-                "shows their mean and the band between smallest and largest.",
+                "shows their mean, standard deviation and the band from smallest to largest.",
          .fallback_doc = "the scene's own, once"},
         [](StudySpec& spec, const Decoded& value) { spec.seeds = value.integers; }}}};
   return declaration;

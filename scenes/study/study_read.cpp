@@ -69,6 +69,26 @@ key = "tip.height"
 above = -2
 below = -1.6
 ```
+
+## What it leaves
+
+| file | content |
+|---|---|
+| `study.csv` | one row a run: what is varied, its values, its quality |
+| `variations.csv` | one row a variation: mean and standard deviation (n - 1) of every value over its seeds |
+| `effects.csv` | main effects: for each varied key and level the mean over all runs that have it, and their standard deviation |
+| `curves.json` | the curves as drawn; of several seeds mean (`y`), `standard_deviation`, `low` and `high` |
+| `summary.json` | all of this, and the verdicts |
+| `report.html` | charts with bars of the standard deviation, effect plots, the last frame of each run, tables |
+
+Runs that did not reach their end are in `study.csv` alone. Values of compactions between four planes are also told at the
+sample with the highest relative density: `peak/relative_density`, `peak/top_force`, `peak/bottom_force`, `peak/top_pressure`,
+`peak/transmission`, `peak/stress_ratio/axial`, `peak/stress_ratio/lateral`. `quality` names each value of the quality card
+that is beyond its limit, of levers each friction loop without a plateau; otherwise it is `within limits`. Where not every
+combination of keys was run alike often, a main effect holds part of those of other keys; the report marks it with *.
+Of variations with scenes of their own, keys that some of them do not set have no main effect.
+All pictures of last frames together have at most 3 million pixels, one byte each before they are deflated; studies of more
+than 1302 runs have none.
 )";
 
 // Settings of a table whose keys are paths into a scene; nested tables are paths, too.

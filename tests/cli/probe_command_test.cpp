@@ -151,7 +151,7 @@ TEST_F(ProbeCommand, TellsOfADensityThatIsNotReached) {
 TEST_F(ProbeCommand, ListsAndWritesNothing) {
   const Outcome outcome = probe({"--list"});
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_THAT(outcome.out, HasSubstr("1 loading runs, 1 states, 9 probes"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 loading run, 1 state, 9 probes"));
   EXPECT_FALSE(fs::exists(place / "probed"));
 }
 

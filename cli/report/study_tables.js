@@ -1,0 +1,83 @@
+// Tables of a study: its runs, its variations, their last frames.
+"use strict";
+
+const fillTable = (id, columns, isBad) => fillColumns(document.getElementById(id), columns, isBad);
+
+// What a study knows of its runs, in the order of the table: [name, title]. What none of them has is left out.
+const COLUMNS = [["particles", "particles"], ["steps", "steps"], ["wall_seconds", "computing time"],
+                 ["peak/relative_density", "peak relative density"], ["peak/top_force", "top force at peak density"],
+                 ["peak/bottom_force", "bottom force at peak density"],
+                 ["peak/top_pressure", "top pressure at peak density"],
+                 ["peak/transmission", "transmission at peak density"],
+                 ["peak/stress_ratio/axial", "σ axial / σy at peak density"],
+                 ["peak/stress_ratio/lateral", "σ lateral / σy at peak density"],
+                 ["relative_density", "final relative density"], ["stress_ratio/axial", "final σ axial / σy"],
+                 ["stress_ratio/lateral", "final σ lateral / σy"], ["top_force_end", "final top force"],
+                 ["static_friction", "static friction"], ["dynamic_friction", "dynamic friction"],
+                 ["dilation", "dilation"],
+                 ["elements", "elements"], ["increments", "increments"],
+                 ["k_n", "k_n"], ["k_l", "k_l"], ["k_x", "k_x"], ["k_l/k_n", "k_l/k_n"],
+                 ["torsional_stiffness", "torsional stiffness"], ["share_twist", "share of twist"],
+                 ["share_bending", "share of lateral bending"], ["share_tip", "share of the tip"],
+                 ["invols_normal", "InvOLS normal"], ["invols_lateral", "InvOLS lateral"],
+                 ["loop/load", "load of the loop"], ["loop/half_width", "half-width W"], ["loop/offset", "offset Δ"],
+                 ["loop/friction", "friction"], ["loop/sensitivity", "sensitivity"],
+                 ["curve/pull_off", "pull-off force"], ["curve/work", "pull-off work"],
+                 ["curve/work_of_adhesion", "work of adhesion"],
+                 ["bottom_force_end", "final bottom force"], ["top_force_max", "largest top force"],
+                 ["energy_balance_error", "energy balance error"], ["kinetic_ratio", "kinetic over internal energy"],
+                 ["expectations_met", "expectations met"]];
+const titleOf = name => (COLUMNS.find(([known]) => known === name) || [name, words(name).replaceAll("/", " ")])[1];
+const valueOf = (run, name) => run.values.find(value => value.name === name);
+
+const linkTo = run => element("a", {textContent: run.name, href: `${encodeURIComponent(run.name)}/report.html`});
+const hasReport = run => run.values.some(value => value.name === "outcome" && value.value);
+
+function qualityCell({quality}) {
+  if (!quality) return "–";
+  return quality.length ? element("span", {className: "beyond flag", textContent: `⚠ ${quality.join("; ")}`})
+                        : element("span", {className: "within", textContent: "within limits"});
+}
+
+function fillRuns({runs}) {
+  const columns = COLUMNS.filter(([name]) => runs.some(run => {
+    const found = valueOf(run, name);
+    return found && found.value !== null && found.value !== "";
+  }));
+  const of = name => runs.map(run => valueOf(run, name)?.value ?? null);
+  const unit = name => runs.map(run => valueOf(run, name)).find(Boolean).unit;
+  fillTable("runs", [
+    {title: "run", cells: runs.map(run => hasReport(run) ? linkTo(run) : run.name)},
+    ...Object.keys(runs[0].varied).map(key => ({title: key, cells: runs.map(run => run.varied[key] || "–")})),
+    {title: "seed", cells: runs.map(run => String(run.seed))},
+    {title: "outcome", cells: runs.map(run => run.failure || valueOf(run, "outcome")?.value || "–")},
+    {title: "quality", cells: runs.map(qualityCell)},
+    ...columns.map(([name, title]) => ({title, unit: unit(name), cells: of(name)}))], i => Boolean(runs[i].failure));
+}
+
+// Where some variation was run with several seeds: mean and standard deviation of each.
+function fillVariations({variations = []}) {
+  document.getElementById("variations-section").hidden = !variations.some(one => one.runs > 1);
+  const names = COLUMNS.filter(([name]) => variations.some(one => one.values.some(value => value.name === name)));
+  const of = (one, name) => one.values.find(value => value.name === name);
+  const cell = value => value ? {mean: value.mean, deviation: value.standard_deviation} : null;
+  fillTable("variations", [
+    {title: "variation", cells: variations.map(one => one.variation)},
+    {title: "runs", cells: variations.map(one => one.runs === one.of ? String(one.of) : `${one.runs} of ${one.of}`)},
+    ...names.map(([name, title]) => ({title, unit: variations.map(one => of(one, name)).find(Boolean).unit,
+                                      cells: variations.map(one => cell(of(one, name)))}))]);
+}
+
+// The last frame of every run, in one scale of colours.
+function fillThumbnails({runs, thumbnails}) {
+  const shown = runs.filter(run => run.thumbnail);
+  document.getElementById("thumbnails-section").hidden = !shown.length;
+  document.getElementById("thumbnails").replaceChildren(...shown.map(run => {
+    const name = hasReport(run) ? linkTo(run) : element("span", {textContent: run.name});
+    const flag = (run.quality || []).length ? [element("span", {className: "beyond", textContent: " ⚠", title: run.quality.join("; ")})] : [];
+    return element("figure", {}, element("img", {src: run.thumbnail, alt: `Last frame of ${run.name}`, loading: "lazy"}),
+                   element("figcaption", {}, name, ...flag));
+  }));
+  document.getElementById("thumbnails-note").textContent = (thumbnails || []).map(({field, unit, low, high}) =>
+    `Colours: ${words(field)} from ${withUnit(low, unit, 3)} (dark) to ${withUnit(high, unit, 3)} (light), the same in all runs.`).join(" ");
+}
