@@ -123,6 +123,11 @@ double bulk_modulus(const Scene& scene) {
   return bulk;
 }
 
+// Of scenes that show what a health check sees.
+bool is_to_stop(const Scene& scene) {
+  return std::ranges::any_of(scene.expects, &ExpectSpec::stops);
+}
+
 }  // namespace
 
 std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies) {
@@ -150,7 +155,7 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
 
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
   const auto full = full_density(scene, bodies);
-  if (!full || full->density < densest) return;
+  if (!full || full->density < densest || is_to_stop(scene)) return;
   const StageSpec& stage = scene.stages[static_cast<std::size_t>(full->stage)];
   for (std::size_t m = 0; m < stage.moves.size(); ++m) {
     const MoveSpec& move = stage.moves[m];

@@ -267,6 +267,21 @@ TEST_F(CommandLine, RefusalLeavesNoFolder) {
   EXPECT_FALSE(fs::exists(run));
 }
 
+TEST_F(CommandLine, AFileOfAnotherKindNamesTheCommandThatReadsIt) {
+  const std::string scenes = paths::source_dir() + "/scenes/";
+  const auto said = [&](const std::string& command, const std::string& file) {
+    const Outcome end = pulvis({command, scenes + file});
+    EXPECT_EQ(end.code, 2);
+    return end.err;
+  };
+  EXPECT_THAT(said("run", "studies/particle-size.toml"), HasSubstr("allowed: pulvis study "));
+  EXPECT_THAT(said("check", "lab/reduce.toml"), HasSubstr("allowed: pulvis reduce "));
+  EXPECT_THAT(said("run", "lab/plate-fit.toml"), HasSubstr("allowed: pulvis fit "));
+  for (const char* command : {"study", "probe", "fit", "reduce"})
+    EXPECT_THAT(said(command, "compaction/regular-25.toml"), HasSubstr("allowed: pulvis run "));
+  EXPECT_THAT(pulvis({"rnu"}).err, HasSubstr("there is no command 'rnu', did you mean 'run'?"));
+}
+
 TEST_F(CommandLine, TakenFolderIsRefusedAndStaysAsItWas) {
   ASSERT_EQ(short_run().code, 0);
   const std::string history = text_of(run / "history.csv");
@@ -275,6 +290,7 @@ TEST_F(CommandLine, TakenFolderIsRefusedAndStaysAsItWas) {
   EXPECT_EQ(end.code, 2);
   EXPECT_THAT(end.err, HasSubstr(run.string()));
   EXPECT_THAT(end.err, HasSubstr("already holds one"));
+  EXPECT_THAT(end.err, HasSubstr("--overwrite"));
   EXPECT_EQ(text_of(run / "history.csv"), history);
   EXPECT_EQ(text_of(run / "scene.toml"), scene_before);
 
@@ -284,9 +300,9 @@ TEST_F(CommandLine, TakenFolderIsRefusedAndStaysAsItWas) {
 }
 
 // ---- 3: the run failed ------------------------------------------------------------------------
-// A punch at 1000 m/s goes through the particles.
+// A punch at 900 m/s goes through the particles.
 TEST_F(CommandLine, RunGoneBadNamesTheCulpritAndKeepsWhatWasBefore) {
-  const Outcome end = short_run({"--set", "stage.press.move[0].displacement=[\"0 mm\", \"-20 mm\"]",
+  const Outcome end = short_run({"--set", "stage.press.move[0].displacement=[\"0 mm\", \"-18 mm\"]",
                                  "--set", "output.frames=40", "--set", "output.samples=80", "--set",
                                  "limits.energy_balance=100"});
   EXPECT_EQ(end.code, 3);

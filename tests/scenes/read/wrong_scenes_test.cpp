@@ -94,7 +94,7 @@ const Wrong cases[] = {
      "safety = 0.5",
      "safety = @\"0.5\"",
      "time.safety",
-     {"wrong type, a string is given", "allowed: a number, > 0 and < 1"}},
+     {"a number in quotes is given: write 0.5 without them", "allowed: a number, > 0 and < 1"}},
     {"BooleanForQuantity",
      "\"1 ms\"",
      "@true",

@@ -1,0 +1,100 @@
+// What `check` says of scenes whose values are all allowed, and yet not what anybody wants.
+#include "scenes/checks/setup_warnings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/build.hpp"
+#include "scenes/checks/lever_warnings.hpp"
+#include "scenes/checks/travel.hpp"
+#include "scenes/outlines/outline.hpp"
+#include "scenes/packing/place.hpp"
+#include "tests/helpers/afm_run.hpp"
+#include "tests/helpers/experiment.hpp"
+#include "tests/helpers/wrong.hpp"
+
+namespace pulvis {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Scene die_of_25(const std::vector<std::string>& overrides = {}) {
+  return read_scene(paths::source_dir() + "/scenes/compaction/regular-25.toml", overrides);
+}
+
+std::vector<std::string> warnings_of_25(const std::vector<std::string>& overrides = {}) {
+  const Scene scene = die_of_25(overrides);
+  return setup_warnings(scene, place_bodies(scene));
+}
+
+std::string refusal_of_25(const std::vector<std::string>& overrides) {
+  return message_of([&] { build_world(die_of_25(overrides)); });
+}
+
+TEST(SetupWarnings, AnOrdinaryDieHasNone) { EXPECT_THAT(warnings_of_25(), IsEmpty()); }
+
+// 5 mm in 2.8 ms are 2 m/s between its ramps: 0.016 MPa of 240. At a hundredth of the time it is ten thousand times that.
+TEST(SetupWarnings, APunchIsTooFastWhereItsPowdersKineticEnergyCounts) {
+  EXPECT_THAT(warnings_of_25({"stage[0].duration=0.028 ms"}),
+              ElementsAre(HasSubstr("tool 'top' moves at up to 198 m/s")));
+  EXPECT_THAT(warnings_of_25({"stage[0].duration=0.5 ms"}), IsEmpty());
+  // A punch that leaves the powder presses nothing.
+  EXPECT_THAT(warnings_of_25({"stage[0].duration=0.028 ms",
+                              "stage[0].move[0].displacement=[\"0 mm\", \"5 mm\"]"}),
+              IsEmpty());
+}
+
+// 25 discs in 50 mm x 50 mm are full at a height of 25 pi/4 100/50 mm = 39.27 mm: after 10.73 mm.
+TEST(SetupWarnings, ATravelBeyondFullDensityIsRefusedWithTheOneThatReachesIt) {
+  const auto to = [](const char* travel) {
+    return std::vector{std::string("stage[0].move[0].displacement=[\"0 mm\", \"-") + travel +
+                       "\"]"};
+  };
+  EXPECT_EQ(refusal_of_25(to("10.7 mm")), "");
+  EXPECT_THAT(warnings_of_25(to("10.7 mm")), IsEmpty());
+  const Scene beyond = die_of_25(to("12 mm"));
+  const auto full = full_density(beyond, place_bodies(beyond));
+  ASSERT_TRUE(full.has_value());
+  const double area = 25 * outline_area(beyond.particles[0].outline);
+  EXPECT_NEAR(full->until_full, 0.05 - area / 0.05, 1e-12);
+  EXPECT_NEAR(full->density, area / (0.05 * 0.038), 1e-12);
+  EXPECT_THAT(warnings_of_25(to("12 mm")), ElementsAre(HasSubstr("beyond full density")));
+  const std::string refused = refusal_of_25(to("30 mm"));
+  EXPECT_THAT(refused, HasSubstr("stage[0].move[0].displacement"));
+  EXPECT_THAT(refused, HasSubstr("allowed: a travel of up to some 0.0107"));
+}
+
+TEST(SetupWarnings, AToolThatFacesAwayIsNamedOnceWithTheNormalThatWouldDo) {
+  const auto problems = problems_in([] { build_world(die_of_25({"tool.top.normal=[0, 1]"})); });
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_THAT(problems[0].message, HasSubstr("tool 'top' faces away from the powder"));
+  EXPECT_THAT(problems[0].message, HasSubstr("[0, -1]"));
+  EXPECT_EQ(problems[0].key, "tool[3].normal");
+}
+
+TEST(SetupWarnings, WallsBesideTheRoomOfThePackingAreTold) {
+  EXPECT_THAT(
+      warnings_of_25({"tool.right.point=[\"52 mm\", \"0 mm\"]"}),
+      ElementsAre(HasSubstr("packing[0] is made for a die 0.05 m wide (x = 0 to 0.05 m), but")));
+}
+
+TEST(LeverWarnings, AreOfDimensionsThatNoLeverHas) {
+  const auto of = [](std::vector<std::string> overrides) {
+    return lever_warnings(afm_scene(beam_with_tip, overrides));
+  };
+  EXPECT_THAT(of({}), IsEmpty());
+  EXPECT_THAT(of({"lever.thickness=60 um"}),
+              ElementsAre(HasSubstr("lever.length = 0.00044 m is 7.33 times lever.thickness"),
+                          HasSubstr("bends sideways more easily")));
+  EXPECT_THAT(of({"lever.width=400 um"}), ElementsAre(HasSubstr("bends as a plate")));
+}
+
+// E w t^3/(4 L^3) = 200 GPa 50 um (2.2/440)^3/4.
+TEST(LeverWarnings, TheRoughStiffnessIsThatOfABeam) {
+  EXPECT_NEAR(*rough_stiffness(afm_scene(beam_with_tip)), 0.3125, 1e-12);
+}
+
+}  // namespace
+}  // namespace pulvis
