@@ -14,7 +14,7 @@
 namespace pulvis {
 namespace {
 
-constexpr double densest = 1.25;  // -, beyond it a scene is refused
+constexpr double densest = 1.5;  // -, beyond it a scene is refused; soft elastic solids stand less
 
 // Of the sides left, right, bottom, top: their x or y.
 using Sides = std::array<double, 4>;

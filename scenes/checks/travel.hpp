@@ -29,7 +29,7 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
 // -, of a die of four planes at its start; none for other scenes.
 std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies);
 
-// Throws SceneError where no solid stands the travel: the density passes 1.25, or tools meet. Not where the scene
+// Throws SceneError where no solid stands the travel: the density passes 1.5, or tools meet. Not where the scene
 // expects that the run stops.
 void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies);
 
