@@ -30,10 +30,10 @@ void add_range(Json& json, const schema::Range& range) {
     json[range.without_high ? "exclusiveMaximum" : "maximum"] = range.high;
 }
 
-Json quantity_type() {
-  return {{"type", "string"},
-          {"pattern", "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*[^0-9\\s].*$"}};
-}
+constexpr const char* quantity_pattern =
+    "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*[^0-9\\s].*$";
+
+Json quantity_type() { return {{"type", "string"}, {"pattern", quantity_pattern}}; }
 
 Json pair_of(const Json& item) {
   return {{"type", "array"}, {"items", item}, {"minItems", 2}, {"maxItems", 2}};
@@ -182,7 +182,31 @@ void add_branches(Json& json, const schema::TableView& view, const schema::Langu
   }
 }
 
+// Names of the user's own, as [let] has them.
+Json table_of_variables(const schema::TableView& view) {
+  return {{"type", "object"},
+          {"description", view.info.doc},
+          {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}},
+          {"additionalProperties", {{"type", {"number", "string"}}}}};
+}
+
+// Numbers and quantities may be expressions of variables: those begin with a name, a bracket or a number, and have an
+// operator in them.
+void allow_expressions(Json& json) {
+  for (Json& inner : json)
+    if (inner.is_structured()) allow_expressions(inner);
+  if (!json.is_object() || !json.contains("type")) return;
+  Json& type = json["type"];
+  if (type == "number" || type == "integer") {
+    type = {type, "string"};
+    json["pattern"] = "[A-Za-z_(*/^+]";
+  } else if (type == "string" && json.contains("pattern") && json["pattern"] == quantity_pattern) {
+    json["pattern"] = fmt::format("{}|^\\s*[+-]?\\s*[A-Za-z_(]", quantity_pattern);
+  }
+}
+
 Json table(const schema::TableView& view, const schema::Language& language, Extent extent) {
+  if (view.info.path == "let") return table_of_variables(view);
   Json json{{"type", "object"}, {"description", view.info.doc}, {"additionalProperties", false}};
   Json required = Json::array();
   for (const schema::KeyInfo& key : view.keys) {
@@ -211,11 +235,15 @@ std::string json_schema_of(const std::string& title, const std::string& declared
             {"$comment", "Generated from the declarations in " + declared_in + "."}};
   Json whole = table(language.front(), language, Extent::whole);
   for (const std::string& key : required) whole["required"].push_back(key);
+  const bool has_variables = schema::find_table("let", language) != nullptr;
+  if (has_variables) allow_expressions(whole);
   if (schema::find_key(language.front(), "extends") == nullptr) {
     json.update(whole);
     return json.dump(2) + "\n";
   }
-  json.update(table(language.front(), language, Extent::part));
+  Json part = table(language.front(), language, Extent::part);
+  if (has_variables) allow_expressions(part);
+  json.update(part);
   json["if"]["not"]["required"] = {"extends"};
   json["then"]["$ref"] = "#/$defs/whole";
   json["$defs"]["whole"] = whole;
