@@ -109,10 +109,29 @@ void add_report(CLI::App& app, Options& options, ExitCode& code) {
   command->callback([&] { code = report(options); });
 }
 
+// What of a figure is a matter of taste; the scripts refuse values that are not allowed.
+void add_look(CLI::App& command, FigureOptions& options) {
+  command.add_option("--width", options.width,
+                     "width of every figure, as 85mm, in mm, cm, in or pt (default: of its kind)");
+  command.add_option("--height", options.height, "height of every figure, as 60mm");
+  command.add_flag("--no-title", options.no_title, "no titles over the figures");
+  command.add_option(
+      "--cmap", options.colours,
+      "colour map of what is on a scale, by matplotlib's name, as cividis or magma_r");
+  command.add_option("--range", options.range,
+                     "LOW:HIGH of the colours of the field, as 0:400MPa; one end may be missing");
+  command.add_option("--dpi", options.dpi, "dots per inch of a PNG (default 200)");
+  command
+      .add_option("--animate", options.animation,
+                  "file .mp4 or .gif: the field of all frames (MP4 needs ffmpeg)")
+      ->transform(without_detours);
+}
+
 void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
   auto* command = app.add_subcommand(
       "figure", "draw pictures of a run for papers (PNG, SVG, PDF), or write their numbers (CSV)");
-  command->add_option("folder", options.folder, "results folder of a run")->required();
+  command->add_option("folder", options.folder, "results folder of a run, a study or a probe")
+      ->required();
   command->add_option("--field", options.field,
                       "draw this field of the particles; name:2 is its second component");
   command->add_option("--frame", options.frame, "number of the frame, from 0 (default: the last)");
@@ -134,6 +153,7 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
       ->add_option("--level", options.level,
                    "levelling of a raster's images: none, plane, or lines (the median of each)")
       ->check(CLI::IsMember({"none", "plane", "lines"}));
+  add_look(*command, options);
   command->callback([&] { code = draw_figures(options); });
 }
 

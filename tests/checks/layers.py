@@ -61,7 +61,8 @@ ROOMS = {
         "fit": "lab report study /",
         "kinds": "",
         "preview": "/",
-        "": "report volts",
+        "python_scripts": "report /",
+        "": "python_scripts report volts",
     },
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms

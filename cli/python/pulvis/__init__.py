@@ -16,6 +16,8 @@ _HOMES = {
     "Scene": "pulvis.scene",
     "Simulation": "pulvis.simulation",
     "PulvisError": "pulvis.errors",
+    "SceneError": "pulvis.errors",
+    "RunError": "pulvis.errors",
 }
 
 __all__ = sorted(_HOMES)

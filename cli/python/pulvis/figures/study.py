@@ -1,22 +1,15 @@
-#!/usr/bin/python3
-"""Pictures of a study for papers and slides: every chart of its report, one curve a variation, and its fitted laws.
+"""Pictures of a study: every chart of its report, one curve a variation, and its fitted laws.
 
-usage: study_figures.py STUDY_FOLDER
-
-Reads STUDY_FOLDER/curves.json and summary.json and writes STUDY_FOLDER/pictures/*.png; the band of a variation with several
-seeds lies between the smallest and the largest, its bars are the standard deviation. Needs python3-numpy and python3-matplotlib.
+The band of a variation with several seeds lies between the smallest and the largest, its bars are the standard deviation.
 """
-import argparse
 import json
 import re
-import sys
-from pathlib import Path
 
 import numpy as np
+from matplotlib import pyplot as plt
 
-from figures import STYLE, labelled, plt, unit_for
-
-MARK = b"pulvis study_figures"  # in every picture that this draws: it replaces no other
+from pulvis.figures.look import Options, sheet, unit_for, worded
+from pulvis.figures.names import capital, name_of
 
 
 def factor_of(unit, lines, key):
@@ -24,14 +17,14 @@ def factor_of(unit, lines, key):
     return unit_for("" if unit == "-" else unit, np.concatenate([line[key] for line in lines]))
 
 
-def draw(curve, title):
+def draw(curve, title, options):
     lines = [{key: np.array(value, float) if isinstance(value, list) else value
               for key, value in line.items()} for line in curve["lines"]]
     if not lines:
         return None
     x_factor, x_unit = factor_of(curve["x_unit"], lines, "x")
     factor, unit = factor_of(curve["y_unit"], lines, "y")
-    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    figure, axes = sheet(options, (6.4, 4.2))
     for line in lines:
         label = line["variation"] + (f" ({line['runs']} seeds)" if line["runs"] > 1 else "")
         drawn, = axes.plot(x_factor * line["x"], factor * line["y"], label=label)
@@ -43,10 +36,10 @@ def draw(curve, title):
             axes.errorbar(x_factor * line["x"][some], factor * line["y"][some],
                           factor * line["standard_deviation"][some], color=drawn.get_color(), fmt="none",
                           capsize=2, linewidth=1)
-    axes.set_xlabel(labelled(curve["x"].replace("_", " "), x_unit))
-    axes.set_ylabel(labelled(curve["y"].replace("_", " "), unit))
-    axes.set_title(f"{curve['title'].replace('_', ' ')}\n{title}", loc="left")
-    axes.legend(fontsize=8)
+    axes.set_xlabel(worded(curve["x"], x_unit))
+    axes.set_ylabel(worded(curve["y"], unit))
+    options.head(axes, f"{titled(curve['title'])}\n{title}")
+    axes.legend(fontsize="small")
     return figure
 
 
@@ -81,19 +74,19 @@ def draw_power(axes, group, factor, label, key_factor):
     axes.plot(key_factor * along, factor * law, color=marks.get_color())
 
 
-def draw_powers(fit, groups, title):
+def draw_powers(fit, groups, title, options):
     def scale(unit, name):
         return unit_for("" if unit == "-" else unit,
                         np.array([point[name] for group in groups for point in group["points"]]))
     factor, unit = scale(fit["unit"], "value")
     key_factor, key_unit = scale(fit["key_unit"], "key")
-    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    figure, axes = sheet(options, (6.4, 4.2))
     for group in groups:
         draw_power(axes, group, factor, f"{group['name']}: exponent {value_of(group, 'exponent'):.3g}", key_factor)
-    axes.set_xlabel(labelled(fit["key"], key_unit))
-    axes.set_ylabel(labelled(fit["series"], unit))
-    axes.set_title(f"{fit['title'].replace('_', ' ')}\n{title}", loc="left")
-    axes.legend(fontsize=8)
+    axes.set_xlabel(worded(fit["key"], key_unit))
+    axes.set_ylabel(worded(fit["series"], unit))
+    options.head(axes, f"{titled(fit['title'])}\n{title}")
+    axes.legend(fontsize="small")
     return figure
 
 
@@ -103,56 +96,41 @@ def plain_ticks(axes):
         set_formatter(plt.FuncFormatter(lambda value, _: f"{value:g}"))
 
 
-def draw_fit(fit, title):
+def draw_fit(fit, title, options):
     groups = [group for group in fit["groups"] if "not_fitted" not in group]
     if not groups:
         return None
     if fit["law"] == "power":
-        return draw_powers(fit, groups, title)
+        return draw_powers(fit, groups, title, options)
     factor, unit = unit_for("" if fit["unit"] == "-" else fit["unit"],
                             np.array([point["strength"] for group in groups for point in group["points"]]))
     weibull = fit["law"] == "weibull"
-    figure, axes = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    figure, axes = sheet(options, (6.4, 4.2))
     for group in groups:
         shown = (f"modulus {value_of(group, 'modulus'):.3g}" if weibull else
                  f"k = {value_of(group, 'k'):.3g}, r² = {value_of(group, 'r_squared'):.3g}")
         (draw_weibull if weibull else draw_porosity)(axes, group, factor, f"{group['name']}: {shown}")
-    axes.set_xlabel(labelled("strength", unit) if weibull else "porosity")
-    axes.set_ylabel("ln(-ln(1 - P))" if weibull else labelled("strength", unit))
+    axes.set_xlabel(worded("strength", unit) if weibull else "Porosity")
+    axes.set_ylabel(r"$\ln(-\ln(1 - P))$" if weibull else worded("strength", unit))
     if weibull:
         plain_ticks(axes)
-    axes.set_title(f"{fit['title'].replace('_', ' ')}\n{title}", loc="left")
-    axes.legend(fontsize=8)
+    options.head(axes, f"{titled(fit['title'])}\n{title}")
+    axes.legend(fontsize="small")
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("study_folder", type=Path)
-    folder = parser.parse_args().study_folder
-    try:
-        curves = json.loads((folder / "curves.json").read_text(encoding="utf-8"))
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        title = summary["title"]
-    except (OSError, ValueError) as error:
-        sys.exit(f"study_figures: {folder}: {error}")
-    pictures = folder / "pictures"
-    pictures.mkdir(exist_ok=True)
-    plt.rcParams.update(STYLE)
-    drawn = [(draw(curve, title), f"{number + 1}-{curve['y']}-{curve['x']}") for number, curve in enumerate(curves)]
-    drawn += [(draw_fit(fit, title), f"fit-{number + 1}-{fit['law']}")
+def titled(text):
+    """Keys in the title of a chart are told by their names."""
+    return capital(" ".join(name_of(word).words if "/" in word or "_" in word else word for word in text.split(" ")))
+
+
+def figures_of_study(folder, options=None):
+    """Name and figure of each; no figure where no run has what it would show."""
+    options = options or Options()
+    curves = json.loads((folder / "curves.json").read_text(encoding="utf-8"))
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    title = summary["title"]
+    drawn = [(f"{number + 1}-{curve['y']}-{curve['x']}", draw(curve, title, options)) for number, curve in enumerate(curves)]
+    drawn += [(f"fit-{number + 1}-{fit['law']}", draw_fit(fit, title, options))
               for number, fit in enumerate(summary.get("fits", []))]
-    for figure, words in drawn:
-        name = re.sub(r"[^A-Za-z0-9]+", "-", words) + ".png"
-        if figure is None:
-            print(f"study_figures: no run has what {name} shows")
-            continue
-        if (pictures / name).exists() and MARK not in (pictures / name).read_bytes()[:1024]:
-            sys.exit(f"study_figures: {pictures / name} is there already, and was not drawn here")
-        figure.savefig(pictures / name, metadata={"Software": MARK.decode()})
-        plt.close(figure)
-        print(pictures / name)
-
-
-if __name__ == "__main__":
-    main()
+    return [(re.sub(r"[^A-Za-z0-9]+", "-", words), figure) for words, figure in drawn]

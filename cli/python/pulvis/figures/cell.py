@@ -66,7 +66,7 @@ class Cell:
         (a, b), corner = self.vectors, self.corner
         return np.array([corner, corner + a, corner + a + b, corner + b, corner])
 
-    def draw(self, axes, colours=None, edges=None):
+    def draw(self, axes, colours=None, edges=None, seam=0.35):
         """The border and the images. colours: of the quads [n, 3 or 4]; edges: pairs of nodes, of the outlines."""
         if not self.here:
             return
@@ -74,7 +74,7 @@ class Cell:
             if colours is not None:
                 quads = shown[self.quad_owner]
                 axes.add_collection(PolyCollection(1e3 * position[self.quads[quads]], facecolors=paler(colours[quads]),
-                                                   edgecolors="face", linewidths=0.1, zorder=0.5))
+                                                   edgecolors="face", linewidths=seam, zorder=0.5))
             if edges is not None:
                 lines = edges[shown[self.owner[edges[:, 0]]]]
                 axes.add_collection(LineCollection(1e3 * position[lines], colors="#aab3bd",

@@ -3,7 +3,10 @@ import json
 
 import numpy as np
 
-from figures_parts import labelled, plt, unit_for
+from matplotlib import pyplot as plt
+
+from pulvis.figures.look import Options, unit_for, worded
+from pulvis.figures.names import over
 
 MODELS = {"drucker_prager_cap": ("Drucker–Prager cap", "-"), "modified_cam_clay": ("modified Cam-Clay", "--"),
           "fleck_kuhn_mcmeeking": ("Fleck–Kuhn–McMeeking", ":"), "gurson": ("Gurson", "-.")}
@@ -61,35 +64,36 @@ def draw_stresses(axes, states, criterion, colour, factor):
     axes.set_aspect("equal")
 
 
-def surfaces(summary, criterion):
+def surfaces(summary, criterion, options):
     paths = paths_of(summary)
     colour = colours(summary["states"])
     pressures = all_points(summary["states"], criterion, "p")
     if not len(pressures):
         return None
     factor, unit = unit_for("Pa", pressures)
-    figure, axes = plt.subplots(len(paths), 2, figsize=(9.6, 4.4 * len(paths)), constrained_layout=True, squeeze=False)
+    figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.4 * len(paths)), constrained_layout=True, squeeze=False)
     for row, path in zip(axes, paths):
         states = of_path(summary, path)
         draw_invariants(row[0], states, criterion, colour, factor)
         draw_stresses(row[1], states, criterion, colour, factor)
-        row[0].set_xlabel(labelled("pressure p", unit))
-        row[0].set_ylabel(labelled("von Mises' stress q, > 0: yy pressed more", unit))
-        row[1].set_xlabel(labelled("pressure in x", unit))
-        row[1].set_ylabel(labelled("pressure in y", unit))
+        row[0].set_xlabel(worded(("pressure", "p"), unit))
+        row[0].set_ylabel(over("Von Mises' stress $q$, > 0: yy pressed more", unit))
+        row[1].set_xlabel(over("Pressure in $x$", unit))
+        row[1].set_ylabel(over("Pressure in $y$", unit))
         row[0].set_title(f"{path}: yield surfaces", loc="left")
         row[1].set_title("+ state, arrows: plastic strain", loc="left")
         row[0].legend(fontsize=7)
     how = f"offset strain {summary['offset_strain']:g}" if criterion == "offset_strain" else \
         f"dissipation {summary['dissipation']:g} of the pressure"
-    figure.suptitle(f"{summary['title']}, by {how}", x=0.01, ha="left")
+    if options.title:
+        figure.suptitle(f"{summary['title']}, by {how}", x=0.01, ha="left")
     return figure
 
 
-def models(summary):
+def models(summary, options):
     """The densest state of each path beside what theories of powders say, each with its strength fitted."""
     paths = paths_of(summary)
-    figure, axes = plt.subplots(len(paths), 2, figsize=(9.6, 4.0 * len(paths)), constrained_layout=True, squeeze=False)
+    figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.0 * len(paths)), constrained_layout=True, squeeze=False)
     for row, path in zip(axes, paths):
         state = of_path(summary, path)[-1]
         mine = state["yield"]["dissipation"]
@@ -106,11 +110,12 @@ def models(summary):
                               label=f"{label}, off by {100 * model['misfit']:.1f}%")
             side.legend(fontsize=7)
         row[0].set_title(f"{path}, density {state['relative_density']:.3f}", loc="left")
-        row[0].set_xlabel(labelled("pressure p", unit))
-        row[0].set_ylabel(labelled("|q|", unit))
-        row[1].set_xlabel(labelled("pressure in the plane", unit))
-        row[1].set_ylabel(labelled("shear in the plane", unit))
-    figure.suptitle(f"{summary['title']}: laws fitted to the yield points by dissipation", x=0.01, ha="left")
+        row[0].set_xlabel(worded(("pressure", "p"), unit))
+        row[0].set_ylabel(over("$|q|$", unit))
+        row[1].set_xlabel(over("Pressure in the plane", unit))
+        row[1].set_ylabel(over("Shear in the plane", unit))
+    if options.title:
+        figure.suptitle(f"{summary['title']}: laws fitted to the yield points by dissipation", x=0.01, ha="left")
     return figure
 
 
@@ -118,8 +123,8 @@ def spread(values):
     return np.mean(values), (np.std(values, ddof=1) if len(values) > 1 else 0)
 
 
-def parameters(summary):
-    figure, axes = plt.subplots(2, 2, figsize=(8.4, 6.4), constrained_layout=True)
+def parameters(summary, options):
+    figure, axes = plt.subplots(2, 2, figsize=options.size(8.4, 6.4), constrained_layout=True)
     rows = (("youngs_modulus", "Young's modulus", "Pa"), ("poissons_ratio", "Poisson's ratio", ""))
     for path in paths_of(summary):
         states = of_path(summary, path)
@@ -128,16 +133,17 @@ def parameters(summary):
             means = np.array([spread([one[key] for one in state["states"]]) for state in states])
             factor, shown = unit_for(unit, means[:, 0])
             side.errorbar(density, factor * means[:, 0], factor * means[:, 1], marker="o", capsize=3, label=path)
-            side.set_ylabel(labelled(name, shown))
+            side.set_ylabel(over(name, shown))
         for side, names in zip(axes[1], (("p_b", "p_c"), ("R", "M"))):
             for name, line in zip(names, ("-", "--")):
                 draw_parameter(side, states, name, line, path)
     for side in axes.flat:
-        side.set_xlabel("relative density")
+        side.set_xlabel(worded("relative_density", ""))
         side.legend(fontsize=7)
-    axes[1][0].set_ylabel("hydrostatic yield pressure [MPa]")
-    axes[1][1].set_ylabel("cap eccentricity R, slope M")
-    figure.suptitle(f"{summary['title']}: parameters, bars: standard deviation over seeds", x=0.01, ha="left")
+    axes[1][0].set_ylabel("Hydrostatic yield pressure / MPa")
+    axes[1][1].set_ylabel("Cap eccentricity $R$, slope $M$")
+    if options.title:
+        figure.suptitle(f"{summary['title']}: parameters, bars: standard deviation over seeds", x=0.01, ha="left")
     return figure
 
 
@@ -152,10 +158,11 @@ def draw_parameter(axes, states, name, line, path):
                   label=f"{path}: {name.replace('_', '')}")
 
 
-def figures_of_probe(folder):
+def figures_of_probe(folder, options=None):
     """Name and figure of each."""
+    options = options or Options()
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    drawn = [("yield_surfaces", surfaces(summary, "offset_strain")),
-             ("yield_surfaces_dissipation", surfaces(summary, "dissipation")),
-             ("models", models(summary)), ("parameters", parameters(summary))]
+    drawn = [("yield_surfaces", surfaces(summary, "offset_strain", options)),
+             ("yield_surfaces_dissipation", surfaces(summary, "dissipation", options)),
+             ("models", models(summary, options)), ("parameters", parameters(summary, options))]
     return [(name, figure) for name, figure in drawn if figure is not None]

@@ -1,28 +1,17 @@
-#!/usr/bin/python3
-"""What the pictures say: curves that can be told apart, ticks that are true.
-
-usage: figures_test.py SOURCE_DIR
-"""
+"""What the pictures say: curves that can be told apart, ticks that are true."""
 import struct
-import sys
 import types
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(sys.argv.pop(1)) / "cli"))
 import matplotlib
 
 matplotlib.use("Agg")
 import numpy as np
 from matplotlib import pyplot as plt
 
-import figures_afm
-import figures_bonds
-import figures_cell
-import figures_observed
-import figures_parts
+from pulvis.figures import afm, bonds, cell, colours, look, network
 
-plt.rcParams.update(figures_parts.STYLE)
+plt.rcParams.update(look.STYLE)
 
 
 class Frame(dict):
@@ -40,7 +29,7 @@ class FiguresTest(unittest.TestCase):
     def test_curves_of_a_figure_differ_in_colour_or_dash(self):
         x = "time", np.linspace(0, 1, 5), "s"
         lines = [(f"energy {i}", i * x[1], "J") for i in range(12)]
-        axes = figures_parts.draw_lines(types.SimpleNamespace(title=""), x, lines, "energy", "Energies").axes[0]
+        axes = look.draw_lines(types.SimpleNamespace(title=""), x, lines, "energy", "Energies").axes[0]
         looks = {(line.get_color(), line.get_linestyle()) for line in axes.lines if len(line.get_xdata()) == 5}
         self.assertEqual(len(looks), 12)
         self.assertEqual(len({line.get_color() for line in axes.lines[:9]}), 9)
@@ -50,22 +39,22 @@ class FiguresTest(unittest.TestCase):
             number = Shares([most, most / 2, most / 3, most / 4])
             frame = Frame({"rose/number": number, "rose/force": number, "rose": None})
             run = types.SimpleNamespace(frames=[0], frame=lambda _, one=frame: one, title="")
-            figure = figures_observed.rose(run, types.SimpleNamespace(frame=None))
+            figure = network.rose(run)
             figure.canvas.draw()
             axes = figure.axes[0]
             for place, label in zip(axes.yaxis.get_ticklocs(), axes.yaxis.get_ticklabels()):
                 self.assertAlmostEqual(place, float(label.get_text().removesuffix(" %")), places=9)
 
     def test_every_fragment_keeps_its_colour_and_neighbours_differ(self):
-        colours = figures_bonds.fragment_colours(np.arange(60))
-        self.assertEqual(len({tuple(np.round(one, 3)) for one in colours}), 60)
-        self.assertTrue(np.array_equal(colours[[7, 3]], figures_bonds.fragment_colours([7, 3])))
-        apart = np.abs(colours[:, None] - colours[None]).max(axis=2) + np.eye(60)
+        found = colours.fragment_colours(np.arange(60))
+        self.assertEqual(len({tuple(np.round(one, 3)) for one in found}), 60)
+        self.assertTrue(np.array_equal(found[[7, 3]], colours.fragment_colours([7, 3])))
+        apart = np.abs(found[:, None] - found[None]).max(axis=2) + np.eye(60)
         self.assertGreater(apart.min(), 0.015)
         self.assertGreater(np.diag(apart, 1).min(), 0.1)
 
     def test_sizes_of_fragments_add_up_by_number_and_by_area(self):
-        diameter, number, area = figures_bonds.cumulative(np.array([3.0, 1.0, 4.0]))
+        diameter, number, area = bonds.cumulative(np.array([3.0, 1.0, 4.0]))
         np.testing.assert_allclose(np.pi / 4 * diameter ** 2, [1, 3, 4])
         np.testing.assert_allclose(number, [1 / 3, 2 / 3, 1])
         np.testing.assert_allclose(area, [1 / 8, 1 / 2, 1])
@@ -78,24 +67,24 @@ class FiguresTest(unittest.TestCase):
         frame = {"cell": np.vstack([[3, 4], vectors]), "position": Shares(stored.tolist())}
         mesh = {"mesh/node_particle": Shares(np.repeat(np.arange(3), 4).tolist()), "mesh/quads": Shares([]),
                 "mesh/cell_particle": Shares([])}
-        cell = figures_cell.Cell(types.SimpleNamespace(file=mesh), frame)
-        np.testing.assert_allclose(cell.shift, [-vectors[0], [0, 0], [0, 0]], atol=1e-12)
-        again = sorted((int(p), *np.round(np.linalg.solve(vectors.T, (at[4 * p] - cell.position[4 * p])))) for
-                       at, shown in cell.images for p in np.flatnonzero(shown))
+        drawn = cell.Cell(types.SimpleNamespace(file=mesh), frame)
+        np.testing.assert_allclose(drawn.shift, [-vectors[0], [0, 0], [0, 0]], atol=1e-12)
+        again = sorted((int(p), *np.round(np.linalg.solve(vectors.T, (at[4 * p] - drawn.position[4 * p])))) for
+                       at, shown in drawn.images for p in np.flatnonzero(shown))
         self.assertEqual(again, [(1, 0, 1), (1, 1, 0), (1, 1, 1)])
-        end = cell.other_end(np.array([[2, 0]]), centres @ vectors + [3, 4], np.array([[0.4, 0.5]]) @ vectors + [3, 4])
+        end = drawn.other_end(np.array([[2, 0]]), centres @ vectors + [3, 4], np.array([[0.4, 0.5]]) @ vectors + [3, 4])
         np.testing.assert_allclose(end, [[0.2, 0.5]] @ vectors + [3, 4])
 
     def test_without_a_cell_particles_stay_where_they_are(self):
         mesh = {"mesh/node_particle": Shares([0, 0]), "mesh/quads": Shares([]), "mesh/cell_particle": Shares([])}
-        cell = figures_cell.Cell(types.SimpleNamespace(file=mesh), {"position": Shares([[0, 0], [1, 2]])})
-        self.assertFalse(cell.here or cell.images or cell.shift.any())
-        np.testing.assert_allclose(cell.limits(), [[-0.06, -0.06], [1.06, 2.06]])
+        drawn = cell.Cell(types.SimpleNamespace(file=mesh), {"position": Shares([[0, 0], [1, 2]])})
+        self.assertFalse(drawn.here or drawn.images or drawn.shift.any())
+        np.testing.assert_allclose(drawn.limits(), [[-0.06, -0.06], [1.06, 2.06]])
 
     def test_a_simple_field_is_what_gwyddions_manual_describes(self):
         values = np.arange(12, dtype=float).reshape(3, 4) * 1e-9 + 1e-7
         for title in ("a", "ab", "abc", "abcd", "Höhe"):  # all lengths of the padding
-            fields, data = simple_field_of(figures_afm.simple_field(title, "m", values, (2e-8, 5e-8)))
+            fields, data = simple_field_of(afm.simple_field(title, "m", values, (2e-8, 5e-8)))
             self.assertEqual((fields["XRes"], fields["YRes"]), ("4", "3"))
             self.assertAlmostEqual(float(fields["XReal"]), 8e-8, places=20)
             self.assertAlmostEqual(float(fields["YReal"]), 15e-8, places=20)
@@ -106,13 +95,13 @@ class FiguresTest(unittest.TestCase):
     def test_levelling_takes_a_plane_or_the_median_of_each_line_off(self):
         y, x = np.mgrid[:7, :9]
         plane, bump = 3 + 0.5 * x - 0.25 * y, np.zeros((7, 9))
-        np.testing.assert_allclose(figures_afm.levelled(plane, "plane"), 0, atol=1e-12)
+        np.testing.assert_allclose(afm.levelled(plane, "plane"), 0, atol=1e-12)
         bump[3, 4] = 1
-        off = figures_afm.levelled(plane + bump, "plane")
+        off = afm.levelled(plane + bump, "plane")
         self.assertAlmostEqual(off[3, 4] - off.mean(), 1 - 1 / 63, places=12)  # the bump is in the middle
-        lines = figures_afm.levelled(bump + 10.0 * y, "lines")
+        lines = afm.levelled(bump + 10.0 * y, "lines")
         np.testing.assert_allclose(lines, bump, atol=1e-12)
-        self.assertIs(figures_afm.levelled(plane, "none"), plane)
+        self.assertIs(afm.levelled(plane, "none"), plane)
 
 
 def simple_field_of(content):
@@ -130,6 +119,3 @@ def simple_field_of(content):
     numbers = struct.unpack(f"<{wide * tall}f", content[begin:])
     return fields, [numbers[wide * row:wide * (row + 1)] for row in range(tall)]
 
-
-if __name__ == "__main__":
-    unittest.main()
