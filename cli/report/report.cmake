@@ -6,7 +6,8 @@ set(report_folder ${CMAKE_CURRENT_LIST_DIR})
 function(add_report_assets target)
   find_package(ZLIB REQUIRED)
   file(GLOB assets CONFIGURE_DEPENDS ${report_folder}/*.html ${report_folder}/*.css
-       ${report_folder}/*.js ${report_folder}/../figures*.py)
+       ${report_folder}/*.js ${report_folder}/../figures*.py
+       ${report_folder}/../python/pulvis/__init__.py ${report_folder}/../python/pulvis/preview/*.py)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/report_assets.cpp)
   add_custom_command(
     OUTPUT ${source}

@@ -59,8 +59,9 @@ ROOMS = {
         "lab": "report volts /",
         "fit": "lab report study /",
         "kinds": "",
-        "preview": "/",
-        "": "report volts",
+        "python_scripts": "report /",
+        "preview": "python_scripts /",
+        "": "python_scripts report volts",
     },
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
