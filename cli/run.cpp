@@ -228,10 +228,11 @@ struct Run {
 
   // What its user should know of its figures.
   RunQuality quality() const {
-    RunQuality found{contacts.findings(), bending_warnings(loaded.scene)};
-    found.warnings.insert(found.warnings.end(), bond_warnings.begin(), bond_warnings.end());
-    for (std::string& line : found.contacts.warnings()) found.warnings.push_back(std::move(line));
-    return found;
+    const ContactFindings found = contacts.findings();
+    RunQuality quality{found, run_quality(loaded.scene, simulation->world(), results, found),
+                       bending_warnings(loaded.scene)};
+    quality.warnings.insert(quality.warnings.end(), bond_warnings.begin(), bond_warnings.end());
+    return quality;
   }
 
   void finish(const std::string& outcome) {
@@ -264,7 +265,10 @@ void print_end(const Run& run) {
     tell("friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
          shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,
          shear->dilation * 1e3);
-  for (const std::string& line : run.quality().warnings) tell("warning: {}\n", line);
+  const RunQuality quality = run.quality();
+  for (const std::string& line : quality.warnings) tell("warning: {}\n", line);
+  for (const QualityFigure& figure : quality.figures)
+    if (figure.beyond()) tell("warning: {}\n", figure.line());
   if (!run.verdicts.empty()) tell("expectations\n");
   for (const Verdict& verdict : run.verdicts) tell("  {}\n", verdict.text());
   tell("results in {}\n", run.folder.string());

@@ -77,3 +77,33 @@ class Report {
     }
   }
 }
+
+// Which cards go into the second of two columns, so that both are about as long; the first card stays in the first. Bits.
+function evenSplit(heights) {
+  const count = Math.min(heights.length, 14), sum = list => list.reduce((total, height) => total + height, 0), whole = sum(heights);
+  let best = 0, least = Infinity;
+  for (let bits = 0; bits < 1 << count; bits += 2) {
+    const uneven = Math.abs(whole - 2 * sum(heights.filter((_, i) => bits >> i & 1)));
+    if (uneven < least) { least = uneven; best = bits; }
+  }
+  return best;
+}
+
+// Cards in two columns without holes: the last of a column is as long as the other column wants it. Wide cards go across.
+function arrangeCards(host) {
+  const cards = [...host.children].filter(one => one.classList.contains("card") && !one.hidden);
+  const isWide = one => one.classList.contains("wide");
+  for (let i = 0; i < cards.length;) {
+    let end = i;
+    while (end < cards.length && !isWide(cards[end])) ++end;
+    const group = cards.slice(i, end);
+    if (group.length > 1) {
+      const columns = [0, 1].map(() => element("div", {className: "column"})), second = evenSplit(group.map(one => one.offsetHeight));
+      host.insertBefore(element("div", {className: "columns"}, ...columns), group[0]);
+      group.forEach((one, k) => columns[second >> k & 1].append(one));
+    } else if (group.length) {
+      group[0].classList.add("wide");
+    }
+    i = end + 1;
+  }
+}
