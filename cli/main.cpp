@@ -40,6 +40,7 @@
 #include "scenes/build.hpp"
 #include "scenes/keys/scene_reference.hpp"
 #include "scenes/language/units.hpp"
+#include "scenes/materials/library.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/study/study_read.hpp"
@@ -56,7 +57,7 @@ struct Options {
   FitOptions fit;
   PreviewOptions preview;
   bool dot = false;
-  std::string reference;  // scene language: "text" or "schema"
+  std::string reference;  // scene language: "text", "schema", "materials"
   bool print = false;     // the scene, whole
   FigureOptions figure;
   std::vector<std::filesystem::path> folders;  // of runs to report on
@@ -71,7 +72,9 @@ ExitCode print_scene(const LoadedScene& loaded) {
 
 ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
-    tell("{}", options.reference == "schema" ? scene_json_schema() : scene_reference());
+    tell("{}", options.reference == "schema"      ? scene_json_schema()
+               : options.reference == "materials" ? material_reference()
+                                                  : scene_reference());
     return ExitCode::done;
   }
   const LoadedScene loaded = load_scene(options.run.scene, options.run.overrides);
@@ -259,8 +262,8 @@ void add_check(CLI::App& app, Options& options, ExitCode& code) {
   add_scene(*checks, options, false);
   checks
       ->add_option("--reference", options.reference,
-                   "print the scene language instead: text or schema")
-      ->check(CLI::IsMember({"text", "schema"}));
+                   "print the scene language instead: text or schema; or the library of materials")
+      ->check(CLI::IsMember({"text", "schema", "materials"}));
   checks->add_flag("--print", options.print,
                    "print the scene whole instead: what it extends, overrides and defaults put in");
   checks->callback([&options, &code] {

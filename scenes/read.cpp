@@ -17,6 +17,7 @@
 #include "scenes/lever/afm_checks.hpp"
 #include "scenes/lever/mesh/meshed_lever.hpp"
 #include "scenes/lever/mesh/meshed_tip.hpp"
+#include "scenes/materials/library.hpp"
 #include "scenes/packing/fill_packings.hpp"
 #include "scenes/scene_files.hpp"
 #include "scenes/spec/flow_laws.hpp"
@@ -253,6 +254,8 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   refuse_extending(root, problems);
   problems.throw_if_any();
   apply_let(root, schema::scene_language(), problems);
+  problems.throw_if_any();
+  fill_materials(root, schema::scene_language(), problems);
   problems.throw_if_any();
   fill_meshes(root, problems);
   schema::fill_defaults(root, schema::scene_language());

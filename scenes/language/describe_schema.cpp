@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pulvis {
@@ -147,6 +148,18 @@ std::vector<const char*> tables_required(const std::string& family) {
 // A whole file, or one that extends another and so may leave out anything.
 enum class Extent { whole, part };
 
+// What a library has need not be given; a name it is that others refer to.
+void require(Json& json, const Json& required, const schema::TableView& view) {
+  if (required.empty()) return;
+  if (schema::find_key(view, "library") == nullptr) {
+    json["required"] = required;
+    return;
+  }
+  Json with_library{"library"};
+  if (std::ranges::find(required, Json("name")) != required.end()) with_library.push_back("name");
+  json["anyOf"] = {Json{{"required", with_library}}, Json{{"required", required}}};
+}
+
 // For one value of the selector: the keys it requires, and the keys of other values forbidden, in
 // the table itself and in the tables below it.
 Json branch(const schema::TableView& view, const std::string& selected,
@@ -167,7 +180,7 @@ Json branch(const schema::TableView& view, const std::string& selected,
     for (const char* table : tables_required(selected)) required.push_back(table);
   }
   Json json{{"properties", properties}};
-  if (!required.empty() && extent == Extent::whole) json["required"] = required;
+  if (extent == Extent::whole) require(json, required, view);
   return json;
 }
 
@@ -220,7 +233,7 @@ Json table(const schema::TableView& view, const schema::Language& language, Exte
     if (child->info.repeated) inner = {{"type", "array"}, {"minItems", 1}, {"items", inner}};
     json["properties"][name_of(*child)] = inner;
   }
-  if (!required.empty() && extent == Extent::whole) json["required"] = required;
+  if (extent == Extent::whole) require(json, required, view);
   add_branches(json, view, language, extent);
   return json;
 }
