@@ -170,7 +170,7 @@ def friction_loop(run, options=None, axes=None, signal="force"):
     y = f"probe/force_{axis}" if signal == "force" else f"detector/{'lateral' if axis == 'y' else 'normal'}"
     if not run.has(y):
         return None
-    motions = [((f"action {loop.action}, " if len(loops) > 1 else "") + words, way.rows) for loop in loops
+    motions = [((f"action {loop.action}, " if len(loops) > 1 else "") + words, np.append(way.rows[0] - 1, way.rows)) for loop in loops
                for words, way in (("trace", loop.trace), ("retrace", loop.retrace))]
     title = "Friction loop" if signal == "force" else "Lateral signal" if axis == "y" else "Normal signal"
     return draw_motions(run, motions, (f"scanner/{axis}", y), title, options or Options(), axes)

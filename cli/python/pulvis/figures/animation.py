@@ -10,7 +10,7 @@ from pulvis.figures.bonds import BOND_FIELDS, draw_bonds
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colours_of
 from pulvis.figures.fields import DEFAULT_FIELD, field_of, paint
-from pulvis.figures.look import Options, shape_of, sheet
+from pulvis.figures.look import Options, close_up, shape_of, sheet
 
 SUFFIXES = (".mp4", ".gif")
 PER_SECOND = 12
@@ -34,7 +34,7 @@ def writer_for(path, per_second=PER_SECOND):
                                   extra_args=["-pix_fmt", "yuv420p", "-crf", "18", *even])
 
 
-def film(run, options=None, axes=None):
+def film(run, options=None, into=None):
     """(figure, axes, a function that draws frame k)."""
     options = options or Options()
     if run.is_solid or not run.frames:
@@ -46,7 +46,7 @@ def film(run, options=None, axes=None):
     ends = np.array([1e3 * Cell(run, frame).limits() for frame in run.frames])
     limits = np.array([ends[:, 0].min(axis=0), ends[:, 1].max(axis=0)])
     size, beside = shape_of(limits)
-    figure, axes = sheet(options, size, axes, beside)
+    figure, axes = sheet(options, size, into, beside)
     colours.key(figure, axes)
     legend = axes.get_legend()
 
@@ -60,6 +60,7 @@ def film(run, options=None, axes=None):
         return []
 
     show(0)
+    close_up(figure, options, into)
     return figure, axes, show
 
 

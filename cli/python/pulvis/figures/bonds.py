@@ -7,7 +7,7 @@ from matplotlib.ticker import MaxNLocator
 
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import fragment_colours
-from pulvis.figures.look import Options, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.look import Options, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.tools import draw_tools, outlines
 
 BOND_FIELDS = ("damage", "fragment")  # over them bonds and cracks are drawn
@@ -36,7 +36,7 @@ def draw_bonds(run, figure, axes, frame, cell):
         bar.outline.set_visible(False)
 
 
-def cracks(run, options=None, axes=None):
+def cracks(run, options=None, into=None):
     """The pieces, each in a colour of its own, with bonds and cracks."""
     options = options or Options()
     frame = recorded(run, options, "cracks")
@@ -46,7 +46,7 @@ def cracks(run, options=None, axes=None):
     owner = run.mesh.cell_particle
     position, limits = cell.position, 1e3 * cell.limits()
     size, beside = shape_of(limits)
-    figure, axes = sheet(options, size, axes, beside)
+    figure, axes = sheet(options, size, into, beside)
     colours = fragment_colours(frame["fragment"][()])[owner]
     axes.add_collection(PolyCollection(1e3 * position[quads], facecolors=colours, edgecolors="face",
                                        linewidths=seam(options)))
@@ -58,6 +58,7 @@ def cracks(run, options=None, axes=None):
     set_axes(axes, limits)
     count = len(frame["fragments/number"])
     options.head(axes, f"Cracks at {moment(frame)}: {count} fragment{'' if count == 1 else 's'}", run)
+    close_up(figure, options, into)
     ends = np.concatenate([frame["cracks/start"][()], frame["cracks/end"][()]], axis=1).T
     of_crack = [(name, run.file[f"cracks/{name}"]) for name in ("time", "length", "shear", "energy")]
     figure.table = [*((name, "m", end) for name, end in zip(("x1", "y1", "x2", "y2"), ends)),

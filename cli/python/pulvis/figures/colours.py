@@ -8,7 +8,7 @@ from matplotlib.colors import BoundaryNorm, Normalize
 from matplotlib.patches import Patch
 
 from pulvis.errors import PulvisError
-from pulvis.figures.look import COLOURS, unit_for
+from pulvis.figures.look import COLOURS, bar_beside, unit_for
 from pulvis.figures.names import label
 
 NO_VALUE = "#d5dbe2"  # what has no value is grey
@@ -59,9 +59,7 @@ class Scale:
     def key(self, figure, axes):
         mappable = matplotlib.cm.ScalarMappable(self.norm, self.map)
         more = {"ticks": self.steps[::max(1, len(self.steps) // 10)]} if self.steps is not None else {"extend": self.extend}
-        bar = figure.colorbar(mappable, ax=axes, shrink=0.9, label=self.label, **more)
-        bar.outline.set_visible(False)
-        bar.ax.minorticks_off()
+        bar_beside(figure, axes, mappable, self.label, **more).ax.minorticks_off()
 
 
 class Kinds:

@@ -167,7 +167,9 @@ def arguments(words=None):
 def options_of(asked):
     options = Options(frame=asked.frame, field=asked.field, series=asked.series, against=asked.against, level=asked.level,
                       width=inches("--width", asked.width), height=inches("--height", asked.height),
-                      title=not asked.no_title, cmap=asked.cmap, limits=asked.range, dpi=resolution(asked.dpi))
+                      title=not asked.no_title, cmap=asked.cmap, limits=asked.range, dpi=resolution(asked.dpi),
+                      vector=(asked.output.suffix if asked.output and asked.output.suffix in FORMATS else f".{asked.format}")
+                      in (".svg", ".pdf"))
     colour_map(options)  # refuses one that is none, before anything is drawn
     return options
 

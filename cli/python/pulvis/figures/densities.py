@@ -3,7 +3,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import Options, moment, recorded, sheet
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, sheet
 from pulvis.figures.names import label
 
 MAPS = 4  # density maps side by side: evenly over the run, the last frame among them
@@ -42,25 +42,34 @@ def density_table(frame):
             ("relative density", "-", frame["local_density"][()].ravel())]
 
 
-def local_density(run, options=None):
+def local_density(run, options=None, axes=None):
+    """Maps at several times, or of the frame asked for."""
     options = options or Options()
-    if recorded(run, options, "local_density") is None:
-        return None
-    frames = chosen_frames(run, options)
+    frames = chosen_frames(run, options) if recorded(run, options, "local_density") is not None else []
     if not frames:
         return None
     values = np.concatenate([frame["local_density"][()].ravel() for frame in frames])
     low, high = options.clim(values, "-")
     low, high = (low, high) if high - low > 1e-6 else (low - 0.01, high + 0.01)
-    figure, axes = plt.subplots(1, len(frames), figsize=options.size(3.3 * len(frames) + 1.3, 4.4, 0.9), sharey=True,
-                                squeeze=False, constrained_layout=True)
-    for place, frame in zip(axes[0], frames):
+    if axes is None:
+        figure, places = plt.subplots(1, len(frames), figsize=options.size(3.3 * len(frames) + 1.3, 4.4, 0.9), sharey=True,
+                                      squeeze=False, constrained_layout=True)
+        places = places[0].tolist()
+    else:
+        figure, places, frames = axes.figure, [axes], frames[-1:]
+    for place, frame in zip(places, frames):
         mesh = draw_map(place, frame, low, high, colour_map(options))
-    axes[0][0].set_ylabel("$y$ / mm")
-    bar = figure.colorbar(mesh, ax=axes[0].tolist(), label=label("local_density", ""), shrink=0.85)
-    bar.outline.set_visible(False)
-    if options.title:
+    places[0].set_ylabel("$y$ / mm")
+    if len(places) == 1:
+        bar_beside(figure, places[0], mesh, label("local_density", ""))
+        places[0].set_title("")
+        options.head(places[0], f"Local relative density at {moment(frames[0])}", run)
+    else:
+        figure.colorbar(mesh, ax=places, label=label("local_density", ""), shrink=0.85).outline.set_visible(False)
+    if options.title and len(places) > 1:
         figure.suptitle(f"Local relative density\n{run.title}", x=0.01, ha="left", fontsize=plt.rcParams["axes.titlesize"])
+    if len(places) == 1:
+        close_up(figure, options, axes)
     figure.table = density_table(frames[-1])
     return figure
 

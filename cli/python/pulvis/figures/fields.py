@@ -8,7 +8,7 @@ from pulvis.errors import PulvisError
 from pulvis.figures.bonds import BOND_FIELDS, draw_bonds
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colours_of
-from pulvis.figures.look import Options, moment, seam, set_axes, shape_of, sheet
+from pulvis.figures.look import Options, close_up, moment, seam, set_axes, shape_of, sheet
 from pulvis.figures.names import capital, name_of
 from pulvis.figures.tools import draw_tools, outlines
 from pulvis.results import names_in
@@ -74,15 +74,16 @@ def paint(run, axes, frame, field, colours, options, limits=None):
     return cell
 
 
-def draw_field(run, frame, field, options, axes=None):
+def draw_field(run, frame, field, options, into=None):
     limits = 1e3 * Cell(run, frame).limits()
     size, beside = shape_of(limits)
-    figure, axes = sheet(options, size, axes, beside)
+    figure, axes = sheet(options, size, into, beside)
     colours = colours_of(field, field.values, options)
     cell = paint(run, axes, frame, field, colours, options, limits)
     if field.name in BOND_FIELDS:
         draw_bonds(run, figure, axes, frame, cell)
     colours.key(figure, axes)
+    close_up(figure, options, into)
     middle = cell.position[run.mesh.cells].mean(axis=1)
     figure.table = [("x", "m", middle[:, 0]), ("y", "m", middle[:, 1]), (field.key, field.unit, field.values)]
     return figure

@@ -35,6 +35,7 @@ class Options:
     cmap: str = None
     limits: object = None    # of the colours: "LOW:HIGH" with units, or (low, high) in SI; None: of the values
     dpi: float = 200
+    vector: bool = False     # SVG or PDF
 
     def style(self):
         """For plt.rc_context."""
@@ -79,12 +80,28 @@ def shape_of(limits):
 
 def seam(options):
     """Width of the edges that close the gaps which smoothing leaves between elements: a pixel at least."""
-    return max(0.35, 72 / options.dpi)
+    return 0.35 if options.vector else max(0.35, 1.3 * 72 / options.dpi)
 
 
 def set_axes(axes, limits):
     axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel="$x$ / mm", ylabel="$y$ / mm")
     axes.grid(False)
+
+
+def bar_beside(figure, axes, mappable, words, **more):
+    """A colour bar as high as its axes."""
+    place = axes.inset_axes([1.03, 0, 0.035, 1])
+    bar = figure.colorbar(mappable, cax=place, label=words, **more)
+    bar.outline.set_visible(False)
+    return bar
+
+
+def close_up(figure, options, axes):
+    """Takes away what is empty above and below a picture whose sides have their own ratio; `axes`: whose figure it is."""
+    if axes is not None or options.height:
+        return
+    figure.canvas.draw()
+    figure.set_figheight(figure.get_tightbbox().height + 0.08)
 
 
 def recorded(run, options, name):

@@ -19,7 +19,7 @@ EXACT = {
     "stress/axial_bottom": ("axial stress on the bottom", r"\sigma_\mathrm{ax}"),
     "stress/radial_left": ("lateral stress on the left", r"\sigma_\mathrm{lat}"),
     "stress/radial_right": ("lateral stress on the right", r"\sigma_\mathrm{lat}"),
-    "stress/transmission": ("transmission of the axial force", ""),
+    "stress/transmission": ("transmission of the axial force", ""), "transmission": ("transmission of the axial force", ""),
     "stress/mean": ("mean stress", r"\sigma_m"), "stress/deviatoric": ("deviatoric stress", "q"),
     # Fields of frames.
     "effective_stress": ("effective stress", r"\sigma_\mathrm{eff}"), "pressure": ("pressure", "p"),
@@ -91,6 +91,7 @@ PATTERNS = [(re.compile(pattern), words, symbol) for pattern, words, symbol in [
     (r"probe/force_(?P<k>[xyz])", "force on the tip", "F_{k}"),
     (r"clamp/force_(?P<k>[xyz])", "force on the clamp", "F_{k}"),
     (r"probe/displacement_(?P<k>[xyz])", "displacement of the tip", "u_{k}"),
+    (r"travel_(?P<who>.+)", "travel of {who}", "s"),
     (r"scanner/(?P<k>[xyz])", "scanner", "{k}"),
     (r"momentum/(?P<k>[xy])", "momentum", "p_{k}"),
     (r"momentum/angular", "angular momentum", "L"),

@@ -6,7 +6,7 @@ from matplotlib.ticker import MaxNLocator
 
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colour_map
-from pulvis.figures.look import Options, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.tools import draw_tools, outlines
 
 
@@ -22,7 +22,7 @@ def network_lines(frame, cell):
                                   frame["tool_contacts/normal_force"][()]])
 
 
-def contact_network(run, options=None, axes=None):
+def contact_network(run, options=None, into=None):
     options = options or Options()
     frame = recorded(run, options, "contacts")
     if frame is None or len(frame["contacts/ids"]) + len(frame["tool_contacts/ids"]) == 0:
@@ -34,7 +34,7 @@ def contact_network(run, options=None, axes=None):
     factor, unit = unit_for("N", force)
     size = 1e3 * np.sqrt(np.prod(np.ptp(position, axis=0)) / len(frame["particle_centre"]))
     inches, beside = shape_of(limits)
-    figure, axes = sheet(options, inches, axes, beside)
+    figure, axes = sheet(options, inches, into, beside)
     wide = options.width or inches[0]
     points = 72 * wide / 1.2 / np.ptp(limits[:, 0]) * 0.28 * size  # of the strongest line
     low, high = options.clim(np.append(force, 0), "N")
@@ -50,8 +50,8 @@ def contact_network(run, options=None, axes=None):
     set_axes(axes, limits)
     chains = "; shaded: force chains" if len(chained) else ""
     options.head(axes, f"Normal contact forces at {moment(frame)}{chains}", run)
-    bar = figure.colorbar(drawn, ax=axes, shrink=0.9, label=worded(("normal force", "F_n"), unit))
-    bar.outline.set_visible(False)
+    bar_beside(figure, axes, drawn, worded(("normal force", "F_n"), unit))
+    close_up(figure, options, into)
     ends = lines.reshape(-1, 4).T / 1e3
     figure.table = [*((name, "m", end) for name, end in zip(("x1", "y1", "x2", "y2"), ends)),
                     ("normal force", "N", force)]

@@ -8,7 +8,7 @@ import re
 import numpy as np
 from matplotlib import pyplot as plt
 
-from pulvis.figures.look import Options, sheet, unit_for, worded
+from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for, worded
 from pulvis.figures.names import capital, name_of
 
 
@@ -17,17 +17,18 @@ def factor_of(unit, lines, key):
     return unit_for("" if unit == "-" else unit, np.concatenate([line[key] for line in lines]))
 
 
-def draw(curve, title, options):
+def draw(curve, title, options, axes=None):
     lines = [{key: np.array(value, float) if isinstance(value, list) else value
               for key, value in line.items()} for line in curve["lines"]]
     if not lines:
         return None
     x_factor, x_unit = factor_of(curve["x_unit"], lines, "x")
     factor, unit = factor_of(curve["y_unit"], lines, "y")
-    figure, axes = sheet(options, (6.4, 4.2))
-    for line in lines:
+    figure, axes = sheet(options, (6.4, 4.2), axes)
+    for k, line in enumerate(lines):
+        style = {"color": LINES[k % len(LINES)], "linestyle": ("-", "--", ":")[k // len(LINES) % 3]}
         label = line["variation"] + (f" ({line['runs']} seeds)" if line["runs"] > 1 else "")
-        drawn, = axes.plot(x_factor * line["x"], factor * line["y"], label=label)
+        drawn, = axes.plot(x_factor * line["x"], factor * line["y"], label=label, **style)
         if "low" in line:
             axes.fill_between(x_factor * line["x"], factor * line["low"], factor * line["high"],
                               color=drawn.get_color(), alpha=0.2, linewidth=0)
