@@ -29,11 +29,12 @@ from pulvis.preview.sheet import plt
 SCENES = SOURCE / "scenes"
 NO_SCENES = {"studies", "probes", "lab", "parts"}
 # Beside some of every folder: what only few scenes have.
-CHOSEN = ["afm/calibration-beam", "afm/force-curve", "afm/raster", "afm/meshed-v", "afm/colloid-316l", "afm/incline-friction",
-          "basic/groove-wedge", "basic/oblique-impact", "basic/tension", "bonds/double-cantilever", "bonds/green-strength",
-          "bonds/sheared-blocks", "brittle/salt-and-copper", "compaction/ejection-25", "compaction/random-100",
-          "extreme/size-metres", "extreme/size-micrometres", "extreme/cycles-plastic-100", "extreme/one-particle-free",
-          "periodic/cap-die", "periodic/shear", "shear/grooves-16", "shear/stick-slip"]
+CHOSEN = ["afm/calibration-beam", "afm/colloid-316l", "afm/force-curve", "afm/incline-friction", "afm/meshed-v",
+          "afm/raster", "basic/groove-wedge", "basic/oblique-impact", "basic/tension", "benchmark/cattaneo-mindlin",
+          "bonds/double-cantilever", "bonds/green-strength", "bonds/sheared-blocks", "brittle/salt-and-copper",
+          "compaction/ejection-25", "compaction/random-100", "extreme/friction-20-cycles",
+          "extreme/one-particle-free", "extreme/size-metres", "extreme/size-micrometres", "periodic/cap-die",
+          "periodic/shear", "shear/grooves-16", "shear/stick-slip"]
 SVG = "{http://www.w3.org/2000/svg}"
 
 

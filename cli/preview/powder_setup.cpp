@@ -34,6 +34,8 @@ json material_setup(const MaterialSpec& material) {
            {"youngs_modulus", material.youngs_modulus},
            {"poissons_ratio", material.poissons_ratio}};
   if (material.yield_stress) out["yield_stress"] = *material.yield_stress;
+  if (material.flow) out["flow_law"] = name_of(*material.flow);
+  if (material.hardening_modulus > 0) out["hardening_modulus"] = material.hardening_modulus;
   return out;
 }
 

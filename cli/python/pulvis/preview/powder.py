@@ -29,8 +29,8 @@ def size_text(one):
         return f"disc, diameter {words.span(*one['diameter'], 'm')}"
     if outline == "ring":
         return f"ring, {words.span(*one['diameter'], 'm')}, hole {words.quantity(one['hole'], 'm')}"
-    return (f"{outline}, {words.span(*one['width'], 'm')} wide, {words.span(*one['height'], 'm')} high"
-            f" (as a disc of equal area: {words.span(*one['diameter'], 'm')})")
+    return (f"{outline}, {words.span(*one['width'], 'm')} × {words.span(*one['height'], 'm')},"
+            f" area of a disc of {words.span(*one['diameter'], 'm')}")
 
 
 class PowderDrawing:
@@ -89,6 +89,7 @@ class PowderDrawing:
             thin = 0.5 if len(paths) < 500 else 0.25
             drawn = PathCollection(paths, facecolor=colour, edgecolor="#4a5561", linewidth=thin, zorder=2)
             drawn.set_gid(f"particles-{material}")
+            drawn.set_rasterized(len(self.setup["particles"]) > 5000)  # an SVG of more is slow to open
             axes.add_collection(drawn)
 
     def images(self):
@@ -191,6 +192,10 @@ class PowderDrawing:
                     f" {words.number(material['poissons_ratio'])}, {words.number(material['density'])} kg/m³, ")
             text += (f"yields at {words.quantity(material['yield_stress'], 'Pa')}" if "yield_stress" in material
                      else "elastic")
+            if "flow_law" in material:
+                text += f", law {material['flow_law']}"
+            elif "hardening_modulus" in material:
+                text += f", hardening modulus {words.quantity(material['hardening_modulus'], 'Pa')}"
             column.line(text, {"facecolor": self.colour[material["name"]], "edgecolor": "#4a5561", "linewidth": 0.6})
         pairs = self.setup["friction"]
         if len({pair["coefficient"] for pair in pairs}) == 1:

@@ -30,8 +30,7 @@ class Body:
         self.point = np.array(tool["point"], float)
         self.moves = [(i, np.array(move["displacement"], float), move) for i, stage in enumerate(stages)
                       for move in stage["moves"] if move["tool"] == self.name]
-        self.servos = [(i, np.array(servo["direction"], float), servo) for i, stage in enumerate(stages)
-                       for servo in stage["servos"] if servo["tool"] == self.name]
+        self.servos = [servo for stage in stages for servo in stage["servos"] if servo["tool"] == self.name]
         self.slides = any(abs(d @ self.along) > abs(d @ self.normal) for _, d, _ in self.moves)
         self.upright = abs(self.normal[0]) > abs(self.normal[1])
         if tool["shape"] == "polyline":
@@ -72,6 +71,7 @@ class Tools:
         self.middle = (low + high) / 2
         self.bodies = [Body(tool, self.stages) for tool in setup["tools"] if tool["shape"] != "constraint"]
         self.held = [tool for tool in setup["tools"] if tool["shape"] == "constraint"]
+        self.texts = []  # beside arrows
         self.near = [body for body in self.bodies if self.distance(body) < 4 * (high - low).max()]
         self.content()
         self.size = (self.high - self.low).max()
@@ -151,6 +151,8 @@ class Tools:
             self.draw_arrows(axes, labels, body, factor)
         for tool in self.held:
             self.draw_held(axes, labels, tool, factor)
+        for text, place, style in self.texts:  # where all arrows are known
+            labels.put(text, place, **style)
 
     def draw_body(self, axes, body, factor):
         low, high = body.reach
@@ -181,10 +183,7 @@ class Tools:
             axes.plot(*line.T, color=stage_colour(body.moves[0][0]), linewidth=1.1, linestyle=(0, (4, 2.5)), zorder=5)
 
     def draw_arrows(self, axes, labels, body, factor):
-        acts = sorted([(i, d, words.quantity(np.hypot(*d), "m") + "\n" + words.quantity(move["speed"], "m/s"))
-                       for i, d, move in body.moves if np.hypot(*d) > 0]
-                      + [(i, d, words.quantity(servo["force"], "N")) for i, d, servo in body.servos],
-                      key=lambda act: act[0])
+        acts = self.acts_of(body.tool)
         shown = acts[:MOST_ARROWS]
         low, high = body.reach
         apart = min((high - low) / (len(shown) + 1), 0.3 * self.size) if shown else 0
@@ -213,8 +212,9 @@ class Tools:
         labels.keep_free(Bbox.from_extents(*axes.transData.transform([np.minimum(tail, head), np.maximum(tail, head)])
                                            .ravel()).padded(4))
         sideways = abs((head - tail)[0]) > abs((head - tail)[1])
-        labels.put(text, (tail + head) / 2, steps=[(0, -1), (0, 1)] if sideways else [(1, 0), (-1, 0)], reach=5,
-                   fontsize=8, color=stage_colour(stage), linespacing=1.05)
+        self.texts.append((text, (tail + head) / 2, {"steps": [(0, -1), (0, 1)] if sideways else [(1, 0), (-1, 0)],
+                                                     "reach": 5, "fontsize": 8, "color": stage_colour(stage),
+                                                     "linespacing": 1.05}))
 
     def draw_held(self, axes, labels, tool, factor):
         nodes = factor * np.array(tool["nodes"])
@@ -227,20 +227,30 @@ class Tools:
             low, high = (factor * np.array(tool[key]) for key in ("low", "high"))
             axes.add_patch(Rectangle(low, *(high - low), fill=False, edgecolor=HELD, linewidth=1.1, linestyle="--",
                                      zorder=7))
-        middle, k = nodes.mean(axis=0) / factor, 0
-        for stage_number, stage in enumerate(self.stages):
-            acts = [(np.array(move["displacement"]), words.quantity(math.hypot(*move["displacement"]), "m") + "\n"
-                     + words.quantity(move["speed"], "m/s")) for move in stage["moves"] if move["tool"] == tool["name"]]
-            acts += [(np.array(servo["direction"]), words.quantity(servo["force"], "N"))
+        self.draw_held_moves(axes, labels, tool, nodes.mean(axis=0) / factor, factor)
+
+    def acts_of(self, tool):
+        """[(stage, direction, text)] of a tool's moves and forces."""
+        acts = []
+        for i, stage in enumerate(self.stages):
+            acts += [(i, np.array(move["displacement"], float), words.quantity(math.hypot(*move["displacement"]), "m")
+                      + "\n" + words.quantity(move["speed"], "m/s")) for move in stage["moves"]
+                     if move["tool"] == tool["name"]]
+            acts += [(i, np.array(servo["direction"], float), words.quantity(servo["force"], "N"))
                      for servo in stage["servos"] if servo["tool"] == tool["name"]]
-            for direction, text in acts:
-                if k == MOST_ARROWS or not np.hypot(*direction) > 0:
-                    continue
-                towards = direction / np.hypot(*direction)
-                shift = 0.6 * self.arrow * (k % 2 * 2 - 1) * (k + 1) // 2 * turned(towards) if k else 0
-                tail = middle + shift
-                self.arrow_between(axes, labels, stage_number, tail, tail + self.arrow * towards, text, factor)
-                k += 1
+        return [act for act in acts if np.hypot(*act[1]) > 0]
+
+    def draw_held_moves(self, axes, labels, tool, middle, factor):
+        acts = self.acts_of(tool)
+        shown = acts[:MOST_ARROWS]
+        for k, (stage, direction, text) in enumerate(shown):
+            towards = direction / np.hypot(*direction)
+            sideways = abs(towards[0]) > abs(towards[1])
+            shift = (k - (len(shown) - 1) / 2) * self.arrow * (np.array([0, -0.75]) if sideways else np.array([1, 0]))
+            self.arrow_between(axes, labels, stage, middle + shift, middle + shift + self.arrow * towards, text, factor)
+        if len(acts) > len(shown):
+            labels.put(f"and in {len(acts) - len(shown)} more stages", factor * middle, reach=20, fontsize=7.5,
+                       steps=labels.AROUND[1:])
 
     def place_of_name(self, body):
         if not body.polyline:
