@@ -1,4 +1,5 @@
-"""Small runs that the tests of results and pictures read, made once by the program itself."""
+"""Paths, small scenes, and small runs that the tests read, made once by the program itself."""
+import json
 import os
 import shutil
 import subprocess
@@ -9,10 +10,12 @@ import matplotlib
 import numpy as np
 import pytest
 
+import pulvis
+
 matplotlib.use("Agg")
 
 SOURCE = Path(os.environ.get("PULVIS_SOURCE", Path(__file__).resolve().parents[2]))
-PROGRAM = os.environ.get("PULVIS", SOURCE / "build/release/cli/pulvis")
+PROGRAM = os.environ.get("PULVIS_PROGRAM", SOURCE / "build/release/cli/pulvis")
 SCENE = SOURCE / "scenes/compaction/regular-25.toml"
 SHORT = ["stage.press.duration=20 us", "output.frames=4", 'stage.press.move[0].displacement=["0 mm", "-0.4 mm"]',
          "output.contacts=true", "output.density_cells=[3, 2]"]
@@ -90,3 +93,34 @@ def study(tmp_path_factory):
     (folder / "study.toml").write_text(text, encoding="utf-8")
     call("study", folder / "study.toml", "-o", folder / "out")
     return folder / "out"
+
+
+def run_program(*words, **options):
+    """The command line beside the package that is tested."""
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, **options)
+
+
+def summary(folder):
+    return json.loads((Path(folder) / "summary.json").read_text())
+
+
+@pytest.fixture
+def scenes():
+    return SOURCE / "scenes"
+
+
+@pytest.fixture
+def cell(scenes):
+    """One plastic disc in a die: a second or less."""
+    return pulvis.Scene(scenes / "compaction/unit-cell.toml", stage__press__duration="0.1 ms", output__samples=20,
+                        output__frames=4)
+
+
+@pytest.fixture
+def program():
+    return run_program
+
+
+@pytest.fixture
+def read_summary():
+    return summary

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "cli/run.hpp"
+#include "cli/session/run.hpp"
 #include "scenes/read.hpp"
 
 namespace pulvis {
