@@ -160,6 +160,16 @@ class PreviewTest(unittest.TestCase):
                 plt.close(figure)
         self.assertEqual(MUST_COVER - covered, set())
 
+    def test_numbers_are_read_as_an_engineer_writes_them(self):
+        for value, unit, text in ((50e-3, "m", "50 mm"), (5.0000001e-4, "m", "500 µm"), (2, "m", "2 m"), (3e3, "m", "3,000 m"),
+                                  (-40e6, "Pa", "−40 MPa"), (1e13, "Pa", "10 TPa"), (0, "N", "0 N"), (20e-9, "N", "20 nN"),
+                                  (1.98412, "m/s", "1.984 m/s"), (0.9999e-3, "m", "999.9 µm")):
+            self.assertEqual(words.quantity(value, unit), text)
+        self.assertEqual(words.span(2e-4, 1e-3, "m"), "0.2 to 1 mm")
+        self.assertEqual(words.span(1e-3, 1e-3, "m"), "1 mm")
+        self.assertEqual(words.number(1.25e-7), "1.25 · 10⁻⁷")
+        self.assertEqual([words.way(v) for v in ((1, 0), (0, -2), (-1, 1), (0, 0))], ["→", "↓", "↖", "·"])
+
     def test_the_program_draws_what_it_is_asked_for(self):
         scene = str(SCENES / "compaction" / "regular-25.toml")
         for name, magic in (("a.png", b"\x89PNG"), ("b.pdf", b"%PDF"), ("c.svg", b"<?xml")):
