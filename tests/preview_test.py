@@ -8,6 +8,7 @@ Of each folder of scenes a few are drawn, folders to come included; --all draws 
 """
 import io
 import json
+import math
 import re
 import subprocess
 import sys
@@ -113,6 +114,16 @@ def overlaps(figure):
                 yield f"'{first}' over '{second}'"
 
 
+def roundness(setup):
+    """The mean over the particles of the largest over the smallest distance from the middle."""
+    ratios = []
+    for one in setup["particles"]:
+        x, y = one["loops"][0][::2], one["loops"][0][1::2]
+        away = [math.hypot(a - sum(x) / len(x), b - sum(y) / len(y)) for a, b in zip(x, y)]
+        ratios.append(max(away) / min(away))
+    return sum(ratios) / len(ratios)
+
+
 class PreviewTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -189,6 +200,25 @@ class PreviewTest(unittest.TestCase):
                    "stage.press.duration=0.1 ms", folder=self.folder.name)
         self.assertIn("warning: stage 'press': tool 'top' moves at up to", told.stdout)
         self.assertIn("Warning: stage 'press'", (Path(self.folder.name) / "fast.svg").read_text(encoding="utf-8"))
+
+    def test_a_kept_state_is_drawn_as_it_is(self):
+        text = (SCENES / "periodic" / "soft-discs.toml").read_text(encoding="utf-8")
+        for old, new in (("number = 300", "number = 12"), ("18 mm", "3.8 mm"), ('"8 ms"', '"1 ms"'),
+                         ('kind = "compact"\n', 'kind = "compact"\nkeep_state = true\n')):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        folder = Path(self.folder.name)
+        (folder / "first.toml").write_text(re.sub(r"expect = \[.*?\n\]", "", text, flags=re.S), encoding="utf-8")
+        told = run("run", "first.toml", "-o", "first", "--quiet", folder=folder)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        (folder / "second.toml").write_text('extends = "first.toml"\ninitial_state = "first/state-press.h5"\n')
+        before, _ = self.setup_of(folder / "first.toml")
+        after, _ = self.setup_of(folder / "second.toml")
+        shrunk = math.exp(-0.112)  # along both vectors
+        for axis in range(2):
+            self.assertAlmostEqual(after["cell"]["vectors"][axis][axis] / before["cell"]["vectors"][axis][axis], shrunk, 3)
+        self.assertLess(roundness(before), 1.01)
+        self.assertGreater(roundness(after), 1.05)
 
     def test_a_wrong_scene_is_refused_as_the_reader_does(self):
         wrong = Path(self.folder.name) / "wrong.toml"
