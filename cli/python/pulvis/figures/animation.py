@@ -68,6 +68,8 @@ def animate(run, path, options=None, axes=None, per_second=PER_SECOND):
     figure, axes, show = film(run, options, axes)
     figure.canvas.draw()
     figure.set_layout_engine("none")  # laid out once: what follows stays in its place
-    moving = animation.FuncAnimation(figure, show, frames=len(run.frames), blit=False, repeat=False)
-    moving.save(path, writer=writer, dpi=min(options.dpi, MOST_DPI))
+    with writer.saving(figure, str(path), min(options.dpi, MOST_DPI)):
+        for k in range(len(run.frames)):
+            show(k)
+            writer.grab_frame()
     return figure, axes
