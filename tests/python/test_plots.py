@@ -58,6 +58,17 @@ def test_a_picture_goes_into_axes_of_ones_own(compact):
     assert figure.get_size_inches() == pytest.approx(plt.rcParams["figure.figsize"])
 
 
+def test_axes_of_ones_own_keep_their_letters_and_lines(compact):
+    run = pulvis.open(compact)
+    with plt.rc_context({"font.size": 6}):
+        _, (left, right) = plt.subplots(1, 2)
+        run.plot.network(ax=left)
+    assert {bar.yaxis.label.get_size() for bar in bars(left)} == {6}
+    lines = next(c for c in left.collections if c.get_array() is not None)
+    alone = next(c for c in run.plot.network()[1].collections if c.get_array() is not None)
+    assert 0 < max(lines.get_linewidths()) < 0.6 * max(alone.get_linewidths())  # of half a figure
+
+
 def test_drawing_leaves_the_look_of_other_figures_alone(compact):
     before = dict(matplotlib.rcParams)
     pulvis.open(compact).plot.field(width="85mm")

@@ -48,6 +48,10 @@ class Options:
         """For plt.rc_context."""
         return {**STYLE, **(NARROW if self.narrow else {})}
 
+    def context(self, axes=None):
+        """For plt.rc_context, in Python: axes of somebody else keep the look of their figure."""
+        return {} if axes is not None else {**self.style(), "figure.dpi": self.dpi}
+
     def size(self, wide, tall, beside=0.0):
         """Inches of a figure that is wide x tall by itself; `beside`: of its height what does not grow with its width."""
         if not self.width:
