@@ -280,7 +280,7 @@ class FieldView {
       path.moveTo(at[2 * outline[i]], at[2 * outline[i] + 1]);
       path.lineTo(at[2 * outline[i + 1]], at[2 * outline[i + 1] + 1]);
     }
-    ctx.strokeStyle = isDark() && !this.codes ? "#c4cdd8" : "#1d2733";
+    ctx.strokeStyle = isDark() && !this.codes && !this.tag ? "#c4cdd8" : "#1d2733";
     ctx.lineWidth = 0.7;
     ctx.stroke(path);
   }
