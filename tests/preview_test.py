@@ -28,7 +28,7 @@ from pulvis.preview.draw import draw
 from pulvis.preview.sheet import plt
 
 SCENES = SOURCE / "scenes"
-NO_SCENES = {"studies", "probes", "lab", "parts"}
+NO_SCENES = {"studies", "probes", "lab", "parts", "materials"}
 # Beside some of every folder: what only few scenes have.
 CHOSEN = ["afm/calibration-beam", "afm/colloid-316l", "afm/force-curve", "afm/incline-friction", "afm/meshed-v",
           "afm/raster", "basic/groove-wedge", "basic/oblique-impact", "basic/tension", "benchmark/cattaneo-mindlin",

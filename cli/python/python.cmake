@@ -50,6 +50,7 @@ function(add_python_module library)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # g++ 12 warns of a null pointer inside pybind11
     set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
   endif()
+  unity(pulvis_python)
   optimise(pulvis_python 2)
 
   # The build tree's package is made of links: a changed line of Python is there at once.
