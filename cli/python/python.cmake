@@ -6,6 +6,10 @@ set(PULVIS_PYTHON_DESTINATION "lib/python3/dist-packages" CACHE STRING
     "Where the Python package is installed, from the prefix")
 
 set(PULVIS_HAS_PYTHON OFF)
+# Debian's own, which has the modules of Debian's packages, before another on the path.
+if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3)
+endif()
 if(NOT PULVIS_PYTHON STREQUAL "OFF" AND NOT PULVIS_PYTHON STREQUAL "0")
   if(PULVIS_PYTHON STREQUAL "AUTO")
     find_package(Python3 3.9 COMPONENTS Interpreter Development.Module QUIET)
@@ -43,6 +47,9 @@ function(add_python_module library)
   # pybind11's types, which are hidden, members of ours are made; nobody else sees these.
   set_target_properties(pulvis_python PROPERTIES CXX_VISIBILITY_PRESET default)
   target_compile_options(pulvis_python PRIVATE -Wno-attributes)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # g++ 12 warns of a null pointer inside pybind11
+    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
+  endif()
   optimise(pulvis_python 2)
 
   # The build tree's package is made of links: a changed line of Python is there at once.

@@ -6,8 +6,7 @@ import keyword
 import sys
 import textwrap
 
-sys.path.pop(0)  # the package's sources lie beside this file, without the compiled module
-
+sys.path.pop(0)  # this folder, whose package has no compiled module
 from pulvis import _core  # noqa: E402
 
 HEAD = '''"""The scene language as dataclasses: one a table, a field a key. Made by cli/python/write_declarations.py.

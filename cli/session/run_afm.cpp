@@ -14,6 +14,7 @@
 #include "scenes/expectations.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/lever/afm_simulation.hpp"
+#include "scenes/lever/afm_size.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
