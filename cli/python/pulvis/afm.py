@@ -1,11 +1,19 @@
 """Levers of an atomic force microscope: calibration, friction loops, force curves."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pulvis import _core
+
+if TYPE_CHECKING:
+    from pulvis.results import Run
+    from pulvis.scene import Scene
 
 
 class Lever:
@@ -15,26 +23,27 @@ class Lever:
     ``actions`` counts the actions done.
     """
 
-    def __init__(self, scene, threads=0, folder=None, overwrite=False, core=None):
+    def __init__(self, scene: Scene, threads: int = 0, folder: str | os.PathLike[str] | None = None,
+                 overwrite: bool = False, core: _core.Lever | None = None) -> None:
         self.scene = scene
         self.folder = None if folder is None else Path(folder)
         self._overwrite = overwrite
         self._core = core or _core.Lever(scene._core, threads)
 
     @classmethod
-    def resumed(cls, folder, threads=0):
+    def resumed(cls, folder: str | os.PathLike[str], threads: int = 0) -> Lever:
         from pulvis.scene import Scene
 
         core = _core.resume_lever(os.fspath(folder), threads)
         return cls(Scene(Path(folder) / "scene.toml"), folder=folder, core=core)
 
-    def on_sample(self, call):
+    def on_sample(self, call: Callable[[float, dict[str, float]], Any]) -> Callable[[float, dict[str, float]], Any]:
         """Calls ``call(actions, row)`` after every increment: row is a dict of the series. Returns `call`."""
         names = [name for name, _, _ in _core.afm_series()]
         self._core.on_sample(lambda time, row: call(time, dict(zip(names, row))))
         return call
 
-    def run(self, progress=None):
+    def run(self, progress: bool | None = None) -> Lever:
         """Runs the programme, or only writes what the calibration found. Returns the lever."""
         del progress  # increments take too different times for a bar
         self._core.run("" if self.folder is None else os.fspath(self.folder), self._overwrite)
@@ -53,11 +62,11 @@ class Lever:
     elements = property(lambda self: self._core.elements, doc="Number of finite elements.")
 
     @property
-    def finished(self):
+    def finished(self) -> bool:
         return self.outcome == "done"
 
     @property
-    def history(self):
+    def history(self) -> dict[str, np.ndarray]:
         """Arrays [increments] by series, SI units: dict; ``actions`` counts the actions done."""
         rows = self._core.samples
         series = {"actions": np.asarray(self._core.sample_times)}
@@ -65,7 +74,7 @@ class Lever:
         return series
 
     @property
-    def results(self):
+    def results(self) -> Run:
         """The run's folder, opened by `pulvis.open`."""
         import pulvis
 

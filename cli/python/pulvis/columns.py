@@ -1,8 +1,13 @@
 """Columns of a simulation as numpy arrays that share its memory."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+
+from pulvis import _core
 
 
 @dataclass(frozen=True)
@@ -36,18 +41,19 @@ class Column:
     whenever they are looked at.
     """
 
-    def __init__(self, run, name, writable=False):
+    def __init__(self, run: _core.Run, name: str, writable: bool = False) -> None:
         self.info = ColumnInfo(**run.column_info(name))
-        self._run, self._writable, self._given = run, writable, []
+        self._run, self._writable = run, writable
+        self._given: list[np.ndarray] = []
 
     name = property(lambda self: self.info.name)
     unit = property(lambda self: self.info.unit)
     meaning = property(lambda self: self.info.meaning)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return self._run.particles if self.info.of_particles else self.info.rows
 
-    def __getitem__(self, number):
+    def __getitem__(self, number: int) -> np.ndarray:
         if not self.info.of_particles:
             return self.rows[number]
         if not -len(self) <= number < len(self):
@@ -55,13 +61,13 @@ class Column:
         return self._kept(self._run.column_of_particle(self.name, number % len(self), self._writable))
 
     @property
-    def rows(self):
+    def rows(self) -> np.ndarray:
         """All rows [rows, numbers] of a column that is not of particles; a copy where ``info.shares_memory`` is
         False."""
         return self._run.column_rows(self.name)
 
     @property
-    def blocks(self):
+    def blocks(self) -> list[tuple[np.ndarray, np.ndarray]]:
         """Pairs of ``numbers`` [chunks, 8] and ``values`` [chunks, 8, rows, numbers]: particles that share a mesh.
 
         A number of -1 is a lane without a particle. ``values`` shares the memory.
@@ -69,28 +75,28 @@ class Column:
         return [(numbers, self._kept(values))
                 for numbers, values in self._run.column_blocks(self.name, self._writable)]
 
-    def __array__(self, dtype=None):
+    def __array__(self, dtype: Any = None) -> np.ndarray:
         if not self.info.of_particles:
             return np.array(self.rows, dtype=dtype)
-        parts = [None] * len(self)
+        parts = [np.empty(0)] * len(self)
         for numbers, values in self._run.column_blocks(self.name, False):
             for chunk, lane in zip(*np.nonzero(numbers >= 0)):
                 parts[numbers[chunk, lane]] = values[chunk, lane]
         whole = np.concatenate(parts) if parts else np.empty((0, self.info.numbers))
         return whole if dtype is None else whole.astype(dtype)
 
-    def _kept(self, array):
+    def _kept(self, array: np.ndarray) -> np.ndarray:
         if self._writable:
             self._given.append(array)
         return array
 
-    def __enter__(self):
+    def __enter__(self) -> Column:
         if not self._writable:
             raise TypeError("allowed: with sim.writable(name) as column")
         self._run.column_blocks(self.name, True)  # refuses at once what may not be written
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         for array in self._given:
             array.flags.writeable = False
         self._run.written(self.name)
@@ -101,5 +107,5 @@ class Column:
 
             raise RunError(f"column '{self.name}': what was written is not finite")
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<pulvis.Column {self.name} [{self.unit}]: {self.meaning}>"

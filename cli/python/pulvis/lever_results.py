@@ -29,14 +29,15 @@ def loops_of(run):
         if not both.size:
             continue
         reach = {axis: np.ptp(run.series(f"scanner/{axis}")[both]) for axis in "yx" if run.has(f"scanner/{axis}")}
-        axis = max(reach, key=reach.get)
-        loops.append(Loop(action, axis, *(motion_of(run, rows, axis) for rows in within), values))
+        axis = max(reach, key=lambda one: reach[one])
+        trace, retrace = (motion_of(run, rows, axis) for rows in within)
+        loops.append(Loop(action, axis, trace, retrace, values))
     return loops
 
 
 def vertical_moves(run):
     """Of each row: +1 where the sample went up to it and nowhere else, -1 where it went down, 0 otherwise."""
-    moves = {axis: np.diff(run.series(f"scanner/{axis}"), prepend=np.nan) if run.has(f"scanner/{axis}") else 0
+    moves = {axis: np.diff(run.series(f"scanner/{axis}"), prepend=np.nan) if run.has(f"scanner/{axis}") else np.array(0.0)
              for axis in "xyz"}
     still = (moves["x"] == 0) & (moves["y"] == 0)
     return np.where(still, np.sign(np.nan_to_num(moves["z"])), 0)

@@ -1,10 +1,16 @@
 """Meshes of particles alone, without a run."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pulvis import _core
+
+if TYPE_CHECKING:
+    from pulvis.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -25,14 +31,15 @@ class Mesh:
     shortest_edge: float
 
     @property
-    def outline(self):
+    def outline(self) -> np.ndarray:
         return self.nodes[: self.boundary_nodes]
 
 
-def mesh(scene, particle=0):
+def mesh(scene: Scene, particle: str | int = 0) -> Mesh:
     """The mesh of a class of a scene, by name or position: `Mesh`."""
     if isinstance(particle, str):
-        number, names = 0, []
+        number = 0
+        names: list[str] = []
         while True:
             try:
                 found = _core.mesh_of_class(scene._core, number)

@@ -1,10 +1,17 @@
 """Packings alone, without a run."""
 
+from __future__ import annotations
+
+import os
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pulvis import _core
+
+if TYPE_CHECKING:
+    from pulvis.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -19,32 +26,32 @@ class Packing:
     centres: np.ndarray
     angles: np.ndarray
     classes: np.ndarray
-    names: list
+    names: list[str]
     areas: np.ndarray
     table: str
-    _meshes: dict
+    _meshes: dict[int, dict[str, Any]]
 
     @property
-    def radii(self):
+    def radii(self) -> np.ndarray:
         return np.sqrt(self.areas / np.pi)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.centres)
 
-    def outline(self, number):
+    def outline(self, number: int) -> np.ndarray:
         """Boundary nodes of a particle, counter-clockwise, m [nodes, 2]."""
         mesh = self._meshes[self.classes[number]]
         points = mesh["nodes"][: mesh["boundary_nodes"]]
         c, s = np.cos(self.angles[number]), np.sin(self.angles[number])
         return points @ np.array([[c, s], [-s, c]]) + self.centres[number]
 
-    def save(self, file):
+    def save(self, file: str | os.PathLike[str]) -> None:
         """Writes the table."""
         with open(file, "w", encoding="utf-8") as out:
             out.write(self.table)
 
 
-def pack(scene):
+def pack(scene: Scene) -> Packing:
     """The packing of a scene: `Packing`."""
     made = _core.packing(scene._core)
     meshes = {c: _core.mesh_of_class(scene._core, int(c)) for c in np.unique(made["classes"])}

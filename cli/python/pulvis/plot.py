@@ -11,6 +11,7 @@ Each returns (Figure, Axes). Each takes `ax`, axes of your own to draw into, and
 import base64
 import html
 import io
+from typing import Any
 
 from matplotlib import pyplot as plt
 
@@ -32,7 +33,8 @@ def options_of(given, **more):
     if wrong := set(given) - known:
         raise TypeError(f"unknown: {', '.join(sorted(wrong))}; allowed: {', '.join(sorted(known))}")
     sizes = {side: inches(side, given[side]) for side in ("width", "height") if side in given}
-    return Options(**{"dpi": DPI, **given, **sizes, **more})
+    values: dict[str, Any] = {"dpi": DPI, **given, **sizes, **more}
+    return Options(**values)
 
 
 class Plot:

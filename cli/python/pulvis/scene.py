@@ -1,8 +1,11 @@
 """Scenes: from files, dictionaries or dataclasses, all by the reader of the command line."""
 
+from __future__ import annotations
+
 import dataclasses
 import os
 from pathlib import Path
+from typing import Any
 
 from pulvis import _core
 from pulvis.toml_text import toml_text, toml_value
@@ -30,7 +33,7 @@ class Scene:
         With the file, line and key of what is wrong.
     """
 
-    def __init__(self, source, overrides=None, **keys):
+    def __init__(self, source: Any, overrides: dict[str, Any] | None = None, **keys: Any) -> None:
         given = dict(overrides or {})
         given.update({key.replace("__", "."): value for key, value in keys.items()})
         words = [f"{path}={toml_value(value)}" for path, value in given.items()]
@@ -41,45 +44,46 @@ class Scene:
         self._source, self._given = source, given
 
     @property
-    def text(self):
+    def text(self) -> str:
         """The whole scene as TOML: what it extends, overrides and defaults put in."""
         return self._core.text_in_place
 
     @property
-    def hash(self):
+    def hash(self) -> str:
         """16 hexadecimal digits, the same for every scene that says the same."""
         return self._core.hash
 
     @property
-    def title(self):
+    def title(self) -> str:
         return self._core.title
 
     @property
-    def is_afm(self):
+    def is_afm(self) -> bool:
         """Whether this is a lever of a microscope; otherwise it is powder."""
         return self._core.is_afm
 
     @property
-    def file(self):
+    def file(self) -> Path | None:
         """Path of the scene's file, or None."""
         return None if self._core.file == NO_FILE else Path(self._core.file)
 
-    def warnings(self):
+    def warnings(self) -> list[str]:
         """What may be wrong with the scene though each of its values is allowed: a list of str."""
         return self._core.warnings()
 
-    def with_(self, overrides=None, **keys):
+    def with_(self, overrides: dict[str, Any] | None = None, **keys: Any) -> Scene:
         """The same scene with other values: arguments as of `Scene`."""
         given = {**self._given, **(overrides or {})}
         given.update({key.replace("__", "."): value for key, value in keys.items()})
         return Scene(self._source, given)
 
-    def save(self, folder):
+    def save(self, folder: str | os.PathLike[str]) -> Path:
         """Writes ``scene.toml`` and copies of the files that it names into `folder`; returns the path."""
         self._core.save(os.fspath(folder))
         return Path(folder) / "scene.toml"
 
-    def simulation(self, threads=0, folder=None, overwrite=False, checkpoint_every=60.0, checkpoint_steps=0):
+    def simulation(self, threads: int = 0, folder: str | os.PathLike[str] | None = None, overwrite: bool = False,
+                   checkpoint_every: float = 60.0, checkpoint_steps: int = 0) -> Any:
         """A simulation of the scene at its beginning.
 
         Parameters
@@ -109,15 +113,15 @@ class Scene:
         run = _core.Run(self._core, where, threads, overwrite, checkpoint_every, checkpoint_steps)
         return Simulation(run, self, folder)
 
-    def calibration(self, threads=0):
+    def calibration(self, threads: int = 0) -> dict[str, float]:
         """Stiffnesses and detector constants of a lever, in SI units: dict (docs/afm.md)."""
         return self.simulation(threads=threads).calibration
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<pulvis.Scene {self.title!r} {self.hash}>"
 
 
-def as_tables(source):
+def as_tables(source: Any) -> Any:
     """Plain dictionaries and lists from dataclasses among them; what is None is not given."""
     if dataclasses.is_dataclass(source) and not isinstance(source, type):
         pairs = ((field.metadata.get("key", field.name), getattr(source, field.name))

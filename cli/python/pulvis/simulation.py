@@ -1,15 +1,24 @@
 """Simulations of particles: the steps of the command line, taken from Python."""
 
+from __future__ import annotations
+
 import os
 import weakref
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pulvis import _core
 from pulvis.columns import Column, ColumnInfo
 from pulvis.progress import progress_bar
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+    from pulvis.results import Run
+    from pulvis.scene import Scene
 
 
 class Simulation:
@@ -23,13 +32,13 @@ class Simulation:
     KeyboardInterrupt when the step is done and, where the simulation has a folder, a checkpoint is written.
     """
 
-    def __init__(self, run, scene, folder):
+    def __init__(self, run: _core.Run, scene: Scene, folder: str | os.PathLike[str] | None) -> None:
         self._run = run
         self.scene = scene
         self.folder = None if folder is None else Path(folder)
 
     # ---- course -------------------------------------------------------------------------------------------------
-    def run(self, progress=None):
+    def run(self, progress: bool | None = None) -> Simulation:
         """Goes on to the end, or to `stop()`. Returns the simulation.
 
         Parameters
@@ -46,47 +55,47 @@ class Simulation:
             self._run.run()
         return self
 
-    def run_until(self, time, progress=None):
+    def run_until(self, time: Any, progress: bool | None = None) -> Simulation:
         """Goes on to the first step at or after `time` (seconds, or ``"1 ms"``). Returns the simulation."""
         with progress_bar(self, progress):
             self._run.run_until(_core.quantity(time, "s") if isinstance(time, str) else _seconds(time))
         return self
 
-    def step(self, count=1):
+    def step(self, count: int = 1) -> Simulation:
         """Takes `count` steps, fewer where the run ends. Returns the simulation."""
         self._run.step(count)
         return self
 
-    def stop(self):
+    def stop(self) -> None:
         """From a callback or another thread: `run` comes back when the present step is done."""
         self._run.stop()
 
-    def checkpoint(self):
+    def checkpoint(self) -> None:
         """Writes a checkpoint into the folder, from which `pulvis.resume` goes on."""
         self._run.checkpoint()
 
-    def close(self):
+    def close(self) -> None:
         """Completes the files of a run that has not ended, with a checkpoint; the folder is free then."""
         self._run.close()
 
-    def __enter__(self):
+    def __enter__(self) -> Simulation:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     # ---- callbacks ----------------------------------------------------------------------------------------------
-    def on_sample(self, call):
+    def on_sample(self, call: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
         """Calls ``call(simulation)`` at every sample (``output.samples``). Returns `call`: good as a decorator."""
         self._run.on_sample(self._bound(call))
         return call
 
-    def on_frame(self, call):
+    def on_frame(self, call: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
         """Calls ``call(simulation)`` when a frame has been written (``output.frames``)."""
         self._run.on_frame(self._bound(call))
         return call
 
-    def every(self, steps, call=None):
+    def every(self, steps: int, call: Callable[[Simulation], Any] | None = None) -> Callable[..., Any]:
         """Calls ``call(simulation)`` between two steps, where their number is a multiple of `steps`.
 
         Here, and outside of all calls, columns may be changed and tools be driven.
@@ -102,76 +111,76 @@ class Simulation:
 
     # ---- state --------------------------------------------------------------------------------------------------
     @property
-    def time(self):
+    def time(self) -> float:
         """t_n in seconds."""
         return self._run.time
 
     @property
-    def end(self):
+    def end(self) -> float:
         """Time in seconds at which the last stage is over."""
         return self._run.end
 
     @property
-    def dt(self):
+    def dt(self) -> float:
         """The next step in seconds."""
         return self._run.dt
 
     @property
-    def steps(self):
+    def steps(self) -> int:
         """Steps taken so far, before a resumption too."""
         return self._run.steps
 
     @property
-    def finished(self):
+    def finished(self) -> bool:
         """Whether the run has ended; `outcome` says how."""
         return self._run.outcome != ""
 
     @property
-    def outcome(self):
+    def outcome(self) -> str:
         """"done", "stopped as expected: ...", "failed: ..."; empty while the run goes on."""
         return self._run.outcome
 
     @property
-    def hash(self):
+    def hash(self) -> str:
         """16 hexadecimal digits of the state: ``state_hash`` of summary.json at the end."""
         return self._run.hash
 
     @property
-    def threads(self):
+    def threads(self) -> int:
         return self._run.threads
 
     @property
-    def elements(self):
+    def elements(self) -> int:
         """Number of finite elements."""
         return self._run.elements
 
     @property
-    def particles(self):
+    def particles(self) -> int:
         """Number of particles."""
         return self._run.particles
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         """What its user should know of the run's figures: list of str."""
         return self._run.warnings
 
     @property
-    def verdicts(self):
+    def verdicts(self) -> list[dict[str, Any]]:
         """What came of the scene's ``[[expect]]`` tables: dicts of ``what``, ``measured``, ``allowed``, ``met``."""
         return self._run.verdicts
 
     @property
-    def driven(self):
+    def driven(self) -> set[str]:
         """What has been changed from Python: set of str. `pulvis resume` refuses such a run."""
         return self._run.driven
 
     @property
-    def history(self):
+    def history(self) -> History:
         """The samples taken by this object: a mapping from the series' names to arrays [samples], in SI units."""
         return History(self._run)
 
     @property
-    def results(self):
+    def results(self) -> Run:
         """The run's folder, opened by `pulvis.open`."""
         if self.folder is None:
             raise _error("the simulation has no folder; allowed: scene.simulation(folder=...)")
@@ -181,18 +190,18 @@ class Simulation:
 
     # ---- columns and tools --------------------------------------------------------------------------------------
     @property
-    def columns(self):
+    def columns(self) -> list[ColumnInfo]:
         """All columns of this scene: list of `ColumnInfo` (name, unit, meaning, ...)."""
         return [ColumnInfo(**one) for one in self._run.columns]
 
-    def column(self, name):
+    def column(self, name: str) -> Column:
         """A column, its memory shared and read-only: `Column`.
 
         `name` as in `columns`; ``"position"`` is short for ``"node.position"``, tools have ``"tool.position"``.
         """
         return Column(self._run, name)
 
-    def writable(self, name):
+    def writable(self, name: str) -> Column:
         """A column whose arrays may be changed, within a ``with`` statement:
 
         ``with sim.writable("velocity") as velocity: velocity[3][:, 1] -= 2.0``
@@ -204,17 +213,17 @@ class Simulation:
         return Column(self._run, name, writable=True)
 
     @property
-    def tools(self):
+    def tools(self) -> dict[str, Tool]:
         """The tools by name: mapping to `Tool`."""
         return {name: Tool(self._run, name, i) for i, name in enumerate(self._run.tools)}
 
     @property
-    def mesh(self):
+    def mesh(self) -> dict[str, np.ndarray]:
         """``quads`` [elements, 4] of node numbers, ``cell_particle`` [elements], ``node_particle`` [nodes]: dict of
         arrays. Nodes are numbered as in ``numpy.asarray(sim.column("position"))``."""
         return self._run.mesh
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         state = self.outcome or f"t = {self.time:.4g} s of {self.end:.4g} s"
         return f"<pulvis.Simulation {self.scene.title!r}, step {self.steps}, {state}>"
 
@@ -222,25 +231,25 @@ class Simulation:
 class Tool:
     """A tool of a simulation. Arrays have x and y."""
 
-    def __init__(self, run, name, row):
+    def __init__(self, run: _core.Run, name: str, row: int) -> None:
         self._run, self.name, self._row = run, name, row
 
     @property
-    def position(self):
+    def position(self) -> np.ndarray:
         """A point of its surface, m [2]."""
         return self._run.column_rows("tool.position")[self._row]
 
     @property
-    def velocity(self):
+    def velocity(self) -> np.ndarray:
         """Mean over the last step, m/s [2]."""
         return self._run.column_rows("tool.velocity")[self._row]
 
     @property
-    def force(self):
+    def force(self) -> np.ndarray:
         """Of the particles on the tool, N [2]."""
         return self._run.column_rows("tool.force")[self._row]
 
-    def drive(self, velocity):
+    def drive(self, velocity: Any) -> None:
         """From now on the tool moves with `velocity`: (x, y) in m/s, or strings with units.
 
         It replaces what the scene's stages say of this tool, until the run ends or it is driven anew; other tools go
@@ -250,14 +259,14 @@ class Tool:
         x, y = (_core.quantity(v, "m/s") if isinstance(v, str) else float(v) for v in velocity)
         self._run.drive_tool(self.name, x, y)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<pulvis.Tool {self.name!r} at {tuple(self.position)} m>"
 
 
-class History(Mapping):
+class History(Mapping[str, np.ndarray]):
     """Series of samples by name; ``"time"`` is among them. `units` and `meanings` have the same names."""
 
-    def __init__(self, run):
+    def __init__(self, run: _core.Run) -> None:
         self.units = {"time": "s"}
         self.meanings = {"time": "simulated time"}
         self._arrays = {"time": run.sample_times}
@@ -267,16 +276,16 @@ class History(Mapping):
             self.units[name] = unit
             self.meanings[name] = meaning
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> np.ndarray:
         return self._arrays[name]
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._arrays)
 
-    def frame(self):
+    def frame(self) -> DataFrame:
         """The same as a pandas DataFrame; its ``attrs["units"]`` has the units."""
         import pandas
 
@@ -285,7 +294,7 @@ class History(Mapping):
         return frame
 
 
-def resume(folder, threads=0, checkpoint_every=60.0):
+def resume(folder: str | os.PathLike[str], threads: int = 0, checkpoint_every: float = 60.0) -> Any:
     """The run of a folder that was stopped, at its newest checkpoint: a `Simulation`, or a finished `Lever`."""
     from pulvis.scene import Scene
 

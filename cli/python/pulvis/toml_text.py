@@ -10,7 +10,7 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 def toml_text(tables):
     """A document from nested dictionaries and lists of dictionaries."""
-    lines = []
+    lines: list[str] = []
     _write(lines, tables, ())
     return "\n".join(lines) + "\n"
 
