@@ -13,9 +13,11 @@
 #include "scenes/language/override.hpp"
 #include "scenes/language/scene_text.hpp"
 #include "scenes/language/table_reader.hpp"
+#include "scenes/let/let.hpp"
 #include "scenes/lever/afm_checks.hpp"
 #include "scenes/lever/mesh/meshed_lever.hpp"
 #include "scenes/lever/mesh/meshed_tip.hpp"
+#include "scenes/materials/library.hpp"
 #include "scenes/packing/fill_packings.hpp"
 #include "scenes/scene_files.hpp"
 #include "scenes/spec/flow_laws.hpp"
@@ -250,6 +252,10 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   Table root = whole_tree(text, file, schema::scene_language(), problems);
   apply_overrides(root, overrides, problems);
   refuse_extending(root, problems);
+  problems.throw_if_any();
+  apply_let(root, schema::scene_language(), problems);
+  problems.throw_if_any();
+  fill_materials(root, schema::scene_language(), problems);
   problems.throw_if_any();
   fill_meshes(root, problems);
   schema::fill_defaults(root, schema::scene_language());

@@ -2,6 +2,7 @@
 #include <concepts>
 
 #include "scenes/keys/declare.hpp"
+#include "scenes/materials/library.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis::schema {
@@ -26,6 +27,13 @@ void choose_outline(ParticleSpec& particle, const Decoded& value) {
                                                 emplace_outline<PointsOutline>,
                                                 emplace_outline<FourierOutline>};
   choices[value.index](particle);
+}
+
+std::vector<Choice> library_names() {
+  std::vector<Choice> names;
+  for (const LibraryMaterial& material : material_library())
+    names.push_back({material.name, material.title});
+  return names;
 }
 
 // A key of every outline that has the member: the one chosen does, only_for sees to that.
@@ -124,6 +132,19 @@ const TableDeclaration<MaterialSpec>& material() {
          .required = true,
          .doc = "What is made of it refers to it: particles, friction pairs, levers, tips."},
         to(&MaterialSpec::name)},
+       {{.name = "library",
+         .kind = Kind::choice,
+         .choices = library_names(),
+         .doc = "Its values are those of a material of the library (docs/materials.md), but for "
+                "those given here.",
+         .fallback_doc = "all values are given here"},
+        nothing<MaterialSpec>},
+       {{.name = "elastic",
+         .kind = Kind::flag,
+         .needs = "library",
+         .doc = "The elastic constants of the library alone are taken.",
+         .fallback_doc = "`false`"},
+        nothing<MaterialSpec>},
        {{.name = "density",
          .kind = Kind::quantity,
          .unit = "kg/m^3",

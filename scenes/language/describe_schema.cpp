@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pulvis {
@@ -30,10 +31,10 @@ void add_range(Json& json, const schema::Range& range) {
     json[range.without_high ? "exclusiveMaximum" : "maximum"] = range.high;
 }
 
-Json quantity_type() {
-  return {{"type", "string"},
-          {"pattern", "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*[^0-9\\s].*$"}};
-}
+constexpr const char* quantity_pattern =
+    "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*[^0-9\\s].*$";
+
+Json quantity_type() { return {{"type", "string"}, {"pattern", quantity_pattern}}; }
 
 Json pair_of(const Json& item) {
   return {{"type", "array"}, {"items", item}, {"minItems", 2}, {"maxItems", 2}};
@@ -147,6 +148,18 @@ std::vector<const char*> tables_required(const std::string& family) {
 // A whole file, or one that extends another and so may leave out anything.
 enum class Extent { whole, part };
 
+// What a library has need not be given; a name it is that others refer to.
+void require(Json& json, const Json& required, const schema::TableView& view) {
+  if (required.empty()) return;
+  if (schema::find_key(view, "library") == nullptr) {
+    json["required"] = required;
+    return;
+  }
+  Json with_library{"library"};
+  if (std::ranges::find(required, Json("name")) != required.end()) with_library.push_back("name");
+  json["anyOf"] = {Json{{"required", with_library}}, Json{{"required", required}}};
+}
+
 // For one value of the selector: the keys it requires, and the keys of other values forbidden, in
 // the table itself and in the tables below it.
 Json branch(const schema::TableView& view, const std::string& selected,
@@ -167,7 +180,7 @@ Json branch(const schema::TableView& view, const std::string& selected,
     for (const char* table : tables_required(selected)) required.push_back(table);
   }
   Json json{{"properties", properties}};
-  if (!required.empty() && extent == Extent::whole) json["required"] = required;
+  if (extent == Extent::whole) require(json, required, view);
   return json;
 }
 
@@ -182,7 +195,31 @@ void add_branches(Json& json, const schema::TableView& view, const schema::Langu
   }
 }
 
+// Names of the user's own, as [let] has them.
+Json table_of_variables(const schema::TableView& view) {
+  return {{"type", "object"},
+          {"description", view.info.doc},
+          {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}},
+          {"additionalProperties", {{"type", {"number", "string"}}}}};
+}
+
+// Numbers and quantities may be expressions of variables: those begin with a name, a bracket or a number, and have an
+// operator in them.
+void allow_expressions(Json& json) {
+  for (Json& inner : json)
+    if (inner.is_structured()) allow_expressions(inner);
+  if (!json.is_object() || !json.contains("type")) return;
+  Json& type = json["type"];
+  if (type == "number" || type == "integer") {
+    type = {type, "string"};
+    json["pattern"] = "[A-Za-z_(*/^+]";
+  } else if (type == "string" && json.contains("pattern") && json["pattern"] == quantity_pattern) {
+    json["pattern"] = fmt::format("{}|^\\s*[+-]?\\s*[A-Za-z_(]", quantity_pattern);
+  }
+}
+
 Json table(const schema::TableView& view, const schema::Language& language, Extent extent) {
+  if (view.info.path == "let") return table_of_variables(view);
   Json json{{"type", "object"}, {"description", view.info.doc}, {"additionalProperties", false}};
   Json required = Json::array();
   for (const schema::KeyInfo& key : view.keys) {
@@ -196,7 +233,7 @@ Json table(const schema::TableView& view, const schema::Language& language, Exte
     if (child->info.repeated) inner = {{"type", "array"}, {"minItems", 1}, {"items", inner}};
     json["properties"][name_of(*child)] = inner;
   }
-  if (!required.empty() && extent == Extent::whole) json["required"] = required;
+  if (extent == Extent::whole) require(json, required, view);
   add_branches(json, view, language, extent);
   return json;
 }
@@ -211,11 +248,15 @@ std::string json_schema_of(const std::string& title, const std::string& declared
             {"$comment", "Generated from the declarations in " + declared_in + "."}};
   Json whole = table(language.front(), language, Extent::whole);
   for (const std::string& key : required) whole["required"].push_back(key);
+  const bool has_variables = schema::find_table("let", language) != nullptr;
+  if (has_variables) allow_expressions(whole);
   if (schema::find_key(language.front(), "extends") == nullptr) {
     json.update(whole);
     return json.dump(2) + "\n";
   }
-  json.update(table(language.front(), language, Extent::part));
+  Json part = table(language.front(), language, Extent::part);
+  if (has_variables) allow_expressions(part);
+  json.update(part);
   json["if"]["not"]["required"] = {"extends"};
   json["then"]["$ref"] = "#/$defs/whole";
   json["$defs"]["whole"] = whole;

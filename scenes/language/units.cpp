@@ -154,16 +154,23 @@ void refuse_decimal_comma(std::string_view whole, std::string_view rest) {
                       : ""));
 }
 
+// The number that `whole` begins with; what follows it is its unit.
+double number_before(std::string_view whole, std::string_view& unit) {
+  std::string_view rest = whole;
+  const double number = take_number(rest);
+  refuse_decimal_comma(whole, rest);
+  unit = trimmed(rest);
+  // The library's strings end there.
+  if (unit.find('\0') != std::string_view::npos) throw UnitError("a quantity with a NUL character");
+  return number;
+}
+
 }  // namespace
 
 double parse_quantity(std::string_view text, const std::string& wanted) {
   const std::string_view whole = trimmed(text);
-  std::string_view rest = whole;
-  const double number = take_number(rest);
-  refuse_decimal_comma(whole, rest);
-  const std::string_view name = trimmed(rest);
-  // The library's strings end there.
-  if (name.find('\0') != std::string_view::npos) throw UnitError("a quantity with a NUL character");
+  std::string_view name;
+  const double number = number_before(whole, name);
   if (name.empty())
     throw UnitError(fmt::format("missing unit: \"{}\" has none, {} is wanted", whole, wanted));
 
@@ -173,6 +180,23 @@ double parse_quantity(std::string_view text, const std::string& wanted) {
   if (!std::isfinite(value))
     throw UnitError(fmt::format("\"{}\" is outside what a double can hold in {}", whole, wanted));
   return value;
+}
+
+BaseQuantity parse_any_quantity(std::string_view text) {
+  const std::string_view whole = trimmed(text);
+  std::string_view name;
+  const double number = number_before(whole, name);
+  if (name.empty()) return {number, ""};
+
+  const std::scoped_lock lock(units_lock());
+  const Unit unit = parse_unit(name, whole);
+  const std::string base = dimension(unit.get());
+  if (base == "?")
+    throw UnitError(fmt::format("\"{}\" has a unit with an offset or a logarithm", whole));
+  const double value = converted(number, unit.get(), base.empty() ? "1" : base, whole);
+  if (!std::isfinite(value))
+    throw UnitError(fmt::format("\"{}\" is outside what a double can hold in SI units", whole));
+  return {value, base};
 }
 
 }  // namespace pulvis

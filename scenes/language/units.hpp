@@ -17,4 +17,12 @@ struct UnitError : std::runtime_error {
 // was given and what is wanted. Safe to call from several threads.
 double parse_quantity(std::string_view text, const std::string& wanted);
 
+// A quantity of whatever dimension in the base units of the SI: "2 GPa" is 2e9 "m-1.kg.s-2", "20 deg" 0.35 "rad";
+// a plain number, "5 %" too, has the unit "".
+struct BaseQuantity {
+  double value = 0;
+  std::string unit;
+};
+BaseQuantity parse_any_quantity(std::string_view text);
+
 }  // namespace pulvis

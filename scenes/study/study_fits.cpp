@@ -87,7 +87,7 @@ class StudyFitter {
     FittedLaw law;
     law.fit = &fit_;
     law.law = law_words[which];
-    if (power) law.key_unit = unit_of_key(fit_.key);
+    if (power) law.key_unit = unit_of_varied(study_.runs, fit_.key);
     const bool over_area = fit_.area || !fit_.disc.empty();
     law.unit = over_area ? "Pa" : unit_of_series(study_.runs.front().scene, fit_.series);
     law.title =

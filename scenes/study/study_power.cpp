@@ -5,6 +5,7 @@
 
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/units.hpp"
+#include "scenes/let/dimension.hpp"
 
 namespace pulvis {
 namespace {
@@ -37,6 +38,25 @@ const StudySetting* setting_of(const StudyRun& run, const std::string& path) {
   const auto found = std::find_if(run.varied.rbegin(), run.varied.rend(),
                                   [&](const StudySetting& one) { return one.path == path; });
   return found == run.varied.rend() ? nullptr : &*found;
+}
+
+bool is_variable(const std::string& path) { return path.starts_with("let."); }
+
+// A variable has no declaration: its dimension is that of its value.
+std::optional<let::Quantity> quantity_set(const StudyRun& run, const std::string& path) {
+  const StudySetting* setting = setting_of(run, path);
+  if (setting == nullptr) return std::nullopt;
+  const document::Value& value = setting->value;
+  if (const auto* whole = value.as<std::int64_t>())
+    return let::Quantity{static_cast<double>(*whole)};
+  if (const auto* number = value.as<double>()) return let::Quantity{*number};
+  const auto* text = value.as<std::string>();
+  if (text == nullptr) return std::nullopt;
+  try {
+    return let::quantity_of(*text);
+  } catch (const let::ExpressionError&) {
+    return std::nullopt;
+  }
 }
 
 std::vector<double> logs_of(const std::vector<double>& values) {
@@ -90,6 +110,15 @@ std::vector<double> local_exponents(const std::vector<double>& key,
   return exponents;
 }
 
+std::string unit_of_varied(const std::vector<StudyRun>& runs, const std::string& path) {
+  if (!is_variable(path)) return unit_of_key(path);
+  for (const StudyRun& run : runs)
+    if (const std::optional<let::Quantity> set = quantity_set(run, path);
+        set && !set->dimension.plain())
+      return set->dimension.text();
+  return "-";
+}
+
 std::string unit_of_key(const std::string& path) {
   const std::vector<std::string> words = words_of_path(path);
   const std::vector<std::string> above(words.begin(), words.end() - 1);
@@ -113,6 +142,10 @@ bool sets_key(const StudyRun& run, const std::string& path) {
 std::optional<double> number_of_key(const StudyRun& run, const std::string& path) {
   const StudySetting* setting = setting_of(run, path);
   if (setting == nullptr) return std::nullopt;
+  if (is_variable(path)) {
+    const std::optional<let::Quantity> quantity = quantity_set(run, path);
+    return quantity ? std::optional(quantity->value) : std::nullopt;
+  }
   if (const auto* whole = setting->value.as<std::int64_t>()) return static_cast<double>(*whole);
   if (const auto* number = setting->value.as<double>()) return *number;
   const auto* text = setting->value.as<std::string>();

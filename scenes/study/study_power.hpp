@@ -34,6 +34,8 @@ std::vector<double> local_exponents(const std::vector<double>& key,
 
 // The SI unit of a key of the scene language; "-" where it has none.
 std::string unit_of_key(const std::string& path);
+// The same of what runs set, variables of [let] too, which have the unit of their values.
+std::string unit_of_varied(const std::vector<StudyRun>& runs, const std::string& path);
 bool sets_key(const StudyRun& run, const std::string& path);
 // What the run sets it to, in that unit; nothing where that is no number or quantity.
 std::optional<double> number_of_key(const StudyRun& run, const std::string& path);

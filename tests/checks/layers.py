@@ -34,7 +34,9 @@ ROOMS = {
     "scenes": {
         "language": "",
         "spec": "language",
-        "keys": "spec language",
+        "keys": "materials spec language",
+        "let": "language",
+        "materials": "language",
         "outlines": "spec language",
         "meshes": "outlines spec",
         "packing": "outlines spec language",
@@ -44,10 +46,10 @@ ROOMS = {
         "lever/mesh": "spec language",
         "lever": "lever/mesh spec language",
         "checks": "lever meshes packing tools results outlines spec language",
-        "": "checks grains keys lever lever/mesh meshes packing tools results outlines spec language",
+        "": "checks grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
         "volts": "lever keys outlines spec language",
         "records": "lever volts keys results spec language /",
-        "study": "checks results keys spec language /",
+        "study": "checks let results keys spec language /",
         "probe": "keys spec language /",
         "fit": "records keys lever outlines packing spec language /",
     },
@@ -59,13 +61,17 @@ ROOMS = {
         "lab": "report volts /",
         "fit": "lab report study /",
         "kinds": "",
-        "preview": "/",
-        "": "report volts",
+        "python_scripts": "report /",
+        "preview": "python_scripts /",
+        "session": "report /",
+        "python/module": "session report /",
+        "": "python_scripts report volts",
     },
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
 # Sources of one kind that a header of another name declares.
-PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_")
+PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_",
+         "cli/python/module/bind_")
 MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')

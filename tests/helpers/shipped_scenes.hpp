@@ -14,7 +14,8 @@ inline std::vector<std::filesystem::path> shipped_scenes() {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const std::filesystem::path folder = entry.path().parent_path();
     const bool other = folder == root / "studies" || folder == root / "probes" ||
-                       folder == root / "lab" || folder == root / "parts";
+                       folder == root / "lab" || folder == root / "parts" ||
+                       folder == root / "materials";
     if (entry.path().extension() == ".toml" && !other) scenes.push_back(entry.path());
   }
   std::ranges::sort(scenes);

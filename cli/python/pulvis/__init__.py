@@ -15,7 +15,16 @@ _HOMES = {
     "Study": "pulvis.study",
     "Scene": "pulvis.scene",
     "Simulation": "pulvis.simulation",
+    "Column": "pulvis.columns",
+    "resume": "pulvis.simulation",
+    "Lever": "pulvis.afm",
+    "pack": "pulvis.packing",
+    "Packing": "pulvis.packing",
+    "Mesh": "pulvis.meshes",
+    "mesh": "pulvis.meshes",
     "PulvisError": "pulvis.errors",
+    "SceneError": "pulvis.errors",
+    "RunError": "pulvis.errors",
 }
 
 __all__ = sorted(_HOMES)

@@ -1,0 +1,309 @@
+"""Simulations of particles: the steps of the command line, taken from Python."""
+
+import os
+import weakref
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from pulvis import _core
+from pulvis.columns import Column, ColumnInfo
+from pulvis.progress import progress_bar
+
+
+class Simulation:
+    """A run of a scene, made by `Scene.simulation` or `pulvis.resume`.
+
+    However a run is cut into parts, and whatever is looked at on its way, its steps are those of ``pulvis run``, and
+    its final state has the same bits. Between two steps positions belong to t_n and velocities to t_(n-1/2); at a
+    sample forces, stresses and energies belong to t_n, too.
+
+    Python's lock is released while steps are taken, so simulations run side by side in threads. Ctrl-C raises
+    KeyboardInterrupt when the step is done and, where the simulation has a folder, a checkpoint is written.
+    """
+
+    def __init__(self, run, scene, folder):
+        self._run = run
+        self.scene = scene
+        self.folder = None if folder is None else Path(folder)
+
+    # ---- course -------------------------------------------------------------------------------------------------
+    def run(self, progress=None):
+        """Goes on to the end, or to `stop()`. Returns the simulation.
+
+        Parameters
+        ----------
+        progress : bool, optional
+            Show a progress bar (tqdm); None: in a notebook only.
+
+        Raises
+        ------
+        RunError
+            Where the run fails its checks (docs/stability.md). Its files are whole then.
+        """
+        with progress_bar(self, progress):
+            self._run.run()
+        return self
+
+    def run_until(self, time, progress=None):
+        """Goes on to the first step at or after `time` (seconds, or ``"1 ms"``). Returns the simulation."""
+        with progress_bar(self, progress):
+            self._run.run_until(_core.quantity(time, "s") if isinstance(time, str) else _seconds(time))
+        return self
+
+    def step(self, count=1):
+        """Takes `count` steps, fewer where the run ends. Returns the simulation."""
+        self._run.step(count)
+        return self
+
+    def stop(self):
+        """From a callback or another thread: `run` comes back when the present step is done."""
+        self._run.stop()
+
+    def checkpoint(self):
+        """Writes a checkpoint into the folder, from which `pulvis.resume` goes on."""
+        self._run.checkpoint()
+
+    def close(self):
+        """Completes the files of a run that has not ended, with a checkpoint; the folder is free then."""
+        self._run.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    # ---- callbacks ----------------------------------------------------------------------------------------------
+    def on_sample(self, call):
+        """Calls ``call(simulation)`` at every sample (``output.samples``). Returns `call`: good as a decorator."""
+        self._run.on_sample(self._bound(call))
+        return call
+
+    def on_frame(self, call):
+        """Calls ``call(simulation)`` when a frame has been written (``output.frames``)."""
+        self._run.on_frame(self._bound(call))
+        return call
+
+    def every(self, steps, call=None):
+        """Calls ``call(simulation)`` between two steps, where their number is a multiple of `steps`.
+
+        Here, and outside of all calls, columns may be changed and tools be driven.
+        """
+        if call is None:
+            return lambda call: self.every(steps, call)
+        self._run.every(steps, self._bound(call))
+        return call
+
+    def _bound(self, call):
+        this = weakref.ref(self)  # the run must not keep what keeps it
+        return lambda: call(this())
+
+    # ---- state --------------------------------------------------------------------------------------------------
+    @property
+    def time(self):
+        """t_n in seconds."""
+        return self._run.time
+
+    @property
+    def end(self):
+        """Time in seconds at which the last stage is over."""
+        return self._run.end
+
+    @property
+    def dt(self):
+        """The next step in seconds."""
+        return self._run.dt
+
+    @property
+    def steps(self):
+        """Steps taken so far, before a resumption too."""
+        return self._run.steps
+
+    @property
+    def finished(self):
+        """Whether the run has ended; `outcome` says how."""
+        return self._run.outcome != ""
+
+    @property
+    def outcome(self):
+        """"done", "stopped as expected: ...", "failed: ..."; empty while the run goes on."""
+        return self._run.outcome
+
+    @property
+    def hash(self):
+        """16 hexadecimal digits of the state: ``state_hash`` of summary.json at the end."""
+        return self._run.hash
+
+    @property
+    def threads(self):
+        return self._run.threads
+
+    @property
+    def elements(self):
+        """Number of finite elements."""
+        return self._run.elements
+
+    @property
+    def particles(self):
+        """Number of particles."""
+        return self._run.particles
+
+    @property
+    def warnings(self):
+        """What its user should know of the run's figures: list of str."""
+        return self._run.warnings
+
+    @property
+    def verdicts(self):
+        """What came of the scene's ``[[expect]]`` tables: dicts of ``what``, ``measured``, ``allowed``, ``met``."""
+        return self._run.verdicts
+
+    @property
+    def driven(self):
+        """What has been changed from Python: set of str. `pulvis resume` refuses such a run."""
+        return self._run.driven
+
+    @property
+    def history(self):
+        """The samples taken by this object: a mapping from the series' names to arrays [samples], in SI units."""
+        return History(self._run)
+
+    @property
+    def results(self):
+        """The run's folder, opened by `pulvis.open`."""
+        if self.folder is None:
+            raise _error("the simulation has no folder; allowed: scene.simulation(folder=...)")
+        import pulvis
+
+        return pulvis.open(self.folder)
+
+    # ---- columns and tools --------------------------------------------------------------------------------------
+    @property
+    def columns(self):
+        """All columns of this scene: list of `ColumnInfo` (name, unit, meaning, ...)."""
+        return [ColumnInfo(**one) for one in self._run.columns]
+
+    def column(self, name):
+        """A column, its memory shared and read-only: `Column`.
+
+        `name` as in `columns`; ``"position"`` is short for ``"node.position"``, tools have ``"tool.position"``.
+        """
+        return Column(self._run, name)
+
+    def writable(self, name):
+        """A column whose arrays may be changed, within a ``with`` statement:
+
+        ``with sim.writable("velocity") as velocity: velocity[3][:, 1] -= 2.0``
+
+        Only between two steps: in `every` callbacks and outside of all calls. Velocities may be changed, and of
+        particles ``yield_stress``, ``hardening_modulus`` and ``mass_damping``. The energy balance of the run counts
+        none of it.
+        """
+        return Column(self._run, name, writable=True)
+
+    @property
+    def tools(self):
+        """The tools by name: mapping to `Tool`."""
+        return {name: Tool(self._run, name, i) for i, name in enumerate(self._run.tools)}
+
+    @property
+    def mesh(self):
+        """``quads`` [elements, 4] of node numbers, ``cell_particle`` [elements], ``node_particle`` [nodes]: dict of
+        arrays. Nodes are numbered as in ``numpy.asarray(sim.column("position"))``."""
+        return self._run.mesh
+
+    def __repr__(self):
+        state = self.outcome or f"t = {self.time:.4g} s of {self.end:.4g} s"
+        return f"<pulvis.Simulation {self.scene.title!r}, step {self.steps}, {state}>"
+
+
+class Tool:
+    """A tool of a simulation. Arrays have x and y."""
+
+    def __init__(self, run, name, row):
+        self._run, self.name, self._row = run, name, row
+
+    @property
+    def position(self):
+        """A point of its surface, m [2]."""
+        return self._run.column_rows("tool.position")[self._row]
+
+    @property
+    def velocity(self):
+        """Mean over the last step, m/s [2]."""
+        return self._run.column_rows("tool.velocity")[self._row]
+
+    @property
+    def force(self):
+        """Of the particles on the tool, N [2]."""
+        return self._run.column_rows("tool.force")[self._row]
+
+    def drive(self, velocity):
+        """From now on the tool moves with `velocity`: (x, y) in m/s, or strings with units.
+
+        It replaces what the scene's stages say of this tool, until the run ends or it is driven anew; other tools go
+        on as they do. Checkpoints keep the drive, and `pulvis.resume` goes on with it; the program's ``resume``
+        refuses a driven run, since nobody drives it there. Allowed between two steps; not for tools with a servo.
+        """
+        x, y = (_core.quantity(v, "m/s") if isinstance(v, str) else float(v) for v in velocity)
+        self._run.drive_tool(self.name, x, y)
+
+    def __repr__(self):
+        return f"<pulvis.Tool {self.name!r} at {tuple(self.position)} m>"
+
+
+class History(Mapping):
+    """Series of samples by name; ``"time"`` is among them. `units` and `meanings` have the same names."""
+
+    def __init__(self, run):
+        self.units = {"time": "s"}
+        self.meanings = {"time": "simulated time"}
+        self._arrays = {"time": run.sample_times}
+        rows = run.samples
+        for i, (name, unit, meaning) in enumerate(run.series):
+            self._arrays[name] = rows[:, i]
+            self.units[name] = unit
+            self.meanings[name] = meaning
+
+    def __getitem__(self, name):
+        return self._arrays[name]
+
+    def __iter__(self):
+        return iter(self._arrays)
+
+    def __len__(self):
+        return len(self._arrays)
+
+    def frame(self):
+        """The same as a pandas DataFrame; its ``attrs["units"]`` has the units."""
+        import pandas
+
+        frame = pandas.DataFrame({name: np.asarray(values) for name, values in self._arrays.items()})
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+
+def resume(folder, threads=0, checkpoint_every=60.0):
+    """The run of a folder that was stopped, at its newest checkpoint: a `Simulation`, or a finished `Lever`."""
+    from pulvis.scene import Scene
+
+    folder = Path(folder)
+    if _core.is_lever_folder(os.fspath(folder)):
+        from pulvis.afm import Lever
+
+        return Lever.resumed(folder, threads)
+    run = _core.Run.resume(os.fspath(folder), threads, checkpoint_every)
+    return Simulation(run, Scene(folder / "scene.toml"), folder)
+
+
+def _seconds(time):
+    """A number of seconds, or a pint quantity."""
+    return time.to("s").magnitude if hasattr(time, "magnitude") else float(time)
+
+
+def _error(message):
+    from pulvis.errors import RunError
+
+    return RunError(message)

@@ -1,0 +1,162 @@
+#include "scenes/materials/library.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace pulvis {
+
+extern const char* const material_library_text;  // made from library.toml
+
+namespace {
+
+using document::Entry;
+using document::Table;
+using document::Value;
+
+constexpr std::array plastic{"yield_stress", "hardening_modulus"};
+
+std::vector<LibraryMaterial> read_library() {
+  std::vector<LibraryMaterial> materials;
+  const Table root = document::parse(material_library_text);
+  for (const Value& element : document::find(root, "material")->value.get<document::Array>()) {
+    LibraryMaterial material;
+    for (const Entry& entry : element.get<Table>()) {
+      std::string* text = entry.key == "name"     ? &material.name
+                          : entry.key == "title"  ? &material.title
+                          : entry.key == "source" ? &material.source
+                                                  : nullptr;
+      if (text != nullptr)
+        *text = entry.value.get<std::string>();
+      else
+        material.values.push_back(entry);
+    }
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
+class LibraryFiller {
+ public:
+  LibraryFiller(const Table& root, const schema::Language& language, Problems& problems)
+      : view_(*schema::find_table("material", language)), problems_(problems) {
+    if (const std::string* family = document::find_text(root, "family")) family_ = *family;
+  }
+
+  void fill(Table& table, const std::string& path) const {
+    const Entry* entry = document::find(table, "library");
+    if (entry == nullptr) return;
+    const LibraryMaterial* material = chosen(entry->value, path);
+    if (material == nullptr) return;
+    const bool elastic = is_elastic(table, path);
+    const document::Origin origin = entry->value.origin;
+    std::erase_if(table, [](const Entry& e) { return e.key == "library" || e.key == "elastic"; });
+    for (const Entry& value : material->values)
+      if (is_wanted(table, value.key, elastic))
+        table.push_back({value.key, origin, {value.value.data, origin}});
+  }
+
+ private:
+  const LibraryMaterial* chosen(const Value& value, const std::string& path) const {
+    const auto* name = value.as<std::string>();
+    std::vector<std::string> names;
+    for (const LibraryMaterial& material : material_library()) {
+      if (name != nullptr && material.name == *name) return &material;
+      names.push_back(material.name);
+    }
+    problems_.add(
+        value.origin, path + ".library",
+        fmt::format("{} is no material of the library{}, allowed: {}", document::value_text(value),
+                    name != nullptr ? suggestion(*name, names) : "", listed(names)));
+    return nullptr;
+  }
+
+  bool is_elastic(const Table& table, const std::string& path) const {
+    const Entry* entry = document::find(table, "elastic");
+    if (entry == nullptr) return false;
+    const bool* flag = entry->value.as<bool>();
+    if (flag == nullptr)
+      problems_.add(entry->value.origin, path + ".elastic",
+                    fmt::format("wrong type, {} is given, allowed: true or false",
+                                document::type_name(entry->value)));
+    for (const char* key : plastic)
+      if (const Entry* given = document::find(table, key); flag != nullptr && *flag && given)
+        problems_.add(given->origin, path + "." + key,
+                      "contradicts elastic = true, allowed: one of them");
+    return flag != nullptr && *flag;
+  }
+
+  bool is_wanted(const Table& table, const std::string& key, bool elastic) const {
+    const bool of_plastic = std::ranges::find(plastic, key) != plastic.end();
+    const bool other_law =
+        key == "hardening_modulus" && document::find(table, "hardening") != nullptr;
+    return document::find(table, key) == nullptr && !(elastic && of_plastic) && !other_law &&
+           schema::applies(*schema::find_key(view_, key), table, family_);
+  }
+
+  const schema::TableView& view_;
+  Problems& problems_;
+  std::string family_;
+};
+
+std::string cell_of(const LibraryMaterial& material, const char* key) {
+  const Entry* entry = document::find(material.values, key);
+  if (entry == nullptr) return "-";
+  const auto* text = entry->value.as<std::string>();
+  return text != nullptr ? *text : document::value_text(entry->value);
+}
+
+}  // namespace
+
+const std::vector<LibraryMaterial>& material_library() {
+  static const std::vector<LibraryMaterial> materials = read_library();
+  return materials;
+}
+
+void fill_materials(Table& root, const schema::Language& language, Problems& problems) {
+  Entry* materials = document::find(root, "material");
+  if (materials == nullptr || !document::is_array_of_tables(materials->value)) return;
+  const LibraryFiller filler(root, language, problems);
+  auto& elements = materials->value.get<document::Array>();
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    filler.fill(elements[i].get<Table>(), fmt::format("material[{}]", i));
+}
+
+std::string material_reference() {
+  std::string text = R"md(# The library of materials
+
+<!-- Generated from scenes/materials/library.toml: change that, not this file. -->
+
+A scene takes a material by its name in this library. Values that it gives itself replace those of the library, and
+`elastic = true` leaves out the plastic ones. A saved scene has the values, so that it stays what it is when the
+library changes.
+
+```toml
+[[material]]
+name = "powder"                # what particles call it
+library = "316L"
+yield_stress = "280 MPa"       # instead of the library's
+```
+
+Sources are named below. What is called typical is from no source that was looked up: it is of the right size, no more.
+A batch of powder may differ from all of these by its make, its moisture and what was done to it; measure what your
+results depend on.
+
+| `library` | material | density | Young's modulus | Poisson's ratio | yield stress | hardening modulus |
+|---|---|---|---|---|---|---|
+)md";
+  for (const LibraryMaterial& material : material_library())
+    text += fmt::format("| `\"{}\"` | {} | {} | {} | {} | {} | {} |\n", material.name,
+                        material.title, cell_of(material, "density"),
+                        cell_of(material, "youngs_modulus"), cell_of(material, "poissons_ratio"),
+                        cell_of(material, "yield_stress"), cell_of(material, "hardening_modulus"));
+  text +=
+      "\nMaterials without a yield stress are elastic; without a hardening modulus they are "
+      "perfectly plastic.\n\n## Sources\n\n";
+  for (const LibraryMaterial& material : material_library())
+    text += fmt::format("- **{}**: {}\n", material.name, material.source);
+  return text;
+}
+
+}  // namespace pulvis
