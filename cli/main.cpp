@@ -22,6 +22,7 @@
 #include "cli/options.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
+#include "cli/preview/preview_options.hpp"
 #include "cli/preview/scene_check.hpp"
 #include "cli/probe/probe_options.hpp"
 #include "cli/report/report.hpp"
@@ -53,6 +54,7 @@ struct Options {
   StudyOptions study;
   ProbeOptions probe;
   FitOptions fit;
+  PreviewOptions preview;
   bool dot = false;
   std::string reference;  // scene language: "text" or "schema"
   bool print = false;     // the scene, whole
@@ -74,9 +76,7 @@ ExitCode check(const Options& options) {
   }
   const LoadedScene loaded = load_scene(options.run.scene, options.run.overrides);
   if (options.print) return print_scene(loaded);
-  const Scene& scene = loaded.scene;
-  if (scene.afm) return check_afm_scene(scene);
-  return check_particle_scene(scene);
+  return check_scene(loaded.scene);
 }
 
 ExitCode plan(const Options& options) {
@@ -254,6 +254,21 @@ void add_run(CLI::App& app, Options& options, ExitCode& code) {
   run->callback([&options, &code] { code = run_scene(options.run); });
 }
 
+void add_check(CLI::App& app, Options& options, ExitCode& code) {
+  auto* checks = app.add_subcommand("check", "read and check a scene without running it");
+  add_scene(*checks, options, false);
+  checks
+      ->add_option("--reference", options.reference,
+                   "print the scene language instead: text or schema")
+      ->check(CLI::IsMember({"text", "schema"}));
+  checks->add_flag("--print", options.print,
+                   "print the scene whole instead: what it extends, overrides and defaults put in");
+  checks->callback([&options, &code] {
+    if (options.run.scene.empty() && options.reference.empty()) throw CLI::RequiredError("scene");
+    code = check(options);
+  });
+}
+
 void add_resume(CLI::App& app, Options& options, ExitCode& code) {
   auto* resume = app.add_subcommand(
       "resume", "go on with a run that was stopped or killed, from its last checkpoint");
@@ -309,18 +324,8 @@ int parse_and_run(int argc, char** argv) {
   add_probe(app, options.probe, code);
   add_fit(app, options.fit, code);
 
-  auto* checks = app.add_subcommand("check", "read and check a scene without running it");
-  add_scene(*checks, options, false);
-  checks
-      ->add_option("--reference", options.reference,
-                   "print the scene language instead: text or schema")
-      ->check(CLI::IsMember({"text", "schema"}));
-  checks->add_flag("--print", options.print,
-                   "print the scene whole instead: what it extends, overrides and defaults put in");
-  checks->callback([&] {
-    if (options.run.scene.empty() && options.reference.empty()) throw CLI::RequiredError("scene");
-    code = check(options);
-  });
+  add_check(app, options, code);
+  add_preview(app, options.preview, code);
 
   auto* plans =
       app.add_subcommand("plan", "print the systems, graph and columns that a scene asks for");

@@ -21,7 +21,6 @@
 #include "engine/files/run_folder.hpp"
 #include "engine/interruption.hpp"
 #include "engine/run_failure.hpp"
-#include "scenes/checks/lever_warnings.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/lever/afm_curve.hpp"
@@ -368,23 +367,6 @@ ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
   Calibrated calibrated(loaded.scene, threads);
   take_interrupts();
   return complete_programme(loaded, options, options.folder, threads, &checkpoint, calibrated);
-}
-
-ExitCode check_afm_scene(const Scene& scene) {
-  std::size_t increments = 0;
-  for (const ActionSpec& action : scene.afm->actions) increments += action.samples();
-  const auto need = static_cast<std::uint64_t>(afm_size(*scene.afm).bytes());
-  tell("memory: about {}\n", bytes_text(need));
-  std::fflush(stdout);
-  require_afm_memory(scene);
-  const AfmModel model = build_afm(scene);
-  for (const std::string& line : lever_warnings(scene)) tell("warning: {}\n", line);
-  if (increments > 0)
-    tell("run: {} at least; one takes as long as one to three factorisations of the stiffness\n",
-         counted(increments, "increment"));
-  tell("{}: good: {}, {}\n", scene.file.string(), counted(model.elements, "element"),
-       counted(model.nodes, "node"));
-  return ExitCode::done;
 }
 
 ExitCode plan_afm(const Scene& scene, bool dot) {

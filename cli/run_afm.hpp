@@ -1,4 +1,4 @@
-// pulvis run, resume, check and plan for scenes of the family "afm".
+// pulvis run, resume and plan for scenes of the family "afm".
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,6 @@ ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
                  const std::filesystem::path& folder, int threads);
 ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
                     const Checkpoint& checkpoint, int threads);
-ExitCode check_afm_scene(const Scene& scene);
 ExitCode plan_afm(const Scene& scene, bool dot);
 
 }  // namespace pulvis

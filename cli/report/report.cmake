@@ -8,7 +8,7 @@ function(add_report_assets target)
   set(package ${report_folder}/../python/pulvis)
   file(GLOB assets CONFIGURE_DEPENDS ${report_folder}/*.html ${report_folder}/*.css
        ${report_folder}/*.js ${package}/__init__.py ${package}/errors.py ${package}/results.py
-       ${package}/lever_results.py ${package}/figures/*.py)
+       ${package}/lever_results.py ${package}/figures/*.py ${package}/preview/*.py)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/report_assets.cpp)
   add_custom_command(
     OUTPUT ${source}

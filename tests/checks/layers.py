@@ -59,8 +59,8 @@ ROOMS = {
         "lab": "report volts /",
         "fit": "lab report study /",
         "kinds": "",
-        "preview": "/",
         "python_scripts": "report /",
+        "preview": "python_scripts /",
         "": "python_scripts report volts",
     },
 }
