@@ -63,6 +63,7 @@ class Lever:
 
     @property
     def finished(self) -> bool:
+        """Whether the whole programme was run."""
         return self.outcome == "done"
 
     @property
