@@ -7,6 +7,7 @@
 #include "scenes/checks/checks.hpp"
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/checks/state_checks.hpp"
+#include "scenes/fill_die.hpp"
 #include "scenes/grains/grains.hpp"
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/extends.hpp"
@@ -256,6 +257,7 @@ LoadedScene load(const std::string& text, const std::filesystem::path& file,
   apply_let(root, schema::scene_language(), problems);
   problems.throw_if_any();
   fill_materials(root, schema::scene_language(), problems);
+  fill_die(root, problems);
   problems.throw_if_any();
   fill_meshes(root, problems);
   schema::fill_defaults(root, schema::scene_language());

@@ -8,6 +8,7 @@ Of each folder of scenes a few are drawn, folders to come included; --all draws 
 """
 import io
 import json
+import math
 import re
 import subprocess
 import sys
@@ -27,7 +28,7 @@ from pulvis.preview.draw import draw
 from pulvis.preview.sheet import plt
 
 SCENES = SOURCE / "scenes"
-NO_SCENES = {"studies", "probes", "lab", "parts"}
+NO_SCENES = {"studies", "probes", "lab", "parts", "materials"}
 # Beside some of every folder: what only few scenes have.
 CHOSEN = ["afm/calibration-beam", "afm/colloid-316l", "afm/force-curve", "afm/incline-friction", "afm/meshed-v",
           "afm/raster", "basic/groove-wedge", "basic/oblique-impact", "basic/tension", "benchmark/cattaneo-mindlin",
@@ -113,6 +114,16 @@ def overlaps(figure):
                 yield f"'{first}' over '{second}'"
 
 
+def roundness(setup):
+    """The mean over the particles of the largest over the smallest distance from the middle."""
+    ratios = []
+    for one in setup["particles"]:
+        x, y = one["loops"][0][::2], one["loops"][0][1::2]
+        away = [math.hypot(a - sum(x) / len(x), b - sum(y) / len(y)) for a, b in zip(x, y)]
+        ratios.append(max(away) / min(away))
+    return sum(ratios) / len(ratios)
+
+
 class PreviewTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -160,6 +171,16 @@ class PreviewTest(unittest.TestCase):
                 plt.close(figure)
         self.assertEqual(MUST_COVER - covered, set())
 
+    def test_numbers_are_read_as_an_engineer_writes_them(self):
+        for value, unit, text in ((50e-3, "m", "50 mm"), (5.0000001e-4, "m", "500 µm"), (2, "m", "2 m"), (3e3, "m", "3,000 m"),
+                                  (-40e6, "Pa", "−40 MPa"), (1e13, "Pa", "10 TPa"), (0, "N", "0 N"), (20e-9, "N", "20 nN"),
+                                  (1.98412, "m/s", "1.984 m/s"), (0.9999e-3, "m", "999.9 µm")):
+            self.assertEqual(words.quantity(value, unit), text)
+        self.assertEqual(words.span(2e-4, 1e-3, "m"), "0.2 to 1 mm")
+        self.assertEqual(words.span(1e-3, 1e-3, "m"), "1 mm")
+        self.assertEqual(words.number(1.25e-7), "1.25 · 10⁻⁷")
+        self.assertEqual([words.way(v) for v in ((1, 0), (0, -2), (-1, 1), (0, 0))], ["→", "↓", "↖", "·"])
+
     def test_the_program_draws_what_it_is_asked_for(self):
         scene = str(SCENES / "compaction" / "regular-25.toml")
         for name, magic in (("a.png", b"\x89PNG"), ("b.pdf", b"%PDF"), ("c.svg", b"<?xml")):
@@ -179,6 +200,25 @@ class PreviewTest(unittest.TestCase):
                    "stage.press.duration=0.1 ms", folder=self.folder.name)
         self.assertIn("warning: stage 'press': tool 'top' moves at up to", told.stdout)
         self.assertIn("Warning: stage 'press'", (Path(self.folder.name) / "fast.svg").read_text(encoding="utf-8"))
+
+    def test_a_kept_state_is_drawn_as_it_is(self):
+        text = (SCENES / "periodic" / "soft-discs.toml").read_text(encoding="utf-8")
+        for old, new in (("number = 300", "number = 12"), ("18 mm", "3.8 mm"), ('"8 ms"', '"1 ms"'),
+                         ('kind = "compact"\n', 'kind = "compact"\nkeep_state = true\n')):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        folder = Path(self.folder.name)
+        (folder / "first.toml").write_text(re.sub(r"expect = \[.*?\n\]", "", text, flags=re.S), encoding="utf-8")
+        told = run("run", "first.toml", "-o", "first", "--quiet", folder=folder)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        (folder / "second.toml").write_text('extends = "first.toml"\ninitial_state = "first/state-press.h5"\n')
+        before, _ = self.setup_of(folder / "first.toml")
+        after, _ = self.setup_of(folder / "second.toml")
+        shrunk = math.exp(-0.112)  # along both vectors
+        for axis in range(2):
+            self.assertAlmostEqual(after["cell"]["vectors"][axis][axis] / before["cell"]["vectors"][axis][axis], shrunk, 3)
+        self.assertLess(roundness(before), 1.01)
+        self.assertGreater(roundness(after), 1.05)
 
     def test_a_wrong_scene_is_refused_as_the_reader_does(self):
         wrong = Path(self.folder.name) / "wrong.toml"

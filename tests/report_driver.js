@@ -85,9 +85,31 @@ function tipHolds() {
   return same(tipNow(), a);
 }
 
+// Columns of cards end together, and what the run cost stands at the very end.
+function isWhole() {
+  const bottomOf = column => column.lastElementChild.getBoundingClientRect().bottom;
+  const columns = [...document.querySelectorAll(".columns")].map(({children: [one, other]}) => Math.abs(bottomOf(one) - bottomOf(other)));
+  return columns.length > 0 && columns.every(apart => apart < 1) && document.querySelector("main").lastElementChild.id === "cost-section";
+}
+
+// Lines that show nothing beside the others are off at first, and one click shows them.
+function hidesWhatIsNearZero() {
+  const tiny = [...document.querySelectorAll(".legend button")].filter(button => button.title.startsWith("Below 1 %"));
+  const off = tiny.filter(button => button.getAttribute("aria-pressed") === "false"), [first] = off, legend = first?.parentElement;
+  if (!first || off.length < tiny.length) return `${off.length} of ${tiny.length} are off`;
+  const name = first.textContent, chart = legend.closest(".chart"), drawn = () => chart.querySelectorAll("path.curve").length, before = drawn();
+  first.click();
+  const now = [...legend.children].find(button => button.textContent === name);
+  const isShown = drawn() === before + 1 && now.getAttribute("aria-pressed") === "true";
+  now.click();
+  return isShown && drawn() === before;
+}
+
 async function drive() {
   await until(() => document.body.dataset.ready);
   told("hasCurves", document.querySelectorAll("path.curve").length > 0);
+  told("whole", isWhole());
+  told("nearZeroOff", hidesWhatIsNearZero());
   told("network", performance.getEntriesByType("resource").filter(entry => !entry.name.startsWith("data:")).length);
   if (!canvas()) return;
   const slider = document.getElementById("frame"), last = Number(slider.max), field = document.getElementById("field").value;

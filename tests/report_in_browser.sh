@@ -49,7 +49,7 @@ check StaysSmall "${particles[@]}" material
 check ShowsLocalDensitiesAndContactsOfEveryFrame "${particles[@]}" contacts
 check ShowsBondsCracksAndFragmentsOfEveryFrame "${particles[@]}" bonds
 check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
-check compaction "${particles[@]}" material contacts
+check compaction "${particles[@]}" material contacts whole near-zero-off
 check lever "${everything[@]}"
 check ShowsTheCurvesOfARunWithoutFrames has-curves
 

@@ -42,14 +42,16 @@ function(add_python_module library)
   file(RELATIVE_PATH core /prefix/${PULVIS_PYTHON_DESTINATION}/pulvis /prefix/${CMAKE_INSTALL_LIBDIR}/pulvis)
   set_target_properties(pulvis_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${package}
                         INSTALL_RPATH "$ORIGIN/${core}")
-  target_link_libraries(pulvis_python PRIVATE ${library} pulvis_rules)
+  add_library(python_rules INTERFACE)  # linked last, so that its options are
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # g++ 12 warns of a null pointer inside pybind11
+    target_compile_options(python_rules INTERFACE -Wno-null-dereference)
+  endif()
+  target_link_libraries(pulvis_python PRIVATE ${library} pulvis_rules python_rules)
   # Kinds of columns are told apart by addresses (engine/component.hpp), which the core library must see, too. Of
   # pybind11's types, which are hidden, members of ours are made; nobody else sees these.
   set_target_properties(pulvis_python PROPERTIES CXX_VISIBILITY_PRESET default)
   target_compile_options(pulvis_python PRIVATE -Wno-attributes)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # g++ 12 warns of a null pointer inside pybind11
-    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
-  endif()
+  unity(pulvis_python)
   optimise(pulvis_python 2)
 
   # The build tree's package is made of links: a changed line of Python is there at once.

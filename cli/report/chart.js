@@ -104,6 +104,11 @@ function marksOf(xs, line, kx, ky, {px, py}, stroke) {
   }).join("");
 }
 
+// An abscissa may count things that have names.
+const abscissaTicks = ({names}, [low, high], count) => names ? names.map((_, i) => i).filter(i => i >= low && i <= high)
+  : niceTicks(low, high, Math.max(3, count));
+const abscissaText = ({names}, value) => names ? names[Math.round(value)] ?? "" : digits(value);
+
 // How a line looks, for the legend.
 const keySvg = ({dash, isMarks}, stroke) => `<svg width="26" height="8" viewBox="0 0 26 8">` + (isMarks
   ? `<circle cx="13" cy="4" r="3.5" fill="${stroke}"/>`
@@ -122,8 +127,9 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
                `viewBox="0 0 ${width} ${height + rows}" font-family="system-ui, sans-serif" font-size="12" ` +
                `fill="${colours.soft}">`];
   if (legend) out.push(`<rect width="100%" height="100%" fill="${colours.paper}"/>`);
-  for (const tick of niceTicks(...range.x, Math.max(3, (right - left) / 90))) {
-    out.push(line(px(tick), top, px(tick), bottom, colours.grid), text(px(tick), bottom + 16, "middle", digits(tick)));
+  for (const tick of abscissaTicks(spec.x, range.x, (right - left) / 90)) {
+    out.push(line(px(tick), top, px(tick), bottom, colours.grid),
+             text(Math.min(px(tick), width - 30), bottom + 16, "middle", abscissaText(spec.x, tick)));
   }
   for (const tick of niceTicks(...range.y, 5)) {
     out.push(line(left, py(tick), right, py(tick), colours.grid), text(left - 7, py(tick) + 4, "end", digits(tick)));
@@ -292,7 +298,7 @@ class Chart {
     const lines = (read.length ? read : spec.lines.filter((_, i) => !this.hidden.has(i)))
       .map(line => `${line.label} ${value(line.values[Math.min(sample, line.values.length - 1)], shown.y)}`);
     const xs = spec.x.values || [];
-    this.readout.textContent = (xs.length ? `${spec.x.label} ${value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
+    this.readout.textContent = (xs.length ? `${spec.x.label} ${spec.x.names ? abscissaText(spec.x, xs[sample]) : value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
   }
 
   // The frame that is shown elsewhere belongs to this sample.

@@ -47,6 +47,7 @@ function curvesOfAll(runs) {
 
 function placeCurves(runs, names) {
   let count = 0;
+  const told = new Set();
   for (const [title, model, labels] of curvesOfAll(runs)) {
     const choices = [...labels].map(x => [x, overlaid(runs, names, title, model, x)]).filter(choice => choice[1]);
     if (!choices.length) continue;
@@ -55,6 +56,9 @@ function placeCurves(runs, names) {
     const host = card(first.title, element("div", {className: "controls"}, element("label", {}, "against ", select)));
     const chart = drawChart(host, first);
     select.onchange = () => chart.show(choices[select.value][1]);
+    const {meaning} = runs.map(run => groupOf(run, title)).find(Boolean);
+    if (meaning && !told.has(title)) host.parentElement.append(element("p", {className: "note", textContent: meaning}));
+    told.add(title);
     count += first.lines.length;
   }
   document.body.dataset.lines = count;
@@ -156,6 +160,9 @@ async function main() {
   fillRuns(runs, names);
   onUnits(() => fillRuns(runs, names));
   const fields = views.filter(view => view instanceof FieldView), solids = views.filter(view => view instanceof SolidView);
+  fields.forEach(view => {
+    view.allNames = tag => [...new Set(runs.flatMap(run => (run.tags || []).filter(({name}) => name === tag).flatMap(({names}) => names)))];
+  });
   shareRanges(fields, view => view.position && (view.codes || view.tag || view.shown === "density"));
   shareRanges(solids, view => view.moved);
   const redraw = share => Promise.all(views.map(view => view.showShare(share))).then(() => views.forEach(view => view.draw()));

@@ -207,7 +207,7 @@ class FieldView {
     const none = theme().none.match(/\w\w/g).map(two => parseInt(two, 16)), plain = packed(...none);
     const count = this.run.cells.length / 4, colours = new Uint32Array(count).fill(plain);
     if (this.tag && this.tag.names.length) {
-      const {names, values} = this.tag, table = names.map((_, i) => packed(...tagColour(i, names.length)));
+      const {values} = this.tag, table = this.tagColours().map(rgb => packed(...rgb));
       return colours.map((_, c) => table[values[this.run.particleOf[c]]]);
     }
     if (this.tag) {
@@ -230,6 +230,12 @@ class FieldView {
       colours[c] = table[Math.max(0, Math.min(255, Math.floor((field.low + step * code - low) * factor)))];
     }
     return colours;
+  }
+
+  // One for each of its names; runs side by side have one for a name.
+  tagColours() {
+    const {tag} = this, all = this.allNames ? this.allNames(tag.name) : tag.names;
+    return tag.names.map(name => tagColour(all.indexOf(name), all.length));
   }
 
   get showsFragments() {
@@ -274,7 +280,7 @@ class FieldView {
       path.moveTo(at[2 * outline[i]], at[2 * outline[i] + 1]);
       path.lineTo(at[2 * outline[i + 1]], at[2 * outline[i + 1] + 1]);
     }
-    ctx.strokeStyle = isDark() && !this.codes ? "#c4cdd8" : "#1d2733";
+    ctx.strokeStyle = isDark() && !this.codes && !this.tag ? "#c4cdd8" : "#1d2733";
     ctx.lineWidth = 0.7;
     ctx.stroke(path);
   }
@@ -358,7 +364,7 @@ class FieldView {
 
   drawLegend(ctx) {
     const {width, room, height} = this.place, density = this.shown === "density", {tag} = this;
-    if (tag && tag.names.length) { drawTagLegend(ctx, room + 14, 16, tag, width - room - 14); return; }
+    if (tag && tag.names.length) { drawTagLegend(ctx, room + 14, 16, tag, this.tagColours(), width - room - 14); return; }
     if (!density && !tag && (!this.codes || this.showsFragments)) return;
     const [low, high] = this.range();
     if (!(low <= high)) return;  // of no cell

@@ -17,7 +17,7 @@ const figuresOf = run => FIGURES.flatMap(make => make(run)).filter(figure => fig
 const curvesOf = run => CURVES.flatMap(make => make(run)).filter(group => group && group.lines.length)
   .sort((a, b) => Boolean(b.first) - Boolean(a.first));
 
-const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times});
+const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times, names: run.isCalibration ? LOAD_CASE_NAMES : undefined});
 
 // What a panel works with: the run, links to the page's one time, and the runs that stand beside it.
 class Report {

@@ -5,6 +5,7 @@ const NO_NUMBER = 65535, MOST_KEPT_BYTES = 3e8;
 
 // The frames and samples of a calibration, as cli/session/afm_session.cpp writes them.
 const LOAD_CASES = ["at rest", "under a force normal to the sample", "under a lateral force", "under a force along the lever"];
+const LOAD_CASE_NAMES = ["at rest", "normal", "lateral", "axial"];
 const loadCase = number => LOAD_CASES[Math.round(number)] || `load case ${digits(number)}`;
 
 class Run {

@@ -31,11 +31,11 @@ function shortened(ctx, text, wide) {
 }
 
 // A square of its colour and the name of each.
-function drawTagLegend(ctx, left, top, {names}, room) {
+function drawTagLegend(ctx, left, top, {names}, colours, room) {
   ctx.textAlign = "left";
   names.forEach((name, i) => {
     const y = top + 20 * i;
-    ctx.fillStyle = `rgb(${tagColour(i, names.length).join(",")})`;
+    ctx.fillStyle = `rgb(${colours[i].join(",")})`;
     ctx.fillRect(left, y, 14, 14);
     ctx.strokeStyle = theme().edge;
     ctx.lineWidth = 1;

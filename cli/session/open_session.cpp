@@ -4,6 +4,7 @@
 
 #include "cli/save_scene.hpp"
 #include "engine/files/hdf5.hpp"
+#include "scenes/language/problem.hpp"
 #include "scenes/memory_need.hpp"
 
 namespace pulvis {
@@ -46,11 +47,12 @@ OpenFolder open_stopped(const std::filesystem::path& folder, bool driven_too) {
   require_own_results(folder);
   hdf5::File::open_to_change(folder / "run.h5").close();  // repairs it after a loss of power
   open.run = find_stopped_run(folder);
-  if (!driven_too && open.run.checkpoint->has_run("driven"))
-    throw CannotResume(
-        fmt::format("{}: cannot resume: the run was driven from Python, which the checkpoint does "
-                    "not hold; allowed: pulvis.resume(\"{}\") in Python, which drives it on",
-                    folder.string(), folder.string()));
+  const std::vector<std::string> driven = driven_in(*open.run.checkpoint);
+  if (!driven_too && !driven.empty())
+    throw CannotResume(fmt::format(
+        "{}: cannot resume: the run was driven from Python ({}), and nobody drives it here; "
+        "allowed: pulvis.resume(\"{}\") in Python",
+        folder.string(), listed(driven), folder.string()));
   clear_other_checkpoints(folder, open.run.checkpoint->info().run);
   return open;
 }

@@ -14,6 +14,7 @@
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
 #include "scenes/checks/setup_warnings.hpp"
+#include "scenes/language/problem.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/bond_results.hpp"
 
@@ -52,6 +53,15 @@ void check_limits(const Scene& scene, const Results& results, const World& world
 }
 
 }  // namespace
+
+std::vector<std::string> driven_in(const Checkpoint& checkpoint) {
+  std::vector<std::string> driven;
+  if (!checkpoint.has_run("driven")) return driven;
+  const std::vector<std::byte> words = checkpoint.run("driven");
+  StateReader reader(words);
+  reader(driven);
+  return driven;
+}
 
 Session::Session(LoadedScene scene, Options options, std::unique_ptr<Simulation> built)
     : loaded_(std::move(scene)),
@@ -99,13 +109,7 @@ void Session::go_on_from(const Checkpoint& checkpoint) {
   state(reader, position, seconds);
   const RunMesh mesh = results_.mesh();
   checkpoint.restore(simulation_->world());
-  if (checkpoint.has_run("driven")) {
-    const std::vector<std::byte> words = checkpoint.run("driven");
-    std::vector<std::string> driven;
-    StateReader reads(words);
-    reads(driven);
-    driven_.insert(driven.begin(), driven.end());
-  }
+  for (const std::string& what : driven_in(checkpoint)) driven_.insert(what);
   checkpoints_.resumed(clock().step, clock().time);
   recorder_ =
       std::make_unique<Recorder>(options_.folder, mesh, results_.series(), results_.fields(),
@@ -123,7 +127,14 @@ void Session::write_checkpoint() {
   double seconds = progress_->seconds();
   StateWriter writer;
   state(writer, position, seconds);
-  checkpoints_.write(clock().step, clock().time, simulation_->world(), {{"plane", writer.bytes()}});
+  StateParts parts{{"plane", writer.bytes()}};
+  if (!driven_.empty()) {
+    StateWriter words;
+    std::vector<std::string> driven(driven_.begin(), driven_.end());
+    words(driven);
+    parts.emplace("driven", words.bytes());
+  }
+  checkpoints_.write(clock().step, clock().time, simulation_->world(), parts);
 }
 
 // What broke since: the recorder knows how many rows it has.
@@ -259,6 +270,10 @@ RunQuality Session::quality() const {
                      run_quality(loaded_.scene, simulation_->world(), results_, found),
                      bending_warnings(loaded_.scene)};
   quality.warnings.insert(quality.warnings.end(), bond_warnings_.begin(), bond_warnings_.end());
+  if (!driven_.empty())
+    quality.warnings.push_back(
+        fmt::format("driven from Python ({}): the scene alone does not say what happened",
+                    listed({driven_.begin(), driven_.end()})));
   return quality;
 }
 

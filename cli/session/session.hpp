@@ -30,6 +30,9 @@
 
 namespace pulvis {
 
+// What had been changed from outside when it was written: Session::drive.
+std::vector<std::string> driven_in(const Checkpoint& checkpoint);
+
 class Session {
  public:
   // How far to go.

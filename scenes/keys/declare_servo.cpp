@@ -118,8 +118,9 @@ const TableDeclaration<UntilSpec>& until() {
        {{.name = "relative_density",
          .kind = Kind::number,
          .range = above(0, 2),
-         .doc = "Of the powder in a die of four planes; or in a periodic cell, when its strains have "
-                "come to rest.",
+         .doc =
+             "Of the powder in a die of four planes; or in a periodic cell, when its strains have "
+             "come to rest.",
          .fallback_doc = "none"},
         to(&UntilSpec::relative_density)}}};
   return declaration;

@@ -3,6 +3,7 @@
 
 #include "scenes/language/schema.hpp"
 #include "scenes/spec/afm_scene.hpp"
+#include "scenes/spec/die.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis::schema {
@@ -18,6 +19,7 @@ const TableDeclaration<GrainsSpec>& grains();
 const TableDeclaration<BodySpec>& body();
 const TableDeclaration<PackingSpec>& packing();
 const TableDeclaration<MixtureClass>& mixture_class();
+const TableDeclaration<DieSpec>& die();
 const TableDeclaration<CellSpec>& cell();
 const TableDeclaration<CellDriveSpec>& cell_drive();
 const TableDeclaration<ToolSpec>& tool();

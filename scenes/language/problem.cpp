@@ -20,20 +20,23 @@ std::string all_lines(const std::vector<SceneProblem>& problems) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-// Levenshtein's distance: insertions, deletions and replacements that turn one word into the other.
+// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other (optimal string
+// alignment).
 std::size_t distance(const std::string& from, const std::string& to) {
-  std::array<std::size_t, longest_word + 1> row{};
-  std::iota(row.begin(), row.end(), std::size_t{0});
+  std::array<std::size_t, longest_word + 1> before{}, last{}, row{};
+  std::iota(last.begin(), last.end(), std::size_t{0});
   for (std::size_t i = 1; i <= from.size(); ++i) {
-    std::size_t diagonal = row[0];
     row[0] = i;
     for (std::size_t j = 1; j <= to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i - 1] == to[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+      const std::size_t replaced = last[j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1);
+      row[j] = std::min({replaced, last[j] + 1, row[j - 1] + 1});
+      if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
+    before = last;
+    last = row;
   }
-  return row[to.size()];
+  return last[to.size()];
 }
 
 }  // namespace

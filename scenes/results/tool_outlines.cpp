@@ -48,8 +48,11 @@ ToolOutlines::ToolOutlines(const Scene& scene, const World& world, const std::ve
     if (tool.shape == ToolSpec::Shape::constraint) continue;
     const bool plane = tool.shape == ToolSpec::Shape::plane;
     if (!plane && tool.points.size() < 2) continue;
-    bodies_.push_back({t, tool.name, face_normal(tool),
-                       plane ? std::vector<Vec2>{} : endless_face(tool, place_of(world, t))});
+    Body body{t, tool.name, face_normal(tool), {}};
+    if (!plane) body.face = endless_face(tool, place_of(world, t));
+    for (const Vec2& p : body.face)
+      if (&p == &body.face.front() || body.normal.dot(p - body.foremost) > 0) body.foremost = p;
+    bodies_.push_back(std::move(body));
   }
 }
 
@@ -101,8 +104,8 @@ void ToolOutlines::clip(const World& world, const Body& wall, const Body& punch,
                         double& to) const {
   const double slope = wall.normal.dot(along(punch.normal));
   if (std::abs(slope) < 1e-9) return;
-  const double at =
-      wall.normal.dot(place_of(world, wall.tool) - place_of(world, punch.tool)) / slope;
+  const Vec2 apart = place_of(world, wall.tool) + wall.foremost - place_of(world, punch.tool);
+  const double at = wall.normal.dot(apart) / slope;
   slope > 0 ? from = std::max(from, at) : to = std::min(to, at);
 }
 
@@ -117,7 +120,7 @@ std::vector<Vec2> ToolOutlines::face_of_plane(const World& world, const Body& pl
   double left = from, right = to;
   if (!is_wall(plane.normal))
     for (const Body& other : bodies_)
-      if (other.face.empty() && is_wall(other.normal)) clip(world, other, plane, left, right);
+      if (is_wall(other.normal)) clip(world, other, plane, left, right);
   if (left < right) from = left, to = right;  // else it stands outside of them
   return {at + from * tangent, at + to * tangent};
 }

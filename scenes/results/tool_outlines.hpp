@@ -29,8 +29,9 @@ class ToolOutlines {
   struct Body {
     std::size_t tool;
     std::string name;
-    Vec2 normal;             // out of its face
-    std::vector<Vec2> face;  // of a polyline, from the tool's place; empty: of a plane
+    Vec2 normal;                   // out of its face
+    std::vector<Vec2> face;        // of a polyline, from the tool's place; empty: of a plane
+    Vec2 foremost = Vec2::Zero();  // of a polyline's points, the one furthest along the normal
   };
   void take_in(const Vec2& point);
   std::vector<Vec2> face_of_plane(const World& world, const Body& plane) const;

@@ -58,6 +58,17 @@ def test_a_picture_goes_into_axes_of_ones_own(compact):
     assert figure.get_size_inches() == pytest.approx(plt.rcParams["figure.figsize"])
 
 
+def test_axes_of_ones_own_keep_their_letters_and_lines(compact):
+    run = pulvis.open(compact)
+    with plt.rc_context({"font.size": 6}):
+        _, (left, right) = plt.subplots(1, 2)
+        run.plot.network(ax=left)
+    assert {bar.yaxis.label.get_size() for bar in bars(left)} == {6}
+    lines = next(c for c in left.collections if c.get_array() is not None)
+    alone = next(c for c in run.plot.network()[1].collections if c.get_array() is not None)
+    assert 0 < max(lines.get_linewidths()) < 0.6 * max(alone.get_linewidths())  # of half a figure
+
+
 def test_drawing_leaves_the_look_of_other_figures_alone(compact):
     before = dict(matplotlib.rcParams)
     pulvis.open(compact).plot.field(width="85mm")
@@ -235,6 +246,18 @@ def test_films_are_made_from_python(compact, tmp_path):
     with Image.open(tmp_path / "run.gif") as film:
         assert film.n_frames == 5 and film.size[0] == int(85 / 25.4 * 40)
     assert axes.get_title("left").startswith("Effective stress at 20 µs")
+    assert len(figure.axes) == 1 and bars(axes)[0].get_ylabel().startswith(r"Effective stress $\sigma_\mathrm{eff}$ / ")
+
+
+def test_a_film_keeps_colours_and_legend(tagged, tmp_path):
+    run = pulvis.open(tagged)
+    _, axes = run.plot.animate("material", tmp_path / "m.gif", dpi=30)
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["steel", "copper"]
+    _, axes = run.plot.animate("pressure", tmp_path / "p.gif", dpi=30)
+    pressures = [frame.field("pressure") for frame in run.frames]
+    ends = np.array([np.min(pressures), np.max(pressures)])
+    unit = {"kPa": 1e-3, "MPa": 1e-6, "GPa": 1e-9}[bars(axes)[0].get_ylabel().split(" / ")[1]]
+    assert bars(axes)[0].get_ylim() == pytest.approx(unit * ends)  # of all frames
 
 
 @pytest.mark.parametrize("dpi", [60, 150, 300])

@@ -4,6 +4,7 @@ import json
 import os
 import re
 import subprocess
+import sys
 import time
 
 import h5py
@@ -117,6 +118,14 @@ def test_what_is_no_run_is_refused_by_name(compact, study, tmp_path):
                         (lambda: run.frame(0).field("stres"), "effective_stress")):
         with pytest.raises(pulvis.RunError, match=says):
             wrong()
+
+
+def test_arrays_need_no_pandas_and_tables_say_so(compact, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    run = pulvis.open(compact)
+    assert run.series("dt").size and run.frame(-1).field("pressure").size and run.plot.forces()
+    with pytest.raises(pulvis.RunError, match="apt install python3-pandas"):
+        run.history  # pylint: disable=pointless-statement
 
 
 def test_a_friction_loop_is_handed_back_way_by_way(loop):

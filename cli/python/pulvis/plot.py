@@ -58,7 +58,7 @@ class Plot:
         return f"<pictures of {self._run!r}: {', '.join(name for name in dir(self) if not name.startswith('_'))}>"
 
     def _drawn(self, draw, what, options, ax=None, **more):
-        with plt.rc_context({**options.style(), "figure.dpi": options.dpi}):
+        with plt.rc_context(options.context(ax)):
             figure = draw(self._run, options, *(() if ax is None else (ax,)), **more)
         if figure is None:
             needs = f": the scene needs {NEEDS[what]}" if what in NEEDS else ""
@@ -116,7 +116,7 @@ class Plot:
     def animate(self, name: str, path: str | os.PathLike[str], ax: Axes | None = None, per_second: int = 12, **look: Any) -> Any:
         """Writes all frames of a field as .mp4 (needs ffmpeg) or .gif."""
         options = options_of(look, field=name)
-        with plt.rc_context({**options.style(), "figure.dpi": options.dpi}):
+        with plt.rc_context(options.context(ax)):
             return animate(self._run, path, options, ax, per_second)
 
     def solid(self, frame: int = -1, **look: Any) -> tuple[Figure, Axes]:

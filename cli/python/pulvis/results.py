@@ -40,7 +40,10 @@ def open(folder: str | os.PathLike[str]) -> Run:  # noqa: A001  (pulvis.open)
 
 def table(columns, index=None, name=None):
     """DataFrame of columns {name: (values, unit)}; `attrs["units"]` has their units."""
-    import pandas
+    try:
+        import pandas
+    except ImportError as error:
+        raise RunError("tables need pandas (Debian: apt install python3-pandas); series and fields do not") from error
 
     frame = pandas.DataFrame({key: values for key, (values, _) in columns.items()}, index=index)
     frame.index.name = name

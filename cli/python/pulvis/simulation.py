@@ -300,7 +300,7 @@ def resume(folder: str | os.PathLike[str], threads: int = 0, checkpoint_every: f
     from pulvis.scene import Scene
 
     folder = Path(folder)
-    if _core.is_lever_folder(os.fspath(folder)):
+    if (folder / "scene.toml").is_file() and _core.is_lever_folder(os.fspath(folder)):
         from pulvis.afm import Lever
 
         return Lever.resumed(folder, threads)

@@ -160,7 +160,7 @@ class Study:
         options, curves = options_of(look), self._read("curves.json")
         if not 0 <= number < len(curves):
             raise RunError(f"{self.folder}: chart {number}: there are 0 to {len(curves) - 1}", self.folder)
-        with plt.rc_context({**options.style(), "figure.dpi": options.dpi}):
+        with plt.rc_context(options.context(ax)):
             figure = draw(curves[number], self.title, options, ax)
         if figure is None:
             raise RunError(f"{self.folder}: no run has what chart {number} shows", self.folder)

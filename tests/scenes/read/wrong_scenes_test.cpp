@@ -60,7 +60,7 @@ const Wrong cases[] = {
      "yield_stress",
      "@yield_stres",
      "material[0].yield_stres",
-     {"unknown key", "did you mean 'yield_stress'?", "allowed: name, density"}},
+     {"unknown key", "did you mean 'yield_stress'?", "allowed: name, library, elastic, density"}},
     {"MisspeltTopLevelKey", "thickness", "@thicknes", "thicknes", {"did you mean 'thickness'?"}},
     {"UnknownTable", "[time]", "[@tiem]", "tiem", {"unknown table", "did you mean 'time'?"}},
     {"UnknownSubTable",

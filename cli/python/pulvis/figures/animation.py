@@ -35,7 +35,7 @@ def writer_for(path, per_second=PER_SECOND):
 
 
 def film(run, options=None, into=None):
-    """(figure, axes, a function that draws frame k)."""
+    """(figure, axes, a function that draws frame k, its bar or legend with it: they go with what is cleared)."""
     options = options or Options()
     if run.is_solid or not run.frames:
         raise PulvisError("--animate: only a powder's fields are animated; this run has "
@@ -47,16 +47,13 @@ def film(run, options=None, into=None):
     limits = np.array([ends[:, 0].min(axis=0), ends[:, 1].max(axis=0)])
     size, beside = shape_of(limits)
     figure, axes = sheet(options, size, into, beside)
-    colours.key(figure, axes)
-    legend = axes.get_legend()
 
     def show(k):
         axes.clear()
         cell = paint(run, axes, run.frames[k], fields[k], colours, options, limits)
         if fields[k].name in BOND_FIELDS:
             draw_bonds(run, None, axes, run.frames[k], cell)
-        if legend is not None:
-            axes.add_artist(legend)
+        colours.key(figure, axes)
         return []
 
     show(0)
@@ -71,6 +68,8 @@ def animate(run, path, options=None, axes=None, per_second=PER_SECOND):
     figure, axes, show = film(run, options, axes)
     figure.canvas.draw()
     figure.set_layout_engine("none")  # laid out once: what follows stays in its place
-    moving = animation.FuncAnimation(figure, show, frames=len(run.frames), blit=False, repeat=False)
-    moving.save(path, writer=writer, dpi=min(options.dpi, MOST_DPI))
+    with writer.saving(figure, str(path), min(options.dpi, MOST_DPI)):
+        for k in range(len(run.frames)):
+            show(k)
+            writer.grab_frame()
     return figure, axes

@@ -7,7 +7,7 @@ from matplotlib.ticker import MaxNLocator
 
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import fragment_colours
-from pulvis.figures.look import Options, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
 from pulvis.figures.tools import draw_tools, outlines
 
 BOND_FIELDS = ("damage", "fragment")  # over them bonds and cracks are drawn
@@ -19,8 +19,9 @@ def lines_of(frame, group):
     return 1e3 * np.stack([frame[f"{group}/start"][()], frame[f"{group}/end"][()]], axis=1)
 
 
-def draw_bonds(run, figure, axes, frame, cell):
-    """Thin lines along the bonds, and what is broken by the mode in which it broke; in `figure` their colours, if any."""
+def draw_bonds(run, figure, axes, frame, cell, alone=False):
+    """Thin lines along the bonds, and what is broken by the mode in which it broke; in `figure` their colours, if any:
+    below, or beside if they stand `alone`."""
     bonds, broken = lines_of(frame, "bonds"), lines_of(frame, "cracks")
     shear = run.file["cracks/shear"][:len(broken)]
     broken = broken[:len(shear)]  # of a run that was killed the newest rows may be missing
@@ -31,8 +32,13 @@ def draw_bonds(run, figure, axes, frame, cell):
     drawn = LineCollection(broken, array=shear, cmap=MODES, clim=(0, 1),
                            linewidths=1.6, capstyle="round", zorder=4)
     axes.add_collection(drawn)
-    if len(broken) and figure is not None:
-        bar = figure.colorbar(drawn, ax=axes, shrink=0.9, label="cracks: share of shear (0 mode I, 1 mode II)")
+    if not len(broken):
+        return
+    if alone:
+        bar_beside(figure, axes, drawn, "Share of shear (0 mode I, 1 mode II)")
+    elif figure is not None:
+        bar = figure.colorbar(drawn, ax=axes, location="bottom", shrink=0.8, aspect=40,
+                              label="Cracks: share of shear (0 mode I, 1 mode II)")
         bar.outline.set_visible(False)
 
 
@@ -53,7 +59,7 @@ def cracks(run, options=None, into=None):
     edges = outlines(quads)
     axes.add_collection(LineCollection(1e3 * position[edges], colors="#8b96a3", linewidths=0.4))
     cell.draw(axes, colours, edges)
-    draw_bonds(run, figure, axes, frame, cell)
+    draw_bonds(run, figure, axes, frame, cell, alone=True)
     draw_tools(run, axes, frame, limits / 1e3)
     set_axes(axes, limits)
     count = len(frame["fragments/number"])
@@ -84,7 +90,8 @@ def breaking(run, options=None):
         for name, values in series.items():
             axes.plot(factor * time, size * values, label=names[name])
             figure.table.append((name, si, values))
-        axes.set_ylabel(worded(label, shown))
+        text = worded(label, shown)
+        axes.set_ylabel(text.replace(" $", "\n$", 1) if options.narrow else text)
         if len(names) > 1:
             axes.legend()
     places[-1].yaxis.set_major_locator(MaxNLocator(integer=True))

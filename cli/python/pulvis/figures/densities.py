@@ -6,25 +6,27 @@ from pulvis.figures.colours import colour_map
 from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, sheet
 from pulvis.figures.names import label
 
+LETTERS = 20  # points that a density takes, written in
 MAPS = 4  # density maps side by side: evenly over the run, the last frame among them
 
 
-def chosen_frames(run, options):
+def chosen_frames(run, options, count=MAPS):
     """Of those with anything between the tools: a compact may have left its die."""
     frames = [run.frame(number) for number in
               ([options.frame] if options.frame is not None else range(len(run.frames)))]
     frames = [frame for frame in frames if np.isfinite(frame["local_density"][()]).any()]
-    numbers = np.unique(np.linspace(0, len(frames) - 1, MAPS).round().astype(int))
+    numbers = np.unique(np.linspace(0, len(frames) - 1, count).round().astype(int))
     return [frames[number] for number in numbers] if frames else []
 
 
-def draw_map(axes, frame, low, high, colours):
-    """The cells of one frame, with their densities written in where there is room."""
+def draw_map(axes, frame, ends, colours, room):
+    """The cells of one frame, with their densities written in where there is room: points along its width."""
+    low, high = ends
     density = frame["local_density"][()].reshape(len(frame["density_grid/y"]) - 1, -1)
     x, y = 1e3 * frame["density_grid/x"][()], 1e3 * frame["density_grid/y"][()]
     mesh = axes.pcolormesh(x, y, density, cmap=colours, vmin=low, vmax=high, edgecolors="white",
                            linewidth=0.5)
-    if density.shape[1] <= 8:
+    if density.shape[1] * LETTERS <= room:
         for (j, i), value in np.ndenumerate(density):
             if np.isfinite(value):
                 dark = (value - low) / (high - low) > 0.6
@@ -45,7 +47,8 @@ def density_table(frame):
 def local_density(run, options=None, axes=None):
     """Maps at several times, or of the frame asked for."""
     options = options or Options()
-    frames = chosen_frames(run, options) if recorded(run, options, "local_density") is not None else []
+    count = MAPS // 2 if options.narrow else MAPS
+    frames = chosen_frames(run, options, count) if recorded(run, options, "local_density") is not None else []
     if not frames:
         return None
     values = np.concatenate([frame["local_density"][()].ravel() for frame in frames])
@@ -58,7 +61,7 @@ def local_density(run, options=None, axes=None):
     else:
         figure, places, frames = axes.figure, [axes], frames[-1:]
     for place, frame in zip(places, frames):
-        mesh = draw_map(place, frame, low, high, colour_map(options))
+        mesh = draw_map(place, frame, (low, high), colour_map(options), 50 * figure.get_figwidth() / len(frames))
     places[0].set_ylabel("$y$ / mm")
     if len(places) == 1:
         bar_beside(figure, places[0], mesh, label("local_density", ""))
@@ -68,8 +71,7 @@ def local_density(run, options=None, axes=None):
         figure.colorbar(mesh, ax=places, label=label("local_density", ""), shrink=0.85).outline.set_visible(False)
     if options.title and len(places) > 1:
         figure.suptitle(f"Local relative density\n{run.title}", x=0.01, ha="left", fontsize=plt.rcParams["axes.titlesize"])
-    if len(places) == 1:
-        close_up(figure, options, axes)
+    close_up(figure, options, axes)
     figure.table = density_table(frames[-1])
     return figure
 

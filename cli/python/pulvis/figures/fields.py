@@ -70,7 +70,9 @@ def paint(run, axes, frame, field, colours, options, limits=None):
     cell.draw(axes, faces.get_facecolor(), edges, edge)
     draw_tools(run, axes, frame, limits / 1e3)
     set_axes(axes, limits)
-    options.head(axes, f"{capital(name_of(field.key, field.components).words)} at {moment(frame)}", run)
+    name = name_of(field.key, field.components)
+    part = f" ${name.symbol}$" if ":" in field.key else ""  # which component
+    options.head(axes, f"{capital(name.words)}{part} at {moment(frame)}", run)
     return cell
 
 

@@ -1,5 +1,6 @@
 """What all figures have in common: their look, their size, units, and how lines are drawn."""
 import csv
+import textwrap
 from dataclasses import dataclass, field as of_dataclass
 
 import numpy as np
@@ -19,6 +20,8 @@ NARROW = {"font.size": 8, "axes.titlesize": 8.5, "lines.linewidth": 1.2, "axes.l
           "xtick.major.width": 0.6, "ytick.major.width": 0.6}
 NARROW_BELOW = 120 / 25.4  # inches
 
+MANY_LINES = 5
+
 
 @dataclass
 class Options:
@@ -37,9 +40,17 @@ class Options:
     dpi: float = 200
     vector: bool = False     # SVG or PDF
 
+    @property
+    def narrow(self):
+        return bool(self.width) and self.width < NARROW_BELOW
+
     def style(self):
         """For plt.rc_context."""
-        return {**STYLE, **(NARROW if self.width and self.width < NARROW_BELOW else {})}
+        return {**STYLE, **(NARROW if self.narrow else {})}
+
+    def context(self, axes=None):
+        """For plt.rc_context, in Python: axes of somebody else keep the look of their figure."""
+        return {} if axes is not None else {**self.style(), "figure.dpi": self.dpi}
 
     def size(self, wide, tall, beside=0.0):
         """Inches of a figure that is wide x tall by itself; `beside`: of its height what does not grow with its width."""
@@ -57,7 +68,13 @@ class Options:
     def head(self, axes, text, run=None):
         """The title of axes."""
         if self.title:
-            axes.set_title(text if run is None else f"{text}\n{run.title}", loc="left")
+            letters = int((self.width or 7.2) * 72 * 0.8 / (0.5 * plt.rcParams["axes.titlesize"]))
+            lines = (text if run is None else f"{text}\n{run.title}").split("\n")
+            axes.set_title("\n".join(textwrap.fill(line, letters) for line in lines), loc="left")
+
+    def broken(self, text):
+        """The label of an axis, in two lines where it is longer than the side of a narrow figure."""
+        return text.replace(" $", "\n$", 1) if self.narrow and len(plain(text)) > 24 else text
 
 
 def sheet(options, size, axes=None, beside=0.0):
@@ -128,19 +145,30 @@ def worded(name, unit):
     return over(capital(words) + (f" ${symbol}$" if symbol else ""), unit)
 
 
-def draw_lines(run, x, lines, ylabel, title, options=None, axes=None):
+def place_legend(axes, count, options):
+    """Beside the curves where they are many, or below them where there is no room beside."""
+    if count < MANY_LINES:
+        axes.legend()
+    elif options.narrow:
+        axes.legend(loc="upper center", bbox_to_anchor=(0.45, -0.24), ncol=2)
+    else:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
+
+
+def draw_lines(run, x, lines, ylabel, title, options=None, into=None):
     """x: (key, values, unit); lines: [(label, values, unit)] of one unit; ylabel: a key of the table of names,
     or (words, symbol)."""
     options = options or Options()
-    figure, axes = sheet(options, (6.4, 4.2), axes)
+    below = 0.16 * ((len(lines) + 1) // 2) if options.narrow and len(lines) >= MANY_LINES else 0
+    figure, axes = sheet(options, (6.4, 4.2 + below), into, below)
     x_factor, x_unit = unit_for(x[2], x[1])
     factor, unit = unit_for(lines[0][2], np.concatenate([values for _, values, _ in lines]))
     for one, values, _ in lines:
         axes.plot(x_factor * x[1], factor * values, label=one)
     axes.set_xlabel(worded(x[0], x_unit))
-    axes.set_ylabel(worded(ylabel, unit))
+    axes.set_ylabel(options.broken(worded(ylabel, unit)))
     options.head(axes, title, run)
     if len(lines) > 1:
-        axes.legend()
+        place_legend(axes, len(lines) if into is None else 0, options)
     figure.table = [(x[0], x[2], x[1]), *((plain(one), unit, values) for one, values, unit in lines)]
     return figure

@@ -35,8 +35,8 @@ def contact_network(run, options=None, into=None):
     size = 1e3 * np.sqrt(np.prod(np.ptp(position, axis=0)) / len(frame["particle_centre"]))
     inches, beside = shape_of(limits)
     figure, axes = sheet(options, inches, into, beside)
-    wide = options.width or inches[0]
-    points = 72 * wide / 1.2 / np.ptp(limits[:, 0]) * 0.28 * size  # of the strongest line
+    wide = (options.width or inches[0]) / 1.2 if into is None else into.get_window_extent().width / figure.dpi
+    points = 72 * wide / np.ptp(limits[:, 0]) * 0.28 * size  # of the strongest line
     low, high = options.clim(np.append(force, 0), "N")
     axes.add_collection(PolyCollection(1e3 * position[chained], color="#fbdccb", linewidths=seam(options)))
     edges = outlines(quads)

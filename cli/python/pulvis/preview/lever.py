@@ -253,7 +253,8 @@ class LeverDrawing:
         picture = axes.imshow(up * (heights - heights.min()), origin="lower", cmap="Greys_r", gid="map",
                               extent=(-half[0], half[0], -half[1], half[1]), interpolation="nearest")
         axes.set(xlabel=f"along x [{unit}]", ylabel=f"across y [{unit}]")
-        axes.set_title("Surface from above; + is under the tip", loc="left", fontsize=9, fontweight="bold", pad=4)
+        axes.set_title("Surface from above; + is under the tip", loc="left", fontsize=9, fontweight="bold", color=INK,
+                       pad=4)
         bar = sheet.figure.colorbar(picture, ax=axes, label=f"height [{high_unit}]", fraction=0.05, pad=0.04)
         bar.outline.set_visible(False)
         scans, rasters = self.path()
@@ -304,7 +305,7 @@ class LeverDrawing:
         axes.set_yticks([])
         axes.spines["left"].set_visible(False)
         axes.set_title("Tip and surface" + (f", heights × {higher}" if higher > 1 else ", to scale"), loc="left",
-                       fontsize=9, fontweight="bold", pad=4)
+                       fontsize=9, fontweight="bold", color=INK, pad=4)
         labels = Labels(axes)
         self.draw_tip(axes, labels, (factor, higher), tip, np.interp(0, *profile.T))
         for k, (i, begin, end) in enumerate([one for one in scans if abs(one[2] - one[1])[axis] > 0][:4]):
@@ -386,8 +387,9 @@ class LeverDrawing:
         if "coating" in lever:
             column.line(f"coating of {lever['coating']}, {words.quantity(lever['coating_thickness'], 'm')}",
                         swatch[lever["coating"]])
-        if "rough_stiffness" in lever:
-            column.line(f"As a simple beam about {lever['rough_stiffness']:.2g} N/m")
+        stiffness = lever.get("rough_stiffness")
+        if stiffness:
+            column.line(f"As a simple beam about {words.number(float(f'{stiffness:.2g}'))} N/m")
         column.heading("Tip")
         if tip["shape"] == "none":
             column.line("none: loads act on the lever's lower face")

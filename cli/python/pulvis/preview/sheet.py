@@ -183,7 +183,7 @@ class Programme:
                               va="center", color="white", fontsize=7, fontweight="bold",
                               bbox={"boxstyle": "circle,pad=0.2", "facecolor": stage_colour(i), "edgecolor": "none"})
             room = self.PLACES[1] - self.PLACES[0]
-            name = name if len(wrapped(name, room)) == 1 else wrapped(name, room - 0.1)[0] + "…"
+            name = name if len(wrapped(name, room, 9.6)) == 1 else wrapped(name, room - 0.15, 9.6)[0] + "…"  # bold
             sheet.text(MARGIN + self.PLACES[0], top, name, fontweight="bold")
             sheet.text(MARGIN + self.PLACES[1], top, kind)
             sheet.text(MARGIN + self.PLACES[2], top, duration)

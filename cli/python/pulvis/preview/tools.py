@@ -227,7 +227,10 @@ class Tools:
             low, high = (factor * np.array(tool[key]) for key in ("low", "high"))
             axes.add_patch(Rectangle(low, *(high - low), fill=False, edgecolor=HELD, linewidth=1.1, linestyle="--",
                                      zorder=7))
-        self.draw_held_moves(axes, labels, tool, nodes.mean(axis=0) / factor, factor)
+        middle = nodes.mean(axis=0)
+        if tool["holds"] == "radial":  # at one of them for all
+            middle = nodes[np.argmax(nodes[:, 0])]
+        self.draw_held_moves(axes, labels, tool, middle / factor, factor)
 
     def acts_of(self, tool):
         """[(stage, direction, text)] of a tool's moves and forces."""

@@ -12,7 +12,7 @@ def prefix_for(value, unit):
     for factor, prefix in PREFIXES:
         if unit[0] == "m" and factor > 1:  # no kilometres
             continue
-        if size >= 0.9995 * factor:
+        if size >= 0.99995 * factor:
             return 1 / factor, prefix + unit
     return 1e12, "p" + unit
 
@@ -64,6 +64,9 @@ def way(vector):
 
 
 def move_text(move):
+    if "radial" in move:
+        return (f"{move['tool']} by {quantity(abs(move['radial']), 'm')} {'outwards' if move['radial'] > 0 else 'inwards'}"
+                f" at up to {quantity(move['speed'], 'm/s')}")
     text = (f"{move['tool']} {way(move['displacement'])} {quantity(math.hypot(*move['displacement']), 'm')}"
             f" at up to {quantity(move['speed'], 'm/s')}")
     return text + (f" by a spring of {quantity(move['stiffness'], 'N/m')}" if "stiffness" in move else "")

@@ -1,0 +1,208 @@
+#include "scenes/fill_die.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "scenes/keys/tables.hpp"
+#include "scenes/language/table_reader.hpp"
+
+namespace pulvis {
+namespace {
+
+using document::Array;
+using document::Entry;
+using document::Origin;
+using document::Table;
+using document::Value;
+
+struct Wall {
+  const char* name;
+  int normal_x, normal_y;
+};
+constexpr std::array<Wall, 4> walls{
+    {{"left", 1, 0}, {"right", -1, 0}, {"bottom", 0, 1}, {"top", 0, -1}}};
+
+Value length_of(double metres, const Origin& origin) {
+  return {fmt::format("{} m", metres), origin};
+}
+Value place_of(const Vec2& place, const Origin& origin) {
+  return {Array{length_of(place.x(), origin), length_of(place.y(), origin)}, origin};
+}
+
+// An array of tables; nothing where it is something else, which the reader refuses.
+Array* elements_of(Table& root, const char* key) {
+  Entry* entry = document::find(root, key);
+  if (entry == nullptr || !document::is_array_of_tables(entry->value)) return nullptr;
+  return &entry->value.get<Array>();
+}
+
+// The value of a key as its declaration has it; nothing where it is missing or wrong, which the reader tells.
+std::optional<schema::Decoded> value_in(const Table& table, const char* declared, const char* key) {
+  const Entry* entry = document::find(table, key);
+  if (entry == nullptr) return std::nullopt;
+  const schema::TableView& view = *schema::find_table(declared, schema::scene_language());
+  try {
+    return schema::decode(*schema::find_key(view, key), entry->value, {});
+  } catch (const schema::Refusal&) {
+    return std::nullopt;
+  }
+}
+
+bool is_kind(const Table& packing, std::initializer_list<const char*> kinds) {
+  const std::string* kind = document::find_text(packing, "kind");
+  return kind != nullptr &&
+         std::ranges::any_of(kinds, [&](const char* one) { return *kind == one; });
+}
+
+class DieFiller {
+ public:
+  DieFiller(Table& root, Value die, const Origin& origin, Problems& problems)
+      : root_(root), origin_(origin), problems_(problems) {
+    const Table nothing;
+    schema::TableReader(nothing, problems, schema::scene_language())
+        .read(schema::die(), die, "die", "", spec_);
+  }
+
+  void fill() {
+    packings_ = elements_of(root_, "packing");
+    if (packings_ != nullptr && packings_->size() == 1) take_over(packings_->front().get<Table>());
+    if (!spec_.width) {
+      problems_.add(origin_, "die.width",
+                    "required key is missing, allowed: a quantity in m; without it there must be "
+                    "one packing that says how wide it is");
+      return;
+    }
+    for (std::size_t i = 0; packings_ != nullptr && i < packings_->size(); ++i)
+      fill_packing((*packings_)[i].get<Table>(), fmt::format("packing[{}]", i));
+    for (const Wall& wall : walls)
+      if (wall.normal_y >= 0 || (packings_ != nullptr && !packings_->empty())) stand(wall);
+  }
+
+ private:
+  // What [die] leaves open and the one packing says.
+  void take_over(const Table& packing) {
+    if (!spec_.corner)
+      if (const auto corner = value_in(packing, "packing", "corner")) spec_.corner = corner->vector;
+    if (spec_.width) return;
+    if (const auto width = value_in(packing, "packing", "width")) spec_.width = width->number;
+    const auto columns = value_in(packing, "packing", "columns");
+    const std::optional<double> spacing = spacing_in(packing);
+    if (columns && spacing) spec_.width = static_cast<double>(columns->integer) * *spacing;
+  }
+
+  std::optional<double> spacing_in(const Table& packing) {
+    if (const auto spacing = value_in(packing, "packing", "spacing")) return spacing->number;
+    const std::string* name = document::find_text(packing, "particle");
+    const Array* particles = elements_of(root_, "particle");
+    for (std::size_t i = 0; name != nullptr && particles != nullptr && i < particles->size(); ++i) {
+      const Table& particle = (*particles)[i].get<Table>();
+      const std::string* own = document::find_text(particle, "name");
+      if (own == nullptr || *own != *name) continue;
+      if (const auto diameter = value_in(particle, "particle", "diameter")) return diameter->number;
+    }
+    return std::nullopt;
+  }
+
+  Vec2 corner() const { return spec_.corner.value_or(Vec2::Zero()); }
+  bool differs(double a, double b) const { return std::abs(a - b) > 1e-9 * *spec_.width; }
+
+  void fill_packing(Table& packing, const std::string& path) {
+    if (is_kind(packing, {"random"})) {
+      const auto width = value_in(packing, "packing", "width");
+      if (document::find(packing, "width") == nullptr)
+        packing.push_back({"width", origin_, length_of(*spec_.width, origin_)});
+      else if (width && differs(width->number, *spec_.width))
+        problems_.add(document::find(packing, "width")->origin, path + ".width",
+                      fmt::format("is {:g} m, but the die is {:g} m wide, allowed: one of them",
+                                  width->number, *spec_.width));
+    }
+    if (spec_.corner && is_kind(packing, {"random", "square", "hexagonal"}) &&
+        document::find(packing, "corner") == nullptr)
+      packing.push_back({"corner", origin_, place_of(corner(), origin_)});
+  }
+
+  void stand(const Wall& wall) {
+    if (Array* tools = elements_of(root_, "tool"))
+      for (std::size_t i = 0; i < tools->size(); ++i) {
+        const Table& tool = (*tools)[i].get<Table>();
+        const std::string* name = document::find_text(tool, "name");
+        if (name != nullptr && *name == wall.name)
+          return compare(wall, tool, fmt::format("tool[{}].point", i));
+      }
+    const auto name_it = [&](const char* key, Value value) {
+      return Entry{key, origin_, {std::move(value.data), origin_}};
+    };
+    const Array normal{{std::int64_t{wall.normal_x}, origin_},
+                       {std::int64_t{wall.normal_y}, origin_}};
+    Table tool{name_it("name", {std::string(wall.name), origin_}),
+               name_it("shape", {std::string("plane"), origin_}), name_it("point", point_of(wall)),
+               name_it("normal", {normal, origin_})};
+    Entry* entry = document::find(root_, "tool");
+    if (entry == nullptr) {
+      root_.push_back({"tool", origin_, {Array{}, origin_}});
+      entry = &root_.back();
+    }
+    if (Array* all = entry->value.as<Array>()) all->push_back({std::move(tool), origin_});
+  }
+
+  Value point_of(const Wall& wall) const {
+    const double x = wall.normal_x < 0 ? corner().x() + *spec_.width : corner().x();
+    Value point = place_of({x, corner().y()}, origin_);
+    if (wall.normal_y < 0) point.get<Array>()[1].data = std::string("packing top");
+    return point;
+  }
+
+  // A wall that the scene has itself must stand where the die's is; punches stand where they like.
+  void compare(const Wall& wall, const Table& tool, const std::string& path) {
+    const std::string* shape = document::find_text(tool, "shape");
+    const auto point = value_in(tool, "tool", "point");
+    if (wall.normal_x == 0 || shape == nullptr || *shape != "plane" || !point) return;
+    const double x = corner().x() + (wall.normal_x < 0 ? *spec_.width : 0);
+    if (differs(point->vector.x(), x))
+      problems_.add(document::find(tool, "point")->origin, path,
+                    fmt::format("stands at x = {:g} m, but this side of the die is at {:g} m, "
+                                "allowed: there, or no tool '{}'",
+                                point->vector.x(), x, wall.name));
+  }
+
+  Table& root_;
+  Origin origin_;
+  Problems& problems_;
+  DieSpec spec_;
+  Array* packings_ = nullptr;
+};
+
+// A random packing has its width, or a die.
+void require_widths(Table& root, Problems& problems) {
+  const Array* packings = elements_of(root, "packing");
+  const schema::TableView& view = *schema::find_table("packing", schema::scene_language());
+  for (std::size_t i = 0; packings != nullptr && i < packings->size(); ++i) {
+    const Table& packing = (*packings)[i].get<Table>();
+    if (is_kind(packing, {"random"}) && document::find(packing, "width") == nullptr)
+      problems.add((*packings)[i].origin, fmt::format("packing[{}].width", i),
+                   fmt::format("required key is missing, allowed: {}, here or in [die]",
+                               schema::allowed(*schema::find_key(view, "width"))));
+  }
+}
+
+}  // namespace
+
+void fill_die(Table& root, Problems& problems) {
+  const auto entry = std::ranges::find(root, "die", &Entry::key);
+  if (entry == root.end()) {
+    require_widths(root, problems);
+    return;
+  }
+  const std::string* family = document::find_text(root, "family");
+  if (family != nullptr && *family != "compaction") return;  // refused by the reader
+  const Origin origin = entry->origin;
+  Value die = std::move(entry->value);
+  root.erase(entry);
+  DieFiller(root, std::move(die), origin, problems).fill();
+}
+
+}  // namespace pulvis

@@ -1,0 +1,15 @@
+// [die]: the room of the powder, given once. It is put into the packings and tools before they are read.
+#pragma once
+
+#include <optional>
+
+#include "scenes/language/vec2.hpp"
+
+namespace pulvis {
+
+struct DieSpec {
+  std::optional<double> width;  // m
+  std::optional<Vec2> corner;   // m, lower left
+};
+
+}  // namespace pulvis

@@ -1,0 +1,110 @@
+// [die]: the width is given once; packings and tools follow.
+#include <gmock/gmock.h>
+
+#include "tests/helpers/right_scene.hpp"
+
+namespace pulvis {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string powder = R"(family = "compaction"
+[[material]]
+name = "steel"
+library = "steel"
+[[particle]]
+name = "disc"
+material = "steel"
+outline = "disc"
+diameter = "2 mm"
+[[stage]]
+name = "press"
+kind = "compact"
+duration = "1 ms"
+[[stage.move]]
+tool = "top"
+displacement = ["0 mm", "-0.1 mm"]
+)";
+const std::string lattice =
+    "[[packing]]\nkind = \"square\"\nparticle = \"disc\"\nrows = 2\ncolumns = 3\n";
+const std::string random_bed =
+    "[[packing]]\nkind = \"random\"\ndensity = 0.6\nclass = [{ particle = \"disc\", number = 9 "
+    "}]\n";
+
+Scene scene_with(const std::string& text) {
+  return load_scene_text(powder + text, "die.toml").scene;
+}
+
+std::string problem_with(const std::string& text) {
+  const auto problems = problems_of(powder + text);
+  return problems.empty() ? "" : problems[0].text();
+}
+
+std::vector<std::string> names_of(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const ToolSpec& tool : scene.tools) names.push_back(tool.name);
+  return names;
+}
+
+TEST(Die, StandsAroundALattice) {
+  const Scene scene = scene_with(lattice + "corner = [\"1 mm\", \"2 mm\"]\n[die]\n");
+  EXPECT_THAT(names_of(scene), testing::ElementsAre("left", "right", "bottom", "top"));
+  EXPECT_DOUBLE_EQ(scene.tools[0].point.x(), 0.001);
+  EXPECT_DOUBLE_EQ(scene.tools[1].point.x(), 0.007);
+  EXPECT_DOUBLE_EQ(scene.tools[2].point.y(), 0.002);
+  EXPECT_DOUBLE_EQ(scene.tools[3].point.y(), 0.006);
+  EXPECT_EQ(scene.tools[1].normal, Vec2(-1, 0));
+}
+
+TEST(Die, GivesRandomPackingsItsWidthAndCorner) {
+  const Scene scene =
+      scene_with("[die]\nwidth = \"8 mm\"\ncorner = [\"1 mm\", \"0 mm\"]\n" + random_bed);
+  EXPECT_DOUBLE_EQ(scene.packings[0].width, 0.008);
+  EXPECT_DOUBLE_EQ(scene.packings[0].corner.x(), 0.001);
+  EXPECT_DOUBLE_EQ(scene.tools[1].point.x(), 0.009);
+  EXPECT_GT(scene.tools[3].point.y(), 9 * 3.14159e-6 / 0.008);
+}
+
+TEST(Die, LeavesToolsOfTheSceneAlone) {
+  const std::string tools =
+      "[[tool]]\nname = \"top\"\nshape = \"plane\"\npoint = [\"0 mm\", \"5 mm\"]\nnormal = [0, "
+      "-1]\n[[tool]]\nname = \"right\"\nshape = \"plane\"\npoint = [\"6 mm\", \"9 mm\"]\nnormal = "
+      "[-1, 0]\n";
+  const Scene scene = scene_with(lattice + "[die]\n" + tools);
+  EXPECT_THAT(names_of(scene), testing::ElementsAre("top", "right", "left", "bottom"));
+  EXPECT_DOUBLE_EQ(scene.tools[0].point.y(), 0.005);
+}
+
+TEST(Die, IsNotInTheSavedScene) {
+  const LoadedScene loaded = load_scene_text(powder + lattice + "[die]\n", "die.toml");
+  EXPECT_THAT(loaded.text, Not(HasSubstr("[die]")));
+  const LoadedScene again = load_scene_text(loaded.text, "die.toml");
+  EXPECT_EQ(again.hash, loaded.hash);
+}
+
+TEST(Die, FollowsOverridesAndVariables) {
+  const std::string text = powder + "[let]\nW = \"8 mm\"\n[die]\nwidth = \"W\"\n" + random_bed;
+  const Scene scene = load_scene_text(text, "die.toml", {"let.W=10 mm"}).scene;
+  EXPECT_DOUBLE_EQ(scene.packings[0].width, 0.01);
+  EXPECT_DOUBLE_EQ(scene.tools[1].point.x(), 0.01);
+}
+
+TEST(WrongDie, IsRefusedAtItsPlace) {
+  EXPECT_THAT(problem_with("[die]\nwidth = \"8 mm\"\n" + random_bed + "width = \"9 mm\"\n"),
+              HasSubstr("packing[0].width: is 0.009 m, but the die is 0.008 m wide"));
+  EXPECT_THAT(problem_with("[die]\n" + random_bed),
+              HasSubstr("die.width: required key is missing"));
+  EXPECT_THAT(problem_with(random_bed),
+              HasSubstr("packing[0].width: required key is missing, allowed: a quantity in m"));
+  EXPECT_THAT(
+      problem_with(lattice + "[die]\n[[tool]]\nname = \"right\"\nshape = \"plane\"\npoint = [\"7 "
+                             "mm\", \"9 mm\"]\nnormal = [-1, 0]\n"),
+      HasSubstr("tool[0].point: stands at x = 0.007 m, but this side of the die is at 0.006 m"));
+  EXPECT_THAT(problem_with(lattice + "[die]\nwdth = \"1 mm\"\n"),
+              HasSubstr("die.wdth: unknown key, did you mean 'width'?"));
+  EXPECT_THAT(problem_with(lattice + "[die]\nwidth = 3\n"), HasSubstr("die.width: missing unit"));
+}
+
+}  // namespace
+}  // namespace pulvis
