@@ -78,5 +78,8 @@ class Lever:
     def results(self) -> Run:
         """The run's folder, opened by `pulvis.open`."""
         import pulvis
+        from pulvis.errors import RunError
 
+        if self.folder is None:
+            raise RunError("the lever has no folder; allowed: scene.simulation(folder=...)")
         return pulvis.open(self.folder)

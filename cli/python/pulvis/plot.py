@@ -16,6 +16,7 @@ import html
 import io
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from matplotlib import pyplot as plt
 
 from pulvis.errors import RunError
@@ -38,7 +39,7 @@ NEEDS = {"network": "output.contacts = true", "density": "output.density_cells",
 DPI = 150
 
 
-def options_of(given, **more):
+def options_of(given: dict[str, Any], **more: Any) -> Options:
     """Options of what was given by name."""
     known = {"width", "height", "title", "cmap", "limits", "dpi"}
     if wrong := set(given) - known:
@@ -136,7 +137,7 @@ class Plot:
         return self._drawn(afm.images, "images", options_of(look, level=level))
 
 
-def facts_of(run):
+def facts_of(run: Run) -> list[tuple[str, str]]:
     """[(words, text)] of what a run came to."""
     mesh, facts = run.mesh, [("outcome", run.outcome)]
     if run.is_solid:
@@ -148,7 +149,7 @@ def facts_of(run):
     else:
         facts.append(("particles", f"{mesh.node_particle.max() + 1:,}"))
     facts.append(("elements", f"{len(mesh.cells):,}"))
-    samples = run.series("time") if run.has("time") else []
+    samples = run.series("time") if run.has("time") else np.empty(0)
     if len(samples) and not run.is_solid:
         facts.append(("simulated time", with_unit(samples[-1], "s")))
     for name in () if run.is_solid else ("relative_density", "stress_ratio/axial", "stress_ratio/lateral"):
@@ -162,7 +163,7 @@ def facts_of(run):
     return facts
 
 
-def picture_of(run):
+def picture_of(run: Run) -> Figure | None:
     """The figure that shows a run best, or None."""
     plot = Plot(run)
     if not run.is_solid:
@@ -178,7 +179,7 @@ def picture_of(run):
     return None
 
 
-def png_of(run):
+def png_of(run: Run) -> bytes | None:
     """Bytes of its picture, for notebooks; None without any."""
     with plt.ioff():
         figure = picture_of(run)
@@ -190,7 +191,7 @@ def png_of(run):
     return stream.getvalue()
 
 
-def html_of(run):
+def html_of(run: Run) -> str:
     """A small table and the picture, for notebooks."""
     rows = "".join(f"<tr><th style='text-align:left'>{html.escape(capital(words))}</th><td style='text-align:left'>"
                    f"{html.escape(text)}</td></tr>" for words, text in facts_of(run))

@@ -38,7 +38,7 @@ def open(folder: str | os.PathLike[str]) -> Run:  # noqa: A001  (pulvis.open)
     return Run(folder)
 
 
-def table(columns, index=None, name=None):
+def table(columns: dict[str, tuple[Any, str]], index: Any = None, name: str | None = None) -> DataFrame:
     """DataFrame of columns {name: (values, unit)}; `attrs["units"]` has their units."""
     try:
         import pandas
@@ -51,7 +51,7 @@ def table(columns, index=None, name=None):
     return frame
 
 
-def names_in(dataset):
+def names_in(dataset: h5py.Dataset) -> list[str]:
     """Names that the numbers of a dataset are positions of, or nothing."""
     text = dataset.attrs.get("names", "")
     text = text.decode() if isinstance(text, bytes) else text

@@ -32,7 +32,7 @@ def open_study(folder: str | os.PathLike[str]) -> Study:
     return Study(folder)
 
 
-def quantity_of(text):
+def quantity_of(text: object) -> tuple[float, str] | None:
     """(number in SI, unit) of "0.5 ms"; None of what is none."""
     from pulvis.figures.quantities import NUMBER, factor_of
 
@@ -47,15 +47,15 @@ def quantity_of(text):
     return None
 
 
-def column_of(texts):
+def column_of(texts: list[Any]) -> tuple[np.ndarray, str]:
     """Values of a varied key: numbers in SI with their unit where all are quantities of one unit, else as they are."""
-    found = [quantity_of(text) for text in texts]
-    if all(found) and len({unit for _, unit in found}) == 1:
+    found = [one for one in map(quantity_of, texts) if one]
+    if found and len(found) == len(texts) and len({unit for _, unit in found}) == 1:
         return np.array([value for value, _ in found]), found[0][1]
     return np.array(texts, object), ""
 
 
-def numbers(values):
+def numbers(values: list[Any]) -> np.ndarray:
     """As numbers, where all are some; what is missing is NaN."""
     if all(value is None or isinstance(value, (int, float)) for value in values):
         return np.array([np.nan if value is None else value for value in values])
