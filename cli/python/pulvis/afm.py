@@ -63,6 +63,7 @@ class Lever:
 
     @property
     def finished(self) -> bool:
+        """Whether the whole programme was run."""
         return self.outcome == "done"
 
     @property
@@ -77,5 +78,8 @@ class Lever:
     def results(self) -> Run:
         """The run's folder, opened by `pulvis.open`."""
         import pulvis
+        from pulvis.errors import RunError
 
+        if self.folder is None:
+            raise RunError("the lever has no folder; allowed: scene.simulation(folder=...)")
         return pulvis.open(self.folder)

@@ -32,6 +32,7 @@ class Mesh:
 
     @property
     def outline(self) -> np.ndarray:
+        """The boundary nodes, counter-clockwise, m [nodes, 2]."""
         return self.nodes[: self.boundary_nodes]
 
 

@@ -33,6 +33,7 @@ class Packing:
 
     @property
     def radii(self) -> np.ndarray:
+        """Of discs of the particles' areas, m [particles]."""
         return np.sqrt(self.areas / np.pi)
 
     def __len__(self) -> int:

@@ -55,6 +55,7 @@ class Scene:
 
     @property
     def title(self) -> str:
+        """As the scene says."""
         return self._core.title
 
     @property

@@ -147,6 +147,7 @@ class Simulation:
 
     @property
     def threads(self) -> int:
+        """Number of worker threads."""
         return self._run.threads
 
     @property

@@ -4,24 +4,35 @@
     study.runs[["contact.friction", "peak/top_force"]]
     study.run("friction=0.1,seed=2").plot.forces()
 """
+
+from __future__ import annotations
+
 import json
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pulvis.errors import RunError
 from pulvis.results import Run, table
 
+if TYPE_CHECKING:
+    import os
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+
 SI = ("m", "s", "N", "Pa", "J", "m/s", "N/m", "V", "rad")
 
 
-def open_study(folder):
+def open_study(folder: str | os.PathLike[str]) -> Study:
     """The study in this folder."""
     return Study(folder)
 
 
-def quantity_of(text):
+def quantity_of(text: object) -> tuple[float, str] | None:
     """(number in SI, unit) of "0.5 ms"; None of what is none."""
     from pulvis.figures.quantities import NUMBER, factor_of
 
@@ -36,15 +47,15 @@ def quantity_of(text):
     return None
 
 
-def column_of(texts):
+def column_of(texts: list[Any]) -> tuple[np.ndarray, str]:
     """Values of a varied key: numbers in SI with their unit where all are quantities of one unit, else as they are."""
-    found = [quantity_of(text) for text in texts]
-    if all(found) and len({unit for _, unit in found}) == 1:
+    found = [one for one in map(quantity_of, texts) if one]
+    if found and len(found) == len(texts) and len({unit for _, unit in found}) == 1:
         return np.array([value for value, _ in found]), found[0][1]
     return np.array(texts, object), ""
 
 
-def numbers(values):
+def numbers(values: list[Any]) -> np.ndarray:
     """As numbers, where all are some; what is missing is NaN."""
     if all(value is None or isinstance(value, (int, float)) for value in values):
         return np.array([np.nan if value is None else value for value in values])
@@ -54,7 +65,7 @@ def numbers(values):
 class Study:
     """A study in its folder, with `title`, `summary` (what summary.json holds), `names` of its runs."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
         if not self.folder.is_dir():
             raise RunError(f"{self.folder}: no such folder", self.folder)
@@ -80,12 +91,12 @@ class Study:
             raise RunError(f"{path}: {error}", path) from error
 
     @property
-    def keys(self):
+    def keys(self) -> list[str]:
         """What was varied."""
         return list(dict.fromkeys(key for run in self.summary["runs"] for key in run["varied"]))
 
     @property
-    def runs(self):
+    def runs(self) -> DataFrame:
         """DataFrame of all runs: varied keys and values; `attrs["units"]` has their units."""
         runs = self.summary["runs"]
         columns = {name: (numbers([run.get(name) for run in runs]), "") for name in ("variation", "scene", "seed")}
@@ -108,17 +119,17 @@ class Study:
         return table(columns, [one["variation"] for one in variations], "variation")
 
     @property
-    def values(self):
+    def values(self) -> DataFrame:
         """DataFrame of the variations: varied keys, number of runs, and means over the seeds."""
         return self._of_variations("mean")
 
     @property
-    def deviations(self):
+    def deviations(self) -> DataFrame:
         """The same with standard deviations over the seeds."""
         return self._of_variations("standard_deviation")
 
     @property
-    def curves(self):
+    def curves(self) -> list[dict[str, Any]]:
         """Charts of the report, as dicts: title, x, y, units, and lines with numpy arrays x, y, low, high."""
         curves = self._read("curves.json")
         for curve in curves:
@@ -127,11 +138,11 @@ class Study:
         return curves
 
     @property
-    def fits(self):
+    def fits(self) -> list[dict[str, Any]]:
         """Fitted laws."""
         return self.summary.get("fits", [])
 
-    def run(self, which):
+    def run(self, which: int | str) -> Run:
         """A run by its position or its name."""
         if isinstance(which, str) and which not in self.names:
             raise RunError(f"{self.folder}: no run {which}; there are: {', '.join(self.names)}", self.folder)
@@ -139,7 +150,7 @@ class Study:
             raise RunError(f"{self.folder}: run {which}: there are 0 to {len(self.names) - 1}", self.folder)
         return Run(self.folder / (which if isinstance(which, str) else self.names[which]))
 
-    def chart(self, number=0, ax=None, **look):
+    def chart(self, number: int = 0, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """(Figure, Axes) of a chart of the report, as `pulvis figure` draws it; look as of run.plot."""
         from matplotlib import pyplot as plt
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field as of_dataclass
 
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.font_manager import FontProperties
 
 from pulvis.figures.names import capital, label, over, plain
 from pulvis.figures.quantities import limits_of, unit_for, with_unit
@@ -68,7 +69,8 @@ class Options:
     def head(self, axes, text, run=None):
         """The title of axes."""
         if self.title:
-            letters = int((self.width or 7.2) * 72 * 0.8 / (0.5 * plt.rcParams["axes.titlesize"]))
+            size = FontProperties(size=plt.rcParams["axes.titlesize"]).get_size_in_points()  # it may be "large"
+            letters = int((self.width or 7.2) * 72 * 0.8 / (0.5 * size))
             lines = (text if run is None else f"{text}\n{run.title}").split("\n")
             axes.set_title("\n".join(textwrap.fill(line, letters) for line in lines), loc="left")
 
