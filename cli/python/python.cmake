@@ -47,8 +47,10 @@ function(add_python_module library)
   # pybind11's types, which are hidden, members of ours are made; nobody else sees these.
   set_target_properties(pulvis_python PROPERTIES CXX_VISIBILITY_PRESET default)
   target_compile_options(pulvis_python PRIVATE -Wno-attributes)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # g++ 12 warns falsely inside of pybind11
-    target_compile_options(pulvis_python PRIVATE -Wno-null-dereference)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # g++ 12 warns falsely inside of pybind11; behind the rules, which ask for it
+    add_library(pulvis_python_rules INTERFACE)
+    target_compile_options(pulvis_python_rules INTERFACE -Wno-null-dereference)
+    target_link_libraries(pulvis_python PRIVATE pulvis_python_rules)
   endif()
   unity(pulvis_python)
   optimise(pulvis_python 2)

@@ -6,7 +6,8 @@ import keyword
 import sys
 import textwrap
 
-from pulvis import _core
+sys.path.pop(0)  # the sources beside this file have no compiled module
+from pulvis import _core  # noqa: E402
 
 HEAD = '''"""The scene language as dataclasses: one a table, a field a key. Made by cli/python/write_declarations.py.
 
