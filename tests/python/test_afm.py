@@ -14,7 +14,7 @@ def test_a_calibration_is_that_of_the_program(scenes, program, read_summary, tmp
     assert lever.hash == theirs["state_hash"] == read_summary(tmp_path / "python")["state_hash"]
     ours = pulvis.Scene(file).calibration()
     assert ours == lever.calibration
-    assert ours["normal_stiffness"] == theirs["calibration"]["normal_stiffness"]
+    assert ours["normal_stiffness"] == theirs["calibration"]["k_n"]
     assert ours["normal_stiffness"] > 0 and ours["lateral_stiffness"] > ours["normal_stiffness"]
 
 
@@ -24,7 +24,7 @@ def test_a_friction_loop_is_that_of_the_program(scenes, program, read_summary, t
     assert done.returncode == 0, done.stderr
     lever = pulvis.Scene(file).simulation(folder=tmp_path / "python")
     told = []
-    lever.on_sample(lambda actions, row: told.append((actions, row["probe/force_z"] if "probe/force_z" in row else 0)))
+    lever.on_sample(lambda actions, row: told.append((actions, len(row))))
     lever.run()
     assert lever.finished and lever.hash == read_summary(tmp_path / "program")["state_hash"]
     assert (tmp_path / "program/history.csv").read_text() == (tmp_path / "python/history.csv").read_text()
@@ -32,7 +32,7 @@ def test_a_friction_loop_is_that_of_the_program(scenes, program, read_summary, t
     assert np.array_equal([actions for actions, _ in told], lever.history["actions"])
     loop = lever.loops[-1]
     assert loop["half_width"] > 0 and loop["load"] > 0
-    assert lever.figures["loop/half_width"] == loop["half_width"] if "loop/half_width" in lever.figures else True
+    assert lever.figures["loop/half_width"] == loop["half_width"]
     with pytest.raises(pulvis.RunError, match="has run"):
         lever.run()
 
