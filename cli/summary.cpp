@@ -173,6 +173,13 @@ void print_summary(const std::filesystem::path& folder) {
   fmt::print("{}", text.str());
 }
 
+std::vector<std::string> RunQuality::lines() const {
+  std::vector<std::string> all = warnings;
+  for (const QualityFigure& figure : figures)
+    if (figure.beyond()) all.push_back(figure.line());
+  return all;
+}
+
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,
                    const Results& results, const CompactionCurve& curve, const RunQuality& quality,
                    const RunCost& cost, const std::vector<Verdict>& verdicts) {

@@ -28,6 +28,9 @@ struct RunQuality {
   ContactFindings contacts;
   std::vector<QualityFigure> figures;
   std::vector<std::string> warnings;  // one line each
+
+  std::vector<std::string> lines()
+      const;  // warnings, and what to do about figures beyond their limits
 };
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,

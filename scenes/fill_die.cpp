@@ -40,18 +40,6 @@ Array* elements_of(Table& root, const char* key) {
   return &entry->value.get<Array>();
 }
 
-// The value of a key as its declaration has it; nothing where it is missing or wrong, which the reader tells.
-std::optional<schema::Decoded> value_in(const Table& table, const char* declared, const char* key) {
-  const Entry* entry = document::find(table, key);
-  if (entry == nullptr) return std::nullopt;
-  const schema::TableView& view = *schema::find_table(declared, schema::scene_language());
-  try {
-    return schema::decode(*schema::find_key(view, key), entry->value, {});
-  } catch (const schema::Refusal&) {
-    return std::nullopt;
-  }
-}
-
 bool is_kind(const Table& packing, std::initializer_list<const char*> kinds) {
   const std::string* kind = document::find_text(packing, "kind");
   return kind != nullptr &&
@@ -71,9 +59,10 @@ class DieFiller {
     packings_ = elements_of(root_, "packing");
     if (packings_ != nullptr && packings_->size() == 1) take_over(packings_->front().get<Table>());
     if (!spec_.width) {
-      problems_.add(origin_, "die.width",
-                    "required key is missing, allowed: a quantity in m; without it there must be "
-                    "one packing that says how wide it is");
+      if (!wrong_)
+        problems_.add(origin_, "die.width",
+                      "required key is missing, allowed: a quantity in m; without it there must be "
+                      "one packing that says how wide it is");
       return;
     }
     for (std::size_t i = 0; packings_ != nullptr && i < packings_->size(); ++i)
@@ -83,26 +72,47 @@ class DieFiller {
   }
 
  private:
+  // The value of a key as its declaration has it; nothing where it is missing. A wrong one is told here: without it
+  // there are no tools, and what the reader says of that would lead astray.
+  std::optional<schema::Decoded> value_in(const Table& table, const char* declared, const char* key,
+                                          const std::string& path) {
+    const Entry* entry = document::find(table, key);
+    if (entry == nullptr) return std::nullopt;
+    const schema::TableView& view = *schema::find_table(declared, schema::scene_language());
+    try {
+      return schema::decode(*schema::find_key(view, key), entry->value, {});
+    } catch (const schema::Refusal& refusal) {
+      problems_.add(refusal.origin, schema::joined_path(path, key), refusal.what());
+      wrong_ = true;
+      return std::nullopt;
+    }
+  }
+
   // What [die] leaves open and the one packing says.
   void take_over(const Table& packing) {
     if (!spec_.corner)
-      if (const auto corner = value_in(packing, "packing", "corner")) spec_.corner = corner->vector;
+      if (const auto corner = value_in(packing, "packing", "corner", "packing[0]"))
+        spec_.corner = corner->vector;
     if (spec_.width) return;
-    if (const auto width = value_in(packing, "packing", "width")) spec_.width = width->number;
-    const auto columns = value_in(packing, "packing", "columns");
+    if (const auto width = value_in(packing, "packing", "width", "packing[0]"))
+      spec_.width = width->number;
+    const auto columns = value_in(packing, "packing", "columns", "packing[0]");
     const std::optional<double> spacing = spacing_in(packing);
     if (columns && spacing) spec_.width = static_cast<double>(columns->integer) * *spacing;
   }
 
   std::optional<double> spacing_in(const Table& packing) {
-    if (const auto spacing = value_in(packing, "packing", "spacing")) return spacing->number;
+    if (const auto spacing = value_in(packing, "packing", "spacing", "packing[0]"))
+      return spacing->number;
     const std::string* name = document::find_text(packing, "particle");
     const Array* particles = elements_of(root_, "particle");
     for (std::size_t i = 0; name != nullptr && particles != nullptr && i < particles->size(); ++i) {
       const Table& particle = (*particles)[i].get<Table>();
       const std::string* own = document::find_text(particle, "name");
       if (own == nullptr || *own != *name) continue;
-      if (const auto diameter = value_in(particle, "particle", "diameter")) return diameter->number;
+      if (const auto diameter =
+              value_in(particle, "particle", "diameter", fmt::format("particle[{}]", i)))
+        return diameter->number;
     }
     return std::nullopt;
   }
@@ -112,7 +122,7 @@ class DieFiller {
 
   void fill_packing(Table& packing, const std::string& path) {
     if (is_kind(packing, {"random"})) {
-      const auto width = value_in(packing, "packing", "width");
+      const auto width = value_in(packing, "packing", "width", path);
       if (document::find(packing, "width") == nullptr)
         packing.push_back({"width", origin_, length_of(*spec_.width, origin_)});
       else if (width && differs(width->number, *spec_.width))
@@ -131,7 +141,7 @@ class DieFiller {
         const Table& tool = (*tools)[i].get<Table>();
         const std::string* name = document::find_text(tool, "name");
         if (name != nullptr && *name == wall.name)
-          return compare(wall, tool, fmt::format("tool[{}].point", i));
+          return compare(wall, tool, fmt::format("tool[{}]", i));
       }
     const auto name_it = [&](const char* key, Value value) {
       return Entry{key, origin_, {std::move(value.data), origin_}};
@@ -159,11 +169,12 @@ class DieFiller {
   // A wall that the scene has itself must stand where the die's is; punches stand where they like.
   void compare(const Wall& wall, const Table& tool, const std::string& path) {
     const std::string* shape = document::find_text(tool, "shape");
-    const auto point = value_in(tool, "tool", "point");
-    if (wall.normal_x == 0 || shape == nullptr || *shape != "plane" || !point) return;
+    if (wall.normal_x == 0 || shape == nullptr || *shape != "plane") return;
+    const auto point = value_in(tool, "tool", "point", path);
+    if (!point) return;
     const double x = corner().x() + (wall.normal_x < 0 ? *spec_.width : 0);
     if (differs(point->vector.x(), x))
-      problems_.add(document::find(tool, "point")->origin, path,
+      problems_.add(document::find(tool, "point")->origin, path + ".point",
                     fmt::format("stands at x = {:g} m, but this side of the die is at {:g} m, "
                                 "allowed: there, or no tool '{}'",
                                 point->vector.x(), x, wall.name));
@@ -173,6 +184,7 @@ class DieFiller {
   Origin origin_;
   Problems& problems_;
   DieSpec spec_;
+  bool wrong_ = false;  // a value that the die's depends on
   Array* packings_ = nullptr;
 };
 

@@ -1,9 +1,10 @@
-"""Runs the examples of docs/results.md that read results, on a small run; and every file that a page of docs/ or
-the README names must be there.
+"""Runs the examples of docs/results.md that read results, on a small run, and those of docs/writing-scenes.md; and
+every file that a page of docs/ or the README names must be there.
 
 usage: docs_examples.py PULVIS SOURCE_DIR
 """
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -33,9 +34,36 @@ def check_names(source):
     print(f"ok: {found} files named in the docs")
 
 
+def pattern_of(lines):
+    """What a page shows of an output: "..." stands for anything, alone for any number of lines."""
+    parts = [r"(?:.*\n)*" if line == "..." else ".*".join(map(re.escape, line.split("..."))) + r"\n" for line in lines]
+    return re.compile("".join(parts))
+
+
+def run_page(program, page):
+    """Writes the files that a page shows, and runs its commands: each must say what stands below it."""
+    count = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for kind, block in re.findall(r"```(toml|console)\n(.*?)```", page.read_text(encoding="utf-8"), re.S):
+            if kind == "toml":
+                (Path(folder) / block.split("\n", 1)[0].removeprefix("# ")).write_text(block, encoding="utf-8")
+                continue
+            for command, shown in re.findall(r"^\$ pulvis (.*)\n((?:(?!\$ ).*\n)*)", block, re.M):
+                done = subprocess.run([program, *shlex.split(command)], cwd=folder, text=True,
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                said = done.stdout if done.stdout.endswith("\n") else done.stdout + "\n"
+                if not pattern_of(shown.splitlines()).fullmatch(said):
+                    sys.exit(f"{page.name}: pulvis {command} says\n{said}\ninstead of\n{shown}")
+                count += 1
+    if count < 5:
+        sys.exit(f"{page.name}: only {count} examples were found")
+    print(f"ok: {count} examples of {page.name}")
+
+
 def main():
     program, source = sys.argv[1], Path(sys.argv[2])
     check_names(source)
+    run_page(program, source / "docs/writing-scenes.md")
     text = (source / "docs/results.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", text, re.S)
     with tempfile.TemporaryDirectory() as folder:

@@ -40,10 +40,7 @@ void print_end(const Session& run, const RunOptions& options) {
     tell("friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
          shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,
          shear->dilation * 1e3);
-  const RunQuality quality = run.quality();
-  for (const std::string& line : quality.warnings) tell("warning: {}\n", line);
-  for (const QualityFigure& figure : quality.figures)
-    if (figure.beyond()) tell("warning: {}\n", figure.line());
+  for (const std::string& line : run.quality().lines()) tell("warning: {}\n", line);
   if (!run.verdicts().empty()) tell("expectations\n");
   for (const Verdict& verdict : run.verdicts()) tell("  {}\n", verdict.text());
   tell("results in {}\n", run.folder().string());

@@ -266,8 +266,7 @@ void Session::reopen() {
 
 RunQuality Session::quality() const {
   const ContactFindings found = contacts_.findings();
-  RunQuality quality{found,
-                     run_quality(loaded_.scene, simulation_->world(), results_, found),
+  RunQuality quality{found, run_quality(loaded_.scene, simulation_->world(), results_, found),
                      bending_warnings(loaded_.scene)};
   quality.warnings.insert(quality.warnings.end(), bond_warnings_.begin(), bond_warnings_.end());
   if (!driven_.empty())

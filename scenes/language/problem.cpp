@@ -20,6 +20,14 @@ std::string all_lines(const std::vector<SceneProblem>& problems) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
+// But for capitals.
+bool same_letters(const std::string& a, const std::string& b) {
+  const auto small = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
+  return std::ranges::equal(a, b, {}, small, small);
+}
+
 // Insertions, deletions, replacements and swaps of neighbours that turn one word into the other (optimal string
 // alignment).
 std::size_t distance(const std::string& from, const std::string& to) {
@@ -79,6 +87,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest_word) continue;
+    if (same_letters(word, candidate)) return fmt::format(", did you mean '{}'?", candidate);
     const std::size_t d = distance(word, candidate);
     if (d < best_distance && d < candidate.size()) {
       best = &candidate;

@@ -124,8 +124,7 @@ void bind_state(RunClass& run) {
       .def_property_readonly("driven", [](PythonRun& r) { return r.session().driven(); })
       .def_property_readonly("elements",
                              [](PythonRun& r) { return r.session().results().elements(); })
-      .def_property_readonly("warnings",
-                             [](PythonRun& r) { return r.session().quality().warnings; })
+      .def_property_readonly("warnings", [](PythonRun& r) { return r.session().quality().lines(); })
       .def_property_readonly("tools",
                              [](PythonRun& r) { return tool_names(r.session().simulation()); })
       .def_property_readonly(

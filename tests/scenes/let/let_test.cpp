@@ -79,6 +79,8 @@ TEST(Let, IsChangedByOverrides) {
 
 TEST(Let, OfAnOverrideMustBeUsed) {
   const auto problems = problems_of(with_variables, {"let.my=0.5"});
+  EXPECT_THAT(problems_of(with_variables, {"let.d=1 mm"})[0].message,
+              HasSubstr("did you mean 'D'?"));
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].text(),
             "--set let.my=0.5: let.my: no value uses this variable, did you mean 'mu'?, allowed: "

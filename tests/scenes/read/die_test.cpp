@@ -90,6 +90,13 @@ TEST(Die, FollowsOverridesAndVariables) {
   EXPECT_DOUBLE_EQ(scene.tools[1].point.x(), 0.01);
 }
 
+TEST(WrongDie, IsNotBlamedForWhatItsWidthComesFrom) {
+  const auto problems = problems_of(powder + lattice + "[die]\n", {"particle.disc.diameter=400"});
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].key, "particle[0].diameter");
+  EXPECT_THAT(problems[0].message, HasSubstr("missing unit"));
+}
+
 TEST(WrongDie, IsRefusedAtItsPlace) {
   EXPECT_THAT(problem_with("[die]\nwidth = \"8 mm\"\n" + random_bed + "width = \"9 mm\"\n"),
               HasSubstr("packing[0].width: is 0.009 m, but the die is 0.008 m wide"));
