@@ -336,16 +336,17 @@ const TableDeclaration<ParticleSpec>& particle() {
          .kind = Kind::file,
          .required = true,
          .only_for = "points",
-         .doc = "CSV, one point x, y a line in order, relative to the scene's folder; its first "
-                "line may name the columns with their unit: x (um), y (um)."},
+         .doc = "Relative to the scene's folder. CSV: one point x, y a line in order; the first "
+                "line may name the columns with their unit: x (um), y (um). SVG, DXF: the one "
+                "closed outline in it."},
         outline_to<std::string>(
             [](auto& o, const std::string& value) requires requires { o.file; } { o.file = value; },
             &Decoded::text)},
        {{.name = "unit",
          .kind = Kind::text,
          .only_for = "points",
-         .doc = "Unit of a file whose first line names none: \"um\".",
-         .fallback_doc = "the file's first line names it"},
+         .doc = "Unit of a file that names none: \"um\".",
+         .fallback_doc = "the file names it"},
         outline_to<std::string>(
             [](auto& o, const std::string& value) requires requires { o.unit; } { o.unit = value; },
             &Decoded::text)},

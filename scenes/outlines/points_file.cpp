@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "engine/files/input_file.hpp"
+#include "scenes/drawings/dxf_outline.hpp"
+#include "scenes/drawings/svg_outline.hpp"
 #include "scenes/language/csv_table.hpp"
 #include "scenes/language/encoding.hpp"
 #include "scenes/language/units.hpp"
@@ -149,13 +151,30 @@ class PointsReader {
   std::vector<int> lines_;  // of each point
 };
 
+// Of a drawing; empty: it is a table.
+std::optional<std::vector<Vec2>> drawn_points(const std::filesystem::path& path,
+                                              const std::string& text, const std::string& unit) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
+  if (ending != ".svg" && ending != ".dxf") return std::nullopt;
+  try {
+    return drawing::only_outline(ending == ".svg" ? drawing::chains_of_svg(text, unit)
+                                                  : drawing::chains_of_dxf(text, unit));
+  } catch (const drawing::BadDrawing& bad) {
+    throw BadFile{0, bad.what()};
+  }
+}
+
 std::vector<Vec2> points_in(const std::filesystem::path& path, const std::string& unit) {
   std::string text;
   try {
     text = text_of_input(path, largest_file);
   } catch (const UnfitInput& unfit) {
-    throw BadFile{0, fmt::format("{}, allowed: a CSV file of points", unfit.what())};
+    throw BadFile{0, fmt::format("{}, allowed: a file of points (CSV, SVG, DXF)", unfit.what())};
   }
+  if (const auto drawn = drawn_points(path, text, unit)) return *drawn;
   std::istringstream stream(as_utf8(std::move(text)));
   return PointsReader(unit).read(stream);
 }

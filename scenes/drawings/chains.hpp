@@ -1,0 +1,39 @@
+// What drawings are made of: chains of points, sampled finely from lines and curves, and the one closed outline among
+// them.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scenes/language/vec2.hpp"
+
+namespace pulvis::drawing {
+
+struct BadDrawing : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Chain {
+  std::vector<Vec2> points;
+  bool closed = false;
+  std::string layer;  // or what else the drawing calls it
+};
+
+inline constexpr int curve_pieces = 64;  // of each curved part
+
+// Adds the points of a curve over (0, 1], the first of which is there already.
+void add_curve(std::vector<Vec2>& points, const std::function<Vec2(double)>& at);
+// From the last point; angles counter-clockwise, rad.
+void add_arc(std::vector<Vec2>& points, const Vec2& centre, double radius, double from,
+             double turn);
+
+// Chains whose ends meet are one.
+std::vector<Chain> joined(std::vector<Chain> chains);
+
+// The one closed outline, as points that are evenly apart along it. Refused are drawings with none or several, and
+// outlines that cross themselves.
+std::vector<Vec2> only_outline(const std::vector<Chain>& chains);
+
+}  // namespace pulvis::drawing
