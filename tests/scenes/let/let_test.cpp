@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongLet{"Unknown",
                  "gap = \"D/2\"\nd = \"1 mm\"\n",
                  "let.gap",
-                 {"\"D/2\": no variable is called 'D', allowed: gap, d"}},
+                 {"\"D/2\": no variable is called 'D', did you mean 'd'?, allowed: gap, d"}},
         WrongLet{"Near", "gap = \"Dia/2\"\ndia = \"1 mm\"\n", "let.gap", {"did you mean 'dia'?"}},
         WrongLet{"Dimension", "a = \"1 mm + 2 N\"\n", "let.a", {"the dimensions differ"}},
         WrongLet{"Function", "sin = 3\n", "let.sin", {"is no name of a variable", "none of pi"}},
