@@ -1,5 +1,5 @@
-// `pulvis figure`: pictures and tables of a run for papers, drawn by the scripts figure*.py, which the
-// program carries. They need python3 with h5py and matplotlib.
+// `pulvis figure`: pictures and tables of a run for papers, drawn by the package pulvis.figures
+// (cli/python), which the program carries. It needs python3 with h5py and matplotlib.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,12 @@ struct FigureOptions {
   std::optional<int> frame;
   std::vector<std::string> series;
   std::string against;
-  std::string format = "png";  // of all figures
-  std::string level = "none";  // of a raster's images
+  std::string format = "png";       // of all figures
+  std::string level = "none";       // of a raster's images
+  std::filesystem::path animation;  // .mp4 or .gif of all frames; empty: none
+  // As given; empty: not given.
+  std::string width, height, colours, range, dpi;
+  bool no_title = false;
 };
 
 ExitCode draw_figures(const FigureOptions& options);

@@ -22,11 +22,12 @@
 #include "cli/options.hpp"
 #include "cli/pack.hpp"
 #include "cli/plan.hpp"
+#include "cli/preview/preview_options.hpp"
 #include "cli/preview/scene_check.hpp"
 #include "cli/probe/probe_options.hpp"
 #include "cli/report/report.hpp"
-#include "cli/run.hpp"
-#include "cli/run_afm.hpp"
+#include "cli/session/run.hpp"
+#include "cli/session/run_afm.hpp"
 #include "cli/study/study.hpp"
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
@@ -54,6 +55,7 @@ struct Options {
   StudyOptions study;
   ProbeOptions probe;
   FitOptions fit;
+  PreviewOptions preview;
   bool dot = false;
   std::string reference;  // scene language: "text", "schema", "materials"
   bool print = false;     // the scene, whole
@@ -77,9 +79,7 @@ ExitCode check(const Options& options) {
   }
   const LoadedScene loaded = load_scene(options.run.scene, options.run.overrides);
   if (options.print) return print_scene(loaded);
-  const Scene& scene = loaded.scene;
-  if (scene.afm) return check_afm_scene(scene);
-  return check_particle_scene(scene);
+  return check_scene(loaded.scene);
 }
 
 ExitCode plan(const Options& options) {
@@ -112,10 +112,29 @@ void add_report(CLI::App& app, Options& options, ExitCode& code) {
   command->callback([&] { code = report(options); });
 }
 
+// What of a figure is a matter of taste; the scripts refuse values that are not allowed.
+void add_look(CLI::App& command, FigureOptions& options) {
+  command.add_option("--width", options.width,
+                     "width of every figure, as 85mm, in mm, cm, in or pt (default: of its kind)");
+  command.add_option("--height", options.height, "height of every figure, as 60mm");
+  command.add_flag("--no-title", options.no_title, "no titles over the figures");
+  command.add_option(
+      "--cmap", options.colours,
+      "colour map of what is on a scale, by matplotlib's name, as cividis or magma_r");
+  command.add_option("--range", options.range,
+                     "LOW:HIGH of the colours of the field, as 0:400MPa; one end may be missing");
+  command.add_option("--dpi", options.dpi, "dots per inch of a PNG (default 200)");
+  command
+      .add_option("--animate", options.animation,
+                  "file .mp4 or .gif: the field of all frames (MP4 needs ffmpeg)")
+      ->transform(without_detours);
+}
+
 void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
   auto* command = app.add_subcommand(
       "figure", "draw pictures of a run for papers (PNG, SVG, PDF), or write their numbers (CSV)");
-  command->add_option("folder", options.folder, "results folder of a run")->required();
+  command->add_option("folder", options.folder, "results folder of a run, a study or a probe")
+      ->required();
   command->add_option("--field", options.field,
                       "draw this field of the particles; name:2 is its second component");
   command->add_option("--frame", options.frame, "number of the frame, from 0 (default: the last)");
@@ -137,6 +156,7 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
       ->add_option("--level", options.level,
                    "levelling of a raster's images: none, plane, or lines (the median of each)")
       ->check(CLI::IsMember({"none", "plane", "lines"}));
+  add_look(*command, options);
   command->callback([&] { code = draw_figures(options); });
 }
 
@@ -237,6 +257,21 @@ void add_run(CLI::App& app, Options& options, ExitCode& code) {
   run->callback([&options, &code] { code = run_scene(options.run); });
 }
 
+void add_check(CLI::App& app, Options& options, ExitCode& code) {
+  auto* checks = app.add_subcommand("check", "read and check a scene without running it");
+  add_scene(*checks, options, false);
+  checks
+      ->add_option("--reference", options.reference,
+                   "print the scene language instead: text or schema; or the library of materials")
+      ->check(CLI::IsMember({"text", "schema", "materials"}));
+  checks->add_flag("--print", options.print,
+                   "print the scene whole instead: what it extends, overrides and defaults put in");
+  checks->callback([&options, &code] {
+    if (options.run.scene.empty() && options.reference.empty()) throw CLI::RequiredError("scene");
+    code = check(options);
+  });
+}
+
 void add_resume(CLI::App& app, Options& options, ExitCode& code) {
   auto* resume = app.add_subcommand(
       "resume", "go on with a run that was stopped or killed, from its last checkpoint");
@@ -292,18 +327,8 @@ int parse_and_run(int argc, char** argv) {
   add_probe(app, options.probe, code);
   add_fit(app, options.fit, code);
 
-  auto* checks = app.add_subcommand("check", "read and check a scene without running it");
-  add_scene(*checks, options, false);
-  checks
-      ->add_option("--reference", options.reference,
-                   "print the scene language instead: text or schema; or the library of materials")
-      ->check(CLI::IsMember({"text", "schema", "materials"}));
-  checks->add_flag("--print", options.print,
-                   "print the scene whole instead: what it extends, overrides and defaults put in");
-  checks->callback([&] {
-    if (options.run.scene.empty() && options.reference.empty()) throw CLI::RequiredError("scene");
-    code = check(options);
-  });
+  add_check(app, options, code);
+  add_preview(app, options.preview, code);
 
   auto* plans =
       app.add_subcommand("plan", "print the systems, graph and columns that a scene asks for");

@@ -99,6 +99,16 @@ void add_quality(Json& json, const World& world, const RunQuality& quality) {
   contacts["unconverged_projections"] = totals.unconverged;
   contacts["unconverged_share"] = totals.unconverged_share();
   json["contact_quality"] = contacts;
+  json["quality"] = Json::array();
+  for (const QualityFigure& figure : quality.figures) {
+    Json entry{{"name", figure.name}, {"meaning", figure.meaning}, {"value", figure.value}};
+    if (figure.limit) entry["limit"] = *figure.limit;
+    if (figure.beyond()) {
+      entry["line"] = figure.line();
+      entry["advice"] = figure.advice;
+    }
+    json["quality"].push_back(entry);
+  }
   for (const std::string& line : quality.warnings) json["warnings"].push_back(line);
 }
 
@@ -161,6 +171,13 @@ void print_summary(const std::filesystem::path& folder) {
   std::ostringstream text;
   text << std::ifstream(folder / "summary.json").rdbuf();
   fmt::print("{}", text.str());
+}
+
+std::vector<std::string> RunQuality::lines() const {
+  std::vector<std::string> all = warnings;
+  for (const QualityFigure& figure : figures)
+    if (figure.beyond()) all.push_back(figure.line());
+  return all;
 }
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,

@@ -10,6 +10,7 @@
 #include "scenes/results/compaction_curve.hpp"
 #include "scenes/results/contact_findings.hpp"
 #include "scenes/results/results.hpp"
+#include "scenes/results/run_quality.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
@@ -25,7 +26,11 @@ struct RunCost {
 // What its user should know of a run's figures.
 struct RunQuality {
   ContactFindings contacts;
+  std::vector<QualityFigure> figures;
   std::vector<std::string> warnings;  // one line each
+
+  std::vector<std::string> lines()
+      const;  // warnings, and what to do about figures beyond their limits
 };
 
 void write_summary(const std::filesystem::path& folder, const Scene& scene, const World& world,

@@ -20,6 +20,8 @@ class Interrupted : public std::exception {
 void ask_to_stop() noexcept;  // from a signal handler, too
 bool asked_to_stop() noexcept;
 void stop_if_asked();  // throws Interrupted
+// Of a program that lives on: whoever asked has been answered.
+void withdraw_wish_to_stop() noexcept;
 
 // Work of a library that knows no way to stop, done by a thread of its own with the caller's floating-point mode.
 // Where the wish to stop comes first, the thread is left to itself and Interrupted thrown: `work` owns all

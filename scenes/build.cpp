@@ -13,6 +13,7 @@
 #include "components/bond.hpp"
 #include "components/contact.hpp"
 #include "components/observed.hpp"
+#include "components/particle_classes.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
 #include "components/surface.hpp"
@@ -96,6 +97,7 @@ std::vector<std::vector<Placed>> by_class(const Scene& scene, const std::vector<
 
 struct Layout {
   Bodies bodies;
+  ParticleClasses classes;
   std::vector<const Placed*> placed;  // [slots]; null where nobody stands
 };
 
@@ -111,6 +113,7 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
     const int shape = static_cast<int>(layout.bodies.shapes.size());
     const ParticleSpec& spec = scene.class_of(*classes[c].front().body);
     layout.bodies.shapes.push_back(make_shape(spec));
+    layout.classes.of_shape.push_back(static_cast<int>(c));
     const std::size_t lanes = (classes[c].size() + lane_count - 1) / lane_count * lane_count;
     for (std::size_t i = 0; i < lanes; ++i) {
       const bool there = i < classes[c].size();
@@ -426,6 +429,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
     totals.nearest.resize(scene.bonds.size());
   }
   world->emplace<Bodies>(std::move(layout.bodies));
+  world->emplace<ParticleClasses>(std::move(layout.classes));
   if (needs.constraints) add_constraints(*world, scene);
   add_observed(*world, scene);
   return world;

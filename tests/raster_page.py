@@ -12,8 +12,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(sys.argv[1]) / "cli"))
-import figures_afm
+sys.path.insert(0, str(Path(sys.argv[1]) / "cli/python"))
+from pulvis.figures import afm
 
 
 def check(holds, what):
@@ -35,21 +35,21 @@ def main():
     count = 0
     with h5py.File(sys.argv[3]) as run:
         (action,) = run["images"]
-        for channel in figures_afm.CHANNELS:
+        for channel in afm.CHANNELS:
             trace, retrace = (run[f"images/{action}/{channel}_{way}"][:] for way in ("trace", "retrace"))
             maps = [("trace", trace), ("retrace", retrace)]
             if channel == "friction":
                 maps.append(("difference", (trace - retrace) / 2))
             size = max(np.abs(values).max() for _, values in maps)
-            for level in figures_afm.LEVELS:
+            for level in afm.LEVELS:
                 wanted = [end for _, values in maps for end in
-                          (figures_afm.levelled(values, level).min(), figures_afm.levelled(values, level).max())]
+                          (afm.levelled(values, level).min(), afm.levelled(values, level).max())]
                 np.testing.assert_allclose(drawn[f"{channel} {level}"], wanted, atol=3e-7 * size)  # floats
                 count += 1
             for way, values in maps:
                 for level, suffix in (("none", ""), ("plane", "-plane")):
                     field = field_in(Path(sys.argv[4]) / f"{action}-{channel}-{way}{suffix}.gsf")
-                    wanted = figures_afm.levelled(values, level)[::-1]
+                    wanted = afm.levelled(values, level)[::-1]
                     np.testing.assert_allclose(field, wanted, rtol=1e-6, atol=1e-6 * size)
     check(count == 9 == len(drawn), f"{count} images, {len(drawn)} drawn")
 

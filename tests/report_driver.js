@@ -43,9 +43,73 @@ const change = (id, value) => {
   select.dispatchEvent(new Event("change"));
 };
 
+// What the tip says of a place of the canvas: {particle, x, y}; null where it is hidden.
+const tip = () => document.querySelector(".tip");
+function tipNow() {
+  const text = tip().hidden ? "" : tip().textContent, place = /x (\S+), y (\S+) \S+$/.exec(text), particle = /^particle (\d+)/.exec(text);
+  return place && particle ? {particle: particle[1], x: Number(place[1]), y: Number(place[2]), text} : null;
+}
+function pointAt(x, y, more = {}) {
+  const {left, top} = canvas().getBoundingClientRect();
+  canvas().dispatchEvent(new PointerEvent("pointermove", {clientX: left + x, clientY: top + y, bubbles: true, ...more}));
+  return tipNow();
+}
+
+// It tells particle, place and value, and still does so when the picture has moved under the pointer.
+function tipHolds() {
+  const {width, height} = canvas().getBoundingClientRect(), found = [];
+  for (let y = 0.25; y < 0.8 && found.length < 12; y += 0.11) {
+    for (let x = 0.15; x < 0.7 && found.length < 12; x += 0.13) {
+      const at = pointAt(Math.round(x * width), Math.round(y * height));
+      if (at) found.push({...at, px: Math.round(x * width), py: Math.round(y * height)});
+    }
+  }
+  const [a, b] = [found[0], found.at(-1)];
+  if (found.length < 2) return `of few particles: ${found.length}`;
+  if (!a.text.includes(document.getElementById("field").selectedOptions[0].text.toLowerCase())) return `no value: ${a.text}`;
+  const step = Math.hypot(b.x - a.x, b.y - a.y) / Math.hypot(b.px - a.px, b.py - a.py);  // of a pixel
+  const near = (one, x, y, factor = 1) => Math.abs(one.x - x) < 2 * step * factor && Math.abs(one.y - y) < 2 * step * factor;
+  const same = (one, other) => one && one.particle === other.particle && near(one, other.x, other.y);
+  pointAt(a.px, a.py);
+  const {left, top} = canvas().getBoundingClientRect();
+  canvas().dispatchEvent(new WheelEvent("wheel", {deltaY: -400, clientX: left + a.px, clientY: top + a.py, cancelable: true}));
+  if (!same(tipNow(), a)) return "another place after zooming about it";
+  const zoomed = pointAt(a.px + 40, a.py), less = Math.exp(-0.6);
+  if (zoomed && !near(zoomed, a.x + 40 * step * less, a.y)) return "another scale after zooming";
+  pointAt(a.px, a.py);
+  if (!same(pointAt(a.px + 30, a.py + 20, {buttons: 1, movementX: 30, movementY: 20}), a)) return "another place after moving";
+  key("0", canvas());
+  const back = tipNow();
+  if (back && !near(back, a.x + 30 * step, a.y - 20 * step)) return "another place after showing all";
+  pointAt(a.px, a.py);
+  return same(tipNow(), a);
+}
+
+// Columns of cards end together, and what the run cost stands at the very end.
+function isWhole() {
+  const bottomOf = column => column.lastElementChild.getBoundingClientRect().bottom;
+  const columns = [...document.querySelectorAll(".columns")].map(({children: [one, other]}) => Math.abs(bottomOf(one) - bottomOf(other)));
+  return columns.length > 0 && columns.every(apart => apart < 1) && document.querySelector("main").lastElementChild.id === "cost-section";
+}
+
+// Lines that show nothing beside the others are off at first, and one click shows them.
+function hidesWhatIsNearZero() {
+  const tiny = [...document.querySelectorAll(".legend button")].filter(button => button.title.startsWith("Below 1 %"));
+  const off = tiny.filter(button => button.getAttribute("aria-pressed") === "false"), [first] = off, legend = first?.parentElement;
+  if (!first || off.length < tiny.length) return `${off.length} of ${tiny.length} are off`;
+  const name = first.textContent, chart = legend.closest(".chart"), drawn = () => chart.querySelectorAll("path.curve").length, before = drawn();
+  first.click();
+  const now = [...legend.children].find(button => button.textContent === name);
+  const isShown = drawn() === before + 1 && now.getAttribute("aria-pressed") === "true";
+  now.click();
+  return isShown && drawn() === before;
+}
+
 async function drive() {
   await until(() => document.body.dataset.ready);
   told("hasCurves", document.querySelectorAll("path.curve").length > 0);
+  told("whole", isWhole());
+  told("nearZeroOff", hidesWhatIsNearZero());
   told("network", performance.getEntriesByType("resource").filter(entry => !entry.name.startsWith("data:")).length);
   if (!canvas()) return;
   const slider = document.getElementById("frame"), last = Number(slider.max), field = document.getElementById("field").value;
@@ -85,6 +149,21 @@ async function drive() {
   key("+", canvas());
   told("zoomed", hashOf(canvas()) !== first);
   key(document.getElementById("same-range") ? "0" : "-", canvas());
+  key("0", canvas());
+  if (tip()) {
+    told("tip", tipHolds());
+    const all = hashOf(canvas()), button = document.querySelector("button.fit");
+    key("+", canvas());
+    const isOffered = !button.hidden;
+    button.click();
+    told("fit", isOffered && button.hidden && hashOf(canvas()) === all);
+    if ([...document.getElementById("field").options].some(({value}) => value === "material")) {
+      change("field", "material");
+      told("material", await drawnAs(at(last, "material")) && hashOf(canvas()) !== all);
+      change("field", field);
+      await drawnAs(at(last));
+    }
+  }
   const other = [...document.getElementById("field").options].map(option => option.value).find(value => value !== field);
   change("field", other);
   told("otherField", await drawnAs(at(last, other)) && hashOf(canvas()) !== first);

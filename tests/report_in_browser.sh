@@ -31,26 +31,42 @@ check() {
 }
 
 everything=(has-curves scrubbed back stepped playing linked curve-zoomed zoomed other-field dark)
+particles=("${everything[@]}" tip fit)  # of a plane run
 
 PULVIS_KEEP_REPORTS=$reports "$test_cli" --gtest_filter='ReportTest.*' >"$work/tests.txt" ||
   fail "the report tests: $(tail -5 "$work/tests.txt")"
 "$pulvis" run "$source_dir/scenes/compaction/regular-25.toml" --threads 1 --set output.frames=8 \
   --set "stage.press.duration=20 us" --set 'stage.press.move[0].displacement=["0 mm", "-0.4 mm"]' \
-  --set output.contacts=true --overwrite -o "$reports/compaction" >"$work/run.txt" 2>&1 ||
-  fail "the compaction: $(tail -3 "$work/run.txt")"
+  --set output.contacts=true --overwrite -o "$reports/compaction" >"$work/compaction.txt" 2>&1 ||
+  fail "the compaction: $(tail -3 "$work/compaction.txt")"
 "$pulvis" run "$source_dir/scenes/afm/calibration-beam.toml" --threads 1 --overwrite -o "$reports/lever" >"$work/run.txt" 2>&1 ||
   fail "the lever: $(tail -3 "$work/run.txt")"
 
-check LoadsNothingFromElsewhere "${everything[@]}"
-check WorksWithoutToolsAndWithoutASummary "${everything[@]}"
+check LoadsNothingFromElsewhere "${particles[@]}" material
+check WorksWithoutToolsAndWithoutASummary "${particles[@]}"
 check ShowsTheLastFrameOfARunOfOneFrame zoomed other-field
-check StaysSmall "${everything[@]}"
-check ShowsLocalDensitiesAndContactsOfEveryFrame "${everything[@]}" contacts
-check ShowsBondsCracksAndFragmentsOfEveryFrame "${everything[@]}" bonds
-check ShowsThePeriodicCellWithTheParticlesInside "${everything[@]}" contacts
-check compaction "${everything[@]}" contacts
+check StaysSmall "${particles[@]}" material
+check ShowsLocalDensitiesAndContactsOfEveryFrame "${particles[@]}" contacts
+check ShowsBondsCracksAndFragmentsOfEveryFrame "${particles[@]}" bonds
+check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
+check compaction "${particles[@]}" material contacts whole near-zero-off
 check lever "${everything[@]}"
 check ShowsTheCurvesOfARunWithoutFrames has-curves
+
+# What to do about a value beyond its limit: the page has the words of the terminal.
+advice=$(sed -n 's/^warning: hourglass energy [0-9.]*% (limit 3%): //p' "$work/compaction.txt")
+[[ -n $advice ]] || fail "the terminal does not say what to do: $(tail -5 "$work/compaction.txt")"
+body_of quality "$reports/compaction/report.html" 1200,2000 ready >/dev/null
+grep -qF "What to do: $advice." "$work/page.html" || fail "the page does not say what to do: $advice"
+echo "ok: what to do about a value beyond its limit"
+
+# Nothing is cut off on paper, and nothing is dark there.
+browse "$reports/compaction/report.html" 1200,2000 --virtual-time-budget=10000 --no-pdf-header-footer \
+  --print-to-pdf="$reports/compaction/report.pdf" >/dev/null 2>&1
+[[ $(head -c 5 "$reports/compaction/report.pdf") == %PDF- ]] || fail "the page does not print"
+pages=$(grep -ac '/Type */Page\b' "$reports/compaction/report.pdf")
+[[ $pages -ge 2 && $pages -le 9 ]] || fail "the page prints on $pages pages"
+echo "ok: printed on $pages pages"
 
 "$pulvis" report "$reports/compaction" "$reports/StaysSmall" -o "$work/comparison.html" >/dev/null || fail "report A B"
 body=$(body_of comparison "$work/comparison.html" 1200,2000 ready)

@@ -47,6 +47,8 @@ grep -q 'href="friction%3D0.1%2Cseed%3D2/report.html"' "$work/page.html" || fail
 grep -q '<td class="number">[0-9.e-]* ± [0-9.e-]*</td>' "$work/page.html" || fail "no mean with its standard deviation"
 grep -q '<th scope="col" class="number">top force at peak density \[N\]</th>' "$work/page.html" || fail "no unit in the head of a column"
 grep -q 'class="beyond flag">⚠ [^<]* (limit ' "$work/page.html" || fail "no run is flagged with why"
+grep -q '>Force on top against travel of top</h2>' "$work/page.html" && grep -q 'axial stress over yield stress σax/σy' "$work/page.html" ||
+  fail "no names of the table where keys stood"
 grep -q '<option value="n">nN</option>' "$work/page.html" || fail "no nN among the units"
 [[ -f $study/friction=0.1,seed=2/report.html ]] || fail "the link leads nowhere"
 body=$(body_of fits "$study/report.html" 1000,2400 fits "$(dirname "$0")/study_driver.js")

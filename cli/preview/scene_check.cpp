@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
 #include <optional>
 
@@ -13,13 +14,16 @@
 #include "engine/run_failure.hpp"
 #include "scenes/checks/bending_error.hpp"
 #include "scenes/checks/bond_checks.hpp"
+#include "scenes/checks/lever_warnings.hpp"
 #include "scenes/checks/mesh_summary.hpp"
 #include "scenes/checks/overlaps.hpp"
 #include "scenes/checks/setup_warnings.hpp"
 #include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
+#include "scenes/lever/afm_size.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/spec/afm_scene.hpp"
 #include "scenes/tools/bond_rules.hpp"
 
 namespace pulvis {
@@ -47,22 +51,61 @@ std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodyS
   return lines;
 }
 
-ExitCode check_particle_scene(const Scene& scene) {
-  const std::vector<BodySpec> bodies = place_bodies(scene);
+SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
+                          Simulation* simulation) {
   const MemoryNeed need = memory_need(scene);
+  SceneFindings findings;
+  findings.sizes = packing_summary(scene) + mesh_summary(scene);
+  findings.warnings = warnings_of(scene, bodies, simulation);
+  findings.memory =
+      fmt::format("memory: about {}: particles {}, contacts {}, results {}, program {}",
+                  bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
+                  bytes_text(need.results), bytes_text(need.program));
+  findings.run = estimate_line(simulation);
+  findings.verdict =
+      fmt::format("{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
+                  counted(scene.tools.size(), "tool"), counted(scene.stages.size(), "stage"));
+  return findings;
+}
+
+SceneFindings findings_of(const Scene& scene, const AfmModel& model) {
+  std::size_t increments = 0;
+  for (const ActionSpec& action : scene.afm->actions) increments += action.samples();
+  SceneFindings findings;
+  findings.warnings = lever_warnings(scene);
+  if (increments > 0)
+    findings.run = fmt::format(
+        "run: {} at least; one takes as long as one to three factorisations of the stiffness",
+        counted(increments, "increment"));
+  findings.verdict = fmt::format("{}: good: {}, {}", scene.file.string(),
+                                 counted(model.elements, "element"), counted(model.nodes, "node"));
+  return findings;
+}
+
+void tell_findings(const SceneFindings& findings) {
+  tell("{}", findings.sizes);
+  for (const std::string& line : findings.warnings) tell("warning: {}\n", line);
+  for (const std::string& line : {findings.memory, findings.run, findings.verdict})
+    if (!line.empty()) tell("{}\n", line);
+}
+
+void tell_lever_memory(const Scene& scene) {
+  tell("memory: about {}\n", bytes_text(static_cast<std::uint64_t>(afm_size(*scene.afm).bytes())));
+  std::fflush(stdout);
+  require_afm_memory(scene);
+}
+
+ExitCode check_scene(const Scene& scene) {
+  if (scene.afm) {
+    tell_lever_memory(scene);
+    tell_findings(findings_of(scene, build_afm(scene)));
+    return ExitCode::done;
+  }
+  const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   std::optional<Simulation> simulation;
-  if (need.total() <= available_memory()) simulation.emplace(scene);
-  Simulation* const first = simulation ? &*simulation : nullptr;
-  tell("{}", packing_summary(scene));
-  tell("{}", mesh_summary(scene));
-  for (const std::string& line : warnings_of(scene, bodies, first)) tell("warning: {}\n", line);
-  tell("memory: about {}: particles {}, contacts {}, results {}, program {}\n",
-       bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
-       bytes_text(need.results), bytes_text(need.program));
-  tell("{}\n", estimate_line(first));
-  tell("{}: good: {}, {}, {}\n", scene.file.string(), counted(bodies.size(), "particle"),
-       counted(scene.tools.size(), "tool"), counted(scene.stages.size(), "stage"));
+  if (memory_need(scene).total() <= available_memory()) simulation.emplace(scene);
+  tell_findings(findings_of(scene, bodies, simulation ? &*simulation : nullptr));
   return ExitCode::done;
 }
 

@@ -1,17 +1,15 @@
 // The curves. A chart is {title, x, y, lines}: x and each line are {label, unit, values}, values in SI; y is
 // what stands at the axis. A line may have x values of its own (x), and a band around it (low, high), and bars
-// of its standard deviation (deviation) at some samples. One that isMarks is drawn as marks with bars from low to
+// of its standard deviation (deviation) at some samples. Lines that hardly differ from zero are off at first. One that isMarks is drawn as marks with bars from low to
 // high, and over them the line that was fitted (fit: x, values).
 "use strict";
 
 const LIGHT = {ink: "#1d2733", soft: "#56616f", grid: "#e8ecf1", edge: "#c4cdd8", paper: "#ffffff",
                body: "#e2e6eb", surface: "#3d4855", none: "#c9d0d8",
-               lines: ["#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                       "#e69f00", "#56b4e9", "#555555", "#8c6d1f", "#882255", "#117733"]};
+               lines: ["#0072b2", "#d55e00", "#1d1d1d", "#009e73", "#e69f00", "#6f4fc8", "#cc79a7", "#882255", "#7fb069"]};
 const DARK = {ink: "#e6ebf1", soft: "#9aa6b4", grid: "#2a323c", edge: "#4a5563", paper: "#171d24",
               body: "#2b343f", surface: "#a9b4c0", none: "#4b5562",
-              lines: ["#56b4e9", "#ff9a57", "#35c9a0", "#e59bc4",
-                      "#f2c14e", "#8f8bff", "#b4bcc6", "#c9a86a", "#c77dff", "#b5d99c"]};
+              lines: ["#56b4e9", "#ff8f4a", "#e6e6e6", "#35c9a0", "#b9e0ff", "#3f7fd6", "#e59bc4", "#a08cff", "#4c8f5c"]};
 
 const darkWished = matchMedia("(prefers-color-scheme: dark)");
 const isDark = () => (document.documentElement.dataset.theme || (darkWished.matches ? "dark" : "light")) === "dark";
@@ -106,9 +104,20 @@ function marksOf(xs, line, kx, ky, {px, py}, stroke) {
   }).join("");
 }
 
+// An abscissa may count things that have names.
+const abscissaTicks = ({names}, [low, high], count) => names ? names.map((_, i) => i).filter(i => i >= low && i <= high)
+  : niceTicks(low, high, Math.max(3, count));
+const abscissaText = ({names}, value) => names ? names[Math.round(value)] ?? "" : digits(value);
+
+// How a line looks, for the legend.
+const keySvg = ({dash, isMarks}, stroke) => `<svg width="26" height="8" viewBox="0 0 26 8">` + (isMarks
+  ? `<circle cx="13" cy="4" r="3.5" fill="${stroke}"/>`
+  : `<path d="M0 4H26" stroke="${stroke}" stroke-width="2.4"${dash ? ` stroke-dasharray="${dash.join(" ")}"` : ""}/>`) + "</svg>";
+
 // The picture as text: the page shows it, the buttons save it.
 function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
-  const shown = shownChart(spec, hidden), range = view || shown.whole, rows = legend ? spec.lines.length * 16 : 0;
+  const shown = shownChart(spec, hidden), range = view || shown.whole, told = spec.lines.map((_, i) => i).filter(i => !hidden.has(i));
+  const rows = legend ? told.length * 16 : 0;
   const place = chartPlace(range, width, height), {left, right, top, bottom, px, py} = place;
   const text = (x, y, anchor, content, more = "") =>
     `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" ${more}>${markup(content)}</text>`;
@@ -118,8 +127,9 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
                `viewBox="0 0 ${width} ${height + rows}" font-family="system-ui, sans-serif" font-size="12" ` +
                `fill="${colours.soft}">`];
   if (legend) out.push(`<rect width="100%" height="100%" fill="${colours.paper}"/>`);
-  for (const tick of niceTicks(...range.x, Math.max(3, (right - left) / 90))) {
-    out.push(line(px(tick), top, px(tick), bottom, colours.grid), text(px(tick), bottom + 16, "middle", digits(tick)));
+  for (const tick of abscissaTicks(spec.x, range.x, (right - left) / 90)) {
+    out.push(line(px(tick), top, px(tick), bottom, colours.grid),
+             text(Math.min(px(tick), width - 30), bottom + 16, "middle", abscissaText(spec.x, tick)));
   }
   for (const tick of niceTicks(...range.y, 5)) {
     out.push(line(left, py(tick), right, py(tick), colours.grid), text(left - 7, py(tick) + 4, "end", digits(tick)));
@@ -155,26 +165,38 @@ function chartSvg(spec, {view, hidden, width, height, colours, legend}) {
   });
   out.push("</g>");
   if (legend) {
-    spec.lines.forEach((one, i) => {
-      const y = height + 16 * i + 6, stroke = one.colour || colours.lines[i % colours.lines.length];
-      out.push(`<rect x="${left}" y="${y - 5}" width="16" height="3" fill="${stroke}"/>`,
-               text(left + 24, y, "start", one.label));
+    told.forEach((i, row) => {
+      const one = spec.lines[i], y = height + 16 * row + 6, stroke = one.colour || colours.lines[i % colours.lines.length];
+      out.push(`<g transform="translate(${left} ${y - 8})">${keySvg(one, stroke)}</g>`, text(left + 34, y, "start", one.label));
     });
   }
   return out.join("") + "</svg>";
 }
 
-// More lines than colours: from there on they are dashed, each time around otherwise.
-function distinct(spec) {
-  const around = i => Math.floor(i / LIGHT.lines.length);
-  return {...spec, lines: spec.lines.map((line, i) =>
-    line.dash || line.colour || !around(i) ? line : {...line, dash: [9 - 3 * Math.min(around(i), 2), 3]})};
+// Three lines of each pattern: nine are told apart by colour, and by pattern and lightness where colours are not seen
+// or not printed. tests/line_colours.py holds that of the palettes above. More lines take their dashes longer.
+const DASHES = [undefined, [8, 4], [2, 3]];
+
+function dashOf(i) {
+  const around = Math.floor(i / LIGHT.lines.length), dash = DASHES[Math.floor(i % LIGHT.lines.length / 3)];
+  return around ? [...(dash || [14, 3]), 2 + around, 3] : dash;
+}
+
+const distinct = spec => ({...spec, lines: spec.lines.map((line, i) =>
+  line.dash || line.colour || line.isMarks ? line : {...line, dash: dashOf(i)})});
+
+const NEAR_ZERO = 0.01;  // of the largest line
+
+// Those of a chart's lines that show nothing beside the largest: the positions of them.
+function nearZero(lines) {
+  const most = Math.max(0, ...lines.map(line => largest(line.values)));
+  return new Set(lines.flatMap((line, i) => line.isMarks || largest(line.values) >= NEAR_ZERO * most ? [] : [i]));
 }
 
 class Chart {
   // onCursor(sample): the reader points at this sample of the lines.
   constructor(host, spec, {height = 300, onCursor = null} = {}) {
-    Object.assign(this, {host, spec: distinct(spec), height, onCursor, hidden: new Set(), view: null, marked: null});
+    Object.assign(this, {host, spec: distinct(spec), height, onCursor, hidden: nearZero(spec.lines), view: null, marked: null});
     host.classList.add("chart");
     this.picture = element("div", {className: "plot", tabIndex: 0, role: "img", "aria-label": this.label()});
     this.over = element("canvas", {className: "over", "aria-hidden": "true"});
@@ -195,7 +217,7 @@ class Chart {
   }
 
   show(spec) {
-    Object.assign(this, {spec: distinct(spec), view: null, hidden: new Set(), marked: null});
+    Object.assign(this, {spec: distinct(spec), view: null, hidden: nearZero(spec.lines), marked: null});
     this.picture.setAttribute("aria-label", this.label());
     this.draw();
   }
@@ -212,12 +234,12 @@ class Chart {
   }
 
   drawLegend() {
-    const colours = theme().lines;
+    const colours = theme().lines, negligible = nearZero(this.spec.lines);
     this.legend.replaceChildren(...this.spec.lines.map((line, i) => {
-      const key = element("i", {});
-      key.style.background = line.colour || colours[i % colours.length];
+      const key = element("i", {}), tiny = negligible.has(i);
+      key.innerHTML = keySvg(line, line.colour || colours[i % colours.length]);
       const button = element("button", {type: "button", "aria-pressed": String(!this.hidden.has(i)),
-        title: "Show or hide"}, key, line.label);
+        title: tiny ? "Below 1 % of the largest. Show or hide" : "Show or hide"}, key, line.label);
       button.onclick = () => {
         this.hidden.delete(i) || this.hidden.add(i);
         if (this.hidden.size === this.spec.lines.length) this.hidden.clear();
@@ -276,7 +298,7 @@ class Chart {
     const lines = (read.length ? read : spec.lines.filter((_, i) => !this.hidden.has(i)))
       .map(line => `${line.label} ${value(line.values[Math.min(sample, line.values.length - 1)], shown.y)}`);
     const xs = spec.x.values || [];
-    this.readout.textContent = (xs.length ? `${spec.x.label} ${value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
+    this.readout.textContent = (xs.length ? `${spec.x.label} ${spec.x.names ? abscissaText(spec.x, xs[sample]) : value(xs[sample], shown.x)}: ` : "") + lines.join(", ");
   }
 
   // The frame that is shown elsewhere belongs to this sample.
@@ -374,7 +396,7 @@ class Chart {
     const name = () => fileName(this.spec.title || title);
     return saveButtons(title, {
       SVG: () => saveText(name() + ".svg", this.svg(), "image/svg+xml"),
-      PNG: () => saveAsPng(name() + ".png", this.svg(), 640, 400 + 16 * this.spec.lines.length),
+      PNG: () => saveAsPng(name() + ".png", this.svg(), 640, 400 + 16 * (this.spec.lines.length - this.hidden.size)),
       CSV: () => saveText(name() + ".csv", csvOf(this.columns()), "text/csv")});
   }
 }
@@ -384,7 +406,8 @@ function card(title, ...controls) {
   const box = element("section", {className: "card"}), host = element("div", {});
   const head = element("div", {className: "card-head"}, element("h2", {textContent: title}));
   box.append(head, ...controls, host);
-  document.getElementById("curves").append(box);
+  const all = document.getElementById("curves");
+  all.insertBefore(box, all.querySelector(":scope > section[id]"));  // those that the page has in any case come last
   return host;
 }
 

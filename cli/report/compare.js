@@ -11,15 +11,12 @@ function namesOf(runs) {
 const keyOf = line => line.name || line.label;
 const groupOf = (run, title) => curvesOf(run).find(one => one.title === title);
 
-// A run's part of a curve: under the sign that the first run shows it with, also where it is too small for its
-// own report.
+// A run's part of a curve.
 function partOf(run, title, model, x) {
   const group = groupOf(run, title), axis = group && group.xs.find(one => one.label === x);
   if (!axis) return null;
   const key = keyOf(model), own = group.lines.find(one => keyOf(one) === key) || (run.has(key) ? run.series(key) : null);
-  if (!own) return null;
-  const other = Boolean(own.turned) !== Boolean(model.turned);
-  return {...own, values: other ? own.values.map(v => -v) : own.values, x: axis.values, axis, y: group.y, dash: undefined};
+  return own && {...own, x: axis.values, axis, y: group.y, dash: undefined};
 }
 
 // A curve that at least two runs have, each with its own abscissa.
@@ -32,12 +29,13 @@ function overlaid(runs, names, title, model, x) {
     : {title: `${title}: ${model.label}`, x: {...parts[0].axis, values: []}, y: `${model.label}, ${parts[0].y}`, lines: parts};
 }
 
-// What any of the runs shows, each once: [title, the line as the first run has it, the labels of its abscissas].
+// What any of the runs shows, each once, but for what is near zero in all of them: [title, the line as the first run has it, the labels of its abscissas].
 function curvesOfAll(runs) {
   const found = new Map();
   for (const run of runs) {
     for (const {title, lines, xs} of curvesOf(run)) {
-      for (const line of lines) {
+      const negligible = nearZero(lines);
+      for (const line of lines.filter((_, i) => !negligible.has(i))) {
         const key = JSON.stringify([title, keyOf(line)]), known = found.get(key) || [title, line, new Set()];
         xs.forEach(x => known[2].add(x.label));
         found.set(key, known);
@@ -49,6 +47,7 @@ function curvesOfAll(runs) {
 
 function placeCurves(runs, names) {
   let count = 0;
+  const told = new Set();
   for (const [title, model, labels] of curvesOfAll(runs)) {
     const choices = [...labels].map(x => [x, overlaid(runs, names, title, model, x)]).filter(choice => choice[1]);
     if (!choices.length) continue;
@@ -57,6 +56,9 @@ function placeCurves(runs, names) {
     const host = card(first.title, element("div", {className: "controls"}, element("label", {}, "against ", select)));
     const chart = drawChart(host, first);
     select.onchange = () => chart.show(choices[select.value][1]);
+    const {meaning} = runs.map(run => groupOf(run, title)).find(Boolean);
+    if (meaning && !told.has(title)) host.parentElement.append(element("p", {className: "note", textContent: meaning}));
+    told.add(title);
     count += first.lines.length;
   }
   document.body.dataset.lines = count;
@@ -137,13 +139,11 @@ async function placeControls(views, wanted, {id, name}) {
 }
 
 // One range for all: of every run, or of the frames that are shown.
-function shareRanges(views) {
-  const alone = FieldView.prototype.range;
-  const common = () => bounds([views.filter(view => view.position && (view.codes || view.shown === "density"))
-    .flatMap(view => alone.call({...viewParts(view), ranges: null}))]);
+function shareRanges(views, hasColours) {
+  const alone = view => Object.assign(Object.create(Object.getPrototypeOf(view)), view, {ranges: null}).range();
+  const common = () => bounds([views.filter(hasColours).flatMap(alone)]);
   views.forEach(view => { view.ranges = common; });
 }
-const viewParts = view => Object.assign(Object.create(FieldView.prototype), view);
 
 async function main() {
   const {runs: heads} = JSON.parse(document.getElementById("head").textContent);
@@ -153,15 +153,20 @@ async function main() {
   placeSettings(document.getElementById("settings"), new Set(runs.flatMap(run => run.head.series).map(series => series.unit)));
   const views = await placeViews(runs, names), pace = views.map(view => view.run).sort((a, b) => b.frames.length - a.frames.length)[0];
   const timeline = new Timeline(document.getElementById("timeline"), pace ? pace.frames.map(frame => frame.time / (pace.frames.at(-1).time || 1)) : [],
-                                {name: "share of the run", unit: "-"});
+                                share => `share of the run ${digits(share, 3)}`);
   document.getElementById("timeline").hidden = !pace || pace.frames.length < 2;
   placeCurves(runs, names);
   placePanels(runs, names, timeline);
   fillRuns(runs, names);
   onUnits(() => fillRuns(runs, names));
   const fields = views.filter(view => view instanceof FieldView), solids = views.filter(view => view instanceof SolidView);
-  shareRanges(fields);
-  timeline.listen(share => { views.forEach(view => view.showShare(share)); });
+  fields.forEach(view => {
+    view.allNames = tag => [...new Set(runs.flatMap(run => (run.tags || []).filter(({name}) => name === tag).flatMap(({names}) => names)))];
+  });
+  shareRanges(fields, view => view.position && (view.codes || view.tag || view.shown === "density"));
+  shareRanges(solids, view => view.moved);
+  const redraw = share => Promise.all(views.map(view => view.showShare(share))).then(() => views.forEach(view => view.draw()));
+  timeline.listen(redraw);
   const both = fields.length > 0 && solids.length > 0;
   await placeControls(fields, "effective_stress", {id: "field", name: both ? "Particles" : "Show"});
   await placeControls(solids, "size", {id: both ? "lever-field" : "field", name: both ? "Levers" : "Show"});

@@ -3,7 +3,8 @@
 
 const MOST_STROKED = 12000;  // edges that are drawn as lines; more are drawn pixel by pixel
 const MOST_SEARCHED = 100000;  // cells whose edges are looked through for outlines
-const LEGEND_WIDTH = 84;
+const LEGEND_WIDTH = 84, MOST_LEGEND_WIDTH = 180;
+const MARGIN = 0.07;  // around the powder, of its size
 
 // Edges that one cell alone has: the outlines of the particles. [a0, b0, a1, b1, ...]
 function outlineEdges(cells, nodes) {
@@ -38,12 +39,13 @@ class FieldView {
     this.canvas = element("canvas", {className: "picture", tabIndex: 0, role: "img"});
     this.tip = element("div", {className: "tip", hidden: true});
     this.note = element("p", {className: "note"});
+    this.fit = element("button", {type: "button", className: "fit", textContent: "Fit", title: "Show all (0)",
+                                  hidden: true, onclick: () => this.showAll()});
     host.classList.add("field");
-    host.replaceChildren(this.canvas, this.tip, this.note);
+    host.replaceChildren(this.canvas, this.tip, this.fit, this.note);
     const {drawn_cells: cells, drawn_nodes: nodes, fans} = run.head.mesh;
     const edges = cells <= (fans ? MOST_STROKED : MOST_SEARCHED) ? outlineEdges(run.cells, nodes) : [];
     this.outline = edges.length / 2 <= MOST_STROKED ? edges : [];
-    this.view = this.wholeView();
     this.listen();
     for (const on of [onUnits, onTheme, onMap]) on(() => this.draw());
     onResize(host, () => { if (this.at && host.clientWidth !== this.drawnWidth) this.draw(); });
@@ -53,23 +55,55 @@ class FieldView {
   get choices() {
     const fields = this.run.head.fields.map(field => [field.name, titled(field.name)]);
     if (this.run.densities.length) fields.push(["density", "Local density"]);
-    return [...fields, ["", "Outlines alone"]];
+    this.run.tags.forEach(({name}) => fields.push([name, titled(name)]));
+    return [...fields, ["number", "Particle number"], ["", "Outlines alone"]];
   }
 
-  wholeView() {
-    const {low: [x0, y0], high: [x1, y1]} = this.run.head, whole = this.whole || {width: x1 - x0, height: y1 - y0};
-    const margin = 0.03 * Math.max(whole.width, whole.height), x = (x0 + x1) / 2, y = (y0 + y1) / 2;
-    return {x0: x - whole.width / 2 - margin, x1: x + whole.width / 2 + margin,
-            y0: y - whole.height / 2 - margin, y1: y + whole.height / 2 + margin};
+  // Of all frames: the shape of the picture, which keeps its place on the page.
+  wholeSize() {
+    const {low, high} = this.run.head, {width, height} = this.whole || {width: high[0] - low[0], height: high[1] - low[1]};
+    const margin = 2 * MARGIN * Math.max(width, height);
+    return {width: width + margin, height: height + margin};
+  }
+
+  // The powder as it is in this frame, and the faces of the tools around it.
+  frameView() {
+    const {low} = this.run.head, step = this.width / 65534, {whole} = this;
+    const box = [0, 1].map(k => {
+      let least = Infinity, most = -Infinity;
+      for (let i = k; i < this.position.length; i += 2) {
+        least = Math.min(least, this.position[i]);
+        most = Math.max(most, this.position[i]);
+      }
+      return [low[k] + step * least, low[k] + step * most];
+    });
+    const take = point => box.forEach((range, k) => {
+      range[0] = Math.min(range[0], point[k]);
+      range[1] = Math.max(range[1], point[k]);
+    });
+    const {cell} = this.run.frames[this.frame];
+    if (cell) {
+      const [x0, y0, ax, ay, bx, by] = cell;
+      [[0, 0], [1, 0], [0, 1], [1, 1]].forEach(([i, j]) => take([x0 + i * ax + j * bx, y0 + i * ay + j * by]));
+    }
+    const middle = box.map(([from, to]) => (from + to) / 2), far = Math.hypot(...box.map(([from, to]) => to - from));
+    for (const tool of this.tools()) {
+      const point = this.closestOnFace(tool, middle);
+      if (Math.hypot(point[0] - middle[0], point[1] - middle[1]) < far) take(point);
+    }
+    const [wide, tall] = whole ? [whole.width, whole.height] : box.map(([from, to]) => to - from);
+    const margin = MARGIN * Math.max(wide, tall), [x, y] = box.map(([from, to]) => (from + to) / 2);
+    return {x0: x - wide / 2 - margin, x1: x + wide / 2 + margin, y0: y - tall / 2 - margin, y1: y + tall / 2 + margin};
   }
 
   async load() {
     const {run, frame} = this, field = run.field(this.shown);
-    const [position, codes, lines, bondLines] = await Promise.all([
-      run.positions(frame), field < 0 ? null : run.codes(frame, field),
+    const [position, codes, corners, lines, bondLines] = await Promise.all([
+      run.positions(frame), field < 0 ? null : run.codes(frame, field), run.toolCorners(frame),
       this.contacts ? run.contactLines(frame) : null, this.bonds ? run.bondLines(frame) : null
     ]);
-    Object.assign(this, {position, codes, lines, bondLines, field: run.head.fields[field]});
+    const tag = field < 0 ? tagsOf(run).find(({name}) => name === this.shown) : null;
+    Object.assign(this, {position, codes, corners, lines, bondLines, tag, field: run.head.fields[field]});
   }
 
   // Asked for faster than it can be unpacked: the last request wins.
@@ -89,15 +123,24 @@ class FieldView {
   }
 
   layout() {
-    const ratio = Math.min(devicePixelRatio || 1, 2), whole = this.wholeView(), {canvas, view} = this;
-    const width = this.drawnWidth = canvas.parentElement.clientWidth, room = width - LEGEND_WIDTH;
-    const height = Math.round(Math.min(Math.max(room * (whole.y1 - whole.y0) / (whole.x1 - whole.x0), 200), this.most));
+    const ratio = Math.min(devicePixelRatio || 1, 2), whole = this.wholeSize(), {canvas} = this;
+    const view = this.view || this.frameView();  // a view that nobody has chosen follows the powder
+    const width = this.drawnWidth = canvas.parentElement.clientWidth, room = width - this.legendWidth();
+    const height = Math.round(Math.min(Math.max(room * whole.height / whole.width, 200), this.most));
     canvas.style.height = height + "px";
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
     const scale = Math.min(room / (view.x1 - view.x0), height / (view.y1 - view.y0));
     const left = (room - scale * (view.x1 - view.x0)) / 2, top = (height - scale * (view.y1 - view.y0)) / 2;
-    this.place = {ratio, width, room, height, scale, x: left - scale * view.x0, y: height - top + scale * view.y0};
+    this.place = {ratio, width, room, height, scale, view, x: left - scale * view.x0, y: height - top + scale * view.y0};
+  }
+
+  legendWidth() {
+    if (!this.tag || !this.tag.names.length) return LEGEND_WIDTH;
+    const ctx = this.canvas.getContext("2d");
+    ctx.font = "12px system-ui, sans-serif";
+    const widest = Math.max(...this.tag.names.map(name => ctx.measureText(name).width));
+    return Math.min(MOST_LEGEND_WIDTH, Math.max(LEGEND_WIDTH, Math.ceil(widest) + 38));
   }
 
   // Places on the canvas of every node of the frame, x and y interleaved.
@@ -115,6 +158,7 @@ class FieldView {
   range() {
     if (this.ranges) return this.ranges(this.shown);
     const density = this.shown === "density", {run, field, sameRange} = this;
+    if (this.tag) return [0, run.head.mesh.particles - 1];
     if (density) {
       return bounds([sameRange ? run.densities : this.densityCells().filter(value => value !== null)]);
     }
@@ -130,7 +174,7 @@ class FieldView {
 
   draw() {
     if (!this.position) return;
-    const start = performance.now(), colours = theme();
+    const start = performance.now();
     this.layout();
     const ctx = this.canvas.getContext("2d"), {ratio, room, height} = this.place;
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -140,19 +184,20 @@ class FieldView {
     ctx.rect(0, 0, room, height);
     ctx.clip();
     this.at = this.nodesOnCanvas();
-    this.forTools(ctx, far => ctx.fillRect(-far, 0, 2 * far, far), colours.body);
-    this.drawPolylines(ctx, true);
+    this.drawBodies(ctx);
     this.drawCells(ctx);
     if (this.shown === "density") this.drawDensity(ctx);
     this.drawOutlines(ctx);
     this.drawCell(ctx);
-    this.drawSurfaces(ctx);
+    this.drawFaces(ctx);
     if (this.bondLines) this.drawBonds(ctx);
     if (this.lines) this.drawContacts(ctx);
     ctx.restore();
     this.drawScaleBar(ctx);
     this.drawLegend(ctx);
     this.tell();
+    this.tellPointer();
+    this.fit.hidden = !this.view;
     this.canvas.dataset.drawnIn = (performance.now() - start).toFixed(1);
     this.canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }
@@ -161,6 +206,14 @@ class FieldView {
   cellColours() {
     const none = theme().none.match(/\w\w/g).map(two => parseInt(two, 16)), plain = packed(...none);
     const count = this.run.cells.length / 4, colours = new Uint32Array(count).fill(plain);
+    if (this.tag && this.tag.names.length) {
+      const {values} = this.tag, table = this.tagColours().map(rgb => packed(...rgb));
+      return colours.map((_, c) => table[values[this.run.particleOf[c]]]);
+    }
+    if (this.tag) {
+      const [low, high] = this.range(), share = number => high > low ? (number - low) / (high - low) : 0.5;
+      return colours.map((_, c) => packed(...mapColour(share(this.run.particleOf[c]))));
+    }
     if (!this.codes) return colours;
     if (this.showsFragments) {
       for (let c = 0; c < count; ++c) {
@@ -177,6 +230,12 @@ class FieldView {
       colours[c] = table[Math.max(0, Math.min(255, Math.floor((field.low + step * code - low) * factor)))];
     }
     return colours;
+  }
+
+  // One for each of its names; runs side by side have one for a name.
+  tagColours() {
+    const {tag} = this, all = this.allNames ? this.allNames(tag.name) : tag.names;
+    return tag.names.map(name => tagColour(all.indexOf(name), all.length));
   }
 
   get showsFragments() {
@@ -221,7 +280,7 @@ class FieldView {
       path.moveTo(at[2 * outline[i]], at[2 * outline[i] + 1]);
       path.lineTo(at[2 * outline[i + 1]], at[2 * outline[i + 1] + 1]);
     }
-    ctx.strokeStyle = isDark() && !this.codes ? "#c4cdd8" : "#1d2733";
+    ctx.strokeStyle = isDark() && !this.codes && !this.tag ? "#c4cdd8" : "#1d2733";
     ctx.lineWidth = 0.7;
     ctx.stroke(path);
   }
@@ -294,68 +353,6 @@ class FieldView {
     }
   }
 
-  // Where a tool's point is in this frame.
-  toolPoint(tool, point) {
-    const shift = this.run.toolShift(tool.name, this.run.frames[this.frame].time);
-    return [point[0] + shift[0], point[1] + shift[1]];
-  }
-  get tools() { return this.run.summary.tools || []; }
-
-  // Runs `action` for each plane tool, in axes where its body is all that lies below y = 0.
-  forTools(ctx, action, style) {
-    const {scale, x, y, room, height} = this.place;
-    ctx.fillStyle = style;
-    for (const tool of this.tools) {
-      if (!Array.isArray(tool.point) || !Array.isArray(tool.normal)) continue;
-      const [px, py] = this.toolPoint(tool, tool.point), before = ctx.getTransform();
-      ctx.translate(x + scale * px, y - scale * py);
-      ctx.rotate(Math.atan2(tool.normal[0], tool.normal[1]));
-      action(2 * (room + height));
-      ctx.setTransform(before);
-    }
-  }
-
-  // The surfaces as lines, each only where no other tool's body covers it.
-  drawSurfaces(ctx) {
-    const thick = 2;
-    ctx.save();
-    this.forTools(ctx, far => {
-      ctx.beginPath();
-      ctx.rect(-far, thick - far, 2 * far, far);
-      ctx.clip();
-    });
-    this.forTools(ctx, far => ctx.fillRect(-far, 0, 2 * far, thick), theme().surface);
-    this.drawPolylines(ctx, false);
-    ctx.restore();
-  }
-
-  // Tools given by points: filled to the right of the way along them, or as a line. Both ends go on
-  // straight.
-  drawPolylines(ctx, filled) {
-    const {scale, x, y, room, height} = this.place, far = 2 * (room + height), colours = theme();
-    for (const tool of this.tools) {
-      if (!Array.isArray(tool.points)) continue;
-      const [px, py] = this.toolPoint(tool, [0, 0]);
-      const points = tool.points.map(p => [x + scale * (p[0] + px), y - scale * (p[1] + py)]);
-      const beyond = (end, inner) => {
-        const dx = end[0] - inner[0], dy = end[1] - inner[1], length = Math.hypot(dx, dy);
-        return [far * dx / length, far * dy / length];
-      };
-      const last = points.length - 1;
-      const [ax, ay] = beyond(points[0], points[1]), [bx, by] = beyond(points[last], points[last - 1]);
-      const from = [points[0][0] + ax, points[0][1] + ay], to = [points[last][0] + bx, points[last][1] + by];
-      ctx.beginPath();
-      for (const p of [from, ...points, to]) ctx.lineTo(p[0], p[1]);
-      ctx.strokeStyle = colours.surface;
-      ctx.lineWidth = 2;
-      if (!filled) { ctx.stroke(); continue; }
-      ctx.lineTo(to[0] - by, to[1] + bx);
-      ctx.lineTo(from[0] + ay, from[1] - ax);
-      ctx.fillStyle = colours.body;
-      ctx.fill();
-    }
-  }
-
   drawScaleBar(ctx) {
     const {room, height, scale} = this.place, most = 66 / scale, power = 10 ** Math.floor(Math.log10(most));
     const metres = [5, 2, 1].find(k => k * power <= most) * power;
@@ -366,16 +363,18 @@ class FieldView {
   }
 
   drawLegend(ctx) {
-    const {room, height} = this.place, density = this.shown === "density";
-    if (!density && (!this.codes || this.showsFragments)) return;
+    const {width, room, height} = this.place, density = this.shown === "density", {tag} = this;
+    if (tag && tag.names.length) { drawTagLegend(ctx, room + 14, 16, tag, this.tagColours(), width - room - 14); return; }
+    if (!density && !tag && (!this.codes || this.showsFragments)) return;
     const [low, high] = this.range();
     if (!(low <= high)) return;  // of no cell
-    drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density ? "-" : this.field.unit});
+    drawScale(ctx, room + 14, 26, Math.min(height - 76, 320), {low, high, unit: density || tag ? "-" : this.field.unit});
   }
 
   tell() {
     const {run, frame, field} = this, {time, step} = run.frames[frame];
-    const name = this.shown === "density" ? "Local relative density" : field ? titled(field.name) : "Outlines";
+    const name = this.shown === "density" ? "Local relative density" : field ? titled(field.name)
+      : this.tag ? this.tag.names.length ? titled(this.tag.name) : "Particle number" : "Outlines";
     const meaning = field && this.shown !== "density" ? ` (${field.meaning})` : "";
     const contacts = this.lines?.length ? ` Lines: normal contact forces, widest ${withUnit(this.mostForce, "N")}.` : "";
     const bonds =
@@ -386,33 +385,22 @@ class FieldView {
       "Plus and minus zoom, 0 shows all.");
   }
 
-  // The value under the pointer, from the picture of the cells' numbers.
-  tellValue(event) {
-    const {ratio, room} = this.place || {}, {offsetX: x, offsetY: y} = event;
-    const cell = this.at && x < room ? this.raster.cells[Math.floor(y * ratio) * this.raster.width + Math.floor(x * ratio)] : -1;
-    const code = cell >= 0 && this.codes ? this.codes[cell] : NO_NUMBER;
-    this.tip.hidden = code === NO_NUMBER || code === undefined;
-    if (this.tip.hidden) return;
-    this.tip.textContent = this.showsFragments ? `fragment ${Math.round(this.valueOf(code))}` :
-                                                 withUnit(this.valueOf(code), this.field.unit);
-    this.tip.style.left = Math.min(x + 14, room - 60) + "px";
-    this.tip.style.top = Math.max(0, y - 30) + "px";
-  }
-
   zoomBy(factor, px, py) {
-    const {scale, x, y, room, height} = this.place, {view} = this;
+    const {scale, x, y, room, height} = this.place, view = this.own();
     const atX = ((px ?? room / 2) - x) / scale, atY = (y - (py ?? height / 2)) / scale;
     for (const side of ["x0", "x1"]) view[side] = atX + factor * (view[side] - atX);
     for (const side of ["y0", "y1"]) view[side] = atY + factor * (view[side] - atY);
     this.draw();
   }
   moveBy(px, py) {
-    const {view, place: {scale}} = this;
+    const view = this.own(), {scale} = this.place;
     for (const side of ["x0", "x1"]) view[side] -= px / scale;
     for (const side of ["y0", "y1"]) view[side] += py / scale;
     this.draw();
   }
-  showAll() { this.view = this.wholeView(); this.draw(); }
+  // The reader's own view, which stays where it is.
+  own() { return this.view = this.view || {...this.place.view}; }
+  showAll() { this.view = null; this.draw(); }
 
   listen() {
     const {canvas} = this;
@@ -422,9 +410,10 @@ class FieldView {
     }, {passive: false});
     canvas.addEventListener("pointerdown", event => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener("pointermove", event => {
-      event.buttons & 1 ? this.moveBy(event.movementX, event.movementY) : this.tellValue(event);
+      this.pointer = {x: event.offsetX, y: event.offsetY};
+      event.buttons & 1 ? this.moveBy(event.movementX, event.movementY) : this.tellPointer();
     });
-    canvas.addEventListener("pointerleave", () => { this.tip.hidden = true; });
+    canvas.addEventListener("pointerleave", () => { this.pointer = null; this.tellPointer(); });
     canvas.addEventListener("dblclick", () => this.showAll());
     canvas.addEventListener("keydown", event => {
       if (event.key === "+" || event.key === "=") this.zoomBy(0.8);

@@ -11,22 +11,38 @@ function travels(run) {
   });
 }
 
-// Forces worth a curve: at least 1 % of the largest. One that pulls down mostly is shown turned over, and
-// says so, so that both punches can be compared.
+// Out of the face of a tool, into the powder: a plane's own; of a polyline, out of the side that most of it faces. None:
+// a constraint, which only pulls at a particle.
+function faceNormal(tool) {
+  if (Array.isArray(tool.normal)) return tool.normal;
+  if (!Array.isArray(tool.points) || tool.points.length < 2) return null;
+  const [from, to] = [tool.points[0], tool.points.at(-1)], dx = to[0] - from[0], dy = to[1] - from[1];
+  return Math.abs(dx) >= Math.abs(dy) ? [0, Math.sign(dx)] : [-Math.sign(dy), 0];
+}
+
+const SIGNS = "Forces of the powder on the tools. Normal: out of the powder into the tool, compression > 0, tension < 0. " +
+  "Tangential: along the face, > 0 towards +x, or +y on an upright face. Fx, Fy: along the axes.";
+
+const bySize = (a, b) => largest(b.values) - largest(a.values);
+
+// One convention for all tools, whichever way they face.
 function forceLines(run) {
-  const forces = run.named(/^tool\/.+\/force_[xyz]$/), most = Math.max(0, ...forces.map(s => largest(s.values)));
-  return forces.filter(s => most > 0 && largest(s.values) >= 0.01 * most).map(s => {
-    const [, tool, along] = s.name.match(/^tool\/(.+)\/force_([xyz])$/), [low, high] = bounds([s.values]);
-    const turned = -low > high;
-    return {...s, turned, label: `${tool}, ${turned ? "−" : ""}F${along}`, values: turned ? s.values.map(v => -v) : s.values};
-  });
+  return run.named(/^tool\/.+\/force_x$/).flatMap(series => {
+    const name = series.name.split("/")[1], fx = series.values, fy = run.values(`tool/${name}/force_y`);
+    const normal = faceNormal((run.summary.tools || []).find(tool => tool.name === name) || {});
+    const line = (label, key, values) => ({...series, label: `${name}, ${label}`, name: `tool/${name}/${key}`, values});
+    if (!normal) return [line("Fx", "force_x", fx), line("Fy", "force_y", fy)];
+    const [nx, ny] = normal, sign = (Math.abs(ny) >= Math.abs(nx) ? ny : -nx) > 0 ? 1 : -1;
+    return [line("normal", "normal", fx.map((f, i) => -f * nx - fy[i] * ny)),
+            line("tangential", "tangential", fx.map((f, i) => sign * (f * ny - fy[i] * nx)))];
+  }).sort(bySize);
 }
 
 addCurves(run => {
   const density = run.has("relative_density") ? [run.series("relative_density", "relative density")] : [];
   const xs = [timeAxis(run), ...travels(run), ...density];
   const ratio = ["axial", "lateral"].filter(name => run.has(`stress_ratio/${name}`));
-  return [{title: "Forces on the tools", xs, y: "force", lines: forceLines(run)},
+  return [{title: "Forces on the tools", xs, y: "force", lines: forceLines(run), meaning: SIGNS},
           {title: "Stress over yield stress", xs: [...density, ...xs.filter(x => !density.includes(x))],
            y: "stress ratio σ / σy", lines: ratio.map(name => run.series(`stress_ratio/${name}`, name))}];
 });
@@ -36,7 +52,7 @@ addPanel({
   when: run => run.named(/^energy\//).some(series => largest(series.values) > 0),
   draw(report, host) {
     const lines = report.run.named(/^energy\//).filter(series => largest(series.values) > 0)
-      .map(series => ({...series, label: words(series.name.slice("energy/".length))}));
+      .map(series => ({...series, label: words(series.name.slice("energy/".length))})).sort(bySize);
     report.chart(host, {x: timeAxis(report.run), y: "energy", lines});
   },
 });

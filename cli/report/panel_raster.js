@@ -100,17 +100,24 @@ function drawRaster(canvas, image, maps) {
   canvas.dataset.scale = maps.map(map => map.range.join(" ")).join(" ");
 }
 
-function placeRaster({action, channels}, host) {
+// Maps of runs side by side have the same ends.
+function sharedRanges(maps, rasters, channel, level) {
+  const all = rasters.filter(({channels}) => channels[channel]?.trace).flatMap(({channels}) => mapsOf(channel, channels[channel], level));
+  return maps.map(map => ({...map, range: bounds(all.filter(({title}) => title === map.title).map(({range}) => range))}));
+}
+
+// beside: the same raster of every run that is shown.
+function placeRaster({action, channels}, host, beside) {
   const channel = element("select", {className: "channel"}), level = element("select", {className: "level"});
   Object.keys(channels).filter(name => channels[name].trace).forEach(name => channel.add(new Option(name, name)));
   Object.entries(LEVELS).forEach(([name, [label]]) => level.add(new Option(label, name)));
   const canvas = element("canvas", {className: "figure", role: "img"}), note = element("p", {className: "note"});
   host.append(element("div", {className: "controls"}, element("label", {}, "Channel ", channel),
                       element("label", {}, "Levelling ", level)), canvas, note);
-  host.parentElement.style.gridColumn = "1 / -1";
+  host.parentElement.classList.add("wide");
   if (channels.topography) channel.value = "topography";
   const chosen = () => channels[channel.value];
-  const maps = () => mapsOf(channel.value, chosen(), level.value);
+  const maps = () => sharedRanges(mapsOf(channel.value, chosen(), level.value), beside, channel.value, level.value);
   const paint = () => {
     const {trace} = chosen(), drawn = maps();
     drawRaster(canvas, trace, drawn);
@@ -133,7 +140,9 @@ function placeRaster({action, channels}, host) {
 
 addPanel({
   title: "Images", order: 5, when: run => rastersOf(run).length > 0,
-  draw({run}, host) {
-    rastersOf(run).forEach((raster, i) => placeRaster(raster, i ? card(`Images of ${words(raster.action)}`) : host));
+  draw({run, beside}, host) {
+    const all = beside.flatMap(rastersOf);
+    rastersOf(run).forEach((raster, i) => placeRaster(raster, i ? card(`Images of ${words(raster.action)}`) : host,
+                                                      all.filter(({action}) => action === raster.action)));
   },
 });

@@ -17,7 +17,7 @@ const figuresOf = run => FIGURES.flatMap(make => make(run)).filter(figure => fig
 const curvesOf = run => CURVES.flatMap(make => make(run)).filter(group => group && group.lines.length)
   .sort((a, b) => Boolean(b.first) - Boolean(a.first));
 
-const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times});
+const timeAxis = run => ({label: run.timeName, unit: run.timeUnit, values: run.times, names: run.isCalibration ? LOAD_CASE_NAMES : undefined});
 
 // What a panel works with: the run, links to the page's one time, and the runs that stand beside it.
 class Report {
@@ -75,5 +75,35 @@ class Report {
     for (const panel of panelsInOrder()) {
       if (panel.when(this.run)) panel.draw(this, card(panel.title));
     }
+  }
+}
+
+// Which cards go into the second of two columns, so that both are about as long; the first card stays in the first. Bits.
+function evenSplit(heights) {
+  const count = Math.min(heights.length, 14), sum = list => list.reduce((total, height) => total + height, 0), whole = sum(heights);
+  let best = 0, least = Infinity;
+  for (let bits = 0; bits < 1 << count; bits += 2) {
+    const uneven = Math.abs(whole - 2 * sum(heights.filter((_, i) => bits >> i & 1)));
+    if (uneven < least) { least = uneven; best = bits; }
+  }
+  return best;
+}
+
+// Cards in two columns without holes: the last of a column is as long as the other column wants it. Wide cards go across.
+function arrangeCards(host) {
+  const cards = [...host.children].filter(one => one.classList.contains("card") && !one.hidden);
+  const isWide = one => one.classList.contains("wide");
+  for (let i = 0; i < cards.length;) {
+    let end = i;
+    while (end < cards.length && !isWide(cards[end])) ++end;
+    const group = cards.slice(i, end);
+    if (group.length > 1) {
+      const columns = [0, 1].map(() => element("div", {className: "column"})), second = evenSplit(group.map(one => one.offsetHeight));
+      host.insertBefore(element("div", {className: "columns"}, ...columns), group[0]);
+      group.forEach((one, k) => columns[second >> k & 1].append(one));
+    } else if (group.length) {
+      group[0].classList.add("wide");
+    }
+    i = end + 1;
   }
 }

@@ -73,8 +73,7 @@ function noteOfFrames({frames, head}) {
 async function main() {
   const started = performance.now();
   const run = await Run.load(JSON.parse(document.getElementById("head").textContent));
-  const timeline = new Timeline(document.getElementById("timeline"), run.frames.map(frame => frame.time),
-                                {name: run.timeName, unit: run.timeUnit});
+  const timeline = new Timeline(document.getElementById("timeline"), run.frames.map(frame => frame.time), time => run.timeText(time));
   const report = new Report(run, timeline);
   document.getElementById("lead").textContent = leadOf(run);
   document.getElementById("frames-note").textContent = noteOfFrames(run);
@@ -92,6 +91,7 @@ async function main() {
   placeCurves(report, document.getElementById("curve-place"));
   await placePicture(report, document.getElementById("picture-place"));
   report.placePanels();
+  arrangeCards(document.getElementById("curves"));
   document.body.dataset.readyIn = Math.round(performance.now() - started);
   document.body.dataset.ready = "1";
 }

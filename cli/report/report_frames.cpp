@@ -10,6 +10,7 @@
 #include "cli/report/report_encoding.hpp"
 #include "cli/report/report_mesh.hpp"
 #include "cli/report/report_observed.hpp"
+#include "cli/report/report_tags.hpp"
 
 namespace pulvis {
 namespace {
@@ -51,6 +52,7 @@ class Frames {
     choose_frames();
     find_ranges();
     sections_.push_back({"cells", encoded(std::span<const std::int32_t>(drawn_.cells()), 4)});
+    if (!frames_.empty()) add_tags(file_, mesh_, drawn_, head_, sections_);
     for (std::size_t i = 0; i < frames_.size(); ++i) add_frame(i);
     describe();
   }
@@ -178,6 +180,7 @@ class Frames {
                {"step", file_.number_attribute(frame_path(frame), "step")}};
     if (of_frame.here()) entry["cell"] = of_frame.numbers();
     add_observed(file_, frame_path(frame), prefix, of_frame, entry, sections_);
+    add_tool_corners(file_, frame_path(frame), prefix, sections_);
     head_["frames"].push_back(entry);
   }
 

@@ -152,6 +152,16 @@ std::vector<double> DrawnMesh::positions(std::span<const double> xy) const {
   return mean;
 }
 
+std::vector<std::int32_t> DrawnMesh::particles(const PlaneMesh& mesh) const {
+  std::vector<std::int32_t> numbers;
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    const auto corner = static_cast<std::size_t>(cells_[4 * c]);
+    const std::int32_t node = nodes_[static_cast<std::size_t>(first_[corner])];
+    numbers.push_back(mesh.node_particle[static_cast<std::size_t>(node)]);
+  }
+  return numbers;
+}
+
 std::vector<double> DrawnMesh::values(std::span<const double> of_cells) const {
   std::vector<double> sum(cell_count(), 0.0), area(cell_count(), 0.0);
   for (std::size_t c = 0; c < drawn_.size(); ++c) {

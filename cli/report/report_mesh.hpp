@@ -30,6 +30,8 @@ class DrawnMesh {
   // Means of what the drawn nodes and cells stand for.
   std::vector<double> positions(std::span<const double> xy) const;
   std::vector<double> values(std::span<const double> of_cells) const;
+  // Of every drawn cell, the particle that it is of.
+  std::vector<std::int32_t> particles(const PlaneMesh& mesh) const;
 
  private:
   void add_fan(const PlaneMesh& mesh, std::span<const std::int32_t> cells, std::size_t sectors);

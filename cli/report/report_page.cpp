@@ -1,5 +1,6 @@
 #include "cli/report/report_page.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <string_view>
@@ -26,8 +27,15 @@ std::string escaped(std::string_view text) {
 // JSON inside a script element: no text of the run may look like the end of the element.
 std::string harmless(std::string_view json) { return with_replaced(json, {{'<', "\\u003c"}}); }
 
+// The table of names is JSON from its first brace on.
+std::string names_of_keys() {
+  const std::string_view table = report_asset("pulvis/figures/name_table.py");
+  return "const NAMES = " + harmless(table.substr(table.find('{'))) + ";\n";
+}
+
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
+  if (std::ranges::find(names, "names.js") != names.end()) text += names_of_keys();
   for (const auto& name : names) text += std::string(report_asset(name)) + "\n";
   return text;
 }

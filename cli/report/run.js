@@ -3,6 +3,11 @@
 
 const NO_NUMBER = 65535, MOST_KEPT_BYTES = 3e8;
 
+// The frames and samples of a calibration, as cli/session/afm_session.cpp writes them.
+const LOAD_CASES = ["at rest", "under a force normal to the sample", "under a lateral force", "under a force along the lever"];
+const LOAD_CASE_NAMES = ["at rest", "normal", "lateral", "axial"];
+const loadCase = number => LOAD_CASES[Math.round(number)] || `load case ${digits(number)}`;
+
 class Run {
   static async load(head, prefix = "") {
     const run = new Run();
@@ -16,7 +21,9 @@ class Run {
       ({...image, values: await floats(`${prefix}image-${i}`)})));
     if (head.mesh && run.frames.length) {
       run.cells = await integers(prefix + "cells", 4);
-      run.particleOf = particlesOf(run.cells, head.mesh.drawn_nodes);
+      run.particleOf = await integers(prefix + "cell-particle", 1);
+      run.tags = await Promise.all((head.tags || []).map(async tag =>
+        ({...tag, values: await integers(`${prefix}particle-${tag.name}`, 1)})));
     }
     return run;
   }
@@ -29,6 +36,10 @@ class Run {
   // calibration has none: it pulls at the tip along one axis after the other.
   get isCalibration() { return this.family === "afm" && !this.has("scanner/z"); }
   get timeName() { return this.isCalibration ? "load case" : this.family === "afm" ? "actions done" : "time"; }
+  // A time in words.
+  timeText(time) {
+    return this.isCalibration ? titled(loadCase(time)) : (this.timeUnit === "s" ? "" : this.timeName + " ") + withUnit(time, this.timeUnit, 3);
+  }
   get timeUnit() { return this.family === "afm" ? "-" : "s"; }
   has(name) { return this.history.has(name); }
   values(name) { return this.has(name) ? this.history.get(name).values : new Float32Array(); }
@@ -74,6 +85,7 @@ class Run {
   positions(frame) { return this.kept_(`frame-${frame}-position`, key => shorts(key, 2)); }
   codes(frame, field) { return this.kept_(`frame-${frame}-${field}`, key => shorts(key, 1)); }
   displacements(frame) { return this.kept_(`frame-${frame}-displacement`, floats); }
+  async toolCorners(frame) { return this.head.tools ? this.kept_(`frame-${frame}-tools`, floats) : null; }
   async contactLines(frame) {
     const network = this.frames[frame].network;
     return network && network.lines ? this.kept_(`frame-${frame}-network`, floats) : new Float32Array();
@@ -88,25 +100,4 @@ class Run {
 
   field(name) { return (this.head.fields || []).findIndex(field => field.name === name); }
   get densities() { return this.frames.flatMap(frame => frame.density ? frame.density.cells : []); }
-
-  // A tool's way from a time to the end, where the summary tells its place.
-  toolShift(name, time) {
-    return ["x", "y"].map(axis => {
-      const values = this.values(`tool/${name}/position_${axis}`);
-      return values.length ? values[this.sampleAt(time)] - values.at(-1) : 0;
-    });
-  }
-}
-
-// Cells that share a node are of one particle: its number for every cell.
-function particlesOf(cells, nodes) {
-  const parent = Int32Array.from({length: nodes}, (_, i) => i);
-  const root = node => {
-    while (parent[node] !== node) node = parent[node] = parent[parent[node]];
-    return node;
-  };
-  for (let i = 0; i < cells.length; i += 4) {
-    for (let k = 1; k < 4; ++k) parent[root(cells[i + k])] = root(cells[i]);
-  }
-  return Int32Array.from({length: cells.length / 4}, (_, c) => root(cells[4 * c]));
 }

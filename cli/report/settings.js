@@ -32,3 +32,14 @@ function placeSettings(host, units, hasMap = true) {
   tell();
   host.append(...(choices.length ? [menu] : []), ...(map ? [map] : []), shade);
 }
+
+// On paper everything is dark on white, whatever the reader has chosen.
+addEventListener("beforeprint", () => {
+  const root = document.documentElement, chosen = root.dataset.theme;
+  root.dataset.theme = "light";
+  themeChanged();
+  addEventListener("afterprint", () => {
+    chosen ? root.dataset.theme = chosen : delete root.dataset.theme;
+    themeChanged();
+  }, {once: true});
+});

@@ -1,9 +1,6 @@
 // A lever in three dimensions: its surface, coloured by how far it moved, turned by dragging.
 "use strict";
 
-// The frames of a calibration, as run_afm.cpp writes them.
-const LOAD_CASES = ["at rest", "under a force normal to the sample", "under a lateral force", "under a force along the lever"];
-
 const FIRST_VIEW = {turn: -0.9, tilt: 0.42};
 
 class SolidView {
@@ -53,6 +50,9 @@ class SolidView {
     this.draw();
   }
   showShare(share) { return this.show({frame: this.run.frameAt(share * this.run.frames.at(-1).time)}); }
+
+  // Ends of the colours, of this frame.
+  range() { return bounds([Float32Array.from({length: this.moved.length / 3}, (_, node) => this.valueOf(node))]); }
 
   valueOf(node) {
     const at = 3 * node, {moved} = this;
@@ -110,7 +110,7 @@ class SolidView {
     this.drawAxes(ctx);
     drawScale(ctx, room + 14, 26, height - 60, {low: range[0], high: range[1], unit: "m"});
     const {time} = this.run.frames[this.frame], drawn = this.larger === 1 ? "true to scale" : `drawn ${digits(this.larger)} times larger`;
-    this.note.textContent = `Lever, ${this.run.isCalibration ? LOAD_CASES[Math.round(time)] : digits(time, 3) + " actions done"}, ${drawn}; largest displacement ${withUnit(this.most, "m")}. Drag to turn.`;
+    this.note.textContent = `Lever, ${this.run.isCalibration ? loadCase(time) : digits(time, 3) + " actions done"}, ${drawn}; largest displacement ${withUnit(this.most, "m")}. Drag to turn.`;
     canvas.setAttribute("aria-label", `Picture of the lever in three dimensions. ${this.note.textContent}`);
     canvas.dataset.drawn = `${this.frame} ${this.shown}`;
   }
@@ -124,7 +124,7 @@ class SolidView {
         value[f] += this.valueOf(faces[4 * f + k]) / 4;
       }
     }
-    const [low, high] = bounds([value]);
+    const [low, high] = this.ranges ? this.ranges() : bounds([value]);
     const order = Array.from(far.keys()).sort((a, b) => far[b] - far[a]);
     ctx.lineJoin = "round";
     ctx.lineWidth = 0.4;

@@ -133,7 +133,7 @@ function lineData(line, numbers) {
   return {x: part(0), y: part(1), ...(line.band ? {low: part(2), high: part(3), deviation: part(4)} : {})};
 }
 
-const seriesLabel = name => words(name).replaceAll("/", " ");
+const titleOfChart = title => title.split(" ").map(word => /[_/]/.test(word) ? nameOf(word).words : word).join(" ");
 
 function seedsNote(lines) {
   const seeds = [...new Set(lines.filter(line => line.band).map(line => line.runs))].sort((a, b) => a - b);
@@ -146,8 +146,8 @@ function overlay(curve, numbers) {
     const {x, y, low, high, deviation} = lineData(line, numbers);
     return {label: line.variation, unit: curve.y_unit, x, values: y, low, high, deviation};
   });
-  return {title: seriesLabel(curve.title), x: {label: seriesLabel(curve.x), unit: curve.x_unit, values: []},
-          y: seriesLabel(curve.y), lines, seeds: seedsNote(curve.lines)};
+  return {title: titled(titleOfChart(curve.title)), x: {label: toldName(curve.x), unit: curve.x_unit, values: []},
+          y: toldName(curve.y), lines, seeds: seedsNote(curve.lines)};
 }
 
 async function main() {

@@ -3,31 +3,22 @@
 
 const fillTable = (id, columns, isBad) => fillColumns(document.getElementById(id), columns, isBad);
 
-// What a study knows of its runs, in the order of the table: [name, title]. What none of them has is left out.
-const COLUMNS = [["particles", "particles"], ["steps", "steps"], ["wall_seconds", "computing time"],
-                 ["peak/relative_density", "peak relative density"], ["peak/top_force", "top force at peak density"],
-                 ["peak/bottom_force", "bottom force at peak density"],
-                 ["peak/top_pressure", "top pressure at peak density"],
-                 ["peak/transmission", "transmission at peak density"],
+// What a study knows of its runs, in the order of the table: [name], and a title where it is short of the name's words
+// (names.js). What none of them has is left out.
+const COLUMNS = [["particles"], ["steps"], ["wall_seconds"], ["peak/relative_density", "peak relative density"],
+                 ["peak/top_force"], ["peak/bottom_force"], ["peak/top_pressure"], ["peak/transmission"],
                  ["peak/stress_ratio/axial", "σ axial / σy at peak density"],
                  ["peak/stress_ratio/lateral", "σ lateral / σy at peak density"],
                  ["relative_density", "final relative density"], ["stress_ratio/axial", "final σ axial / σy"],
-                 ["stress_ratio/lateral", "final σ lateral / σy"], ["top_force_end", "final top force"],
-                 ["static_friction", "static friction"], ["dynamic_friction", "dynamic friction"],
-                 ["dilation", "dilation"],
-                 ["elements", "elements"], ["increments", "increments"],
-                 ["k_n", "k_n"], ["k_l", "k_l"], ["k_x", "k_x"], ["k_l/k_n", "k_l/k_n"],
-                 ["torsional_stiffness", "torsional stiffness"], ["share_twist", "share of twist"],
-                 ["share_bending", "share of lateral bending"], ["share_tip", "share of the tip"],
-                 ["invols_normal", "InvOLS normal"], ["invols_lateral", "InvOLS lateral"],
-                 ["loop/load", "load of the loop"], ["loop/half_width", "half-width W"], ["loop/offset", "offset Δ"],
-                 ["loop/friction", "friction"], ["loop/sensitivity", "sensitivity"],
-                 ["curve/pull_off", "pull-off force"], ["curve/work", "pull-off work"],
-                 ["curve/work_of_adhesion", "work of adhesion"],
-                 ["bottom_force_end", "final bottom force"], ["top_force_max", "largest top force"],
-                 ["energy_balance_error", "energy balance error"], ["kinetic_ratio", "kinetic over internal energy"],
-                 ["expectations_met", "expectations met"]];
-const titleOf = name => (COLUMNS.find(([known]) => known === name) || [name, words(name).replaceAll("/", " ")])[1];
+                 ["stress_ratio/lateral", "final σ lateral / σy"], ["top_force_end"], ["static_friction"],
+                 ["dynamic_friction"], ["dilation"], ["elements"], ["increments"], ["k_n", "k_n"], ["k_l", "k_l"],
+                 ["k_x", "k_x"], ["k_l/k_n", "k_l/k_n"], ["torsional_stiffness"], ["share_twist"],
+                 ["share_bending"], ["share_tip"], ["invols_normal", "InvOLS normal"],
+                 ["invols_lateral", "InvOLS lateral"], ["loop/load"], ["loop/half_width", "half-width W"],
+                 ["loop/offset", "offset Δ"], ["loop/friction", "friction"], ["loop/sensitivity"],
+                 ["curve/pull_off"], ["curve/work"], ["curve/work_of_adhesion"], ["bottom_force_end"],
+                 ["top_force_max"], ["energy_balance_error"], ["kinetic_ratio"], ["expectations_met"]];
+const titleOf = name => (COLUMNS.find(([known]) => known === name) || [])[1] || nameOf(name).words;
 const valueOf = (run, name) => run.values.find(value => value.name === name);
 
 const linkTo = run => element("a", {textContent: run.name, href: `${encodeURIComponent(run.name)}/report.html`});
@@ -52,7 +43,7 @@ function fillRuns({runs}) {
     {title: "seed", cells: runs.map(run => String(run.seed))},
     {title: "outcome", cells: runs.map(run => run.failure || valueOf(run, "outcome")?.value || "–")},
     {title: "quality", cells: runs.map(qualityCell)},
-    ...columns.map(([name, title]) => ({title, unit: unit(name), cells: of(name)}))], i => Boolean(runs[i].failure));
+    ...columns.map(([name]) => ({title: titleOf(name), unit: unit(name), cells: of(name)}))], i => Boolean(runs[i].failure));
 }
 
 // Where some variation was run with several seeds: mean and standard deviation of each.
@@ -64,8 +55,8 @@ function fillVariations({variations = []}) {
   fillTable("variations", [
     {title: "variation", cells: variations.map(one => one.variation)},
     {title: "runs", cells: variations.map(one => one.runs === one.of ? String(one.of) : `${one.runs} of ${one.of}`)},
-    ...names.map(([name, title]) => ({title, unit: variations.map(one => of(one, name)).find(Boolean).unit,
-                                      cells: variations.map(one => cell(of(one, name)))}))]);
+    ...names.map(([name]) => ({title: titleOf(name), unit: variations.map(one => of(one, name)).find(Boolean).unit,
+                               cells: variations.map(one => cell(of(one, name)))}))]);
 }
 
 // The last frame of every run, in one scale of colours.

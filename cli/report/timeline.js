@@ -4,8 +4,9 @@
 
 class Timeline {
   // times: of the frames of the run that sets the pace, s
-  constructor(host, times, {name = "time", unit = "s"} = {}) {
-    Object.assign(this, {times, unit, name: unit === "s" ? "" : name + " ", end: times.at(-1) || 1, frame: times.length - 1, listeners: [], timer: 0});
+  // textOf(time): it in words
+  constructor(host, times, textOf = time => withUnit(time, "s", 3)) {
+    Object.assign(this, {times, textOf, end: times.at(-1) || 1, frame: times.length - 1, listeners: [], timer: 0});
     this.share = 1;
     this.button = element("button", {type: "button", className: "play", id: "play", onclick: () => this.toggle()});
     this.slider = element("input", {type: "range", id: "frame", min: 0, max: Math.max(0, times.length - 1),
@@ -48,7 +49,7 @@ class Timeline {
 
   tell() {
     if (!this.times.length) return;
-    const text = `${this.name}${withUnit(this.times[this.frame], this.unit, 3)} · frame ${this.frame + 1} of ${this.times.length}`;
+    const text = `${this.textOf(this.times[this.frame])} · frame ${this.frame + 1} of ${this.times.length}`;
     this.told.textContent = text;
     this.slider.setAttribute("aria-valuetext", text);
   }

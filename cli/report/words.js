@@ -21,10 +21,13 @@ function leadOf(run) {
   const parts = [`${did(run)}, in ${counted(elements, "element")}.`];
   if (summary.wall_seconds > 0) parts.push(`Computed in ${duration(summary.wall_seconds)}.`);
   if (summary.outcome && summary.outcome !== "done") parts.push(`The run ${summary.outcome}.`);
-  const beyond = figures.filter(figure => Math.abs(figure.value) > figure.limit);
+  const beyond = figures.filter(isBeyond);
   const limited = figures.filter(figure => typeof figure.limit === "number");
-  if (beyond.length) parts.push(`Beyond its limit: ${beyond.map(figure => figure.name.toLowerCase()).join(", ")}.`);
-  else if (limited.length) parts.push("Every quality value is within its limit.");
+  if (beyond.length) {
+    parts.push(`Beyond ${beyond.length > 1 ? "their limits" : "its limit"}: ` +
+               `${beyond.map(figure => figure.name.toLowerCase()).join(", ")}; see the card on quality for what to do.`);
+  }
+  if (!beyond.length && limited.length) parts.push("Every quality value is within its limit.");
   const missed = (summary.expectations || []).filter(one => !one.met).length;
   if (summary.expectations) parts.push(missed ? `${missed} of ${counted(summary.expectations.length, "expectation")} not met.`
                                               : summary.expectations.length > 1 ? `All ${summary.expectations.length} expectations met.` : "The expectation is met.");
@@ -136,33 +139,9 @@ function fillFigures(run) {
             element("small", {textContent: note}))));
 }
 
-// Figures made from the history, where the program gave none of its own.
-function qualityFigures(run) {
-  const {summary: s, history} = run, limits = s.limits || {}, contacts = s.contact_quality || {};
-  if (Array.isArray(s.quality)) return s.quality;
-  const most = name => history.has(name) ? largest(history.get(name).values) : NaN;
-  const given = (key, other) => typeof s[key] === "number" ? s[key] : other;
-  const internal = Math.max(most("energy/elastic") || 0, most("energy/plastic") || 0);
-  const balance = given("energy_balance_error",
-    most("energy/balance") / Math.max(internal, most("energy/kinetic") || 0));
-  return [
-    {name: "Energy balance error", value: balance, limit: limits.energy_balance ?? 0.05,
-     meaning: "energy lost or made by the calculation, of the largest energy in the run"},
-    {name: "Kinetic energy", limit: limits.kinetic_energy,
-     value: given("kinetic_ratio", most("energy/kinetic") / internal),
-     meaning: "kinetic energy, of the internal energy"},
-    {name: "Hourglass energy", value: most("energy/hourglass") / internal, limit: 0.03,
-     meaning: "largest energy of bending inside the elements, plastic work included, of the largest internal energy"},
-    {name: "Penetration", value: most("penetration"), limit: limits.penetration,
-     meaning: "deepest overlap of two surfaces, of the length of a boundary edge"},
-    {name: "Unconverged projections", value: contacts.unconverged_share, limit: limits.unconverged_projections,
-     meaning: "share of the closest points of contacting outlines that were not found"},
-    {name: "Force lost to penetration", value: -contacts.force_error, limit: 0.05,
-     meaning: "by how much the largest force is too low because surfaces sink into each other"},
-    {name: "Narrow contacts", value: contacts.narrow_share, limit: 0.1,
-     meaning: "share of the largest contact force on contacts narrower than two boundary edges"},
-  ].filter(figure => Number.isFinite(figure.value));
-}
+// As the program judged them (scenes/results/run_quality.hpp).
+const qualityFigures = run => (run.summary.quality || []).filter(figure => Number.isFinite(figure.value));
+const isBeyond = ({value, limit}) => typeof limit === "number" && !(Math.abs(value) <= limit);
 
 function fillQuality(run) {
   const figures = qualityFigures(run), expected = run.summary.expectations || [];
@@ -176,11 +155,13 @@ function fillQuality(run) {
     row.append(head);
     cells.forEach(text => { row.insertCell().textContent = text; });
     row.append(element("td", {className: verdict && (good ? "within" : "beyond"), textContent: verdict}));
+    return row;
   };
-  for (const {name, meaning, value, limit} of figures) {
-    const limited = typeof limit === "number", within = Math.abs(value) <= limit;
-    add(name, meaning, [percent(value), limited ? percent(limit) : "none set"],
-        limited ? within ? "within" : "beyond" : "", within);
+  for (const figure of figures) {
+    const {name, meaning, value, limit, advice} = figure, limited = typeof limit === "number", within = !isBeyond(figure);
+    const row = add(name, meaning, [percent(value), limited ? percent(limit) : "none set"],
+                    limited ? within ? "within" : "beyond" : "", within);
+    if (advice) row.firstChild.append(element("small", {className: "advice", textContent: `What to do: ${advice}.`}));
   }
   for (const text of run.summary.warnings || []) add("Warning", text, ["", ""], "", false);
   for (const one of expected) {

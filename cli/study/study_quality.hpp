@@ -8,7 +8,7 @@
 
 namespace pulvis {
 
-// One line for each value beyond its limit, as in "hourglass energy over internal energy 4.1% (limit 3%)", and each
+// One line for each value beyond its limit, as in "hourglass energy 4.1% (limit 3%)" (`quality` of summary.json), and each
 // friction loop that has no plateau; empty: nothing to object to.
 std::vector<std::string> quality_flags(const StudyResult& result);
 

@@ -190,8 +190,8 @@ void write_study(const std::filesystem::path& folder, const Study& study,
   write_own(folder / "curves.json", role::study, curves_json(curves).dump() + "\n");
   write_fits(folder, findings.fits);
   write_page(folder / "report.html", "study.html",
-             {"units.js", "payload.js", "save.js", "chart.js", "maps.js", "settings.js", "fits.js",
-              "tables.js", "study_tables.js", "study_effects.js", "study.js"},
+             {"units.js", "names.js", "payload.js", "save.js", "chart.js", "maps.js", "settings.js",
+              "fits.js", "tables.js", "study_tables.js", "study_effects.js", "study.js"},
              page_data(study, with_thumbnails(summary, results), curves), role::study);
 }
 

@@ -75,6 +75,7 @@ class Checkpoint {
   // as they are.
   void restore(World& world, const std::set<std::string>& left_alone = {}) const;
   std::vector<std::byte> run(const std::string& name) const;
+  bool has_run(const std::string& name) const { return file_.contains("/run/" + name); }
 
  private:
   hdf5::File file_;

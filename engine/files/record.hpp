@@ -41,12 +41,34 @@ struct FieldInfo {  // one field of the frames: `components` numbers a place
   bool whole = false;  // whole numbers, and stored as such
 };
 
+// A whole number of every particle that does not change: /particles/<name>. Where numbers are positions in a list
+// of names, its attribute `names` has that list, one a line.
+struct ParticleTag {
+  std::string name, meaning;
+  std::vector<std::int32_t> values;  // [particles]
+  std::vector<std::string> names;
+};
+
+inline bool is_named(const ParticleTag& tag) { return !tag.names.empty(); }
+
+// Lines around the tools, for pictures: rows of the field `tools/outline` in each frame are their ends.
+struct ToolLines {
+  std::vector<std::string> names;  // of the tools
+  std::vector<std::int32_t> ends;  // [lines * 2]
+  std::vector<std::int32_t> tool;  // [lines], position in `names`
+  std::uint64_t points() const {   // each tool's lines close
+    return tool.size();
+  }
+};
+
 struct RunMesh {                            // fixed over the run
   std::vector<std::int32_t> quads;          // [cells * 4], node numbers, counter-clockwise
   std::vector<std::int32_t> cell_particle;  // [cells]
   std::vector<std::int32_t> node_particle;  // [nodes]
   std::vector<double> reference;  // [nodes * dimension], m, positions before the first step
   std::vector<std::int32_t> hexahedra = {};  // [cells * 8] instead of quads: a mesh in space
+  std::vector<ParticleTag> tags = {};
+  ToolLines tools = {};
   int dimension() const { return hexahedra.empty() ? 2 : 3; }
 };
 

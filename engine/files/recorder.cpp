@@ -14,6 +14,7 @@
 #include "engine/files/file_descriptor.hpp"
 #include "engine/files/output_error.hpp"
 #include "engine/files/own_files.hpp"
+#include "engine/files/run_mesh.hpp"
 
 namespace pulvis {
 namespace {
@@ -107,7 +108,7 @@ Recorder::Recorder(std::filesystem::path folder, const RunAttributes& attributes
   survive_a_full_quota();
   write_attributes(attributes);
   file_.make_group("/frames");
-  write_mesh(mesh);
+  write_mesh(file_, mesh);
   write_history("/history", 0);
   for (const GrowingTable& table : tables_) table.make(file_);
   file_.flush();
@@ -279,23 +280,6 @@ void Recorder::write_attributes(const RunAttributes& attributes) {
   file_.set_attribute("/", "scene_hash", std::string_view(attributes.scene_hash));
   file_.set_attribute("/", "seed", attributes.seed);
   file_.set_attribute("/", "threads", std::int64_t{attributes.threads});
-}
-
-void Recorder::write_mesh(const RunMesh& mesh) {
-  constexpr auto packed = hdf5::Packing::shuffle_gzip;
-  const std::uint64_t nodes = mesh.node_particle.size(), cells = mesh.cell_particle.size();
-  const auto dimension = static_cast<std::uint64_t>(mesh.dimension());
-  const bool in_space = dimension == 3;
-  const std::string connectivity = in_space ? "/mesh/hexahedra" : "/mesh/quads";
-  file_.write(connectivity, in_space ? mesh.hexahedra : mesh.quads, {cells, in_space ? 8U : 4U},
-              packed);
-  describe(connectivity, "-", "node numbers of each cell, counter-clockwise");
-  file_.write("/mesh/cell_particle", mesh.cell_particle, {cells}, packed);
-  describe("/mesh/cell_particle", "-", "particle each cell belongs to");
-  file_.write("/mesh/node_particle", mesh.node_particle, {nodes}, packed);
-  describe("/mesh/node_particle", "-", "particle each node belongs to");
-  file_.write("/mesh/reference", mesh.reference, {nodes, dimension}, packed);
-  describe("/mesh/reference", "m", "positions of the nodes before the first step");
 }
 
 // The first `kept` rows of /history, and the samples since.

@@ -5,6 +5,9 @@
 // run.h5 4096 bytes of text     "pulvis run 1": Pulvis's own file
 //        /                      run (another one of every run), version, commit, title, scene_hash, seed, threads, then outcome
 //        /mesh/<name>           quads [cells,4] (hexahedra [cells,8] in space), cell_particle, node_particle, reference [nodes,2 or 3]
+//        /particles/<name>      [particles] number, material, class; `names`: what the numbers stand for, one a line
+//        /mesh/cell_<name>      [cells] material and class for each cell
+//        /tools/lines           [lines, 2] which rows of a frame's tools/outline are joined; /tools/line_tool [lines]
 //        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
 //                               complete = 1, written last: a frame without it is not to be read
 //        /history/<name>        one 1-D dataset a series; /history/time
@@ -94,7 +97,6 @@ class Recorder {
   using Clock = std::chrono::steady_clock;
 
   void write_attributes(const RunAttributes& attributes);
-  void write_mesh(const RunMesh& mesh);
   void put_in_place(const std::filesystem::path& folder);
   void begin_change();
   void begin_frames();

@@ -11,8 +11,7 @@ namespace pulvis {
 namespace {
 
 const std::string beginning =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
-    "<Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n";
 constexpr const char* integers = R"(NumberType="Int" Precision="4")";
 constexpr const char* doubles = R"(NumberType="Float" Precision="8")";
 
@@ -51,15 +50,30 @@ Xdmf::Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
       heavy_(std::move(heavy)),
       nodes_(mesh.node_particle.size()),
       cells_(mesh.cell_particle.size()),
-      in_space_(mesh.dimension() == 3) {
+      in_space_(mesh.dimension() == 3),
+      tool_lines_(mesh.tools.points()) {
+  for (const ParticleTag& tag : mesh.tags)
+    if (is_named(tag)) tags_.push_back(tag.name);
   for (const auto& field : fields) {
     if (is_of_mesh(field) && field.name != "position") fields_.push_back(field);
   }
 }
 
-std::string Xdmf::text() const { return beginning + grids_ + "</Grid>\n</Domain>\n</Xdmf>\n"; }
+// The powder last: meshio reads the last series of a file.
+std::string Xdmf::text() const {
+  const auto series = [](const char* name, const std::string& grids) {
+    return fmt::format("<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+                       name) +
+           grids + "</Grid>\n";
+  };
+  return beginning + (tool_lines_ > 0 ? series("tools", tool_grids_) : "") + series("run", grids_) +
+         "</Domain>\n</Xdmf>\n";
+}
 
-void Xdmf::add(double time, const std::string& group) { grids_ += grid(time, group); }
+void Xdmf::add(double time, const std::string& group) {
+  grids_ += grid(time, group);
+  if (tool_lines_ > 0) tool_grids_ += tool_grid(time, group);
+}
 
 void Xdmf::write() {
   if (!std::exchange(is_noted_, true)) {
@@ -82,10 +96,28 @@ std::string Xdmf::grid(double time, const std::string& group) const {
       item(in_space_ ? "/mesh/hexahedra" : "/mesh/quads", integers, cells_, in_space_ ? 8 : 4),
       in_space_ ? "XYZ" : "XY", item(group + "/position", doubles, nodes_, in_space_ ? 3 : 2));
   for (const auto& field : fields_) text += attribute(field, group);
-  text += fmt::format(
-      "<Attribute Name=\"particle\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n",
-      item("/mesh/cell_particle", integers, cells_, 1));
+  text += whole_numbers("particle", "/mesh/cell_particle", cells_);
+  for (const std::string& tag : tags_) text += whole_numbers(tag, "/mesh/cell_" + tag, cells_);
   return text + "</Grid>\n";
+}
+
+std::string Xdmf::tool_grid(double time, const std::string& group) const {
+  return fmt::format(
+      "<Grid Name=\"tools {}\" GridType=\"Uniform\">\n<Time Value=\"{:.17g}\"/>\n"
+      "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" "
+      "NumberOfElements=\"{}\">{}</Topology>\n"
+      "<Geometry GeometryType=\"XY\">{}</Geometry>\n{}</Grid>\n",
+      group.substr(group.rfind('/') + 1), time, tool_lines_,
+      item("/tools/lines", integers, tool_lines_, 2),
+      item(group + "/tools/outline", doubles, tool_lines_, 2),
+      whole_numbers("tool", "/tools/line_tool", tool_lines_));
+}
+
+std::string Xdmf::whole_numbers(const std::string& name, const std::string& dataset,
+                                std::uint64_t count) const {
+  return fmt::format(
+      "<Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n", name,
+      item(dataset, integers, count, 1));
 }
 
 std::string Xdmf::item(const std::string& dataset, const std::string& number, std::uint64_t rows,

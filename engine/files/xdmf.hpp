@@ -1,4 +1,5 @@
-// run.xdmf: tells ParaView and meshio how to read the frames of run.h5 as one moving mesh.
+// run.xdmf: tells ParaView and meshio how to read the frames of run.h5 as one moving mesh, and the outlines of the
+// tools as another.
 //
 // One Uniform grid a frame, each with its own geometry, and every item a whole dataset: readers do
 // not agree on hyperslabs. The file is replaced as a whole with new frames (written beside and
@@ -27,6 +28,9 @@ class Xdmf {
  private:
   std::string text() const;
   std::string grid(double time, const std::string& group) const;
+  std::string tool_grid(double time, const std::string& group) const;
+  std::string whole_numbers(const std::string& name, const std::string& dataset,
+                            std::uint64_t count) const;
   std::string item(const std::string& dataset, const std::string& number, std::uint64_t rows,
                    int columns) const;
   std::string attribute(const FieldInfo& field, const std::string& group) const;
@@ -35,8 +39,10 @@ class Xdmf {
   std::string heavy_;
   std::uint64_t nodes_, cells_;
   bool in_space_;
+  std::uint64_t tool_lines_;
   std::vector<FieldInfo> fields_;
-  std::string grids_;  // the text of the frames so far
+  std::vector<std::string> tags_;   // of the particles, one a cell
+  std::string grids_, tool_grids_;  // the text of the frames so far
   bool is_noted_ = false;
 };
 

@@ -94,8 +94,7 @@ void take_offset_off(std::vector<std::vector<double>>& heights) {
 }
 
 std::shared_ptr<const TargetShape> from_map(const TargetSpec& t, const Scene& scene) {
-  auto heights = read_height_map(scene.file.parent_path() / t.file, t.dataset);
-  take_offset_off(heights);
+  const auto heights = drawn_heights(t, scene);
   const std::size_t rows = heights.size(), columns = heights.front().size();
   const double x0 = 0.5 * t.spacing * static_cast<double>(columns - 1);
   const double y0 = 0.5 * t.spacing * static_cast<double>(rows - 1);
@@ -172,6 +171,20 @@ std::vector<std::vector<double>> map_from_hdf5(const std::filesystem::path& path
 }
 
 }  // namespace
+
+std::vector<std::array<double, 2>> drawn_profile(const TargetSpec& t, double reach) {
+  const double rise = portable::tan(t.incline);
+  if (t.shape == TargetSpec::Shape::plane) return {{-reach, -reach * rise}, {reach, reach * rise}};
+  std::vector<std::array<double, 2>> points;
+  for (const ProfilePoint& p : profile(t, reach)) points.push_back({p.along, p.height});
+  return points;
+}
+
+std::vector<std::vector<double>> drawn_heights(const TargetSpec& t, const Scene& scene) {
+  auto heights = read_height_map(scene.file.parent_path() / t.file, t.dataset);
+  take_offset_off(heights);
+  return heights;
+}
 
 std::pair<double, double> height_range(const std::vector<std::vector<double>>& heights) {
   double low = heights.front().front(), high = low;

@@ -1,6 +1,7 @@
 // The sample's surface, held and queried by FCL: a half-space where it is plane, triangles where not.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -24,6 +25,12 @@ std::vector<std::vector<double>> read_height_map(const std::filesystem::path& fi
 // Lowest and highest; the largest step from a point to its neighbour along x or y. m
 std::pair<double, double> height_range(const std::vector<std::vector<double>>& heights);
 double steepest_step(const std::vector<std::vector<double>>& heights);
+
+// Corners of a surface that rises along one direction, as (along, height) in m: drawn from -reach to +reach.
+std::vector<std::array<double, 2>> drawn_profile(const TargetSpec& target, double reach);
+
+// Heights of a map as make_target() takes them. [rows along y][columns along x], m
+std::vector<std::vector<double>> drawn_heights(const TargetSpec& target, const Scene& scene);
 
 // Of the profile that make_target() draws: a short wave on a long scan has many.
 std::size_t profile_corners(const TargetSpec& target, double reach);

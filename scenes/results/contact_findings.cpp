@@ -1,7 +1,5 @@
 #include "scenes/results/contact_findings.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -88,21 +86,6 @@ ContactFindings ContactLoading::findings() const {
 // Penetrations go with 1/stiffness.
 double ContactFindings::stiffness_to_do() const {
   return std::min(std::max(stiff, 4 * stiffness), stiffest);
-}
-
-std::vector<std::string> ContactFindings::warnings() const {
-  std::vector<std::string> lines;
-  if (too_narrow())
-    lines.push_back(fmt::format(
-        "{:.0f}% of the contact force is on contacts narrower than two boundary edges, {:.2g} on "
-        "average: too coarse a mesh for them; edges of {}{:.2g} um would do",
-        100 * narrow_share, narrow_edges, too_soft() ? "at most " : "", 1e6 * edge_to_do));
-  if (too_soft())
-    lines.push_back(
-        fmt::format("surfaces sink into each other: the largest force is low by some {:.2g}%; "
-                    "contact.stiffness = {:g} would do",
-                    -100 * *force_error, stiffness_to_do()));
-  return lines;
 }
 
 }  // namespace pulvis

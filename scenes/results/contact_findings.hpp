@@ -33,7 +33,6 @@ struct ContactFindings {
   bool too_narrow() const { return narrow_share > most_narrow; }
   bool too_soft() const { return force_error && *force_error < -max_force_error; }
   double stiffness_to_do() const;
-  std::vector<std::string> warnings() const;  // one line each
 };
 
 // Looks at every sample.

@@ -15,6 +15,7 @@
 #include "engine/portable_math.hpp"
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/observe.hpp"
+#include "scenes/results/particle_tags.hpp"
 #include "scenes/tools/die_relief.hpp"
 #include "systems/tools/relief_kernel.hpp"
 
@@ -113,6 +114,8 @@ Results::Results(const Scene& scene, const World& world)
       yield_stress_(common_yield_stress(scene)),
       series_(history_series(scene)),
       tables_(bond_tables(scene)),
+      tags_(particle_tags(scene, world)),
+      outlines_(scene, world, node_values<Position>(world)),
       shear_(scene, world) {
   for_each_particle<Node>(world, [&](std::size_t, int, const Shape& shape) {
     particle_area_ += shape.area;
@@ -139,6 +142,7 @@ Results::Results(const Scene& scene, const World& world)
   for (const FieldInfo& observed : observed_fields(scene)) fields_.push_back(observed);
   for (const FieldInfo& of_bonds : bond_fields(scene)) fields_.push_back(of_bonds);
   for (const FieldInfo& of_shear : ShearResults::fields(scene)) fields_.push_back(of_shear);
+  if (!outlines_.empty()) fields_.push_back(ToolOutlines::field());
 }
 
 RunMesh Results::mesh() const {
@@ -154,6 +158,8 @@ RunMesh Results::mesh() const {
     particle += 1;
   });
   mesh.reference = node_values<Position>(world_);
+  mesh.tags = tags_;
+  mesh.tools = outlines_.lines();
   return mesh;
 }
 
@@ -200,6 +206,16 @@ void Results::take_kinetic_ratio() {
     if (r >= ratio && i >= internal) return;
   std::erase_if(kinetic_ratios_, outdone_by(ratio, internal));
   kinetic_ratios_.emplace_back(ratio, internal);
+}
+
+void Results::take_peaks() {
+  const auto take = [](double& peak, double value) {
+    if (std::isfinite(value)) peak = std::max(peak, std::abs(value));
+  };
+  take(peaks_.elastic, energies_.elastic);
+  take(peaks_.plastic, energies_.plastic);
+  take(peaks_.hourglass, energies_.hourglass);
+  take(peaks_.penetration, world_.resource<Totals>().worst_penetration);
 }
 
 double Results::kinetic_ratio() const {
@@ -309,6 +325,7 @@ void Results::append_contacts(std::vector<double>& row) const {
 
 std::vector<double> Results::sample() {
   take_energies();
+  take_peaks();
   std::vector<double> row;
   append_tools(row);
   append_density(row);
@@ -352,6 +369,7 @@ std::vector<std::vector<double>> Results::frame() const {
   append_observed_frame(world_, fields);
   append_bond_frame(world_, fields);
   shear_.append_frame(fields);
+  if (!outlines_.empty()) fields.push_back(outlines_.points(world_));
   return fields;
 }
 

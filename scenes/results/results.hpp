@@ -12,6 +12,7 @@
 #include "engine/world.hpp"
 #include "scenes/results/history_series.hpp"
 #include "scenes/results/shear_results.hpp"
+#include "scenes/results/tool_outlines.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/tools/die_cell.hpp"
 
@@ -28,6 +29,16 @@ struct Energies {
           fracture, external, balance);
   }
   double internal() const { return elastic + plastic + hourglass; }
+};
+
+// Largest sizes of some series over all samples.
+struct Peaks {
+  double elastic = 0, plastic = 0, hourglass = 0;  // J
+  double penetration = 0;                          // -, of a boundary edge's length
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(elastic, plastic, hourglass, penetration);
+  }
 };
 
 class Results {
@@ -51,6 +62,7 @@ class Results {
   // step and not only in the limit: positions at t_n, velocities at t_(n-1/2).
   std::array<double, 3> momentum() const;
   const Energies& energies() const { return energies_; }
+  const Peaks& peaks() const { return peaks_; }
   // Largest |balance| so far over the largest energy that came in or was there at the start: what is reported,
   // expected and judged by `limits`, at every sample. At first touch there is next to no energy to compare with:
   // what the tools do in `steps_of_a_touch` of their strongest steps does not count, and no round-off.
@@ -68,12 +80,13 @@ class Results {
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(last_, energies_, initial_energy_, worst_balance_, largest_energy_, largest_internal_,
-          kinetic_ratios_, shear_, first_);
+          kinetic_ratios_, peaks_, shear_, first_);
   }
 
  private:
   void take_energies();
   void take_kinetic_ratio();
+  void take_peaks();
   Vec2 die_size() const;  // m, width and height between the tools; only with a cell
   void append_tools(std::vector<double>& row) const;
   void append_density(std::vector<double>& row) const;
@@ -90,9 +103,12 @@ class Results {
   std::vector<SeriesInfo> series_;
   std::vector<TableInfo> tables_;
   std::vector<FieldInfo> fields_;
+  std::vector<ParticleTag> tags_;
+  ToolOutlines outlines_;
   std::map<std::string, std::size_t> position_;
   std::vector<double> last_;
   Energies energies_;
+  Peaks peaks_;
   double stiffness_energy_ = 0;  // J, largest bulk modulus times volume of the particles
   double initial_energy_ = 0, worst_balance_ = 0, largest_energy_ = 0;
   double largest_internal_ = 0;

@@ -62,13 +62,17 @@ ROOMS = {
         "lab": "report volts /",
         "fit": "lab report study /",
         "kinds": "",
-        "preview": "/",
-        "": "report volts",
+        "python_scripts": "report /",
+        "preview": "python_scripts /",
+        "session": "report /",
+        "python/module": "session report /",
+        "": "python_scripts report volts",
     },
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
 # Sources of one kind that a header of another name declares.
-PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_")
+PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_",
+         "cli/python/module/bind_")
 MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')

@@ -98,7 +98,7 @@ TEST_F(ReportTest, HoldsTheMeshTheHistoryAndEveryFrame) {
   EXPECT_EQ(head["series"][0]["name"], "time");
   EXPECT_EQ(head["fields"].size(), 7U);  // two of one component, one of four, the speed
   EXPECT_EQ(count_of(page, "<script type=\"application/octet-stream\""),
-            2 + head["frames"].size() * (1 + head["fields"].size()));
+            5 + head["frames"].size() * (2 + head["fields"].size()));
 }
 
 TEST_F(ReportTest, KeepsTextOfTheRunFromBecomingMarkup) {

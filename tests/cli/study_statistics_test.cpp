@@ -128,10 +128,10 @@ TEST_F(StudyStatisticsTest, ABadRunIsFlaggedWithWhy) {
   ASSERT_NO_FATAL_FAILURE(run_study());
   for (const Json& run : json["runs"]) {
     ASSERT_FALSE(run["quality"].empty());
-    EXPECT_THAT(run["quality"].dump(), HasSubstr("hourglass over internal energy "));
+    EXPECT_THAT(run["quality"].dump(), HasSubstr("hourglass energy "));
     EXPECT_THAT(run["quality"].dump(), HasSubstr("% (limit 3%)"));
   }
-  EXPECT_THAT(text_of(results / "study.csv"), HasSubstr("hourglass over internal energy "));
+  EXPECT_THAT(text_of(results / "study.csv"), HasSubstr("hourglass energy "));
 }
 
 TEST_F(StudyStatisticsTest, EveryRunHasAThumbnailInThePageAlone) {

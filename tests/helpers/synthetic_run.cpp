@@ -44,6 +44,35 @@ std::vector<double> positions(const SyntheticRun& run, double share) {
   return xy;
 }
 
+const std::vector<std::string> tool_names{"top", "bottom", "left", "right"};
+
+// Columns of steel and of copper, one class; four tools of four corners each.
+void add_tags(const SyntheticRun& run, RunMesh& mesh) {
+  ParticleTag number{"number", "of the particle", {}, {}};
+  ParticleTag material{"material", "position in `names`", {}, {"steel", "copper"}};
+  ParticleTag of_class{"class", "position in `names`", {}, {"disc"}};
+  for (int disc = 0; disc < run.rows * run.columns; ++disc) {
+    number.values.push_back(disc);
+    material.values.push_back(disc % run.columns % 2);
+    of_class.values.push_back(0);
+  }
+  mesh.tags = {number, material, of_class};
+  mesh.tools.names = tool_names;
+  for (int corner = 0; corner < 16; ++corner) {
+    const int first = corner / 4 * 4;
+    mesh.tools.ends.insert(mesh.tools.ends.end(), {corner, first + (corner + 1) % 4});
+    mesh.tools.tool.push_back(corner / 4);
+  }
+}
+
+// Faces, then the corners behind them.
+std::vector<double> tool_corners(const SyntheticRun& run, double share) {
+  const double w = run.columns * run.diameter, h = run.rows * run.diameter, t = 0.1 * w;
+  const double top = h * squeeze(share);
+  return {0, top, w, top,   w,  top + t, 0,  top + t, 0, 0,  w, 0,     w,     -t,    0,     -t,
+          0, -t,  0, h + t, -t, h + t,   -t, -t,      w, -t, w, h + t, w + t, h + t, w + t, -t};
+}
+
 RunMesh mesh_of(const SyntheticRun& run) {
   RunMesh mesh;
   const int nodes = side(run) * side(run);
@@ -57,6 +86,7 @@ RunMesh mesh_of(const SyntheticRun& run) {
     }
   }
   mesh.reference = positions(run, 0);
+  if (run.tools) add_tags(run, mesh);
   return mesh;
 }
 
@@ -95,6 +125,7 @@ std::vector<FieldInfo> fields(const SyntheticRun& run) {
     add("fragment", "-", FieldPlace::particle, 1, true);
     add("damage", "-", FieldPlace::particle, 1);
   }
+  if (run.tools) add("tools/outline", "m", FieldPlace::list, 2);
   if (!run.observed) return all;
   add("particle_centre", "m", FieldPlace::particle, 2);
   add("force_chain", "-", FieldPlace::particle, 1, true);
@@ -192,6 +223,7 @@ std::vector<std::vector<double>> frame_of(const SyntheticRun& run, double share)
   const double d = run.diameter;
   if (run.cell) fields.push_back({d, 0, d * run.columns, 0, 0, d * run.rows * squeeze(share)});
   if (run.bonds) add_bonds(run, share, fields);
+  if (run.tools) fields.push_back(tool_corners(run, share));
   if (run.observed) add_observed(run, share, fields);
   return fields;
 }
@@ -277,6 +309,13 @@ void write_summary(const SyntheticRun& run, const std::filesystem::path& folder)
     const double right = run.columns * run.diameter;
     summary["relative_density"] = 0.962;
     summary["limits"] = {{"energy_balance", 0.05}, {"kinetic_energy", 0.05}};
+    summary["quality"] = {{{"name", "Energy balance error"}, {"value", 0.0021}, {"limit", 0.05}},
+                          {{"name", "Hourglass energy"},
+                           {"meaning", "made up"},
+                           {"value", 0.16},
+                           {"limit", 0.03},
+                           {"line", "hourglass energy 16% (limit 3%): take more elements"},
+                           {"advice", "take more elements"}}};
     summary["tools"] = {{{"name", "top"}, {"point", {0.0, top}}, {"normal", {0, -1}}},
                         {{"name", "bottom"}, {"point", {0.0, 0.0}}, {"normal", {0, 1}}},
                         {{"name", "left"}, {"point", {0.0, 0.0}}, {"normal", {1, 0}}},

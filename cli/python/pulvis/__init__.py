@@ -5,6 +5,18 @@ same bits. What reads results (`pulvis.open`, `pulvis.open_study`) and draws the
 """
 
 import importlib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # what the lazy names are, for checkers of types and editors
+    from pulvis.afm import Lever as Lever
+    from pulvis.columns import Column as Column
+    from pulvis.errors import PulvisError as PulvisError, RunError as RunError, SceneError as SceneError
+    from pulvis.meshes import Mesh as Mesh, mesh as mesh
+    from pulvis.packing import Packing as Packing, pack as pack
+    from pulvis.results import Run as Run, open as open
+    from pulvis.scene import Scene as Scene
+    from pulvis.simulation import Simulation as Simulation, resume as resume
+    from pulvis.study import Study as Study, open_study as open_study
 
 # Where each public name lives. A name is imported when it is first used: results are read and drawn without the
 # compiled module, and without pandas where no table is asked for.
@@ -15,7 +27,16 @@ _HOMES = {
     "Study": "pulvis.study",
     "Scene": "pulvis.scene",
     "Simulation": "pulvis.simulation",
+    "Column": "pulvis.columns",
+    "resume": "pulvis.simulation",
+    "Lever": "pulvis.afm",
+    "pack": "pulvis.packing",
+    "Packing": "pulvis.packing",
+    "Mesh": "pulvis.meshes",
+    "mesh": "pulvis.meshes",
     "PulvisError": "pulvis.errors",
+    "SceneError": "pulvis.errors",
+    "RunError": "pulvis.errors",
 }
 
 __all__ = sorted(_HOMES)

@@ -1,0 +1,85 @@
+#include "cli/preview/stage_setup.hpp"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "scenes/tools/servo_checks.hpp"
+
+namespace pulvis {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<const char*, 6> stage_kinds{"settle", "compact", "hold",
+                                                 "unload", "eject",   "shear"};
+
+json vector_of(const Vec2& v) { return {v.x(), v.y()}; }
+
+const std::string& tool_name(const Scene& scene, int tool) {
+  return scene.tools[static_cast<std::size_t>(tool)].name;
+}
+
+json move_setup(const Scene& scene, const StageSpec& stage, const MoveSpec& move) {
+  json out{{"tool", tool_name(scene, move.tool)}, {"displacement", vector_of(move.displacement)}};
+  // Where the ramps at both ends take their share of the stage.
+  out["speed"] = move.displacement.norm() / (stage.duration * (1 - move.ramp));
+  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(move.tool)];
+  if (tool.shape == ToolSpec::Shape::constraint && tool.holds == ToolSpec::Holds::radial)
+    out["radial"] = move.displacement.x();
+  if (move.stiffness) out["stiffness"] = *move.stiffness;
+  return out;
+}
+
+json servo_setup(const Scene& scene, const ServoSpec& servo) {
+  return {{"tool", tool_name(scene, servo.tool)},
+          {"direction", vector_of(direction_of(servo, scene))},
+          {"force", servo.force}};
+}
+
+json until_setup(const Scene& scene, const UntilSpec& until) {
+  json out = json::object();
+  if (until.tool) out["tool"] = tool_name(scene, *until.tool);
+  if (until.force) out["force"] = *until.force;
+  if (until.displacement) out["displacement"] = *until.displacement;
+  if (until.relative_density) out["relative_density"] = *until.relative_density;
+  return out;
+}
+
+json drive_setup(const CellDriveSpec& drive) {
+  json out = json::object();
+  const auto add = [&](const char* name, const std::optional<double>& value) {
+    if (value) out[name] = *value;
+  };
+  add("strain_xx", drive.strain_xx);
+  add("strain_yy", drive.strain_yy);
+  add("strain_xy", drive.strain_xy);
+  add("stress_xx", drive.stress_xx);
+  add("stress_yy", drive.stress_yy);
+  add("stress_xy", drive.stress_xy);
+  add("stress_ratio", drive.stress_ratio);
+  add("mean_stress", drive.mean_stress);
+  if (drive.rotation != 0) out["rotation"] = drive.rotation;
+  return out;
+}
+
+}  // namespace
+
+json stage_setup(const Scene& scene) {
+  json stages = json::array();
+  for (const StageSpec& stage : scene.stages) {
+    json out{{"name", stage.name},
+             {"kind", stage_kinds[static_cast<std::size_t>(stage.kind)]},
+             {"duration", stage.duration},
+             {"moves", json::array()},
+             {"servos", json::array()}};
+    for (const MoveSpec& move : stage.moves) out["moves"].push_back(move_setup(scene, stage, move));
+    for (const ServoSpec& servo : stage.servos) out["servos"].push_back(servo_setup(scene, servo));
+    if (stage.until) out["until"] = until_setup(scene, *stage.until);
+    if (stage.cell) out["cell"] = drive_setup(*stage.cell);
+    if (stage.keep_state) out["keep_state"] = true;
+    stages.push_back(std::move(out));
+  }
+  return stages;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,13 @@
+// The stages of a scene of particles, as its preview draws them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// [{name, kind, duration, moves, servos, until, cell, keep_state}], in SI units; what is not there is left out.
+nlohmann::json stage_setup(const Scene& scene);
+
+}  // namespace pulvis

@@ -1,0 +1,123 @@
+#include "cli/preview/tool_setup.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "components/cell.hpp"
+#include "components/contact.hpp"
+#include "components/surface.hpp"
+#include "scenes/tools/constraints.hpp"
+#include "scenes/tools/contact_rules.hpp"
+#include "scenes/tools/die_sides.hpp"
+#include "scenes/tools/surface.hpp"
+
+namespace pulvis {
+namespace {
+
+using nlohmann::json;
+
+json point_of(const Vec2& v) { return {v.x(), v.y()}; }
+
+// By material; of a pair with a law of its own its coefficient of sliding.
+json friction_setup(const Scene& scene, const ToolSpec& tool) {
+  json out = json::object();
+  for (const MaterialSpec& material : scene.materials)
+    out[material.name] = friction_of(scene, tool.name, material.name).coefficient;
+  return out;
+}
+
+// Where the nodes are that it holds.
+json held_nodes(const World& world, int tool) {
+  const auto& target = world.column<ConstraintTarget>();
+  const auto& begin = world.resource<ConstraintIndex>().begin;
+  const auto& x = world.column<Position>();
+  std::set<std::array<double, 2>> places;
+  for (std::size_t chunk = 0; chunk + 1 < begin.size(); ++chunk)
+    for (auto row = begin[chunk]; row < begin[chunk + 1]; ++row) {
+      const std::int32_t* of = target.values() + 3 * static_cast<std::size_t>(row);
+      if (of[2] != tool) continue;
+      const auto node = static_cast<std::size_t>(x.table.chunk_begin[chunk] + of[0]);
+      places.insert({x.lanes()[2 * node][of[1]], x.lanes()[2 * node + 1][of[1]]});
+    }
+  json out = json::array();
+  for (const auto& place : places) out.push_back(json::array({place[0], place[1]}));
+  return out;
+}
+
+json constraint_setup(const ToolSpec& tool, const World& world, int number) {
+  constexpr std::array<const char*, 4> directions{"x", "y", "both", "radial"};
+  json out{{"shape", "constraint"},
+           {"holds", directions[static_cast<std::size_t>(tool.holds)]},
+           {"nodes", held_nodes(world, number)}};
+  if (tool.radius) {
+    out["point"] = point_of(tool.point);
+    out["radius"] = *tool.radius;
+  } else {
+    out["low"] = point_of(tool.low);
+    out["high"] = point_of(tool.high);
+  }
+  return out;
+}
+
+json touching_setup(const Scene& scene, const ToolSpec& tool, const Vec2& position) {
+  json out{{"normal", point_of(face_normal(tool))},
+           {"point", point_of(position)},
+           {"friction", friction_setup(scene, tool)}};
+  out["shape"] = tool.shape == ToolSpec::Shape::plane ? "plane" : "polyline";
+  if (tool.shape == ToolSpec::Shape::plane) return out;
+  out["points"] = json::array();
+  for (const Vec2& point : drawn_points(make_surface(tool.points, tool.rounding)))
+    out["points"].push_back(point_of(position + point));
+  return out;
+}
+
+// The face of a tool: of a polyline what lies furthest in the powder.
+double face_of(const json& tool, const char* axis, bool largest) {
+  const std::size_t k = axis[0] == 'x' ? 0 : 1;
+  if (!tool.contains("points")) return tool["point"][k];
+  std::vector<double> places;
+  for (const json& point : tool["points"]) places.push_back(point[k]);
+  return largest ? *std::ranges::max_element(places) : *std::ranges::min_element(places);
+}
+
+}  // namespace
+
+json tool_setup(const Scene& scene, const World& world) {
+  json tools = json::array();
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const ToolSpec& tool = scene.tools[t];
+    const double* at = world.column<ToolPosition>().values() + 2 * t;
+    json out = is_constraint(tool) ? constraint_setup(tool, world, static_cast<int>(t))
+                                   : touching_setup(scene, tool, {at[0], at[1]});
+    out["name"] = tool.name;
+    tools.push_back(std::move(out));
+  }
+  return tools;
+}
+
+json die_setup(const Scene& scene, const json& tools) {
+  const auto sides = die_sides(scene);
+  if (!sides) return nullptr;
+  const auto [left, right, bottom, top] = *sides;
+  const auto tool = [&](int number) -> const json& {
+    return tools[static_cast<std::size_t>(number)];
+  };
+  return {{"left", tool(left)["name"]},
+          {"right", tool(right)["name"]},
+          {"bottom", tool(bottom)["name"]},
+          {"top", tool(top)["name"]},
+          {"x", {face_of(tool(left), "x", true), face_of(tool(right), "x", false)}},
+          {"y", {face_of(tool(bottom), "y", true), face_of(tool(top), "y", false)}}};
+}
+
+json cell_setup(const World& world) {
+  if (!world.has<PeriodicCell>()) return nullptr;
+  const auto& cell = world.resource<PeriodicCell>();
+  const auto& t = cell.vectors.t;
+  return {{"corner", {cell.corner_now()[0], cell.corner_now()[1]}},
+          {"vectors", {{t[0], t[2]}, {t[1], t[3]}}}};
+}
+
+}  // namespace pulvis

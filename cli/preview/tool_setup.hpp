@@ -1,0 +1,20 @@
+// The tools of a scene of particles and what is around its powder, as its preview draws them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "engine/world.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// [{name, shape, point, normal, points, friction by material, ...}] where they stand at the start.
+nlohmann::json tool_setup(const Scene& scene, const World& world);
+
+// The room between four tools: {left, right, bottom, top} as names, x and y of their faces. Null where there is none.
+nlohmann::json die_setup(const Scene& scene, const nlohmann::json& tools);
+
+// {corner, vectors}. Null without one.
+nlohmann::json cell_setup(const World& world);
+
+}  // namespace pulvis

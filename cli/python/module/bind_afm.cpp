@@ -1,0 +1,247 @@
+// Levers of an atomic force microscope: calibration, friction loops, force curves.
+#include <fmt/format.h>
+#include <oneapi/tbb/info.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "cli/python/module/interruptible.hpp"
+#include "cli/python/module/module.hpp"
+#include "cli/python/module/python_run.hpp"
+#include "cli/save_scene.hpp"
+#include "cli/session/afm_session.hpp"
+#include "cli/session/open_session.hpp"
+#include "engine/interruption.hpp"
+#include "engine/run_failure.hpp"
+#include "scenes/lever/afm_size.hpp"
+#include "scenes/spec/afm_scene.hpp"
+
+namespace pulvis::python {
+namespace py = pybind11;
+namespace {
+
+// A lever's run: it goes through at once, with a look after every increment.
+class PythonLever {
+ public:
+  // Calibrates.
+  PythonLever(const LoadedScene& scene, int threads) {
+    if (!scene.scene.afm)
+      throw SceneError({{scene.scene.file.string(), 1, 1, "", "family",
+                         "a scene of particles has no lever, allowed: family = \"afm\""}});
+    const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
+    whole([&] {
+      require_afm_memory(scene.scene);
+      session_ = std::make_unique<AfmSession>(scene, workers);
+    });
+    if (!session_->end().failure.empty()) throw RunFailure(session_->end().failure);
+  }
+
+  void on_sample(const py::function& f) { calls_.push_back(f); }
+
+  void run(const std::string& folder, bool overwrite) {
+    if (has_run_) throw NotNow("the lever has run; allowed: scene.simulation() makes another one");
+    open(folder, overwrite);
+    has_run_ = true;
+    whole([&] { session_->run(); });
+    finish();
+  }
+  void resume(const std::string& folder, OpenFolder stopped) {
+    lock_ = std::move(stopped.lock);
+    session_->write_to(folder, {});
+    has_run_ = true;
+    whole([&] { session_->run(stopped.run.checkpoint.get()); });
+    finish();
+  }
+
+  const AfmSession& session() const { return *session_; }
+  bool has_run() const { return has_run_; }
+
+ private:
+  // Without the GIL, and until somebody presses Ctrl-C.
+  template <class Work>
+  void whole(const Work& work) {
+    Interruptible interruptible;
+    std::exception_ptr thrown;
+    if (session_) listen(interruptible, thrown);
+    try {
+      py::gil_scoped_release others_may_run;
+      work();
+    } catch (const Interrupted&) {
+    }
+    if (session_) session_->hooks = {};
+    if (thrown) {
+      finish();
+      std::rethrow_exception(thrown);
+    }
+    if (interruptible.asked() && session_ && has_run_) finish();
+    interruptible.raise_if_asked();
+  }
+
+  void listen(const Interruptible& interruptible, std::exception_ptr& thrown) {
+    session_->hooks.stop = [&] { return interruptible.asked() || thrown != nullptr; };
+    if (calls_.empty()) return;
+    session_->hooks.on_sample = [this, &thrown](double time, const std::vector<double>& row) {
+      if (thrown) return;
+      py::gil_scoped_acquire gil;
+      try {
+        for (const py::function& f : calls_) f(time, row);
+      } catch (...) {  // the increment is whole: the run stops behind it
+        thrown = std::current_exception();
+      }
+    };
+  }
+
+  void open(const std::string& folder, bool overwrite) {
+    if (folder.empty()) return;
+    require_free_folder(session_->loaded(), folder);
+    lock_ = std::unique_ptr<FolderLock>(new FolderLock(open_run_folder(folder, overwrite)));
+    save_scene(folder, session_->loaded());
+    session_->write_to(folder, {});
+  }
+
+  void finish() {
+    if (is_finished_) return;
+    is_finished_ = true;
+    {
+      py::gil_scoped_release others_may_run;
+      session_->finish();
+    }
+    lock_ = nullptr;
+    calls_.clear();
+    const std::string& failure = session_->end().failure;
+    if (!failure.empty() && !ended_as_expected(session_->loaded().scene, failure))
+      throw RunFailure(failure);
+  }
+
+  std::unique_ptr<AfmSession> session_;
+  std::unique_ptr<FolderLock> lock_;
+  std::vector<py::function> calls_;
+  bool has_run_ = false, is_finished_ = false;
+};
+
+py::dict calibration_of(const PythonLever& lever) {
+  const Calibration& c = *lever.session().report().calibration;
+  py::dict all;
+  all["normal_stiffness"] = c.normal_stiffness;
+  all["lateral_stiffness"] = c.lateral_stiffness;
+  all["longitudinal_stiffness"] = c.longitudinal_stiffness;
+  all["torsional_stiffness"] = c.torsional_stiffness;
+  all["normal_invols"] = c.normal_invols;
+  all["lateral_invols"] = c.lateral_invols;
+  all["bending_share"] = c.bending_share;
+  all["twist_share"] = c.twist_share;
+  all["tip_share"] = c.tip_share;
+  all["arm"] = c.arm;
+  if (c.mesh_error) {
+    all["mesh_error_normal"] = c.mesh_error->normal;
+    all["mesh_error_lateral"] = c.mesh_error->lateral;
+    all["mesh_error_longitudinal"] = c.mesh_error->longitudinal;
+  }
+  return all;
+}
+
+py::object optional(const std::optional<double>& value) {
+  return value ? py::object(py::float_(*value)) : py::none();
+}
+
+py::list loops_of(const PythonLever& lever) {
+  py::list all;
+  for (const FrictionLoop& loop : lever.session().report().loops) {
+    py::dict one;
+    one["action"] = loop.action;
+    one["load"] = loop.load;
+    one["trace"] = loop.trace;
+    one["retrace"] = loop.retrace;
+    one["half_width"] = loop.half_width;
+    one["offset"] = loop.offset;
+    one["volts_half_width"] = loop.volts_half_width;
+    one["volts_offset"] = loop.volts_offset;
+    one["friction"] = optional(loop.friction);
+    one["sensitivity"] = optional(loop.sensitivity);
+    one["slides"] = loop.slides;
+    one["full"] = loop.full();
+    all.append(one);
+  }
+  return all;
+}
+
+py::list curves_of(const PythonLever& lever) {
+  py::list all;
+  for (const ForceCurveFigures& curve : lever.session().report().curves) {
+    py::dict one;
+    one["action"] = curve.action;
+    one["greatest"] = curve.greatest;
+    one["pull_off"] = curve.pull_off;
+    one["work"] = curve.work;
+    one["work_of_adhesion"] = optional(curve.work_of_adhesion);
+    all.append(one);
+  }
+  return all;
+}
+
+py::list series_of_levers() {
+  py::list all;
+  for (const SeriesInfo& one : afm_series())
+    all.append(py::make_tuple(one.name, one.unit, one.meaning));
+  return all;
+}
+
+py::array_t<double> rows_of_lever(const PythonLever& lever) {
+  const AfmHistory& history = lever.session().history();
+  const std::size_t series = afm_series().size();
+  py::array_t<double> all({history.rows.size(), series});
+  for (std::size_t i = 0; i < history.rows.size(); ++i)
+    for (std::size_t k = 0; k < series; ++k)
+      all.mutable_at(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(k)) = history.rows[i][k];
+  return all;
+}
+
+py::list verdicts_of_lever(const PythonLever& lever) {
+  py::list all;
+  for (const Verdict& verdict : lever.session().report().verdicts) {
+    py::dict one;
+    one["what"] = verdict.what;
+    one["measured"] = verdict.measured;
+    one["allowed"] = verdict.allowed;
+    one["value"] = optional(verdict.value);
+    one["met"] = verdict.met;
+    all.append(one);
+  }
+  return all;
+}
+
+}  // namespace
+
+void bind_afm(py::module_& core) {
+  using Self = const PythonLever&;
+  py::class_<PythonLever, std::shared_ptr<PythonLever>>(core, "Lever")
+      .def(py::init<const LoadedScene&, int>(), py::arg("scene"), py::arg("threads"))
+      .def("run", &PythonLever::run, py::arg("folder"), py::arg("overwrite"))
+      .def("on_sample", &PythonLever::on_sample)
+      .def_property_readonly("has_run", &PythonLever::has_run)
+      .def_property_readonly("calibration", &calibration_of)
+      .def_property_readonly("loops", &loops_of)
+      .def_property_readonly("curves", &curves_of)
+      .def_property_readonly("samples", &rows_of_lever)
+      .def_property_readonly("verdicts", &verdicts_of_lever)
+      .def_property_readonly("sample_times",
+                             [](Self lever) { return lever.session().history().times; })
+      .def_property_readonly("figures", [](Self lever) { return lever.session().report().figures; })
+      .def_property_readonly("hash", [](Self lever) { return lever.session().report().state_hash; })
+      .def_property_readonly("outcome", [](Self lever) { return lever.session().report().outcome; })
+      .def_property_readonly("elements",
+                             [](Self lever) { return lever.session().report().elements; });
+  core.def("afm_series", &series_of_levers);
+  core.def("resume_lever", [](const std::string& folder, int threads) {
+    OpenFolder stopped = open_stopped(folder, true);
+    auto lever = std::make_shared<PythonLever>(stopped.run.scene, threads);
+    lever->resume(folder, std::move(stopped));
+    return lever;
+  });
+  core.def("is_lever_folder", [](const std::string& folder) {
+    return load_scene(std::filesystem::path(folder) / "scene.toml").scene.afm != nullptr;
+  });
+}
+
+}  // namespace pulvis::python

@@ -1,0 +1,19 @@
+#include "cli/python/module/module.hpp"
+#include "cli/summary.hpp"
+#include "engine/instruction_set.hpp"
+
+PYBIND11_MODULE(_core, core) {
+  namespace py = pybind11;
+  if (!__builtin_cpu_supports("avx2"))
+    throw py::import_error("pulvis: this build needs a processor with AVX2");
+  core.doc() = "Compiled part of pulvis.";
+  core.attr("version") = pulvis::program_version();
+  core.attr("commit") = pulvis::program_commit();
+  core.attr("instruction_set") = pulvis::instruction_set();
+  pulvis::python::bind_errors(core);
+  pulvis::python::bind_scene(core);
+  pulvis::python::bind_run(core);
+  pulvis::python::bind_columns(core);
+  pulvis::python::bind_afm(core);
+  pulvis::python::bind_packing(core);
+}

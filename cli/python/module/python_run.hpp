@@ -1,0 +1,81 @@
+// A simulation of particles as Python holds it: a session, its folder, and who may touch it when.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/session/open_session.hpp"
+
+namespace pulvis::python {
+
+// Asked for something at a moment, or of a thing, that does not allow it: pulvis.RunError.
+class NotNow : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class PythonRun {
+ public:
+  struct Options {
+    std::string folder;  // empty: nothing is written
+    int threads = 0;     // 0: all processors
+    bool overwrite = false;
+    double checkpoint_every = 60;  // s, of the clock on the wall
+    std::int64_t checkpoint_steps = 0;
+  };
+  PythonRun(const LoadedScene& scene, const Options& options);
+  PythonRun(const std::string& folder, const Options& options);  // resumes
+  ~PythonRun();
+  PythonRun(const PythonRun&) = delete;
+  PythonRun& operator=(const PythonRun&) = delete;
+
+  // With the GIL, which is released while steps are taken. True when the run has ended.
+  bool go(const Session::Target& target);
+  void stop() { stop_ = true; }  // from a callback or another thread: after this step
+  void checkpoint();
+  void close();
+
+  void on_sample(const pybind11::function& call);
+  void on_frame(const pybind11::function& call);
+  void every(std::int64_t steps, const pybind11::function& call);
+  void on_tick(const pybind11::object& call);  // None: none any more
+
+  // Refuses while another thread takes steps.
+  Session& session();
+  // Where state may be changed: between two steps, in `every` or outside of all calls.
+  Session& session_between_steps(const char* what);
+  const std::string& outcome() const { return outcome_; }
+  const std::vector<double>& times() const { return times_; }
+  const std::vector<std::vector<double>>& rows() const { return rows_; }
+  int threads() const { return threads_; }
+
+ private:
+  void listen();
+  void call(const pybind11::function& f);
+  Session::Halt halt_of(const Session::Target& target, const class Interruptible& interruptible);
+  void complete(const class Interruptible& interruptible);
+  void fail(const std::string& message, const class Interruptible& interruptible);
+  void leave_whole();
+  void forget_calls();
+
+  int threads_;
+  OpenSession open_;
+  std::string outcome_;
+  std::vector<double> times_;
+  std::vector<std::vector<double>> rows_;
+  std::vector<pybind11::function> sample_calls_, frame_calls_;
+  pybind11::object tick_call_;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> is_going_{false}, is_calling_{false};
+  std::thread::id who_;
+  bool is_closed_ = false;
+};
+
+}  // namespace pulvis::python

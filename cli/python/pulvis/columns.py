@@ -1,0 +1,111 @@
+"""Columns of a simulation as numpy arrays that share its memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pulvis import _core
+
+
+@dataclass(frozen=True)
+class ColumnInfo:
+    """What a column is.
+
+    ``numbers`` is how many numbers a row has, ``rows`` how many rows there are now (lanes without a particle
+    included), ``only_at_samples`` says that it holds in `on_sample` and `on_frame` callbacks alone.
+    """
+
+    name: str
+    entity: str
+    unit: str
+    meaning: str
+    numbers: int
+    rows: int
+    bytes: int
+    of_particles: bool
+    shares_memory: bool
+    writable: bool
+    only_at_samples: bool
+
+
+class Column:
+    """A column: by particle where it has rows of particles, and as one array.
+
+    ``column[i]`` is the array [rows, numbers] of the particle of number i, without a copy: its nodes, elements, or one
+    row. ``column.blocks`` has all particles of one mesh in one array, without a copy. ``numpy.asarray(column)`` is a
+    copy of all rows, particle after particle, as fields of frames are ordered. Of tools and of contacts ``column[i]``
+    is row i, and ``column.rows`` has all of them. Arrays keep the simulation alive; they show the present step,
+    whenever they are looked at.
+    """
+
+    def __init__(self, run: _core.Run, name: str, writable: bool = False) -> None:
+        self.info = ColumnInfo(**run.column_info(name))
+        self._run, self._writable = run, writable
+        self._given: list[np.ndarray] = []
+
+    name = property(lambda self: self.info.name)
+    unit = property(lambda self: self.info.unit)
+    meaning = property(lambda self: self.info.meaning)
+
+    def __len__(self) -> int:
+        return self._run.particles if self.info.of_particles else self.info.rows
+
+    def __getitem__(self, number: int) -> np.ndarray:
+        if not self.info.of_particles:
+            return self.rows[number]
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"particle {number}, allowed: 0 to {len(self) - 1}")
+        return self._kept(self._run.column_of_particle(self.name, number % len(self), self._writable))
+
+    @property
+    def rows(self) -> np.ndarray:
+        """All rows [rows, numbers] of a column that is not of particles; a copy where ``info.shares_memory`` is
+        False."""
+        return self._run.column_rows(self.name)
+
+    @property
+    def blocks(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Pairs of ``numbers`` [chunks, 8] and ``values`` [chunks, 8, rows, numbers]: particles that share a mesh.
+
+        A number of -1 is a lane without a particle. ``values`` shares the memory.
+        """
+        return [(numbers, self._kept(values))
+                for numbers, values in self._run.column_blocks(self.name, self._writable)]
+
+    def __array__(self, dtype: Any = None) -> np.ndarray:
+        if not self.info.of_particles:
+            return np.array(self.rows, dtype=dtype)
+        parts = [np.empty(0)] * len(self)
+        for numbers, values in self._run.column_blocks(self.name, False):
+            for chunk, lane in zip(*np.nonzero(numbers >= 0)):
+                parts[numbers[chunk, lane]] = values[chunk, lane]
+        whole = np.concatenate(parts) if parts else np.empty((0, self.info.numbers))
+        return whole if dtype is None else whole.astype(dtype)
+
+    def _kept(self, array: np.ndarray) -> np.ndarray:
+        if self._writable:
+            self._given.append(array)
+        return array
+
+    def __enter__(self) -> Column:
+        if not self._writable:
+            raise TypeError("allowed: with sim.writable(name) as column")
+        self._run.column_blocks(self.name, True)  # refuses at once what may not be written
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for array in self._given:
+            array.flags.writeable = False
+        self._run.written(self.name)
+        bad = any(not np.isfinite(array).all() for array in self._given)
+        self._given.clear()
+        if bad and self.info.entity == "node":
+            from pulvis.errors import RunError
+
+            raise RunError(f"column '{self.name}': what was written is not finite")
+
+    def __repr__(self) -> str:
+        return f"<pulvis.Column {self.name} [{self.unit}]: {self.meaning}>"

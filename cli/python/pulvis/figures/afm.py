@@ -1,0 +1,268 @@
+"""Figures of a lever: the deformed solid (first, middle and last frame), plastic zones, loops and force curves."""
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.collections import PolyCollection
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from pulvis.figures.colours import colour_map
+from pulvis.figures.look import COLOURS as LINES, Options, sheet, unit_for
+from pulvis.figures.names import capital, label, over
+from pulvis.lever_results import vertical_moves
+
+FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+COLOURS = ["#7aa6c2", "#d4b24c", "#8a8a8a", "#c77f6d"]  # lever, coating, tip, glue
+
+
+def outer_faces(hexahedra):
+    """Faces that belong to one hexahedron only, and which one."""
+    seen = {}
+    for cell, corners in enumerate(hexahedra):
+        for face in FACES:
+            nodes = tuple(dict.fromkeys(corners[i] for i in face))  # of a tetrahedron three, two or one are left
+            if len(nodes) > 2:
+                seen.setdefault(tuple(sorted(nodes)), []).append((nodes, cell))
+    return [faces[0] for faces in seen.values() if len(faces) == 1]
+
+
+def draw_solid(axis, position, faces, parts, title):
+    polygons = [position[list(nodes)] * 1e6 for nodes, _ in faces]
+    colours = [COLOURS[parts[cell]] for _, cell in faces]
+    axis.add_collection3d(Poly3DCollection(polygons, facecolors=colours, edgecolors="#00000030",
+                                           linewidths=0.3))
+    low, high = position.min(axis=0) * 1e6, position.max(axis=0) * 1e6
+    axis.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]), title=title,
+             xlabel="$x$ / µm", ylabel="$y$ / µm", zlabel="$z$ / µm")
+    axis.set_box_aspect(np.maximum(high - low, 0.15 * (high - low).max()))
+    axis.view_init(18, -60)
+
+
+def solid(run, options=None):
+    options = options or Options()
+    if not run.frames:
+        return None
+    chosen = run.frames if len(run.frames) <= 4 else [run.frames[0], run.frames[len(run.frames) // 2],
+                                                      run.frames[-1]]
+    if options.frame is not None:
+        chosen = [run.frame(options.frame)]
+    faces = outer_faces(run.mesh.cells.tolist())
+    figure = plt.figure(figsize=options.size(7 * len(chosen), 6))
+    done = "actions done" if run.has("scanner/z") else "load case"
+    for i, frame in enumerate(chosen):
+        axis = figure.add_subplot(1, len(chosen), i + 1, projection="3d")
+        title = f"frame {frame.number}, {done} {frame.time:.3g}" if options.title else ""
+        draw_solid(axis, frame.nodes, faces, run.mesh.cell_particle, title)
+    last = chosen[-1].nodes
+    figure.table = [(axis, "m", last[:, k]) for k, axis in enumerate("xyz")]
+    return figure
+
+
+EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+
+
+def cut(position, y):
+    """The polygon in x and z where the plane y goes through a cell, its corners in turn; nothing elsewhere."""
+    side = position[:, 1] - y
+    points = [position[a] + side[a] / (side[a] - side[b]) * (position[b] - position[a])
+              for a, b in EDGES if side[a] * side[b] < 0]
+    if len(points) < 3:
+        return None
+    points = np.array(points)[:, [0, 2]]
+    off = points - points.mean(axis=0)
+    return points[np.argsort(np.arctan2(off[:, 1], off[:, 0]))]
+
+
+def zone_of(run, strains):
+    """Around what has flowed: cells near it, which of them flowed, and half the size of the picture, m."""
+    cells, reference = run.mesh.cells, run.mesh.reference
+    flowed = np.flatnonzero(np.max(strains, axis=0) > 1e-6)
+    if not flowed.size:
+        return None
+    zone = reference[cells[flowed]].reshape(-1, 3)
+    reach = 0.7 * np.ptp(zone, axis=0)[[0, 2]].max()
+    off = np.abs(reference[cells].mean(axis=1) - zone.mean(axis=0)).max(axis=1)
+    return np.flatnonzero(off < 3 * reach), flowed, reach
+
+
+def draw_zone(axis, run, frame, strain, zone, drawing):
+    """The section of one frame; returns what the colours are of. drawing: largest strain, Options."""
+    (near, flowed, reach), (top, options) = zone, drawing
+    position, polygons, colours = frame.nodes, [], []
+    shift = position[run.mesh.cells[flowed]].reshape(-1, 3).mean(axis=0)
+    for cell in near:
+        polygon = cut(position[run.mesh.cells[cell]], shift[1] + 1e-4 * reach)
+        if polygon is not None:
+            polygons.append((polygon - shift[[0, 2]]) * 1e6)
+            colours.append(strain[cell])
+    drawn = PolyCollection(polygons, array=np.array(colours), cmap=colour_map(options, "inferno_r"),
+                           edgecolors="#00000040", linewidths=0.4)
+    drawn.set_clim(*options.clim([0, top], "-"))
+    axis.add_collection(drawn)
+    axis.set(xlim=(-1e6 * reach, 1e6 * reach), ylim=(-1e6 * reach, 1e6 * reach), aspect="equal",
+             xlabel="$x$ / µm", ylabel="$z$ / µm")
+    if options.title:
+        axis.set_title(f"frame {frame.number}: at most {strain.max():.3g}")
+    axis.grid(False)
+    return drawn
+
+
+def plastic_zones(run, options=None):
+    """A section through the tip along the lever, around what has flowed: under the largest force, and at the end."""
+    options = options or Options()
+    if not run.frames or "plastic_strain" not in run.frames[0]:
+        return None
+    strains = [frame["plastic_strain"][:] for frame in run.frames]
+    rows = [frame.step - 1 for frame in run.frames]
+    chosen = [int(np.argmax(run.series("probe/force_z")[rows])), len(run.frames) - 1]
+    if options.frame is not None:
+        chosen = [run.frame(options.frame).number]
+    zone = zone_of(run, strains)
+    if zone is None:
+        return None
+    top = max(strains[i].max() for i in chosen)
+    figure, axes = plt.subplots(1, len(chosen), figsize=options.size(7 * len(chosen), 5.5), squeeze=False,
+                                constrained_layout=True)
+    figure.table = []
+    for axis, i in zip(axes[0], chosen):
+        drawn = draw_zone(axis, run, run.frames[i], strains[i], zone, (top, options))
+        figure.colorbar(drawn, ax=axis, label=label("plastic_strain", ""), shrink=0.85)
+        figure.table.append((f"frame {i}: plastic strain by cell", "-", strains[i]))
+    if options.title:
+        figure.suptitle("Plastic zones, section through the tip along the lever")
+    return figure
+
+
+def draw_motions(run, motions, keys, title, options, axes):
+    """motions: [(label, rows)]; keys: series of the abscissa and of the ordinate."""
+    x_key, y_key = keys
+    figure, axes = sheet(options, (6.4, 4.2), axes)
+    x, y = run.series(x_key), run.series(y_key)
+    (x_factor, x_unit), (factor, unit) = unit_for(run.unit(x_key), x), unit_for(run.unit(y_key), y)
+    for k, (words, rows) in enumerate(motions):
+        shown = np.full(y.shape, np.nan)  # what lies between two parts is no line
+        shown[rows] = factor * y[rows]
+        axes.plot(x_factor * x, shown, label=words, color=LINES[k // 2 % len(LINES)] if len(motions) > 2
+                  else LINES[k], linestyle="--" if k % 2 else "-")
+    axes.set(xlabel=label(x_key, x_unit), ylabel=label(y_key, unit))
+    options.head(axes, title, run)
+    axes.legend()
+    figure.table = [column for words, rows in motions for column in
+                    ((f"{x_key}, {words}", run.unit(x_key), x[rows]), (f"{y_key}, {words}", run.unit(y_key), y[rows]))]
+    return figure
+
+
+def force_curve(run, options=None, axes=None, signal="probe/force_z"):
+    """Approach and retract apart; where nothing was retracted after a press, nothing."""
+    if not run.has("scanner/z") or not np.ptp(run.series("scanner/z")) > 0:
+        return None
+    moves = vertical_moves(run)
+    motions = [(words, np.flatnonzero((moves == way) | (np.append(moves[1:], 0) == way)))
+               for words, way in (("approach", 1), ("retract", -1)) if (moves == way).any()]
+    return draw_motions(run, motions, ("scanner/z", signal), "Force curve", options or Options(), axes) if motions else None
+
+
+def friction_loop(run, options=None, axes=None, signal="force"):
+    """Trace and retrace of every loop that goes along the axis of the first."""
+    loops = run.loops
+    if not loops:
+        return None
+    axis = loops[0].axis
+    loops = [loop for loop in loops if loop.axis == axis]
+    y = f"probe/force_{axis}" if signal == "force" else f"detector/{'lateral' if axis == 'y' else 'normal'}"
+    if not run.has(y):
+        return None
+    motions = [((f"action {loop.action}, " if len(loops) > 1 else "") + words, np.append(way.rows[0] - 1, way.rows)) for loop in loops
+               for words, way in (("trace", loop.trace), ("retrace", loop.retrace))]
+    title = "Friction loop" if signal == "force" else "Lateral signal" if axis == "y" else "Normal signal"
+    return draw_motions(run, motions, (f"scanner/{axis}", y), title, options or Options(), axes)
+
+
+def detector(run, options=None, axes=None):
+    return friction_loop(run, options, axes, "volts")
+
+
+CHANNELS = ["topography", "deflection", "friction"]
+LEVELS = ["none", "plane", "lines"]
+
+
+def levelled(values, level):
+    """`plane`: the least-squares plane is taken off; `lines`: of every line its median."""
+    if level == "lines":
+        return values - np.median(values, axis=1, keepdims=True)
+    if level != "plane":
+        return values
+    y, x = np.mgrid[:values.shape[0], :values.shape[1]]
+    terms = np.column_stack([np.ones(values.size), x.ravel(), y.ravel()])
+    plane = np.linalg.lstsq(terms, values.ravel(), rcond=None)[0]
+    return values - (terms @ plane).reshape(values.shape)
+
+
+def maps_of(run, level):
+    """Every picture of every raster, levelled: (action, channel, direction, unit, values, (pixel width, height) in m or None).
+    The difference is half of trace less retrace, of friction: what topography puts into both is not in it."""
+    for action in sorted(run.file.get("images", [])):
+        for channel in CHANNELS:
+            traces = {}
+            for direction in ("trace", "retrace"):
+                data = run.file[f"images/{action}/{channel}_{direction}"]
+                size = (data.attrs["pixel_width"], data.attrs["pixel_height"]) if "pixel_width" in data.attrs else None
+                traces[direction] = data[:]
+                yield action, channel, direction, data.attrs["unit"], levelled(data[:], level), size
+            if channel == "friction":
+                half = (traces["trace"] - traces["retrace"]) / 2
+                yield action, channel, "difference", data.attrs["unit"], levelled(half, level), size
+
+
+def draw_map(figure, axis, one, options):
+    action, channel, direction, unit, values, size = one
+    factor, shown = unit_for(unit, values)
+    lines, pixels = values.shape
+    extent = [0, 1e6 * size[0] * pixels, 0, 1e6 * size[1] * lines] if size else None
+    axis.grid(False)
+    picture = axis.imshow(factor * values, origin="lower", cmap=colour_map(options, "afmhot"), extent=extent)
+    named = "(trace − retrace)/2" if direction == "difference" else direction
+    axis.set(title=f"{action}: {channel}, {named}" if options.title else "",
+             xlabel="Along the scan / µm" if size else "Pixel", ylabel="Across / µm" if size else "Line")
+    figure.colorbar(picture, ax=axis, label=over(capital(channel), shown), shrink=0.8)
+
+
+def images(run, options=None):
+    """Rasters, trace above retrace; of friction half of their difference, too."""
+    options = options or Options()
+    if "images" not in run.file:
+        return None
+    actions, traces = sorted(run.file["images"]), ["trace", "retrace", "difference"]
+    figure, axes = plt.subplots(3 * len(actions), 3, figsize=options.size(15, 13 * len(actions)), squeeze=False,
+                                constrained_layout=True)
+    for axis in axes.flat:
+        axis.set_visible(False)
+    figure.table = []
+    for one in maps_of(run, options.level):
+        action, channel, direction, unit, values, _ = one
+        axis = axes[3 * actions.index(action) + traces.index(direction), CHANNELS.index(channel)]
+        axis.set_visible(True)
+        draw_map(figure, axis, one, options)
+        figure.table.append((f"{action} {channel} {direction}, line by line", unit, values.ravel()))
+    return figure
+
+
+def simple_field(title, unit, values, size):
+    """A Gwyddion Simple Field: magic line, header, one to four NULs up to a multiple of four bytes, 32-bit floats,
+    little end first. Its first row is the upper one: the last line of the raster."""
+    lines, pixels = values.shape
+    wide, tall = size or (1, 1)
+    fields = [("XRes", pixels), ("YRes", lines), ("XReal", repr(float(wide * pixels))), ("YReal", repr(float(tall * lines))),
+              *([("XYUnits", "m")] if size else []), ("ZUnits", unit), ("Title", title)]
+    head = "Gwyddion Simple Field 1.0\n" + "".join(f"{name} = {value}\n" for name, value in fields)
+    head = head.encode("utf-8")
+    return head + b"\0" * (4 - len(head) % 4) + values[::-1].astype("<f4").tobytes()
+
+
+def simple_fields(run, level):
+    """Of every picture: (name of the file, bytes)."""
+    for action, channel, direction, unit, values, size in maps_of(run, level):
+        named = f"{action}-{channel}-{direction}" + ("" if level == "none" else f"-{level}")
+        yield named, simple_field(f"{action}: {channel}, {direction}", unit, values, size)
+
+
+AFM_FIGURES = {"solid": solid, "plastic_zones": plastic_zones, "images": images, "force_curve": force_curve,
+               "friction_loop": friction_loop, "detector": detector}

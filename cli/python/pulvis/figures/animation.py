@@ -1,0 +1,75 @@
+"""A field over all frames of a run, as MP4 or GIF."""
+import shutil
+from pathlib import Path
+
+import numpy as np
+from matplotlib import animation
+
+from pulvis.errors import PulvisError
+from pulvis.figures.bonds import BOND_FIELDS, draw_bonds
+from pulvis.figures.cell import Cell
+from pulvis.figures.colours import colours_of
+from pulvis.figures.fields import DEFAULT_FIELD, field_of, paint
+from pulvis.figures.look import Options, close_up, shape_of, sheet
+
+SUFFIXES = (".mp4", ".gif")
+PER_SECOND = 12
+MOST_DPI = 150  # of a film: its pixels are an even number, and no more than a screen has
+
+
+class NoEncoder(PulvisError):
+    """The machine lacks the program that writes films."""
+
+
+def writer_for(path, per_second=PER_SECOND):
+    if path.suffix == ".gif":
+        return animation.PillowWriter(fps=per_second)
+    if path.suffix != ".mp4":
+        raise PulvisError(f"--animate {path}: allowed: a file .mp4 or .gif", key="--animate")
+    if not shutil.which("ffmpeg"):
+        raise NoEncoder(f"--animate {path}: MP4 needs the program ffmpeg (Debian: apt install ffmpeg); a GIF does not",
+                        key="--animate")
+    even = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"]  # the encoder takes even numbers of pixels alone
+    return animation.FFMpegWriter(fps=per_second, codec="libx264",
+                                  extra_args=["-pix_fmt", "yuv420p", "-crf", "18", *even])
+
+
+def film(run, options=None, into=None):
+    """(figure, axes, a function that draws frame k, its bar or legend with it: they go with what is cleared)."""
+    options = options or Options()
+    if run.is_solid or not run.frames:
+        raise PulvisError("--animate: only a powder's fields are animated; this run has "
+                          + ("a lever" if run.is_solid else "no frames"))
+    key = options.field or DEFAULT_FIELD
+    fields = [field_of(run, frame, key) for frame in run.frames]
+    colours = colours_of(fields[0], np.concatenate([field.values for field in fields]), options)
+    ends = np.array([1e3 * Cell(run, frame).limits() for frame in run.frames])
+    limits = np.array([ends[:, 0].min(axis=0), ends[:, 1].max(axis=0)])
+    size, beside = shape_of(limits)
+    figure, axes = sheet(options, size, into, beside)
+
+    def show(k):
+        axes.clear()
+        cell = paint(run, axes, run.frames[k], fields[k], colours, options, limits)
+        if fields[k].name in BOND_FIELDS:
+            draw_bonds(run, None, axes, run.frames[k], cell)
+        colours.key(figure, axes)
+        return []
+
+    show(0)
+    close_up(figure, options, into)
+    return figure, axes, show
+
+
+def animate(run, path, options=None, axes=None, per_second=PER_SECOND):
+    """Writes the film; returns (figure, axes) of its last frame."""
+    options, path = options or Options(), Path(path)
+    writer = writer_for(path, per_second)
+    figure, axes, show = film(run, options, axes)
+    figure.canvas.draw()
+    figure.set_layout_engine("none")  # laid out once: what follows stays in its place
+    with writer.saving(figure, str(path), min(options.dpi, MOST_DPI)):
+        for k in range(len(run.frames)):
+            show(k)
+            writer.grab_frame()
+    return figure, axes

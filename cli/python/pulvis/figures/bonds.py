@@ -1,0 +1,127 @@
+"""Pictures of bonds that break: cracks by their mode, pieces, what breaking took, sizes of the pieces."""
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.ticker import MaxNLocator
+
+from pulvis.figures.cell import Cell
+from pulvis.figures.colours import fragment_colours
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, set_axes, shape_of, sheet, unit_for, worded
+from pulvis.figures.tools import draw_tools, outlines
+
+BOND_FIELDS = ("damage", "fragment")  # over them bonds and cracks are drawn
+MODES = LinearSegmentedColormap.from_list("modes", ["#d55e00", "#b89bc4", "#0072b2"])
+BOND_COLOUR = "#5b6672"
+
+
+def lines_of(frame, group):
+    return 1e3 * np.stack([frame[f"{group}/start"][()], frame[f"{group}/end"][()]], axis=1)
+
+
+def draw_bonds(run, figure, axes, frame, cell, alone=False):
+    """Thin lines along the bonds, and what is broken by the mode in which it broke; in `figure` their colours, if any:
+    below, or beside if they stand `alone`."""
+    bonds, broken = lines_of(frame, "bonds"), lines_of(frame, "cracks")
+    shear = run.file["cracks/shear"][:len(broken)]
+    broken = broken[:len(shear)]  # of a run that was killed the newest rows may be missing
+    if cell.here:
+        bonds += 1e3 * cell.shift[frame["bonds/ids"][:, 0], None]
+        broken += 1e3 * cell.shift[run.file["cracks/particle"][:len(broken)], None]
+    axes.add_collection(LineCollection(bonds, colors=BOND_COLOUR, linewidths=0.6, zorder=3))
+    drawn = LineCollection(broken, array=shear, cmap=MODES, clim=(0, 1),
+                           linewidths=1.6, capstyle="round", zorder=4)
+    axes.add_collection(drawn)
+    if not len(broken):
+        return
+    if alone:
+        bar_beside(figure, axes, drawn, "Share of shear (0 mode I, 1 mode II)")
+    elif figure is not None:
+        bar = figure.colorbar(drawn, ax=axes, location="bottom", shrink=0.8, aspect=40,
+                              label="Cracks: share of shear (0 mode I, 1 mode II)")
+        bar.outline.set_visible(False)
+
+
+def cracks(run, options=None, into=None):
+    """The pieces, each in a colour of its own, with bonds and cracks."""
+    options = options or Options()
+    frame = recorded(run, options, "cracks")
+    if frame is None:
+        return None
+    cell, quads = Cell(run, frame), run.mesh.cells
+    owner = run.mesh.cell_particle
+    position, limits = cell.position, 1e3 * cell.limits()
+    size, beside = shape_of(limits)
+    figure, axes = sheet(options, size, into, beside)
+    colours = fragment_colours(frame["fragment"][()])[owner]
+    axes.add_collection(PolyCollection(1e3 * position[quads], facecolors=colours, edgecolors="face",
+                                       linewidths=seam(options)))
+    edges = outlines(quads)
+    axes.add_collection(LineCollection(1e3 * position[edges], colors="#8b96a3", linewidths=0.4))
+    cell.draw(axes, colours, edges)
+    draw_bonds(run, figure, axes, frame, cell, alone=True)
+    draw_tools(run, axes, frame, limits / 1e3)
+    set_axes(axes, limits)
+    count = len(frame["fragments/number"])
+    options.head(axes, f"Cracks at {moment(frame)}: {count} fragment{'' if count == 1 else 's'}", run)
+    close_up(figure, options, into)
+    ends = np.concatenate([frame["cracks/start"][()], frame["cracks/end"][()]], axis=1).T
+    of_crack = [(name, run.file[f"cracks/{name}"]) for name in ("time", "length", "shear", "energy")]
+    figure.table = [*((name, "m", end) for name, end in zip(("x1", "y1", "x2", "y2"), ends)),
+                    *((name, column.attrs["unit"], column[:ends.shape[1]]) for name, column in of_crack)]
+    return figure
+
+
+def breaking(run, options=None):
+    """Crack length, energies of the bonds and the number of fragments over time."""
+    options = options or Options()
+    if not run.has("bonds/crack_length"):
+        return None
+    time = run.series("time")
+    factor, unit = unit_for("s", time)
+    groups = [("bonds/crack_length", "m", {"bonds/crack_length": "broken so far"}),
+              (("energy", "E"), "J", {"energy/fracture": "spent in breaking", "energy/bonds": "stored in bonds"}),
+              ("bonds/fragments", "-", {"bonds/fragments": "fragments"})]
+    figure, places = plt.subplots(len(groups), figsize=options.size(6.4, 6.6), sharex=True, constrained_layout=True)
+    figure.table = [("time", "s", time)]
+    for axes, (label, si, names) in zip(places, groups):
+        series = {name: run.series(name) for name in names}
+        size, shown = unit_for(si, np.concatenate(list(series.values())))
+        for name, values in series.items():
+            axes.plot(factor * time, size * values, label=names[name])
+            figure.table.append((name, si, values))
+        text = worded(label, shown)
+        axes.set_ylabel(text.replace(" $", "\n$", 1) if options.narrow else text)
+        if len(names) > 1:
+            axes.legend()
+    places[-1].yaxis.set_major_locator(MaxNLocator(integer=True))
+    places[-1].set_xlabel(worded("time", unit))
+    options.head(places[0], "Bonds that break", run)
+    return figure
+
+
+def cumulative(area):
+    """Equivalent diameters in ascending order, and the shares of number and of area up to each."""
+    area = np.sort(area)
+    count = np.arange(1, len(area) + 1) / len(area)
+    return np.sqrt(4 * area / np.pi), count, np.cumsum(area) / area.sum()
+
+
+def fragment_sizes(run, options=None, axes=None):
+    options = options or Options()
+    frame = recorded(run, options, "fragments")
+    if frame is None or len(frame["fragments/area"]) < 2:
+        return None
+    diameter, number, area = cumulative(frame["fragments/area"][()])
+    factor, unit = unit_for("m", diameter)
+    figure, axes = sheet(options, (6.4, 4.2), axes)
+    x = factor * np.concatenate([[0], diameter])
+    for label, share in (("of the area", area), ("of the number", number)):
+        axes.step(x, 100 * np.concatenate([[0], share]), where="post", label=label)
+    axes.set(xlabel=worded(("equivalent diameter", "d"), unit), ylabel="Share up to it / %",
+             xlim=(0, 1.03 * x[-1]), ylim=(0, 102))
+    options.head(axes, f"Sizes of {len(diameter)} fragments at {moment(frame)}", run)
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    figure.table = [("equivalent diameter", "m", diameter), ("share of the number", "-", number),
+                    ("share of the area", "-", area)]
+    return figure

@@ -1,0 +1,83 @@
+"""The periodic cell in pictures: every particle inside, and pale images of those that lie across a border."""
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+
+PALE = 0.35  # share of its colour that an image keeps
+
+
+def paler(colours):
+    """Over white, so that neighbours leave no seam."""
+    return 1 - PALE * (1 - np.asarray(colours)[..., :3])
+
+
+class Cell:
+    """Where the particles of a frame are drawn. Of a frame without a cell: where they are, and no images."""
+
+    def __init__(self, run, frame):
+        self.here = "cell" in frame
+        self.owner = run.file["mesh/node_particle"][()]
+        self.quads, self.quad_owner = run.file["mesh/quads"][()], run.file["mesh/cell_particle"][()]
+        self.position = frame["position"][()]
+        self.images = []  # positions of all nodes, particles that this image of the powder shows
+        self.shift = np.zeros((self.owner.max() + 1, 2))  # m, of each particle, into the cell
+        if self.here:
+            self.corner, self.vectors = frame["cell"][0], frame["cell"][1:]
+            self._wrap()
+
+    def _wrap(self):
+        inside = self._in_vectors(self.position)
+        count = np.bincount(self.owner)
+        centre = np.stack([np.bincount(self.owner, inside[:, k]) / count for k in (0, 1)], axis=1)
+        self.shift = -np.floor(centre) @ self.vectors
+        self.position = self.position + self.shift[self.owner]
+        inside = inside - np.floor(centre)[self.owner]
+        low, high = np.full(centre.shape, np.inf), np.full(centre.shape, -np.inf)
+        np.minimum.at(low, self.owner, inside)
+        np.maximum.at(high, self.owner, inside)
+        first, last = np.ceil(-high.max(axis=0)).astype(int), np.floor(1 - low.min(axis=0)).astype(int)
+        for i in range(first[0], last[0] + 1):
+            for j in range(first[1], last[1] + 1):
+                shown = np.all((low + (i, j) < 1) & (high + (i, j) > 0), axis=1)
+                if (i or j) and shown.any():
+                    self.images.append((self.position + (i, j) @ self.vectors, shown))
+
+    def _in_vectors(self, points):
+        return np.linalg.solve(self.vectors.T, (points - self.corner).T).T
+
+    def other_end(self, ids, centre, point):
+        """Of lines from the centres of the first particles through the points where they touch: the centres of those
+        images of the second ones that touch there. A particle is about as large as its neighbour."""
+        end = centre[ids[:, 1]]
+        if not self.here or not len(ids):
+            return end
+        there = 2 * point - centre[ids[:, 0]]
+        return end + np.round(self._in_vectors(there) - self._in_vectors(end)) @ self.vectors
+
+    def limits(self):
+        """m, of all that is drawn: lower left, upper right."""
+        drawn = [self.position, *(position[shown[self.owner]] for position, shown in self.images)]
+        if self.here:
+            drawn.append(self.outline())
+        low, high = (end(np.concatenate(drawn), axis=0) for end in (np.min, np.max))
+        margin = 0.03 * (high - low).max()
+        return np.array([low - margin, high + margin])
+
+    def outline(self):
+        (a, b), corner = self.vectors, self.corner
+        return np.array([corner, corner + a, corner + a + b, corner + b, corner])
+
+    def draw(self, axes, colours=None, edges=None, seam=0.35):
+        """The border and the images. colours: of the quads [n, 3 or 4]; edges: pairs of nodes, of the outlines."""
+        if not self.here:
+            return
+        for position, shown in self.images:
+            if colours is not None:
+                quads = shown[self.quad_owner]
+                axes.add_collection(PolyCollection(1e3 * position[self.quads[quads]], facecolors=paler(colours[quads]),
+                                                   edgecolors="face", linewidths=seam, zorder=0.5))
+            if edges is not None:
+                lines = edges[shown[self.owner[edges[:, 0]]]]
+                axes.add_collection(LineCollection(1e3 * position[lines], colors="#aab3bd",
+                                                   linewidths=0.4, zorder=0.6))
+        line = 1e3 * self.outline()
+        axes.plot(line[:, 0], line[:, 1], color="#d55e00", linewidth=0.9, linestyle="-", zorder=3)

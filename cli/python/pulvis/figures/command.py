@@ -1,0 +1,198 @@
+"""Figures of a run for papers and slides, and their numbers: the field of a frame, forces, stress ratio,
+energies, local densities, the contact network, cracks and fragments; of a lever the solid and its curves; of a study
+its charts; of a probe its surfaces. `pulvis figure` runs it.
+
+All figures go into FOLDER/pictures/ (or the folder of -o); what a run has not recorded is left out, with a line that
+says so. With --series, or with -o FILE and --field, one figure is drawn; FILE.csv holds its numbers in SI. With
+--format gsf the images of a raster are written as Gwyddion Simple Fields, one a file.
+Exit codes: 2 for what is not there, 4 for a machine that lacks something.
+"""
+import argparse
+import re
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from matplotlib import pyplot as plt
+
+from pulvis.errors import PulvisError
+from pulvis.figures.afm import AFM_FIGURES, LEVELS, simple_fields
+from pulvis.figures.animation import NoEncoder, animate, writer_for
+from pulvis.figures.bonds import breaking, cracks, fragment_sizes
+from pulvis.figures.colours import colour_map
+from pulvis.figures.curves import chosen_series, energies, forces, stress_ratio
+from pulvis.figures.densities import density_profile, local_density
+from pulvis.figures.fields import DEFAULT_FIELD, field_picture
+from pulvis.figures.look import Options, write_csv
+from pulvis.figures.network import contact_network, rose
+from pulvis.figures.probe import figures_of_probe
+from pulvis.figures.quantities import inches
+from pulvis.figures.study import figures_of_study
+from pulvis.results import Run
+
+FORMATS = {".png", ".svg", ".pdf", ".csv"}
+PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "energies": energies,
+                 "local_density": local_density, "density_profile": density_profile,
+                 "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
+                 "breaking": breaking, "fragment_sizes": fragment_sizes}
+LIKE_EVERY_FIGURE = {"limits": None}  # a range of colours is of one field
+
+
+def printable(text):
+    """A control character in a name would be an order to the terminal."""
+    return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in str(text))
+
+
+def write(figure, path, options):
+    """figure: a Figure, bytes, or a function that writes a file."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if isinstance(figure, bytes):
+        path.write_bytes(figure)
+    elif callable(figure):
+        figure(path)
+    elif path.suffix == ".csv":
+        write_csv(path, figure.table)
+    else:
+        figure.savefig(path, dpi=options.dpi)
+        plt.close(figure)
+
+
+class Place:
+    """Where figures go. `pulvis figure` puts what is in its folder into place: it knows which old files it may replace."""
+
+    def __init__(self, asked, options):
+        self.draw_into, self.options = asked.draw_into, options
+
+    def save(self, figure, path):
+        if self.draw_into:
+            number = len(list(self.draw_into.iterdir()))
+            write(figure, self.draw_into / f"{number:06}{path.suffix}", self.options)
+            with open(self.draw_into / "list", "a", encoding="utf-8", errors="surrogateescape") as file:
+                file.write(f"{number:06}{path.suffix} {path}\n")
+            return
+        if path.exists() or path.is_symlink():
+            raise PulvisError(f"{path} is there already; pulvis figure replaces what it drew itself")
+        write(figure, path, self.options)
+        print(printable(path))
+
+
+def save_images(run, asked, options, place):
+    if "images" not in run.file:
+        raise PulvisError(f"{asked.folder} has no images; gsf is for rasters of a lever")
+    for name, image in simple_fields(run, options.level):
+        place.save(image, asked.to / f"{name}.gsf")
+
+
+def save_all(run, asked, options, place):
+    field = (options.field or DEFAULT_FIELD).replace(":", "_")
+    names = AFM_FIGURES if run.is_solid else {field: field_picture, **PLANE_FIGURES}
+    for name, draw in names.items():
+        figure = draw(run, options if draw is field_picture else replace(options, **LIKE_EVERY_FIGURE))
+        path = asked.to / f"{name}.{asked.format}"
+        if figure is None or path.suffix == ".csv" and not hasattr(figure, "table"):
+            print(f"figures: nothing recorded for {path.name}")
+        else:
+            place.save(figure, path)
+
+
+def save_group(figures, what, asked, options, place):
+    """Of a probe or a study."""
+    if options.series or options.field or asked.animate or asked.format in ("csv", "gsf"):
+        raise PulvisError(f"a {what} has its own figures: without --series, --field, --animate and csv")
+    for name, figure in figures(asked.folder, options):
+        path = asked.to / f"{name}.{asked.format}"
+        if figure is None:
+            print(f"figures: no run has what {path.name} shows")
+        else:
+            place.save(figure, path)
+
+
+def save_run(run, asked, options, place):
+    file = asked.output if asked.output and asked.output.suffix in FORMATS else None
+    if asked.animate:
+        if options.series or file or asked.output:
+            raise PulvisError("--animate names its file: without --series and -o")
+        writer_for(asked.animate)
+        place.save(lambda path: animate(run, path, options), asked.animate)
+        return
+    if asked.format == "gsf":
+        if options.series or options.field or file:
+            raise PulvisError("gsf is a format of images: without --series, --field and a file")
+        save_images(run, asked, options, place)
+        return
+    if not options.series and not file:
+        save_all(run, asked, options, place)
+        return
+    if run.is_solid and not options.series:
+        raise PulvisError("one figure of a lever is one of its series: say --series")
+    figure = chosen_series(run, options) if options.series else field_picture(run, options)
+    if figure is None:
+        raise PulvisError(f"no frame with {options.field or DEFAULT_FIELD}")
+    place.save(figure, file or Path(f"{'-'.join(options.series).replace('/', '_')}.{asked.format}"))
+
+
+def resolution(text):
+    value = float(text) if re.fullmatch(r"\d+(\.\d*)?", text) else float("nan")
+    if not 20 <= value <= 2400:
+        raise PulvisError(f"--dpi {text}: allowed: 20 to 2400 dots per inch", key="--dpi")
+    return value
+
+
+def arguments(words=None):
+    parser = argparse.ArgumentParser(prog="pulvis figure", description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--frame", type=int, help="number of a frame, from 0; the last if not said")
+    parser.add_argument("--field",
+                        help=f"field of cells or particles, {DEFAULT_FIELD} if not said; NAME:k for component k")
+    parser.add_argument("--series", action="append", default=[], help="series of the history to draw")
+    parser.add_argument("--against", help="series of the other axis, time if not said")
+    parser.add_argument("--format", choices=["png", "svg", "pdf", "csv", "gsf"], default="png")
+    parser.add_argument("--level", choices=LEVELS, default="none", help="levelling of a raster's images")
+    parser.add_argument("--width", help="of every figure, as 85mm")
+    parser.add_argument("--height", help="of every figure, as 60mm")
+    parser.add_argument("--no-title", action="store_true")
+    parser.add_argument("--cmap", help="colour map of what is on a scale, by matplotlib's name")
+    parser.add_argument("--range", help="LOW:HIGH of the field's colours, as 0:400MPa")
+    parser.add_argument("--dpi", default="200")
+    parser.add_argument("--animate", type=Path, help="file .mp4 or .gif: all frames of the field")
+    parser.add_argument("-o", "--output", type=Path, help="a file, or a folder for all figures")
+    parser.add_argument("--draw-into", type=Path, help=argparse.SUPPRESS)
+    asked = parser.parse_args(words)
+    if asked.against and not asked.series:
+        parser.error("--against says over what --series is drawn")
+    asked.to = asked.output or asked.folder / "pictures"
+    return asked
+
+
+def options_of(asked):
+    options = Options(frame=asked.frame, field=asked.field, series=asked.series, against=asked.against, level=asked.level,
+                      width=inches("--width", asked.width), height=inches("--height", asked.height),
+                      title=not asked.no_title, cmap=asked.cmap, limits=asked.range, dpi=resolution(asked.dpi),
+                      vector=(asked.output.suffix if asked.output and asked.output.suffix in FORMATS else f".{asked.format}")
+                      in (".svg", ".pdf"))
+    colour_map(options)  # refuses one that is none, before anything is drawn
+    return options
+
+
+def draw(asked):
+    options = options_of(asked)
+    place = Place(asked, options)
+    with plt.rc_context(options.style()):
+        try:
+            if (asked.folder / "probe.toml").exists():
+                save_group(figures_of_probe, "probe", asked, options, place)
+            elif (asked.folder / "curves.json").exists() and not (asked.folder / "run.h5").exists():
+                save_group(figures_of_study, "study", asked, options, place)
+            else:
+                save_run(Run(asked.folder), asked, options, place)
+        except (OSError, ValueError, KeyError) as error:
+            raise PulvisError(f"{asked.folder}: {error}") from error
+
+
+def main(words=None):
+    try:
+        draw(arguments(words))
+    except PulvisError as error:
+        print(f"figures: {printable(error)}", file=sys.stderr)
+        return 4 if isinstance(error, NoEncoder) else 2
+    return 0

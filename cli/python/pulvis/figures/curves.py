@@ -1,0 +1,70 @@
+"""Curves of a run's history: forces, stress ratios, energies, and any series over any other."""
+import re
+
+import numpy as np
+
+from pulvis.errors import PulvisError
+from pulvis.figures.look import Options, draw_lines
+from pulvis.figures.names import capital, name_of
+
+
+def matching(run, pattern):
+    """Series of that name that are anything but zero: [(match, values, unit)]."""
+    found = [(re.fullmatch(pattern, name), name) for name in sorted(run.names)]
+    found = [(match, run.series(name), run.unit(name)) for match, name in found if match]
+    return [one for one in found if one[1].size and np.nanmax(np.abs(one[1])) > 0]
+
+
+def time_axis(run):
+    return "time", run.series("time"), run.unit("time")
+
+
+def forces(run, options=None, axes=None):
+    found = matching(run, r"tool/(.+)/force_([xyz])")
+    most = max((np.nanmax(np.abs(values)) for _, values, _ in found), default=0)
+    lines = []
+    for match, values, unit in found:
+        if np.nanmax(np.abs(values)) < 0.01 * most:
+            continue
+        turned = -np.nanmin(values) > np.nanmax(values)
+        name = f"{match[1]}, ${'-' if turned else ''}F_{match[2]}$"
+        lines.append((name, -values if turned else values, unit))
+    return draw_lines(run, time_axis(run), lines, ("force", "F"), "Forces on the tools", options, axes) if lines else None
+
+
+def stress_ratio(run, options=None, axes=None):
+    lines = [(f"{match[1]} stress ${name_of(match[0]).symbol}$", values, unit)
+             for match, values, unit in matching(run, r"stress_ratio/(axial|lateral)")]
+    if not lines:
+        return None
+    x = ("relative_density", run.series("relative_density"), "-") if run.has("relative_density") else time_axis(run)
+    return draw_lines(run, x, lines, ("stress over yield stress", r"\sigma/\sigma_y"), "Stress over yield stress", options,
+                      axes)
+
+
+def energies(run, options=None, axes=None):
+    lines = [(capital(name_of(match[0]).words.removesuffix(" energy")), values, unit)
+             for match, values, unit in matching(run, r"energy/(.+)")]
+    return draw_lines(run, time_axis(run), lines, ("energy", "E"), "Energies", options, axes) if lines else None
+
+
+def chosen_series(run, options=None, axes=None):
+    """The series that were asked for by name, over another one or over time."""
+    options = options or Options()
+    against = options.against or "time"
+    for name in [*options.series, against]:
+        run.dataset(name)  # refuses what is not there
+    units = {run.unit(name) for name in options.series}
+    if len(units) > 1:
+        raise PulvisError(f"series of different units in one figure: {', '.join(sorted(units))}")
+    names = {name: name_of(name) for name in options.series}
+    lines = [(f"{capital(words)} ${symbol}$" if symbol else capital(words), run.series(key), run.unit(key))
+             for key, (words, symbol) in names.items()]
+    symbols = {name.symbol for name in names.values()}
+    shared = symbols.pop() if len(symbols) == 1 else ""
+    word = {"N": "force", "Pa": "stress", "m": "length", "J": "energy", "V": "signal"}.get(next(iter(units)), "value")
+    ylabel = options.series[0] if len(lines) == 1 else (word, shared)
+    title = ", ".join(dict.fromkeys(capital(name.words) for name in names.values()))
+    figure = draw_lines(run, (against, run.series(against), run.unit(against)), lines, ylabel, title, options, axes)
+    figure.table = [(name, run.unit(name), run.series(name)) for name in (against, *options.series)]
+    return figure

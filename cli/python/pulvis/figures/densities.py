@@ -1,0 +1,94 @@
+"""Local densities of a run: maps at several times, and profiles along the height."""
+import numpy as np
+from matplotlib import pyplot as plt
+
+from pulvis.figures.colours import colour_map
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, sheet
+from pulvis.figures.names import label
+
+LETTERS = 20  # points that a density takes, written in
+MAPS = 4  # density maps side by side: evenly over the run, the last frame among them
+
+
+def chosen_frames(run, options, count=MAPS):
+    """Of those with anything between the tools: a compact may have left its die."""
+    frames = [run.frame(number) for number in
+              ([options.frame] if options.frame is not None else range(len(run.frames)))]
+    frames = [frame for frame in frames if np.isfinite(frame["local_density"][()]).any()]
+    numbers = np.unique(np.linspace(0, len(frames) - 1, count).round().astype(int))
+    return [frames[number] for number in numbers] if frames else []
+
+
+def draw_map(axes, frame, ends, colours, room):
+    """The cells of one frame, with their densities written in where there is room: points along its width."""
+    low, high = ends
+    density = frame["local_density"][()].reshape(len(frame["density_grid/y"]) - 1, -1)
+    x, y = 1e3 * frame["density_grid/x"][()], 1e3 * frame["density_grid/y"][()]
+    mesh = axes.pcolormesh(x, y, density, cmap=colours, vmin=low, vmax=high, edgecolors="white",
+                           linewidth=0.5)
+    if density.shape[1] * LETTERS <= room:
+        for (j, i), value in np.ndenumerate(density):
+            if np.isfinite(value):
+                dark = (value - low) / (high - low) > 0.6
+                axes.text((x[i] + x[i + 1]) / 2, (y[j] + y[j + 1]) / 2, f"{value:.3f}", size=7,
+                          ha="center", va="center", color="#1d2733" if dark else "white")
+    axes.set(aspect="equal", xlabel="$x$ / mm", title=f"$t$ = {moment(frame)}")
+    axes.grid(False)
+    return mesh
+
+
+def density_table(frame):
+    x, y = (frame[f"density_grid/{axis}"][()] for axis in "xy")
+    middle_x, middle_y = np.meshgrid((x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2)
+    return [("x", "m", middle_x.ravel()), ("y", "m", middle_y.ravel()),
+            ("relative density", "-", frame["local_density"][()].ravel())]
+
+
+def local_density(run, options=None, axes=None):
+    """Maps at several times, or of the frame asked for."""
+    options = options or Options()
+    count = MAPS // 2 if options.narrow else MAPS
+    frames = chosen_frames(run, options, count) if recorded(run, options, "local_density") is not None else []
+    if not frames:
+        return None
+    values = np.concatenate([frame["local_density"][()].ravel() for frame in frames])
+    low, high = options.clim(values, "-")
+    low, high = (low, high) if high - low > 1e-6 else (low - 0.01, high + 0.01)
+    if axes is None:
+        figure, places = plt.subplots(1, len(frames), figsize=options.size(3.3 * len(frames) + 1.3, 4.4, 0.9), sharey=True,
+                                      squeeze=False, constrained_layout=True)
+        places = places[0].tolist()
+    else:
+        figure, places, frames = axes.figure, [axes], frames[-1:]
+    for place, frame in zip(places, frames):
+        mesh = draw_map(place, frame, (low, high), colour_map(options), 50 * figure.get_figwidth() / len(frames))
+    places[0].set_ylabel("$y$ / mm")
+    if len(places) == 1:
+        bar_beside(figure, places[0], mesh, label("local_density", ""))
+        places[0].set_title("")
+        options.head(places[0], f"Local relative density at {moment(frames[0])}", run)
+    else:
+        figure.colorbar(mesh, ax=places, label=label("local_density", ""), shrink=0.85).outline.set_visible(False)
+    if options.title and len(places) > 1:
+        figure.suptitle(f"Local relative density\n{run.title}", x=0.01, ha="left", fontsize=plt.rcParams["axes.titlesize"])
+    close_up(figure, options, axes)
+    figure.table = density_table(frames[-1])
+    return figure
+
+
+def density_profile(run, options=None, axes=None):
+    options = options or Options()
+    frame = recorded(run, options, "density_profile")
+    frames = chosen_frames(run, options) if frame is not None else []
+    if not frames or len(frames[0]["density_profile"]) < 2:
+        return None
+    figure, axes = sheet(options, (6.4, 4.2), axes)
+    for frame in frames:
+        lines = 1e3 * frame["density_grid/y"][()]
+        values = frame["density_profile"][()]
+        axes.plot(np.repeat(values, 2), np.repeat(lines, 2)[1:-1], label=f"$t$ = {moment(frame)}")
+    axes.set(xlabel=label("relative_density", ""), ylabel="$y$ / mm")
+    options.head(axes, "Relative density along the height", run)
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    figure.table = [("y", "m", (lines[1:] + lines[:-1]) / 2e3), ("relative density", "-", values)]
+    return figure

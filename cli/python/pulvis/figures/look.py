@@ -1,0 +1,176 @@
+"""What all figures have in common: their look, their size, units, and how lines are drawn."""
+import csv
+import textwrap
+from dataclasses import dataclass, field as of_dataclass
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.font_manager import FontProperties
+
+from pulvis.figures.names import capital, label, over, plain
+from pulvis.figures.quantities import limits_of, unit_for, with_unit
+
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#8c6d1f",
+           "#882255", "#117733"]
+STYLE = {"figure.dpi": 200, "font.size": 10, "axes.grid": True, "grid.color": "#e3e8ee",
+         "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
+         "svg.fonttype": "none", "pdf.fonttype": 42, "lines.linewidth": 1.6, "legend.frameon": False, "axes.titlesize": 11,
+         "axes.prop_cycle": plt.cycler(linestyle=["-", "--", ":"]) * plt.cycler(color=COLOURS)}
+# A column of a paper: letters and lines of a figure that is shrunk by nobody.
+NARROW = {"font.size": 8, "axes.titlesize": 8.5, "lines.linewidth": 1.2, "axes.linewidth": 0.6, "legend.fontsize": 7,
+          "xtick.major.width": 0.6, "ytick.major.width": 0.6}
+NARROW_BELOW = 120 / 25.4  # inches
+
+MANY_LINES = 5
+
+
+@dataclass
+class Options:
+    """What may be asked of a figure."""
+
+    frame: int = None        # number of the frame, the last if none
+    field: str = None
+    series: list = of_dataclass(default_factory=list)
+    against: str = None
+    level: str = "none"      # levelling of images
+    width: float = None      # inches, and height
+    height: float = None
+    title: bool = True
+    cmap: str = None
+    limits: object = None    # of the colours: "LOW:HIGH" with units, or (low, high) in SI; None: of the values
+    dpi: float = 200
+    vector: bool = False     # SVG or PDF
+
+    @property
+    def narrow(self):
+        return bool(self.width) and self.width < NARROW_BELOW
+
+    def style(self):
+        """For plt.rc_context."""
+        return {**STYLE, **(NARROW if self.narrow else {})}
+
+    def context(self, axes=None):
+        """For plt.rc_context, in Python: axes of somebody else keep the look of their figure."""
+        return {} if axes is not None else {**self.style(), "figure.dpi": self.dpi}
+
+    def size(self, wide, tall, beside=0.0):
+        """Inches of a figure that is wide x tall by itself; `beside`: of its height what does not grow with its width."""
+        if not self.width:
+            return wide, self.height or tall
+        return self.width, self.height or (tall - beside) * self.width / wide + beside
+
+    def clim(self, values, unit):
+        """Ends of the colours in SI: those asked for, and of `values` where one is open."""
+        values = np.asarray(values, float)
+        finite = values[np.isfinite(values)]
+        ends = (finite.min(), finite.max()) if finite.size else (0.0, 1.0)
+        return tuple(end if asked is None else asked for asked, end in zip(limits_of(self.limits, unit), ends))
+
+    def head(self, axes, text, run=None):
+        """The title of axes."""
+        if self.title:
+            size = FontProperties(size=plt.rcParams["axes.titlesize"]).get_size_in_points()  # it may be "large"
+            letters = int((self.width or 7.2) * 72 * 0.8 / (0.5 * size))
+            lines = (text if run is None else f"{text}\n{run.title}").split("\n")
+            axes.set_title("\n".join(textwrap.fill(line, letters) for line in lines), loc="left")
+
+    def broken(self, text):
+        """The label of an axis, in two lines where it is longer than the side of a narrow figure."""
+        return text.replace(" $", "\n$", 1) if self.narrow and len(plain(text)) > 24 else text
+
+
+def sheet(options, size, axes=None, beside=0.0):
+    """(figure, axes): those of `axes`, or new ones."""
+    if axes is not None:
+        return axes.figure, axes
+    return plt.subplots(figsize=options.size(*size, beside), constrained_layout=True)
+
+
+def moment(frame):
+    """When a frame was taken, in words."""
+    return with_unit(frame.attrs["time"], "s")
+
+
+def shape_of(limits):
+    """Inches of a picture with these limits, and what of its height does not grow with its width."""
+    shape = np.ptp(limits[:, 1]) / np.ptp(limits[:, 0])
+    return (7.2, min(max(6.0 * shape, 2.4), 9.0) + 0.9), 0.9
+
+
+def seam(options):
+    """Width of the edges that close the gaps which smoothing leaves between elements: a pixel at least."""
+    return 0.35 if options.vector else max(0.35, 1.3 * 72 / options.dpi)
+
+
+def set_axes(axes, limits):
+    axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel="$x$ / mm", ylabel="$y$ / mm")
+    axes.grid(False)
+
+
+def bar_beside(figure, axes, mappable, words, **more):
+    """A colour bar as high as its axes."""
+    place = axes.inset_axes([1.03, 0, 0.035, 1])
+    bar = figure.colorbar(mappable, cax=place, label=words, **more)
+    bar.outline.set_visible(False)
+    return bar
+
+
+def close_up(figure, options, axes):
+    """Takes away what is empty above and below a picture whose sides have their own ratio; `axes`: whose figure it is."""
+    if axes is not None or options.height:
+        return
+    figure.canvas.draw()
+    figure.set_figheight(figure.get_tightbbox().height + 0.08)
+
+
+def recorded(run, options, name):
+    """The frame to draw, or none where the run has not recorded `name`."""
+    if not run.frames or name not in run.frame(options.frame):
+        return None
+    return run.frame(options.frame)
+
+
+def write_csv(path, table):
+    """table: [(name, unit, values)] in SI, of any lengths."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow([f"{name} [{unit}]" for name, unit, _ in table])
+        for i in range(max(len(values) for _, _, values in table)):
+            writer.writerow([repr(float(values[i])) if i < len(values) else "" for _, _, values in table])
+
+
+def worded(name, unit):
+    """The label of an axis. name: a key of the table of names, or (words, symbol) of what has none."""
+    if isinstance(name, str):
+        return label(name, unit)
+    words, symbol = name
+    return over(capital(words) + (f" ${symbol}$" if symbol else ""), unit)
+
+
+def place_legend(axes, count, options):
+    """Beside the curves where they are many, or below them where there is no room beside."""
+    if count < MANY_LINES:
+        axes.legend()
+    elif options.narrow:
+        axes.legend(loc="upper center", bbox_to_anchor=(0.45, -0.24), ncol=2)
+    else:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
+
+
+def draw_lines(run, x, lines, ylabel, title, options=None, into=None):
+    """x: (key, values, unit); lines: [(label, values, unit)] of one unit; ylabel: a key of the table of names,
+    or (words, symbol)."""
+    options = options or Options()
+    below = 0.16 * ((len(lines) + 1) // 2) if options.narrow and len(lines) >= MANY_LINES else 0
+    figure, axes = sheet(options, (6.4, 4.2 + below), into, below)
+    x_factor, x_unit = unit_for(x[2], x[1])
+    factor, unit = unit_for(lines[0][2], np.concatenate([values for _, values, _ in lines]))
+    for one, values, _ in lines:
+        axes.plot(x_factor * x[1], factor * values, label=one)
+    axes.set_xlabel(worded(x[0], x_unit))
+    axes.set_ylabel(options.broken(worded(ylabel, unit)))
+    options.head(axes, title, run)
+    if len(lines) > 1:
+        place_legend(axes, len(lines) if into is None else 0, options)
+    figure.table = [(x[0], x[2], x[1]), *((plain(one), unit, values) for one, values, unit in lines)]
+    return figure

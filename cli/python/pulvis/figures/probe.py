@@ -1,0 +1,168 @@
+"""Pictures of a probe: yield surfaces in the p-q plane and in the plane of the stresses, moduli and parameters of the cap."""
+import json
+
+import numpy as np
+
+from matplotlib import pyplot as plt
+
+from pulvis.figures.look import Options, unit_for, worded
+from pulvis.figures.names import over
+
+MODELS = {"drucker_prager_cap": ("Drucker–Prager cap", "-"), "modified_cam_clay": ("modified Cam-Clay", "--"),
+          "fleck_kuhn_mcmeeking": ("Fleck–Kuhn–McMeeking", ":"), "gurson": ("Gurson", "-.")}
+PLANE_MODELS = {"fleck_plane": ("Fleck, no cohesion", "-"), "fleck_plane_cohesive": ("Fleck, full cohesion", ":")}
+
+
+def colours(states):
+    densities = sorted({state["asked"] for state in states})
+    shades = plt.get_cmap("viridis")(np.linspace(0.1, 0.85, len(densities)))
+    return dict(zip(densities, shades))
+
+
+def of_path(summary, path):
+    return [state for state in summary["states"] if state["path"] == path]
+
+
+def paths_of(summary):
+    return list(dict.fromkeys(state["path"] for state in summary["states"]))
+
+
+def all_points(states, criterion, key):
+    return np.array([point[key] for state in states for point in state["yield"][criterion]["points"]])
+
+
+def draw_invariants(axes, states, criterion, colour, factor):
+    """p and q: points by the sign of q as they are, the surfaces of the models on both sides."""
+    for state in states:
+        shade, mine = colour[state["asked"]], state["yield"][criterion]
+        axes.plot([factor * point["p"] for point in mine["points"]], [factor * point["q"] for point in mine["points"]],
+                  "o", markersize=3.5, color=shade, label=f"density {state['relative_density']:.3f}")
+        for model in mine["models"]:
+            if model["name"] in ("drucker_prager_cap", "modified_cam_clay"):
+                p, q = factor * np.array(model["surface"]).T
+                for side in (1, -1):
+                    axes.plot(p, side * q, MODELS[model["name"]][1], color=shade, linewidth=1)
+    highest = factor * max((point["p"] for state in states for point in state["yield"][criterion]["points"]), default=1)
+    axes.set_xlim(-0.1 * highest, 1.08 * highest)
+    for name in ("drucker_prager_cap", "modified_cam_clay"):
+        axes.plot([], [], MODELS[name][1], color="0.4", linewidth=1, label=MODELS[name][0])
+    axes.axhline(0, color="0.8", linewidth=0.6)
+
+
+def draw_stresses(axes, states, criterion, colour, factor):
+    """Pressures yy over xx, with the direction of the plastic strain at each point."""
+    for state in states:
+        points, shade = state["yield"][criterion]["points"], colour[state["asked"]]
+        x = -factor * np.array([point["stress"][0] for point in points])
+        y = -factor * np.array([point["stress"][1] for point in points])
+        axes.plot(x, y, "o", markersize=3, color=shade)
+        plastic = -np.array([point["plastic"] for point in points]).reshape(-1, 2)
+        axes.quiver(x, y, plastic[:, 0], plastic[:, 1], color=shade, angles="xy", width=0.003, scale=18)
+        axes.plot(*(-factor * np.mean([one["stress"][:2] for one in state["states"]], axis=0)), "+", color=shade,
+                  markersize=9)
+    axes.axline((0, 0), slope=1, color="0.8", linewidth=0.6)
+    axes.set_aspect("equal")
+
+
+def surfaces(summary, criterion, options):
+    paths = paths_of(summary)
+    colour = colours(summary["states"])
+    pressures = all_points(summary["states"], criterion, "p")
+    if not len(pressures):
+        return None
+    factor, unit = unit_for("Pa", pressures)
+    figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.4 * len(paths)), constrained_layout=True, squeeze=False)
+    for row, path in zip(axes, paths):
+        states = of_path(summary, path)
+        draw_invariants(row[0], states, criterion, colour, factor)
+        draw_stresses(row[1], states, criterion, colour, factor)
+        row[0].set_xlabel(worded(("pressure", "p"), unit))
+        row[0].set_ylabel(over("Von Mises' stress $q$, > 0: yy pressed more", unit))
+        row[1].set_xlabel(over("Pressure in $x$", unit))
+        row[1].set_ylabel(over("Pressure in $y$", unit))
+        row[0].set_title(f"{path}: yield surfaces", loc="left")
+        row[1].set_title("+ state, arrows: plastic strain", loc="left")
+        row[0].legend(fontsize=7)
+    how = f"offset strain {summary['offset_strain']:g}" if criterion == "offset_strain" else \
+        f"dissipation {summary['dissipation']:g} of the pressure"
+    if options.title:
+        figure.suptitle(f"{summary['title']}, by {how}", x=0.01, ha="left")
+    return figure
+
+
+def models(summary, options):
+    """The densest state of each path beside what theories of powders say, each with its strength fitted."""
+    paths = paths_of(summary)
+    figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.0 * len(paths)), constrained_layout=True, squeeze=False)
+    for row, path in zip(axes, paths):
+        state = of_path(summary, path)[-1]
+        mine = state["yield"]["dissipation"]
+        if not mine["models"]:
+            continue
+        factor, unit = unit_for("Pa", np.array([point["p"] for point in mine["points"]]))
+        for side, names, x, y in ((row[0], MODELS, "p", "q"), (row[1], PLANE_MODELS, "plane_p", "plane_shear")):
+            side.plot([factor * point[x] for point in mine["points"]],
+                      [factor * abs(point[y]) for point in mine["points"]], "ko", markersize=3.5)
+            for model in mine["models"]:
+                if model["name"] in names:
+                    label, line = names[model["name"]]
+                    side.plot(*(factor * np.array(model["surface"]).T), line,
+                              label=f"{label}, off by {100 * model['misfit']:.1f}%")
+            side.legend(fontsize=7)
+        row[0].set_title(f"{path}, density {state['relative_density']:.3f}", loc="left")
+        row[0].set_xlabel(worded(("pressure", "p"), unit))
+        row[0].set_ylabel(over("$|q|$", unit))
+        row[1].set_xlabel(over("Pressure in the plane", unit))
+        row[1].set_ylabel(over("Shear in the plane", unit))
+    if options.title:
+        figure.suptitle(f"{summary['title']}: laws fitted to the yield points by dissipation", x=0.01, ha="left")
+    return figure
+
+
+def spread(values):
+    return np.mean(values), (np.std(values, ddof=1) if len(values) > 1 else 0)
+
+
+def parameters(summary, options):
+    figure, axes = plt.subplots(2, 2, figsize=options.size(8.4, 6.4), constrained_layout=True)
+    rows = (("youngs_modulus", "Young's modulus", "Pa"), ("poissons_ratio", "Poisson's ratio", ""))
+    for path in paths_of(summary):
+        states = of_path(summary, path)
+        density = [state["relative_density"] for state in states]
+        for side, (key, name, unit) in zip(axes[0], rows):
+            means = np.array([spread([one[key] for one in state["states"]]) for state in states])
+            factor, shown = unit_for(unit, means[:, 0])
+            side.errorbar(density, factor * means[:, 0], factor * means[:, 1], marker="o", capsize=3, label=path)
+            side.set_ylabel(over(name, shown))
+        for side, names in zip(axes[1], (("p_b", "p_c"), ("R", "M"))):
+            for name, line in zip(names, ("-", "--")):
+                draw_parameter(side, states, name, line, path)
+    for side in axes.flat:
+        side.set_xlabel(worded("relative_density", ""))
+        side.legend(fontsize=7)
+    axes[1][0].set_ylabel("Hydrostatic yield pressure / MPa")
+    axes[1][1].set_ylabel("Cap eccentricity $R$, slope $M$")
+    if options.title:
+        figure.suptitle(f"{summary['title']}: parameters, bars: standard deviation over seeds", x=0.01, ha="left")
+    return figure
+
+
+def draw_parameter(axes, states, name, line, path):
+    model = 0 if name in ("p_b", "R") else 1
+    found = [(state["relative_density"], state["yield"]["dissipation"]["models"][model]) for state in states
+             if state["yield"]["dissipation"]["models"]]
+    factor = 1e-6 if name.startswith("p_") else 1
+    values = [factor * one["parameters"][name] for _, one in found]
+    bars = [factor * one["scatter"].get(name, {"deviation": 0})["deviation"] for _, one in found]
+    axes.errorbar([density for density, _ in found], values, bars, linestyle=line, marker="o", capsize=3,
+                  label=f"{path}: {name.replace('_', '')}")
+
+
+def figures_of_probe(folder, options=None):
+    """Name and figure of each."""
+    options = options or Options()
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    drawn = [("yield_surfaces", surfaces(summary, "offset_strain", options)),
+             ("yield_surfaces_dissipation", surfaces(summary, "dissipation", options)),
+             ("models", models(summary, options)), ("parameters", parameters(summary, options))]
+    return [(name, figure) for name, figure in drawn if figure is not None]

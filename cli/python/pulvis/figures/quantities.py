@@ -1,0 +1,83 @@
+"""Quantities as they are given on the command line or in Python: "85 mm", "0:400 MPa"."""
+import re
+
+import numpy as np
+
+from pulvis.errors import PulvisError
+
+PREFIXES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")]
+SCALED = {"m", "N", "Pa", "J", "s", "m/s", "N/m", "V"}
+INCHES = {"mm": 1 / 25.4, "cm": 1 / 2.54, "m": 1 / 0.0254, "in": 1.0, "inch": 1.0, "pt": 1 / 72}
+SHORTEST, LONGEST = 10 / 25.4, 2 / 0.0254  # of a figure's sides
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+
+
+def unit_for(unit, values):
+    """The factor from SI to a unit an engineer would read, and that unit's name."""
+    values = np.asarray(values, float)
+    finite = np.abs(values[np.isfinite(values)]) if np.size(values) else np.array([])
+    most = finite.max() if finite.size else 0
+    if unit in ("-", ""):
+        return 1.0, ""
+    if unit not in SCALED or not most > 0:
+        return 1.0, unit
+    for size, prefix in PREFIXES:
+        if most >= 0.9995 * size and not (unit[0] == "m" and size > 1):
+            return 1 / size, prefix + unit
+    return 1e9, "n" + unit
+
+
+def with_unit(value, unit):
+    """ "1.2 ms"."""
+    factor, shown = unit_for(unit, np.array([value]))
+    return f"{factor * value:.4g} {shown}".rstrip()
+
+
+def inches(option, given):
+    """A length of a figure: "85mm", "3.35 in", "8.5 cm", "240 pt", or a number of inches."""
+    if given is None:
+        return None
+    match = re.fullmatch(rf"\s*({NUMBER})\s*([A-Za-z]*)\s*", str(given))
+    unit = match[2] if match else ""
+    if isinstance(given, (int, float)):
+        unit = "in"
+    if not match or unit not in INCHES:
+        raise PulvisError(f"{option} {given}: allowed: a length from 10 mm to 2 m, in mm, cm, m, in or pt, as 85mm", key=option)
+    length = float(match[1]) * INCHES[unit]
+    if not SHORTEST <= length <= LONGEST:
+        raise PulvisError(f"{option} {given}: allowed: 10 mm to 2 m", key=option)
+    return length
+
+
+def factor_of(unit, si):
+    """From a unit to the SI unit `si`, by its prefix; None where it is none of it."""
+    if unit in ("", si) or si in ("-", "") and unit in ("", "-"):
+        return 1.0
+    if unit == "%" and si in ("-", ""):
+        return 0.01
+    unit = unit.replace("μ", "µ")
+    unit = "µ" + unit[1:] if unit.startswith("u") else unit
+    sizes = [size for size, prefix in [*PREFIXES, (1e-12, "p")] if unit == prefix + si]
+    return sizes[0] if sizes else None
+
+
+def limits_of(given, si):
+    """(low, high) in SI of "LOW:HIGH", each end a number with a unit or nothing, or of a pair of those."""
+    if given is None:
+        return None, None
+    ends = [str(end) if end is not None else "" for end in given] if isinstance(given, (tuple, list)) else str(given).split(":")
+    allowed = f"allowed: LOW:HIGH in {si}, as 0:400 M{si}" if si == "Pa" else f"allowed: LOW:HIGH in {si or '-'}, as 0:1"
+    shown = ":".join(ends)
+    matches = [re.fullmatch(rf"\s*(?:({NUMBER})\s*([^\d\s]\S*)?)?\s*", end) for end in ends]
+    if len(ends) != 2 or not all(matches):
+        raise PulvisError(f"--range {shown}: {allowed}; one of them may be missing", key="--range")
+    shared = matches[1][2] or ""  # 0:400 MPa: of both
+    values = []
+    for match in matches:
+        factor = factor_of(match[2] or shared, si)
+        if factor is None:
+            raise PulvisError(f"--range {shown}: {match[2] or shared} is no unit of what is drawn; {allowed}", key="--range")
+        values.append(None if match[1] is None else factor * float(match[1]))
+    if None not in values and not values[0] < values[1]:
+        raise PulvisError(f"--range {shown}: allowed: LOW below HIGH", key="--range")
+    return tuple(values)

@@ -1,0 +1,53 @@
+"""Meshes of particles alone, without a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pulvis import _core
+
+if TYPE_CHECKING:
+    from pulvis.scene import Scene
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """The undeformed mesh of a class of particles, about the centre of its outline.
+
+    ``nodes`` [nodes, 2] m, of which the first ``boundary_nodes`` are the outline, counter-clockwise; ``quads``
+    [elements, 4]; ``area`` m^2 of the true outline; ``min_corner_sine`` of the worst element, 1 for a rectangle;
+    ``shortest_edge`` m.
+    """
+
+    name: str
+    nodes: np.ndarray
+    quads: np.ndarray
+    boundary_nodes: int
+    area: float
+    min_corner_sine: float
+    shortest_edge: float
+
+    @property
+    def outline(self) -> np.ndarray:
+        """The boundary nodes, counter-clockwise, m [nodes, 2]."""
+        return self.nodes[: self.boundary_nodes]
+
+
+def mesh(scene: Scene, particle: str | int = 0) -> Mesh:
+    """The mesh of a class of a scene, by name or position: `Mesh`."""
+    if isinstance(particle, str):
+        number = 0
+        names: list[str] = []
+        while True:
+            try:
+                found = _core.mesh_of_class(scene._core, number)
+            except IndexError:
+                raise KeyError(f"there is no class '{particle}', allowed: {', '.join(names)}") from None
+            if found["name"] == particle:
+                return Mesh(**found)
+            names.append(found["name"])
+            number += 1
+    return Mesh(**_core.mesh_of_class(scene._core, particle))

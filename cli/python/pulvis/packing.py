@@ -1,0 +1,60 @@
+"""Packings alone, without a run."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pulvis import _core
+
+if TYPE_CHECKING:
+    from pulvis.scene import Scene
+
+
+@dataclass(frozen=True)
+class Packing:
+    """Particles as they are placed, in the order of their numbers.
+
+    ``centres`` [particles, 2] m, ``angles`` [particles] rad, ``classes`` [particles] positions in ``names``,
+    ``areas`` [particles] m^2, ``radii`` [particles] m of discs of that area, ``table`` the CSV text that
+    ``kind = "csv"`` reads back bit for bit.
+    """
+
+    centres: np.ndarray
+    angles: np.ndarray
+    classes: np.ndarray
+    names: list[str]
+    areas: np.ndarray
+    table: str
+    _meshes: dict[int, dict[str, Any]]
+
+    @property
+    def radii(self) -> np.ndarray:
+        """Of discs of the particles' areas, m [particles]."""
+        return np.sqrt(self.areas / np.pi)
+
+    def __len__(self) -> int:
+        return len(self.centres)
+
+    def outline(self, number: int) -> np.ndarray:
+        """Boundary nodes of a particle, counter-clockwise, m [nodes, 2]."""
+        mesh = self._meshes[self.classes[number]]
+        points = mesh["nodes"][: mesh["boundary_nodes"]]
+        c, s = np.cos(self.angles[number]), np.sin(self.angles[number])
+        return points @ np.array([[c, s], [-s, c]]) + self.centres[number]
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Writes the table."""
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(self.table)
+
+
+def pack(scene: Scene) -> Packing:
+    """The packing of a scene: `Packing`."""
+    made = _core.packing(scene._core)
+    meshes = {c: _core.mesh_of_class(scene._core, int(c)) for c in np.unique(made["classes"])}
+    areas = np.array([meshes[c]["area"] for c in made["classes"]])
+    return Packing(areas=areas, _meshes=meshes, **made)

@@ -1,0 +1,134 @@
+"""Numbers with units as an engineer reads them, and what happens in a stage or an action, in words."""
+import math
+
+PREFIXES = [(1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")]
+
+
+def prefix_for(value, unit):
+    """The factor from SI and the unit with its prefix."""
+    size = abs(value)
+    if unit == "" or not 0 < size < math.inf:
+        return 1, unit
+    for factor, prefix in PREFIXES:
+        if unit[0] == "m" and factor > 1:  # no kilometres
+            continue
+        if size >= 0.99995 * factor:
+            return 1 / factor, prefix + unit
+    return 1e12, "p" + unit
+
+
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def number(value):
+    """Four digits."""
+    if value == 0 or not math.isfinite(value):
+        return f"{value:g}"
+    power = math.floor(math.log10(abs(value)))
+    if -4 <= power < 7:
+        digits = max(0, 3 - power)
+        text = f"{round(value, 3 - power):,.{digits}f}"
+        text = text.rstrip("0").rstrip(".") if "." in text else text
+    else:
+        text = f"{value / 10**power:.4g} · 10{str(power).translate(SUPERSCRIPT)}"
+    return text.replace("-", "−")
+
+
+def quantity(value, unit):
+    factor, named = prefix_for(value, unit)
+    return f"{number(factor * value)} {named}".strip()
+
+
+def span(low, high, unit):
+    """One value, or a range in one unit."""
+    if abs(high - low) <= 1e-6 * max(abs(low), abs(high)):
+        return quantity(high, unit)
+    factor, named = prefix_for(high, unit)
+    return f"{number(factor * low)} to {number(factor * high)} {named}"
+
+
+def degrees(angle):
+    return f"{number(math.degrees(angle))}°"
+
+
+def counted(count, what):
+    return f"{count:,} {what}" + ("" if count == 1 else "s")
+
+
+def way(vector):
+    """An arrow for a direction of the plane."""
+    size = math.hypot(*vector)
+    if size == 0:
+        return "·"
+    return "→↗↑↖←↙↓↘"[round(4 * math.atan2(vector[1], vector[0]) / math.pi) % 8]
+
+
+def move_text(move):
+    if "radial" in move:
+        return (f"{move['tool']} by {quantity(abs(move['radial']), 'm')} {'outwards' if move['radial'] > 0 else 'inwards'}"
+                f" at up to {quantity(move['speed'], 'm/s')}")
+    text = (f"{move['tool']} {way(move['displacement'])} {quantity(math.hypot(*move['displacement']), 'm')}"
+            f" at up to {quantity(move['speed'], 'm/s')}")
+    return text + (f" by a spring of {quantity(move['stiffness'], 'N/m')}" if "stiffness" in move else "")
+
+
+def servo_text(servo):
+    return f"{servo['tool']} {way(servo['direction'])} holds {quantity(servo['force'], 'N')}"
+
+
+def until_text(until):
+    if "relative_density" in until:
+        what = f"relative density {number(until['relative_density'])}"
+    elif "force" in until:
+        what = f"{quantity(until['force'], 'N')}"
+    else:
+        what = f"a travel of {quantity(until['displacement'], 'm')}"
+    return f"ends at {what}" + (f" of {until['tool']}" if "tool" in until else "")
+
+
+STRAINS = {"strain_xx": "ε_xx", "strain_yy": "ε_yy", "strain_xy": "ε_xy"}
+STRESSES = {"stress_xx": "σ_xx", "stress_yy": "σ_yy", "stress_xy": "σ_xy", "mean_stress": "mean stress"}
+
+
+def cell_text(drive):
+    parts = [f"{symbol} = {number(drive[name])}" for name, symbol in STRAINS.items() if name in drive]
+    parts += [f"{symbol} = {quantity(drive[name], 'Pa')}" for name, symbol in STRESSES.items() if name in drive]
+    if "stress_ratio" in drive:
+        parts.append(f"σ_xx/σ_yy = {number(drive['stress_ratio'])}")
+    if "rotation" in drive:
+        parts.append(f"rotation {degrees(drive['rotation'])}")
+    return "borders: " + (", ".join(parts) if parts else "kept")
+
+
+def stage_text(stage):
+    parts = [move_text(move) for move in stage["moves"]] + [servo_text(servo) for servo in stage["servos"]]
+    if "cell" in stage:
+        parts.append(cell_text(stage["cell"]))
+    if "until" in stage:
+        parts.append(until_text(stage["until"]))
+    if stage.get("keep_state"):
+        parts.append("its end is kept as a state")
+    return "; ".join(parts) or "nothing is moved"
+
+
+SIDEWAYS = {"lateral": "across the lever (y)", "along": "along the lever (x)"}
+
+
+def action_text(action):
+    kind = action["kind"]
+    if kind == "press" and "force" in action:
+        text = f"surface up until it pushes with {quantity(action['force'], 'N')}"
+    elif kind in ("press", "retract"):
+        up = (action["distance"] > 0) == (kind == "press")
+        text = f"surface {'up' if up else 'down'} by {quantity(abs(action['distance']), 'm')}"
+    elif kind == "hold":
+        text = "nothing is moved"
+    else:
+        text = f"tip by {quantity(action['distance'], 'm')} {SIDEWAYS[action['direction']]}"
+        if kind == "raster":
+            text += f", {action['lines']} lines over {quantity(action['width'], 'm')}"
+        elif action["retrace"]:
+            text += " and back"
+    if action["servo"]:
+        text += ", its force kept"
+    return text

@@ -1,0 +1,342 @@
+"""Runs as they lie in their folders: finished, broken off, or still being written. Everything is in SI units.
+
+    run = pulvis.open("runs/mine")
+    run.history["tool/top/force_y"]            # a column of a pandas DataFrame over time
+    run.frame(-1).field("effective_stress")    # a numpy array, a number for each element
+    run.plot.field("effective_stress")
+
+Reading needs numpy and h5py; pandas only where a DataFrame is asked for, matplotlib only for pictures.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import namedtuple
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+
+from pulvis.errors import RunError
+
+if TYPE_CHECKING:
+    import os
+
+    from pandas import DataFrame
+
+    from pulvis.lever_results import ForceCurve, Image, Loop
+    from pulvis.plot import Plot
+
+Mesh = namedtuple("Mesh", "cells reference cell_particle node_particle")
+Mesh.__doc__ = """The mesh of a run: `cells` [cells, 4 or 8] node numbers, `reference` [nodes, 2 or 3] m, the nodes
+before the first step, and the particle that each cell and each node belongs to."""
+
+
+def open(folder: str | os.PathLike[str]) -> Run:  # noqa: A001  (pulvis.open)
+    """The run in this folder."""
+    return Run(folder)
+
+
+def table(columns: dict[str, tuple[Any, str]], index: Any = None, name: str | None = None) -> DataFrame:
+    """DataFrame of columns {name: (values, unit)}; `attrs["units"]` has their units."""
+    try:
+        import pandas
+    except ImportError as error:
+        raise RunError("tables need pandas (Debian: apt install python3-pandas); series and fields do not") from error
+
+    frame = pandas.DataFrame({key: values for key, (values, _) in columns.items()}, index=index)
+    frame.index.name = name
+    frame.attrs["units"] = {key: unit for key, (_, unit) in columns.items()}
+    return frame
+
+
+def names_in(dataset: h5py.Dataset) -> list[str]:
+    """Names that the numbers of a dataset are positions of, or nothing."""
+    text = dataset.attrs.get("names", "")
+    text = text.decode() if isinstance(text, bytes) else text
+    return text.split("\n") if text else []
+
+
+class Frame:
+    """The state at one time: `time` in s (of a lever: actions done), `step`, and fields."""
+
+    def __init__(self, run, name, number):
+        self._run, self.group, self.name, self.number = run, run.file["frames"][name], name, number
+        self.attrs = self.group.attrs
+        self.time, self.step = float(self.attrs["time"]), int(self.attrs["step"])
+
+    def __repr__(self):
+        return f"<Frame {self.number}: time {self.time:.6g}, step {self.step}>"
+
+    def __contains__(self, name):
+        return name in self.group
+
+    def __getitem__(self, name):
+        """The dataset of a field."""
+        return self.group[name]
+
+    def __iter__(self):
+        return iter(self.group)
+
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields of nodes, cells and particles."""
+        return [name for name, item in self.group.items() if item.attrs.get("place") in ("node", "cell", "particle")]
+
+    def dataset(self, name: str) -> h5py.Dataset:
+        """A field's dataset, of this frame or, of what does not change, of the run."""
+        for place in (self.group, self._run.file.get("particles", {})):
+            if name in place and isinstance(place[name], h5py.Dataset):
+                return place[name]
+        known = [*self.fields, *self._run.file.get("particles", [])]
+        raise RunError(f"no field {name}; there are: {', '.join(known) or 'none'}", self._run.folder)
+
+    def field(self, name: str) -> np.ndarray:
+        """Values of a field, SI: [places], or [places, components]. `fields` lists them."""
+        data = self.dataset(name)
+        count = int(data.attrs.get("components", 1))
+        values = data[()]
+        return values[:, :count] if values.ndim > 1 and data.attrs.get("place") == "node" else values
+
+    def unit(self, name: str) -> str:
+        """Unit of a field."""
+        return self.dataset(name).attrs["unit"]
+
+    @property
+    def nodes(self) -> np.ndarray:
+        """Positions of the nodes, m: [nodes, 2 or 3]."""
+        return self.group["position"][()]
+
+    @property
+    def particles(self) -> DataFrame:
+        """DataFrame of all fields of particles; components are columns of their own, name:1, name:2 ..."""
+        columns, kept = {}, self._run.file.get("particles", {})
+        for name in [*kept, *(n for n in self.fields if self.group[n].attrs["place"] == "particle")]:
+            data, unit = self.dataset(name)[()], self.unit(name)
+            if data.ndim == 1:
+                names = names_in(self.dataset(name))
+                columns[name] = (np.array(names, object)[data] if names else data, unit)
+            else:
+                columns.update({f"{name}:{k + 1}": (data[:, k], unit) for k in range(data.shape[1])})
+        count = int(self._run.mesh.node_particle.max()) + 1
+        return table(columns, np.arange(count), "particle")
+
+    def network(self, tools: bool = False) -> DataFrame:
+        """DataFrame of the contacts between particles, or of particles and tools: `first`, `second` (numbers of
+        particles, or the tool's position in the scene), `x`, `y`, `normal_x`, `normal_y`, `normal_force` ..."""
+        group = "tool_contacts" if tools else "contacts"
+        if group not in self.group:
+            raise RunError(f"frame {self.number} has no contacts: the scene needs output.contacts = true",
+                           self._run.folder, key="output.contacts")
+        ids = self.group[f"{group}/ids"][()]
+        columns = {"first": (ids[:, 0], "-"), "second": (ids[:, 1], "-")}
+        for name, data in self.group[group].items():
+            if name == "ids":
+                continue
+            values, unit = data[()], data.attrs["unit"]
+            parts = {name: values} if values.ndim == 1 else {
+                (axis if name == "point" else f"{name}_{axis}"): values[:, k] for k, axis in enumerate("xy")}
+            columns.update({key: (part, unit) for key, part in parts.items()})
+        return table(columns, name="contact")
+
+
+class Run:
+    """A run in its folder. What is read is what was written when it was opened; `refresh()` reads anew."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = Path(folder)
+        self.refresh()
+
+    def __repr__(self):
+        return f"<Run {self.title!r} in {self.folder}: {self.outcome}, {len(self.frames)} frames>"
+
+    def refresh(self) -> Run:
+        """Opens the files anew: of a run that is still being written there is more."""
+        self._close()
+        self.file = self._opened()
+        self.summary = self._summary()
+        self.is_solid = "mesh/hexahedra" in self.file
+        self.title = self.summary.get("title") or self.file.attrs.get("title") or self.folder.name
+        whole = [name for name in sorted(self.file.get("frames", []))
+                 if self.file["frames"][name].attrs.get("complete", 0) == 1]
+        self.frames = [Frame(self, name, number) for number, name in enumerate(whole)]
+        self._series: dict[str, h5py.Dataset] = {}
+        self._mesh: Mesh | None = None
+        if "history" in self.file:
+            self.file["history"].visititems(self._keep_series)
+        return self
+
+    def _close(self):
+        if getattr(self, "file", None):
+            self.file.close()
+        self.file = None
+
+    def _opened(self):
+        path = self.folder / "run.h5"
+        if not self.folder.is_dir():
+            raise RunError(f"{self.folder}: no such folder", self.folder)
+        if not path.exists():
+            study = (self.folder / "study.csv").exists()
+            raise RunError(f"{self.folder}: no run: there is no run.h5 in it"
+                           + (" (it is a study: pulvis.open_study)" if study else ""), self.folder)
+        if not path.is_file():
+            raise RunError(f"{path}: no regular file", path)  # a named pipe would wait for a writer
+        try:
+            file = h5py.File(path, "r")
+        except OSError as error:
+            raise RunError(f"{path}: {error}", path) from error
+        if "mesh" not in file:
+            file.close()
+            raise RunError(f"{path}: not written by pulvis: it has no /mesh", path)
+        return file
+
+    def _summary(self):
+        path = self.folder / "summary.json"
+        if not path.is_file():
+            return {}
+        try:
+            return json.loads(path.read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise RunError(f"{path}: {error}", path) from error
+
+    def _keep_series(self, name, item):
+        if isinstance(item, h5py.Dataset):
+            self._series[name] = item
+
+    @property
+    def family(self) -> str:
+        """"afm" for a lever; "compaction" or "shear" for powders."""
+        return self.summary.get("family") or ("afm" if self.is_solid else "compaction")
+
+    @property
+    def outcome(self) -> str:
+        """"done", "interrupted" or what went wrong; "running" as long as nothing says so."""
+        return self.summary.get("outcome") or self.file.attrs.get("outcome") or "running"
+
+    @property
+    def hash(self) -> str | None:
+        """Of the final state: the same bits have the same hash. None before the end."""
+        return self.summary.get("state_hash")
+
+    @property
+    def scene_hash(self) -> str:
+        """Of the scene as it was run: scenes that say the same have the same."""
+        return str(self.file.attrs["scene_hash"])
+
+    @property
+    def scene_text(self) -> str:
+        """The scene as it was run, overrides included (TOML)."""
+        path = self.folder / "scene.toml"
+        if not path.is_file():
+            raise RunError(f"{self.folder}: there is no scene.toml", path)
+        return path.read_text(encoding="utf-8")
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """The same as a dict."""
+        import tomllib
+
+        return tomllib.loads(self.scene_text)
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh, whose nodes and cells the fields are of."""
+        if self._mesh is None:
+            of = self.file["mesh"]
+            cells = of["hexahedra" if self.is_solid else "quads"][()]
+            self._mesh = Mesh(cells, *(of[name][()] for name in ("reference", "cell_particle", "node_particle")))
+        return self._mesh
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the series of the history."""
+        return list(self._series)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each series."""
+        return {name: data.attrs["unit"] for name, data in self._series.items()}
+
+    def has(self, name: str) -> bool:
+        """Whether there is a series of that name."""
+        return name in self._series
+
+    def dataset(self, name: str) -> h5py.Dataset:
+        """The dataset of a series."""
+        if name not in self._series:
+            raise RunError(f"no series {name}; there are: {', '.join(sorted(self._series)) or 'none'}", self.folder)
+        return self._series[name]
+
+    def series(self, name: str) -> np.ndarray:
+        """Values of a series of the history, SI: [samples]."""
+        samples = self._series["time"].shape[0] if "time" in self._series else 0
+        return self.dataset(name)[()][:samples]
+
+    def unit(self, name: str) -> str:
+        """Unit of a series."""
+        return self.dataset(name).attrs["unit"]
+
+    @property
+    def history(self) -> DataFrame:
+        """DataFrame of all series over time (s; of a lever the actions done); `attrs["units"]` has the units."""
+        columns = {name: (self.series(name), self.unit(name)) for name in self._series if name != "time"}
+        frame = table(columns, self.series("time") if self.has("time") else None, "time")
+        frame.attrs["units"]["time"] = self.unit("time") if self.has("time") else "s"
+        return frame
+
+    def frame(self, number: int | None = None) -> Frame:
+        """The frame of that number, from 0, negative ones from the end; the last without one."""
+        count = len(self.frames)
+        number = -1 if number is None else number
+        if not -count <= number < count:
+            there = f"there are 0 to {count - 1}" if count else "there is none"
+            raise RunError(f"frame {number}: {there}", self.folder)
+        return self.frames[number]
+
+    def network(self, frame: int = -1, tools: bool = False) -> DataFrame:
+        """The contacts of a frame: see Frame.network."""
+        return self.frame(frame).network(tools)
+
+    @property
+    def calibration(self) -> dict[str, Any] | None:
+        """Of a lever: stiffnesses, sensitivities, closed forms. None of other runs."""
+        return self.summary.get("calibration")
+
+    @property
+    def loops(self) -> list[Loop]:
+        """Of a lever: friction loops (lever_results.Loop)."""
+        from pulvis.lever_results import loops_of
+
+        return loops_of(self)
+
+    @property
+    def force_curves(self) -> list[ForceCurve]:
+        """Of a lever: force curves (lever_results.ForceCurve)."""
+        from pulvis.lever_results import force_curves_of
+
+        return force_curves_of(self)
+
+    @property
+    def images(self) -> dict[str, dict[str, Image]]:
+        """Of a raster: {action: {"topography_trace": lever_results.Image, ...}}."""
+        from pulvis.lever_results import images_of
+
+        return images_of(self)
+
+    @property
+    def plot(self) -> Plot:
+        """Pictures: run.plot.forces(), .field("effective_stress") ... (pulvis.plot.Plot)."""
+        from pulvis.plot import Plot
+
+        return Plot(self)
+
+    def _repr_html_(self):
+        from pulvis.plot import html_of
+
+        return html_of(self)
+
+    def _repr_png_(self):
+        from pulvis.plot import png_of
+
+        return png_of(self)

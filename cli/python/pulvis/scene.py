@@ -1,0 +1,135 @@
+"""Scenes: from files, dictionaries or dataclasses, all by the reader of the command line."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from pathlib import Path
+from typing import Any
+
+from pulvis import _core
+from pulvis.toml_text import toml_text, toml_value
+
+# The name of a scene that has no file; its paths lead from the working directory.
+NO_FILE = "<python>"
+
+
+class Scene:
+    """A scene of the scene language (docs/scene.md), read and checked.
+
+    Parameters
+    ----------
+    source : str, Path, dict or dataclass
+        A scene file; or the same tables and keys as a dictionary; or a `pulvis.declarations.Document`. Quantities are
+        strings with their unit, ``"10 um"``, or pint quantities.
+    overrides : dict, optional
+        ``{"contact.friction": 0.2, "material.316L.yield_stress": "100 MPa"}``: paths as in ``--set``.
+    **keys
+        The same with a double underscore for the dot: ``contact__friction=0.2``.
+
+    Raises
+    ------
+    SceneError
+        With the file, line and key of what is wrong.
+    """
+
+    def __init__(self, source: Any, overrides: dict[str, Any] | None = None, **keys: Any) -> None:
+        given = dict(overrides or {})
+        given.update({key.replace("__", "."): value for key, value in keys.items()})
+        words = [f"{path}={toml_value(value)}" for path, value in given.items()]
+        if isinstance(source, (str, os.PathLike)):
+            self._core = _core.load_scene(os.fspath(source), words)
+        else:
+            self._core = _core.load_scene_text(toml_text(as_tables(source)), NO_FILE, words)
+        self._source, self._given = source, given
+
+    @property
+    def text(self) -> str:
+        """The whole scene as TOML: what it extends, overrides and defaults put in."""
+        return self._core.text_in_place
+
+    @property
+    def hash(self) -> str:
+        """16 hexadecimal digits, the same for every scene that says the same."""
+        return self._core.hash
+
+    @property
+    def title(self) -> str:
+        """As the scene says."""
+        return self._core.title
+
+    @property
+    def is_afm(self) -> bool:
+        """Whether this is a lever of a microscope; otherwise it is powder."""
+        return self._core.is_afm
+
+    @property
+    def file(self) -> Path | None:
+        """Path of the scene's file, or None."""
+        return None if self._core.file == NO_FILE else Path(self._core.file)
+
+    def warnings(self) -> list[str]:
+        """What may be wrong with the scene though each of its values is allowed: a list of str."""
+        return self._core.warnings()
+
+    def with_(self, overrides: dict[str, Any] | None = None, **keys: Any) -> Scene:
+        """The same scene with other values: arguments as of `Scene`."""
+        given = {**self._given, **(overrides or {})}
+        given.update({key.replace("__", "."): value for key, value in keys.items()})
+        return Scene(self._source, given)
+
+    def save(self, folder: str | os.PathLike[str]) -> Path:
+        """Writes ``scene.toml`` and copies of the files that it names into `folder`; returns the path."""
+        self._core.save(os.fspath(folder))
+        return Path(folder) / "scene.toml"
+
+    def simulation(self, threads: int = 0, folder: str | os.PathLike[str] | None = None, overwrite: bool = False,
+                   checkpoint_every: float = 60.0, checkpoint_steps: int = 0) -> Any:
+        """A simulation of the scene at its beginning.
+
+        Parameters
+        ----------
+        threads : int
+            Worker threads; 0: all processors. The results have the same bits whatever their number.
+        folder : str or Path, optional
+            Where the run's files go (README, "What a run leaves"). Without one nothing is written.
+        overwrite : bool
+            Replace a run that is already in the folder.
+        checkpoint_every : float
+            Seconds between checkpoints, as the clock on the wall has them.
+        checkpoint_steps : int
+            And every so many steps; 0: no.
+
+        Returns
+        -------
+        Simulation, or Lever for a scene of the family "afm"
+        """
+        if self.is_afm:
+            from pulvis.afm import Lever
+
+            return Lever(self, threads=threads, folder=folder, overwrite=overwrite)
+        from pulvis.simulation import Simulation
+
+        where = "" if folder is None else os.fspath(folder)
+        run = _core.Run(self._core, where, threads, overwrite, checkpoint_every, checkpoint_steps)
+        return Simulation(run, self, folder)
+
+    def calibration(self, threads: int = 0) -> dict[str, float]:
+        """Stiffnesses and detector constants of a lever, in SI units: dict (docs/afm.md)."""
+        return self.simulation(threads=threads).calibration
+
+    def __repr__(self) -> str:
+        return f"<pulvis.Scene {self.title!r} {self.hash}>"
+
+
+def as_tables(source: Any) -> Any:
+    """Plain dictionaries and lists from dataclasses among them; what is None is not given."""
+    if dataclasses.is_dataclass(source) and not isinstance(source, type):
+        pairs = ((field.metadata.get("key", field.name), getattr(source, field.name))
+                 for field in dataclasses.fields(source))
+        return {key: as_tables(value) for key, value in pairs if value is not None}
+    if isinstance(source, dict):
+        return {key: as_tables(value) for key, value in source.items() if value is not None}
+    if isinstance(source, (list, tuple)):
+        return [as_tables(value) for value in source]
+    return source

@@ -1,0 +1,319 @@
+"""Simulations of particles: the steps of the command line, taken from Python."""
+
+from __future__ import annotations
+
+import os
+import weakref
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pulvis import _core
+from pulvis.columns import Column, ColumnInfo
+from pulvis.progress import progress_bar
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+    from pulvis.results import Run
+    from pulvis.scene import Scene
+
+
+class Simulation:
+    """A run of a scene, made by `Scene.simulation` or `pulvis.resume`.
+
+    However a run is cut into parts, and whatever is looked at on its way, its steps are those of ``pulvis run``, and
+    its final state has the same bits. Between two steps positions belong to t_n and velocities to t_(n-1/2); at a
+    sample forces, stresses and energies belong to t_n, too.
+
+    Python's lock is released while steps are taken, so simulations run side by side in threads. Ctrl-C raises
+    KeyboardInterrupt when the step is done and, where the simulation has a folder, a checkpoint is written.
+    """
+
+    def __init__(self, run: _core.Run, scene: Scene, folder: str | os.PathLike[str] | None) -> None:
+        self._run = run
+        self.scene = scene
+        self.folder = None if folder is None else Path(folder)
+
+    # ---- course -------------------------------------------------------------------------------------------------
+    def run(self, progress: bool | None = None) -> Simulation:
+        """Goes on to the end, or to `stop()`. Returns the simulation.
+
+        Parameters
+        ----------
+        progress : bool, optional
+            Show a progress bar (tqdm); None: in a notebook only.
+
+        Raises
+        ------
+        RunError
+            Where the run fails its checks (docs/stability.md). Its files are whole then.
+        """
+        with progress_bar(self, progress):
+            self._run.run()
+        return self
+
+    def run_until(self, time: Any, progress: bool | None = None) -> Simulation:
+        """Goes on to the first step at or after `time` (seconds, or ``"1 ms"``). Returns the simulation."""
+        with progress_bar(self, progress):
+            self._run.run_until(_core.quantity(time, "s") if isinstance(time, str) else _seconds(time))
+        return self
+
+    def step(self, count: int = 1) -> Simulation:
+        """Takes `count` steps, fewer where the run ends. Returns the simulation."""
+        self._run.step(count)
+        return self
+
+    def stop(self) -> None:
+        """From a callback or another thread: `run` comes back when the present step is done."""
+        self._run.stop()
+
+    def checkpoint(self) -> None:
+        """Writes a checkpoint into the folder, from which `pulvis.resume` goes on."""
+        self._run.checkpoint()
+
+    def close(self) -> None:
+        """Completes the files of a run that has not ended, with a checkpoint; the folder is free then."""
+        self._run.close()
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    # ---- callbacks ----------------------------------------------------------------------------------------------
+    def on_sample(self, call: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
+        """Calls ``call(simulation)`` at every sample (``output.samples``). Returns `call`: good as a decorator."""
+        self._run.on_sample(self._bound(call))
+        return call
+
+    def on_frame(self, call: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
+        """Calls ``call(simulation)`` when a frame has been written (``output.frames``)."""
+        self._run.on_frame(self._bound(call))
+        return call
+
+    def every(self, steps: int, call: Callable[[Simulation], Any] | None = None) -> Callable[..., Any]:
+        """Calls ``call(simulation)`` between two steps, where their number is a multiple of `steps`.
+
+        Here, and outside of all calls, columns may be changed and tools be driven.
+        """
+        if call is None:
+            return lambda call: self.every(steps, call)
+        self._run.every(steps, self._bound(call))
+        return call
+
+    def _bound(self, call):
+        this = weakref.ref(self)  # the run must not keep what keeps it
+        return lambda: call(this())
+
+    # ---- state --------------------------------------------------------------------------------------------------
+    @property
+    def time(self) -> float:
+        """t_n in seconds."""
+        return self._run.time
+
+    @property
+    def end(self) -> float:
+        """Time in seconds at which the last stage is over."""
+        return self._run.end
+
+    @property
+    def dt(self) -> float:
+        """The next step in seconds."""
+        return self._run.dt
+
+    @property
+    def steps(self) -> int:
+        """Steps taken so far, before a resumption too."""
+        return self._run.steps
+
+    @property
+    def finished(self) -> bool:
+        """Whether the run has ended; `outcome` says how."""
+        return self._run.outcome != ""
+
+    @property
+    def outcome(self) -> str:
+        """"done", "stopped as expected: ...", "failed: ..."; empty while the run goes on."""
+        return self._run.outcome
+
+    @property
+    def hash(self) -> str:
+        """16 hexadecimal digits of the state: ``state_hash`` of summary.json at the end."""
+        return self._run.hash
+
+    @property
+    def threads(self) -> int:
+        """Number of worker threads."""
+        return self._run.threads
+
+    @property
+    def elements(self) -> int:
+        """Number of finite elements."""
+        return self._run.elements
+
+    @property
+    def particles(self) -> int:
+        """Number of particles."""
+        return self._run.particles
+
+    @property
+    def warnings(self) -> list[str]:
+        """What its user should know of the run's figures: list of str."""
+        return self._run.warnings
+
+    @property
+    def verdicts(self) -> list[dict[str, Any]]:
+        """What came of the scene's ``[[expect]]`` tables: dicts of ``what``, ``measured``, ``allowed``, ``met``."""
+        return self._run.verdicts
+
+    @property
+    def driven(self) -> set[str]:
+        """What has been changed from Python: set of str. `pulvis resume` refuses such a run."""
+        return self._run.driven
+
+    @property
+    def history(self) -> History:
+        """The samples taken by this object: a mapping from the series' names to arrays [samples], in SI units."""
+        return History(self._run)
+
+    @property
+    def results(self) -> Run:
+        """The run's folder, opened by `pulvis.open`."""
+        if self.folder is None:
+            raise _error("the simulation has no folder; allowed: scene.simulation(folder=...)")
+        import pulvis
+
+        return pulvis.open(self.folder)
+
+    # ---- columns and tools --------------------------------------------------------------------------------------
+    @property
+    def columns(self) -> list[ColumnInfo]:
+        """All columns of this scene: list of `ColumnInfo` (name, unit, meaning, ...)."""
+        return [ColumnInfo(**one) for one in self._run.columns]
+
+    def column(self, name: str) -> Column:
+        """A column, its memory shared and read-only: `Column`.
+
+        `name` as in `columns`; ``"position"`` is short for ``"node.position"``, tools have ``"tool.position"``.
+        """
+        return Column(self._run, name)
+
+    def writable(self, name: str) -> Column:
+        """A column whose arrays may be changed, within a ``with`` statement:
+
+        ``with sim.writable("velocity") as velocity: velocity[3][:, 1] -= 2.0``
+
+        Only between two steps: in `every` callbacks and outside of all calls. Velocities may be changed, and of
+        particles ``yield_stress``, ``hardening_modulus`` and ``mass_damping``. The energy balance of the run counts
+        none of it.
+        """
+        return Column(self._run, name, writable=True)
+
+    @property
+    def tools(self) -> dict[str, Tool]:
+        """The tools by name: mapping to `Tool`."""
+        return {name: Tool(self._run, name, i) for i, name in enumerate(self._run.tools)}
+
+    @property
+    def mesh(self) -> dict[str, np.ndarray]:
+        """``quads`` [elements, 4] of node numbers, ``cell_particle`` [elements], ``node_particle`` [nodes]: dict of
+        arrays. Nodes are numbered as in ``numpy.asarray(sim.column("position"))``."""
+        return self._run.mesh
+
+    def __repr__(self) -> str:
+        state = self.outcome or f"t = {self.time:.4g} s of {self.end:.4g} s"
+        return f"<pulvis.Simulation {self.scene.title!r}, step {self.steps}, {state}>"
+
+
+class Tool:
+    """A tool of a simulation. Arrays have x and y."""
+
+    def __init__(self, run: _core.Run, name: str, row: int) -> None:
+        self._run, self.name, self._row = run, name, row
+
+    @property
+    def position(self) -> np.ndarray:
+        """A point of its surface, m [2]."""
+        return self._run.column_rows("tool.position")[self._row]
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """Mean over the last step, m/s [2]."""
+        return self._run.column_rows("tool.velocity")[self._row]
+
+    @property
+    def force(self) -> np.ndarray:
+        """Of the particles on the tool, N [2]."""
+        return self._run.column_rows("tool.force")[self._row]
+
+    def drive(self, velocity: Any) -> None:
+        """From now on the tool moves with `velocity`: (x, y) in m/s, or strings with units.
+
+        It replaces what the scene's stages say of this tool, until the run ends or it is driven anew; other tools go
+        on as they do. Checkpoints keep the drive, and `pulvis.resume` goes on with it; the program's ``resume``
+        refuses a driven run, since nobody drives it there. Allowed between two steps; not for tools with a servo.
+        """
+        x, y = (_core.quantity(v, "m/s") if isinstance(v, str) else float(v) for v in velocity)
+        self._run.drive_tool(self.name, x, y)
+
+    def __repr__(self) -> str:
+        return f"<pulvis.Tool {self.name!r} at {tuple(self.position)} m>"
+
+
+class History(Mapping[str, np.ndarray]):
+    """Series of samples by name; ``"time"`` is among them. `units` and `meanings` have the same names."""
+
+    def __init__(self, run: _core.Run) -> None:
+        self.units = {"time": "s"}
+        self.meanings = {"time": "simulated time"}
+        self._arrays = {"time": run.sample_times}
+        rows = run.samples
+        for i, (name, unit, meaning) in enumerate(run.series):
+            self._arrays[name] = rows[:, i]
+            self.units[name] = unit
+            self.meanings[name] = meaning
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._arrays[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    def frame(self) -> DataFrame:
+        """The same as a pandas DataFrame; its ``attrs["units"]`` has the units."""
+        import pandas
+
+        frame = pandas.DataFrame({name: np.asarray(values) for name, values in self._arrays.items()})
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+
+def resume(folder: str | os.PathLike[str], threads: int = 0, checkpoint_every: float = 60.0) -> Any:
+    """The run of a folder that was stopped, at its newest checkpoint: a `Simulation`, or a finished `Lever`."""
+    from pulvis.scene import Scene
+
+    folder = Path(folder)
+    if (folder / "scene.toml").is_file() and _core.is_lever_folder(os.fspath(folder)):
+        from pulvis.afm import Lever
+
+        return Lever.resumed(folder, threads)
+    run = _core.Run.resume(os.fspath(folder), threads, checkpoint_every)
+    return Simulation(run, Scene(folder / "scene.toml"), folder)
+
+
+def _seconds(time):
+    """A number of seconds, or a pint quantity."""
+    return time.to("s").magnitude if hasattr(time, "magnitude") else float(time)
+
+
+def _error(message):
+    from pulvis.errors import RunError
+
+    return RunError(message)

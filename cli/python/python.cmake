@@ -1,0 +1,83 @@
+# The Python package: its compiled module, and the whole of it below <build>/python, which PYTHONPATH may name.
+set(PULVIS_PYTHON AUTO CACHE STRING
+    "Build the Python module: AUTO (where Python's headers and pybind11 are), ON or OFF")
+set_property(CACHE PULVIS_PYTHON PROPERTY STRINGS AUTO ON OFF)
+set(PULVIS_PYTHON_DESTINATION "lib/python3/dist-packages" CACHE STRING
+    "Where the Python package is installed, from the prefix")
+
+set(PULVIS_HAS_PYTHON OFF)
+# Debian's own, which has the modules of Debian's packages, before another on the path.
+if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3)
+endif()
+if(NOT PULVIS_PYTHON STREQUAL "OFF" AND NOT PULVIS_PYTHON STREQUAL "0")
+  if(PULVIS_PYTHON STREQUAL "AUTO")
+    find_package(Python3 3.9 COMPONENTS Interpreter Development.Module QUIET)
+    find_package(pybind11 2.9 CONFIG QUIET)
+  else()
+    find_package(Python3 3.9 COMPONENTS Interpreter Development.Module REQUIRED)
+    find_package(pybind11 2.9 CONFIG REQUIRED)
+  endif()
+  if(Python3_Development.Module_FOUND AND pybind11_FOUND)
+    set(PULVIS_HAS_PYTHON ON)
+  endif()
+endif()
+
+# What the module is linked from. Nobody replaces a function of ours in another library: calls stay direct.
+function(for_python target)
+  if(PULVIS_HAS_PYTHON)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+    endif()
+  endif()
+endfunction()
+
+# add_python_module(LIBRARY): what it is made from, beside its own sources.
+function(add_python_module library)
+  set(folder ${CMAKE_SOURCE_DIR}/cli/python)
+  set(package ${CMAKE_BINARY_DIR}/python/pulvis)
+  file(GLOB sources CONFIGURE_DEPENDS ${folder}/module/*.cpp)
+  pybind11_add_module(pulvis_python NO_EXTRAS ${sources})
+  file(RELATIVE_PATH core /prefix/${PULVIS_PYTHON_DESTINATION}/pulvis /prefix/${CMAKE_INSTALL_LIBDIR}/pulvis)
+  set_target_properties(pulvis_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${package}
+                        INSTALL_RPATH "$ORIGIN/${core}")
+  add_library(python_rules INTERFACE)  # linked last, so that its options are
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # g++ 12 warns of a null pointer inside pybind11
+    target_compile_options(python_rules INTERFACE -Wno-null-dereference)
+  endif()
+  target_link_libraries(pulvis_python PRIVATE ${library} pulvis_rules python_rules)
+  # Kinds of columns are told apart by addresses (engine/component.hpp), which the core library must see, too. Of
+  # pybind11's types, which are hidden, members of ours are made; nobody else sees these.
+  set_target_properties(pulvis_python PROPERTIES CXX_VISIBILITY_PRESET default)
+  target_compile_options(pulvis_python PRIVATE -Wno-attributes)
+  unity(pulvis_python)
+  optimise(pulvis_python 2)
+
+  # The build tree's package is made of links: a changed line of Python is there at once.
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${folder}/pulvis ${folder}/pulvis/*.py ${folder}/pulvis/*.pyi
+       ${folder}/pulvis/py.typed)
+  foreach(file ${files})
+    get_filename_component(below ${package}/${file} DIRECTORY)
+    file(MAKE_DIRECTORY ${below})
+    file(CREATE_LINK ${folder}/pulvis/${file} ${package}/${file} SYMBOLIC)
+  endforeach()
+  # The dataclasses of the scene language, from the declarations that its reader has.
+  add_custom_command(TARGET pulvis_python POST_BUILD VERBATIM
+    COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_BINARY_DIR}/python PYTHONDONTWRITEBYTECODE=1
+            ${Python3_EXECUTABLE} ${folder}/write_declarations.py ${package}/declarations.py)
+  # Its reference, by Sphinx, into <build>/python-docs.
+  add_custom_target(python_docs VERBATIM
+    COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_BINARY_DIR}/python PYTHONDONTWRITEBYTECODE=1
+            ${Python3_EXECUTABLE} -m sphinx -q -W --keep-going -b html -d ${CMAKE_BINARY_DIR}/python-docs/.trees
+            ${CMAKE_SOURCE_DIR}/docs/python-api ${CMAKE_BINARY_DIR}/python-docs
+    DEPENDS pulvis_python)
+  install(FILES ${package}/declarations.py DESTINATION ${PULVIS_PYTHON_DESTINATION}/pulvis COMPONENT python)
+  install(DIRECTORY ${folder}/pulvis DESTINATION ${PULVIS_PYTHON_DESTINATION} COMPONENT package
+          PATTERN __pycache__ EXCLUDE)
+  install(TARGETS pulvis_python LIBRARY DESTINATION ${PULVIS_PYTHON_DESTINATION}/pulvis COMPONENT python)
+  # The module is of one version of Python.
+  math(EXPR next "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS
+      "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy" PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,23 @@
+// What the report shows of a plane run beside its fields: which particle, material and class a cell is of, and the
+// outlines of the tools.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/report/report_data.hpp"
+#include "cli/report/report_mesh.hpp"
+#include "engine/files/hdf5.hpp"
+
+namespace pulvis {
+
+// Adds "tags" and "tools" to the head where the run has them, and the particle of every drawn cell.
+void add_tags(const hdf5::File& file, const PlaneMesh& mesh, const DrawnMesh& drawn,
+              nlohmann::ordered_json& head, std::vector<ReportSection>& sections);
+
+// The corners of the tools in a frame.
+void add_tool_corners(const hdf5::File& file, const std::string& frame, const std::string& prefix,
+                      std::vector<ReportSection>& sections);
+
+}  // namespace pulvis

@@ -1,0 +1,83 @@
+// A run of a scene of the family "afm": calibration, then its programme, increment by increment. What `pulvis run`,
+// `pulvis resume` and the Python module share.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/checkpoints.hpp"
+#include "cli/session/session_hooks.hpp"
+#include "cli/summary_afm.hpp"
+#include "engine/files/checkpoint.hpp"
+#include "engine/files/recorder.hpp"
+#include "scenes/lever/afm_loop.hpp"
+#include "scenes/lever/afm_simulation.hpp"
+#include "scenes/read.hpp"
+
+namespace pulvis {
+
+struct ProgrammeEnd {
+  bool done = false;
+  bool given_up = false;  // half way to an equilibrium: the world is of no use
+  std::string failure{};
+};
+
+class AfmSession {
+ public:
+  // Calibrates, which may take minutes: before any folder is touched.
+  AfmSession(LoadedScene scene, int threads);
+
+  // Where the run's files go; without a folder nothing is written.
+  void write_to(const std::filesystem::path& folder, const CheckpointOptions& options);
+  // To the programme's end, or until it is stopped; without actions, the load cases of the calibration.
+  void run(const Checkpoint* from = nullptr);
+  // What came of it, with verdicts, summary and report.
+  void finish();
+
+  SessionHooks hooks;  // `every` counts increments
+  const LoadedScene& loaded() const { return loaded_; }
+  const ProgrammeEnd& end() const { return end_; }
+  const AfmReport& report() const { return report_; }
+  const AfmHistory& history() const { return history_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  AfmSimulation& simulation() { return simulation_; }
+
+ private:
+  bool writes() const { return !folder_.empty(); }
+  void run_programme(const Checkpoint* from);
+  void begin(const Checkpoint* from);
+  bool take(double time, const std::vector<double>& row);
+  void frame(double time);
+  void tell(double time, const std::vector<double>& row, bool is_frame);
+  bool stops() const;
+  std::int64_t increment() const { return position_.told - 1; }
+  template <class State>
+  void write_checkpoint(const State& state);
+  void write_kept_checkpoint();
+  void keep();
+  bool yields();
+  std::vector<FieldInfo> fields();
+  void refuse_calibration();
+
+  const LoadedScene loaded_;
+  int threads_;
+  std::filesystem::path folder_;
+  AfmSimulation simulation_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  AfmReport report_;
+  AfmHistory history_;
+  ProgrammeEnd end_;
+  RunMesh mesh_;
+  std::optional<Checkpoints> checkpoints_;
+  AfmPosition position_;
+  std::unique_ptr<Recorder> recorder_;
+  std::size_t every_ = 1;  // increments a frame
+  StateParts kept_;        // of the world after the last increment
+  AfmPosition kept_position_;
+};
+
+}  // namespace pulvis

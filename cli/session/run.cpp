@@ -1,0 +1,140 @@
+#include "cli/session/run.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/info.h>
+
+#include "cli/interrupt.hpp"
+#include "cli/session/open_session.hpp"
+#include "cli/session/run_afm.hpp"
+#include "cli/session/session.hpp"
+#include "cli/summary.hpp"
+#include "cli/tell.hpp"
+#include "engine/run_failure.hpp"
+#include "scenes/language/counted.hpp"
+#include "scenes/memory_need.hpp"
+#include "scenes/read.hpp"
+#include "scenes/simulation.hpp"
+
+namespace pulvis {
+namespace {
+
+std::filesystem::path folder_of(const RunOptions& options) {
+  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
+                                : options.folder;
+}
+
+void print_end(const Session& run, const RunOptions& options) {
+  if (options.json) print_summary(run.folder());
+  if (!options.talks()) return;
+  const Results& r = run.results();
+  const double seconds = run.seconds();
+  const std::int64_t steps = run.clock().step;
+  tell("{} in {:.2f} s, {:.1f} M element updates/s; energy balance error {:.3g}\n",
+       counted(steps, "step"), seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
+       r.energy_balance_error());
+  if (r.has("stress_ratio/axial"))
+    tell("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",
+         r.value("relative_density"), r.value("stress_ratio/axial"),
+         r.value("stress_ratio/lateral"));
+  if (const auto shear = r.shear().figures())
+    tell("friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
+         shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,
+         shear->dilation * 1e3);
+  for (const std::string& line : run.quality().lines()) tell("warning: {}\n", line);
+  if (!run.verdicts().empty()) tell("expectations\n");
+  for (const Verdict& verdict : run.verdicts()) tell("  {}\n", verdict.text());
+  tell("results in {}\n", run.folder().string());
+}
+
+// A health check or a limit ended the run: that may be what the scene is about.
+ExitCode stopped(Session& run, const RunOptions& options, const std::string& message) {
+  run.judge(message, interrupted);
+  const bool expected = ended_as_expected(run.loaded().scene, message);
+  run.finish((expected ? "stopped as expected: " : "failed: ") + message);
+  if (!expected)
+    tell(stderr, "pulvis: the run failed: {}\nwhat was written before is in {}\n", message,
+         run.folder().string());
+  if (!run.verdicts().empty() || options.json) print_end(run, options);
+  return expected && all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
+}
+
+// After the machine failed the run.
+void tell_what_is_left(const std::filesystem::path& folder) {
+  if (checkpoints_in(folder).empty())
+    tell(
+        stderr,
+        "pulvis: there is no checkpoint yet that could go on; once the cause is gone run it again, "
+        "with --overwrite where {} holds a run.h5\n",
+        folder.string());
+  else
+    tell(stderr,
+         "pulvis: what was written before is in {}; once the cause is gone continue with: "
+         "pulvis resume {}\n",
+         folder.string(), folder.string());
+}
+
+// From wherever the run stands to its end.
+ExitCode complete(Session& run, const RunOptions& options) {
+  run.hooks.stop = interrupted;
+  try {
+    bool done = run.go() == Session::Halt::end;
+    if (done) run.judge({}, interrupted);
+    done = done && !interrupted();
+    if (!done) run.write_checkpoint();
+    run.finish(done ? "done" : "interrupted");
+    print_end(run, options);
+    if (done) {
+      run.remove_checkpoints();
+      return all_met(run.verdicts()) ? ExitCode::done : ExitCode::run_failed;
+    }
+    tell(stderr, "pulvis: interrupted at step {}; continue with: pulvis resume {}\n",
+         run.clock().step, run.folder().string());
+    return ExitCode::interrupted;
+  } catch (const RunFailure& failure) {
+    return stopped(run, options, failure.what());
+  } catch (const OutputError&) {
+    run.end_progress();
+    tell_what_is_left(run.folder());
+    throw;
+  }
+}
+
+int threads_of(const RunOptions& options) {
+  return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+}
+
+}  // namespace
+
+ExitCode run_scene(const RunOptions& options) {
+  leave_at_interrupts();
+  const LoadedScene loaded = load_scene(options.scene, options.overrides);
+  const std::filesystem::path folder = folder_of(options);
+  const int threads = threads_of(options);
+  if (loaded.scene.afm) {
+    require_free_folder(loaded, folder);
+    return run_afm(loaded, options, folder, threads);
+  }
+  const OpenSession run =
+      open_session(loaded, {folder, threads, options.talks(), options.checkpoints},
+                   options.overwrite, take_interrupts);
+  return complete(*run.session, options);
+}
+
+ExitCode resume_run(const RunOptions& options) {
+  leave_at_interrupts();
+  const OpenFolder stopped_run = open_stopped(options.folder, false);
+  const Checkpoint& checkpoint = *stopped_run.run.checkpoint;
+  const LoadedScene& loaded = stopped_run.run.scene;
+  if (options.talks())
+    tell("resumed at step {}, t = {:.6g} s\n", checkpoint.info().step, checkpoint.info().time);
+  const int threads = threads_of(options);
+  if (loaded.scene.afm) return resume_afm(loaded, options, checkpoint, threads);
+  require_memory(loaded.scene);
+  Session run(loaded, {options.folder, threads, options.talks(), options.checkpoints},
+              std::make_unique<Simulation>(loaded.scene, threads));
+  take_interrupts();
+  run.go_on_from(checkpoint);
+  return complete(run, options);
+}
+
+}  // namespace pulvis

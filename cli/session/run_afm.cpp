@@ -1,0 +1,92 @@
+#include "cli/session/run_afm.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/interrupt.hpp"
+#include "cli/plan.hpp"
+#include "cli/save_scene.hpp"
+#include "cli/session/afm_session.hpp"
+#include "cli/summary.hpp"
+#include "cli/summary_afm.hpp"
+#include "cli/tell.hpp"
+#include "engine/files/run_folder.hpp"
+#include "scenes/checks/lever_warnings.hpp"
+#include "scenes/expectations.hpp"
+#include "scenes/language/counted.hpp"
+#include "scenes/lever/afm_simulation.hpp"
+#include "scenes/lever/afm_size.hpp"
+#include "scenes/memory_need.hpp"
+#include "scenes/spec/afm_scene.hpp"
+
+namespace pulvis {
+namespace {
+
+void print_afm_end(const AfmReport& report, const std::filesystem::path& folder) {
+  tell("{}", calibration_text(*report.calibration));
+  for (const FrictionLoop& loop : report.loops) tell("{}", loop_text(loop));
+  for (const ForceCurveFigures& curve : report.curves) tell("{}", curve_text(curve));
+  if (report.wedge && report.loops.size() > 1) tell("{}", wedge_summary(*report.wedge));
+  tell("{}, {}, {}, {:.2f} s\n", counted(report.elements, "element"), counted(report.nodes, "node"),
+       counted(report.increments, "increment"), report.wall_seconds);
+  if (!report.verdicts.empty()) tell("expectations\n");
+  for (const Verdict& verdict : report.verdicts) tell("  {}\n", verdict.text());
+  tell("results in {}\n", folder.string());
+}
+
+void refuse_checkpoint_time(const LoadedScene& loaded, const RunOptions& options) {
+  if (options.checkpoints.time > 0)
+    throw SceneError({{loaded.scene.file, 1, 1, "", "--checkpoint-time",
+                       "a lever's programme has no time, allowed: --checkpoint-steps"}});
+}
+
+ExitCode complete_programme(AfmSession& run, const RunOptions& options, const Checkpoint* from) {
+  run.hooks.stop = interrupted;
+  run.run(from);
+  run.finish();
+  const ProgrammeEnd& end = run.end();
+  const AfmReport& report = run.report();
+  if (options.json) print_summary(run.folder());
+  if (options.talks() && report.calibration) print_afm_end(report, run.folder());
+  const bool expected = end.failure.empty() || ended_as_expected(run.loaded().scene, end.failure);
+  if (!expected) tell(stderr, "pulvis: the run failed: {}\n", end.failure);
+  if (!end.done && end.failure.empty()) {
+    tell(stderr, "pulvis: interrupted at increment {}; continue with: pulvis resume {}\n",
+         report.increments, run.folder().string());
+    return ExitCode::interrupted;
+  }
+  return expected && all_met(report.verdicts) ? ExitCode::done : ExitCode::run_failed;
+}
+
+}  // namespace
+
+ExitCode run_afm(const LoadedScene& loaded, const RunOptions& options,
+                 const std::filesystem::path& folder, int threads) {
+  refuse_checkpoint_time(loaded, options);
+  require_afm_memory(loaded.scene);
+  if (options.talks())
+    for (const std::string& line : lever_warnings(loaded.scene)) tell("warning: {}\n", line);
+  AfmSession run(loaded, threads);
+  take_interrupts();
+  const FolderLock lock = open_run_folder(folder, options.overwrite);
+  save_scene(folder, loaded);
+  run.write_to(folder, options.checkpoints);
+  return complete_programme(run, options, nullptr);
+}
+
+ExitCode resume_afm(const LoadedScene& loaded, const RunOptions& options,
+                    const Checkpoint& checkpoint, int threads) {
+  refuse_checkpoint_time(loaded, options);
+  require_afm_memory(loaded.scene);
+  AfmSession run(loaded, threads);
+  take_interrupts();
+  run.write_to(options.folder, options.checkpoints);
+  return complete_programme(run, options, &checkpoint);
+}
+
+ExitCode plan_afm(const Scene& scene, bool dot) {
+  AfmSimulation simulation(scene);
+  tell("{}", dot ? plan_dot(simulation.plan()) : plan_text(simulation.plan(), simulation.world()));
+  return ExitCode::done;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,128 @@
+// A run of a scene of particles: the loop that `pulvis run`, `pulvis resume` and the Python module share.
+//
+// A run that is driven in parts, looked at between its steps or resumed takes the same steps, and leaves the same bits, as
+// one that runs through.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/checkpoints.hpp"
+#include "cli/progress.hpp"
+#include "cli/session/session_hooks.hpp"
+#include "cli/summary.hpp"
+#include "engine/files/recorder.hpp"
+#include "scenes/expectations.hpp"
+#include "scenes/read.hpp"
+#include "scenes/results/compaction_curve.hpp"
+#include "scenes/results/contact_findings.hpp"
+#include "scenes/results/results.hpp"
+#include "scenes/results/timetable.hpp"
+#include "scenes/simulation.hpp"
+
+namespace pulvis {
+
+// What had been changed from outside when it was written: Session::drive.
+std::vector<std::string> driven_in(const Checkpoint& checkpoint);
+
+class Session {
+ public:
+  // How far to go.
+  struct Target {
+    double time = std::numeric_limits<double>::infinity();  // s
+    std::int64_t step = std::numeric_limits<std::int64_t>::max();
+  };
+  enum class Halt { end, stop, target };
+  struct Options {
+    std::filesystem::path folder{};  // empty: nothing is written
+    int threads = 1;
+    bool talks = false;
+    CheckpointOptions checkpoints{};
+  };
+
+  // `scene` as it is saved; `built` is at its beginning. Neither the folder nor its lock is the session's.
+  Session(LoadedScene scene, Options options, std::unique_ptr<Simulation> built);
+
+  // One of the two comes first.
+  void begin();
+  void go_on_from(const Checkpoint& checkpoint);
+
+  // Halt::end: the last sample is taken. Throws RunFailure, OutputError and what hooks throw.
+  Halt go(const Target& target);
+  Halt go() { return go(Target()); }
+  SessionHooks hooks;
+
+  // `failure` is what stopped the run, if anything did.
+  void judge(const std::optional<std::string>& failure, const std::function<bool()>& stop);
+  // Completes the files; `outcome` says how the run ended.
+  void finish(const std::string& outcome);
+  // After finish: as a run that was stopped goes on.
+  void reopen();
+  void write_checkpoint();
+  // Somebody has changed the run's state or its tools from outside: a checkpoint says so, and `pulvis resume`
+  // refuses to go on without that hand. `what`: "velocity", "tool top".
+  void drive(const std::string& what) { driven_.insert(what); }
+  const std::set<std::string>& driven() const { return driven_; }
+  void remove_checkpoints() { checkpoints_.remove(); }
+
+  const LoadedScene& loaded() const { return loaded_; }
+  const std::filesystem::path& folder() const { return options_.folder; }
+  Simulation& simulation() { return *simulation_; }
+  const Clock& clock() const { return simulation_->clock(); }
+  const Results& results() const { return results_; }
+  const std::vector<Verdict>& verdicts() const { return verdicts_; }
+  RunQuality quality() const;  // what its user should know of its figures
+  double seconds() const { return progress_->seconds(); }
+  bool ended() const { return ended_; }
+  bool open() const { return recorder_ != nullptr || !writes(); }
+  // At a sample: forces and stresses belong to t_n; false between two steps.
+  bool observed() const { return observed_; }
+  void end_progress() { progress_->finish(); }
+
+ private:
+  bool writes() const { return !options_.folder.empty(); }
+  template <class Bytes>
+  void state(Bytes& bytes, RecorderPosition& position, double& seconds);
+  void record_cracks();
+  void record();
+  void keep_states();
+  bool reached_its_end(std::size_t stage) const;
+  bool stage_is_over() const;
+  bool stops() const;
+  bool is_every_due() const;
+  bool is_tick_due() const;
+  void call_between_steps();
+  void move();
+
+  LoadedScene loaded_;
+  Options options_;
+  std::unique_ptr<Simulation> simulation_;
+  Results results_;
+  Expectations expectations_;
+  CompactionCurve compaction_;
+  ContactLoading contacts_;
+  std::vector<std::string> bond_warnings_;  // of those made at the start
+  std::vector<Verdict> verdicts_;
+  Timetable samples_, frames_;
+  bool ended_ = false;  // and its last sample is taken
+  bool observed_ = false;
+  bool keeps_states_;
+  std::size_t stages_over_ = 0;
+  std::set<std::string> driven_;
+  RecorderPosition closed_at_;  // by finish
+  std::int64_t told_step_ = 0;  // of hooks.every
+  std::chrono::steady_clock::time_point ticked_{};
+  Checkpoints checkpoints_;
+  std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<Progress> progress_;
+};
+
+}  // namespace pulvis

@@ -1,0 +1,107 @@
+#include "scenes/results/run_quality.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "components/contact.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double most_hourglass = 0.03;  // of the internal energy
+
+// What helps, in the order of the figures.
+constexpr const char* of_energy_balance =
+    "take smaller steps (a lower time.safety), or more elements where they are most distorted";
+constexpr const char* of_kinetic_energy =
+    "let the tools move more slowly: longer stages, or a longer ramp of their moves";
+constexpr const char* of_hourglass =
+    "the mesh does not resolve the bending of its elements: take more of them "
+    "(accuracy = \"fine\"), or element.formulation = \"four-point\"";
+constexpr const char* of_projections =
+    "outlines turn too sharply for their boundary edges: take more of them (boundary_edges)";
+
+std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
+
+std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
+  if (contacts.stiffness_to_do() <= scene.contact.stiffness)
+    return "take shorter boundary edges (boundary_edges): contacts are as stiff as they may be";
+  return fmt::format("contact.stiffness = {:g} would do", contacts.stiffness_to_do());
+}
+
+// Two digits, without a power of ten.
+std::string short_number(double value) {
+  return fmt::format("{:g}", std::stod(fmt::format("{:.2g}", value)));
+}
+
+std::string finer(const ContactFindings& contacts) {
+  return fmt::format(
+      "the mesh is too coarse for them, they are {} of its boundary edges wide on average: edges "
+      "of {}{} um would do",
+      short_number(contacts.narrow_edges), contacts.too_soft() ? "at most " : "",
+      short_number(1e6 * contacts.edge_to_do));
+}
+
+class Figures {
+ public:
+  void add(const char* name, const char* meaning, double value, std::optional<double> limit,
+           const std::string& advice) {
+    if (!std::isfinite(value)) return;
+    QualityFigure figure{name, meaning, value, limit, {}};
+    if (figure.beyond()) figure.advice = advice;
+    all.push_back(std::move(figure));
+  }
+
+  std::vector<QualityFigure> all;
+};
+
+void add_contacts(Figures& figures, const Scene& scene, const ContactFindings& contacts) {
+  if (contacts.force_error)
+    figures.add("Force lost to penetration",
+                "by how much the largest force is too low because surfaces sink into each other",
+                std::max(0.0, -*contacts.force_error), ContactFindings::max_force_error,
+                stiffer(scene, contacts));
+  figures.add("Narrow contacts",
+              "share of the largest contact force on contacts narrower than two boundary edges",
+              contacts.narrow_share, ContactFindings::most_narrow, finer(contacts));
+}
+
+}  // namespace
+
+std::string QualityFigure::line() const {
+  std::string text = name;
+  text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  text += " " + percent(value);
+  if (limit) text += " (limit " + percent(*limit) + ")";
+  return advice.empty() ? text : text + ": " + advice;
+}
+
+std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
+                                       const Results& results, const ContactFindings& contacts) {
+  Figures figures;
+  const LimitSpec& limits = scene.limits;
+  const Peaks& peaks = results.peaks();
+  const Totals& totals = world.resource<Totals>();
+  figures.add("Energy balance error",
+              "energy lost or made by the calculation, of the largest energy in the run",
+              results.energy_balance_error(), limits.energy_balance, of_energy_balance);
+  figures.add("Kinetic energy", "kinetic energy, of the internal energy", results.kinetic_ratio(),
+              limits.kinetic_energy, of_kinetic_energy);
+  if (const double internal = std::max(peaks.elastic, peaks.plastic); internal > 0)
+    figures.add("Hourglass energy",
+                "largest energy of bending inside the elements, plastic work included, of the "
+                "largest internal energy",
+                peaks.hourglass / internal, most_hourglass, of_hourglass);
+  if (!world.has<ContactQuality>()) return figures.all;
+  figures.add("Penetration", "deepest overlap of two surfaces, of the length of a boundary edge",
+              peaks.penetration, limits.penetration, stiffer(scene, contacts));
+  figures.add("Unconverged projections",
+              "share of the closest points of contacting outlines that were not found",
+              totals.unconverged_share(), limits.unconverged_projections, of_projections);
+  add_contacts(figures, scene, contacts);
+  return figures.all;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,31 @@
+// Whether the numbers of a run can be relied on, and what to do where they cannot: the one table of it. The terminal
+// says it at the end of a run, summary.json (`quality`) has it, and report and studies read it there.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/world.hpp"
+#include "scenes/results/contact_findings.hpp"
+#include "scenes/results/results.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+struct QualityFigure {
+  std::string name, meaning;
+  double value = 0;             // -
+  std::optional<double> limit;  // -
+  std::string advice;           // what to change; empty while the value is within its limit
+
+  bool beyond() const { return limit && !(std::abs(value) <= *limit); }
+  std::string line() const;  // "hourglass energy 5.4% (limit 3%)", and what to do
+};
+
+// Without those that the run does not have.
+std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
+                                       const Results& results, const ContactFindings& contacts);
+
+}  // namespace pulvis

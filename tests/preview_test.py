@@ -1,0 +1,242 @@
+#!/usr/bin/python3
+"""`pulvis preview`: every kind of shipped scene is drawn, with the names of its tools and stages and all of its particles,
+nothing beside the sheet and no text over another.
+
+usage: preview_test.py PROGRAM SOURCE_DIR [--all]
+
+Of each folder of scenes a few are drawn, folders to come included; --all draws every one, which takes minutes.
+"""
+import io
+import json
+import math
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+ALL = "--all" in sys.argv and not sys.argv.remove("--all")
+PROGRAM, SOURCE = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
+del sys.argv[1:3]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(SOURCE / "cli" / "python"))
+
+from pulvis.preview import words
+from pulvis.preview.draw import draw
+from pulvis.preview.sheet import plt
+
+SCENES = SOURCE / "scenes"
+NO_SCENES = {"studies", "probes", "lab", "parts", "materials"}
+# Beside some of every folder: what only few scenes have.
+CHOSEN = ["afm/calibration-beam", "afm/colloid-316l", "afm/force-curve", "afm/incline-friction", "afm/meshed-v",
+          "afm/raster", "basic/groove-wedge", "basic/oblique-impact", "basic/tension", "benchmark/cattaneo-mindlin",
+          "bonds/double-cantilever", "bonds/green-strength", "bonds/sheared-blocks", "brittle/salt-and-copper",
+          "compaction/ejection-25", "compaction/random-100", "extreme/friction-20-cycles",
+          "extreme/one-particle-free", "extreme/size-metres", "extreme/size-micrometres", "periodic/cap-die",
+          "periodic/shear", "shear/grooves-16", "shear/stick-slip"]
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def shipped():
+    folders = sorted(folder for folder in SCENES.iterdir() if folder.is_dir() and folder.name not in NO_SCENES
+                     and any(folder.glob("*.toml")))
+    for folder in folders:
+        scenes = sorted(folder.glob("*.toml"))
+        yield from scenes if ALL else [scenes[0], scenes[-1]]
+    yield from () if ALL else (SCENES / f"{name}.toml" for name in CHOSEN)
+
+
+def run(*words_of_command, folder):
+    return subprocess.run([PROGRAM, *words_of_command], cwd=folder, capture_output=True, text=True, check=False)
+
+
+def kinds_of(setup):
+    """What there is to draw in a set-up."""
+    if setup["family"] == "afm":
+        surface = setup["surface"] or {"shape": "calibration"}
+        return {f"lever {setup['lever']['shape']}", f"tip {setup['tip']['shape']}", f"surface {surface['shape']}",
+                *(f"action {action['kind']}" for action in setup["actions"])}
+    kinds = {f"tool {tool['shape']}" for tool in setup["tools"]} | {f"stage {stage['kind']}" for stage in setup["stages"]}
+    for name in ("moves", "servos", "until", "cell"):
+        if any(stage.get(name) for stage in setup["stages"]):
+            kinds.add(f"stage with {name}")
+    if len(setup["particles"]) > setup["count"]:
+        kinds.add("grains")
+    if setup["bonds"]["edges"]:
+        kinds.add("bonds")
+    if len(setup["classes"]) > 1:
+        kinds.add("classes")
+    if any(len(one["loops"]) > 1 for one in setup["particles"]):
+        kinds.add("hole")
+    if any("velocity" in one for one in setup["particles"]):
+        kinds.add("velocity")
+    return kinds | {name for name in ("cell", "die", "density_cells") if setup.get(name)}
+
+
+MUST_COVER = {"lever beam", "lever v", "lever mesh", "tip none", "tip block", "tip cone", "tip sphere", "surface plane",
+              "surface map", "surface bump", "surface calibration", "action press", "action retract", "action scan",
+              "action raster", "tool plane", "tool polyline", "tool constraint", "stage compact", "stage eject",
+              "stage shear", "stage hold", "stage with moves", "stage with servos", "stage with cell",
+              "grains", "bonds", "classes", "velocity", "cell", "die"}
+
+
+def drawn_count(svg):
+    """Particles or grains in the groups of that name."""
+    count = 0
+    for group in svg.iter(f"{SVG}g"):
+        if group.get("id", "").startswith("particles-"):
+            used = len(list(group.iter(f"{SVG}use")))
+            count += used or len(list(group.iter(f"{SVG}path")))
+    return count
+
+
+def texts_of(figure):
+    for text in [*figure.texts, *(text for axes in figure.axes for text in axes.texts)]:
+        if text.get_text().strip():
+            yield text
+
+
+def overlaps(figure):
+    """Texts that lie over each other, and those that leave the sheet."""
+    renderer = figure.canvas.get_renderer()
+    figure.draw(renderer)
+    sheet = figure.bbox
+    boxes = [(text.get_text(), plt.Text.get_window_extent(text, renderer)) for text in texts_of(figure)]
+    for text, box in boxes:
+        if box.x0 < sheet.x0 or box.x1 > sheet.x1 or box.y0 < sheet.y0 or box.y1 > sheet.y1:
+            yield f"'{text}' leaves the sheet"
+    for i, (first, a) in enumerate(boxes):
+        for second, b in boxes[i + 1:]:
+            common = max(0, min(a.x1, b.x1) - max(a.x0, b.x0)) * max(0, min(a.y1, b.y1) - max(a.y0, b.y0))
+            if common > 0.12 * min(a.width * a.height, b.width * b.height):
+                yield f"'{first}' over '{second}'"
+
+
+def roundness(setup):
+    """The mean over the particles of the largest over the smallest distance from the middle."""
+    ratios = []
+    for one in setup["particles"]:
+        x, y = one["loops"][0][::2], one["loops"][0][1::2]
+        away = [math.hypot(a - sum(x) / len(x), b - sum(y) / len(y)) for a, b in zip(x, y)]
+        ratios.append(max(away) / min(away))
+    return sum(ratios) / len(ratios)
+
+
+class PreviewTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def setup_of(self, scene):
+        told = run("preview", str(scene), "-o", "setup.json", folder=self.folder.name)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        return json.loads((Path(self.folder.name) / "setup.json").read_text(encoding="utf-8")), told.stdout
+
+    def check_particles(self, setup, told, svg, written):
+        count = int(re.search(r": good: (\d+) particle", told)[1])
+        self.assertEqual(setup["count"], count)
+        self.assertEqual(sum(one["count"] for one in setup["classes"]), count)
+        self.assertEqual(len({one["particle"] for one in setup["particles"]}), count)
+        self.assertEqual(drawn_count(svg), len(setup["particles"]))
+        for tool in setup["tools"]:
+            self.assertIn(tool["name"], written)
+        if setup["die"]:
+            left, right = setup["die"]["x"]
+            self.assertIn(words.quantity(right - left, "m"), written)
+
+    def test_every_kind_of_scene_is_drawn(self):
+        covered, seen = set(), set()
+        for scene in shipped():
+            if scene in seen:
+                continue
+            seen.add(scene)
+            with self.subTest(scene=str(scene.relative_to(SCENES))):
+                setup, told = self.setup_of(scene)
+                covered |= kinds_of(setup)
+                figure = draw(setup)
+                picture = io.BytesIO()
+                figure.savefig(picture, format="svg")
+                svg = ElementTree.fromstring(picture.getvalue())
+                written = " ".join("".join(text.itertext()) for text in svg.iter(f"{SVG}text"))
+                for stage in [*setup.get("stages", []), *setup.get("actions", [])][:10]:
+                    self.assertIn((stage["name"] or stage["kind"])[:15], written)
+                if setup["family"] == "particles":
+                    self.check_particles(setup, told, svg, written)
+                else:
+                    self.assertIn(words.quantity(setup["lever"]["length"], "m"), written)
+                    self.assertIn("thickness", written)
+                self.assertEqual(list(overlaps(figure)), [])
+                plt.close(figure)
+        self.assertEqual(MUST_COVER - covered, set())
+
+    def test_numbers_are_read_as_an_engineer_writes_them(self):
+        for value, unit, text in ((50e-3, "m", "50 mm"), (5.0000001e-4, "m", "500 µm"), (2, "m", "2 m"), (3e3, "m", "3,000 m"),
+                                  (-40e6, "Pa", "−40 MPa"), (1e13, "Pa", "10 TPa"), (0, "N", "0 N"), (20e-9, "N", "20 nN"),
+                                  (1.98412, "m/s", "1.984 m/s"), (0.9999e-3, "m", "999.9 µm")):
+            self.assertEqual(words.quantity(value, unit), text)
+        self.assertEqual(words.span(2e-4, 1e-3, "m"), "0.2 to 1 mm")
+        self.assertEqual(words.span(1e-3, 1e-3, "m"), "1 mm")
+        self.assertEqual(words.number(1.25e-7), "1.25 · 10⁻⁷")
+        self.assertEqual([words.way(v) for v in ((1, 0), (0, -2), (-1, 1), (0, 0))], ["→", "↓", "↖", "·"])
+
+    def test_the_program_draws_what_it_is_asked_for(self):
+        scene = str(SCENES / "compaction" / "regular-25.toml")
+        for name, magic in (("a.png", b"\x89PNG"), ("b.pdf", b"%PDF"), ("c.svg", b"<?xml")):
+            told = run("preview", scene, "-o", name, "--set", "title=Twenty-five", folder=self.folder.name)
+            self.assertEqual(told.returncode, 0, told.stderr)
+            self.assertEqual((Path(self.folder.name) / name).read_bytes()[:len(magic)], magic)
+            self.assertEqual(told.stdout.splitlines()[-1], name)
+        self.assertIn("Twenty-five", (Path(self.folder.name) / "c.svg").read_text(encoding="utf-8"))
+        checked = run("check", scene, folder=self.folder.name).stdout.splitlines()
+        self.assertEqual(len(told.stdout.splitlines()), len(checked) + 1)
+        self.assertEqual(told.stdout.splitlines()[0], checked[0])
+
+    def test_warnings_stand_in_the_picture(self):
+        setup, told = self.setup_of(SCENES / "compaction" / "regular-25.toml")
+        self.assertEqual(setup["warnings"], [])
+        told = run("preview", str(SCENES / "compaction" / "regular-25.toml"), "-o", "fast.svg", "--set",
+                   "stage.press.duration=0.1 ms", folder=self.folder.name)
+        self.assertIn("warning: stage 'press': tool 'top' moves at up to", told.stdout)
+        self.assertIn("Warning: stage 'press'", (Path(self.folder.name) / "fast.svg").read_text(encoding="utf-8"))
+
+    def test_a_kept_state_is_drawn_as_it_is(self):
+        text = (SCENES / "periodic" / "soft-discs.toml").read_text(encoding="utf-8")
+        for old, new in (("number = 300", "number = 12"), ("18 mm", "3.8 mm"), ('"8 ms"', '"1 ms"'),
+                         ('kind = "compact"\n', 'kind = "compact"\nkeep_state = true\n')):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        folder = Path(self.folder.name)
+        (folder / "first.toml").write_text(re.sub(r"expect = \[.*?\n\]", "", text, flags=re.S), encoding="utf-8")
+        told = run("run", "first.toml", "-o", "first", "--quiet", folder=folder)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        (folder / "second.toml").write_text('extends = "first.toml"\ninitial_state = "first/state-press.h5"\n')
+        before, _ = self.setup_of(folder / "first.toml")
+        after, _ = self.setup_of(folder / "second.toml")
+        shrunk = math.exp(-0.112)  # along both vectors
+        for axis in range(2):
+            self.assertAlmostEqual(after["cell"]["vectors"][axis][axis] / before["cell"]["vectors"][axis][axis], shrunk, 3)
+        self.assertLess(roundness(before), 1.01)
+        self.assertGreater(roundness(after), 1.05)
+
+    def test_a_wrong_scene_is_refused_as_the_reader_does(self):
+        wrong = Path(self.folder.name) / "wrong.toml"
+        wrong.write_text((SCENES / "compaction" / "regular-25.toml").read_text().replace("[[stage]]", "[[stagee]]", 1))
+        told = run("preview", "wrong.toml", folder=self.folder.name)
+        checked = run("check", "wrong.toml", folder=self.folder.name)
+        self.assertEqual((told.returncode, told.stderr), (2, checked.stderr))
+        self.assertRegex(told.stderr, r"wrong\.toml:\d+:\d+: .*stagee")
+        self.assertFalse((Path(self.folder.name) / "preview.png").exists())
+
+    def test_other_files_are_not_replaced(self):
+        mine = Path(self.folder.name) / "mine.png"
+        mine.write_text("mine")
+        told = run("preview", str(SCENES / "basic" / "tension.toml"), "-o", "mine.png", folder=self.folder.name)
+        self.assertEqual((told.returncode, mine.read_text()), (2, "mine"))
+        self.assertEqual(run("preview", str(SCENES / "basic" / "tension.toml"), "-o", "mine.gif",
+                             folder=self.folder.name).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,70 @@
+"""Levers from Python: the figures, hash and files of the command line."""
+import numpy as np
+import pytest
+
+import pulvis
+
+
+def test_a_calibration_is_that_of_the_program(scenes, program, read_summary, tmp_path):
+    file = scenes / "afm/calibration-beam.toml"
+    done = program("run", file, "-o", tmp_path / "program", "--quiet")
+    assert done.returncode == 0, done.stderr
+    theirs = read_summary(tmp_path / "program")
+    lever = pulvis.Scene(file).simulation(folder=tmp_path / "python").run()
+    assert lever.hash == theirs["state_hash"] == read_summary(tmp_path / "python")["state_hash"]
+    ours = pulvis.Scene(file).calibration()
+    assert ours == lever.calibration
+    assert ours["normal_stiffness"] == theirs["calibration"]["k_n"]
+    assert ours["normal_stiffness"] > 0 and ours["lateral_stiffness"] > ours["normal_stiffness"]
+
+
+def test_a_friction_loop_is_that_of_the_program(scenes, program, read_summary, tmp_path):
+    file = scenes / "afm/loop-beam-0.toml"
+    done = program("run", file, "-o", tmp_path / "program", "--quiet")
+    assert done.returncode == 0, done.stderr
+    lever = pulvis.Scene(file).simulation(folder=tmp_path / "python")
+    told = []
+    lever.on_sample(lambda actions, row: told.append((actions, len(row))))
+    lever.run()
+    assert lever.finished and lever.hash == read_summary(tmp_path / "program")["state_hash"]
+    assert (tmp_path / "program/history.csv").read_text() == (tmp_path / "python/history.csv").read_text()
+    assert len(told) == len(lever.history["actions"])
+    assert np.array_equal([actions for actions, _ in told], lever.history["actions"])
+    loop = lever.loops[-1]
+    assert loop["half_width"] > 0 and loop["load"] > 0
+    assert lever.figures["loop/half_width"] == loop["half_width"]
+    with pytest.raises(pulvis.RunError, match="has run"):
+        lever.run()
+
+
+def test_an_error_in_a_callback_ends_the_run_with_whole_files_and_it_is_resumed(scenes, read_summary, tmp_path):
+    file = scenes / "afm/loop-beam-0.toml"
+    whole = pulvis.Scene(file).simulation().run()
+    lever = pulvis.Scene(file).simulation(folder=tmp_path / "run")
+
+    @lever.on_sample
+    def _(actions, row):
+        if len(lever.history["actions"]) == 5:
+            raise ValueError("mine")
+
+    with pytest.raises(ValueError, match="mine"):
+        lever.run()
+    assert read_summary(tmp_path / "run")["outcome"] == "interrupted"
+    resumed = pulvis.resume(tmp_path / "run")
+    assert resumed.finished and resumed.hash == whole.hash
+    assert read_summary(tmp_path / "run")["outcome"] == "done"
+
+
+def test_a_force_curve_has_its_pull_off(scenes):
+    lever = pulvis.Scene(scenes / "afm/force-curve.toml").simulation().run()
+    curve = lever.force_curves[-1]
+    assert curve["pull_off"] > 0 and curve["work"] > 0
+
+
+def test_what_belongs_to_powders_is_refused(scenes):
+    lever = pulvis.Scene(scenes / "afm/calibration-beam.toml")
+    assert lever.is_afm
+    with pytest.raises(pulvis.SceneError, match="no particles"):
+        pulvis.pack(lever)
+    with pytest.raises(AttributeError):
+        pulvis.Scene(scenes / "compaction/unit-cell.toml").calibration()

@@ -1,0 +1,121 @@
+"""What the pictures say: curves that can be told apart, ticks that are true."""
+import struct
+import types
+import unittest
+
+import matplotlib
+
+matplotlib.use("Agg")
+import numpy as np
+from matplotlib import pyplot as plt
+
+from pulvis.figures import afm, bonds, cell, colours, look, network
+
+plt.rcParams.update(look.STYLE)
+
+
+class Frame(dict):
+    attrs = {"time": 1e-3}
+
+
+class Shares(list):
+    """As a dataset of HDF5: read whole by [()]."""
+
+    def __getitem__(self, key):
+        return np.array(list(self)) if key == () else list.__getitem__(self, key)
+
+
+class FiguresTest(unittest.TestCase):
+    def test_curves_of_a_figure_differ_in_colour_or_dash(self):
+        x = "time", np.linspace(0, 1, 5), "s"
+        lines = [(f"energy {i}", i * x[1], "J") for i in range(12)]
+        axes = look.draw_lines(types.SimpleNamespace(title=""), x, lines, "energy", "Energies").axes[0]
+        looks = {(line.get_color(), line.get_linestyle()) for line in axes.lines if len(line.get_xdata()) == 5}
+        self.assertEqual(len(looks), 12)
+        self.assertEqual(len({line.get_color() for line in axes.lines[:9]}), 9)
+
+    def test_ticks_of_the_rose_stand_where_they_say(self):
+        for most in (0.2, 0.13, 0.07, 0.5):
+            number = Shares([most, most / 2, most / 3, most / 4])
+            frame = Frame({"rose/number": number, "rose/force": number, "rose": None})
+            run = types.SimpleNamespace(frames=[0], frame=lambda _, one=frame: one, title="")
+            figure = network.rose(run)
+            figure.canvas.draw()
+            axes = figure.axes[0]
+            for place, label in zip(axes.yaxis.get_ticklocs(), axes.yaxis.get_ticklabels()):
+                self.assertAlmostEqual(place, float(label.get_text().removesuffix(" %")), places=9)
+
+    def test_every_fragment_keeps_its_colour_and_neighbours_differ(self):
+        found = colours.fragment_colours(np.arange(60))
+        self.assertEqual(len({tuple(np.round(one, 3)) for one in found}), 60)
+        self.assertTrue(np.array_equal(found[[7, 3]], colours.fragment_colours([7, 3])))
+        apart = np.abs(found[:, None] - found[None]).max(axis=2) + np.eye(60)
+        self.assertGreater(apart.min(), 0.015)
+        self.assertGreater(np.diag(apart, 1).min(), 0.1)
+
+    def test_sizes_of_fragments_add_up_by_number_and_by_area(self):
+        diameter, number, area = bonds.cumulative(np.array([3.0, 1.0, 4.0]))
+        np.testing.assert_allclose(np.pi / 4 * diameter ** 2, [1, 3, 4])
+        np.testing.assert_allclose(number, [1 / 3, 2 / 3, 1])
+        np.testing.assert_allclose(area, [1 / 8, 1 / 2, 1])
+
+    def test_particles_are_drawn_inside_the_cell_and_again_across_its_borders(self):
+        square = 0.1 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+        centres = np.array([[1.2, 0.5], [0.05, 0.05], [0.6, 0.5]])  # outside, in a corner, in the middle
+        vectors = np.array([[2.0, 0.1], [0.5, 1.0]])
+        stored = (centres[:, None] + square).reshape(-1, 2) @ vectors + [3, 4]
+        frame = {"cell": np.vstack([[3, 4], vectors]), "position": Shares(stored.tolist())}
+        mesh = {"mesh/node_particle": Shares(np.repeat(np.arange(3), 4).tolist()), "mesh/quads": Shares([]),
+                "mesh/cell_particle": Shares([])}
+        drawn = cell.Cell(types.SimpleNamespace(file=mesh), frame)
+        np.testing.assert_allclose(drawn.shift, [-vectors[0], [0, 0], [0, 0]], atol=1e-12)
+        again = sorted((int(p), *np.round(np.linalg.solve(vectors.T, (at[4 * p] - drawn.position[4 * p])))) for
+                       at, shown in drawn.images for p in np.flatnonzero(shown))
+        self.assertEqual(again, [(1, 0, 1), (1, 1, 0), (1, 1, 1)])
+        end = drawn.other_end(np.array([[2, 0]]), centres @ vectors + [3, 4], np.array([[0.4, 0.5]]) @ vectors + [3, 4])
+        np.testing.assert_allclose(end, [[0.2, 0.5]] @ vectors + [3, 4])
+
+    def test_without_a_cell_particles_stay_where_they_are(self):
+        mesh = {"mesh/node_particle": Shares([0, 0]), "mesh/quads": Shares([]), "mesh/cell_particle": Shares([])}
+        drawn = cell.Cell(types.SimpleNamespace(file=mesh), {"position": Shares([[0, 0], [1, 2]])})
+        self.assertFalse(drawn.here or drawn.images or drawn.shift.any())
+        np.testing.assert_allclose(drawn.limits(), [[-0.06, -0.06], [1.06, 2.06]])
+
+    def test_a_simple_field_is_what_gwyddions_manual_describes(self):
+        values = np.arange(12, dtype=float).reshape(3, 4) * 1e-9 + 1e-7
+        for title in ("a", "ab", "abc", "abcd", "Höhe"):  # all lengths of the padding
+            fields, data = simple_field_of(afm.simple_field(title, "m", values, (2e-8, 5e-8)))
+            self.assertEqual((fields["XRes"], fields["YRes"]), ("4", "3"))
+            self.assertAlmostEqual(float(fields["XReal"]), 8e-8, places=20)
+            self.assertAlmostEqual(float(fields["YReal"]), 15e-8, places=20)
+            self.assertEqual((fields["XYUnits"], fields["ZUnits"], fields["Title"]), ("m", "m", title))
+            for row in range(3):  # the upper row first: the last line of the scan
+                np.testing.assert_allclose(data[row], values[2 - row], rtol=1e-6)
+
+    def test_levelling_takes_a_plane_or_the_median_of_each_line_off(self):
+        y, x = np.mgrid[:7, :9]
+        plane, bump = 3 + 0.5 * x - 0.25 * y, np.zeros((7, 9))
+        np.testing.assert_allclose(afm.levelled(plane, "plane"), 0, atol=1e-12)
+        bump[3, 4] = 1
+        off = afm.levelled(plane + bump, "plane")
+        self.assertAlmostEqual(off[3, 4] - off.mean(), 1 - 1 / 63, places=12)  # the bump is in the middle
+        lines = afm.levelled(bump + 10.0 * y, "lines")
+        np.testing.assert_allclose(lines, bump, atol=1e-12)
+        self.assertIs(afm.levelled(plane, "none"), plane)
+
+
+def simple_field_of(content):
+    """Reads a Gwyddion Simple Field byte by byte, by its description alone."""
+    magic = b"Gwyddion Simple Field 1.0\n"
+    assert content.startswith(magic)
+    end = content.index(b"\0")
+    fields = dict(line.split(" = ", 1) for line in content[len(magic):end].decode("utf-8").splitlines())
+    begin = end
+    while begin == end or begin % 4:
+        assert content[begin] == 0
+        begin += 1
+    wide, tall = int(fields["XRes"]), int(fields["YRes"])
+    assert len(content) == begin + 4 * wide * tall
+    numbers = struct.unpack(f"<{wide * tall}f", content[begin:])
+    return fields, [numbers[wide * row:wide * (row + 1)] for row in range(tall)]
+

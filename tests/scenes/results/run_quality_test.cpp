@@ -1,0 +1,91 @@
+// What a run says of its own figures: each beyond its limit comes with what to do.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/results/run_quality.hpp"
+#include "tests/helpers/experiment.hpp"
+
+namespace pulvis {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+std::vector<QualityFigure> judged(const std::string& scene,
+                                  const std::vector<std::string>& changes) {
+  Experiment e(scene, changes);
+  ContactLoading loading(e.scene);
+  e.run(100, [&] { loading.sample(e.results, e.simulation.world()); });
+  return run_quality(e.scene, e.simulation.world(), e.results, loading.findings());
+}
+
+QualityFigure figure(const std::vector<QualityFigure>& figures, const std::string& name) {
+  for (const QualityFigure& one : figures)
+    if (one.name == name) return one;
+  ADD_FAILURE() << "no " << name;
+  return {};
+}
+
+// 20 um of approach of a disc of 10 mm, with contacts that are too soft and a mesh that is too coarse.
+std::vector<std::string> soft() {
+  return {"particle.disc.mesh.refinement=1",
+          "particle.disc.mesh.core=coarse",
+          "particle.disc.mesh.rings=1",
+          "particle.disc.mesh.boundary_edges=48",
+          "contact.stiffness=0.5",
+          "stage.press.move.top.displacement=[\"0 mm\", \"-0.01 mm\"]",
+          "stage.press.move.bottom.displacement=[\"0 mm\", \"0.01 mm\"]"};
+}
+
+TEST(RunQuality, TellsWhatToDoBeyondALimitAndNothingWithin) {
+  const auto figures = judged("basic/disc-platens.toml", soft());
+  int beyond = 0;
+  for (const QualityFigure& one : figures) {
+    EXPECT_EQ(one.advice.empty(), !one.beyond()) << one.name;
+    beyond += one.beyond();
+  }
+  EXPECT_GE(beyond, 2);
+  const QualityFigure lost = figure(figures, "Force lost to penetration");
+  EXPECT_THAT(lost.line(), StartsWith("force lost to penetration "));
+  EXPECT_THAT(lost.line(), HasSubstr("% (limit 5%): contact.stiffness = 10 would do"));
+  EXPECT_THAT(figure(figures, "Narrow contacts").line(), HasSubstr("edges of at most "));
+  EXPECT_THAT(figure(figures, "Energy balance error").advice, IsEmpty());
+}
+
+// Done as it says, there is nothing left to say.
+TEST(RunQuality, IsContentWithStiffContactsAFineMeshAndFourPoints) {
+  auto changes = soft();
+  changes[3] = "particle.disc.mesh.boundary_edges=384";
+  changes[4] = "contact.stiffness=40";
+  changes.emplace_back("element.formulation=four-point");
+  for (const QualityFigure& one : judged("basic/disc-platens.toml", changes))
+    EXPECT_FALSE(one.beyond()) << one.line();
+}
+
+// Kinetic energy is judged where the scene asks for it.
+TEST(RunQuality, HasTheLimitsOfTheScene) {
+  auto changes = soft();
+  changes.emplace_back("limits.penetration=0.4");
+  changes.emplace_back("limits.kinetic_energy=0.5");
+  const auto figures = judged("basic/disc-platens.toml", changes);
+  EXPECT_EQ(figure(figures, "Penetration").limit, 0.4);
+  EXPECT_EQ(figure(figures, "Kinetic energy").limit, 0.5);
+  EXPECT_FALSE(figure(judged("basic/disc-platens.toml", soft()), "Kinetic energy").limit);
+}
+
+// The largest of a series over the run, not its last value.
+TEST(RunQuality, JudgesThePeaksOfTheRun) {
+  Experiment e("basic/disc-platens.toml", soft());
+  double penetration = 0, elastic = 0;
+  e.run(100, [&] {
+    penetration = std::max(penetration, e.value("penetration"));
+    elastic = std::max(elastic, e.value("energy/elastic"));
+  });
+  EXPECT_GT(penetration, 0);
+  EXPECT_EQ(e.results.peaks().penetration, penetration);
+  EXPECT_EQ(e.results.peaks().elastic, elastic);
+}
+
+}  // namespace
+}  // namespace pulvis
