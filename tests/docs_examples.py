@@ -44,9 +44,9 @@ def run_page(program, page):
     """Writes the files that a page shows, and runs its commands: each must say what stands below it."""
     count = 0
     with tempfile.TemporaryDirectory() as folder:
-        for kind, block in re.findall(r"```(toml|console)\n(.*?)```", page.read_text(encoding="utf-8"), re.S):
-            if kind == "toml":
-                (Path(folder) / block.split("\n", 1)[0].removeprefix("# ")).write_text(block, encoding="utf-8")
+        for kind, block in re.findall(r"```(toml|svg|console)\n(.*?)```", page.read_text(encoding="utf-8"), re.S):
+            if kind != "console":  # named by the comment in its first line
+                (Path(folder) / block.split("\n", 1)[0].strip("#<!-> ")).write_text(block, encoding="utf-8")
                 continue
             for command, shown in re.findall(r"^\$ pulvis (.*)\n((?:(?!\$ ).*\n)*)", block, re.M):
                 done = subprocess.run([program, *shlex.split(command)], cwd=folder, text=True,

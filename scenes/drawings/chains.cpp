@@ -11,7 +11,7 @@
 namespace pulvis::drawing {
 namespace {
 
-constexpr std::size_t outline_points = 96;  // the cost of a curve grows with their cube
+constexpr std::size_t outline_points = 256;
 constexpr double meeting = 1e-5;  // of the drawing's diagonal: ends this near are one point
 
 double diagonal(const std::vector<Chain>& chains) {

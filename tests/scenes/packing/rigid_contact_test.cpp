@@ -60,6 +60,24 @@ TEST(RigidShape, HasTheMomentsOfItsOutline) {
   EXPECT_NEAR(r.reach, std::sqrt(1.25), 1e-9);
 }
 
+// A curve through more points than a rigid shape may have corners: corners are left out.
+TEST(RigidShape, HasFewCornersOfACurveThroughManyPoints) {
+  PointsOutline disc;
+  for (int i = 0; i < 3000; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 3000;
+    disc.points.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  const RigidShape r = rigid_shape(disc, 1, 1e-4);
+  ASSERT_EQ(r.pieces.size(), 1U);
+  EXPECT_GT(r.pieces[0].corners.size(), 60U);
+  EXPECT_LE(r.pieces[0].corners.size(), 240U);
+  EXPECT_NEAR(r.area, std::numbers::pi, 1e-3);
+  EXPECT_NEAR(r.pieces[0].radius, 2e-4, 1e-12);  // of the polygon, and of what is left out
+  EXPECT_GE(r.reach, 1);
+  const RigidPose here{{0, 0}, {}}, beside{{3, 0}, {}};
+  EXPECT_NEAR(gap_of(disc, here, disc, beside), 1, 4e-4);
+}
+
 double area_of(const std::vector<V2>& p) {
   double twice = 0;
   for (std::size_t i = 0; i < p.size(); ++i) twice += portable::cross(p[i], p[(i + 1) % p.size()]);

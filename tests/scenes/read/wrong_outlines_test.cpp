@@ -168,7 +168,7 @@ TEST_F(PointsFile, IsSmoothedByTheDistanceItSays) {
 
 TEST_F(PointsFile, IsRefusedAtItsLine) {
   expect_refused("outline = \"points\"\nfile = \"nowhere.csv\"", ".file",
-                 "nowhere.csv: there is no", "a CSV file");
+                 "nowhere.csv: there is no", "a file of points (CSV, SVG, DXF)");
   const auto wrong = [&](const std::string& text, const std::string& reason,
                          const std::string& bound, const std::string& more = "") {
     write(text);
