@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scenes/language/vec2.hpp"
 #include "scenes/outlines/outline.hpp"
 
 namespace pulvis {
@@ -108,49 +109,47 @@ void measure(RigidShape& shape, const Moments& moments) {
   shape.min_width = min_width(shape);
 }
 
-// Leaves out corners that lie within `tolerance` of the side that is left in their place.
-std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance) {
-  const auto distance = [](const Vec2& p, const Vec2& a, const Vec2& b) {
-    const Vec2 along = b - a;
-    const double share = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    return (p - a - share * along).norm();
-  };
-  const auto replaces = [&](std::size_t from, std::size_t to) {  // the side all corners between
-    for (std::size_t i = from + 1; i < to; ++i)
-      if (distance(points[i], points[from], points[to]) > tolerance) return false;
-    return true;
-  };
+// Whether the side from one corner to another leaves none of those between by more than `deviation`.
+bool is_near(const std::vector<Vec2>& corners, std::size_t from, std::size_t to, double deviation) {
+  const Vec2 a = corners[from], along = corners[to % corners.size()] - a;
+  const double length = along.norm();
+  for (std::size_t i = from + 1; i < to; ++i) {
+    const Vec2 arm = corners[i] - a;
+    const double ahead = arm.dot(along) / length;
+    if (!(ahead > 0 && ahead < length && std::abs(pulvis::cross(along, arm)) / length <= deviation))
+      return false;
+  }
+  return true;
+}
+
+std::vector<Vec2> thinned(const std::vector<Vec2>& corners, double deviation) {
   std::vector<Vec2> kept;
-  for (std::size_t from = 0, to = 0; from < points.size(); from = to) {
-    kept.push_back(points[from]);
-    for (to = from + 1; to + 1 < points.size() && replaces(from, to + 1);) ++to;
+  for (std::size_t from = 0, to = 0; from < corners.size(); from = to) {
+    kept.push_back(corners[from]);
+    to = from + 1;
+    while (to < corners.size() && is_near(corners, from, to + 1, deviation)) ++to;
   }
   return kept;
 }
 
-// The polygon of an outline, as much coarser as the cost of contacts asks for. Its curve has a corner at least where a
-// piece begins: where the pieces alone are too many, as of a curve through many points, corners are left out.
-std::vector<Vec2> few_corners(const Outline& outline, double& deviation) {
+// Of few enough corners: `deviation` grows to what that takes.
+std::vector<Vec2> rigid_polygon(const Outline& outline, double& deviation) {
   std::vector<Vec2> points = outline_polygon(outline, deviation);
-  if (points.size() <= max_corners) return points;
-  const double any = 1e3 * points[0].norm() + 1e3 * (points[1] - points[0]).norm();
-  if (outline_polygon(outline, any).size() > max_corners) {
-    const std::vector<Vec2> all = points;
-    double tolerance = deviation;
-    for (; points.size() > max_corners; tolerance *= 2) points = thinned(all, tolerance);
-    deviation += tolerance / 2;
-    return points;
+  for (; points.size() > max_corners; deviation *= 2) {
+    std::vector<Vec2> coarser = outline_polygon(outline, 2 * deviation);
+    // A curve through many points keeps a corner at each of them, however coarse.
+    if (coarser.size() == points.size()) coarser = thinned(points, deviation);
+    points = std::move(coarser);
   }
-  for (; points.size() > max_corners; points = outline_polygon(outline, deviation)) deviation *= 2;
   return points;
 }
 
 }  // namespace
 
 RigidShape rigid_shape(const Outline& outline, double unit, double deviation, Fit fit) {
-  const std::vector<Vec2> points = few_corners(outline, deviation);
   std::vector<V2> polygon;
-  for (const Vec2& p : points) polygon.push_back(on_grid({p.x() / unit, p.y() / unit}));
+  for (const Vec2& p : rigid_polygon(outline, deviation))
+    polygon.push_back(on_grid({p.x() / unit, p.y() / unit}));
   RigidShape shape;
   const double radius = fit == Fit::around ? deviation / unit : 0;
   if (const auto box = rounded_box(outline))
