@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t outline_points = 256;
 constexpr double meeting = 1e-5;  // of the drawing's diagonal: ends this near are one point
 
+constexpr double smallest = 1e-12, largest = 1000;  // m, across an outline
+
 double diagonal(const std::vector<Chain>& chains) {
   Vec2 low = Vec2::Constant(1e300), high = -low;
   for (const Chain& chain : chains)
@@ -68,6 +70,15 @@ std::vector<Vec2> evenly(const std::vector<Vec2>& points) {
 double side_of(const Vec2& a, const Vec2& b, const Vec2& p) {
   const Vec2 along = b - a, to = p - a;
   return along.x() * to.y() - along.y() * to.x();
+}
+
+void refuse_size(const Chain& outline) {
+  const double across = diagonal({outline});
+  const bool finite =
+      std::ranges::all_of(outline.points, [](const Vec2& point) { return point.allFinite(); });
+  if (!finite || !(across >= smallest && across <= largest))
+    throw BadDrawing(fmt::format("the outline is {:g} m across, allowed: {:g} m to {:g} m", across,
+                                 smallest, largest));
 }
 
 void refuse_crossing(const std::vector<Vec2>& points) {
@@ -140,6 +151,7 @@ std::vector<Vec2> only_outline(const std::vector<Chain>& chains) {
   if (!open.empty())
     throw BadDrawing(fmt::format(
         "open lines beside the outline (in {}), allowed: the outline alone", layers_of(open)));
+  refuse_size(*closed.front());
   std::vector<Vec2> points = evenly(closed.front()->points);
   refuse_crossing(points);
   return points;

@@ -113,6 +113,9 @@ TEST(SvgOutline, IsRefusedWithTheReason) {
   EXPECT_THAT(fault_of_svg("<circle r='9' transform='skewX(3)'/>"),
               HasSubstr("the transform 'skewX'"));
   EXPECT_THAT(fault_of_svg(""), HasSubstr("no outline is in it"));
+  for (const char* shape :
+       {"<circle r='0'/>", "<circle r='1e300'/>", "<circle r='9' transform='scale(0)'/>"})
+    EXPECT_THAT(fault_of_svg(shape), HasSubstr("m across, allowed: 1e-12 m to 1000 m")) << shape;
   const auto fault = [](const std::string& text, const std::string& unit) {
     return message_of<BadDrawing>([&] { drawing::chains_of_svg(text, unit); });
   };
