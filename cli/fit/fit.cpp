@@ -7,10 +7,12 @@
 
 #include "cli/fit/fit_files.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/study/saved_settings.hpp"
 #include "cli/study/study_runner.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
+#include "scenes/fit/declare_fit.hpp"
 
 namespace pulvis {
 namespace {
@@ -157,7 +159,9 @@ ExitCode run_fit(const FitOptions& options) {
   take_interrupts();
   make_folder(folder);
   const FolderLock lock(folder, "another fit is running in it");
-  write_own(folder / "fit.toml", role::fit, fit.text);
+  save_settings(
+      folder / "fit.toml", role::fit,
+      whole_settings({fit.text, fit.file, schema::fit_language(), fit.files, fit.overrides}));
   return fitting.go();
 }
 

@@ -6,16 +6,19 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "cli/interrupt.hpp"
 #include "cli/probe/probe_files.hpp"
 #include "cli/probe/probe_results.hpp"
 #include "cli/save_scene.hpp"
+#include "cli/study/saved_settings.hpp"
 #include "cli/study/study_runner.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
 #include "scenes/language/counted.hpp"
+#include "scenes/probe/declare_probe.hpp"
 #include "scenes/probe/probe_read.hpp"
 #include "scenes/probe/probe_scenes.hpp"
 
@@ -106,6 +109,13 @@ void print_list(const Probe& probe) {
        counted(states * static_cast<std::size_t>(probe.spec.directions + 1), "probe"));
 }
 
+std::set<fs::path> files_of(const Probe& probe) {
+  std::set<fs::path> files;
+  for (const ProbeLoading& loading : probe.loadings)
+    for (const InputFile& input : loading.scene.inputs) files.insert(input.source);
+  return files;
+}
+
 class Probing {
  public:
   Probing(const ProbeOptions& options, const Probe& probe, fs::path folder)
@@ -174,7 +184,9 @@ ExitCode run_probe(const ProbeOptions& options) {
   require_own_probe(folder, probe);
   make_folder(folder / scenes_folder);
   const FolderLock lock(folder, "another probe is running in it");
-  write_own(folder / "probe.toml", role::probe, probe.text);
+  save_settings(folder / "probe.toml", role::probe,
+                whole_settings({probe.text, probe.file, schema::probe_language(), files_of(probe),
+                                probe.overrides}));
   return Probing(options, probe, folder).go();
 }
 

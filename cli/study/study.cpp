@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/interrupt.hpp"
+#include "cli/study/saved_settings.hpp"
 #include "cli/study/study_fit_files.hpp"
 #include "cli/study/study_report.hpp"
 #include "cli/study/study_results.hpp"
@@ -12,6 +13,7 @@
 #include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
 #include "scenes/language/counted.hpp"
+#include "scenes/study/declare_study.hpp"
 #include "scenes/study/study_read.hpp"
 #include "scenes/study/study_trends.hpp"
 
@@ -85,7 +87,9 @@ ExitCode run_study(const StudyOptions& options) {
   // Two studies in one folder would take each other's runs away.
   const FolderLock lock(folder, "another study is running in it");
   StudyRunner runner({options.jobs, options.threads, options.fresh}, study.runs, folder);
-  write_own(folder / "study.toml", role::study, study.text);
+  save_settings(folder / "study.toml", role::study,
+                whole_settings({study.text, study.file, schema::study_language(), study.files,
+                                study.overrides}));
   runner.go();
   if (interrupted()) {
     tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command continues\n",

@@ -133,7 +133,9 @@ class PlateFitReader {
     try {
       std::vector<double> start;
       for (const SoughtKey& sought : fit_.spec.parameters) start.push_back(sought.start);
-      fit_.scene = load_scene(fit_.scene_file(), fit_.settings_at(start)).scene;
+      LoadedScene loaded = load_scene(fit_.scene_file(), fit_.settings_at(start));
+      fit_.scene = std::move(loaded.scene);
+      for (const InputFile& input : loaded.inputs) fit_.files.insert(input.source);
     } catch (const SceneError& error) {
       for (const SceneProblem& problem : error.errors())
         problems_.add(origins.at("scene"), "scene", problem.text());

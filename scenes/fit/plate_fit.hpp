@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,8 @@ struct PlateFit {
   std::filesystem::path file;
   std::string text;  // of the file
   std::vector<std::string> overrides;
-  Scene scene;  // at the start values
+  Scene scene;                            // at the start values
+  std::set<std::filesystem::path> files;  // that it has read
 
   std::filesystem::path scene_file() const { return file.parent_path() / spec.scene; }
   std::vector<std::string> settings_at(const std::vector<double>& values) const;

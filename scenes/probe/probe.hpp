@@ -44,6 +44,7 @@ struct Probe {
   ProbeSpec spec;
   std::filesystem::path file;
   std::string text;  // of the file
+  std::vector<std::string> overrides;
   std::vector<ProbeLoading> loadings;
 };
 

@@ -43,6 +43,7 @@ class ProbeReader {
       : overrides_(overrides), problems_(file, overrides) {
     probe_.file = file;
     probe_.text = toml_file_text(file, "a probe");
+    probe_.overrides = overrides;
     probe_.spec.title = file.stem().string();
   }
 

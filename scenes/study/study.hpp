@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,8 @@ struct Study {
   StudySpec spec;
   std::filesystem::path file;
   std::string text;  // of the file
+  std::vector<std::string> overrides;
+  std::set<std::filesystem::path> files;  // that the scenes have read
   std::vector<StudyRun> runs;
   std::vector<std::string> variations;  // in the order of the runs
 };

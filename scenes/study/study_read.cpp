@@ -136,9 +136,9 @@ std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) 
 }
 
 // What lies beside the folders of the runs.
-constexpr std::array files_of_a_study{"study.toml",    "study.csv",         "fits.csv",
-                                      "strengths.csv", "sensitivities.csv", "summary.json",
-                                      "curves.json",   "report.html",       "pictures"};
+constexpr std::array files_of_a_study{
+    "study.toml",   "study.csv",   "fits.csv",    "strengths.csv", "sensitivities.csv",
+    "summary.json", "curves.json", "report.html", "pictures",      "inputs"};
 
 // File systems that know no capital letters take two such names for one.
 bool can_be_folder(std::string name) {
@@ -153,6 +153,7 @@ class StudyReader {
       : overrides_(overrides), problems_(file, overrides) {
     study_.file = file;
     study_.text = toml_file_text(file, "a study");
+    study_.overrides = overrides;
   }
 
   Study read() {
@@ -330,6 +331,7 @@ class StudyReader {
       LoadedScene loaded = load_scene(run.file, run.overrides);
       run.scene = std::move(loaded.scene);
       run.hash = loaded.hash;
+      for (const InputFile& input : loaded.inputs) study_.files.insert(input.source);
     } catch (const SceneError& error) {
       for (const SceneProblem& problem : error.errors()) tell(problem, run, origins, scene_origin);
     }

@@ -98,7 +98,7 @@ TEST_F(StudyLeftBehind, ARunKilledBetweenSummaryAndReportGetsItsReport) {
 TEST_F(StudyLeftBehind, NamesOfTheStudysOwnFilesAreRefusedAtTheStart) {
   for (const char* name :
        {"report.html", "study.csv", "fits.csv", "strengths.csv", "summary.json", "curves.json",
-        "study.toml", "pictures", "Report.HTML", "..", ".", ".pulvis-files"}) {
+        "study.toml", "pictures", "inputs", "Report.HTML", "..", ".", ".pulvis-files"}) {
     write(std::string("[[variation]]\nname = \"") + name + "\"\n");
     const Outcome end = study();
     EXPECT_EQ(end.code, 2) << name << end.out;

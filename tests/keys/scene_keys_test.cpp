@@ -7,7 +7,9 @@
 #include <map>
 #include <set>
 
+#include "cli/study/saved_settings.hpp"
 #include "engine/files/checkpoint.hpp"
+#include "engine/files/own_files.hpp"
 #include "plan_checks.hpp"
 #include "scenes/build.hpp"
 #include "scenes/checks/overlaps.hpp"
@@ -18,6 +20,8 @@
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/spec/afm_scene.hpp"
+#include "scenes/study/declare_study.hpp"
+#include "scenes/study/study_read.hpp"
 #include "tests/helpers/left.hpp"
 #include "tests/helpers/paths.hpp"
 
@@ -178,6 +182,21 @@ TEST_P(SceneKeys, GoThroughSaveCheckStopResumeReport) {
   expect_quiet({"report", result.string()});
   if (drawn().contains(GetParam().name))
     expect_quiet({"figure", result.string(), "--format", "png"});
+}
+
+TEST_P(SceneKeys, StandAloneBesideASavedStudy) {
+  const LoadedScene given = load_scene(place / sources / "case.toml");
+  const std::string study = "scene = \"" + (sources / "case.toml").string() + "\"\n";
+  std::set<fs::path> read;
+  for (const InputFile& input : given.inputs) read.insert(input.source);
+  fs::create_directories(place / "study");
+  save_settings(place / "study/study.toml", role::study,
+                whole_settings({study, place / "study.toml", schema::study_language(), read, {}}));
+  fs::remove_all(place / sources);
+  fs::rename(place / "study", place / moved);
+  const Study saved = load_study(place / moved / "study.toml");
+  ASSERT_EQ(saved.runs.size(), 1U);
+  EXPECT_EQ(saved.runs.front().hash, given.hash);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SceneKeys, ::testing::ValuesIn(plan().cases),
