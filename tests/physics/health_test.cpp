@@ -51,7 +51,7 @@ TEST(Health, AbsurdPunchIsNamedWithBothSides) {
 TEST(Health, ElementTurnedInsideOutIsNamed) {
   Experiment e(
       "compaction/regular-25.toml",
-      {"stage.press.duration=100 us", "stage.press.move[0].displacement=[\"0 mm\", \"-30 mm\"]",
+      {"stage.press.duration=70 us", "stage.press.move[0].displacement=[\"0 mm\", \"-21 mm\"]",
        "limits.penetration=1e6"},
       2);
   const std::string failure = failure_of(e.simulation, 10000);
