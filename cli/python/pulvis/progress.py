@@ -1,14 +1,15 @@
 """A progress bar for runs: tqdm's, in a terminal or a notebook."""
 
+import sys
 from contextlib import contextmanager
 
 
 def in_notebook():
     """Whether a Jupyter kernel runs this."""
-    try:
-        from IPython import get_ipython
-    except ImportError:
+    if "IPython" not in sys.modules:  # a kernel has it; to import it takes as long as a short run
         return False
+    from IPython import get_ipython
+
     shell = get_ipython()
     return shell is not None and "IPKernelApp" in shell.config
 
