@@ -1,5 +1,5 @@
 // report.html of a reduction: the curves on one grid of distances, and every run's records on one
-// clock. cli/report/reduction.js draws them.
+// clock. cli/report/page/reduction.js draws them.
 #include "cli/reduction_report.hpp"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 usage: line_colours.py CHART_JS
 
-Reads the palettes and dashes of cli/report/chart.js. Lines of one dash pattern must differ in colour as anomalous
+Reads the palettes and dashes of cli/report/page/chart.js. Lines of one dash pattern must differ in colour as anomalous
 trichromats and dichromats see it (Machado, Oliveira & Fernandes 2009, severity 1, in linear RGB; distances in CIELAB),
 and every line must differ from the paper.
 """

@@ -1,4 +1,4 @@
-# Puts the report's page (this folder) and what of the Python package `pulvis figure` needs into a target as bytes, and links
+# Puts the reports' pages (page/) and what of the Python package `pulvis figure` needs into a target as bytes, and links
 # what packs the page's data.
 
 set(report_folder ${CMAKE_CURRENT_LIST_DIR})
@@ -6,8 +6,8 @@ set(report_folder ${CMAKE_CURRENT_LIST_DIR})
 function(add_report_assets target)
   find_package(ZLIB REQUIRED)
   set(package ${report_folder}/../python/pulvis)
-  file(GLOB assets CONFIGURE_DEPENDS ${report_folder}/*.html ${report_folder}/*.css
-       ${report_folder}/*.js ${package}/__init__.py ${package}/errors.py ${package}/results.py
+  file(GLOB assets CONFIGURE_DEPENDS ${report_folder}/page/*.html ${report_folder}/page/*.css
+       ${report_folder}/page/*.js ${package}/__init__.py ${package}/errors.py ${package}/results.py
        ${package}/lever_results.py ${package}/figures/*.py ${package}/preview/*.py)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/report_assets.cpp)
   add_custom_command(

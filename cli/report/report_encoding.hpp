@@ -1,5 +1,5 @@
 // How numbers travel inside report.html: as differences of neighbours, sorted into planes of bytes
-// (all low bytes first), deflated, and spelt in base64. cli/report/payload.js undoes it.
+// (all low bytes first), deflated, and spelt in base64. cli/report/page/payload.js undoes it.
 //
 // Neighbouring numbers of a mesh are alike, so the differences are small and the high planes are
 // nearly all zeros: that is where deflate gains.

@@ -1,4 +1,4 @@
-// The pictures of rasters as the report carries them: levelled and drawn by cli/report/panel_raster.js.
+// The pictures of rasters as the report carries them: levelled and drawn by cli/report/page/panel_raster.js.
 #pragma once
 
 #include <nlohmann/json.hpp>

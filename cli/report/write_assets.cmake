@@ -20,7 +20,7 @@ foreach(asset ${ASSETS})
   math(EXPR number "${number} + 1")
 endforeach()
 
-file(WRITE ${OUTPUT} "// Generated from cli/report/ by cli/report/write_assets.cmake.
+file(WRITE ${OUTPUT} "// Generated from cli/report/page/ and cli/python/ by cli/report/write_assets.cmake.
 #include \"cli/report/report_assets.hpp\"
 
 #include <cstddef>

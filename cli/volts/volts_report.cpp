@@ -1,5 +1,5 @@
 // report.html of the way from an AFM's volts to friction: force curves, loops, the line of friction, and what
-// contributes to its uncertainty. cli/report/volts.js draws them.
+// contributes to its uncertainty. cli/report/page/volts.js draws them.
 #include "cli/volts/volts_report.hpp"
 
 #include <algorithm>

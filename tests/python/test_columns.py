@@ -101,9 +101,11 @@ def test_velocities_are_writable_between_steps(cell):
     assert np.allclose(sim.column("velocity")[0][:, 0], calm.column("velocity")[0][:, 0] + 3.0)
     x, y = (one.column("position")[0][:, 0].mean() for one in (sim, calm))
     assert x == y
+    before = calm.time
     sim.step(1), calm.step(1)
+    assert sim.time == calm.time
     x, y = (one.column("position")[0][:, 0].mean() for one in (sim, calm))
-    assert x - y == pytest.approx(3.0 * (sim.time - sim._run.dt * 0 - (calm.time - calm.dt)), rel=0.3)
+    assert x - y == pytest.approx(3.0 * (calm.time - before), rel=1e-9)
     assert sim.driven == {"column node.velocity"}
 
 
@@ -116,12 +118,9 @@ def test_a_softer_yield_stress_bears_less(cell):
             stress[0][:] = 120e6
 
     hard.run()
-    with pytest.raises(pulvis.RunError):  # its energy balance does not know of it, unless the law is the same
-        soft.run()
-        raise pulvis.RunError("ended")
-    last = min(len(hard.history["time"]), len(soft.history["time"])) - 1
-    ratio = soft.history["tool/top/force_y"][last] / hard.history["tool/top/force_y"][last]
-    assert ratio == pytest.approx(0.5, abs=0.1)
+    soft.run()
+    ratio = soft.history["tool/top/force_y"][-1] / hard.history["tool/top/force_y"][-1]
+    assert ratio == pytest.approx(0.5, abs=0.1)  # half the yield stress; hardening stays
 
 
 def test_what_is_not_safe_is_refused(cell):
