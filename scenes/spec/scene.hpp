@@ -406,6 +406,9 @@ struct ExpectSpec {
 };
 
 struct AfmScene;  // scenes/spec/afm_scene.hpp
+namespace space {
+struct SpaceScene;  // scenes/spec/space_scene.hpp
+}
 
 struct Scene {
   std::filesystem::path file;
@@ -432,6 +435,8 @@ struct Scene {
   std::vector<ExpectSpec> expects;  // [[expect]]
   // family = "afm": then there are no particles, tools and stages. Not changed once it is read.
   std::shared_ptr<AfmScene> afm;
+  // dimension = 3: then particles, bodies, packings and tools are there. Not changed once it is read.
+  std::shared_ptr<space::SpaceScene> space;
 
   // Those of the particles, and with them the powder's: force chains need them, and a periodic cell is looked at by them.
   bool observes_stress() const {

@@ -21,6 +21,10 @@ ROOMS = {
         "files": "/",
         "": "",
     },
+    "components": {
+        "": "",
+        "space": "/",  # three dimensions, here and below
+    },
     "systems": {
         "laws": "",
         "body": "laws",
@@ -29,7 +33,11 @@ ROOMS = {
         "cell": "tools",
         "observe": "contact tools",
         "lever": "body laws",
-        "": "body cell contact tools observe",
+        "space/body": "body laws",
+        "space/contact": "contact laws",
+        "space/tools": "space/contact contact tools laws",
+        "space": "space/body space/contact space/tools tools observe",
+        "": "body cell contact tools observe space",
     },
     "scenes": {
         "language": "",
@@ -47,7 +55,13 @@ ROOMS = {
         "lever/mesh": "spec language",
         "lever": "lever/mesh spec language",
         "checks": "lever meshes packing tools results outlines spec language",
-        "": "checks grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
+        "space/meshes": "spec language",
+        "space/packing": "space/meshes packing outlines spec language",
+        "space/keys": "keys materials spec language",
+        "space/tools": "space/packing tools spec language",
+        "space/results": "space/tools space/meshes results tools spec language",
+        "space": "space/keys space/meshes space/packing space/results space/tools checks keys packing results tools spec language",
+        "": "checks space space/keys grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
         "volts": "lever keys outlines spec language",
         "records": "lever volts keys results spec language /",
         "study": "checks let results keys spec language /",

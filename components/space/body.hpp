@@ -1,0 +1,60 @@
+// Columns of deformable bodies in three dimensions: nodes and elements. Columns of particles (moduli, energies, time step)
+// are those of two dimensions (components/body.hpp).
+//
+// Elements are 8-node hexahedra with one point, whose twelve hourglass modes are stabilised, or with eight
+// (components/space/formulation.hpp).
+#pragma once
+
+#include "components/entities.hpp"
+
+namespace pulvis::space {
+
+// ---- nodes ----------------------------------------------------------------------------------
+struct Position : Component<Node, double, 3> {
+  static constexpr ComponentInfo info{"position", "m", "where the node is at time t_n"};
+};
+struct Velocity : Component<Node, double, 3> {
+  static constexpr ComponentInfo info{"velocity", "m/s", "of the node at t_(n+1/2) (leapfrog)"};
+};
+struct InternalForce : Component<Node, double, 3> {
+  static constexpr ComponentInfo info{"internal_force", "N", "of the stresses, on the node"};
+  static constexpr bool transient = true;
+};
+struct ContactForce : Component<BoundaryNode, double, 3> {
+  static constexpr ComponentInfo info{"contact_force", "N",
+                                      "of other particles and tools, on the node"};
+};
+
+// ---- elements -------------------------------------------------------------------------------
+template <int Points>
+struct DeviatoricStress : Component<Element, double, 5 * Points> {
+  static constexpr ComponentInfo info{"deviatoric_stress", "Pa",
+                                      "Cauchy, xx yy xy yz zx at each point; zz = -xx-yy"};
+  static constexpr bool transient = true;
+};
+struct MeanStress : Component<Element, double, 1> {
+  static constexpr ComponentInfo info{"mean_stress", "Pa", "Cauchy, of the element; tension > 0"};
+  static constexpr bool transient = true;
+};
+template <int Points>
+struct PlasticMetric : Component<Element, double, 6 * Points> {
+  static constexpr ComponentInfo info{
+      "plastic_metric", "-",
+      "inverse plastic right Cauchy-Green tensor less one, xx yy zz xy yz zx"};
+};
+template <int Points>
+struct PlasticStrain : Component<Element, double, Points> {
+  static constexpr ComponentInfo info{"plastic_strain", "-", "accumulated; never decreases"};
+};
+
+// ---- only where elements have one point ---------------------------------------------------------
+struct HourglassStress : Component<Element, double, 12> {
+  static constexpr ComponentInfo info{"hourglass_stress", "Pa",
+                                      "of bending, twisting and the mode xi eta zeta"};
+  static constexpr bool transient = true;
+};
+struct PlasticHourglass : Component<Element, double, 12> {
+  static constexpr ComponentInfo info{"plastic_hourglass", "-", "plastic part of these strains"};
+};
+
+}  // namespace pulvis::space

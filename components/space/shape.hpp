@@ -1,0 +1,98 @@
+// Shapes of particles in three dimensions: what all particles of a class share. Which particle stands in which lane is in
+// Bodies (components/shape.hpp), as in two dimensions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "components/entities.hpp"
+#include "engine/chunk_lane.hpp"
+#include "engine/entry.hpp"
+
+namespace pulvis::space {
+
+using Point = std::array<double, 3>;
+using Tensor = std::array<double, 9>;  // row by row
+
+// The undeformed mesh of one particle class and its smooth surface, in the particle's own frame (centre of volume at the
+// origin).
+//
+// Hexahedra: corners in the order of VTK and Abaqus C3D8: (-,-,-) (+,-,-) (+,+,-) (-,+,-) in (xi, eta, zeta), then the
+// same at zeta = +.
+//
+// The surface consists of faces: four-sided bicubic Bezier patches x(u, v) = sum_ij B_i(u) B_j(v) p_(4 j + i),
+// 0 <= u, v <= 1, whose points are linear in the surface nodes (points = terms * nodes). Outward normal: x_u cross x_v.
+struct Shape {
+  static constexpr int gauss_points = 16;  // of a face: 4 x 4, u first
+
+  // Constants of an element's kinematics (scenes/space/meshes/element_constants.cpp).
+  struct Element {
+    std::array<Point, 8> gradient;  // 1/m: mean of dN_I/dX over the undeformed element
+    double volume = 0;              // m^3
+    Tensor inverse_jacobian{};      // 1/m: (dX/dxi at the middle)^-1, rows xi eta zeta
+    // Natural components A^-1 h of its undeformed hourglass vectors h_a, a = eta zeta, zeta xi, xi eta, xi eta zeta.
+    std::array<Point, 4> natural{};
+    // Lengths of the undeformed edges along xi, eta, zeta at the middle, m.
+    Point edge{};
+  };
+  // At the 2 x 2 x 2 Gauss points (+-1/sqrt 3), xi first: of fully integrated elements.
+  struct GaussPoint {
+    Tensor inverse_jacobian;  // 1/m
+    double volume;            // m^3 that the point stands for
+  };
+  struct PointTerm {  // share of a surface node in a Bezier point
+    Row<BoundaryNode> node;
+    double weight;
+  };
+  // A side of a face: 0: v = 0, 1: u = 1, 2: v = 1, 3: u = 0, each run counter-clockwise (as seen from outside).
+  struct Neighbour {
+    int face = 0;  // beyond that side
+    int side = 0;  // of that face, where one comes in
+  };
+  struct Face {
+    std::array<int, 16> point{};                // Bezier points, counted in the particle
+    std::array<Row<BoundaryNode>, 4> corner{};  // nodes at (u, v) = (0,0) (1,0) (1,1) (0,1)
+    std::array<Neighbour, 4> neighbour{};
+    int element = 0;       // behind it
+    double size = 0;       // m: square root of its undeformed area
+    double stiffness = 0;  // 1/m: undeformed area over the volume of the element behind it
+    std::array<double, gauss_points>
+        weight{};  // m^2: undeformed area that a Gauss point stands for
+  };
+
+  std::string name;
+  std::vector<Point> nodes;  // m; those of the surface first
+  int surface_nodes = 0;
+  std::vector<std::array<Row<Node>, 8>> hexahedra;
+  std::vector<Element> element;                  // [elements]
+  std::vector<std::array<GaussPoint, 8>> gauss;  // [elements]
+  std::vector<double> nodal_volume;              // m^3, lumped: times density, a node's mass
+  std::vector<double> frequency;  // 1/m^2, [elements]: see systems/space/body/time_step_kernel.hpp
+  std::vector<Face> faces;
+  std::vector<std::int32_t> point_begin;  // [Bezier points + 1] into point_terms
+  std::vector<PointTerm> point_terms;
+  double mean_face_stiffness = 0;  // 1/m: of its faces, weighted with their area
+  double volume = 0;               // m^3, of the mesh
+  double true_volume = 0;          // m^3, of the shape that it stands for
+  double area = 0;                 // m^2, of the surface
+  double radius = 0;               // m, of the ball about the origin that holds it
+
+  int elements() const { return static_cast<int>(hexahedra.size()); }
+  int surface_points() const { return static_cast<int>(point_begin.size()) - 1; }
+  std::span<const PointTerm> terms_of(int point) const {
+    return {&point_terms[0] + entry(point_begin, point),
+            &point_terms[0] + entry(point_begin, point + 1)};
+  }
+};
+
+// Shapes by the number that Bodies::Slot::shape has. Bodies::shapes, those of two dimensions, are empty then.
+struct Shapes {
+  static constexpr const char* resource_name = "shapes";
+  static constexpr bool fixed = true;
+  std::vector<Shape> list;
+};
+
+}  // namespace pulvis::space

@@ -1,0 +1,159 @@
+// What a scene in three dimensions (`dimension = 3`) says of its powder, tools and their moves: plain values, SI units. What
+// it shares with two dimensions (materials, friction, contact, stages, limits, output) is in scenes/spec/scene.hpp.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis::space {
+
+using Vec3 = Eigen::Vector3d;
+using Rotation = Eigen::Quaterniond;
+
+// ---- shapes, each in its own frame; size: extent along x, y, z, m ---------------------------------
+struct SphereShape {
+  double diameter = 0;  // m
+};
+struct EllipsoidShape {
+  Vec3 size = Vec3::Zero();
+};
+// |2x/a|^e + |2y/b|^e)^(f/e) + |2z/c|^f = 1 (Barr 1981), e: exponent_xy, f: exponent_z; 2 and 2: an ellipsoid.
+struct SuperquadricShape {
+  Vec3 size = Vec3::Zero();
+  double exponent_xy = 2;  // -, >= 2
+  double exponent_z = 2;   // -, >= 2
+};
+struct CylinderShape {  // along z: tablets, pellets
+  double diameter = 0;  // m
+  double height = 0;    // m
+  double rounding = 0;  // m, radius of the rims
+};
+struct
+    PolyhedronShape {  // convex hull of its corners, edges and corners rounded: hull of the inset polyhedron plus a ball
+  std::vector<Vec3> corners = {};  // m
+  double rounding = 0;             // m, radius of edges and corners
+};
+struct StlShape {         // closed surface that its centre of volume sees as a whole (star-shaped)
+  std::string file = {};  // relative to the scene
+  std::string unit = {};  // of its numbers
+  std::optional<double> diameter = {};  // m, of the ball of the same volume, to which it is scaled
+  double smoothing = 0;                 // -, share of the mean radius over which it is smoothed
+  std::vector<std::array<Vec3, 3>> triangles = {};  // m, when it has been read
+};
+using ParticleShape = std::variant<SphereShape, EllipsoidShape, SuperquadricShape, CylinderShape,
+                                   PolyhedronShape, StlShape>;
+
+// O-grid on a cubed sphere: a core of divisions^3 hexahedra and `rings` layers around it, 6 divisions^2 each.
+struct MeshSpec {
+  int divisions = 4;  // >= 1, of each edge of the cube
+  int rings = 4;      // >= 1
+};
+
+struct ParticleSpec {  // a class of equal particles
+  std::string name;
+  int material = 0;  // position in Scene::materials
+  ParticleShape shape;
+  MeshSpec mesh;
+  bool random_mesh_phase = false;  // spheres: every particle's mesh turned at random
+  SourceMark mark;
+  int class_of =
+      -1;            // of one size of a packing: the class that is scaled, in SpaceScene::particles
+  double scale = 1;  // of that class's shape
+};
+
+struct BodySpec {  // one particle
+  int particle = 0;
+  Vec3 position = Vec3::Zero();              // m, centre of volume
+  Rotation rotation = Rotation::Identity();  // from its own frame to the scene's
+  Vec3 velocity = Vec3::Zero();              // m/s
+  Vec3 angular_velocity = Vec3::Zero();      // rad/s, in the scene's frame
+  SourceMark mark;
+};
+
+// Where a powder is packed: a box, or a cylinder along z. Lower corner, or centre of the floor.
+struct ContainerSpec {
+  enum class Kind { box, cylinder } kind = Kind::box;
+  Vec3 corner = Vec3::Zero();   // m
+  double width = 0, depth = 0;  // m, along x, y: of a box
+  double diameter = 0;          // m, of a cylinder
+};
+
+// Lattices fill nx * ny * nz cells of `spacing`, from `corner` on. Random: a mixture in a container, of which two of
+// count, density and height are given. CSV: where a file says.
+struct PackingSpec {
+  enum class Kind { cubic, body_centred, face_centred, hexagonal, random, csv } kind = Kind::cubic;
+  enum class Dense { given, touching, densest };
+  int particle = 0;
+  std::array<int, 3> cells{1, 1, 1};  // along x, y, z
+  double spacing = 0;             // m, edge of the cubic cell; hexagonal: distance of neighbours
+  ContainerSpec container;        // of lattices: `corner` alone
+  std::optional<double> height;   // m
+  std::optional<int> count;       // where the classes give fractions
+  std::optional<double> density;  // -
+  Dense dense = Dense::given;
+  std::string file;                   // relative to the scene's folder
+  std::vector<MixtureClass> classes;  // area_fraction is a share of the volume here
+  SourceMark mark;
+  // Of random and CSV packings, when the scene has been read:
+  std::vector<BodySpec> placed = {};
+  double top = 0;  // m, where a punch rests on the packing
+  PackingReached reached = {};
+};
+
+// Rigid tools. A plane fills the half-space behind `point`, its surface looks along `normal`. A die is the inside of a
+// round hole along `axis`; a punch is a body of revolution about `axis` through `point`, whose face has a profile: height
+// over the radius; an STL tool is a closed surface, outward normals, moved as a whole.
+struct ToolSpec {
+  enum class Shape { plane, die, punch, stl };
+  std::string name;
+  Shape shape = Shape::plane;
+  Vec3 point = Vec3::Zero();    // m
+  bool on_packing = false;      // point.z is the top of the highest packing
+  Vec3 normal = Vec3::UnitZ();  // unit vector, from the tool into the powder; of a punch: its axis
+  double diameter = 0;          // m, of a die, of a punch
+  std::vector<Vec2> profile =
+      {};  // m, of a punch: radius, height along the normal; from the axis outward
+  std::string file = {}, unit = {};
+  std::vector<std::array<Vec3, 3>> triangles = {};  // m, of an STL tool when it has been read
+  SourceMark mark;
+};
+
+struct MoveSpec {
+  int tool = 0;
+  Vec3 displacement = Vec3::Zero();  // m, travelled over the stage
+  double ramp = 0.1;
+  SourceMark mark;
+};
+
+struct ServoSpec {
+  int tool = 0;
+  std::optional<Vec3>
+      direction;      // unit vector, in which it pushes; absent: a plane's or punch's normal
+  double force = 0;   // N
+  double rise = 0.2;  // -, share of the stage until the force is asked for in full
+  std::optional<double> rate;  // N/s, instead of `rise`
+  double response = 0.1;
+  double max_speed = 10;
+  double tolerance = 0.05;
+  SourceMark mark;
+};
+
+struct SpaceScene {
+  std::vector<ParticleSpec> particles;
+  std::vector<BodySpec> bodies;
+  std::vector<PackingSpec> packings;
+  std::vector<ToolSpec> tools;
+  // By stage of Scene::stages, whose own moves and servos are empty.
+  std::vector<std::vector<MoveSpec>> moves;
+  std::vector<std::vector<ServoSpec>> servos;
+  bool full_integration = false;  // element.formulation = "eight-point"
+};
+
+}  // namespace pulvis::space
