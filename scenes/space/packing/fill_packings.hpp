@@ -1,0 +1,11 @@
+// Random packings are made, and those in files read, once a scene has been read and found right.
+#pragma once
+
+#include "scenes/language/table_reader.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+void fill_packings(Scene& scene, const schema::Origins& origins, Problems& problems);
+
+}  // namespace pulvis::space
