@@ -34,6 +34,7 @@ struct ToolContact {  // (edge of a particle, tool), four Gauss points a row
   static constexpr const char* name = "tool_contact";
   static constexpr bool laned = false, by_chunk = false;
 };
+inline constexpr int tool_axes = 3;  // tools live in space, whatever the dimension of the powder
 struct Tool {
   static constexpr const char* name = "tool";
   static constexpr bool laned = false, by_chunk = false;
