@@ -9,33 +9,52 @@ namespace pulvis {
 
 struct DieRoom {
   enum class Kind { box, round };
-  enum Side { left, right, front, back, bottom, top };  // towards -x +x -y +y -z +z; of a round die along its axis
+  // Towards -x +x -y +y -z +z; of a round die bottom and top alone, along its axis.
+  enum Side : std::size_t { left, right, front, back, bottom, top };
+  using Vector = std::array<double, 3>;
+
   Kind kind = Kind::box;
-  std::array<int, 6> tool{};  // by side; of a round die bottom and top alone
-  int die = -1;               // of a round one: the tool
-  std::array<double, 3> axis{0, 0, 1};        // of a round one, from bottom to top
-  double diameter = 0;        // m, of a round one
-  double in_faces = 0;        // m^3, that profiles of punches take of the room
+  std::array<int, 6> tool{};   // by side
+  int die = -1;                // of a round one: the tool
+  Vector axis{0, 0, 1};        // from bottom to top
+  double diameter = 0;         // m, of a round one
+  double in_faces = 0;         // m^3 that profiles of punches take of the room
   double particle_volume = 0;  // m^3, undeformed, of all particles
 
-  double apart(Side low, Side high, const std::array<double, 3>& along, const double* position) const {
-    const auto place = [&](Side side) { return position + 3 * tool[static_cast<std::size_t>(side)]; };
-    const double *a = place(low), *b = place(high);
-    return (b[0] - a[0]) * along[0] + (b[1] - a[1]) * along[1] + (b[2] - a[2]) * along[2];
+  // m, between two sides. `at`: at(tool, component) is where a tool is now.
+  template <class At>
+  double apart(Side low, Side high, const Vector& along, const At& at) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += (at(tool[high], static_cast<int>(k)) - at(tool[low], static_cast<int>(k))) * along[k];
+    return sum;
   }
-  // m, along the axis. `position`: of the tools, ToolPosition.
-  double height(const double* position) const {
-    return apart(bottom, top, kind == Kind::box ? std::array<double, 3>{0, 0, 1} : axis, position);
+  template <class At>
+  double height(const At& at) const {
+    return apart(bottom, top, axis, at);
   }
-  double width(const double* position) const { return apart(left, right, {1, 0, 0}, position); }
-  double depth(const double* position) const { return apart(front, back, {0, 1, 0}, position); }
+  template <class At>
+  double width(const At& at) const {
+    return apart(left, right, {1, 0, 0}, at);
+  }
+  template <class At>
+  double depth(const At& at) const {
+    return apart(front, back, {0, 1, 0}, at);
+  }
   // m^2, across the axis.
-  double area(const double* position) const {
-    return kind == Kind::box ? width(position) * depth(position)
-                             : std::numbers::pi / 4 * diameter * diameter;
+  template <class At>
+  double area(const At& at) const {
+    if (kind == Kind::box) return width(at) * depth(at);
+    return std::numbers::pi / 4 * diameter * diameter;
   }
-  double volume(const double* position) const { return area(position) * height(position) - in_faces; }
-  double density(const double* position) const { return particle_volume / volume(position); }
+  template <class At>
+  double volume(const At& at) const {
+    return area(at) * height(at) - in_faces;
+  }
+  template <class At>
+  double density(const At& at) const {
+    return particle_volume / volume(at);
+  }
 };
 
 }  // namespace pulvis
