@@ -24,8 +24,8 @@ using Json = nlohmann::ordered_json;
 Json tools_json(const Scene& scene, const World& world) {
   Json tools = Json::array();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    const double* at = world.column<ToolPosition>().values() + 2 * t;
-    const double* f = world.column<ToolForce>().values() + 2 * t;
+    const double* at = world.column<ToolPosition>().values() + tool_axes * t;
+    const double* f = world.column<ToolForce>().values() + tool_axes * t;
     const ToolSpec& spec = scene.tools[t];
     Json tool{{"name", spec.name}};
     if (spec.shape == ToolSpec::Shape::plane) {

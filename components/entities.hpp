@@ -50,6 +50,7 @@ struct FaceToolContact {  // (face of a particle, tool), sixteen Gauss points a 
   static constexpr const char* name = "face_tool_contact";
   static constexpr bool laned = false, by_chunk = false;
 };
+inline constexpr int tool_axes = 3;  // tools live in space, whatever the dimension of the powder
 struct Tool {
   static constexpr const char* name = "tool";
   static constexpr bool laned = false, by_chunk = false;

@@ -238,8 +238,9 @@ void Results::append_tools(std::vector<double>& row) const {
   const auto& position = world_.column<ToolPosition>();
   const auto& force = world_.column<ToolForce>();
   for (std::size_t t = 0; t < position.table.rows; ++t) {
-    row.insert(row.end(), position.values() + 2 * t, position.values() + 2 * t + 2);
-    row.insert(row.end(), force.values() + 2 * t, force.values() + 2 * t + 2);
+    const double* at = position.values() + tool_axes * t;
+    const double* borne = force.values() + tool_axes * t;
+    row.insert(row.end(), {at[0], at[1], borne[0], borne[1]});
     if (has_servo(world_, static_cast<int>(t)))
       row.push_back(world_.column<ServoForce>().values()[2 * t]);
   }
@@ -248,15 +249,16 @@ void Results::append_tools(std::vector<double>& row) const {
 namespace {
 double die_area(const World& world, const DieCell& cell) {
   const double* at = world.column<ToolPosition>().values();
-  return kernels::die_area({at[2 * cell.left], at[2 * cell.right], at[2 * cell.top + 1],
-                            at[2 * cell.bottom], at[2 * cell.bottom + 1]},
+  constexpr int n = tool_axes;
+  return kernels::die_area({at[n * cell.left], at[n * cell.right], at[n * cell.top + 1],
+                            at[n * cell.bottom], at[n * cell.bottom + 1]},
                            relief_of(world, cell.bottom));
 }
 }  // namespace
 
 Vec2 Results::die_size() const {
   const auto at = [&](int tool, int k) {
-    return world_.column<ToolPosition>().values()[static_cast<std::size_t>(2 * tool + k)];
+    return world_.column<ToolPosition>().values()[static_cast<std::size_t>(tool_axes * tool + k)];
   };
   return {at(cell_->right, 0) - at(cell_->left, 0), at(cell_->top, 1) - at(cell_->bottom, 1)};
 }
@@ -264,7 +266,7 @@ Vec2 Results::die_size() const {
 void Results::append_density(std::vector<double>& row) const {
   if (!cell_) return;
   const auto force = [&](int tool, int k) {
-    return world_.column<ToolForce>().values()[static_cast<std::size_t>(2 * tool + k)];
+    return world_.column<ToolForce>().values()[static_cast<std::size_t>(tool_axes * tool + k)];
   };
   const Vec2 size = die_size(), face = size * world_.resource<Bodies>().thickness;
   const double top = force(cell_->top, 1), bottom = -force(cell_->bottom, 1);

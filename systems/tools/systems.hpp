@@ -52,7 +52,7 @@ struct tool_servo {
 };
 
 // Where the programme puts a tool at `time`, m. Used outside the step, too.
-Point tool_position_at(const ToolProgram& program, int tool, double time);
+Point3 tool_position_at(const ToolProgram& program, int tool, double time);
 
 // ---- what they bear -------------------------------------------------------------------------------
 struct tool_contact {

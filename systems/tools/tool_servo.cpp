@@ -23,11 +23,12 @@ namespace {
 
 using Servo = ToolServos::Servo;
 
-double along(const auto& column, Row<Tool> tool, const Point& direction) {
-  return column(tool, 0) * direction[0] + column(tool, 1) * direction[1];
+double along(const auto& column, Row<Tool> tool, const Point3& direction) {
+  return column(tool, 0) * direction[0] + column(tool, 1) * direction[1] +
+         column(tool, 2) * direction[2];
 }
-void set_along(const auto& column, Row<Tool> tool, const Point& direction, double value) {
-  column(tool, 0) = value * direction[0], column(tool, 1) = value * direction[1];
+void set_along(const auto& column, Row<Tool> tool, const Point3& direction, double value) {
+  for (int k = 0; k < tool_axes; ++k) column(tool, k) = value * entry(direction, k);
 }
 
 // What the tool bears against the way it pushes.
@@ -75,9 +76,11 @@ double asked_for(const Servo& servo, double at_begin, double since) {
 // Speed of the drive's far end along its direction between two times.
 double end_speed(const ToolProgram& program, const Servo& servo, double from, double until) {
   if (!(until > from)) return 0;
-  const Point a = tool_position_at(program, servo.tool, from);
-  const Point b = tool_position_at(program, servo.tool, until);
-  return ((b[0] - a[0]) * servo.direction[0] + (b[1] - a[1]) * servo.direction[1]) / (until - from);
+  const Point3 a = tool_position_at(program, servo.tool, from);
+  const Point3 b = tool_position_at(program, servo.tool, until);
+  return ((b[0] - a[0]) * servo.direction[0] + (b[1] - a[1]) * servo.direction[1] +
+          (b[2] - a[2]) * servo.direction[2]) /
+         (until - from);
 }
 
 // The next step of a tool behind a spring; the velocity that is kept is the one relative to the drive's far end.
