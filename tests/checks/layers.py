@@ -55,7 +55,7 @@ ROOMS = {
         "lever/mesh": "spec language",
         "lever": "lever/mesh spec language",
         "checks": "lever meshes packing tools results outlines spec language",
-        "space/meshes": "spec language",
+        "space/meshes": "meshes spec language",
         "space/packing": "space/meshes packing outlines spec language",
         "space/keys": "keys materials spec language",
         "space/tools": "space/packing tools spec language",
