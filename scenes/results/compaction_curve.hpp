@@ -13,6 +13,7 @@
 
 #include "scenes/results/results.hpp"
 #include "scenes/spec/scene.hpp"
+#include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
 

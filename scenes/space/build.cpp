@@ -48,7 +48,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   world->emplace<Shapes>(std::move(layout.shapes));
   world->emplace<ParticleClasses>(std::move(layout.classes));
   add_tools(*world, scene);
-  add_contact(*world, scene);
+  add_contact(*world, scene, bodies);
   return world;
 }
 
