@@ -50,7 +50,11 @@ struct Shape {
     // 1/m^2, xx yy zz xy yz zx: volume * sum_I b_I b_I^T / V_I with b_I the mean gradient and V_I the part of the node's
     // volume that is this element's: bounds its frequencies (systems/space/body/time_step_kernel.hpp).
     std::array<double, 6> spread{};
-    double contact_frequency = 0;  // 1/m^2: rho omega^2 / (k K) of the contact springs of its faces
+    double hourglass_spread = 0;  // 1/m^2: the same for the hourglass modes
+    double overlap = 0;  // -, squared cosine of the least angle between both kinds of modes
+    // Of the springs and dashpots on its faces, both with the area of a face as it was: 1/m^2 times k K and 1/m times
+    // sqrt(k K rho) are rho omega^2 and rho gamma.
+    double contact_frequency = 0, contact_drag = 0;
   };
   // At the 2 x 2 x 2 Gauss points (+-1/sqrt 3), xi first: of fully integrated elements.
   struct GaussPoint {

@@ -125,15 +125,59 @@ void set_gradients(Shape::Element& element, const Integrals& integrals) {
                     spread(0, 1), spread(1, 2), spread(2, 0)};
 }
 
+using Functions3 = Eigen::Matrix<double, 8, 3>;
+using Functions4 = Eigen::Matrix<double, 8, 4>;
+
+// What the hourglass strains see of the nodes, gamma_a = 1/8 (sign_a - sum_J sign_aJ x_J . b): nothing of homogeneous
+// deformations (Flanagan & Belytschko 1981).
+Functions4 hourglass_functions(const Corners& x, const Functions3& gradient) {
+  Functions4 gamma;
+  for (int a = 0; a < Shape::hourglasses; ++a) {
+    const int mode = Shape::stretches + a;
+    gamma.col(a) = -gradient * mode_of(x, mode) / 8;
+    for (int i = 0; i < 8; ++i) gamma(i, a) += Shape::mode_sign(mode, i) / 8;
+  }
+  return gamma;
+}
+
+// 2/3 of the largest inverse metric of the planes, twice: a mode bends two plates.
+double plate_spread(const Matrix3d& half_edges) {
+  double largest = 0;
+  for (int k = 0; k < 3; ++k) {
+    Eigen::Matrix<double, 3, 2> plane;
+    plane << half_edges.col((k + 1) % 3), half_edges.col((k + 2) % 3);
+    const Eigen::Matrix2d inverse = (plane.transpose() * plane).inverse();
+    const double half = inverse.trace() / 2;
+    largest = std::max(largest, half + std::sqrt(half * half - inverse.determinant()));
+  }
+  return 2 * 2.0 / 3.0 * largest;
+}
+
+// Both kinds of modes over the masses: how the lightest hourglass mode compares, and how far they overlap.
+void set_hourglass_bounds(Shape::Element& element, const Corners& x, const Integrals& integrals) {
+  const Eigen::Matrix<double, 8, 1> weight = (integrals.volume / integrals.shares.array()).sqrt();
+  const Functions4 gamma = weight.asDiagonal() * hourglass_functions(x, integrals.gradient);
+  const Functions3 b = weight.asDiagonal() * integrals.gradient;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> light(gamma.transpose() * gamma);
+  const Matrix3d half_edges = x * shape_functions(Vector3d::Zero()).by_xi;
+  element.hourglass_spread = light.eigenvalues().maxCoeff() * plate_spread(half_edges);
+  const Functions3 q = Eigen::HouseholderQR<Functions3>(b).householderQ() * Functions3::Identity();
+  const Functions4 r =
+      Eigen::HouseholderQR<Functions4>(gamma).householderQ() * Functions4::Identity();
+  const Eigen::Matrix<double, 3, 4> cosines = q.transpose() * r;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> overlap(cosines * cosines.transpose());
+  element.overlap = std::max(0.0, overlap.eigenvalues().maxCoeff());
+}
+
 // The springs k K A/V of a face of area A before an element of volume V bear k K A/V (A/36) [4 2 1 2; ...] on its nodes,
-// whose largest eigenvalue is that of four moving together, a quarter of the sum.
-double face_frequency(const Shape& shape, const Shape::Face& face, const Integrals& integrals) {
+// whose largest eigenvalue is that of four moving together, a quarter of the sum. Here 1/4 V over the least mass.
+double lightest_corner(const Shape& shape, const Shape::Face& face, const Integrals& integrals) {
   double least = integrals.volume;
   for (int i = 0; i < 8; ++i)
     for (const Row<BoundaryNode> node : face.corner)
       if (entry(entry(shape.hexahedra, face.element), i).value == node.value)
         least = std::min(least, integrals.shares[i]);
-  return face.stiffness * face.stiffness * integrals.volume / (4 * least);
+  return integrals.volume / (4 * least);
 }
 
 }  // namespace
@@ -151,14 +195,18 @@ void complete_elements(Shape& shape) {
     element.volume = integrals.volume;
     set_gradients(element, integrals);
     set_fibres(element, x);
+    set_hourglass_bounds(element, x, integrals);
     shape.gauss.push_back(integrals.points);
     for (int i = 0; i < 8; ++i)
       entry(shape.nodal_volume, entry(entry(shape.hexahedra, e), i)) += integrals.shares[i];
     shape.volume += integrals.volume;
   }
-  for (const Shape::Face& face : shape.faces)
-    entry(shape.element, face.element).contact_frequency +=
-        face_frequency(shape, face, entry(all, face.element));
+  for (const Shape::Face& face : shape.faces) {
+    Shape::Element& element = entry(shape.element, face.element);
+    const double corner = lightest_corner(shape, face, entry(all, face.element));
+    element.contact_frequency += corner * face.stiffness * face.stiffness;
+    element.contact_drag += corner * face.stiffness;
+  }
 }
 
 }  // namespace pulvis::space

@@ -25,7 +25,7 @@ auto element_modes(const Nodes& x, const Hexahedron& h) {
 }
 
 template <class View>
-kernels::Symmetric3<NumberOf<View, Element>> plastic_metric(const View& c, Row<Element> e, int g) {
+kernels::Symmetric3<NumberOf<View, Element>> metric_at(const View& c, Row<Element> e, int g) {
   const int k = 6 * g;
   return {c(e, k), c(e, k + 1), c(e, k + 2), c(e, k + 3), c(e, k + 4), c(e, k + 5)};
 }
@@ -42,7 +42,7 @@ void store(const View& c, Row<Element> e, int g,
 }
 
 template <class View>
-kernels::Deviator<NumberOf<View, Element>> deviator(const View& s, Row<Element> e, int g) {
+kernels::Deviator<NumberOf<View, Element>> deviator_at(const View& s, Row<Element> e, int g) {
   const int k = 5 * g;
   return {s(e, k), s(e, k + 1), s(e, k + 2), s(e, k + 3), s(e, k + 4)};
 }
@@ -58,7 +58,7 @@ void store(const View& s, Row<Element> e, int g,
 }
 
 template <class View>
-kernels::Hourglass<NumberOf<View, Element>> plastic_hourglass(const View& p, Row<Element> e) {
+kernels::Hourglass<NumberOf<View, Element>> hourglass_at(const View& p, Row<Element> e) {
   return {{p(e, 0), p(e, 1), p(e, 2)},
           {p(e, 3), p(e, 4), p(e, 5)},
           {p(e, 6), p(e, 7), p(e, 8)},

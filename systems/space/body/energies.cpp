@@ -69,7 +69,7 @@ template <class F>
       const auto f = gradient_at<F>(shape, i, g, modes);
       const Lane j = kernels::determinant(f, kernels::adjugate(f));
       const Lane r = kernels::inverse_cube_root(j);
-      const auto c = metric ? plastic_metric(metric->chunk(chunk), Row<Element>(i), g)
+      const auto c = metric ? metric_at(metric->chunk(chunk), Row<Element>(i), g)
                             : kernels::Symmetric3<Lane>{};
       const double volume = point_volume<F>(shape, i, g);
       total += volume * kernels::isochoric_energy(f, c, shear, r * r);
@@ -126,7 +126,7 @@ template struct plastic_work<EightPoint>;
         kernels::to_fibres(element.fibre, adj, Lane(1.0) / kernels::determinant(f, adj));
     auto strain = kernels::hourglass_strain(modes, to, element);
     if (plastic)
-      strain = kernels::each_number(strain, plastic_hourglass(plastic->chunk(chunk), e),
+      strain = kernels::each_number(strain, hourglass_at(plastic->chunk(chunk), e),
                                     [](Lane a, Lane b) { return a - b; });
     total += (0.5 * element.volume) *
              kernels::hourglass_product(kernels::hourglass_stress(strain, moduli), strain);

@@ -88,10 +88,10 @@ struct PlasticMaterial {
   PacketSums sums;
 
   kernels::Symmetric3<Packet> left(const kernels::Matrix3<Packet>& f, Row<Element> e, int g) const {
-    return kernels::left_cauchy_green(f, plastic_metric(metric, e, g));
+    return kernels::left_cauchy_green(f, metric_at(metric, e, g));
   }
   void remove_plastic(Row<Element> e, kernels::Hourglass<Packet>& of) const {
-    of = kernels::each_number(of, plastic_hourglass(*hourglass, e),
+    of = kernels::each_number(of, hourglass_at(*hourglass, e),
                               [](Packet a, Packet b) { return a - b; });
   }
 
@@ -121,7 +121,7 @@ struct PlasticMaterial {
     const auto r = rule.map({s, before, mu * at.inv_j, at.j * inv_mu}, norm2, coupled);
     s = scaled(s, r.beta);
     store(metric, at.element, at.g,
-          kernels::returned_metric(plastic_metric(metric, at.element, at.g), r, at.adj, at.r2));
+          kernels::returned_metric(metric_at(metric, at.element, at.g), r, at.adj, at.r2));
     strain(at.element, at.g) = r.eps;
     if constexpr (Rule::iterated) {
       keep_worst_return(r.residual, at.element, sums);
@@ -134,7 +134,7 @@ struct PlasticMaterial {
                       const kernels::Hourglass<Packet>& elastic, Packet retained, Packet energy2) {
     const Packet lost = 1.0 - retained;
     store(*hourglass, at.element,
-          kernels::each_number(plastic_hourglass(*hourglass, at.element), elastic,
+          kernels::each_number(hourglass_at(*hourglass, at.element), elastic,
                                [&](Packet p, Packet e) { return fma(lost, e, p); }));
     stress = kernels::each_number(stress, stress, [&](Packet m, Packet) { return retained * m; });
     sums.hourglass_work = fma(at.volume * energy2, retained * lost, sums.hourglass_work);
