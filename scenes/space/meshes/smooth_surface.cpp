@@ -15,8 +15,8 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double usual_c = 1.0 / 12;
 constexpr double least_c = 0, most_c = 0.25;
-constexpr double stay =
-    1e-4;                // weight of c staying usual, against the surface passing where it should
+// How much c and the lines at irregular nodes stay as usual, against the surface passing where it should.
+constexpr double stay = 1e-3, stay_turned = 1e-4;
 constexpr int fits = 3;  // as the place to pass moves a little along the surface
 
 Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
