@@ -5,6 +5,7 @@
 
 #include "components/body.hpp"
 #include "components/bond.hpp"
+#include "components/contact.hpp"
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/plane_parts.hpp"
 #include "scenes/space/results/space_parts.hpp"
@@ -148,6 +149,10 @@ std::vector<std::vector<double>> Results::frame() const {
   shear_.append_frame(fields);
   parts_->append_tool_frame(fields);
   return fields;
+}
+
+double Results::tool_position(int tool, int axis) const {
+  return world_.column<ToolPosition>().values()[tool_axes * tool + axis];
 }
 
 double Results::value(const std::string& series) const { return last_.at(position_.at(series)); }

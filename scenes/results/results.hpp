@@ -59,6 +59,7 @@ class Results {
   double min_jacobian() const;
   std::int64_t elements() const { return parts_->elements(); }
   const ShearResults& shear() const { return shear_; }
+  double tool_position(int tool, int axis) const;  // m
   double end_time() const { return world_.resource<Clock>().end; }
 
   // What a checkpoint keeps; the rest is the scene's.
