@@ -32,17 +32,17 @@ class TouchingBodies {
   std::vector<BodySpec> bodies;
   World world;
 
-  // Particles of one shape, one after the other in lanes.
-  TouchingBodies(Shape shape, std::vector<BodySpec> placed, const std::function<void(Scene&)>& change = {}) : bodies(std::move(placed)) {
+  // Of the shape that BodySpec::particle counts. `change`: of the scene, before there is a world.
+  TouchingBodies(std::vector<Shape> shapes, std::vector<BodySpec> placed,
+                 const std::function<void(Scene&)>& change = {})
+      : bodies(std::move(placed)) {
     scene.space = std::make_shared<SpaceScene>();
     scene.materials = {{"steel", 7850, 200e9, 0.3, {}, 0, {}, {}}};
     if (change) change(scene);
     scene.space->moves.resize(scene.stages.size());
     scene.space->servos.resize(scene.stages.size());
-    Shapes shapes;
-    shapes.list.push_back(std::move(shape));
-    lay_out(shapes.list[0]);
-    world.emplace<Shapes>(std::move(shapes));
+    lay_out(shapes);
+    world.emplace<Shapes>().list = std::move(shapes);
     add_tools();
     add_contact(world, scene, bodies);
     place();
@@ -50,8 +50,11 @@ class TouchingBodies {
     world.emplace<Clock>();
   }
 
-  const Shape& shape() const { return world.resource<Shapes>().list[0]; }
-  int nodes() const { return static_cast<int>(shape().nodes.size()); }
+  const Shape& shape(int body = 0) const {
+    const auto particle = static_cast<std::size_t>(bodies[static_cast<std::size_t>(body)].particle);
+    return world.resource<Shapes>().list[particle];
+  }
+  int surface_nodes(int body) const { return shape(body).surface_nodes; }
   double& node(int body, int number, int k) { return at<Position>(body, number, k); }
   double& velocity(int body, int number, int k) { return at<Velocity>(body, number, k); }
   Vec3 position_of(int body, int number) {
@@ -66,30 +69,30 @@ class TouchingBodies {
   }
   Vec3 force_on(int body) {
     Vec3 sum = Vec3::Zero();
-    for (int n = 0; n < shape().surface_nodes; ++n) sum += force_on(body, n);
+    for (int n = 0; n < surface_nodes(body); ++n) sum += force_on(body, n);
     return sum;
   }
   Vec3 moment_on(int body) {
     Vec3 sum = Vec3::Zero();
-    for (int n = 0; n < shape().surface_nodes; ++n)
+    for (int n = 0; n < surface_nodes(body); ++n)
       sum += position_of(body, n).cross(force_on(body, n));
     return sum;
   }
   double power_on(int body) {
     double sum = 0;
-    for (int n = 0; n < shape().surface_nodes; ++n)
+    for (int n = 0; n < surface_nodes(body); ++n)
       sum += velocity_of(body, n).dot(force_on(body, n));
     return sum;
   }
   // Every node of a body: where it is now, and how fast.
   void move(int body, const std::function<Vec3(const Vec3&)>& to) {
-    for (int n = 0; n < nodes(); ++n) {
+    for (int n = 0; n < static_cast<int>(shape(body).nodes.size()); ++n) {
       const Vec3 x = to(position_of(body, n));
       for (int k = 0; k < 3; ++k) node(body, n, k) = x[k];
     }
   }
   void set_velocity(int body, const std::function<Vec3(const Vec3&)>& of) {
-    for (int n = 0; n < nodes(); ++n) {
+    for (int n = 0; n < static_cast<int>(shape(body).nodes.size()); ++n) {
       const Vec3 v = of(position_of(body, n));
       for (int k = 0; k < 3; ++k) velocity(body, n, k) = v[k];
     }
@@ -120,8 +123,11 @@ class TouchingBodies {
   }
 
  private:
-  static int chunk(int body) { return body / lane_count; }
-  static int lane(int body) { return body % lane_count; }
+  int slot(int body) const {
+    return world.resource<Bodies>().slot_of_number[static_cast<std::size_t>(body)];
+  }
+  int chunk(int body) const { return slot(body) / lane_count; }
+  int lane(int body) const { return slot(body) % lane_count; }
   template <class C>
   Lane* lane_row(int body, int number) {
     auto& column = world.column<C>();
@@ -143,17 +149,22 @@ class TouchingBodies {
     auto& column = world.column<ActivationTravel<At>>();
     std::fill_n(column.values(), column.table.rows, 0.0);
   }
-  void lay_out(const Shape& shape) {
+  void lay_out(const std::vector<Shape>& shapes) {
     Bodies& all = world.emplace<Bodies>();
-    const std::size_t lanes = (bodies.size() + lane_count - 1) / lane_count * lane_count;
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const bool there = i < bodies.size();
-      all.slots.push_back({there ? static_cast<int>(i) : Bodies::empty_slot, 0, 0, 0, 0});
-      if (there) all.slot_of_number.push_back(static_cast<int>(i));
+    all.slot_of_number.assign(bodies.size(), Bodies::empty_slot);
+    std::vector<std::int32_t> nodes;
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+      for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (bodies[b].particle != static_cast<int>(s)) continue;
+        all.slot_of_number[b] = static_cast<int>(all.slots.size());
+        all.slots.push_back({static_cast<int>(b), static_cast<int>(s), 0, 0, 0});
+      }
+      while (all.slots.size() % lane_count != 0)
+        all.slots.push_back({Bodies::empty_slot, static_cast<int>(s), 0, 0, 0});
+      nodes.resize(all.slots.size() / lane_count, static_cast<std::int32_t>(shapes[s].nodes.size()));
     }
-    const std::vector<std::int32_t> rows(lanes / lane_count,
-                                         static_cast<std::int32_t>(shape.nodes.size()));
-    world.add_table<Node>(rows);
+    const std::size_t lanes = all.slots.size();
+    world.add_table<Node>(nodes);
     world.add<Position>();
     world.add<Velocity>();
     world.add_table<Particle>(std::vector<std::int32_t>(lanes / lane_count, 1));
@@ -176,13 +187,13 @@ class TouchingBodies {
         world.column<ToolPosition>().values()[3 * t + k] = tools[t].point[static_cast<int>(k)];
       }
   }
+  // Slots where nobody stands stay at the origin.
   void place() {
-    for (std::size_t b = 0; b < world.resource<Bodies>().slots.size(); ++b) {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
       const int body = static_cast<int>(b);
-      const BodySpec spec = b < bodies.size() ? bodies[b] : BodySpec{};
-      for (int n = 0; n < nodes(); ++n) {
-        const Point& p = shape().nodes[static_cast<std::size_t>(n)];
-        const Vec3 x = spec.position + spec.rotation * Vec3(p[0], p[1], p[2]);
+      for (int n = 0; n < static_cast<int>(shape(body).nodes.size()); ++n) {
+        const Point& p = shape(body).nodes[static_cast<std::size_t>(n)];
+        const Vec3 x = bodies[b].position + bodies[b].rotation * Vec3(p[0], p[1], p[2]);
         for (int k = 0; k < 3; ++k) node(body, n, k) = x[k];
       }
     }
