@@ -74,8 +74,7 @@ struct FacePass {
     const std::ptrdiff_t own = s.bodies.first_face(slot) + s.columns.pair(row, 1);
     const std::ptrdiff_t its = s.bodies.first_face(other);
     const Shape& shape = s.bodies.shape_of(other);
-    Projection low{.shape = shape, .first = points + its * face_numbers},
-        high{.shape = shape, .first = points + its * face_numbers};
+    Projection low(shape, points + its * face_numbers), high(shape, points + its * face_numbers);
     std::array<PointMotion, 2> motion;
     const double nearest = std::min(project(row, 0, points + own * face_numbers, low, motion[0], sums),
                                     project(row, 1, points + own * face_numbers, high, motion[1], sums));

@@ -24,12 +24,12 @@ struct Basis {
   std::array<T, 4> value, slope, curvature;
 };
 template <class T>
-[[gnu::always_inline]] inline std::array<T, 4> bernstein(const T& u) {
+[[gnu::always_inline]] constexpr std::array<T, 4> bernstein(const T& u) {
   const T w = 1.0 - u, uw = 3.0 * u * w;
   return {w * w * w, uw * w, uw * u, u * u * u};
 }
 template <class T>
-[[gnu::always_inline]] inline std::array<T, 4> bernstein_slope(const T& u) {
+[[gnu::always_inline]] constexpr std::array<T, 4> bernstein_slope(const T& u) {
   const T w = 1.0 - u, u2 = 3.0 * u * u, w2 = 3.0 * w * w, uw = 6.0 * u * w;
   return {-w2, w2 - uw, uw - u2, u2};
 }

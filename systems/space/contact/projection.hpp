@@ -48,12 +48,14 @@ struct Projection {
   static constexpr int crossings_of_crease = 3;  // over one side, to and fro
   static constexpr int most_crossings = 16;      // round and round the end of a crease
 
-  const Shape& shape;           // of the other particle
-  const double* first;          // its first face's Bezier points
-  VectorLanes point;            // m
+  const Shape& shape;   // of the other particle
+  const double* first;  // its first face's Bezier points
+  VectorLanes point;    // m
   std::array<std::int32_t, 8> face;
-  Lane u, v;                    // closest so far; when found, on its face
+  Lane u, v;  // closest so far; when found, on its face
   unsigned done = 0;
+
+  Projection(const Shape& other, const double* first_face) : shape(other), first(first_face) {}
 
   unsigned unconverged() const { return ~done & 0xffU; }
 
