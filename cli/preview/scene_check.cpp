@@ -84,10 +84,9 @@ SceneFindings findings_in_space(const Scene& scene, const std::vector<space::Bod
   findings.warnings = space::setup_warnings(scene, bodies);
   findings.memory = memory_line(memory_need(scene));
   findings.run = estimate_line(simulation);
-  findings.verdict = fmt::format("{}: good: {}, {}, {}", scene.file.string(),
-                                 counted(bodies.size(), "particle"),
-                                 counted(scene.space->tools.size(), "tool"),
-                                 counted(scene.stages.size(), "stage"));
+  findings.verdict = fmt::format(
+      "{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
+      counted(scene.space->tools.size(), "tool"), counted(scene.stages.size(), "stage"));
   return findings;
 }
 

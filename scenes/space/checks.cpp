@@ -30,7 +30,9 @@ bool is_lattice_kind(const PackingSpec& packing) {
 std::int64_t most_particles(const PackingSpec& packing) {
   const std::int64_t cells = std::int64_t{packing.cells[0]} * packing.cells[1] * packing.cells[2];
   using Kind = PackingSpec::Kind;
-  return cells * (packing.kind == Kind::body_centred ? 2 : packing.kind == Kind::face_centred ? 4 : 1);
+  return cells * (packing.kind == Kind::body_centred   ? 2
+                  : packing.kind == Kind::face_centred ? 4
+                                                       : 1);
 }
 
 // Over the diameter of spheres that touch.

@@ -27,8 +27,9 @@ class SpaceOverlaps {
     for (const ParticleSpec& particle : space_.particles)
       shapes_.push_back(rigid_shape(particle.shape, 1));
     for (const BodySpec& body : bodies)
-      poses_.push_back({plain(body.position), {body.rotation.w(), body.rotation.x(),
-                                               body.rotation.y(), body.rotation.z()}});
+      poses_.push_back(
+          {plain(body.position),
+           {body.rotation.w(), body.rotation.x(), body.rotation.y(), body.rotation.z()}});
   }
 
   void with_tools() {
@@ -36,9 +37,10 @@ class SpaceOverlaps {
       for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const double depth = depth_in(tool, i);
         if (depth > allowed(i))
-          add(i, fmt::format("{} is outside the die: it reaches {:.6g} m behind tool '{}', allowed: "
-                             "particles in front of every tool",
-                             described(i), depth, tool.name));
+          add(i,
+              fmt::format("{} is outside the die: it reaches {:.6g} m behind tool '{}', allowed: "
+                          "particles in front of every tool",
+                          described(i), depth, tool.name));
       }
   }
 
@@ -118,9 +120,10 @@ class SpaceOverlaps {
     if (centre.norm() > 0) directions.push_back(centre.normalized());
     constexpr int looks = 16;  // of shapes that are no balls
     for (int k = 0; k < looks && !shape(i).is_ball(); ++k)
-      directions.push_back(across(farthest(i, portable::cos(2 * std::numbers::pi * k / looks) * first +
-                                                  portable::sin(2 * std::numbers::pi * k / looks) * second))
-                               .normalized());
+      directions.push_back(
+          across(farthest(i, portable::cos(2 * std::numbers::pi * k / looks) * first +
+                                 portable::sin(2 * std::numbers::pi * k / looks) * second))
+              .normalized());
     for (const Vec3& direction : directions)
       deepest = std::max(deepest, across(farthest(i, direction)).norm() - die.diameter / 2);
     return deepest;
