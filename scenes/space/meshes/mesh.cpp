@@ -16,10 +16,7 @@
 namespace pulvis::space {
 namespace {
 
-constexpr int slides =
-    0;  // of the surface nodes, after each of which they are put back onto the surface
-constexpr int slide_steps = 15;  // of the descent in between
-constexpr Smoothing sliding{0.5, slide_steps}, inside{0.5, 200};
+constexpr Smoothing smoothing{0.5, 200};
 
 // In [-1, 1]^3.
 Vec3 cube_place(const CubedSphere& grid, const Lattice& at) {
@@ -27,11 +24,27 @@ Vec3 cube_place(const CubedSphere& grid, const Lattice& at) {
   return {along(at[0]), along(at[1]), along(at[2])};
 }
 
-// Equiangular: faces of a sphere are of similar size. `box`: half the size of the box that is projected.
-Vec3 direction_of(const Vec3& on_cube, const Vec3& box) {
-  const Vec3 on =
-      (std::numbers::pi / 4 * on_cube).unaryExpr([](double a) { return portable::tan(a); });
-  return on.normalized().cwiseProduct(box).normalized();
+// Equiangular on a ball: its faces are of similar size.
+Vec3 on_square_box(const Vec3& on_cube) {
+  return (std::numbers::pi / 4 * on_cube).unaryExpr([](double a) { return portable::tan(a); });
+}
+
+// The cube with its sections drawn into circles: edges that run around the z axis come to lie on the rims of a cylinder.
+// (Fong, Analytical methods for squaring the disc, 2014: elliptical grid.)
+Vec3 on_round_box(const Vec3& on_cube) {
+  const auto even = [](double a) {
+    return std::numbers::sqrt2 * portable::sin(std::numbers::pi / 4 * a);
+  };
+  const double x = even(on_cube.x()), y = even(on_cube.y());
+  return {x * std::sqrt(1 - y * y / 2), y * std::sqrt(1 - x * x / 2), on_cube.z()};
+}
+
+// Where a point of the cube's surface is projected onto the true one.
+Vec3 direction_of(const Vec3& on_cube, const StarSurface& surface) {
+  const Vec3 square = on_square_box(on_cube), round = on_round_box(on_cube);
+  const double share = surface.roundness();
+  const Vec3 on_box = (1 - share) * square + share * round;
+  return on_box.cwiseProduct(surface.half_size()).normalized();
 }
 
 class Mesher {
@@ -41,9 +54,8 @@ class Mesher {
 
   std::vector<Vec3> nodes() {
     start();
-    for (int i = 0; i < slides; ++i) slide();
     make_surface_true();
-    smooth_hexahedra(nodes_, hexahedra_, grid_.layer_nodes(), {}, inside);
+    smooth_hexahedra(nodes_, hexahedra_, grid_.layer_nodes(), smoothing);
     return nodes_;
   }
   const std::vector<Hexahedron>& hexahedra() const { return hexahedra_; }
@@ -57,28 +69,19 @@ class Mesher {
     const auto in_core = [&](const Vec3& on_cube) {
       const double out = on_cube.cwiseAbs().maxCoeff();
       if (out == 0) return Vec3(Vec3::Zero());
-      const Vec3 round = surface_.point(direction_of(on_cube / out, half)) * out;
+      const Vec3 round = surface_.point(direction_of(on_cube / out, surface_)) * out;
       return Vec3(core * (0.5 * round + 0.35 * on_cube.cwiseProduct(half)));
     };
     for (int layer = 0; layer < grid_.rings(); ++layer)
       for (const Lattice& at : grid_.rim()) {
         const Vec3 on_cube = cube_place(grid_, at);
         const double share = static_cast<double>(layer) / grid_.rings();
-        nodes_.push_back((1 - share) * surface_.point(direction_of(on_cube, half)) +
+        nodes_.push_back((1 - share) * surface_.point(direction_of(on_cube, surface_)) +
                          share * in_core(on_cube));
       }
     for (int i = grid_.core_node({0, 0, 0}); i < grid_.nodes(); ++i)
       nodes_.push_back(
           in_core(cube_place(grid_, grid_.core_point(i - grid_.core_node({0, 0, 0})))));
-  }
-
-  void slide() {
-    std::vector<Vec3> normals;
-    for (int i = 0; i < grid_.layer_nodes(); ++i)
-      normals.push_back(surface_.normal(entry(nodes_, i).normalized()));
-    smooth_hexahedra(nodes_, hexahedra_, grid_.layer_nodes(), normals, sliding);
-    for (int i = 0; i < grid_.layer_nodes(); ++i)
-      entry(nodes_, i) = surface_.point(entry(nodes_, i).normalized());
   }
 
   void make_surface_true() {

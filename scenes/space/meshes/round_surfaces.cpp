@@ -46,6 +46,7 @@ class SuperquadricSurface final : public StarSurface {
     return gradient.cwiseQuotient(half_).cwiseProduct(sign).normalized();
   }
   Vec3 half_size() const override { return half_; }
+  double roundness() const override { return 5.6 / (e_ * e_ * e_) * (1 - 2 / f_); }
   // Jaklic, Leonardis & Solina (2000), eq. 2.60, with the exponents 2/eps1 = f and 2/eps2 = e.
   double volume() const override {
     const double eps1 = 2 / f_, eps2 = 2 / e_;
@@ -78,12 +79,13 @@ class CylinderSurface final : public StarSurface {
   Vec3 normal(const Vec3& d) const override {
     const Vec3 p = radius(d) * d;
     const double across = portable::hypot(p.x(), p.y());
-    const double side = std::max(across - inner_radius(), 0.0) / across;
+    const double side = across > inner_radius() ? 1 - inner_radius() / across : 0;
     const double up = std::max(std::abs(p.z()) - inner_height(), 0.0);
     if (side == 0 && up == 0) return d;  // on a sharp rim, to round-off
     return Vec3(side * p.x(), side * p.y(), p.z() < 0 ? -up : up).normalized();
   }
   Vec3 half_size() const override { return {radius_, radius_, half_height_}; }
+  double roundness() const override { return 0.7; }
   // Steiner's formula: of the smaller cylinder volume, area, integral of the mean curvature.
   double volume() const override {
     const double r = inner_radius(), h = 2 * inner_height(), w = rounding_;

@@ -20,10 +20,9 @@ using Edges = std::array<Vec3, 3>;
 class HexahedraQuality {
  public:
   HexahedraQuality(const std::vector<Vec3>& nodes, const std::vector<Hexahedron>& hexahedra,
-                   const std::vector<Vec3>& slide, int surface_nodes, double size_share)
+                   int fixed, double size_share)
       : hexahedra_(hexahedra),
-        slide_(slide),
-        surface_nodes_(surface_nodes),
+        fixed_(3 * static_cast<Eigen::Index>(fixed)),
         size_share_(size_share),
         x_(3 * static_cast<Eigen::Index>(nodes.size())) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -52,7 +51,7 @@ class HexahedraQuality {
       for (int c = 0; c < 8; ++c) sum += corner(x, h, c, bound, gradient);
     const double share = 1 / (8.0 * static_cast<double>(hexahedra_.size()));
     gradient *= share;
-    hold_surface(gradient);
+    gradient.head(fixed_).setZero();
     return share * sum;
   }
 
@@ -86,19 +85,8 @@ class HexahedraQuality {
     return f;
   }
 
-  void hold_surface(Eigen::VectorXd& gradient) const {
-    for (int i = 0; i < surface_nodes_; ++i) {
-      auto g = gradient.segment<3>(3 * static_cast<Eigen::Index>(i));
-      if (slide_.empty())
-        g.setZero();
-      else
-        g -= (g.dot(entry(slide_, i)) * entry(slide_, i)).eval();
-    }
-  }
-
   const std::vector<Hexahedron>& hexahedra_;
-  const std::vector<Vec3>& slide_;
-  int surface_nodes_;
+  Eigen::Index fixed_;
   double size_share_;
   Eigen::VectorXd x_;
   double scale_ = 1;
@@ -107,17 +95,16 @@ class HexahedraQuality {
 }  // namespace
 
 double smooth_hexahedra(std::vector<Vec3>& nodes, const std::vector<Hexahedron>& hexahedra,
-                        int surface_nodes, const std::vector<Vec3>& slide, const Smoothing& how) {
-  const HexahedraQuality quality(nodes, hexahedra, slide, surface_nodes, how.size_share);
+                        int fixed, const Smoothing& how) {
+  const HexahedraQuality quality(nodes, hexahedra, fixed, how.size_share);
   const Descent state = descend(quality, how.max_iterations);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+  for (std::size_t i = static_cast<std::size_t>(fixed); i < nodes.size(); ++i)
     nodes[i] = state.x.segment<3>(3 * static_cast<Eigen::Index>(i)) / quality.scale();
   return state.value;
 }
 
 double least_corner(const std::vector<Vec3>& nodes, const std::vector<Hexahedron>& hexahedra) {
-  const std::vector<Vec3> fixed;
-  const HexahedraQuality quality(nodes, hexahedra, fixed, 0, 0);
+  const HexahedraQuality quality(nodes, hexahedra, 0, 0);
   return quality.min_determinant(quality.start()) /
          (quality.scale() * quality.scale() * quality.scale());
 }

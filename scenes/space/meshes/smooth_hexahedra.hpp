@@ -17,10 +17,9 @@ struct Smoothing {
   int max_iterations = 100;
 };
 
-// The nodes of the surface come first: they stay, or slide in the planes of which `slide` gives the unit normals.
-// Returns the mean, 1 for equal cubes.
+// The first `fixed` nodes stay. // Returns the mean, 1 for equal cubes.
 double smooth_hexahedra(std::vector<Vec3>& nodes, const std::vector<Hexahedron>& hexahedra,
-                        int surface_nodes, const std::vector<Vec3>& slide, const Smoothing& how);
+                        int fixed, const Smoothing& how);
 
 // m^3: the least product of the three edges of a corner.
 double least_corner(const std::vector<Vec3>& nodes, const std::vector<Hexahedron>& hexahedra);

@@ -15,8 +15,9 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double usual_c = 1.0 / 12;
 constexpr double least_c = 0, most_c = 0.25;
-constexpr double stay =
-    1e-4;                // weight of c staying usual, against the surface passing where it should
+// How much c and the lines at irregular nodes stay as usual, against the surface passing where it should.
+constexpr double stay = 1e-3, stay_turned = 1e-4;
+constexpr int volume_fits = 24;  // halvings
 constexpr int fits = 3;  // as the place to pass moves a little along the surface
 
 Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
@@ -35,35 +36,42 @@ Vec3 value_of(const Combination& combination, const std::vector<Vec3>& of) {
   return sum;
 }
 
-// The c with which the corners of the faces lie on the true surface.
+// Makes the undeformed surface lie on the true one.
 class Fit {
  public:
-  Fit(const Shape& shape, const SurfaceNet& net, const std::vector<Combination>& points,
-      const StarSurface& surface)
-      : net_(net), points_(points), surface_(surface), c_(count(), usual_c) {
+  Fit(const Shape& shape, const SurfaceNet& net, const StarSurface& surface)
+      : net_(net), surface_(surface), frames_(spline_frames(net)), c_(count(), usual_c) {
     for (int i = 0; i < net.nodes(); ++i) nodes_.push_back(vector_of(entry(shape.nodes, i)));
     for (int i = 0; i < net.nodes(); ++i) u_.push_back(value_of(umbrella(net, i), nodes_));
+    for (int i = 0; i < fits; ++i) improve_smoothing();
+    match_volume();
   }
 
-  std::vector<double> smoothing() {
-    for (int i = 0; i < fits; ++i) improve();
-    return c_;
-  }
+  const std::vector<double>& smoothing() const { return c_; }
+  // Over the nodes of the net.
+  std::vector<Combination> points() const { return bezier_points(net_, turned_frames()); }
 
  private:
   std::size_t count() const { return static_cast<std::size_t>(net_.nodes()); }
-
-  void improve() {
+  std::vector<Vec3> net_places() const {
     std::vector<Vec3> control;
     for (std::size_t i = 0; i < count(); ++i) control.push_back(nodes_[i] - c_[i] * u_[i]);
+    return control;
+  }
+
+  // The c with which the corners of the faces lie on the true surface, all at once.
+  void improve_smoothing() {
+    const std::vector<Vec3> control = net_places();
     Sparse by_c(net_.nodes(), net_.nodes());
-    Eigen::VectorXd off(net_.nodes());
+    Eigen::VectorXd off = Eigen::VectorXd::Zero(net_.nodes());
     std::vector<Eigen::Triplet<double>> entries;
     for (int j = 0; j < net_.nodes(); ++j) {
-      const Vec3 at = value_of(entry(points_, j), control), direction = at.normalized();
+      const Combination& place = entry(frames_, j).place;
+      if (place.empty()) continue;
+      const Vec3 at = value_of(place, control), direction = at.normalized();
       const Vec3 normal = surface_.normal(direction);
       off[j] = normal.dot(surface_.point(direction) - at);
-      for (const auto& [i, weight] : entry(points_, j))
+      for (const auto& [i, weight] : place)
         entries.emplace_back(j, i, -weight * normal.dot(entry(u_, i)));
     }
     by_c.setFromTriplets(entries.begin(), entries.end());
@@ -84,9 +92,70 @@ class Fit {
       entry(c_, i) = std::clamp(entry(c_, i) + change[i], least_c, most_c);
   }
 
+  std::vector<NodeFrame> turned_frames() const {
+    std::vector<NodeFrame> frames = frames_;
+    const std::vector<Vec3> control = net_places();
+    for (int i = 0; i < net_.nodes(); ++i)
+      if (net_.valence(i) == 4)
+        for (int k = 0; k < 2; ++k) turn_line(i, k, control, entry(frames, i));
+    return frames;
+  }
+
+  // m^3, of the smooth surface when every c is larger by `more`, as far as it may be.
+  double volume_with(const std::vector<double>& c, double more) {
+    for (std::size_t i = 0; i < count(); ++i) c_[i] = std::clamp(c[i] + more, least_c, most_c);
+    const std::vector<Vec3> control = net_places();
+    std::vector<Vec3> at;
+    for (const Combination& point : points()) at.push_back(value_of(point, control));
+    double volume = 0;
+    for (int f = 0; f < net_.faces(); ++f) volume += volume_under(points_of(net_, f), at);
+    return volume;
+  }
+
+  // Between its corners the surface may still lie a little off: the same addition to every c makes its volume the true one.
+  void match_volume() {
+    const std::vector<double> c = c_;
+    double low = -most_c, high = most_c;  // the volume rises with c
+    for (int i = 0; i < volume_fits; ++i) {
+      const double more = (low + high) / 2;
+      (volume_with(c, more) < surface_.volume() ? low : high) = more;
+    }
+  }
+
+  // Where a line leads to an irregular node, whose place follows from the derivative D along it at the regular node w:
+  // D = a D_spline + b U_w in the tangent plane at w, its half reaching to that at the irregular node.
+  void turn_line(int w, int line, const std::vector<Vec3>& control, NodeFrame& frame) const {
+    const Vec3 at = value_of(frame.place, control), spline = value_of(frame.along[line], control);
+    const Vec3 u = value_of(umbrella(net_, w), control);
+    Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    const auto demand = [&](const Vec3& normal, double half,
+                            double wanted) {  // normal . half D = wanted
+      const Eigen::Vector2d by(half * normal.dot(spline), half * normal.dot(u));
+      square += by * by.transpose();
+      right += by * (wanted - by[0]);
+    };
+    bool irregular = false;
+    for (const int end : {line, line + 2}) {
+      const int v = net_.node(entry(entry(net_.fan, w), end), 1);
+      if (net_.valence(v) != 3) continue;
+      irregular = true;
+      const Vec3 direction = entry(control, v).normalized(), normal = surface_.normal(direction);
+      demand(normal, end == line ? 0.5 : -0.5, normal.dot(surface_.point(direction) - at));
+    }
+    if (!irregular) return;
+    demand(surface_.normal(at.normalized()), 1, 0);
+    square.diagonal().array() += stay_turned * u.squaredNorm();
+    const Eigen::Vector2d change = square.ldlt().solve(right);
+    Combination turned;
+    add(turned, frame.along[line], 1 + change[0]);
+    add(turned, umbrella(net_, w), change[1]);
+    frame.along[line] = turned;
+  }
+
   const SurfaceNet& net_;
-  const std::vector<Combination>& points_;
   const StarSurface& surface_;
+  std::vector<NodeFrame> frames_;
   std::vector<double> c_;
   std::vector<Vec3> nodes_, u_;
 };
@@ -147,8 +216,8 @@ void measure(Shape& shape) {
 
 void complete_surface(Shape& shape, const StarSurface& surface) {
   const SurfaceNet net = surface_net(shape);
-  const std::vector<Combination> points = bezier_points(net);
-  store_points(shape, net, points, Fit(shape, net, points, surface).smoothing());
+  const Fit fit(shape, net, surface);
+  store_points(shape, net, fit.points(), fit.smoothing());
   store_faces(shape, net);
   measure(shape);
 }

@@ -5,10 +5,13 @@
 //           surface passes where the true one is when c is right; c = 1/12 where the spacing is fine, as in two
 //           dimensions, for nodes that stand on the mesh of equal volume.
 // Regular   about nodes where four faces meet the surface is the uniform bicubic B-spline of y: C2.
-// Irregular about the eight nodes where three faces meet the patches share tangent planes (G1) exactly, whatever the
-//           deformation: across the side from such a node, A_v + B_v = -(1-u)^2 A_u with a quadratic side; the odd
-//           number of faces determines the inner points. With n = 1 (three faces about every node): -(1-2u) A_u.
-//           (The conditions are those of Peters, Bicubic G1 splines; here for valence 3 alone.)
+// Irregular about the eight nodes v where three faces meet the patches share tangent planes (G1) exactly, whatever the
+//           deformation. Across the side from v to a node w the patches A and B have A_v + B_v = -(1-u)^2 A_u and the side
+//           is quadratic; the place of v and the inner points beside it follow, since the number of faces is odd. The
+//           derivative along the line through v and w is, at w, a times that of the spline plus b U_w: with the right
+//           a and b the undeformed surface is as close to the true one there as elsewhere, and C1. On a cube of six faces
+//           -(1-2u) takes the place of -(1-u)^2, and sides are cubic.
+//           (Of such conditions: Peters, Geometric continuity, Handbook of CAGD, 2002; these are for three faces alone.)
 #pragma once
 
 #include "components/space/shape.hpp"

@@ -16,6 +16,8 @@ class StarSurface {
   // m, from the centre along x, y, z: of a box that has about the same proportions.
   virtual Vec3 half_size() const = 0;
   virtual double volume() const = 0;  // m^3, exact
+  // How much the sections z = const of its box are round: 0 (square) to 1.
+  virtual double roundness() const { return 0; }
 
   Vec3 point(const Vec3& direction) const { return radius(direction) * direction; }
 };

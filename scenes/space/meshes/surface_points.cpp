@@ -7,23 +7,53 @@ namespace {
 
 using Corner = SurfaceNet::Corner;
 
+bool is_cube(const SurfaceNet& net) { return net.faces() == 6; }
+
+// About a node v with the neighbours e_k and the opposite corners d_k of its faces, between e_k and e_(k+1): products of
+// (1, 4, 1)/6 and (1, 0, -1)/2.
+NodeFrame spline_frame(const SurfaceNet& net, int v) {
+  int e[4], d[4];
+  for (int k = 0; k < 4; ++k) {
+    const Corner c = entry(entry(net.fan, v), k);
+    e[k] = net.node(c, 1);
+    d[k] = net.node(c, 2);
+  }
+  NodeFrame f;
+  add(f.place, {{v, 16.0}, {e[0], 4.0}, {e[1], 4.0}, {e[2], 4.0}, {e[3], 4.0}}, 1.0 / 36);
+  add(f.place, {{d[0], 1.0}, {d[1], 1.0}, {d[2], 1.0}, {d[3], 1.0}}, 1.0 / 36);
+  for (std::size_t k = 0; k < 2; ++k) {
+    add(f.along[k], {{e[k], 4.0}, {e[k + 2], -4.0}}, 1.0 / 12);
+    add(f.along[k], {{d[k], 1.0}, {d[(k + 3) % 4], 1.0}, {d[k + 1], -1.0}, {d[k + 2], -1.0}},
+        1.0 / 12);
+  }
+  add(f.twist, {{d[0], 1.0}, {d[1], -1.0}, {d[2], 1.0}, {d[3], -1.0}}, 1.0 / 4);
+  return f;
+}
+
+// The place of a node of three faces on Catmull and Clark's surface.
+NodeFrame cube_frame(const SurfaceNet& net, int v) {
+  NodeFrame f;
+  add(f.place, {{v, 9.0}}, 1.0 / 24);
+  for (const Corner c : entry(net.fan, v))
+    add(f.place, {{net.node(c, 1), 4.0}, {net.node(c, 2), 1.0}}, 1.0 / 24);
+  return f;
+}
+
 class Points {
  public:
-  explicit Points(const SurfaceNet& net)
+  Points(const SurfaceNet& net, const std::vector<NodeFrame>& frames)
       : net_(net),
+        frames_(frames),
         number_{net.nodes(), net.faces()},
         points_(static_cast<std::size_t>(number_.count())) {
     for (int i = 0; i < net.nodes(); ++i)
       if (net.valence(i) == 4) set_regular(i);
-    for (int i = 0; i < net.nodes(); ++i) {
-      if (net.valence(i) == 4) continue;
-      if (net.valence(i) != 3) throw std::logic_error("a surface node of neither 3 nor 4 faces");
-      if (net.faces() == 6)
+    for (int i = 0; i < net.nodes(); ++i)
+      if (is_cube(net))
         set_cube_corner(i);
-      else
+      else if (net.valence(i) == 3)
         set_irregular(i);
-    }
-    if (net.faces() == 6)
+    if (is_cube(net))
       for (int i = 0; i < net.nodes(); ++i) set_cube_inside(i);
   }
   std::vector<Combination> take() { return std::move(points_); }
@@ -31,20 +61,19 @@ class Points {
  private:
   Combination& at(int point) { return entry(points_, point); }
 
-  // Uniform bicubic B-spline about a node v: e_k are its neighbours, d_k the opposite corners of its faces.
   void set_regular(int v) {
     const std::vector<Corner>& fan = entry(net_.fan, v);
-    Combination& middle = at(number_.at(v));
-    add(middle, {{v, 1.0}}, 16.0 / 36);
+    const NodeFrame& frame = entry(frames_, v);
+    add(at(number_.at(v)), frame.place, 1);
     for (std::size_t k = 0; k < 4; ++k) {
-      const Corner left = fan[k], right = fan[(k + 3) % 4];
-      const int e = net_.node(left, 1), d = net_.node(left, 2);
-      const int e_left = net_.node(left, 3), e_right = net_.node(right, 1);
-      const int d_right = net_.node(right, 2);
-      add(middle, {{e, 4.0}, {d, 1.0}}, 1.0 / 36);
-      add(at(number_.beside(left)),
-          {{v, 8.0}, {e, 4.0}, {e_left, 2.0}, {e_right, 2.0}, {d, 1.0}, {d_right, 1.0}}, 1.0 / 18);
-      add(at(number_.inside(left)), {{v, 4.0}, {e, 2.0}, {e_left, 2.0}, {d, 1.0}}, 1.0 / 9);
+      // Of the way to e_k, and to e_(k+1), in the frame.
+      const double ahead = k < 2 ? 1 : -1, left = k == 0 || k == 3 ? 1 : -1;
+      Combination &beside = at(number_.beside(fan[k])), &inside = at(number_.inside(fan[k]));
+      add(beside, frame.place, 1);
+      add(beside, frame.along[k % 2], ahead / 3);
+      add(inside, beside, 1);
+      add(inside, frame.along[(k + 1) % 2], left / 3);
+      add(inside, frame.twist, ahead * left / 9);
     }
   }
 
@@ -83,17 +112,14 @@ class Points {
     }
   }
 
-  // Of a net of six faces: the node's place is that of Catmull and Clark's surface; the tangents are as long as those of
-  // a great circle's arc when the net is a cube.
+  // Of a net of six faces: the tangents are as long as those of a great circle's arc when the net is a cube.
   void set_cube_corner(int v) {
     constexpr double tangent = 0.2247;
     const std::vector<Corner>& fan = entry(net_.fan, v);
-    Combination& p0 = at(number_.at(v));
-    add(p0, {{v, 9.0}}, 1.0 / 24);
-    for (const Corner c : fan) add(p0, {{net_.node(c, 1), 4.0}, {net_.node(c, 2), 1.0}}, 1.0 / 24);
+    add(at(number_.at(v)), entry(frames_, v).place, 1);
     for (const Corner c : fan) {
       Combination& p1 = at(number_.beside(c));
-      add(p1, p0, 1);
+      add(p1, entry(frames_, v).place, 1);
       add(p1, {{net_.node(c, 1), 1.0}}, tangent);
       for (const Corner other : fan) add(p1, {{net_.node(other, 1), 1.0}}, -tangent / 3);
     }
@@ -111,6 +137,7 @@ class Points {
   }
 
   const SurfaceNet& net_;
+  const std::vector<NodeFrame>& frames_;
   PointNumbers number_;
   std::vector<Combination> points_;
 };
@@ -121,7 +148,23 @@ void add(Combination& to, const Combination& from, double factor) {
   for (const auto& [number, weight] : from) to[number] += factor * weight;
 }
 
-std::vector<Combination> bezier_points(const SurfaceNet& net) { return Points(net).take(); }
+std::vector<NodeFrame> spline_frames(const SurfaceNet& net) {
+  std::vector<NodeFrame> frames;
+  for (int i = 0; i < net.nodes(); ++i) {
+    if (net.valence(i) != 3 && net.valence(i) != 4)
+      throw std::logic_error("a surface node of neither 3 nor 4 faces");
+    const bool regular = net.valence(i) == 4;
+    frames.push_back(regular        ? spline_frame(net, i)
+                     : is_cube(net) ? cube_frame(net, i)
+                                    : NodeFrame{});
+  }
+  return frames;
+}
+
+std::vector<Combination> bezier_points(const SurfaceNet& net,
+                                       const std::vector<NodeFrame>& frames) {
+  return Points(net, frames).take();
+}
 
 std::array<int, 16> points_of(const SurfaceNet& net, int face) {
   const PointNumbers number{net.nodes(), net.faces()};

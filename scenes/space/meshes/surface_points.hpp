@@ -20,8 +20,17 @@ struct PointNumbers {
   int count() const { return nodes + 8 * faces; }
 };
 
-// [points] over the nodes of the net.
-std::vector<Combination> bezier_points(const SurfaceNet& net);
+// What the surface does at a node, over the nodes of the net: its place, its derivatives towards the first and the second
+// of the fan's neighbours, the mixed one.
+struct NodeFrame {
+  Combination place, along[2], twist;
+};
+// Those of the uniform bicubic B-spline; where three faces meet it is the surface about that decides, there is nothing
+// (on a cube the place).
+std::vector<NodeFrame> spline_frames(const SurfaceNet& net);
+
+// [points] over the nodes of the net. Patches meet with one tangent plane whatever the frames.
+std::vector<Combination> bezier_points(const SurfaceNet& net, const std::vector<NodeFrame>& frames);
 // The numbers of a face's points, u first.
 std::array<int, 16> points_of(const SurfaceNet& net, int face);
 

@@ -38,14 +38,33 @@ Cut cut_of(const std::vector<Vec3>& nodes, const std::array<int, 4>& quad,
   return cut;
 }
 
+// How far the neighbours of each node lie behind its tangent plane, in the mean.
+std::vector<double> bends(const std::vector<Vec3>& nodes, const Quads& quads,
+                          const std::vector<Vec3>& normals) {
+  std::vector<double> bend(nodes.size()), sides(nodes.size());
+  for (const auto& quad : quads)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (const std::size_t beside : {k + 1, k + 3}) {
+        const int i = quad[k];
+        entry(bend, i) += (entry(nodes, i) - entry(nodes, quad[beside % 4])).dot(entry(normals, i));
+        entry(sides, i) += 1;
+      }
+  for (std::size_t i = 0; i < nodes.size(); ++i) bend[i] = std::abs(bend[i]) / sides[i];
+  return bend;
+}
+
+// What a quad cuts off is made up for by its nodes in proportion to the bend of the surface there: flats stay flat.
 std::vector<double> shifts(const std::vector<Vec3>& nodes, const Quads& quads,
-                           const StarSurface& surface) {
+                           const std::vector<Vec3>& normals, const StarSurface& surface) {
+  const std::vector<double> bend = bends(nodes, quads, normals);
   std::vector<double> volume(nodes.size()), area(nodes.size());
   for (const auto& quad : quads) {
     const Cut cut = cut_of(nodes, quad, surface);
+    double sum = 0;
+    for (const int i : quad) sum += entry(bend, i);
     for (const int i : quad) {
-      entry(volume, i) += cut.volume;
-      entry(area, i) += cut.area;
+      entry(volume, i) += sum > 0 ? cut.volume * entry(bend, i) / sum : cut.volume / 4;
+      entry(area, i) += cut.area / 4;
     }
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) volume[i] /= area[i];
@@ -66,9 +85,9 @@ double volume_inside(const std::vector<Vec3>& nodes, const Quads& quads) {
 }
 
 void make_volume_true(std::vector<Vec3>& nodes, const Quads& quads, const StarSurface& surface) {
-  const std::vector<double> shift = shifts(nodes, quads, surface);
   std::vector<Vec3> normal;
   for (const Vec3& node : nodes) normal.push_back(surface.normal(node.normalized()));
+  const std::vector<double> shift = shifts(nodes, quads, normal, surface);
   const auto moved = [&](double factor) {
     std::vector<Vec3> to = nodes;
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * shift[i] * normal[i];
