@@ -5,7 +5,7 @@
 #include "components/run_state.hpp"
 #include "scenes/space/contact_columns.hpp"
 #include "scenes/space/layout.hpp"
-#include "scenes/space/overlaps.hpp"
+#include "scenes/space/packing/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/space/tools/drives.hpp"
 #include "scenes/space/travel.hpp"

@@ -8,6 +8,7 @@
 
 #include "scenes/checks/process_checks.hpp"
 #include "scenes/space/shape_checks.hpp"
+#include "scenes/space/stl_files.hpp"
 #include "scenes/space/tool_checks.hpp"
 #include "scenes/spec/space_scene.hpp"
 
@@ -50,6 +51,7 @@ class SpaceChecks {
   void run() {
     something_is_there();
     check_materials(scene_, refusal());
+    read_stl_files(scene_, refusal());
     for (std::size_t i = 0; i < space_.particles.size(); ++i)
       check_shape(space_.particles[i].shape, fmt::format("particle[{}]", i), refusal());
     counts();
