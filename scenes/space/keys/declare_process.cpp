@@ -216,8 +216,12 @@ const TableDeclaration<TimeSpec>& time() {
 }
 
 const TableDeclaration<OutputSpec>& output() {
-  static const TableDeclaration<OutputSpec> declaration =
-      without(schema::output(), {"density_cells", "contacts", "particle_stress"});
+  static const TableDeclaration<OutputSpec> declaration = [] {
+    TableDeclaration<OutputSpec> table = without(schema::output(), {"density_cells", "contacts"});
+    key_of(table, "particle_stress").info.doc =
+        "Mean stress of every particle in every frame, of the compact over time.";
+    return table;
+  }();
   return declaration;
 }
 
