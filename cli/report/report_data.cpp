@@ -7,6 +7,7 @@
 #include "cli/report/report_frames.hpp"
 #include "cli/report/report_images.hpp"
 #include "cli/report/report_solid.hpp"
+#include "cli/report/report_space.hpp"
 #include "engine/files/hdf5.hpp"
 #include "engine/files/input_file.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t frame_budget = 20'000'000;  // bytes; packed and spelt in base64 about 15 MB
+constexpr double space_budget = 1.6;              // of the same: positions in space pack better
 constexpr std::size_t max_samples = 5000;
 
 class Reader {
@@ -25,8 +27,7 @@ class Reader {
     read_summary();
     read_scene();
     read_history();
-    file_.contains("/mesh/hexahedra") ? add_solid(file_, head, sections)
-                                      : add_frames(file_, budget, head, sections);
+    add_pictures(budget);
     add_images(file_, head, sections);
   }
 
@@ -35,6 +36,16 @@ class Reader {
   std::string title;
 
  private:
+  void add_pictures(std::size_t budget) {
+    if (has_particles_in_space(file_))
+      add_space(file_, static_cast<std::size_t>(space_budget * static_cast<double>(budget)), head,
+                sections);
+    else if (file_.contains("/mesh/hexahedra"))
+      add_solid(file_, head, sections);
+    else
+      add_frames(file_, budget, head, sections);
+  }
+
   std::string text(const char* name) const {
     return file_.has_attribute("/", name) ? file_.text_attribute("/", name) : std::string();
   }
