@@ -34,10 +34,12 @@ class Reader {
   Json head = Json::object();
   std::vector<ReportSection> sections;
   std::string title;
+  bool in_space = false;
 
  private:
   void add_pictures(std::size_t budget) {
-    if (has_particles_in_space(file_))
+    in_space = has_particles_in_space(file_);
+    if (in_space)
       add_space(file_, static_cast<std::size_t>(space_budget * static_cast<double>(budget)), head,
                 sections);
     else if (file_.contains("/mesh/hexahedra"))
@@ -119,16 +121,17 @@ std::string text_of(const Json& json) {
 
 ReportData read_report_data(const std::filesystem::path& run_folder) {
   Reader run(run_folder, frame_budget);
-  return {run.title, text_of(run.head), std::move(run.sections)};
+  return {run.title, text_of(run.head), std::move(run.sections), run.in_space};
 }
 
 ReportData read_comparison(const std::vector<std::filesystem::path>& run_folders) {
   Json head{{"runs", Json::array()}};
-  ReportData data{"Comparison: ", "", {}};
+  ReportData data{"Comparison: ", "", {}, false};
   for (std::size_t i = 0; i < run_folders.size(); ++i) {
     Reader run(run_folders[i], frame_budget / run_folders.size());
     for (auto& section : run.sections)
       data.sections.push_back({"run-" + std::to_string(i) + "-" + section.name, section.text});
+    data.in_space = data.in_space || run.in_space;
     data.title += (i == 0 ? "" : " · ") + run.title;
     head["runs"].push_back(std::move(run.head));
   }

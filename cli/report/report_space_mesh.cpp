@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "cli/report/report_parts.hpp"
 
@@ -47,25 +48,20 @@ std::map<std::int32_t, std::vector<std::int32_t>> grouped(std::span<const std::i
 }  // namespace
 
 std::vector<std::int32_t> outer_sides(std::span<const std::int32_t> hexahedra) {
-  struct Seen {
-    Side key;
-    std::int32_t side;
-    auto operator<=>(const Seen&) const = default;
-  };
-  std::vector<Seen> seen;
+  std::vector<std::pair<Side, std::int32_t>> seen;  // sorted nodes, side
   const auto count = static_cast<std::int32_t>(6 * hexahedra.size() / 8);
   seen.reserve(static_cast<std::size_t>(count));
   for (std::int32_t side = 0; side < count; ++side) {
     Side key = nodes_of(hexahedra, side);
     std::ranges::sort(key);
-    seen.push_back({key, side});
+    seen.emplace_back(key, side);
   }
   std::ranges::sort(seen);
   std::vector<std::int32_t> alone;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const bool twin = (i > 0 && seen[i - 1].key == seen[i].key) ||
-                      (i + 1 < seen.size() && seen[i + 1].key == seen[i].key);
-    if (!twin) alone.push_back(seen[i].side);
+    const bool twin = (i > 0 && seen[i - 1].first == seen[i].first) ||
+                      (i + 1 < seen.size() && seen[i + 1].first == seen[i].first);
+    if (!twin) alone.push_back(seen[i].second);
   }
   std::ranges::sort(alone);
   return alone;
