@@ -31,7 +31,7 @@ const SPACE_SHADERS = (() => {
     out vec4 shown;
     void main() {
       if (dot(place, plane.xyz) > plane.w) discard;
-      float light = gl_FrontFacing ? 0.52 + 0.5 * max(0.0, dot(normalize(normal), normalize(vec3(-0.35, 0.5, -0.8)))) : 0.4;
+      float light = gl_FrontFacing ? 0.6 + 0.42 * max(0.0, dot(normalize(normal), normalize(vec3(-0.35, 0.5, -0.8)))) : 0.45;
       vec2 border = min(corner, 1.0 - corner) / max(fwidth(corner), vec2(1e-6));
       float line = edges * (1.0 - clamp(min(border.x, border.y), 0.0, 1.0));
       shown = vec4(colour * min(light, 1.0) * (1.0 - 0.6 * line), 1.0);
@@ -137,7 +137,8 @@ class SpacePicture {
     gl.disable(gl.BLEND);
   }
 
-  // Seen through, with lines where a surface ends.
+  // Seen through, with lines where a surface ends. Only what shows the reader its inside is filled: the particles keep
+  // their colours behind the rest.
   drawTools(uniforms, view) {
     const {gl} = this, ink = isDark() ? [170, 184, 200] : [70, 84, 100], faces = [], rims = [], places = view.toolPlaces();
     const at = row => places.slice(3 * row, 3 * row + 3), rim = new Map();
@@ -152,8 +153,10 @@ class SpacePicture {
     for (const [a, b] of rim.values()) rims.push(...at(a), ...at(b));
     const all = (places, alpha) => Array.from({length: places.length / 3}, () => [...ink, alpha]).flat();
     gl.enable(gl.BLEND);
+    gl.enable(gl.CULL_FACE);
     gl.depthMask(false);
-    this.drawPlain(uniforms, gl.TRIANGLES, faces, all(faces, 34));
+    this.drawPlain(uniforms, gl.TRIANGLES, faces, all(faces, 40));
+    gl.disable(gl.CULL_FACE);
     this.drawPlain(uniforms, gl.LINES, rims, all(rims, 200));
     gl.depthMask(true);
     gl.disable(gl.BLEND);
