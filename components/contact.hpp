@@ -34,17 +34,17 @@ struct CurveForce : Component<ControlPoint, double, 8> {
   static constexpr bool transient = true;
 };
 
-// ---- tools ------------------------------------------------------------------------------------
-struct ToolPosition : Component<Tool, double, 2> {
+// ---- tools (z = 0 in two dimensions) -----------------------------------------------------------
+struct ToolPosition : Component<Tool, double, tool_axes> {
   static constexpr ComponentInfo info{"position", "m", "a point of the tool's surface"};
 };
-struct ToolVelocity : Component<Tool, double, 2> {
+struct ToolVelocity : Component<Tool, double, tool_axes> {
   static constexpr ComponentInfo info{"velocity", "m/s", "mean over the last step"};
 };
-struct ToolNormal : Component<Tool, double, 2> {
+struct ToolNormal : Component<Tool, double, tool_axes> {
   static constexpr ComponentInfo info{"normal", "-", "from the tool into the powder"};
 };
-struct ToolForce : Component<Tool, double, 2> {
+struct ToolForce : Component<Tool, double, tool_axes> {
   static constexpr ComponentInfo info{"force", "N", "of the particles, on the tool"};
 };
 

@@ -42,7 +42,7 @@ struct ToolProgram {
     int tool = 0;
     double begin = 0, duration = 0;  // s
     double ramp = 0;                 // -, share of the duration with rising (and falling) speed
-    Point displacement{};            // m
+    Point3 displacement{};           // m
     int stage = 0;
     // s: when the speed begins to fall although the displacement is not done; never, unless the stage ends early.
     double cut = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ struct ToolProgram {
     }
   };
   std::vector<std::string> names;
-  std::vector<Point> start;  // m
+  std::vector<Point3> start;  // m
   std::vector<Segment> segments;
   std::vector<Stage> stages;
 
@@ -160,7 +160,7 @@ struct ContactIndex {
   // In a periodic cell, of each of them: by which periods it is moved.
   std::vector<std::array<std::int32_t, 2>> images;
   std::array<double, 4> cell_before{};      // m, the cell's vectors then
-  std::vector<Point> tools_before;          // m, [tools]: where they stood then
+  std::vector<Point3> tools_before;         // m, [tools]: where they stood then
   std::vector<std::int32_t> sampled_begin;  // [slots + 1] into contact rows: particle samples
   std::vector<std::int32_t>
       other_begin;  // [slots + 1] into other_rows: particle is sampled against

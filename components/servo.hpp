@@ -2,25 +2,27 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "components/die_room.hpp"
 #include "components/relief.hpp"
 #include "components/shape.hpp"
 
 namespace pulvis {
 
 // ---- servos ---------------------------------------------------------------------------------------
-struct ServoTravel : Component<Tool, double, 2> {
+struct ServoTravel : Component<Tool, double, tool_axes> {
   static constexpr ComponentInfo info{"servo_travel", "m", "displacement by servos so far"};
 };
-struct ServoVelocity : Component<Tool, double, 2> {
+struct ServoVelocity : Component<Tool, double, tool_axes> {
   static constexpr ComponentInfo info{"servo_velocity", "m/s", "of its servo, over the next step"};
 };
 struct ServoMass : Component<Tool, double, 1> {
   static constexpr ComponentInfo info{"servo_mass", "kg", "with which its servo lets it move"};
 };
-struct ServoDragged : Component<Tool, double, 2> {
+struct ServoDragged : Component<Tool, double, tool_axes> {
   static constexpr ComponentInfo info{"servo_dragged", "m/s",
                                       "velocity of the mass that it drags along through a dashpot"};
 };
@@ -38,7 +40,7 @@ struct ToolServos {
   struct Servo {
     int tool = 0;
     int stage = 0;
-    Point direction{};        // unit vector: the way it pushes
+    Point3 direction{};       // unit vector: the way it pushes
     double force = 0;         // N, to be held
     double rise = 0;          // s, until it is asked for in full
     double rate = 0;          // N/s, instead of it; 0: none
@@ -67,9 +69,9 @@ struct StageEnds {
   struct End {
     int stage = 0;
     Kind kind = Kind::force;
-    int tool = 0;       // whose force or displacement it is
-    Point direction{};  // the force along it; zero: the size of the resultant
-    double value = 0;   // N, m or -
+    int tool = 0;        // whose force or displacement it is
+    Point3 direction{};  // the force along it; zero: the size of the resultant
+    double value = 0;    // N, m or -
     bool reached = false;
 
     // The rest is the scene's.
@@ -85,11 +87,12 @@ struct StageEnds {
   };
   std::vector<End> ends;
   Cell cell;
-  std::vector<Point> tools_at_begin;  // m, [tools]: where they stood when the stage began
+  std::optional<DieRoom> room = {};  // instead of the cell: of three dimensions
+  std::vector<Point3> tools_at_begin;  // m, [tools]: where they stood when the stage began
   double run_end = std::numeric_limits<double>::infinity();  // s: Clock::end from the next step on
   std::size_t stage = static_cast<std::size_t>(-1);
 
-  // The cell is the scene's.
+  // Cell and room are the scene's.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(ends, tools_at_begin, stage, run_end);

@@ -15,6 +15,7 @@
 namespace pulvis {
 
 using Point = std::array<double, 2>;
+using Point3 = std::array<double, 3>;  // of tools, which live in space: z = 0 in two dimensions
 
 // The undeformed mesh of one particle class, in its own frame (centre of the outline at the origin).
 struct Shape {

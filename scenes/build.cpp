@@ -28,6 +28,7 @@
 #include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/observe.hpp"
+#include "scenes/space/build.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/cell.hpp"
 #include "scenes/tools/constraints.hpp"
@@ -331,8 +332,9 @@ void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bo
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     for (std::size_t k = 0; k < 2; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      if (needs.tools) world.column<ToolNormal>().values()[2 * t + k] = scene.tools[t].normal[axis];
-      world.column<ToolPosition>().values()[2 * t + k] = start_of(scene.tools[t])[axis];
+      if (needs.tools)
+        world.column<ToolNormal>().values()[tool_axes * t + k] = scene.tools[t].normal[axis];
+      world.column<ToolPosition>().values()[tool_axes * t + k] = start_of(scene.tools[t])[axis];
     }
   if (needs.polylines || needs.constraints) world.emplace<ToolShapes>(tool_shapes(scene));
   add_drives(world, scene, bodies);
@@ -378,6 +380,7 @@ void add_clock(World& world, const Scene& scene) {
 }  // namespace
 
 std::unique_ptr<World> build_world(const Scene& scene) {
+  if (scene.space) return space::build_world(scene);
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);
   check_travel(scene, particles);

@@ -88,7 +88,7 @@ json tool_setup(const Scene& scene, const World& world) {
   json tools = json::array();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const ToolSpec& tool = scene.tools[t];
-    const double* at = world.column<ToolPosition>().values() + 2 * t;
+    const double* at = world.column<ToolPosition>().values() + tool_axes * t;
     json out = is_constraint(tool) ? constraint_setup(tool, world, static_cast<int>(t))
                                    : touching_setup(scene, tool, {at[0], at[1]});
     out["name"] = tool.name;

@@ -70,13 +70,21 @@ const TableDeclaration<Scene>& top_level() {
         nothing<Scene>},
        {{.name = "family",
          .kind = Kind::choice,
-         .choices = {{"compaction", "deformable particles in a rigid die, 2D plane strain"},
+         .choices = {{"compaction", "deformable particles in a rigid die, 2D plane strain or 3D"},
                      {"afm", "a cantilever with a tip or a colloid probe, 3D, quasi-static"}},
          .required = true,
          .doc = "What kind of experiment this is."},
         [](Scene& scene, const Decoded& value) {
           if (value.index == 1) scene.afm = std::make_shared<AfmScene>();
         }},
+       {{.name = "dimension",
+         .kind = Kind::integer,
+         .range = within(2, 3),
+         .only_for = compaction_only,
+         .doc = "2: as this page says; 3: scenes in space, which are a language of their own "
+                "(docs/scene-3d.md).",
+         .fallback_doc = "`2`"},
+        nothing<Scene>},
        {{.name = "title",
          .kind = Kind::text,
          .fallback = value_of(""),

@@ -1,5 +1,6 @@
 #include "scenes/results/contact_findings.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +17,8 @@ double largest_tool_force(const World& world) {
   double largest = 0;
   const Column<ToolForce>& force = world.column<ToolForce>();
   for (std::size_t t = 0; t < force.table.rows; ++t)
-    largest = std::max(largest, std::hypot(force.values()[2 * t], force.values()[2 * t + 1]));
+    largest =
+        std::max(largest, Eigen::Map<const Eigen::Vector3d>(force.values() + tool_axes * t).norm());
   return largest;
 }
 

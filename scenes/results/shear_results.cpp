@@ -19,7 +19,9 @@ constexpr double goes_along = 0.1;     // share of the target's speed that a loc
 constexpr double static_share = 0.25;  // of the sliding distance, from its beginning
 constexpr double dynamic_share = 0.5;  // of the sliding distance, to its end
 
-Vec2 vector_of(const double* values, int row) { return {values[2 * row], values[2 * row + 1]}; }
+Vec2 vector_of(const double* values, int tool) {
+  return {values[tool_axes * tool], values[tool_axes * tool + 1]};
+}
 
 // The plane whose normal points in this direction; -1: none.
 int plane_facing(const Scene& scene, const Vec2& direction) {
@@ -120,8 +122,8 @@ double ShearResults::distance_now() const {
   const double begin = program.stages[static_cast<std::size_t>(setup_->stage)].begin;
   const double time = world_.resource<Clock>().time;
   if (time <= begin) return 0;
-  const Point now = tool_position_at(program, setup_->target, time);
-  const Point then = tool_position_at(program, setup_->target, begin);
+  const Point3 now = tool_position_at(program, setup_->target, time);
+  const Point3 then = tool_position_at(program, setup_->target, begin);
   return Vec2(now[0] - then[0], now[1] - then[1]).dot(setup_->along);
 }
 

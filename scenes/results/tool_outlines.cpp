@@ -15,7 +15,7 @@ namespace {
 constexpr double share_of_box = 0.06;  // thickness of a body over the size of the box
 
 Vec2 place_of(const World& world, std::size_t tool) {
-  const double* at = world.column<ToolPosition>().values() + 2 * tool;
+  const double* at = world.column<ToolPosition>().values() + tool_axes * tool;
   return {at[0], at[1]};
 }
 

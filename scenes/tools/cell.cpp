@@ -102,8 +102,8 @@ void add_driven_walls(World& world, const Scene& scene, const std::vector<BodySp
   if (!drives_walls(scene)) return;
   const DieCell die = *die_cell(scene);
   const double* at = world.column<ToolPosition>().values();
-  const double width = at[2 * die.right] - at[2 * die.left];
-  const double height = at[2 * die.top + 1] - at[2 * die.bottom + 1];
+  const double width = at[tool_axes * die.right] - at[tool_axes * die.left];
+  const double height = at[tool_axes * die.top + 1] - at[tool_axes * die.bottom + 1];
   world.add<ServoTravel>();
   world.add<ServoVelocity>();
   DrivenWalls& walls = world.emplace<DrivenWalls>();

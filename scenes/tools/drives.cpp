@@ -25,7 +25,8 @@ ToolProgram tool_program(const World& world, const Scene& scene) {
   const double* start = scene.tools.empty() ? nullptr : world.column<ToolPosition>().values();
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     program.names.push_back(scene.tools[t].name);
-    program.start.push_back({start[2 * t], start[2 * t + 1]});
+    const double* at = start + tool_axes * t;
+    program.start.push_back({at[0], at[1], at[2]});
   }
   double begin = 0;
   for (const StageSpec& stage : scene.stages) {
@@ -35,7 +36,7 @@ ToolProgram tool_program(const World& world, const Scene& scene) {
                                   begin,
                                   stage.duration,
                                   move.ramp,
-                                  {move.displacement.x(), move.displacement.y()},
+                                  {move.displacement.x(), move.displacement.y(), 0},
                                   number});
     program.stages.push_back({stage.name, begin, begin + stage.duration});
     begin += stage.duration;
@@ -65,7 +66,7 @@ void add_elastic_drives(const Scene& scene, ToolServos& servos) {
       servos.servos.push_back(
           {.tool = move.tool,
            .stage = static_cast<int>(s),
-           .direction = {direction.x(), direction.y()},
+           .direction = {direction.x(), direction.y(), 0},
            .mass = *move.mass,
            .damping = 2 * move.damping * std::sqrt(*move.stiffness * *move.mass),
            .stiffness = *move.stiffness});
@@ -84,7 +85,7 @@ ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) 
       const double tool = spec.response / (1 + kernels::dragged_mass);
       servos.servos.push_back({.tool = spec.tool,
                                .stage = static_cast<int>(s),
-                               .direction = {direction.x(), direction.y()},
+                               .direction = {direction.x(), direction.y(), 0},
                                .force = spec.force,
                                .rise = spec.rise * scene.stages[s].duration,
                                .rate = spec.rate.value_or(0),
@@ -109,7 +110,7 @@ StageEnds::End end_of(const Scene& scene, int stage, const UntilSpec& until) {
   end.kind = until.force ? StageEnds::Kind::force : StageEnds::Kind::displacement;
   end.value = until.force ? *until.force : *until.displacement;
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(end.tool)];
-  if (tool.shape == ToolSpec::Shape::plane) end.direction = {tool.normal.x(), tool.normal.y()};
+  if (tool.shape == ToolSpec::Shape::plane) end.direction = {tool.normal.x(), tool.normal.y(), 0};
   return end;
 }
 

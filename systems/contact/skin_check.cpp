@@ -120,7 +120,7 @@ double left_of_tools(const ContactIndex& index, const ToolSurfaces& tools, const
   double minimum = 1e300;
   for (int t = 0; t < tools.position.rows(); ++t) {
     const Row<Tool> tool(t);
-    const Point before = entry(index.tools_before, t);
+    const Point3& before = entry(index.tools_before, t);
     const Point back{-before[0], -before[1]};
     const Point moved{before[0] - tools.position(tool, 0), before[1] - tools.position(tool, 1)};
     const Box own = kernels::moved(m.before, back), u = kernels::moved(m.displacement, moved);
@@ -175,8 +175,9 @@ void skin_check::operator()() const {
   std::ranges::copy(control.values(), before.values().begin());
   index->tools_before.clear();
   for (int t = 0; tools && t < tools->position.rows(); ++t)
-    index->tools_before.push_back(
-        {tools->position(Row<Tool>(t), 0), tools->position(Row<Tool>(t), 1)});
+    index->tools_before.push_back({tools->position(Row<Tool>(t), 0),
+                                   tools->position(Row<Tool>(t), 1),
+                                   tools->position(Row<Tool>(t), 2)});
 }
 
 }  // namespace pulvis

@@ -17,8 +17,8 @@ namespace {
 
 // How far the programme has taken a tool from its start.
 Point tool_travel(const ToolProgram& program, int tool, double time) {
-  const Point now = tool_position_at(program, tool, time);
-  const Point& start = entry(program.start, tool);
+  const Point3 now = tool_position_at(program, tool, time);
+  const Point3& start = entry(program.start, tool);
   return {now[0] - start[0], now[1] - start[1]};
 }
 

@@ -29,16 +29,19 @@ constexpr double max_strain_between_looks = 0.01;
 // its near side is the nearer one by far, also where speeds grow within the step.
 constexpr double max_share_of_thickness = 0.25;
 
+double length_of(const Point3& v) { return portable::hypot(portable::hypot(v[0], v[1]), v[2]); }
+
 // Of all tools, from `time` on.
 double farthest_displacement(const ToolProgram& program, const Optional<Read<ServoVelocity>>& servo,
                              double time, double dt) {
   double farthest = 0;
   for (int t = 0; t < static_cast<int>(program.names.size()); ++t) {
-    const Point now = tool_position_at(program, t, time);
-    const Point next = tool_position_at(program, t, time + dt);
-    double displacement = portable::hypot(next[0] - now[0], next[1] - now[1]);
+    const Point3 now = tool_position_at(program, t, time);
+    const Point3 next = tool_position_at(program, t, time + dt);
+    double displacement = length_of({next[0] - now[0], next[1] - now[1], next[2] - now[2]});
     const Row<Tool> tool(t);
-    if (servo) displacement += portable::hypot((*servo)(tool, 0), (*servo)(tool, 1)) * dt;
+    if (servo)
+      displacement += length_of({(*servo)(tool, 0), (*servo)(tool, 1), (*servo)(tool, 2)}) * dt;
     farthest = std::max(farthest, displacement);
   }
   return farthest;

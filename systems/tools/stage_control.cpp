@@ -15,13 +15,18 @@
 #include "engine/portable_math.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/tools/relief_kernel.hpp"
-#include "systems/tools/tool_kernel.hpp"
 #include "systems/tools/systems.hpp"
+#include "systems/tools/tool_kernel.hpp"
 
 namespace pulvis {
 namespace {
 
 using End = StageEnds::End;
+
+Point3 of_tool(const auto& column, Row<Tool> tool) {
+  return {column(tool, 0), column(tool, 1), column(tool, 2)};
+}
+double size_of(const Point3& v) { return portable::hypot(portable::hypot(v[0], v[1]), v[2]); }
 
 double relative_density(const StageEnds::Cell& cell, const Read<ToolPosition>& at) {
   const Row<Tool> bottom(cell.bottom);
@@ -36,8 +41,7 @@ double strain_to_rest(const MixedControl& control, const ToolProgram& program, i
                       const Clock& clock) {
   const MixedControl::Stage& asked = entry(control.stages, stage);
   const double since = clock.time - entry(program.stages, stage).begin;
-  const double share =
-      0.5 * asked.ramp * kernels::smooth_speed(since / asked.duration, asked.ramp);
+  const double share = 0.5 * asked.ramp * kernels::smooth_speed(since / asked.duration, asked.ramp);
   double strain = 0;
   for (const int k : {MixedControl::xx, MixedControl::yy})
     if (entry(asked.law, k) == MixedControl::Law::strain) strain += entry(asked.strain, k);
@@ -52,14 +56,18 @@ double value_now(const End& end, const stage_control& s) {
   const Read<ToolPosition>& at = s.tools->position;
   const Read<ToolForce>& force = s.tools->force;
   const Row<Tool> tool(end.tool);
+  if (end.kind == StageEnds::Kind::density && ends.room)
+    return ends.room->density([&](int number, int k) { return at(Row<Tool>(number), k); });
   if (end.kind == StageEnds::Kind::density) return relative_density(ends.cell, at);
   if (end.kind == StageEnds::Kind::displacement) {
-    const Point& from = entry(ends.tools_at_begin, end.tool);
-    return portable::hypot(at(tool, 0) - from[0], at(tool, 1) - from[1]);
+    const Point3& from = entry(ends.tools_at_begin, end.tool);
+    return size_of({at(tool, 0) - from[0], at(tool, 1) - from[1], at(tool, 2) - from[2]});
   }
-  const double along = force(tool, 0) * end.direction[0] + force(tool, 1) * end.direction[1];
-  const bool any_way = end.direction == Point{};
-  return any_way ? portable::hypot(force(tool, 0), force(tool, 1)) : -along;
+  const Point3 borne = of_tool(force, tool);
+  const bool any_way = end.direction == Point3{};
+  return any_way ? size_of(borne)
+                 : -(borne[0] * end.direction[0] + borne[1] * end.direction[1] +
+                     borne[2] * end.direction[2]);
 }
 
 // How long its tools, or strains, take to come to rest; 0 where none is on its way.
@@ -124,8 +132,7 @@ void stage_control::operator()() const {
   if (new_stage && tools) {
     ends->tools_at_begin.resize(static_cast<std::size_t>(tools->position.rows()));
     for (int t = 0; t < tools->position.rows(); ++t)
-      entry(ends->tools_at_begin, t) = {tools->position(Row<Tool>(t), 0),
-                                        tools->position(Row<Tool>(t), 1)};
+      entry(ends->tools_at_begin, t) = of_tool(tools->position, Row<Tool>(t));
   }
   ends->stage = stage;
   ends->run_end = std::min(ends->run_end, clock->end);

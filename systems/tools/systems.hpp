@@ -33,12 +33,11 @@ struct stage_control {
   void operator()() const;
 };
 
-struct tool_servo {
+// What servos know and set, whatever the dimension.
+struct Servos {
   Read<Clock> clock;
   Read<ToolProgram> program;
   Read<ToolForce> force;
-  TouchingRows<ToolContact> rows;
-  Read<ContactLaw<ToolContact>> law;
   Read<ContactRules> rules;
   Write<ToolServos> servos;
   struct Drive {
@@ -48,11 +47,17 @@ struct tool_servo {
     Write<ServoDragged> dragged;
     Write<ServoForce> asked;
   } drive;
+};
+
+struct tool_servo {
+  Servos servos;
+  TouchingRows<ToolContact> rows;
+  Read<ContactLaw<ToolContact>> law;
   void operator()() const;
 };
 
 // Where the programme puts a tool at `time`, m. Used outside the step, too.
-Point tool_position_at(const ToolProgram& program, int tool, double time);
+Point3 tool_position_at(const ToolProgram& program, int tool, double time);
 
 // ---- what they bear -------------------------------------------------------------------------------
 struct tool_contact {

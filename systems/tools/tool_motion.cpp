@@ -13,14 +13,13 @@
 
 namespace pulvis {
 
-Point tool_position_at(const ToolProgram& program, int tool, double time) {
-  Point at = entry(program.start, tool);
+Point3 tool_position_at(const ToolProgram& program, int tool, double time) {
+  Point3 at = entry(program.start, tool);
   for (const ToolProgram::Segment& s : program.segments) {
     if (s.tool != tool) continue;
     const double share =
         kernels::cut_travel((time - s.begin) / s.duration, s.ramp, (s.cut - s.begin) / s.duration);
-    at[0] += share * s.displacement[0];
-    at[1] += share * s.displacement[1];
+    for (std::size_t k = 0; k < tool_axes; ++k) at[k] += share * s.displacement[k];
   }
   return at;
 }
@@ -28,9 +27,9 @@ Point tool_position_at(const ToolProgram& program, int tool, double time) {
 void tool_motion::operator()() const {
   for (int t = 0; t < position.rows(); ++t) {
     const Row<Tool> tool(t);
-    const Point now = tool_position_at(*program, t, clock->time);
-    const Point before = tool_position_at(*program, t, clock->time - clock->dt_before);
-    for (int k = 0; k < 2; ++k) {
+    const Point3 now = tool_position_at(*program, t, clock->time);
+    const Point3 before = tool_position_at(*program, t, clock->time - clock->dt_before);
+    for (int k = 0; k < tool_axes; ++k) {
       const double moved = entry(now, k) - entry(before, k);
       velocity(tool, k) = clock->dt_before > 0 ? moved / clock->dt_before : 0;
       position(tool, k) = entry(now, k);
@@ -74,12 +73,13 @@ void tool_reaction::operator()() const {
   const auto power = [&] {
     double sum = 0;
     for (int t = 0; t < tool_force.rows(); ++t)
-      for (int k = 0; k < 2; ++k) sum -= tool_force(Row<Tool>(t), k) * velocity(Row<Tool>(t), k);
+      for (int k = 0; k < tool_axes; ++k)
+        sum -= tool_force(Row<Tool>(t), k) * velocity(Row<Tool>(t), k);
     return sum;
   };
   const double power_before = power();
   for (int t = 0; t < tool_force.rows(); ++t)
-    tool_force(Row<Tool>(t), 0) = tool_force(Row<Tool>(t), 1) = 0;
+    for (int k = 0; k < tool_axes; ++k) tool_force(Row<Tool>(t), k) = 0;
   if (contacts) add_contacts(*contacts, tool_force);
   if (constraints) add_constraints(*constraints, tool_force);
   const double work = 0.5 * (power_before + power()) * clock->dt_before;

@@ -55,7 +55,7 @@ ROOMS = {
         "lever/mesh": "spec language",
         "lever": "lever/mesh spec language",
         "checks": "lever meshes packing tools results outlines spec language",
-        "space/meshes": "spec language",
+        "space/meshes": "meshes spec language",
         "space/packing": "space/meshes packing outlines spec language",
         "space/keys": "keys materials spec language",
         "space/tools": "space/packing tools spec language",
@@ -85,7 +85,7 @@ ROOMS = {
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
 # Sources of one kind that a header of another name declares.
-PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_",
+PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/space/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_",
          "cli/python/module/bind_")
 MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}

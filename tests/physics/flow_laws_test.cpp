@@ -82,8 +82,8 @@ TEST(FlowLaws, RateRaisesTheFlowStressByItsLaw) {
     e.simulation.observe();
     World& w = e.simulation.world();
     constexpr std::size_t last = 2 * kinds - 1;  // the tool that presses the last block
-    const double speed = -w.column<ToolVelocity>().values()[2 * last];
-    const double length = w.column<ToolPosition>().values()[2 * last];
+    const double speed = -w.column<ToolVelocity>().values()[tool_axes * last];
+    const double length = w.column<ToolPosition>().values()[tool_axes * last];
     const double rate = 2 / std::numbers::sqrt3 * speed / length;
     double ratio = 0;
     const auto points = points_of(e, kinds - 1);

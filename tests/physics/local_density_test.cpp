@@ -141,8 +141,8 @@ const DensityGrid& grid_between(Experiment& e, double bottom, double top) {
   World& w = e.simulation.world();
   double* at = w.column<ToolPosition>().values();
   const auto& tool = w.resource<DensityGrid>().tool;
-  at[2 * tool[DensityGrid::bottom] + 1] = bottom;
-  at[2 * tool[DensityGrid::top] + 1] = top;
+  at[tool_axes * tool[DensityGrid::bottom] + 1] = bottom;
+  at[tool_axes * tool[DensityGrid::top] + 1] = top;
   open<local_density>(w)();
   return w.resource<DensityGrid>();
 }

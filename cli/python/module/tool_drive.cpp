@@ -61,8 +61,8 @@ void drive_tool(Simulation& simulation, const std::string& name, const Point& ve
   require_seen(world, name, velocity);
   auto& program = world.resource<ToolProgram>();
   const Clock& clock = simulation.clock();
-  const Point now = tool_position_at(program, tool, clock.time);
-  const Point before = tool_position_at(program, tool, clock.time - clock.dt_before);
+  const Point3 now = tool_position_at(program, tool, clock.time);
+  const Point3 before = tool_position_at(program, tool, clock.time - clock.dt_before);
   std::erase_if(program.segments, [&](const auto& segment) { return segment.tool == tool; });
   constexpr int no_stage = -1;  // none that ends early cuts it
   program.start[static_cast<std::size_t>(tool)] = before;
@@ -71,14 +71,14 @@ void drive_tool(Simulation& simulation, const std::string& name, const Point& ve
     program.segments.push_back({.tool = tool,
                                 .begin = clock.time - clock.dt_before,
                                 .duration = clock.dt_before,
-                                .displacement = {now[0] - before[0], now[1] - before[1]},
+                                .displacement = {now[0] - before[0], now[1] - before[1], 0},
                                 .stage = no_stage});
   // Beyond the end: the last steps are longer than the time that is left.
   const double duration = 2 * (clock.end - clock.time);
   program.segments.push_back({.tool = tool,
                               .begin = clock.time,
                               .duration = duration,
-                              .displacement = {velocity[0] * duration, velocity[1] * duration},
+                              .displacement = {velocity[0] * duration, velocity[1] * duration, 0},
                               .stage = no_stage});
 }
 

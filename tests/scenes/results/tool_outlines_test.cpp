@@ -37,7 +37,7 @@ Outline outline_of(const Experiment& e, const std::string& tool) {
 double* place_of(Experiment& e, const std::string& tool) {
   for (std::size_t t = 0; t < e.scene.tools.size(); ++t)
     if (e.scene.tools[t].name == tool)
-      return e.simulation.world().column<ToolPosition>().values() + 2 * t;
+      return e.simulation.world().column<ToolPosition>().values() + tool_axes * t;
   ADD_FAILURE() << "no tool " << tool;
   return nullptr;
 }
