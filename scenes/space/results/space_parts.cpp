@@ -15,6 +15,7 @@
 #include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/results/space_series.hpp"
 #include "scenes/space/results/space_tags.hpp"
+#include "scenes/space/results/tool_sheets.hpp"
 #include "scenes/space/results/visit_particles.hpp"
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
@@ -32,6 +33,13 @@ std::vector<double> values_of_nodes(const World& world) {
     for (std::size_t i = 0; i < shape.nodes.size() * C::count; ++i) out.push_back(at[i][lane]);
   });
   return out;
+}
+
+Eigen::AlignedBox3d box_of_nodes(const World& world) {
+  Eigen::AlignedBox3d box;
+  const std::vector<double> nodes = values_of_nodes<Position>(world);
+  for (std::size_t i = 0; i < nodes.size(); i += 3) box.extend(Vec3(Vec3::Map(&nodes[i])));
+  return box;
 }
 
 std::vector<FieldInfo> fields_in_space(const World& world) {
@@ -55,7 +63,8 @@ class SpaceParts : public ResultParts {
         room_(die_room(scene)),
         yield_stress_(common_yield_stress(scene)),
         volume_(powder_of(world, scene).volume),
-        tags_(particle_tags(scene, world)) {
+        tags_(particle_tags(scene, world)),
+        sheets_(*scene.space, box_of_nodes(world)) {
     if (room_) room_->particle_volume = volume_;
     for (std::size_t t = 0; t < scene.space->tools.size(); ++t)
       has_servo_.push_back(is_servo_driven(scene, static_cast<int>(t)));
@@ -77,18 +86,26 @@ class SpaceParts : public ResultParts {
     });
     mesh.reference = values_of_nodes<Position>(world_);
     mesh.tags = tags_;
+    mesh.tool_faces = sheets_.faces();
     return mesh;
   }
 
   std::vector<FieldInfo> fields() const override { return fields_in_space(world_); }
-  std::vector<FieldInfo> tool_fields() const override { return {}; }
+  std::vector<FieldInfo> tool_fields() const override {
+    if (sheets_.faces().names.empty()) return {};
+    return {ToolSheets::field()};
+  }
 
   void append_frame(Fields& fields) const override {
     fields = {values_of_nodes<Position>(world_), values_of_nodes<Velocity>(world_)};
     append_element_fields(world_, fields);
     append_stress_frame(world_, fields);
   }
-  void append_tool_frame(Fields&) const override {}
+  void append_tool_frame(Fields& fields) const override {
+    if (sheets_.faces().names.empty()) return;
+    fields.push_back(sheets_.points(
+        {world_.column<ToolPosition>().values(), tool_axes * sheets_.faces().names.size()}));
+  }
 
   void append_tools(const Energies&, std::vector<double>& row) const override {
     if (!world_.has_table<Tool>()) return;
@@ -180,6 +197,7 @@ class SpaceParts : public ResultParts {
   std::int64_t elements_ = 0;
   std::vector<bool> has_servo_;
   std::vector<ParticleTag> tags_;
+  ToolSheets sheets_;
 };
 
 }  // namespace
