@@ -151,7 +151,7 @@ TEST_F(WholeSettingsTest, OfAStudyHoldWhatTheCommandLineChanged) {
   fs::copy(keys / "data/grain.csv", outline);
   put("given/studies/study.toml",
       "scene = '../scenes/outlines.toml'\noverrides = ['output.samples=9', # ']'\n"
-      "  \"title=an \\\"]\\\"\"]\n[grid]\ncontact.friction = [0.1, 0.2]\n");
+      "  \"title=an \\\"]\\\"\"]\n[grid]\ncontact.friction = [0.1]\n");
   expect_same_again({"study"}, "study.toml", {"variations.csv", "friction=0.1/history.csv"},
                     {"--set", "material.steel.density=7 g/cm^3", "--set",
                      "particle.traced.file=" + outline.string()});
