@@ -43,6 +43,7 @@
 #include "scenes/materials/library.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
+#include "scenes/space/keys/space_reference.hpp"
 #include "scenes/study/study_read.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/constraints.hpp"
@@ -74,6 +75,8 @@ ExitCode check(const Options& options) {
   if (!options.reference.empty()) {
     tell("{}", options.reference == "schema"      ? scene_json_schema()
                : options.reference == "materials" ? material_reference()
+               : options.reference == "text-3d"   ? space_scene_reference()
+               : options.reference == "schema-3d" ? space_scene_json_schema()
                                                   : scene_reference());
     return ExitCode::done;
   }
@@ -261,9 +264,11 @@ void add_check(CLI::App& app, Options& options, ExitCode& code) {
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);
   checks
-      ->add_option("--reference", options.reference,
-                   "print the scene language instead: text or schema; or the library of materials")
-      ->check(CLI::IsMember({"text", "schema", "materials"}));
+      ->add_option(
+          "--reference", options.reference,
+          "print the scene language instead: text or schema, in three dimensions text-3d or "
+          "schema-3d; or the library of materials")
+      ->check(CLI::IsMember({"text", "schema", "text-3d", "schema-3d", "materials"}));
   checks->add_flag("--print", options.print,
                    "print the scene whole instead: what it extends, overrides and defaults put in");
   checks->callback([&options, &code] {

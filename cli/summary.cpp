@@ -13,6 +13,7 @@
 #include "engine/instruction_set.hpp"
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/state_hash.hpp"
+#include "scenes/spec/space_scene.hpp"
 #include "scenes/tools/surface.hpp"
 #include "systems/laws/flow_law.hpp"
 
@@ -61,6 +62,27 @@ Json materials_json(const Scene& scene) {
     materials.push_back(entry);
   }
   return materials;
+}
+
+Json direction_json(const space::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json space_tools_json(const space::SpaceScene& scene, const World& world) {
+  static constexpr const char* shapes[] = {"plane", "die", "punch", "stl"};
+  Json tools = Json::array();
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const space::ToolSpec& spec = scene.tools[t];
+    const double* at = world.column<ToolPosition>().values() + tool_axes * t;
+    const double* f = world.column<ToolForce>().values() + tool_axes * t;
+    Json tool{{"name", spec.name},
+              {"shape", shapes[static_cast<int>(spec.shape)]},
+              {"point", {at[0], at[1], at[2]}}};
+    if (spec.shape != space::ToolSpec::Shape::stl) tool["normal"] = direction_json(spec.normal);
+    if (spec.diameter > 0) tool["diameter"] = spec.diameter;
+    for (const Vec2& p : spec.profile) tool["profile"].push_back({p.x(), p.y()});
+    tool["force"] = {f[0], f[1], f[2]};
+    tools.push_back(tool);
+  }
+  return tools;
 }
 
 std::int64_t peak_memory() {
@@ -199,12 +221,15 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"particles", world.resource<Bodies>().particles()},
             {"elements", results.elements()},
             {"element_updates_per_second", cost.wall_seconds > 0 ? updates / cost.wall_seconds : 0},
-            {"peak_memory_bytes", peak_memory()},
-            {"thickness", scene.thickness}};
+            {"peak_memory_bytes", peak_memory()}};
+  if (scene.space)
+    json["dimension"] = 3;
+  else
+    json["thickness"] = scene.thickness;
   add_figures(json, results);
   add_quality(json, world, quality);
   json["limits"] = limits_json(scene.limits);
-  json["tools"] = tools_json(scene, world);
+  json["tools"] = scene.space ? space_tools_json(*scene.space, world) : tools_json(scene, world);
   json["materials"] = materials_json(scene);
   add_stages(json, world);
   add_shear(json, results);

@@ -34,6 +34,22 @@ struct ToolContact {  // (edge of a particle, tool), four Gauss points a row
   static constexpr const char* name = "tool_contact";
   static constexpr bool laned = false, by_chunk = false;
 };
+struct SurfacePoint {  // Bezier points of a particle's surface in three dimensions
+  static constexpr const char* name = "surface_point";
+  static constexpr bool laned = true, by_chunk = true;
+};
+struct SurfaceFace {  // four-sided patches of these surfaces, particle after particle
+  static constexpr const char* name = "surface_face";
+  static constexpr bool laned = false, by_chunk = true;
+};
+struct FaceContact {  // (face of one particle, other particle), sixteen Gauss points a row
+  static constexpr const char* name = "face_contact";
+  static constexpr bool laned = false, by_chunk = false;
+};
+struct FaceToolContact {  // (face of a particle, tool), sixteen Gauss points a row
+  static constexpr const char* name = "face_tool_contact";
+  static constexpr bool laned = false, by_chunk = false;
+};
 inline constexpr int tool_axes = 3;  // tools live in space, whatever the dimension of the powder
 struct Tool {
   static constexpr const char* name = "tool";

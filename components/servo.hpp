@@ -2,9 +2,11 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "components/die_room.hpp"
 #include "components/relief.hpp"
 #include "components/shape.hpp"
 
@@ -85,11 +87,12 @@ struct StageEnds {
   };
   std::vector<End> ends;
   Cell cell;
+  std::optional<DieRoom> room = {};    // instead of the cell: of three dimensions
   std::vector<Point3> tools_at_begin;  // m, [tools]: where they stood when the stage began
   double run_end = std::numeric_limits<double>::infinity();  // s: Clock::end from the next step on
   std::size_t stage = static_cast<std::size_t>(-1);
 
-  // The cell is the scene's.
+  // Cell and room are the scene's.
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(ends, tools_at_begin, stage, run_end);

@@ -28,6 +28,7 @@
 #include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/observe.hpp"
+#include "scenes/space/build.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/cell.hpp"
 #include "scenes/tools/constraints.hpp"
@@ -379,6 +380,7 @@ void add_clock(World& world, const Scene& scene) {
 }  // namespace
 
 std::unique_ptr<World> build_world(const Scene& scene) {
+  if (scene.space) return space::build_world(scene);
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);
   check_travel(scene, particles);

@@ -116,8 +116,8 @@ struct OtherRun {
   std::string failure;
 };
 
-double value_of(const std::string& name, const Results& results) {
-  const std::vector<SeriesInfo> momentum = momentum_series();
+double value_of(const std::string& name, const Scene& scene, const Results& results) {
+  const std::vector<SeriesInfo> momentum = momentum_series(scene);
   for (std::size_t i = 0; i < momentum.size(); ++i)
     if (name == momentum[i].name) return results.momentum()[i];
   if (name == "energy_balance_error") return results.energy_balance_error();
@@ -141,7 +141,7 @@ OtherRun run_other(const Scene& scene, const std::vector<std::string>& names,
         results.sample();
         run.times.push_back(clock.time);
         for (const std::string& name : names)
-          if (!is_figure_of_a_run(name)) run.series[name].push_back(value_of(name, results));
+          if (!is_figure_of_a_run(name)) run.series[name].push_back(value_of(name, scene, results));
         samples.pass(clock.time);
         frames.pass(clock.time);
       }
@@ -153,7 +153,7 @@ OtherRun run_other(const Scene& scene, const std::vector<std::string>& names,
     run.failure = failure.what();
   }
   for (const std::string& name : names)
-    if (is_figure_of_a_run(name)) run.series[name] = {value_of(name, results)};
+    if (is_figure_of_a_run(name)) run.series[name] = {value_of(name, scene, results)};
   return run;
 }
 
@@ -232,7 +232,7 @@ bool ended_as_expected(const Scene& scene, const std::optional<std::string>& fai
 }
 
 void Expectations::sample(double time, const Results& results) {
-  sample(time, [&](const std::string& series) { return value_of(series, results); });
+  sample(time, [&](const std::string& series) { return value_of(series, scene_, results); });
 }
 
 void Expectations::sample(double time, const Lookup& value) {
@@ -247,8 +247,8 @@ void Expectations::sample(double time, const Lookup& value) {
 std::vector<Verdict> Expectations::judge(const Results& results,
                                          const std::optional<std::string>& failure, int threads,
                                          const std::function<bool()>& stop) const {
-  return judge([&](const std::string& name) { return value_of(name, results); }, results.end_time(),
-               failure, threads, stop);
+  return judge([&](const std::string& name) { return value_of(name, scene_, results); },
+               results.end_time(), failure, threads, stop);
 }
 
 std::vector<Verdict> Expectations::judge(const Lookup& figure, double end,

@@ -15,6 +15,7 @@
 #include "scenes/meshes/mesh.hpp"
 #include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/space/space_memory.hpp"
 
 namespace pulvis {
 namespace {
@@ -74,6 +75,10 @@ std::vector<std::uint64_t> particles_of_classes(const Scene& scene) {
 }  // namespace
 
 MemoryNeed memory_need(const Scene& scene) {
+  if (scene.space) {
+    const space::SpaceMemory of = space::memory_of(scene);
+    return {of.columns, of.contacts, of.results, program_bytes};
+  }
   const std::vector<std::uint64_t> particles = particles_of_classes(scene);
   std::uint64_t all = 0;
   for (const std::uint64_t count : particles) all += count;

@@ -9,11 +9,10 @@
 #include "scenes/checks/state_checks.hpp"
 #include "scenes/fill_die.hpp"
 #include "scenes/grains/grains.hpp"
-#include "scenes/keys/tables.hpp"
+#include "scenes/keys/scene_tables.hpp"
 #include "scenes/language/extends.hpp"
 #include "scenes/language/override.hpp"
 #include "scenes/language/scene_text.hpp"
-#include "scenes/language/table_reader.hpp"
 #include "scenes/let/let.hpp"
 #include "scenes/lever/afm_checks.hpp"
 #include "scenes/lever/mesh/meshed_lever.hpp"
@@ -21,6 +20,12 @@
 #include "scenes/materials/library.hpp"
 #include "scenes/packing/fill_packings.hpp"
 #include "scenes/scene_files.hpp"
+#include "scenes/space/accuracy.hpp"
+#include "scenes/space/checks.hpp"
+#include "scenes/space/keys/tables.hpp"
+#include "scenes/space/packing/fill_packings.hpp"
+#include "scenes/space/plane_keys.hpp"
+#include "scenes/space/read.hpp"
 #include "scenes/spec/flow_laws.hpp"
 #include "scenes/tools/profile.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -37,16 +42,15 @@ using document::Array;
 using document::Table;
 using document::Value;
 
-class SceneReader {
+class SceneReader : public SceneTables {
  public:
   SceneReader(const Table& root, Problems& problems)
-      : root_(root), tables_(root, problems, schema::scene_language()) {}
+      : SceneTables(root, problems, schema::scene_language()) {}
 
   Scene read(const std::filesystem::path& file) {
     Scene scene;
     scene.file = file;
     tables_.read(schema::top_level(), Value{root_, {{1, 1}, -1}}, "", "", scene);
-    if (const std::string* family = document::find_text(root_, "family")) family_ = *family;
     scene.materials = read_materials();
     if (scene.afm) {
       read_afm(*scene.afm);
@@ -73,39 +77,7 @@ class SceneReader {
     return scene;
   }
 
-  const schema::Origins& origins() const { return tables_.origins(); }
-
  private:
-  static std::string numbered(const std::string& name, std::size_t i) {
-    return fmt::format("{}[{}]", name, i);
-  }
-
-  template <class Spec>
-  std::vector<Spec> read_all(const schema::TableDeclaration<Spec>& declaration) {
-    return read_elements(declaration, root_, "");
-  }
-
-  template <class Spec>
-  std::vector<Spec> read_elements(const schema::TableDeclaration<Spec>& declaration,
-                                  const Table& parent, const std::string& parent_path) {
-    const Array& elements = tables_.elements(parent, parent_path, declaration.info);
-    const std::string name = declaration.info.path.substr(declaration.info.path.rfind('.') + 1);
-    std::vector<Spec> specs(elements.size());
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      const std::string path = numbered(schema::joined_path(parent_path, name), i);
-      specs[i].mark = elements[i].origin.mark;
-      tables_.read(declaration, elements[i], path,
-                   declaration.info.selector == "family" ? family_ : "", specs[i]);
-    }
-    return specs;
-  }
-
-  template <class Spec>
-  void read_one(const schema::TableDeclaration<Spec>& declaration, Spec& spec) {
-    if (const document::Entry* entry = document::find(root_, declaration.info.path))
-      tables_.read(declaration, entry->value, declaration.info.path, "", spec);
-  }
-
   void read_afm(AfmScene& afm) {
     read_one(schema::lever(), afm.lever);
     read_one(schema::tip(), afm.tip);
@@ -117,27 +89,13 @@ class SceneReader {
   }
 
   std::vector<MaterialSpec> read_materials() {
-    std::vector<MaterialSpec> materials = read_all(schema::material());
+    std::vector<MaterialSpec> materials = SceneTables::read_materials();
     const Array& elements = array_at("material");
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-      const Table& table = elements[i].get<Table>();
-      if (const document::Entry* entry = document::find(table, "damping"))
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      if (const document::Entry* entry = document::find(elements[i].get<Table>(), "damping"))
         tables_.read(schema::material_damping(), entry->value, numbered("material", i) + ".damping",
                      family_, materials[i]);
-      materials[i].flow = read_flow_law(table, numbered("material", i));
-    }
     return materials;
-  }
-
-  std::shared_ptr<const FlowLaw> read_flow_law(const Table& material, const std::string& path) {
-    const document::Entry* hardening = document::find(material, "hardening");
-    const document::Entry* rate = document::find(material, "rate");
-    if (hardening == nullptr && rate == nullptr) return nullptr;
-    auto law = std::make_shared<FlowLaw>();
-    if (hardening != nullptr)
-      tables_.read(schema::hardening(), hardening->value, path + ".hardening", "", *law);
-    if (rate != nullptr) tables_.read(schema::rate(), rate->value, path + ".rate", "", *law);
-    return law;
   }
 
   std::vector<ParticleSpec> read_particles() {
@@ -194,18 +152,6 @@ class SceneReader {
           read_elements(schema::mixture_class(), elements[i].get<Table>(), numbered("packing", i));
     return packings;
   }
-
-  // Of a table that read_all has found to be an array of tables, or to be missing.
-  const Array& array_at(const std::string& name) const {
-    static const Array none;
-    const document::Entry* entry = document::find(root_, name);
-    const bool usable = entry != nullptr && document::is_array_of_tables(entry->value);
-    return usable ? entry->value.get<Array>() : none;
-  }
-
-  const Table& root_;
-  std::string family_;
-  schema::TableReader tables_;
 };
 
 [[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& message) {
@@ -223,19 +169,20 @@ std::uint64_t powder_hash(Table root) {
     constexpr std::array others{"title", "initial_state", "stage", "expect", "limits"};
     return std::ranges::find(others, entry.key) != others.end();
   });
-  return scene_hash(scene_text(root, schema::scene_language()));
+  return scene_hash(scene_text(root, language_of(root)));
 }
 
-// What an accuracy asked for stands in the meshes, and what the scene is expected to do does not concern the
-// one that is compared with it.
+// What an accuracy asked for stands in the meshes, two dimensions need not be said, and what the scene is expected to do
+// does not concern the one that is compared with it.
 void make_complete(LoadedScene& loaded, Table& root, const OtherScenes& others, bool alone) {
+  const schema::Language& language = language_of(root);
   std::erase_if(root, [&](const document::Entry& entry) {
-    return entry.key == "accuracy" || (alone && entry.key == "expect");
+    return entry.key == "accuracy" || (entry.key == "dimension" && !is_in_space(root)) ||
+           (alone && entry.key == "expect");
   });
-  loaded.text_in_place = scene_text(root, schema::scene_language());
-  loaded.inputs =
-      keep_inputs(root, loaded.scene.file.parent_path(), others, schema::scene_language());
-  loaded.text = scene_text(root, schema::scene_language());
+  loaded.text_in_place = scene_text(root, language);
+  loaded.inputs = keep_inputs(root, loaded.scene.file.parent_path(), others, language);
+  loaded.text = scene_text(root, language);
   loaded.powder_hash = powder_hash(root);
   loaded.hash = hash_with_inputs(loaded.inputs, scene_hash(loaded.text));
 }
@@ -246,53 +193,97 @@ void refuse_extending(const Table& root, Problems& problems) {
     problems.add(entry->origin, "extends", "cannot be set here, allowed: in a scene's file");
 }
 
-// `alone`: without what is expected of it.
-LoadedScene load(const std::string& text, const std::filesystem::path& file,
-                 const std::vector<std::string>& overrides = {}, bool alone = false) {
-  Problems problems(file, overrides);
+// Which language a scene is in must be known before its variables are.
+void refuse_dimension_of_variables(const Table& root, bool in_space, Problems& problems) {
+  if (is_in_space(root) && !in_space)
+    problems.add(document::find(root, "dimension")->origin, "dimension",
+                 "is an expression of variables, allowed: 2 or 3");
+}
+
+// The tree with all its values in it. Which files extend which, and which keys name files, is the same in all
+// dimensions; everything else asks for the scene's own language.
+Table complete_tree(const std::string& text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides, Problems& problems) {
   Table root = whole_tree(text, file, schema::scene_language(), problems);
   apply_overrides(root, overrides, problems);
   refuse_extending(root, problems);
   problems.throw_if_any();
-  apply_let(root, schema::scene_language(), problems);
+  const bool in_space = is_in_space(root);
+  if (in_space) space::refuse_keys_of_the_plane(root, problems);
   problems.throw_if_any();
-  fill_materials(root, schema::scene_language(), problems);
-  fill_die(root, problems);
+  apply_let(root, language_of(root), problems);
+  refuse_dimension_of_variables(root, in_space, problems);
   problems.throw_if_any();
-  fill_meshes(root, problems);
-  schema::fill_defaults(root, schema::scene_language());
+  fill_materials(root, language_of(root), problems);
+  if (!in_space) fill_die(root, problems);
+  problems.throw_if_any();
+  in_space ? space::fill_meshes(root, problems) : fill_meshes(root, problems);
+  schema::fill_defaults(root, language_of(root));
+  return root;
+}
 
-  LoadedScene loaded;
-  SceneReader reader(root, problems);
-  loaded.scene = reader.read(file);
-  loaded.scene.extended = {problems.files().begin() + 1, problems.files().end()};
+Scene scene_of_tree(const Table& root, const std::filesystem::path& file, Problems& problems,
+                    schema::Origins& origins) {
+  Scene scene;
+  if (is_in_space(root)) {
+    scene = space::read_tree(root, file, problems, origins);
+  } else {
+    SceneReader reader(root, problems);
+    scene = reader.read(file);
+    origins = reader.origins();
+  }
+  scene.extended = {problems.files().begin() + 1, problems.files().end()};
   problems.throw_if_any();
-  complete_flow_laws(loaded.scene, reader.origins(), problems);
+  complete_flow_laws(scene, origins, problems);
   problems.throw_if_any();
-  if (loaded.scene.afm) {
-    load_meshed_lever(loaded.scene, reader.origins(), problems);
-    load_meshed_tip(loaded.scene, reader.origins(), problems);
+  return scene;
+}
+
+void check_family(Scene& scene, const schema::Origins& origins, Problems& problems) {
+  if (scene.afm) {
+    load_meshed_lever(scene, origins, problems);
+    load_meshed_tip(scene, origins, problems);
     problems.throw_if_any();
-    check_afm(loaded.scene, reader.origins(), problems);
-  } else
-    complete_and_check(loaded.scene, reader.origins(), problems);
+    check_afm(scene, origins, problems);
+  } else if (scene.space) {
+    space::complete_and_check(scene, origins, problems);
+  } else {
+    complete_and_check(scene, origins, problems);
+  }
   problems.throw_if_any();
+}
+
+// Packings, grains and profiles.
+void make_powder(Scene& scene, const schema::Origins& origins, Problems& problems) {
+  if (scene.space) return space::fill_packings(scene, origins, problems);
+  fill_packings(scene, origins, problems);
+  problems.throw_if_any();
+  make_grains(scene, origins, problems);
+  problems.throw_if_any();
+  make_profiles(scene, origins, problems);
+}
+
+// `alone`: without what is expected of it.
+LoadedScene load(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<std::string>& overrides = {}, bool alone = false) {
+  Problems problems(file, overrides);
+  Table root = complete_tree(text, file, overrides, problems);
+  LoadedScene loaded;
+  schema::Origins origins;
+  loaded.scene = scene_of_tree(root, file, problems, origins);
+  check_family(loaded.scene, origins, problems);
   OtherScenes others;
   if (!alone) {
     const auto read_other = [&](const std::filesystem::path& other) {
       return (others[other] = load(toml_file_text(other), other, {}, true)).scene;
     };
-    complete_and_check_expectations(loaded.scene, read_other, reader.origins(), problems);
+    complete_and_check_expectations(loaded.scene, read_other, origins, problems);
     problems.throw_if_any();
   }
-  fill_packings(loaded.scene, reader.origins(), problems);
-  problems.throw_if_any();
-  make_grains(loaded.scene, reader.origins(), problems);
-  problems.throw_if_any();
-  make_profiles(loaded.scene, reader.origins(), problems);
+  make_powder(loaded.scene, origins, problems);
   problems.throw_if_any();
   make_complete(loaded, root, others, alone);
-  check_initial_state(loaded.scene, loaded.powder_hash, reader.origins(), problems);
+  check_initial_state(loaded.scene, loaded.powder_hash, origins, problems);
   problems.throw_if_any();
   return loaded;
 }

@@ -4,30 +4,17 @@
 
 #include <algorithm>
 
+#include "components/space/shape.hpp"
+#include "engine/system_list.hpp"
 #include "systems/body/systems.hpp"
 #include "systems/cell/systems.hpp"
 #include "systems/contact/systems.hpp"
 #include "systems/observe/systems.hpp"
+#include "systems/space/step.hpp"
 #include "systems/tools/systems.hpp"
 
 namespace pulvis {
 namespace {
-
-// Systems in order, each where the scene asks for it.
-class SystemList {
- public:
-  explicit SystemList(World& world, When when = When::every_step) : world_(world), when_(when) {}
-  template <class S>
-  void add(const char* name, bool asked = true) {
-    if (asked) systems_.push_back(make_system<S>(world_, name, when_));
-  }
-  std::vector<System> taken() { return std::move(systems_); }
-
- private:
-  World& world_;
-  When when_;
-  std::vector<System> systems_;
-};
 
 // On sampled steps, when the forces are known.
 template <class F>
@@ -133,15 +120,23 @@ std::vector<System> start_list_of(World& w) {
   return start.taken();
 }
 
+// Of three dimensions.
+StepList step_list_in_space(World& w) {
+  space::Steps steps = space::steps_of(w);
+  return {std::move(steps.forces), std::move(steps.observe), std::move(steps.motion)};
+}
+
 Formulation formulation(const World& w) { return w.resource<Bodies>().formulation; }
 
 }  // namespace
 
 StepList step_list(World& w) {
+  if (w.has<space::Shapes>()) return step_list_in_space(w);
   return with_formulation(formulation(w), [&]<class F>(F) { return step_list_of<F>(w); });
 }
 
 std::vector<System> start_list(World& w) {
+  if (w.has<space::Shapes>()) return space::start_of(w);
   return with_formulation(formulation(w), [&]<class F>(F) { return start_list_of<F>(w); });
 }
 

@@ -151,7 +151,7 @@ async function drive() {
   key(document.getElementById("same-range") ? "0" : "-", canvas());
   key("0", canvas());
   if (tip()) {
-    told("tip", tipHolds());
+    if (!document.getElementById("cut")) told("tip", tipHolds());  // in three dimensions: space_driver.js
     const all = hashOf(canvas()), button = document.querySelector("button.fit");
     key("+", canvas());
     const isOffered = !button.hidden;

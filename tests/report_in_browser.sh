@@ -17,11 +17,11 @@ mkdir -p "$reports"
 
 source "$(dirname "$0")/browser.sh"
 
-# check NAME [QUESTION...]: the report of that folder is driven, and each question answered with true
+# check NAME [QUESTION...]: the report of that folder is driven by report_driver.js and $drivers, until it says $wanted, and each question answered with true
 check() {
   local name=$1 body question
   shift
-  body=$(body_of "$name" "$reports/$name/report.html" 1200,2000 driven "$source_dir/tests/report_driver.js")
+  body=$(body_of "$name" "$reports/$name/report.html" 1200,2000 "${wanted:-driven}" "$source_dir/tests/report_driver.js" "${drivers[@]}")
   [[ $body != *data-error* && $body != *data-driver-error* && $body != *data-violation* ]] || fail "$name: $body"
   [[ $body == *'data-ready="1"'* && $body == *'data-driven="1"'* ]] || fail "$name: not ready: $body"
   [[ $body == *'data-network="0"'* ]] || fail "$name: something was loaded: $body"
@@ -30,10 +30,11 @@ check() {
   echo "ok: $name"
 }
 
+drivers=()
 everything=(has-curves scrubbed back stepped playing linked curve-zoomed zoomed other-field dark)
 particles=("${everything[@]}" tip fit)  # of a plane run
 
-PULVIS_KEEP_REPORTS=$reports "$test_cli" --gtest_filter='ReportTest.*' >"$work/tests.txt" ||
+PULVIS_KEEP_REPORTS=$reports "$test_cli" --gtest_filter='ReportTest.*:SpaceReportTest.*' >"$work/tests.txt" ||
   fail "the report tests: $(tail -5 "$work/tests.txt")"
 "$pulvis" run "$source_dir/scenes/compaction/regular-25.toml" --threads 1 --set output.frames=8 \
   --set "stage.press.duration=20 us" --set 'stage.press.move[0].displacement=["0 mm", "-0.4 mm"]' \
@@ -52,6 +53,20 @@ check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
 check compaction "${particles[@]}" material contacts whole near-zero-off
 check lever "${everything[@]}"
 check ShowsTheCurvesOfARunWithoutFrames has-curves
+
+# Particles in three dimensions: turned, cut, asked; and 100 particles of 448 elements open fast enough.
+drivers=("$source_dir/tests/space_driver.js") wanted=spaced
+in_space=("${everything[@]}" fit material turned looked tip-in-space cut cut-told tip-in-section sliced uncut edged tools-hidden labels)
+check ShowsParticlesInABox "${in_space[@]}"
+drivers=() wanted=driven
+check StandsInAComparison "${everything[@]}" fit material
+body=$(body_of "in space" "$reports/StaysBelowAQuarterOfItsLimitWithAQuarterOfTheFrames/report.html" 1200,2000 ready)
+[[ $body =~ data-ready-in=\"([0-9]+)\" && ${BASH_REMATCH[1]} -le 10000 ]] || fail "in space: not ready in 10 s: $body"
+picture_of "$reports/StaysBelowAQuarterOfItsLimitWithAQuarterOfTheFrames/report.html" 1200,2000 "$reports/in-space.png"
+echo "ok: 100 particles of 448 elements, $(du -h "$reports/StaysBelowAQuarterOfItsLimitWithAQuarterOfTheFrames/report.html" | cut -f1) with 10 frames, ready in ${BASH_REMATCH[1]} ms"
+body=$(body_of "comparison in space" "$reports/StandsInAComparison/comparison.html" 1200,2000 ready)
+[[ $body == *'data-ready="1"'* && $body == *'data-views="2"'* && $body != *data-error* ]] || fail "comparison in space: $body"
+echo "ok: comparison in space"
 
 # What to do about a value beyond its limit: the page has the words of the terminal.
 advice=$(sed -n 's/^warning: hourglass energy [0-9.]*% (limit 3%): //p' "$work/compaction.txt")

@@ -13,6 +13,7 @@
 #include "engine/files/output_error.hpp"
 #include "engine/files/own_files.hpp"
 #include "scenes/checks/overlaps.hpp"
+#include "scenes/language/problem.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
@@ -63,6 +64,10 @@ ExitCode draw(const json& setup, const fs::path& output) {
 
 ExitCode draw_preview(const PreviewOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
+  if (scene.space)
+    throw SceneError({{scene.file.string(), 1, 1, "", "dimension",
+                       "scenes in three dimensions have no preview, allowed: `pulvis check`, and "
+                       "the first frame of a run"}});
   require_another(scene.file, options.output);
   require_own_or_none(options.output, role::figure);
   SceneFindings findings;

@@ -23,6 +23,10 @@
 #include "scenes/lever/afm_size.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/packing/place.hpp"
+#include "scenes/space/space_summary.hpp"
+#include "scenes/space/space_warnings.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "scenes/tools/bond_rules.hpp"
 
@@ -37,6 +41,12 @@ std::string estimate_line(Simulation* simulation) {
   } catch (const RunFailure& failure) {
     return fmt::format("warning: the run fails in its first steps: {}", failure.what());
   }
+}
+
+std::string memory_line(const MemoryNeed& need) {
+  return fmt::format("memory: about {}: particles {}, contacts {}, results {}, program {}",
+                     bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
+                     bytes_text(need.results), bytes_text(need.program));
 }
 
 }  // namespace
@@ -57,16 +67,38 @@ SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodie
   SceneFindings findings;
   findings.sizes = packing_summary(scene) + mesh_summary(scene);
   findings.warnings = warnings_of(scene, bodies, simulation);
-  findings.memory =
-      fmt::format("memory: about {}: particles {}, contacts {}, results {}, program {}",
-                  bytes_text(need.total()), bytes_text(need.columns), bytes_text(need.contacts),
-                  bytes_text(need.results), bytes_text(need.program));
+  findings.memory = memory_line(need);
   findings.run = estimate_line(simulation);
   findings.verdict =
       fmt::format("{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
                   counted(scene.tools.size(), "tool"), counted(scene.stages.size(), "stage"));
   return findings;
 }
+
+namespace {
+
+SceneFindings findings_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
+                                Simulation* simulation) {
+  SceneFindings findings;
+  findings.sizes = space::packing_summary(scene) + space::mesh_summary(scene);
+  findings.warnings = space::setup_warnings(scene, bodies);
+  findings.memory = memory_line(memory_need(scene));
+  findings.run = estimate_line(simulation);
+  findings.verdict = fmt::format(
+      "{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
+      counted(scene.space->tools.size(), "tool"), counted(scene.stages.size(), "stage"));
+  return findings;
+}
+
+void check_in_space(const Scene& scene) {
+  const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
+  space::check_overlaps(scene, bodies);
+  std::optional<Simulation> simulation;
+  if (memory_need(scene).total() <= available_memory()) simulation.emplace(scene);
+  tell_findings(findings_in_space(scene, bodies, simulation ? &*simulation : nullptr));
+}
+
+}  // namespace
 
 SceneFindings findings_of(const Scene& scene, const AfmModel& model) {
   std::size_t increments = 0;
@@ -99,6 +131,10 @@ ExitCode check_scene(const Scene& scene) {
   if (scene.afm) {
     tell_lever_memory(scene);
     tell_findings(findings_of(scene, build_afm(scene)));
+    return ExitCode::done;
+  }
+  if (scene.space) {
+    check_in_space(scene);
     return ExitCode::done;
   }
   const std::vector<BodySpec> bodies = place_bodies(scene);

@@ -7,6 +7,7 @@
 #include "cli/report/report_frames.hpp"
 #include "cli/report/report_images.hpp"
 #include "cli/report/report_solid.hpp"
+#include "cli/report/report_space.hpp"
 #include "engine/files/hdf5.hpp"
 #include "engine/files/input_file.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t frame_budget = 20'000'000;  // bytes; packed and spelt in base64 about 15 MB
+constexpr double space_budget = 1.6;              // of the same: positions in space pack better
 constexpr std::size_t max_samples = 5000;
 
 class Reader {
@@ -25,16 +27,27 @@ class Reader {
     read_summary();
     read_scene();
     read_history();
-    file_.contains("/mesh/hexahedra") ? add_solid(file_, head, sections)
-                                      : add_frames(file_, budget, head, sections);
+    add_pictures(budget);
     add_images(file_, head, sections);
   }
 
   Json head = Json::object();
   std::vector<ReportSection> sections;
   std::string title;
+  bool in_space = false;
 
  private:
+  void add_pictures(std::size_t budget) {
+    in_space = has_particles_in_space(file_);
+    if (in_space)
+      add_space(file_, static_cast<std::size_t>(space_budget * static_cast<double>(budget)), head,
+                sections);
+    else if (file_.contains("/mesh/hexahedra"))
+      add_solid(file_, head, sections);
+    else
+      add_frames(file_, budget, head, sections);
+  }
+
   std::string text(const char* name) const {
     return file_.has_attribute("/", name) ? file_.text_attribute("/", name) : std::string();
   }
@@ -108,16 +121,17 @@ std::string text_of(const Json& json) {
 
 ReportData read_report_data(const std::filesystem::path& run_folder) {
   Reader run(run_folder, frame_budget);
-  return {run.title, text_of(run.head), std::move(run.sections)};
+  return {run.title, text_of(run.head), std::move(run.sections), run.in_space};
 }
 
 ReportData read_comparison(const std::vector<std::filesystem::path>& run_folders) {
   Json head{{"runs", Json::array()}};
-  ReportData data{"Comparison: ", "", {}};
+  ReportData data{"Comparison: ", "", {}, false};
   for (std::size_t i = 0; i < run_folders.size(); ++i) {
     Reader run(run_folders[i], frame_budget / run_folders.size());
     for (auto& section : run.sections)
       data.sections.push_back({"run-" + std::to_string(i) + "-" + section.name, section.text});
+    data.in_space = data.in_space || run.in_space;
     data.title += (i == 0 ? "" : " · ") + run.title;
     head["runs"].push_back(std::move(run.head));
   }

@@ -17,6 +17,7 @@ struct ReportData {
   std::string title;
   std::string head;  // JSON
   std::vector<ReportSection> sections;
+  bool in_space = false;  // particles in three dimensions
 };
 
 ReportData read_report_data(const std::filesystem::path& run_folder);

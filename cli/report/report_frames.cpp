@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "cli/report/report_cell.hpp"
 #include "cli/report/report_encoding.hpp"
+#include "cli/report/report_fields.hpp"
 #include "cli/report/report_mesh.hpp"
 #include "cli/report/report_observed.hpp"
 #include "cli/report/report_tags.hpp"
@@ -21,23 +21,6 @@ constexpr std::size_t max_frames = 60, min_frames = 12;
 constexpr std::size_t sectors = 12;  // of a particle drawn as a fan
 constexpr std::size_t fine_levels = 4094,
                       coarse_levels = 254;  // of a value between least and greatest
-
-constexpr Range nothing_yet{std::numeric_limits<double>::infinity(),
-                            -std::numeric_limits<double>::infinity()};
-
-void widen(Range& range, double value) {
-  if (!std::isfinite(value)) return;
-  range.low = std::min(range.low, value);
-  range.high = std::max(range.high, value);
-}
-
-struct CellField {  // one number a cell
-  std::string dataset, label, unit, meaning;
-  std::size_t component = 0, stored = 1;
-  bool speed = false;        // made from the velocities of the nodes
-  bool of_particle = false;  // one number a particle, which all of its cells show
-  Range range = nothing_yet;
-};
 
 std::string frame_path(const std::string& frame) { return "/frames/" + frame; }
 
@@ -93,33 +76,7 @@ class Frames {
   }
 
   void choose_fields(bool tensors) {
-    fields_.clear();
-    for (const auto& name : file_.children(last_)) {
-      const std::string dataset = last_ + "/" + name;
-      if (!file_.has_attribute(dataset, "place")) continue;
-      const std::string place = file_.text_attribute(dataset, "place");
-      const bool speed = name == "velocity" && place == "node";
-      const bool of_particle = place == "particle" && (name == "damage" || name == "fragment");
-      if (!speed && !of_particle && place != "cell") continue;
-      const auto shape = file_.shape(dataset);
-      const std::size_t stored = shape.size() > 1 ? shape[1] : 1;
-      const auto used = static_cast<std::size_t>(file_.number_attribute(dataset, "components"));
-      const std::string unit = file_.text_attribute(dataset, "unit");
-      const std::string meaning = file_.text_attribute(dataset, "meaning");
-      if (speed) fields_.push_back({name, "speed", unit, "mean over the corners", 0, stored, true});
-      if (speed || (used > 1 && !tensors)) continue;
-      for (std::size_t k = 0; k < used; ++k)
-        fields_.push_back(
-            {name, label(name, k, used), unit, meaning, k, stored, false, of_particle});
-    }
-  }
-
-  static std::string label(const std::string& name, std::size_t component, std::size_t count) {
-    static constexpr std::array tensor{"xx", "yy", "zz", "xy"};
-    if (count == 1) return name;
-    if (count == tensor.size()) return name + " " + tensor[component];
-    return name + " " +
-           (count <= 3 ? std::string(1, "xyz"[component]) : std::to_string(component + 1));
+    fields_ = cell_fields(file_, last_, {.tensors = tensors, .particles = false});
   }
 
   ReportCell cell(const std::string& frame) const {
@@ -130,22 +87,8 @@ class Frames {
   }
 
   std::vector<double> values(const std::string& frame, const CellField& field) const {
-    const auto all = file_.read_doubles(frame_path(frame) + "/" + field.dataset);
-    std::vector<double> one(mesh_.cells());
-    for (std::size_t c = 0; c < one.size(); ++c)
-      one[c] = field.speed         ? speed(all, field.stored, c)
-               : field.of_particle ? all[static_cast<std::size_t>(mesh_.cell_particle[c])]
-                                   : all[c * field.stored + field.component];
-    return drawn_.values(one);
-  }
-
-  double speed(const std::vector<double>& velocity, std::size_t stored, std::size_t cell) const {
-    double sum = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto node = static_cast<std::size_t>(mesh_.quads[4 * cell + k]);
-      sum += std::hypot(velocity[node * stored], velocity[node * stored + 1]);
-    }
-    return sum / 4;
+    return drawn_.values(
+        cell_values(file_, frame_path(frame), field, {mesh_.quads, 4, mesh_.cell_particle}));
   }
 
   void find_ranges() {
@@ -195,15 +138,8 @@ class Frames {
     head_["all_frames"] = all_;
     if (frames_.empty()) head_["frames"] = Json::array();
     head_["fields"] = Json::array();
-    for (const CellField& field : fields_) {
-      const bool any = field.range.low <= field.range.high;
-      head_["fields"].push_back({{"name", field.label},
-                                 {"unit", field.unit},
-                                 {"meaning", field.meaning},
-                                 {"levels", fans_ ? coarse_levels : fine_levels},
-                                 {"low", any ? field.range.low : 0.0},
-                                 {"high", any ? field.range.high : 0.0}});
-    }
+    for (const CellField& field : fields_)
+      head_["fields"].push_back(described(field, fans_ ? coarse_levels : fine_levels));
     head_["low"] = {x_.low, y_.low};
     head_["high"] = {x_.high, y_.high};
   }

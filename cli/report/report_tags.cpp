@@ -10,19 +10,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json lines_of(const std::string& text) {
-  Json lines = Json::array();
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', from), text.size());
-    lines.push_back(text.substr(from, end - from));
-    from = end + 1;
-  }
-  return lines;
-}
-
 Json names_of(const hdf5::File& file, const std::string& dataset) {
-  return file.has_attribute(dataset, "names") ? lines_of(file.text_attribute(dataset, "names"))
-                                              : Json::array();
+  return file.has_attribute(dataset, "names")
+             ? Json(lines_of(file.text_attribute(dataset, "names")))
+             : Json::array();
 }
 
 // A tool's lines join its corners in turn, the last one with the first.
@@ -41,9 +32,17 @@ Json tools_of(const hdf5::File& file) {
 
 }  // namespace
 
-void add_tags(const hdf5::File& file, const PlaneMesh& mesh, const DrawnMesh& drawn, Json& head,
-              std::vector<ReportSection>& sections) {
-  sections.push_back({"cell-particle", encoded(drawn.particles(mesh), 1)});
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    lines.push_back(text.substr(from, end - from));
+    from = end + 1;
+  }
+  return lines;
+}
+
+void add_particle_tags(const hdf5::File& file, Json& head, std::vector<ReportSection>& sections) {
   head["tags"] = Json::array();
   for (const std::string name : {"material", "class"}) {
     const std::string dataset = "/particles/" + name;
@@ -51,6 +50,24 @@ void add_tags(const hdf5::File& file, const PlaneMesh& mesh, const DrawnMesh& dr
     head["tags"].push_back({{"name", name}, {"names", names_of(file, dataset)}});
     sections.push_back({"particle-" + name, encoded(file.read_integers(dataset), 1)});
   }
+}
+
+void add_tool_faces(const hdf5::File& file, Json& head, std::vector<ReportSection>& sections) {
+  if (!file.contains("/tools/quads")) return;
+  const std::string of_tool = "/tools/quad_tool";
+  const auto names = lines_of(file.text_attribute(of_tool, "names"));
+  const auto kinds = lines_of(file.text_attribute(of_tool, "kinds"));
+  head["tools"] = Json::array();
+  for (std::size_t t = 0; t < names.size(); ++t)
+    head["tools"].push_back({{"name", names[t]}, {"kind", kinds.at(t)}});
+  sections.push_back({"tool-quads", encoded(file.read_integers("/tools/quads"), 4)});
+  sections.push_back({"tool-of-quad", encoded(file.read_integers(of_tool), 1)});
+}
+
+void add_tags(const hdf5::File& file, const PlaneMesh& mesh, const DrawnMesh& drawn, Json& head,
+              std::vector<ReportSection>& sections) {
+  sections.push_back({"cell-particle", encoded(drawn.particles(mesh), 1)});
+  add_particle_tags(file, head, sections);
   if (file.contains("/tools")) head["tools"] = tools_of(file);
 }
 

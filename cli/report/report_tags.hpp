@@ -16,6 +16,14 @@ namespace pulvis {
 void add_tags(const hdf5::File& file, const PlaneMesh& mesh, const DrawnMesh& drawn,
               nlohmann::ordered_json& head, std::vector<ReportSection>& sections);
 
+// The same of particles in space: "tags" alone, and of "tools" the pieces of their surfaces, four rows of the corners each.
+void add_particle_tags(const hdf5::File& file, nlohmann::ordered_json& head,
+                       std::vector<ReportSection>& sections);
+void add_tool_faces(const hdf5::File& file, nlohmann::ordered_json& head,
+                    std::vector<ReportSection>& sections);
+
+std::vector<std::string> lines_of(const std::string& text);
+
 // The corners of the tools in a frame.
 void add_tool_corners(const hdf5::File& file, const std::string& frame, const std::string& prefix,
                       std::vector<ReportSection>& sections);

@@ -17,6 +17,8 @@
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/results/bond_results.hpp"
+#include "scenes/space/packing/place.hpp"
+#include "scenes/space/space_warnings.hpp"
 
 namespace pulvis {
 namespace {
@@ -50,6 +52,11 @@ void check_limits(const Scene& scene, const Results& results, const World& world
   const bool started = clock.time > 0.1 * clock.end;  // nothing is quasi-static at first touch
   if (scene.limits.kinetic_energy && started)
     hold("kinetic_energy", results.kinetic_ratio(), *scene.limits.kinetic_energy);
+}
+
+std::vector<std::string> warnings_at_start(const Scene& scene) {
+  if (scene.space) return space::setup_warnings(scene, space::place_bodies(scene));
+  return setup_warnings(scene, place_bodies(scene));
 }
 
 }  // namespace
@@ -88,8 +95,7 @@ void Session::begin() {
   }
   if (options_.talks) {
     for (const std::string& line : bond_warnings_) tell("warning: {}\n", line);
-    for (const std::string& line : setup_warnings(loaded_.scene, place_bodies(loaded_.scene)))
-      tell("warning: {}\n", line);
+    for (const std::string& line : warnings_at_start(loaded_.scene)) tell("warning: {}\n", line);
   }
   progress_ = std::make_unique<Progress>(clock().end, results_.elements(), options_.talks);
 }

@@ -48,13 +48,10 @@ struct PlasticStrain : Component<Element, double, Points> {
 };
 
 // ---- only where elements have one point ---------------------------------------------------------
-struct HourglassStress : Component<Element, double, 12> {
-  static constexpr ComponentInfo info{"hourglass_stress", "Pa",
-                                      "of bending, twisting and the mode xi eta zeta"};
-  static constexpr bool transient = true;
-};
 struct PlasticHourglass : Component<Element, double, 12> {
-  static constexpr ComponentInfo info{"plastic_hourglass", "-", "plastic part of these strains"};
+  static constexpr ComponentInfo info{
+      "plastic_hourglass", "-",
+      "plastic part of the strains of bending, twisting and of xi eta zeta"};
 };
 
 }  // namespace pulvis::space

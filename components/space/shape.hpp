@@ -28,15 +28,33 @@ using Tensor = std::array<double, 9>;  // row by row
 struct Shape {
   static constexpr int gauss_points = 16;  // of a face: 4 x 4, u first
 
-  // Constants of an element's kinematics (scenes/space/meshes/element_constants.cpp).
+  // The modes of a hexahedron: x_I = 1/8 (sum of all + sum_m mode_sign(m, I) X_m) with X_m = sum_I mode_sign(m, I) x_I,
+  // m: xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta.
+  static constexpr int modes = 7, stretches = 3, hourglasses = 4;
+
+  // Constants of an element's kinematics (scenes/space/meshes/element_constants.cpp). a_1, a_2, a_3 are the columns of
+  // dX/d(xi, eta, zeta) at the middle: half its edges.
   struct Element {
-    std::array<Point, 8> gradient;  // 1/m: mean of dN_I/dX over the undeformed element
-    double volume = 0;              // m^3
-    Tensor inverse_jacobian{};      // 1/m: (dX/dxi at the middle)^-1, rows xi eta zeta
-    // Natural components A^-1 h of its undeformed hourglass vectors h_a, a = eta zeta, zeta xi, xi eta, xi eta zeta.
-    std::array<Point, 4> natural{};
-    // Lengths of the undeformed edges along xi, eta, zeta at the middle, m.
-    Point edge{};
+    // 1/m: the mean of dN_I/dX over the undeformed element is sum_m mode_sign(m, I) gradient[m]; F = sum_m X_m gradient[m].
+    std::array<Point, modes> gradient{};
+    double volume = 0;  // m^3
+    // 1/m: rows a_i / (8 |a_i|^2). Times an hourglass mode X: its components along the edges over half an edge.
+    Tensor fibre{};
+    std::array<Point, hourglasses> natural{};  // fibre * X of the undeformed element
+    // Of the planes 23, 31, 12: |a_j|/|a_k| and its inverse, the cosine c of the angle between both, 1/(1 - c^2) and its
+    // square root.
+    struct Plane {
+      double ratio = 1, inv_ratio = 1, cosine = 0, inv_sine2 = 1, inv_sine = 1;
+    };
+    std::array<Plane, 3> plane{};
+    // 1/m^2, xx yy zz xy yz zx: volume * sum_I b_I b_I^T / V_I with b_I the mean gradient and V_I the part of the node's
+    // volume that is this element's: bounds its frequencies (systems/space/body/time_step_kernel.hpp).
+    std::array<double, 6> spread{};
+    double hourglass_spread = 0;  // 1/m^2: the same for the hourglass modes
+    double overlap = 0;  // -, squared cosine of the least angle between both kinds of modes
+    // Of the springs and dashpots on its faces, both with the area of a face as it was: 1/m^2 times k K and 1/m times
+    // sqrt(k K rho) are rho omega^2 and rho gamma.
+    double contact_frequency = 0, contact_drag = 0;
   };
   // At the 2 x 2 x 2 Gauss points (+-1/sqrt 3), xi first: of fully integrated elements.
   struct GaussPoint {
@@ -70,7 +88,6 @@ struct Shape {
   std::vector<Element> element;                  // [elements]
   std::vector<std::array<GaussPoint, 8>> gauss;  // [elements]
   std::vector<double> nodal_volume;              // m^3, lumped: times density, a node's mass
-  std::vector<double> frequency;  // 1/m^2, [elements]: see systems/space/body/time_step_kernel.hpp
   std::vector<Face> faces;
   std::vector<std::int32_t> point_begin;  // [Bezier points + 1] into point_terms
   std::vector<PointTerm> point_terms;
@@ -80,6 +97,14 @@ struct Shape {
   double area = 0;                 // m^2, of the surface
   double radius = 0;               // m, of the ball about the origin that holds it
 
+  static constexpr double mode_sign(int mode, int corner) {
+    const bool plus[3] = {corner % 4 == 1 || corner % 4 == 2, corner % 4 >= 2, corner >= 4};
+    constexpr int factors[modes] = {1, 2, 4, 6, 5, 3, 7};  // bits: xi, eta, zeta
+    double sign = 1;
+    for (int k = 0; k < 3; ++k)
+      if (factors[mode] >> k & 1) sign *= plus[k] ? 1 : -1;
+    return sign;
+  }
   int elements() const { return static_cast<int>(hexahedra.size()); }
   int surface_points() const { return static_cast<int>(point_begin.size()) - 1; }
   std::span<const PointTerm> terms_of(int point) const {

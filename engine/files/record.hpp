@@ -61,6 +61,16 @@ struct ToolLines {
   }
 };
 
+// Surfaces of the tools in space, for pictures: four corners a piece, rows of the field `tools/outline` in each frame; a
+// triangle repeats its last one. Seen from the powder the corners run counter-clockwise.
+struct ToolFaces {
+  std::vector<std::string> names;     // of the tools
+  std::vector<std::string> kinds;     // of the tools: plane, die, punch, stl
+  std::vector<std::int32_t> corners;  // [pieces * 4]
+  std::vector<std::int32_t> tool;     // [pieces], position in `names`
+  std::uint64_t points = 0;           // rows of `tools/outline`
+};
+
 struct RunMesh {                            // fixed over the run
   std::vector<std::int32_t> quads;          // [cells * 4], node numbers, counter-clockwise
   std::vector<std::int32_t> cell_particle;  // [cells]
@@ -69,6 +79,7 @@ struct RunMesh {                            // fixed over the run
   std::vector<std::int32_t> hexahedra = {};  // [cells * 8] instead of quads: a mesh in space
   std::vector<ParticleTag> tags = {};
   ToolLines tools = {};
+  ToolFaces tool_faces = {};  // of a mesh in space, instead of lines
   int dimension() const { return hexahedra.empty() ? 2 : 3; }
 };
 

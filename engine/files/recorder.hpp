@@ -8,6 +8,7 @@
 //        /particles/<name>      [particles] number, material, class; `names`: what the numbers stand for, one a line
 //        /mesh/cell_<name>      [cells] material and class for each cell
 //        /tools/lines           [lines, 2] which rows of a frame's tools/outline are joined; /tools/line_tool [lines]
+//        /tools/quads           [pieces, 4] instead in space: corners of surfaces; /tools/quad_tool [pieces]
 //        /frames/000000/<field> [places] or [places, components]; the group's time, step, and
 //                               complete = 1, written last: a frame without it is not to be read
 //        /history/<name>        one 1-D dataset a series; /history/time

@@ -44,6 +44,16 @@ void write_tools(hdf5::File& file, const ToolLines& tools) {
   file.set_attribute("/tools/line_tool", "names", std::string_view(one_a_line(tools.names)));
 }
 
+void write_tools(hdf5::File& file, const ToolFaces& tools) {
+  file.write("/tools/quads", tools.corners, {tools.tool.size(), 4});
+  describe(file, "/tools/quads", "-",
+           "rows of tools/outline, the corners of each piece of a surface; triangles repeat one");
+  file.write("/tools/quad_tool", tools.tool, {tools.tool.size()});
+  describe(file, "/tools/quad_tool", "-", "tool of the piece, position in `names`");
+  file.set_attribute("/tools/quad_tool", "names", std::string_view(one_a_line(tools.names)));
+  file.set_attribute("/tools/quad_tool", "kinds", std::string_view(one_a_line(tools.kinds)));
+}
+
 }  // namespace
 
 void write_mesh(hdf5::File& file, const RunMesh& mesh) {
@@ -54,7 +64,9 @@ void write_mesh(hdf5::File& file, const RunMesh& mesh) {
   const std::string connectivity = in_space ? "/mesh/hexahedra" : "/mesh/quads";
   file.write(connectivity, in_space ? mesh.hexahedra : mesh.quads, {cells, in_space ? 8U : 4U},
              packed);
-  describe(file, connectivity, "-", "node numbers of each cell, counter-clockwise");
+  describe(file, connectivity, "-",
+           in_space ? "node numbers of each cell, in the order of VTK"
+                    : "node numbers of each cell, counter-clockwise");
   file.write("/mesh/cell_particle", mesh.cell_particle, {cells}, packed);
   describe(file, "/mesh/cell_particle", "-", "particle each cell belongs to");
   file.write("/mesh/node_particle", mesh.node_particle, {nodes}, packed);
@@ -63,6 +75,7 @@ void write_mesh(hdf5::File& file, const RunMesh& mesh) {
   describe(file, "/mesh/reference", "m", "positions of the nodes before the first step");
   for (const ParticleTag& tag : mesh.tags) write_tag(file, mesh, tag);
   if (!mesh.tools.names.empty()) write_tools(file, mesh.tools);
+  if (!mesh.tool_faces.names.empty()) write_tools(file, mesh.tool_faces);
 }
 
 }  // namespace pulvis

@@ -51,7 +51,8 @@ Xdmf::Xdmf(std::filesystem::path path, std::string heavy, const RunMesh& mesh,
       nodes_(mesh.node_particle.size()),
       cells_(mesh.cell_particle.size()),
       in_space_(mesh.dimension() == 3),
-      tool_lines_(mesh.tools.points()) {
+      tool_pieces_(in_space_ ? mesh.tool_faces.tool.size() : mesh.tools.tool.size()),
+      tool_points_(in_space_ ? mesh.tool_faces.points : mesh.tools.points()) {
   for (const ParticleTag& tag : mesh.tags)
     if (is_named(tag)) tags_.push_back(tag.name);
   for (const auto& field : fields) {
@@ -66,13 +67,13 @@ std::string Xdmf::text() const {
                        name) +
            grids + "</Grid>\n";
   };
-  return beginning + (tool_lines_ > 0 ? series("tools", tool_grids_) : "") + series("run", grids_) +
-         "</Domain>\n</Xdmf>\n";
+  return beginning + (tool_pieces_ > 0 ? series("tools", tool_grids_) : "") +
+         series("run", grids_) + "</Domain>\n</Xdmf>\n";
 }
 
 void Xdmf::add(double time, const std::string& group) {
   grids_ += grid(time, group);
-  if (tool_lines_ > 0) tool_grids_ += tool_grid(time, group);
+  if (tool_pieces_ > 0) tool_grids_ += tool_grid(time, group);
 }
 
 void Xdmf::write() {
@@ -104,13 +105,14 @@ std::string Xdmf::grid(double time, const std::string& group) const {
 std::string Xdmf::tool_grid(double time, const std::string& group) const {
   return fmt::format(
       "<Grid Name=\"tools {}\" GridType=\"Uniform\">\n<Time Value=\"{:.17g}\"/>\n"
-      "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" "
-      "NumberOfElements=\"{}\">{}</Topology>\n"
-      "<Geometry GeometryType=\"XY\">{}</Geometry>\n{}</Grid>\n",
-      group.substr(group.rfind('/') + 1), time, tool_lines_,
-      item("/tools/lines", integers, tool_lines_, 2),
-      item(group + "/tools/outline", doubles, tool_lines_, 2),
-      whole_numbers("tool", "/tools/line_tool", tool_lines_));
+      "<Topology TopologyType=\"{}\" NumberOfElements=\"{}\">{}</Topology>\n"
+      "<Geometry GeometryType=\"{}\">{}</Geometry>\n{}</Grid>\n",
+      group.substr(group.rfind('/') + 1), time,
+      in_space_ ? "Quadrilateral" : "Polyline\" NodesPerElement=\"2", tool_pieces_,
+      item(in_space_ ? "/tools/quads" : "/tools/lines", integers, tool_pieces_, in_space_ ? 4 : 2),
+      in_space_ ? "XYZ" : "XY",
+      item(group + "/tools/outline", doubles, tool_points_, in_space_ ? 3 : 2),
+      whole_numbers("tool", in_space_ ? "/tools/quad_tool" : "/tools/line_tool", tool_pieces_));
 }
 
 std::string Xdmf::whole_numbers(const std::string& name, const std::string& dataset,

@@ -1,5 +1,5 @@
 // run.xdmf: tells ParaView and meshio how to read the frames of run.h5 as one moving mesh, and the outlines of the
-// tools as another.
+// tools, in space their surfaces, as another.
 //
 // One Uniform grid a frame, each with its own geometry, and every item a whole dataset: readers do
 // not agree on hyperslabs. The file is replaced as a whole with new frames (written beside and
@@ -39,7 +39,8 @@ class Xdmf {
   std::string heavy_;
   std::uint64_t nodes_, cells_;
   bool in_space_;
-  std::uint64_t tool_lines_;
+  std::uint64_t tool_pieces_;  // lines, in space surfaces of four corners
+  std::uint64_t tool_points_;
   std::vector<FieldInfo> fields_;
   std::vector<std::string> tags_;   // of the particles, one a cell
   std::string grids_, tool_grids_;  // the text of the frames so far

@@ -1,5 +1,6 @@
 #include "scenes/checks/checks.hpp"
 #include "scenes/checks/cell_checks.hpp"
+#include "scenes/checks/process_checks.hpp"
 #include "scenes/outlines/points_file.hpp"
 
 #include <fmt/format.h>
@@ -36,9 +37,7 @@ class Checks {
 
   void run() {
     something_is_there();
-    check_materials(scene_, [&](const std::string& path, const std::string& message) {
-      refuse(path, message);
-    });
+    check_materials(scene_, refusal());
     points_files();
     outlines();
     counts();
@@ -64,6 +63,10 @@ class Checks {
 
   void refuse(const std::string& path, const std::string& message) {
     problems_.add(nearest_origin(path), path, message);
+  }
+
+  Refuse refusal() {
+    return [this](const std::string& path, const std::string& message) { refuse(path, message); };
   }
 
   void refuse_missing(const std::string& key, const std::string& what) {
@@ -296,16 +299,8 @@ class Checks {
     for (std::size_t i = 0; i < scene_.stages.size(); ++i) {
       const StageSpec& stage = scene_.stages[i];
       const std::string path = fmt::format("stage[{}]", i);
-      const bool needs_moves =
-          stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
-      if (needs_moves && stage.moves.empty() && stage.servos.empty() && !stage.cell)
-        refuse(path + ".kind",
-               "no tool moves in this stage, allowed: at least one [[stage.move]] or "
-               "[[stage.servo]], a [stage.cell], or kind = \"settle\" or \"hold\"");
-      if (!needs_moves && !stage.moves.empty())
-        refuse(path + ".move[0]",
-               "tools stand still in a stage of this kind, allowed: moves in kind = \"compact\", "
-               "\"unload\", \"eject\" or \"shear\"");
+      check_stage_kind(stage, stage.moves.size(), stage.servos.size() + (stage.cell ? 1U : 0U),
+                       path, refusal());
       moves(stage, path);
     }
   }
@@ -331,20 +326,9 @@ class Checks {
   }
 
   void frictions() {
-    std::set<std::pair<std::string, std::string>> named;
-    for (std::size_t i = 0; i < scene_.frictions.size(); ++i) {
-      const FrictionSpec& friction = scene_.frictions[i];
-      const std::string path = fmt::format("friction[{}].between", i);
-      if (is_tool(friction.first) && is_tool(friction.second))
-        refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
-      if (friction.static_coefficient && *friction.static_coefficient < friction.coefficient)
-        refuse(fmt::format("friction[{}].static_coefficient", i),
-               fmt::format("{:g} is below the dynamic coefficient, allowed: >= {:g}",
-                           *friction.static_coefficient, friction.coefficient));
-      if (!named.insert(std::minmax(friction.first, friction.second)).second)
-        refuse(path, fmt::format("the pair '{}' and '{}' is named twice, allowed: once",
-                                 friction.first, friction.second));
-    }
+    std::vector<std::string> tools;
+    for (const ToolSpec& tool : scene_.tools) tools.push_back(tool.name);
+    check_frictions(scene_, tools, refusal());
   }
 
   void bonds() {
@@ -384,16 +368,12 @@ class Checks {
     for (const ParticleSpec& particle : scene_.particles) materials.insert(particle.material);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
       if (materials.count(static_cast<int>(i)) == 0)
-        refuse_unused(fmt::format("material[{}]", i), scene_.materials[i].name, "[[particle]]");
+        refuse_unused(fmt::format("material[{}]", i), scene_.materials[i].name, "[[particle]]",
+                      refusal());
     for (std::size_t i = 0; i < scene_.particles.size(); ++i)
       if (particles.count(static_cast<int>(i)) == 0)
         refuse_unused(fmt::format("particle[{}]", i), scene_.particles[i].name,
-                      "[[body]] or [[packing]]");
-  }
-
-  void refuse_unused(const std::string& path, const std::string& name, const std::string& user) {
-    refuse(path,
-           fmt::format("'{}' is declared but not used, allowed: what a {} refers to", name, user));
+                      "[[body]] or [[packing]]", refusal());
   }
 
   Scene& scene_;

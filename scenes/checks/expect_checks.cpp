@@ -153,7 +153,7 @@ bool is_figure_of_a_run(const std::string& name) {
 std::vector<SeriesInfo> expectable_series(const Scene& scene) {
   if (scene.afm) return afm_expectable_series(scene);
   std::vector<SeriesInfo> all = history_series(scene);
-  const std::vector<SeriesInfo> momentum = momentum_series();
+  const std::vector<SeriesInfo> momentum = momentum_series(scene);
   all.insert(all.end(), momentum.begin(), momentum.end());
   return all;
 }

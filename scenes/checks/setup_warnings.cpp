@@ -30,8 +30,9 @@ bool leaves(const ToolSpec& tool, const MoveSpec& move) {
   return tool.shape == ToolSpec::Shape::constraint || move.displacement.dot(face_normal(tool)) < 0;
 }
 
-std::string too_fast(const Scene& scene) {
-  const FastTool fast = fastest_tool(scene);
+}  // namespace
+
+std::string too_fast(const Scene& scene, const FastTool& fast, const std::string& tool) {
   if (fast.share <= quasi_static) return "";
   const StageSpec& stage = scene.stages[static_cast<std::size_t>(fast.stage)];
   return fmt::format(
@@ -39,11 +40,12 @@ std::string too_fast(const Scene& scene) {
       "speed, {:.2g} MPa, "
       "is {:.2g} of what the particles bear; quasi-static is <= {:g}, here up to {:.2g} m/s (a "
       "duration of {:.2g} s)",
-      stage.name, scene.tools[static_cast<std::size_t>(fast.tool)].name, fast.speed,
-      fast.energy / 1e6, fast.share, quasi_static,
+      stage.name, tool, fast.speed, fast.energy / 1e6, fast.share, quasi_static,
       fast.speed * std::sqrt(quasi_static / fast.share),
       stage.duration * std::sqrt(fast.share / quasi_static));
 }
+
+namespace {
 
 struct Extent {
   double left = std::numeric_limits<double>::infinity();
@@ -83,27 +85,35 @@ std::string wall_apart(const Scene& scene) {
 
 }  // namespace
 
-FastTool fastest_tool(const Scene& scene) {
+FastTool fast_tool(const Scene& scene, int stage, int tool, double speed) {
   double heaviest = 0, weakest = std::numeric_limits<double>::infinity();
   for (const MaterialSpec& material : scene.materials) {
     heaviest = std::max(heaviest, material.density);
     weakest = std::min(weakest, strength_of(material));
   }
+  FastTool fast{stage, tool, speed, 0.5 * heaviest * speed * speed, 0};
+  fast.share = fast.energy / weakest;
+  return fast;
+}
+
+FastTool fastest_tool(const Scene& scene) {
   FastTool fast;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (const MoveSpec& move : scene.stages[s].moves) {
       const double speed = highest_speed(move, scene.stages[s].duration);
       if (speed <= fast.speed || leaves(scene.tools[static_cast<std::size_t>(move.tool)], move))
         continue;
-      fast = {static_cast<int>(s), move.tool, speed, 0.5 * heaviest * speed * speed, 0};
-      fast.share = fast.energy / weakest;
+      fast = fast_tool(scene, static_cast<int>(s), move.tool, speed);
     }
   return fast;
 }
 
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::vector<std::string> lines = travel_warnings(scene, bodies);
-  for (const std::string& line : {too_fast(scene), wall_apart(scene)})
+  const FastTool fast = fastest_tool(scene);
+  const std::string tool =
+      fast.speed > 0 ? scene.tools[static_cast<std::size_t>(fast.tool)].name : "";
+  for (const std::string& line : {too_fast(scene, fast, tool), wall_apart(scene)})
     if (!line.empty()) lines.push_back(line);
   return lines;
 }

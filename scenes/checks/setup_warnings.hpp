@@ -18,6 +18,11 @@ struct FastTool {
   double energy = 0;  // Pa, rho v^2/2 of the heaviest particles
   double share = 0;   // -, of what the softest bear
 };
+// The same of a move at this speed, in a powder of these materials.
+FastTool fast_tool(const Scene& scene, int stage, int tool, double speed);
+// One line where it is no longer quasi-static; otherwise empty.
+std::string too_fast(const Scene& scene, const FastTool& fast, const std::string& tool);
+
 // The fastest prescribed move towards the powder; of speed 0 where there is none.
 FastTool fastest_tool(const Scene& scene);
 

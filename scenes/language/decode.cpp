@@ -82,10 +82,11 @@ double quantity(const KeyInfo& key, const Value& value) {
   }
 }
 
-const document::Array& pair(const KeyInfo& key, const Value& value) {
+// Two, or one for each dimension.
+const document::Array& parts_of(const KeyInfo& key, const Value& value) {
   const auto* array = value.as<document::Array>();
   if (array == nullptr) refuse_type(key, value);
-  if (array->size() != 2)
+  if (static_cast<int>(array->size()) != key.dimensions)
     refuse(key, value, fmt::format("an array of length {} is given", array->size()));
   return *array;
 }
@@ -129,9 +130,11 @@ std::int64_t integer(const KeyInfo& key, const Value& value) {
   return *given;
 }
 
-std::array<int, 2> counts(const KeyInfo& key, const Value& value) {
-  const document::Array& parts = pair(key, value);
-  return {static_cast<int>(integer(key, parts[0])), static_cast<int>(integer(key, parts[1]))};
+void set_counts(const KeyInfo& key, const Value& value, Decoded& result) {
+  const document::Array& parts = parts_of(key, value);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    result.counts3[i] = static_cast<int>(integer(key, parts[i]));
+  result.counts = {result.counts3[0], result.counts3[1]};
 }
 
 bool flag(const KeyInfo& key, const Value& value) {
@@ -165,9 +168,18 @@ int reference(const KeyInfo& key, const Value& value, const Names& names) {
                             document::value_text(value), suggestion(given, known), listed(known)));
 }
 
-Vec2 vector(const KeyInfo& key, const Value& value) {
-  const document::Array& parts = pair(key, value);
-  return {quantity(key, parts[0]), quantity(key, parts[1])};
+// Of the plane with z = 0.
+Eigen::Vector3d vector(const KeyInfo& key, const Value& value) {
+  const document::Array& parts = parts_of(key, value);
+  Eigen::Vector3d result = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    result[static_cast<Eigen::Index>(i)] = quantity(key, parts[i]);
+  return result;
+}
+
+void set_vector(const Eigen::Vector3d& vector, Decoded& result) {
+  result.vector3 = vector;
+  result.vector = vector.head<2>();
 }
 
 // The position of a word that may stand instead of a number; empty: it is none.
@@ -179,15 +191,15 @@ std::optional<int> word_instead(const KeyInfo& key, const Value& value) {
 }
 
 void vector_or_word(const KeyInfo& key, const Value& value, Decoded& result) {
-  const document::Array& parts = pair(key, value);
-  const std::optional<int> word = word_instead(key, parts[1]);
-  if (!word) {
-    result.vector = vector(key, value);
-    return;
-  }
+  const document::Array& parts = parts_of(key, value);
+  const std::optional<int> word = word_instead(key, parts.back());
+  if (!word) return set_vector(vector(key, value), result);
   result.is_word = true;
   result.index = *word;
-  result.vector = {quantity(key, parts[0]), 0};
+  Eigen::Vector3d known = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+    known[static_cast<Eigen::Index>(i)] = quantity(key, parts[i]);
+  set_vector(known, result);
 }
 
 void number_or_word(const KeyInfo& key, const Value& value, Decoded& result) {
@@ -200,26 +212,31 @@ void number_or_word(const KeyInfo& key, const Value& value, Decoded& result) {
   check_range(key, value, result.number);
 }
 
-std::vector<Vec2> points(const KeyInfo& key, const Value& value) {
+void set_points(const KeyInfo& key, const Value& value, Decoded& result) {
   const auto* array = value.as<document::Array>();
   if (array == nullptr) refuse_type(key, value);
   if (array->size() < 2)
     refuse(key, value, fmt::format("an array of length {} is given", array->size()));
-  std::vector<Vec2> result;
-  for (const Value& point : *array) result.push_back(vector(key, point));
-  return result;
+  for (const Value& point : *array) {
+    result.points3.push_back(vector(key, point));
+    result.points.push_back(result.points3.back().head<2>());
+  }
 }
 
-Vec2 direction(const KeyInfo& key, const Value& value) {
-  const document::Array& parts = pair(key, value);
-  const Vec2 given{bare_number(key, parts[0]), bare_number(key, parts[1])};
+void set_direction(const KeyInfo& key, const Value& value, Decoded& result) {
+  const document::Array& parts = parts_of(key, value);
+  Eigen::Vector3d given = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    given[static_cast<Eigen::Index>(i)] = bare_number(key, parts[i]);
   const double largest = given.cwiseAbs().maxCoeff();
   if (largest == 0) refuse(key, value, "a direction of length 0");
-  return (given / largest).normalized();  // scaled first: the square of 1e200 is infinite
+  // Scaled first: the square of 1e200 is infinite.
+  result.vector = (given.head<2>() / largest).normalized();
+  result.vector3 = (given / largest).normalized();
 }
 
 std::array<std::string, 2> name_pair(const KeyInfo& key, const Value& value, const Names& names) {
-  const document::Array& parts = pair(key, value);
+  const document::Array& parts = parts_of(key, value);
   std::vector<std::string> known;
   for (const char* table : {"material", "tool"}) {
     const auto found = names.find(table);
@@ -275,7 +292,7 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       vector_or_word(key, value, result);
       break;
     case Kind::points:
-      result.points = points(key, value);
+      set_points(key, value, result);
       break;
     case Kind::phase:
       phase_or_quantity(key, value, result);
@@ -287,13 +304,13 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       result.integer = integer(key, value);
       break;
     case Kind::counts:
-      result.counts = counts(key, value);
+      set_counts(key, value, result);
       break;
     case Kind::flag:
       result.flag = flag(key, value);
       break;
     case Kind::direction:
-      result.vector = direction(key, value);
+      set_direction(key, value, result);
       break;
     case Kind::text:
     case Kind::file:

@@ -59,7 +59,8 @@ std::string describe(const schema::TableView& view, bool of_families) {
 
 std::string reference_of(const std::string& beginning, const schema::Language& language) {
   std::string text = beginning;
-  const bool of_families = schema::find_key(language.front(), "family") != nullptr;
+  const schema::KeyInfo* family = schema::find_key(language.front(), "family");
+  const bool of_families = family != nullptr && family->choices.size() > 1;
   for (const schema::TableView& view : language) text += describe(view, of_families);
   return text;
 }

@@ -36,8 +36,8 @@ constexpr const char* quantity_pattern =
 
 Json quantity_type() { return {{"type", "string"}, {"pattern", quantity_pattern}}; }
 
-Json pair_of(const Json& item) {
-  return {{"type", "array"}, {"items", item}, {"minItems", 2}, {"maxItems", 2}};
+Json list_of(const Json& item, int count) {
+  return {{"type", "array"}, {"items", item}, {"minItems", count}, {"maxItems", count}};
 }
 
 Json words(const std::vector<schema::Choice>& choices) {
@@ -59,7 +59,7 @@ Json in_range(const char* type, const schema::Range& range) {
 }
 
 Json vector_type(const schema::KeyInfo& key) {
-  Json json = pair_of(quantity_type());
+  Json json = list_of(quantity_type(), key.dimensions);
   if (!key.choices.empty())
     json["items"] = {{"anyOf", Json::array({words(key.choices), quantity_type()})}};
   return json;
@@ -79,7 +79,8 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::vector:
       return vector_type(key);
     case Kind::points:
-      return {{"type", "array"}, {"items", pair_of(quantity_type())}, {"minItems", 2}};
+      return {
+          {"type", "array"}, {"items", list_of(quantity_type(), key.dimensions)}, {"minItems", 2}};
     case Kind::phase:
       return {{"anyOf", Json::array({Json{{"const", key.word}}, quantity_type()})}};
     case Kind::number:
@@ -87,11 +88,11 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::integer:
       return in_range("integer", key.range);
     case Kind::counts:
-      return pair_of(in_range("integer", key.range));
+      return list_of(in_range("integer", key.range), key.dimensions);
     case Kind::flag:
       return {{"type", "boolean"}};
     case Kind::direction:
-      return pair_of({{"type", "number"}});
+      return list_of({{"type", "number"}}, key.dimensions);
     case Kind::text:
       return text_type(200);
     case Kind::file:
@@ -104,7 +105,7 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::reference:
       return {{"type", "string"}};
     case Kind::name_pair:
-      return pair_of({{"type", "string"}});
+      return list_of({{"type", "string"}}, 2);
     case Kind::texts:
       return list_type("string");
     case Kind::integers:

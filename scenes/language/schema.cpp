@@ -32,6 +32,10 @@ std::string integer_text(const KeyInfo& key) {
   return "a whole number" + range_text(key.range) + multiple;
 }
 
+std::string number_word(const KeyInfo& key) { return key.dimensions == 3 ? "three" : "two"; }
+std::string axes(const KeyInfo& key) { return key.dimensions == 3 ? "[x, y, z]" : "[x, y]"; }
+std::string last_axis(const KeyInfo& key) { return key.dimensions == 3 ? "z" : "y"; }
+
 bool is_child(const TableInfo& info, const std::string& parent) {
   const auto dot = info.path.rfind('.');
   const std::string owner = dot == std::string::npos ? "" : info.path.substr(0, dot);
@@ -139,10 +143,12 @@ std::string allowed(const KeyInfo& key) {
     case Kind::quantity:
       return "a quantity " + quantity;
     case Kind::vector:
-      return "two quantities [x, y] " + quantity +
-             (key.choices.empty() ? "" : "; for y also " + quoted_words(key.choices));
+      return fmt::format("{} quantities {} {}", number_word(key), axes(key), quantity) +
+             (key.choices.empty()
+                  ? ""
+                  : fmt::format("; for {} also {}", last_axis(key), quoted_words(key.choices)));
     case Kind::points:
-      return "at least two points [[x, y], [x, y], ...] " + quantity;
+      return fmt::format("at least two points [{0}, {0}, ...] {1}", axes(key), quantity);
     case Kind::phase:
       return fmt::format("\"{}\" or a quantity {}", key.word, quantity);
     case Kind::number:
@@ -151,11 +157,12 @@ std::string allowed(const KeyInfo& key) {
     case Kind::integer:
       return integer_text(key);
     case Kind::counts:
-      return "two whole numbers" + range_text(key.range);
+      return number_word(key) + " whole numbers" + range_text(key.range);
     case Kind::flag:
       return "true or false";
     case Kind::direction:
-      return "two numbers [x, y], not both 0";
+      return fmt::format("{} numbers {}, not {} 0", number_word(key), axes(key),
+                         key.dimensions == 3 ? "all" : "both");
     case Kind::text:
       return "a string of at most 200 characters on one line";
     case Kind::name:

@@ -19,14 +19,14 @@ namespace pulvis::schema {
 
 enum class Kind {
   quantity,   // a string: number and unit
-  vector,     // two quantities: x and y
+  vector,     // quantities: x and y, in three dimensions z, too
   points,     // two or more vectors
   phase,      // a quantity, or the key's one word
   number,     // a bare number
   integer,    // a bare whole number
-  counts,     // two bare whole numbers
+  counts,     // bare whole numbers, one for each dimension
   flag,       // true or false
-  direction,  // two bare numbers, not both zero
+  direction,  // bare numbers, one for each dimension, not all zero
   text,       // a string
   name,       // a string others refer to; part of paths in the results
   choice,     // one of a few words
@@ -75,12 +75,14 @@ struct KeyInfo {
   std::string name = {};
   std::string formerly = {};  // its name in older scenes, which is refused with the new one
   Kind kind = Kind::text;
-  std::string unit = {};             // SI, of quantities
-  Range range = {};                  // of quantities in the SI unit, of vectors for each component
-  int multiple_of = 1;               // of integers
-  std::vector<Choice> choices = {};  // of a number, or a vector's y: words instead of it
-  std::string word = {};             // Kind::phase: the word that stands instead of a quantity
-  std::string refers_to = {};        // Kind::reference: the table whose names are allowed
+  std::string unit = {};  // SI, of quantities
+  Range range = {};       // of quantities in the SI unit, of vectors for each component
+  int multiple_of = 1;    // of integers
+  int dimensions = 2;     // of vectors, points, directions and counts
+  std::vector<Choice> choices =
+      {};                      // of a number, or a vector's last component: words instead of it
+  std::string word = {};       // Kind::phase: the word that stands instead of a quantity
+  std::string refers_to = {};  // Kind::reference: the table whose names are allowed
   std::optional<document::Value> fallback = {};  // the default
   bool required = false;
   Words only_for = {};      // the table's selector must have one of these values
@@ -96,11 +98,14 @@ struct Decoded {
   double number = 0;  // quantity in SI, number
   std::int64_t integer = 0;
   int index = 0;         // choice, reference: position in the list
-  bool is_word = false;  // phase; number or vector (its y) with words: `index` says which
+  bool is_word = false;  // phase; number or vector (its last) with words: `index` says which
   bool flag = false;
   std::array<int, 2> counts = {};
   Vec2 vector = Vec2::Zero();
   std::vector<Vec2> points = {};
+  std::array<int, 3> counts3 = {};  // where `dimensions` is 3
+  Eigen::Vector3d vector3 = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> points3 = {};
   std::string text = {};
   std::vector<std::string> texts = {};
   std::vector<std::int64_t> integers = {};

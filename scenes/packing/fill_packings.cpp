@@ -11,6 +11,7 @@
 #include "scenes/outlines/outline_reach.hpp"
 #include "scenes/outlines/portable.hpp"
 #include "scenes/outlines/scaled_outline.hpp"
+#include "scenes/packing/class_of_size.hpp"
 #include "scenes/packing/die_filling.hpp"
 #include "scenes/packing/mixture.hpp"
 #include "scenes/packing/packing_file.hpp"
@@ -23,22 +24,19 @@ using portable::V2;
 
 constexpr double outline_deviation = 1e-3;  // of a particle's size, where it is no rounded polygon
 
-// The class of particles of another size than their own class has; the same for the same size.
-int class_of_size(Scene& scene, int particle, double scale) {
-  if (scale == 1) return particle;
-  int number = 1;
-  for (std::size_t p = 0; p < scene.particles.size(); ++p) {
-    if (scene.particles[p].class_of != particle) continue;
-    if (scene.particles[p].scale == scale) return static_cast<int>(p);
-    ++number;
-  }
-  ParticleSpec spec = scene.particles[static_cast<std::size_t>(particle)];
-  spec.class_of = particle;
-  spec.scale = scale;
-  spec.outline = scaled(spec.outline, scale);
-  spec.name += fmt::format("#{}", number);  // a sign that names in scenes do not have
-  scene.particles.push_back(spec);
-  return static_cast<int>(scene.particles.size()) - 1;
+int sized_class(Scene& scene, int particle, double scale) {
+  return class_of_size(scene.particles, particle, scale, [](ParticleSpec& spec, double factor) {
+    spec.outline = scaled(spec.outline, factor);
+  });
+}
+
+// What passes a sieve is the smallest width of the outline.
+ParticleMeasure measure_of(const Scene& scene, const MixtureClass& mixed) {
+  const Outline& outline = scene.particles[static_cast<std::size_t>(mixed.particle)].outline;
+  const double area = outline_area(outline);
+  if (mixed.size.kind == SizeLaw::Kind::mono) return {1, area};
+  const double length = std::sqrt(area);
+  return {length * rigid_shape(outline, length, length / 1000).min_width, area};
 }
 
 class RandomPacking {
@@ -54,14 +52,18 @@ class RandomPacking {
   }
 
   void run() {
-    const Mixture mixture = mixture_of(scene_, packing_, path_, origins_, problems_);
+    const Mixture mixture = mixture_of(
+        {packing_.classes, packing_.count, packing_.density, packing_.height,
+         packing_.dense != PackingSpec::Dense::given, packing_.width, 2, scene_.file.parent_path(),
+         [&](const MixtureClass& mixed) { return measure_of(scene_, mixed); }},
+        path_, origins_, problems_);
     if (mixture.count == 0) return;
-    unit_ = 2 * std::sqrt(mixture.area / mixture.count / std::numbers::pi);
+    unit_ = 2 * std::sqrt(mixture.content / mixture.count / std::numbers::pi);
     for (const MixtureSize& size : mixture.sizes) add(size);
     order_.width = packing_.width / unit_;
     order_.periodic = scene_.cell.has_value();
     if (!everything_fits()) return;
-    const double full = mixture.area / packing_.width;  // height at a density of 1
+    const double full = mixture.content / packing_.width;  // height at a density of 1
     if (packing_.density) order_.min_height = full / *packing_.density / unit_;
     if (packing_.height) order_.min_height = *packing_.height / unit_;
     order_.time_to_shake = packing_.dense == PackingSpec::Dense::touching ? 0 : 1;
@@ -77,7 +79,7 @@ class RandomPacking {
 
  private:
   void add(const MixtureSize& size) {
-    const int particle = class_of_size(scene_, size.particle, size.scale);
+    const int particle = sized_class(scene_, size.particle, size.scale);
     const ParticleSpec& spec = scene_.particles[static_cast<std::size_t>(particle)];
     const double deviation = outline_deviation * std::sqrt(outline_area(spec.outline));
     order_.shapes.push_back(rigid_shape(spec.outline, unit_, deviation));
@@ -164,7 +166,7 @@ void read_file(Scene& scene, PackingSpec& packing) {
   const FiledPacking filed = read_packing(scene.file.parent_path() / packing.file, scene);
   for (const FiledParticle& particle : filed.particles) {
     BodySpec body;
-    body.particle = class_of_size(scene, particle.particle, particle.scale);
+    body.particle = sized_class(scene, particle.particle, particle.scale);
     body.position = particle.position;
     body.angle = particle.angle;
     body.mark = packing.mark;

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "scenes/outlines/outline.hpp"
-#include "scenes/packing/rigid_shape.hpp"
 #include "scenes/packing/size_law.hpp"
 
 namespace pulvis {
@@ -17,9 +15,9 @@ constexpr double rounding_of_sums = 1e-6;  // three times 0.333333 is 1
 
 class Mixer {
  public:
-  Mixer(const Scene& scene, const PackingSpec& packing, const std::string& path,
-        const schema::Origins& origins, Problems& problems)
-      : scene_(scene), packing_(packing), path_(path), origins_(origins), problems_(problems) {}
+  Mixer(const MixtureOrder& order, const std::string& path, const schema::Origins& origins,
+        Problems& problems)
+      : packing_(order), path_(path), origins_(origins), problems_(problems) {}
 
   Mixture run() {
     if (!shares_are_told() || !two_are_given()) return {};
@@ -35,9 +33,8 @@ class Mixer {
  private:
   struct Law {
     std::vector<SizeShare> sizes;
-    double own_size = 1;   // m, of the class's outline
-    double own_area = 0;   // m^2
-    double mean_area = 0;  // m^2, of a particle
+    ParticleMeasure own;
+    double mean_content = 0;  // of a particle
   };
 
   void refuse(const std::string& key, const std::string& message) {
@@ -52,6 +49,10 @@ class Mixer {
     return fmt::format(".class[{}].{}", c, key);
   }
 
+  const char* share_key() const {
+    return packing_.dimensions == 3 ? "volume_fraction" : "area_fraction";
+  }
+
   template <class Member>
   std::size_t classes_with(Member member) const {
     return static_cast<std::size_t>(std::ranges::count_if(
@@ -64,16 +65,17 @@ class Mixer {
       refuse("", "a random packing of nothing, allowed: at least one [[packing.class]]");
     const std::size_t numbers = classes_with(&MixtureClass::number);
     const std::size_t by_number = classes_with(&MixtureClass::number_fraction);
-    const std::size_t by_area = classes_with(&MixtureClass::area_fraction);
-    const bool alone = all == 1 && numbers + by_number + by_area == 0;
-    const bool alike = (numbers == all) + (by_number == all) + (by_area == all) == 1 &&
-                       numbers + by_number + by_area == all;
+    const std::size_t by_share = classes_with(&MixtureClass::area_fraction);
+    const bool alone = all == 1 && numbers + by_number + by_share == 0;
+    const bool alike = (numbers == all) + (by_number == all) + (by_share == all) == 1 &&
+                       numbers + by_number + by_share == all;
     if (all > 0 && !alone && !alike)
-      refuse("",
-             "its classes do not say alike how much they are, allowed: every class with a "
-             "number, or every class with a number_fraction, or with an area_fraction");
+      refuse("", fmt::format(
+                     "its classes do not say alike how much they are, allowed: every class with a "
+                     "number, or every class with a number_fraction, or with {} {}",
+                     packing_.dimensions == 3 ? "a" : "an", share_key()));
     if (by_number == all) add_up(&MixtureClass::number_fraction, "number_fraction");
-    if (by_area == all) add_up(&MixtureClass::area_fraction, "area_fraction");
+    if (by_share == all) add_up(&MixtureClass::area_fraction, share_key());
     if (numbers > 0 && packing_.count)
       refuse(".count",
              "has no effect together with the numbers of the classes, allowed: one of the two");
@@ -90,7 +92,7 @@ class Mixer {
 
   bool two_are_given() {
     const bool counted = packing_.count || classes_with(&MixtureClass::number) > 0;
-    const bool dense = packing_.density || packing_.dense != PackingSpec::Dense::given;
+    const bool dense = packing_.density || packing_.dense;
     const int given = (counted ? 1 : 0) + (dense ? 1 : 0) + (packing_.height ? 1 : 0);
     const char* rule = "allowed: two of count (or the classes' numbers), density and height";
     if (given < 2) refuse("", fmt::format("the size of the packing is left open, {}", rule));
@@ -126,26 +128,23 @@ class Mixer {
   }
 
   Law law_of(const MixtureClass& mixed) const {
-    const Outline& outline = scene_.particles[static_cast<std::size_t>(mixed.particle)].outline;
-    Law law;
-    law.own_area = outline_area(outline);
+    Law law{.sizes = {}, .own = packing_.measure(mixed)};
     if (mixed.size.kind == SizeLaw::Kind::mono) {
-      law.sizes = {{1, 1}};
+      law.sizes = {{law.own.size, 1}};
     } else {
-      const double length = std::sqrt(law.own_area);
-      law.own_size = length * rigid_shape(outline, length, length / 1000).min_width;
       SieveCurve curve;
       if (mixed.size.kind == SizeLaw::Kind::sieve)
-        curve = read_sieve_curve(scene_.file.parent_path() / mixed.size.file);
-      law.sizes = sizes_of(mixed.size, curve, mixed.size.sizes);
+        curve = read_sieve_curve(packing_.folder / mixed.size.file);
+      law.sizes = sizes_of(mixed.size, curve, mixed.size.sizes, packing_.dimensions);
     }
-    for (const SizeShare& size : law.sizes) law.mean_area += size.share * area(law, size);
+    for (const SizeShare& size : law.sizes) law.mean_content += size.share * content(law, size);
     return law;
   }
 
-  static double scale(const Law& law, const SizeShare& size) { return size.size / law.own_size; }
-  static double area(const Law& law, const SizeShare& size) {
-    return scale(law, size) * scale(law, size) * law.own_area;
+  static double scale(const Law& law, const SizeShare& size) { return size.size / law.own.size; }
+  double content(const Law& law, const SizeShare& size) const {
+    const double k = scale(law, size);
+    return (packing_.dimensions == 3 ? k * k * k : k * k) * law.own.content;
   }
 
   // Share of each class in the number of particles.
@@ -153,20 +152,20 @@ class Mixer {
     std::vector<double> shares;
     for (std::size_t c = 0; c < laws_.size(); ++c) {
       const MixtureClass& mixed = packing_.classes[c];
-      shares.push_back(mixed.area_fraction ? *mixed.area_fraction / laws_[c].mean_area
+      shares.push_back(mixed.area_fraction ? *mixed.area_fraction / laws_[c].mean_content
                                            : mixed.number_fraction.value_or(1));
     }
     return shares;
   }
 
-  // Of the die's area, where the count is left open.
+  // Of the room in the die, where the count is left open.
   int count(const std::vector<double>& shares) {
     double number = 0, sum = 0;
     for (std::size_t c = 0; c < shares.size(); ++c) {
       number += shares[c];
-      sum += shares[c] * laws_[c].mean_area;
+      sum += shares[c] * laws_[c].mean_content;
     }
-    const double wanted = *packing_.density * packing_.width * *packing_.height / (sum / number);
+    const double wanted = *packing_.density * packing_.base * *packing_.height / (sum / number);
     if (wanted >= 0.5 && wanted <= 1e5) return static_cast<int>(wanted + 0.5);
     refuse(".height",
            fmt::format("{:.3g} particles fill the die, allowed: from 1 to 100000", wanted));
@@ -186,7 +185,7 @@ class Mixer {
     const Law& law = laws_[c];
     const MixtureClass& mixed = packing_.classes[c];
     if (number == 0 && !wrong_)
-      refuse(class_key(c, mixed.area_fraction ? "area_fraction" : "number_fraction"),
+      refuse(class_key(c, mixed.area_fraction ? share_key() : "number_fraction"),
              "no whole particle of this class remains, allowed: a larger count or fraction");
     std::vector<double> shares;
     for (const SizeShare& size : law.sizes) shares.push_back(size.share);
@@ -195,12 +194,11 @@ class Mixer {
       if (numbers[i] == 0) continue;  // of a law with more sizes than particles
       mixture.sizes.push_back({mixed.particle, scale(law, law.sizes[i]), numbers[i]});
       mixture.count += numbers[i];
-      mixture.area += numbers[i] * area(law, law.sizes[i]);
+      mixture.content += numbers[i] * content(law, law.sizes[i]);
     }
   }
 
-  const Scene& scene_;
-  const PackingSpec& packing_;
+  const MixtureOrder& packing_;
   const std::string& path_;
   const schema::Origins& origins_;
   Problems& problems_;
@@ -210,9 +208,9 @@ class Mixer {
 
 }  // namespace
 
-Mixture mixture_of(const Scene& scene, const PackingSpec& packing, const std::string& path,
+Mixture mixture_of(const MixtureOrder& order, const std::string& path,
                    const schema::Origins& origins, Problems& problems) {
-  return Mixer(scene, packing, path, origins, problems).run();
+  return Mixer(order, path, origins, problems).run();
 }
 
 }  // namespace pulvis

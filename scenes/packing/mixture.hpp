@@ -1,27 +1,45 @@
-// Which particles a random packing consists of: its classes, shares and sizes as whole numbers.
+// Which particles a random packing consists of: its classes, shares and sizes as whole numbers. In two and three dimensions:
+// "content" is an area or a volume.
 #pragma once
 
 #include "scenes/language/table_reader.hpp"
 #include "scenes/spec/scene.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace pulvis {
 
+struct ParticleMeasure {
+  double size;     // m, what passes a sieve; 1 where the class has one size
+  double content;  // m^2, m^3
+};
+
+struct MixtureOrder {
+  const std::vector<MixtureClass>& classes;
+  std::optional<int> count;
+  std::optional<double> density, height;
+  bool dense = false;  // a word instead of the density
+  double base = 0;     // width or area of the floor, m, m^2
+  int dimensions = 2;
+  std::filesystem::path folder = {};                                 // of sieve curves
+  std::function<ParticleMeasure(const MixtureClass&)> measure = {};  // of a class's own particle
+};
+
 struct MixtureSize {
-  int particle = 0;  // position in Scene::particles
-  double scale = 1;  // of the class's outline
+  int particle = 0;  // position in the scene's particles
+  double scale = 1;  // of the class's shape
   int count = 0;
 };
 
 struct Mixture {
   std::vector<MixtureSize> sizes;  // class by class, from small to large
   int count = 0;
-  double area = 0;  // m^2, of all
+  double content = 0;  // m^2, m^3, of all
 };
 
 // What the classes ask for; `path` is that of the packing. Problems are noted, the mixture is empty then.
-Mixture mixture_of(const Scene& scene, const PackingSpec& packing, const std::string& path,
+Mixture mixture_of(const MixtureOrder& order, const std::string& path,
                    const schema::Origins& origins, Problems& problems);
 
 }  // namespace pulvis

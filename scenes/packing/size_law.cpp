@@ -114,18 +114,22 @@ SieveCurve read_sieve_curve(const std::filesystem::path& file) {
   return curve;
 }
 
-std::vector<SizeShare> sizes_of(const SizeLaw& law, const SieveCurve& curve, int count) {
+std::vector<SizeShare> sizes_of(const SizeLaw& law, const SieveCurve& curve, int count,
+                                int dimensions) {
   const Quantile quantile = quantile_of(law, curve);
-  const bool by_area = law.kind == SizeLaw::Kind::sieve;
+  const bool by_content = law.kind == SizeLaw::Kind::sieve;
   std::vector<SizeShare> shares;
   double whole = 0;
   for (int part = 0; part < count; ++part) {
-    double sum = 0;  // of areas, or of numbers for one area
+    double sum = 0;  // of areas or volumes, or of numbers for one area or volume
     for (int i = 0; i < samples; ++i) {
       const double size = quantile((part + (i + 0.5) / samples) / count);
-      sum += by_area ? 1 / (size * size) : size * size;
+      const double content = dimensions == 3 ? size * size * size : size * size;
+      sum += by_content ? 1 / content : content;
     }
-    shares.push_back({std::sqrt(by_area ? samples / sum : sum / samples), by_area ? sum : 1});
+    const double mean = by_content ? samples / sum : sum / samples;
+    shares.push_back(
+        {dimensions == 3 ? portable::cbrt(mean) : std::sqrt(mean), by_content ? sum : 1});
     whole += shares.back().share;
   }
   for (SizeShare& share : shares) share.share /= whole;

@@ -9,7 +9,7 @@ namespace pulvis {
 
 struct SievePoint {
   double size;     // m
-  double passing;  // -, share of the area that is smaller
+  double passing;  // -, share of the area, or volume, that is smaller
 };
 using SieveCurve = std::vector<SievePoint>;
 
@@ -22,9 +22,10 @@ struct SizeShare {
 };
 
 // `count` sizes. The law is cut into as many parts of one share each, of the number of particles or, for a
-// sieve curve, of their area; the size of each is that of its part's mean area, so that number and area of
-// the whole are the law's. What is lost is the spread inside the parts.
-std::vector<SizeShare> sizes_of(const SizeLaw& law, const SieveCurve& curve, int count);
+// sieve curve, of their area (in three dimensions: volume); the size of each is that of its part's mean area, so that number
+// and area of the whole are the law's. What is lost is the spread inside the parts.
+std::vector<SizeShare> sizes_of(const SizeLaw& law, const SieveCurve& curve, int count,
+                                int dimensions = 2);
 
 // Whole numbers in these proportions that add up to `total` (largest remainders).
 std::vector<int> apportioned(int total, const std::vector<double>& shares);

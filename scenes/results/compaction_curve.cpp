@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "scenes/space/tools/die_room.hpp"
+#include "scenes/spec/space_scene.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis {
@@ -17,18 +20,40 @@ struct Walls {
   std::string unlike;  // why there is no single number for them
 };
 
-// What the formulas put in; they know one powder between two walls.
-Walls walls_of(const Scene& scene, const DieCell& cell) {
+// The tools at the sides of the die; none where there is no die.
+std::vector<std::string> names_of_walls(const Scene& scene) {
+  if (!scene.space) {
+    const auto cell = die_cell(scene);
+    if (!cell) return {};
+    return {scene.tools[static_cast<std::size_t>(cell->left)].name,
+            scene.tools[static_cast<std::size_t>(cell->right)].name};
+  }
+  const auto room = space::die_room(scene);
+  std::vector<std::string> names;
+  if (!room) return names;
+  const auto add = [&](int tool) {
+    names.push_back(scene.space->tools[static_cast<std::size_t>(tool)].name);
+  };
+  if (room->kind == DieRoom::Kind::round)
+    add(room->die);
+  else
+    for (const auto side : {DieRoom::left, DieRoom::right, DieRoom::front, DieRoom::back})
+      add(room->tool[side]);
+  return names;
+}
+
+// What the formulas put in; they know one powder between its walls.
+Walls walls_of(const Scene& scene) {
+  const std::vector<std::string> names = names_of_walls(scene);
   Walls walls;
-  const std::string left = scene.tools[static_cast<std::size_t>(cell.left)].name;
-  const std::string right = scene.tools[static_cast<std::size_t>(cell.right)].name;
   for (const MaterialSpec& m : scene.materials) {
-    const double both = friction_of(scene, left, m.name).coefficient +
-                        friction_of(scene, right, m.name).coefficient;
+    double sum = 0;
+    for (const std::string& name : names) sum += friction_of(scene, name, m.name).coefficient;
+    const double mean = sum / static_cast<double>(names.size());
     const bool first = &m == &scene.materials.front();
-    if (!first && (0.5 * both != walls.friction || m.poissons_ratio != walls.poissons_ratio))
+    if (!first && (mean != walls.friction || m.poissons_ratio != walls.poissons_ratio))
       walls.unlike = "materials differ in wall friction or Poisson's ratio";
-    walls.friction = 0.5 * both;
+    walls.friction = mean;
     walls.poissons_ratio = m.poissons_ratio;
   }
   return walls;
@@ -51,9 +76,11 @@ TransmissionShare mean_transmission(const std::vector<CompactionSample>& samples
   return share;
 }
 
-void lay_beside(TransmissionShare& share, double mu, double nu) {
+// A square die has as much wall for its area as a round one.
+void lay_beside(TransmissionShare& share, double mu, double nu, bool in_space) {
   const double slenderness = share.height_over_width, elastic = nu / (1 - nu);
   share.round_die = std::exp(-4 * mu * elastic * slenderness);
+  if (in_space) return;
   share.slot = std::exp(-2 * mu * elastic * slenderness);
   share.slot_measured_ratio = std::exp(-2 * mu * share.lateral_ratio * slenderness);
 }
@@ -80,14 +107,20 @@ std::vector<std::vector<CompactionSample>> loading(const std::vector<CompactionS
 }  // namespace
 
 std::optional<double> wall_friction(const Scene& scene) {
-  const std::optional<DieCell> cell = die_cell(scene);
-  if (!cell) return std::nullopt;
-  const Walls walls = walls_of(scene, *cell);
+  if (names_of_walls(scene).empty()) return std::nullopt;
+  const Walls walls = walls_of(scene);
   return walls.unlike.empty() ? std::optional(walls.friction) : std::nullopt;
 }
 
 CompactionCurve::CompactionCurve(const Scene& scene)
     : cell_(die_cell(scene)), thickness_(scene.thickness) {
+  if (scene.space) {
+    room_ = space::die_room(scene);
+    thickness_ = 1;
+    if (!room_) return;
+    bottom_ = scene.space->tools[static_cast<std::size_t>(room_->tool[DieRoom::bottom])].name;
+    top_ = scene.space->tools[static_cast<std::size_t>(room_->tool[DieRoom::top])].name;
+  }
   if (!cell_) return;
   const auto name = [&](int tool) { return scene.tools[static_cast<std::size_t>(tool)].name; };
   left_ = name(cell_->left);
@@ -96,7 +129,32 @@ CompactionCurve::CompactionCurve(const Scene& scene)
   top_ = name(cell_->top);
 }
 
+// Of a box its width is that of the square with its area.
+void CompactionCurve::sample_room(const Results& results) {
+  const auto place = [&](const std::string& tool) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum +=
+          results.value("tool/" + tool + "/position_" + std::string(1, "xyz"[k])) * room_->axis[k];
+    return sum;
+  };
+  const double bottom = place(bottom_), height = place(top_) - bottom;
+  const auto at = [&](int tool, int k) { return results.tool_position(tool, k); };
+  const bool box = room_->kind == DieRoom::Kind::box;
+  const double width = box ? std::sqrt(room_->area(at)) : room_->diameter;
+  double lateral = std::numeric_limits<double>::quiet_NaN();
+  if (box) {
+    lateral = 0;
+    for (const char* side : {"left", "right", "front", "back"})
+      lateral += 0.25 * height * results.value(std::string("stress/radial_") + side);
+  }
+  samples_.push_back({results.value("relative_density"), results.value("stress/axial_top") * width,
+                      results.value("stress/axial_bottom") * width, lateral, width, height,
+                      bottom});
+}
+
 void CompactionCurve::sample(const Results& results) {
+  if (room_) return sample_room(results);
   if (!cell_) return;
   const auto of = [&](const std::string& tool, const char* what) {
     return results.value("tool/" + tool + "/" + what);
@@ -129,7 +187,7 @@ Transmission transmission(const Scene& scene, const CompactionCurve& curve) {
     result.not_measured = "the top punch does not press the powder";
     return result;
   }
-  const Walls walls = walls_of(scene, *die_cell(scene));
+  const Walls walls = walls_of(scene);
   result.wall_friction = walls.friction;
   result.poissons_ratio = walls.poissons_ratio;
   result.not_compared = walls.unlike;
@@ -141,7 +199,7 @@ Transmission transmission(const Scene& scene, const CompactionCurve& curve) {
   for (const auto& piece : pieces_of_loading) {
     result.shares.push_back(mean_transmission(piece));
     if (result.not_compared.empty())
-      lay_beside(result.shares.back(), walls.friction, walls.poissons_ratio);
+      lay_beside(result.shares.back(), walls.friction, walls.poissons_ratio, curve.in_space());
   }
   return result;
 }

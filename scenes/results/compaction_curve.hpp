@@ -11,16 +11,19 @@
 #include <string>
 #include <vector>
 
+#include "components/die_room.hpp"
 #include "scenes/results/results.hpp"
 #include "scenes/spec/scene.hpp"
+#include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
 
 struct CompactionSample {
   double density = 0;
-  double top = 0, bottom = 0, lateral = 0;  // N, towards the tool; lateral: mean of both walls
-  double width = 0, height = 0;             // m
-  double bottom_place = 0;                  // m, y of the bottom punch
+  // N, towards the tool, in three dimensions N/m: over the die's area by its width; lateral: mean of the walls.
+  double top = 0, bottom = 0, lateral = 0;
+  double width = 0, height = 0;  // m
+  double bottom_place = 0;       // m, of the bottom punch, along the axis
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -32,7 +35,8 @@ class CompactionCurve {
  public:
   explicit CompactionCurve(const Scene& scene);
   void sample(const Results& results);  // nothing where the scene has no die
-  bool has_die() const { return cell_.has_value(); }
+  bool has_die() const { return cell_ || room_; }
+  bool in_space() const { return room_.has_value(); }
   const std::vector<CompactionSample>& samples() const { return samples_; }
   std::vector<double> densities() const;
   std::vector<double> punch_pressures() const;  // Pa, top force / (width thickness)
@@ -48,7 +52,9 @@ class CompactionCurve {
   }
 
  private:
+  void sample_room(const Results& results);
   std::optional<DieCell> cell_;
+  std::optional<DieRoom> room_;  // instead of it: of three dimensions
   std::string left_, right_, bottom_, top_;
   double thickness_ = 0;
   std::vector<CompactionSample> samples_;

@@ -7,6 +7,8 @@
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/observed_results.hpp"
 #include "scenes/results/shear_results.hpp"
+#include "scenes/space/results/observed_stress.hpp"
+#include "scenes/space/results/space_series.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/cell.hpp"
 #include "scenes/tools/die_cell.hpp"
@@ -108,13 +110,16 @@ class SeriesList {
         "all energies less the work of the tools and the energy at the start");
   }
 
-  void add_quality() {
+  void add_contacts() {
     add("contacts", "-", "boundary edges that touch another particle or a tool");
     add("penetration", "-", "deepest so far, of the boundary edge length");
     add("contact_overlap", "-", "area in which outlines overlap / area of the particles");
     add("narrow_contacts", "-",
         "share of the contact force on contacts narrower than two boundary edges");
     add(bond_series(scene_));
+  }
+
+  void add_quality() {
     add("min_jacobian", "-", "smallest det F so far");
     add("dt", "s", "time step");
   }
@@ -136,33 +141,40 @@ class SeriesList {
 
 }  // namespace
 
+namespace {
+
+// Energies and health are those of two dimensions; tools and contacts have their own names there.
+std::vector<SeriesInfo> history_in_space(const Scene& scene) {
+  SeriesList list(scene);
+  list.add(space::tool_series(scene));
+  list.add_energies();
+  list.add(space::contact_series());
+  list.add_quality();
+  list.add(space::stress_series(scene));
+  return list.taken();
+}
+
+}  // namespace
+
 std::vector<SeriesInfo> history_series(const Scene& scene) {
+  if (scene.space) return history_in_space(scene);
   SeriesList list(scene);
   for (const ToolSpec& tool : scene.tools) list.add_tool(tool);
   if (die_cell(scene)) list.add_die();
   if (scene.cell || drives_walls(scene)) list.add_cell();
   list.add_energies();
+  list.add_contacts();
   list.add_quality();
   list.add(observed_series(scene));
   list.add(ShearResults::series(scene));
   return list.taken();
 }
 
-std::vector<SeriesInfo> momentum_series() {
+std::vector<SeriesInfo> momentum_series(const Scene& scene) {
+  if (scene.space) return space::momentum_series();
   return {{"momentum/x", "kg m/s", "of all nodes"},
           {"momentum/y", "kg m/s", "of all nodes"},
           {"momentum/angular", "kg m^2/s", "of all nodes, about the origin"}};
-}
-
-// Every material of a scene is one of its particles: the reader refuses others.
-std::optional<double> common_yield_stress(const Scene& scene) {
-  std::optional<double> common;
-  for (const MaterialSpec& material : scene.materials) {
-    if (!material.yield_stress || (common && *common != *material.yield_stress))
-      return std::nullopt;
-    common = material.yield_stress;
-  }
-  return common;
 }
 
 }  // namespace pulvis

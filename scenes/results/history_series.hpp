@@ -1,10 +1,10 @@
 // Which series the history of a run has, and what they are.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "engine/files/record.hpp"
+#include "scenes/spec/common_yield.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
@@ -12,9 +12,6 @@ namespace pulvis {
 // The series that a run of the scene keeps, in the order of Results::sample().
 std::vector<SeriesInfo> history_series(const Scene& scene);
 // Of Results::momentum(), which the history leaves out: it costs a walk over all nodes.
-std::vector<SeriesInfo> momentum_series();
-
-// Pa; none where materials differ in it, or one has none.
-std::optional<double> common_yield_stress(const Scene& scene);
+std::vector<SeriesInfo> momentum_series(const Scene& scene);
 
 }  // namespace pulvis

@@ -1,9 +1,8 @@
 // What a run hands back: history series, frame fields and the mesh, taken from an observed world.
 #pragma once
 
-#include <array>
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,25 +10,11 @@
 #include "engine/files/record.hpp"
 #include "engine/world.hpp"
 #include "scenes/results/history_series.hpp"
+#include "scenes/results/parts/result_parts.hpp"
 #include "scenes/results/shear_results.hpp"
-#include "scenes/results/tool_outlines.hpp"
 #include "scenes/spec/scene.hpp"
-#include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
-
-// Energies of the whole scene at t_n, J. `balance` is what the others leave over: 0 in a perfect run.
-struct Energies {
-  double kinetic = 0, elastic = 0, plastic = 0, hourglass = 0, contact = 0;
-  double friction = 0, damping = 0, bulk_damping = 0, bonds = 0, fracture = 0;
-  double external = 0, balance = 0;
-  template <class Bytes>
-  void state(Bytes& bytes) {
-    bytes(kinetic, elastic, plastic, hourglass, contact, friction, damping, bulk_damping, bonds,
-          fracture, external, balance);
-  }
-  double internal() const { return elastic + plastic + hourglass; }
-};
 
 // Largest sizes of some series over all samples.
 struct Peaks {
@@ -48,7 +33,7 @@ class Results {
   const std::vector<SeriesInfo>& series() const { return series_; }
   const std::vector<FieldInfo>& fields() const { return fields_; }
   const std::vector<TableInfo>& tables() const { return tables_; }
-  RunMesh mesh() const;
+  RunMesh mesh() const { return parts_->mesh(); }
 
   // One value a series. Keeps the worst energy error and ratios seen, for the summary.
   std::vector<double> sample();
@@ -58,9 +43,9 @@ class Results {
   // Of the last sample.
   double value(const std::string& series) const;
   bool has(const std::string& series) const { return !last_.empty() && position_.contains(series); }
-  // Along x and y, and angular about the origin. Forces within the powder leave all three alone, step by
+  // Along the axes, and angular about the origin: momentum_series. Forces within the powder leave all three alone, step by
   // step and not only in the limit: positions at t_n, velocities at t_(n-1/2).
-  std::array<double, 3> momentum() const;
+  std::vector<double> momentum() const { return parts_->momentum(); }
   const Energies& energies() const { return energies_; }
   const Peaks& peaks() const { return peaks_; }
   // Largest |balance| so far over the largest energy that came in or was there at the start: what is reported,
@@ -72,8 +57,9 @@ class Results {
   double kinetic_ratio() const;
   // Smallest det F of any element at any step so far.
   double min_jacobian() const;
-  std::int64_t elements() const { return elements_; }
+  std::int64_t elements() const { return parts_->elements(); }
   const ShearResults& shear() const { return shear_; }
+  double tool_position(int tool, int axis) const;  // m
   double end_time() const { return world_.resource<Clock>().end; }
 
   // What a checkpoint keeps; the rest is the scene's.
@@ -87,24 +73,13 @@ class Results {
   void take_energies();
   void take_kinetic_ratio();
   void take_peaks();
-  Vec2 die_size() const;  // m, width and height between the tools; only with a cell
-  void append_tools(std::vector<double>& row) const;
-  void append_density(std::vector<double>& row) const;
-  void append_cell(std::vector<double>& row) const;
-  double enclosed_area() const;
   void append_energies(std::vector<double>& row) const;
-  void append_contacts(std::vector<double>& row) const;
 
   const World& world_;
-  std::optional<DieCell> cell_;
-  std::optional<double> yield_stress_;  // where all particles share one
-  double particle_area_ = 0;
-  std::int64_t elements_ = 0, nodes_ = 0;
+  std::unique_ptr<ResultParts> parts_;
   std::vector<SeriesInfo> series_;
   std::vector<TableInfo> tables_;
   std::vector<FieldInfo> fields_;
-  std::vector<ParticleTag> tags_;
-  ToolOutlines outlines_;
   std::map<std::string, std::size_t> position_;
   std::vector<double> last_;
   Energies energies_;

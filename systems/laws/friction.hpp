@@ -67,4 +67,25 @@ Friction<T> friction_return(T elastic_slip, T slip, T pressure, Law& law, T kapp
   return {-(kappa * held), held, work};
 }
 
+// The same in a plane, with vectors V whose dot product is found by their names.
+template <class V, class T>
+struct PlaneFriction {
+  V traction;      // Pa, on the sampled body
+  V elastic_slip;  // m, new
+  T work;          // J/m^2, of this step
+};
+// The trial spring is shortened to what the law allows; its direction stays (radial return).
+template <class V, class T, class Law>
+PlaneFriction<V, T> friction_return_in_plane(const V& elastic_slip, const V& slip, T pressure,
+                                             Law& law, T kappa, T inv_kappa) {
+  const V trial = elastic_slip + slip;
+  const T size = sqrt(dot(trial, trial));
+  const T limit = law.strength(pressure) * inv_kappa;
+  const T share = select(size > limit, limit / size, T{} + 1.0);
+  const V held = share * trial;
+  const T work = 0.5 * kappa * (1.0 - share) * dot(elastic_slip + held, trial);
+  law.slide((1.0 - share) * size);
+  return {-(kappa * held), held, work};
+}
+
 }  // namespace pulvis::kernels

@@ -56,6 +56,8 @@ double value_now(const End& end, const stage_control& s) {
   const Read<ToolPosition>& at = s.tools->position;
   const Read<ToolForce>& force = s.tools->force;
   const Row<Tool> tool(end.tool);
+  if (end.kind == StageEnds::Kind::density && ends.room)
+    return ends.room->density([&](int number, int k) { return at(Row<Tool>(number), k); });
   if (end.kind == StageEnds::Kind::density) return relative_density(ends.cell, at);
   if (end.kind == StageEnds::Kind::displacement) {
     const Point3& from = entry(ends.tools_at_begin, end.tool);

@@ -33,12 +33,11 @@ struct stage_control {
   void operator()() const;
 };
 
-struct tool_servo {
+// What servos know and set, whatever the dimension.
+struct Servos {
   Read<Clock> clock;
   Read<ToolProgram> program;
   Read<ToolForce> force;
-  TouchingRows<ToolContact> rows;
-  Read<ContactLaw<ToolContact>> law;
   Read<ContactRules> rules;
   Write<ToolServos> servos;
   struct Drive {
@@ -48,6 +47,12 @@ struct tool_servo {
     Write<ServoDragged> dragged;
     Write<ServoForce> asked;
   } drive;
+};
+
+struct tool_servo {
+  Servos servos;
+  TouchingRows<ToolContact> rows;
+  Read<ContactLaw<ToolContact>> law;
   void operator()() const;
 };
 

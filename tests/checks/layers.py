@@ -36,7 +36,7 @@ ROOMS = {
         "space/body": "body laws",
         "space/contact": "contact laws",
         "space/tools": "space/contact contact tools laws",
-        "space": "space/body space/contact space/tools tools observe",
+        "space": "space/body space/contact space/tools contact tools observe",
         "": "body cell contact tools observe space",
     },
     "scenes": {
@@ -51,20 +51,21 @@ ROOMS = {
         "packing": "outlines spec language",
         "grains": "meshes packing outlines spec language",
         "tools": "packing outlines spec language",
-        "results": "tools spec language",
+        "results/parts": "",
+        "results": "results/parts space/results space/tools tools spec language",
         "lever/mesh": "spec language",
         "lever": "lever/mesh spec language",
         "checks": "lever meshes packing tools results outlines spec language",
-        "space/meshes": "spec language",
+        "space/meshes": "meshes spec language",
         "space/packing": "space/meshes packing outlines spec language",
         "space/keys": "keys materials spec language",
         "space/tools": "space/packing tools spec language",
-        "space/results": "space/tools space/meshes results tools spec language",
+        "space/results": "space/tools space/meshes results/parts tools spec language",
         "space": "space/keys space/meshes space/packing space/results space/tools checks keys packing results tools spec language",
-        "": "checks space space/keys grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
+        "": "checks space space/keys space/packing grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
         "volts": "lever keys outlines spec language",
         "records": "lever volts keys results spec language /",
-        "study": "checks let results keys spec language /",
+        "study": "checks let results tools keys space/keys spec language /",
         "probe": "keys spec language /",
         "fit": "records keys lever outlines packing spec language /",
     },
@@ -85,7 +86,7 @@ ROOMS = {
 }
 ABOVE = {"cli": {"main.cpp"}}  # files of a floor that stand on top of all of its rooms
 # Sources of one kind that a header of another name declares.
-PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_",
+PARTS = ("engine/files/hdf5_change", "scenes/keys/declare_", "scenes/space/keys/declare_", "scenes/records/declare_", "scenes/meshes/mesh_",
          "cli/python/module/bind_")
 MOST_FILES = 40
 SUFFIXES = {".hpp", ".cpp", ".h", ".ipp", ".inl"}

@@ -64,6 +64,48 @@ TEST_F(RunMeshTest, KeepsWhatParticlesAreOnceAndWithNames) {
   EXPECT_THAT(file.children("/frames/000000"), ElementsAre("position", "tools"));
 }
 
+// A hexahedron and, as tools, a square below it and a triangle beside it that goes away.
+TEST_F(RunMeshTest, ShowsParticlesAndToolsInSpaceToMeshio) {
+  fs::remove_all(folder);
+  open_run_folder(folder);
+  RunMesh mesh{.cell_particle = {0}, .node_particle = std::vector<std::int32_t>(8, 0)};
+  mesh.reference = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
+  mesh.hexahedra = {0, 1, 2, 3, 4, 5, 6, 7};
+  mesh.tags = {{"material", "position", {1}, {"iron", "tin"}}};
+  mesh.tool_faces = {{"floor", "wall"}, {"plane", "stl"}, {0, 1, 2, 3, 4, 5, 6, 6}, {0, 1}, 7};
+  {
+    Recorder recorder(folder, {"0.1.0", "abc", "in space", "f00d", 1, 1}, mesh, {},
+                      {{"position", "m", "of the node", FieldPlace::node, 3},
+                       {"tools/outline", "m", "corners", FieldPlace::list, 3}});
+    for (int k = 0; k < 2; ++k) {
+      const double x = 1.0 + k;
+      recorder.frame(k, k, {mesh.reference, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,  //
+                                             x, 0, 0, x, 0, 1, x, 1, 0}});
+    }
+    recorder.finish();
+  }
+  EXPECT_EQ(python(R"(
+import sys, pathlib, meshio
+folder = pathlib.Path(sys.argv[1])
+with meshio.xdmf.TimeSeriesReader(folder / "run.xdmf") as powder:
+    points, cells = powder.read_points_cells()
+    assert cells[0].type == "hexahedron" and points.shape == (8, 3) and powder.num_steps == 2
+    _, _, at_cells = powder.read_data(1)
+    assert at_cells["material"][0].tolist() == [1] and at_cells["particle"][0].tolist() == [0]
+tools, powder = (folder / "run.xdmf").read_text().split('<Grid Name="run"')
+(folder / "tools.xdmf").write_text(tools + "</Domain>\n</Xdmf>\n")
+with meshio.xdmf.TimeSeriesReader(folder / "tools.xdmf") as tools:
+    tools.read_points_cells()
+    for step in range(2):
+        tools.mesh_grid = tools.collection[step]
+        points, cells = tools.read_points_cells()
+        assert cells[0].type == "quad" and cells[0].data.tolist() == [[0, 1, 2, 3], [4, 5, 6, 6]], cells
+        assert points[4:, 0].tolist() == [1 + step] * 3, points
+        assert tools.read_data(step)[2]["tool"][0].tolist() == [0, 1]
+)"),
+            0);
+}
+
 TEST_F(RunMeshTest, ShowsParticlesAndToolsToMeshio) {
   EXPECT_EQ(python(R"(
 import sys, re, pathlib, meshio

@@ -80,7 +80,19 @@ std::vector<Value> words_for(const KeyInfo& key) {
   return words;
 }
 
-Value pair(Value x, Value y) { return {document::Array{std::move(x), std::move(y)}, {}}; }
+// As many as the key has dimensions: the last one is another.
+Value list_of(const KeyInfo& key, const Value& first, const Value& last) {
+  document::Array array(static_cast<std::size_t>(key.dimensions), first);
+  array.back() = last;
+  return {std::move(array), {}};
+}
+
+std::vector<Value> directions_for(const KeyInfo& key) {
+  std::vector<Value> directions;
+  for (const auto& [first, last] : {std::pair{0.6, 0.8}, {0.0, 1.0}, {1.0, 0.0}})
+    directions.push_back(list_of(key, {first, {}}, {last, {}}));
+  return directions;
+}
 
 std::vector<Value> names_of(const std::string& table, const Table& root) {
   std::vector<Value> names;
@@ -105,9 +117,9 @@ std::vector<Value> values_for(const KeyInfo& key, const schema::TableView& view,
       if (!key.word.empty()) values.push_back({key.word, {}});
       break;
     case Kind::vector:
-      for (const Value& x : quantities()) values.push_back(pair(x, x));
+      for (const Value& x : quantities()) values.push_back(list_of(key, x, x));
       for (const Value& word : words_for(key))
-        for (const Value& x : quantities()) values.push_back(pair(x, word));
+        for (const Value& x : quantities()) values.push_back(list_of(key, x, word));
       break;
     case Kind::number:
       for (const double number : numbers_for(key, view, around)) values.push_back({number, {}});
@@ -118,7 +130,7 @@ std::vector<Value> values_for(const KeyInfo& key, const schema::TableView& view,
       break;
     case Kind::counts:
       for (const std::int64_t number : integers_for(key))
-        values.push_back(pair({number, {}}, {number, {}}));
+        values.push_back(list_of(key, {number, {}}, {number, {}}));
       break;
     case Kind::integers:
       for (const std::int64_t number : integers_for(key))
@@ -132,7 +144,7 @@ std::vector<Value> values_for(const KeyInfo& key, const schema::TableView& view,
       values.push_back({!key.fallback || !key.fallback->get<bool>(), {}});
       break;
     case Kind::direction:
-      values = {pair({0.6, {}}, {0.8, {}}), pair({0.0, {}}, {1.0, {}}), pair({1.0, {}}, {0.0, {}})};
+      values = directions_for(key);
       break;
     case Kind::text:
       values.push_back({std::string("générée \"ici\""), {}});

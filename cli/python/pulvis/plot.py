@@ -20,7 +20,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from pulvis.errors import RunError
-from pulvis.figures import afm, bonds, curves, densities, fields, network
+from pulvis.figures import afm, bonds, curves, densities, fields, network, space
 from pulvis.figures.animation import animate
 from pulvis.figures.look import Options
 from pulvis.figures.names import capital, name_of
@@ -87,8 +87,18 @@ class Plot:
         return self.series(y, against=x, ax=ax, **look)
 
     def field(self, name: str = fields.DEFAULT_FIELD, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """A field of elements or particles; "stress:2" is the second component."""
-        return self._drawn(fields.field_picture, "frames", options_of(look, field=name, frame=frame), ax)
+        """A field of elements or particles; "stress:2" is the second component. In three dimensions all particles from a
+        corner."""
+        draw = space.space_picture if self._run.in_space else fields.field_picture
+        return self._drawn(draw, "frames", options_of(look, field=name, frame=frame), ax)
+
+    def section(self, name: str = fields.DEFAULT_FIELD, frame: int = -1, across: str = "y", at: float | None = None,
+                ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
+        """In three dimensions: the elements that a plane across an axis cuts, near the middle or `at` a place (m)."""
+        if across not in ("x", "y", "z"):
+            raise RunError(f"across {across}: allowed: x, y, z", self._run.folder, key="across")
+        draw = space.section_picture if self._run.in_space else lambda *_: None
+        return self._drawn(draw, "sections, which three dimensions have", options_of(look, field=name, frame=frame, across=across, at=at), ax)
 
     def network(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Normal forces of the contacts, and force chains."""
@@ -104,7 +114,8 @@ class Plot:
 
     def density_profile(self, frame: int | None = None, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Relative density along the height, at several times or in one frame."""
-        return self._drawn(densities.density_profile, "density", options_of(look, frame=frame), ax)
+        draw = space.space_profile if self._run.in_space else densities.density_profile
+        return self._drawn(draw, "density", options_of(look, frame=frame), ax)
 
     def cracks(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Fragments, bonds, and cracks by their mode."""

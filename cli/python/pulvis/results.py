@@ -156,7 +156,8 @@ class Run:
         self._close()
         self.file = self._opened()
         self.summary = self._summary()
-        self.is_solid = "mesh/hexahedra" in self.file
+        self.in_space = "mesh/hexahedra" in self.file and "particles" in self.file  # particles in three dimensions
+        self.is_solid = "mesh/hexahedra" in self.file and not self.in_space  # a lever
         self.title = self.summary.get("title") or self.file.attrs.get("title") or self.folder.name
         whole = [name for name in sorted(self.file.get("frames", []))
                  if self.file["frames"][name].attrs.get("complete", 0) == 1]
@@ -244,7 +245,7 @@ class Run:
         """The mesh, whose nodes and cells the fields are of."""
         if self._mesh is None:
             of = self.file["mesh"]
-            cells = of["hexahedra" if self.is_solid else "quads"][()]
+            cells = of["hexahedra" if "hexahedra" in of else "quads"][()]
             self._mesh = Mesh(cells, *(of[name][()] for name in ("reference", "cell_particle", "node_particle")))
         return self._mesh
 

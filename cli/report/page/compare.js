@@ -105,13 +105,15 @@ function placePanels(runs, names, timeline) {
 
 // The views of the runs that have frames; particles have the largest of them as everybody's scale.
 async function placeViews(runs, names) {
-  const host = document.getElementById("pictures"), shown = runs.filter(run => run.frames.length && run.head.mesh);
+  const host = document.getElementById("pictures"), drawn = runs.filter(run => run.frames.length && run.head.mesh);
+  const shown = drawn.filter(run => !run.inSpace), radius = Math.max(...drawn.filter(run => run.inSpace).map(SpaceView.radiusOf));
   const extent = k => Math.max(...shown.map(({head}) => head.high[k] - head.low[k]));
   const whole = {width: extent(0), height: extent(1)}, views = [];
   for (const [i, run] of runs.entries()) {
     const place = element("div", {}), pane = element("div", {className: "pane"}, element("h2", {textContent: names[i]}), place);
     host.append(pane);
     if (shown.includes(run)) views.push(new FieldView(place, run, {whole, most: 420}));
+    else if (drawn.includes(run)) views.push(new SpaceView(place, run, {whole: {radius}, most: 420}));
     else if (run.frames.length && run.head.solid) views.push(await SolidView.load(place, run));
     else place.append(element("p", {className: "note", textContent: "No picture: the scene wrote no frames."}));
   }

@@ -35,7 +35,7 @@ class FieldView {
       raster: new Raster()
     });
     const {low, high} = run.head;
-    this.width = Math.max(high[0] - low[0], high[1] - low[1]) || 1;
+    this.width = Math.max(...high.map((end, k) => end - low[k])) || 1;
     this.canvas = element("canvas", {className: "picture", tabIndex: 0, role: "img"});
     this.tip = element("div", {className: "tip", hidden: true});
     this.note = element("p", {className: "note"});
@@ -43,12 +43,16 @@ class FieldView {
                                   hidden: true, onclick: () => this.showAll()});
     host.classList.add("field");
     host.replaceChildren(this.canvas, this.tip, this.fit, this.note);
-    const {drawn_cells: cells, drawn_nodes: nodes, fans} = run.head.mesh;
-    const edges = cells <= (fans ? MOST_STROKED : MOST_SEARCHED) ? outlineEdges(run.cells, nodes) : [];
-    this.outline = edges.length / 2 <= MOST_STROKED ? edges : [];
+    this.prepare();
     this.listen();
     for (const on of [onUnits, onTheme, onMap]) on(() => this.draw());
     onResize(host, () => { if (this.at && host.clientWidth !== this.drawnWidth) this.draw(); });
+  }
+
+  prepare() {
+    const {run} = this, {drawn_cells: cells, drawn_nodes: nodes, fans} = run.head.mesh;
+    const edges = cells <= (fans ? MOST_STROKED : MOST_SEARCHED) ? outlineEdges(run.cells, nodes) : [];
+    this.outline = edges.length / 2 <= MOST_STROKED ? edges : [];
   }
 
   // What can be shown: [value, label].
@@ -205,7 +209,7 @@ class FieldView {
   // One packed colour a cell.
   cellColours() {
     const none = theme().none.match(/\w\w/g).map(two => parseInt(two, 16)), plain = packed(...none);
-    const count = this.run.cells.length / 4, colours = new Uint32Array(count).fill(plain);
+    const count = this.run.particleOf.length, colours = new Uint32Array(count).fill(plain);
     if (this.tag && this.tag.names.length) {
       const {values} = this.tag, table = this.tagColours().map(rgb => packed(...rgb));
       return colours.map((_, c) => table[values[this.run.particleOf[c]]]);

@@ -4,9 +4,9 @@
 // Punches that move: how far each has come, as an x axis beside time.
 function travels(run) {
   return run.named(/^tool\/.+\/position_y$/).flatMap(({name}) => {
-    const tool = name.split("/")[1], ys = run.values(name), xs = run.values(`tool/${tool}/position_x`);
+    const tool = name.split("/")[1], [xs, ys, zs] = [..."xyz"].map(axis => run.values(`tool/${tool}/position_${axis}`));
     if (!xs.length) return [];
-    const values = xs.map((x, i) => Math.hypot(x - xs[0], ys[i] - ys[0]));
+    const values = xs.map((x, i) => Math.hypot(x - xs[0], ys[i] - ys[0], zs.length ? zs[i] - zs[0] : 0));
     return largest(values) > 0 ? [{label: `travel of ${tool}`, unit: "m", values}] : [];
   });
 }
@@ -23,6 +23,14 @@ function faceNormal(tool) {
 const SIGNS = "Forces of the powder on the tools. Normal: out of the powder into the tool, compression > 0, tension < 0. " +
   "Tangential: along the face, > 0 towards +x, or +y on an upright face. Fx, Fy: along the axes.";
 
+// In three dimensions a tangential force has no sign.
+function spaceForces(normal, axes, line) {
+  if (normal?.length !== 3) return [..."xyz"].map((axis, k) => line(`F${axis}`, `force_${axis}`, axes[k]));
+  const pressed = axes[0].map((_, i) => -axes.reduce((sum, force, k) => sum + force[i] * normal[k], 0));
+  const along = pressed.map((force, i) => Math.sqrt(Math.max(0, axes.reduce((sum, part) => sum + part[i] ** 2, 0) - force ** 2)));
+  return [line("normal", "normal", pressed), line("tangential", "tangential", along)];
+}
+
 const bySize = (a, b) => largest(b.values) - largest(a.values);
 
 // One convention for all tools, whichever way they face.
@@ -31,6 +39,8 @@ function forceLines(run) {
     const name = series.name.split("/")[1], fx = series.values, fy = run.values(`tool/${name}/force_y`);
     const normal = faceNormal((run.summary.tools || []).find(tool => tool.name === name) || {});
     const line = (label, key, values) => ({...series, label: `${name}, ${label}`, name: `tool/${name}/${key}`, values});
+    const fz = run.values(`tool/${name}/force_z`);
+    if (fz.length) return spaceForces(normal, [fx, fy, fz], line);
     if (!normal) return [line("Fx", "force_x", fx), line("Fy", "force_y", fy)];
     const [nx, ny] = normal, sign = (Math.abs(ny) >= Math.abs(nx) ? ny : -nx) > 0 ? 1 : -1;
     return [line("normal", "normal", fx.map((f, i) => -f * nx - fy[i] * ny)),

@@ -37,7 +37,7 @@ async function placePicture(report, host) {
   const {run, timeline} = report;
   if (!run.frames.length) return;
   const place = element("div", {}), solid = Boolean(run.head.solid);
-  const view = solid ? await SolidView.load(place, run) : new FieldView(place, run);
+  const view = solid ? await SolidView.load(place, run) : run.inSpace ? new SpaceView(place, run) : new FieldView(place, run);
   const field = element("select", {id: "field"});
   view.choices.forEach(([value, label]) => field.add(new Option(label, value)));
   field.value = solid ? "size" : run.field("effective_stress") >= 0 ? "effective_stress" : view.choices[0][0];
@@ -52,6 +52,7 @@ async function placePicture(report, host) {
   if (run.frames.some(frame => frame.network && frame.network.lines)) tick("contacts", "contact forces", false, "contacts");
   const hasBonds = run.frames.some(frame => frame.fragments);
   if (hasBonds) tick('bonds', 'bonds and cracks', true, 'bonds');
+  if (run.inSpace) controls.append(...spaceControls(view));
   const head = element("div", {className: "card-head"}, element("h2", {textContent: solid ? "Lever" : "Particles"}),
     saveButtons("picture", {PNG: () => saveCanvas(fileName(`${run.head.title} ${field.value} ${view.frame}`) + ".png", view.canvas)}));
   host.append(head, controls, place);
@@ -66,6 +67,10 @@ function noteOfFrames({frames, head}) {
   if (head.mesh && head.mesh.fans) {
     parts.push(`to keep it small, every particle is drawn as ${head.mesh.fans} triangles with the mean values of its ` +
                `elements there; holes are drawn over`);
+  }
+  if (head.mesh && head.mesh.pyramids) {
+    parts.push("to keep it small, every particle is drawn as pyramids from its centre to the faces of its surface with the mean " +
+               "values of its elements there");
   }
   return parts.length ? titled(parts.join("; ")) + ". run.h5 has everything." : "";
 }

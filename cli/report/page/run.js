@@ -20,12 +20,28 @@ class Run {
     run.images = await Promise.all((head.images || []).map(async (image, i) =>
       ({...image, values: await floats(`${prefix}image-${i}`)})));
     if (head.mesh && run.frames.length) {
-      run.cells = await integers(prefix + "cells", 4);
+      run.cells = await integers(prefix + "cells", run.inSpace ? 8 : 4);
       run.particleOf = await integers(prefix + "cell-particle", 1);
       run.tags = await Promise.all((head.tags || []).map(async tag =>
         ({...tag, values: await integers(`${prefix}particle-${tag.name}`, 1)})));
     }
+    if (run.inSpace && run.frames.length) await run.loadSpace();
     return run;
+  }
+
+  // Particles in three dimensions: which sides of cells are outside, and the pieces of the tools' surfaces.
+  get inSpace() { return this.head.mesh?.dimension === 3; }
+  async loadSpace() {
+    this.surface = await integers(this.prefix + "surface", 1);
+    if (!this.head.tools) return;
+    this.toolQuads = await integers(this.prefix + "tool-quads", 4);
+    this.toolOfQuad = await integers(this.prefix + "tool-of-quad", 1);
+  }
+  // Later frames are differences from the first one.
+  async spacePositions(key, frame) {
+    const codes = await shorts(key, 3), first = frame ? await this.positions(0) : null;
+    for (let i = 0; first && i < codes.length; ++i) codes[i] += first[i];
+    return codes;
   }
 
   get family() {
@@ -82,7 +98,7 @@ class Run {
     }
     return data;
   }
-  positions(frame) { return this.kept_(`frame-${frame}-position`, key => shorts(key, 2)); }
+  positions(frame) { return this.kept_(`frame-${frame}-position`, key => this.inSpace ? this.spacePositions(key, frame) : shorts(key, 2)); }
   codes(frame, field) { return this.kept_(`frame-${frame}-${field}`, key => shorts(key, 1)); }
   displacements(frame) { return this.kept_(`frame-${frame}-displacement`, floats); }
   async toolCorners(frame) { return this.head.tools ? this.kept_(`frame-${frame}-tools`, floats) : null; }

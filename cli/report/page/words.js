@@ -45,7 +45,7 @@ const bytesInWords = bytes =>
 
 function largestForce(run) {
   let most = {value: 0};
-  for (const {name, values} of run.named(/^tool\/.+\/force_[xy]$/)) {
+  for (const {name, values} of run.named(/^tool\/.+\/force_[xyz]$/)) {
     const value = largest(values);
     if (value > most.value) most = {value, tool: name.split("/")[1]};
   }

@@ -11,6 +11,7 @@ from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colours_of
 from pulvis.figures.fields import DEFAULT_FIELD, field_of, paint
 from pulvis.figures.look import Options, close_up, shape_of, sheet
+from pulvis.figures.space import space_film
 
 SUFFIXES = (".mp4", ".gif")
 PER_SECOND = 12
@@ -40,6 +41,8 @@ def film(run, options=None, into=None):
     if run.is_solid or not run.frames:
         raise PulvisError("--animate: only a powder's fields are animated; this run has "
                           + ("a lever" if run.is_solid else "no frames"))
+    if run.in_space:
+        return space_film(run, options, into)
     key = options.field or DEFAULT_FIELD
     fields = [field_of(run, frame, key) for frame in run.frames]
     colours = colours_of(fields[0], np.concatenate([field.values for field in fields]), options)

@@ -27,6 +27,7 @@ from pulvis.figures.look import Options, write_csv
 from pulvis.figures.network import contact_network, rose
 from pulvis.figures.probe import figures_of_probe
 from pulvis.figures.quantities import inches
+from pulvis.figures.space import section_picture, space_picture, space_profile
 from pulvis.figures.study import figures_of_study
 from pulvis.results import Run
 
@@ -35,6 +36,9 @@ PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "energies": ener
                  "local_density": local_density, "density_profile": density_profile,
                  "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
                  "breaking": breaking, "fragment_sizes": fragment_sizes}
+SPACE_FIGURES = {"section": section_picture, "density_profile": space_profile, "force": forces,
+                 "stress_ratio": stress_ratio, "energies": energies}
+OF_A_FIELD = (field_picture, space_picture, section_picture)
 LIKE_EVERY_FIGURE = {"limits": None}  # a range of colours is of one field
 
 
@@ -83,11 +87,16 @@ def save_images(run, asked, options, place):
         place.save(image, asked.to / f"{name}.gsf")
 
 
+def picture_for(run):
+    """What draws a field."""
+    return space_picture if run.in_space else field_picture
+
+
 def save_all(run, asked, options, place):
     field = (options.field or DEFAULT_FIELD).replace(":", "_")
-    names = AFM_FIGURES if run.is_solid else {field: field_picture, **PLANE_FIGURES}
+    names = AFM_FIGURES if run.is_solid else {field: picture_for(run), **(SPACE_FIGURES if run.in_space else PLANE_FIGURES)}
     for name, draw in names.items():
-        figure = draw(run, options if draw is field_picture else replace(options, **LIKE_EVERY_FIGURE))
+        figure = draw(run, options if draw in OF_A_FIELD else replace(options, **LIKE_EVERY_FIGURE))
         path = asked.to / f"{name}.{asked.format}"
         if figure is None or path.suffix == ".csv" and not hasattr(figure, "table"):
             print(f"figures: nothing recorded for {path.name}")
@@ -125,7 +134,7 @@ def save_run(run, asked, options, place):
         return
     if run.is_solid and not options.series:
         raise PulvisError("one figure of a lever is one of its series: say --series")
-    figure = chosen_series(run, options) if options.series else field_picture(run, options)
+    figure = chosen_series(run, options) if options.series else picture_for(run)(run, options)
     if figure is None:
         raise PulvisError(f"no frame with {options.field or DEFAULT_FIELD}")
     place.save(figure, file or Path(f"{'-'.join(options.series).replace('/', '_')}.{asked.format}"))

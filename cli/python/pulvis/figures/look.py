@@ -40,6 +40,8 @@ class Options:
     limits: object = None    # of the colours: "LOW:HIGH" with units, or (low, high) in SI; None: of the values
     dpi: float = 200
     vector: bool = False     # SVG or PDF
+    across: str = "y"        # axis that a section in space is across
+    at: float = None         # m, where; in the middle if none
 
     @property
     def narrow(self):

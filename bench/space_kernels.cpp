@@ -1,0 +1,126 @@
+// What the systems of the bodies do in a second in three dimensions, on one core: stress, return and forces of
+// hexahedra, and the motion of their nodes. Items are hexahedra; `flowing`: all of them flow in every step.
+//
+//   ./build/release/bench/space_kernels
+#include <benchmark/benchmark.h>
+
+#include "components/run_state.hpp"
+#include "components/space/body.hpp"
+#include "scenes/space/body_columns.hpp"
+#include "scenes/space/meshes/element_constants.hpp"
+#include "systems/space/body/systems.hpp"
+
+namespace pulvis::space {
+namespace {
+
+// A cube of n^3 hexahedra.
+Shape cube(int n) {
+  Shape shape;
+  const auto row = [&](int i, int j, int k) { return Row<Node>(i + (n + 1) * (j + (n + 1) * k)); };
+  for (int k = 0; k <= n; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        shape.nodes.push_back({double(i) / n, double(j) / n, double(k) / n});
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        shape.hexahedra.push_back({row(i, j, k), row(i + 1, j, k), row(i + 1, j + 1, k),
+                                   row(i, j + 1, k), row(i, j, k + 1), row(i + 1, j, k + 1),
+                                   row(i + 1, j + 1, k + 1), row(i, j + 1, k + 1)});
+  complete_elements(shape);
+  return shape;
+}
+
+Scene scene_of(bool plastic) {
+  Scene scene;
+  MaterialSpec& m = scene.materials.emplace_back();
+  m.density = 8930;
+  m.youngs_modulus = 117e9;
+  m.poissons_ratio = 0.35;
+  if (plastic) m.yield_stress = 400e6;
+  m.hardening_modulus = 100e6;
+  return scene;
+}
+
+// `chunks` of eight cubes.
+std::unique_ptr<World> cubes(const Scene& scene, Formulation formulation, int n, int chunks) {
+  auto world = std::make_unique<World>();
+  Bodies bodies;
+  bodies.formulation = formulation;
+  bodies.slots.resize(static_cast<std::size_t>(chunks * lane_count));
+  Shapes shapes;
+  shapes.list.push_back(cube(n));
+  add_body_columns(*world, scene, bodies, shapes);
+  const BodySpec spec;
+  fill_bodies(*world, std::vector<std::optional<Placed>>(bodies.slots.size(), Placed{&spec}),
+              bodies, shapes);
+  fill_materials(*world, scene, bodies);
+  world->emplace<Bodies>(std::move(bodies));
+  world->emplace<Shapes>(std::move(shapes));
+  Clock& clock = world->emplace<Clock>();
+  clock.dt = clock.dt_before = 1e-9;
+  return world;
+}
+
+// Every node moves its own way in x, y and z: strains of rate / (1/n) in every element, bent and twisted.
+void set_off(World& world, double speed) {
+  auto& v = world.column<Velocity>();
+  std::uint32_t random = 1;
+  for (std::size_t i = 0; i < v.bytes() / sizeof(double); ++i) {
+    random = random * 1664525 + 1013904223;
+    v.values()[i] = speed * (random * 0x1p-31 - 1);
+  }
+}
+
+template <class S>
+S open(World& world) {
+  return detail::Opener{world}.open<S>();
+}
+
+template <class ForceSystem>
+void step(benchmark::State& state, Formulation formulation, bool plastic, double speed) {
+  const int n = static_cast<int>(state.range(0)), chunks = static_cast<int>(state.range(1));
+  const auto world = cubes(scene_of(plastic), formulation, n, chunks);
+  const auto force = open<ForceSystem>(*world);
+  const auto move = open<integrate>(*world);
+  set_off(*world, speed);
+  // There and back, so that the mesh stays what it is.
+  int at = 0;
+  for (auto unused : state) {
+    (void)unused;
+    world->resource<Clock>().dt = ++at % 20 < 10 ? 1e-9 : -1e-9;
+    world->resource<Clock>().dt_before = -world->resource<Clock>().dt;
+    for (int c = 0; c < chunks; ++c) {
+      force(BusyChunk{Chunk{c}});
+      move(Chunk{c});
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * n * n * n * lane_count * chunks);
+}
+
+constexpr double flowing = 1e6, resting = 1;  // m/s: strains of 1e-2 a step, and of 1e-8
+
+void one_point_elastic(benchmark::State& state) {
+  step<elastic_force<OnePoint>>(state, Formulation::one_point, false, flowing);
+}
+void one_point_below_yield(benchmark::State& state) {
+  step<plastic_force<OnePoint>>(state, Formulation::one_point, true, resting);
+}
+void one_point_flowing(benchmark::State& state) {
+  step<plastic_force<OnePoint>>(state, Formulation::one_point, true, flowing);
+}
+void eight_point_flowing(benchmark::State& state) {
+  step<plastic_force<EightPoint>>(state, Formulation::four_point, true, flowing);
+}
+
+// Particles of 64 and 512 hexahedra in the caches; 512 in chunks beyond them.
+#define SIZES Args({4, 1})->Args({8, 1})->Args({8, 20})
+BENCHMARK(one_point_elastic)->SIZES;
+BENCHMARK(one_point_below_yield)->SIZES;
+BENCHMARK(one_point_flowing)->SIZES;
+BENCHMARK(eight_point_flowing)->SIZES;
+
+}  // namespace
+}  // namespace pulvis::space
+
+BENCHMARK_MAIN();

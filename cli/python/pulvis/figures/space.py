@@ -1,0 +1,209 @@
+"""Pictures of particles in three dimensions: all of them from a corner, a section through them, the density along z.
+
+Faces are drawn from the far ones to the near ones, in parallel projection, true to scale."""
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+
+from pulvis.errors import PulvisError
+from pulvis.figures.colours import colours_of
+from pulvis.figures.fields import DEFAULT_FIELD, OUTLINE, field_of
+from pulvis.figures.look import Options, close_up, moment, seam, shape_of, sheet
+from pulvis.figures.names import capital, label, name_of
+from pulvis.figures.quantities import with_unit
+from pulvis.figures.space_mesh import density_along_z, outer_sides, section
+from pulvis.figures.space_tools import cross_section, cut, normals, pieces, rims
+from pulvis.figures.tools import TOOL_EDGE, TOOL_FACE
+
+TURN, TILT = -np.pi / 4, np.arctan(np.sqrt(0.5))  # the isometric view, as in the report
+LIGHT = np.array([-0.35, 0.5, -0.8]) / np.linalg.norm([-0.35, 0.5, -0.8])
+DARKEST = 0.6  # share of its colour that a face away from the light keeps
+PROFILES = 4  # times at which the density along z is drawn
+
+
+def isometric():
+    """Rows: to the right, up, away."""
+    ct, st, cu, su = np.cos(TURN), np.sin(TURN), np.cos(TILT), np.sin(TILT)
+    return np.array([[ct, -st, 0], [su * st, su * ct, cu], [cu * st, cu * ct, -su]])
+
+
+def limits_of(run, frames):
+    """mm, of the projections of all frames: lower left, upper right."""
+    seen = [points @ isometric()[:2].T for frame in frames
+            for points in (frame["position"][()], pieces(run, frame)[0].reshape(-1, 3)) if len(points)]
+    low, high = np.min([one.min(axis=0) for one in seen], axis=0), np.max([one.max(axis=0) for one in seen], axis=0)
+    margin = 0.03 * (high - low).max()
+    return 1e3 * np.array([low - margin, high + margin])
+
+
+def draw_tools(run, axes, frame):
+    """Pieces whose inside is seen, behind the powder; and where surfaces end."""
+    rows, (corners, _) = isometric(), pieces(run, frame)
+    if not len(corners):
+        return
+    inside = normals(corners) @ rows[2] < 0
+    axes.add_collection(PolyCollection(1e3 * corners[inside] @ rows[:2].T, facecolors=TOOL_FACE, edgecolors="face", linewidths=0.2,
+                                       alpha=0.6, zorder=0.5))
+    axes.add_collection(LineCollection(1e3 * rims(run, frame) @ rows[:2].T, colors=TOOL_EDGE, linewidths=0.6, zorder=0.6))
+
+
+def draw_scale(axes, limits):
+    """Directions of the axes and a length, below the picture."""
+    rows, wide = isometric(), np.ptp(limits[:, 0])
+    corner, long = limits[0] + 0.055 * wide, 0.045 * wide
+    for k, name in enumerate("xyz"):
+        tip = corner + long * rows[:2, k]
+        axes.plot(*np.stack([corner, tip], axis=1), color=TOOL_EDGE, linewidth=0.8, linestyle="-")
+        axes.text(*(corner + 1.45 * (tip - corner)), f"${name}$", ha="center", va="center", color=TOOL_EDGE)
+    power = 10 ** np.floor(np.log10(0.25 * wide))
+    bar = max(step * power for step in (1, 2, 2.5) if step * power <= 0.25 * wide)
+    right, low = limits[1, 0] - 0.02 * wide, limits[0, 1] + 0.02 * wide
+    axes.plot([right - bar, right], [low, low], color=OUTLINE, linewidth=2, linestyle="-", solid_capstyle="butt")
+    axes.text(right - bar / 2, low + 0.012 * wide, with_unit(1e-3 * bar, "m"), ha="center", va="bottom")
+
+
+def shaded(faces, light):
+    """Paints what has been coloured darker where it turns away from the light."""
+    rgb = faces.get_facecolor()[:, :3] * light[:, None]
+    faces.set_array(None)
+    faces.set_facecolor(rgb)
+    faces.set_edgecolor(rgb)
+
+
+def paint(run, axes, frame, field, colours, options, limits, sides=None):
+    """One frame into axes. sides: outer_sides of the mesh."""
+    rows, position = isometric(), frame["position"][()]
+    quads, cells = sides or outer_sides(run.mesh.cells)
+    normal = normals(position[quads]) @ rows.T
+    front = normal[:, 2] < 0
+    quads, cells, normal = quads[front], cells[front], normal[front]
+    seen = position @ rows.T
+    order = np.argsort(-seen[quads, 2].mean(axis=1), kind="stable")
+    draw_tools(run, axes, frame)
+    faces = PolyCollection(1e3 * seen[quads[order], :2], linewidths=0.6 * seam(options), joinstyle="round", zorder=1)
+    colours.paint(faces, field.values[cells[order]])
+    shaded(faces, DARKEST + (1 - DARKEST) * np.maximum(0, normal[order] @ LIGHT))
+    axes.add_collection(faces)
+    axes.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
+    axes.axis("off")
+    draw_scale(axes, limits)
+    options.head(axes, f"{title_of(field)} at {moment(frame)}", run)
+
+
+def title_of(field):
+    name = name_of(field.key, field.components)
+    return capital(name.words) + (f" ${name.symbol}$" if ":" in field.key else "")
+
+
+def asked_field(run, options):
+    """(frame, field) or None where the run has neither and nothing was asked for by name."""
+    if not run.frames:
+        return None
+    frame = run.frame(options.frame)
+    try:
+        return frame, field_of(run, frame, options.field or DEFAULT_FIELD)
+    except PulvisError:
+        if options.field:
+            raise
+        return None
+
+
+def space_picture(run, options=None, axes=None):
+    """All particles from a corner."""
+    options = options or Options()
+    asked = asked_field(run, options)
+    if asked is None:
+        return None
+    frame, field = asked
+    limits = limits_of(run, [frame])
+    size, beside = shape_of(limits)
+    figure, place = sheet(options, size, axes, beside)
+    colours = colours_of(field, field.values, options)
+    paint(run, place, frame, field, colours, options, limits)
+    colours.key(figure, place)
+    close_up(figure, options, axes)
+    middle = frame["position"][()][run.mesh.cells].mean(axis=1)
+    figure.table = [*((name, "m", middle[:, k]) for k, name in enumerate("xyz")), (field.key, field.unit, field.values)]
+    return figure
+
+
+def fullest(run, position, axis):
+    """m: of places in the middle third, where a plane cuts the most cells: none is drawn between two layers."""
+    low, high = position[:, axis].min(), position[:, axis].max()
+    corners = position[run.mesh.cells, axis]
+    begin, end = np.sort(corners.min(axis=1)), np.sort(corners.max(axis=1))
+    places = low + (high - low) * (0.5 + np.array([0, *(side * k / 48 for k in range(1, 9) for side in (-1, 1))]) + 1e-6)
+    return places[np.argmax(np.searchsorted(begin, places) - np.searchsorted(end, places))]
+
+
+def section_picture(run, options=None, axes=None):
+    """The cells that a plane through the powder cuts: across `options.across` at `options.at` (m), near its middle if
+    not said."""
+    options = options or Options()
+    asked = asked_field(run, options)
+    if asked is None:
+        return None
+    (frame, field), axis = asked, "xyz".index(options.across)
+    position, others = frame["position"][()], [name for name in "xyz" if name != options.across]
+    ends = np.array([position.min(axis=0), position.max(axis=0)])
+    at = fullest(run, position, axis) if options.at is None else options.at
+    polygons, cells = section(run.mesh.cells, position, axis, at)
+    lines = cut(pieces(run, frame)[0], axis, at)
+    limits = np.delete(np.array([np.minimum(ends[0], pieces(run, frame)[0].reshape(-1, 3).min(axis=0, initial=np.inf)),
+                                 np.maximum(ends[1], pieces(run, frame)[0].reshape(-1, 3).max(axis=0, initial=-np.inf))]), axis, axis=1)
+    margin = 0.03 * np.ptp(limits, axis=0).max()
+    limits = 1e3 * (limits + np.array([[-margin], [margin]]))
+    size, beside = shape_of(limits)
+    figure, place = sheet(options, size, axes, beside)
+    colours = colours_of(field, field.values, options)
+    faces = PolyCollection([1e3 * polygon for polygon in polygons], linewidths=0.25, zorder=1)
+    colours.paint(faces, field.values[cells])
+    faces.set_edgecolor(OUTLINE)
+    place.add_collection(faces)
+    place.add_collection(LineCollection(1e3 * lines, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
+    place.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel=f"${others[0]}$ / mm", ylabel=f"${others[1]}$ / mm")
+    place.grid(False)
+    options.head(place, f"{title_of(field)} in the plane ${options.across}$ = {with_unit(at, 'm')} at {moment(frame)}", run)
+    colours.key(figure, place)
+    close_up(figure, options, axes)
+    middle = np.array([polygon.mean(axis=0) for polygon in polygons]).reshape(-1, 2)
+    figure.table = [(others[0], "m", middle[:, 0]), (others[1], "m", middle[:, 1]), (field.key, field.unit, field.values[cells])]
+    return figure
+
+
+def space_profile(run, options=None, axes=None):
+    """Relative density along z, at several times or in the frame asked for."""
+    options = options or Options()
+    if not run.frames:
+        return None
+    numbers = [options.frame] if options.frame is not None else np.unique(
+        np.linspace(0, len(run.frames) - 1, PROFILES).round().astype(int))
+    figure, place = sheet(options, (6.4, 4.2), axes)
+    for frame in (run.frame(int(number)) for number in numbers):
+        position = frame["position"][()]
+        density, z = density_along_z(run.mesh.cells, position, cross_section(run, frame, position))
+        place.plot(np.repeat(density, 2), 1e3 * np.repeat(z, 2)[1:-1], label=f"$t$ = {moment(frame)}")
+    place.set(xlabel=label("relative_density", ""), ylabel="$z$ / mm")
+    options.head(place, "Relative density along z", run)
+    place.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    figure.table = [("z", "m", (z[1:] + z[:-1]) / 2), ("relative density", "-", density)]
+    return figure
+
+
+def space_film(run, options, into):
+    """As animation.film."""
+    key, sides = options.field or DEFAULT_FIELD, outer_sides(run.mesh.cells)
+    fields = [field_of(run, frame, key) for frame in run.frames]
+    colours = colours_of(fields[0], np.concatenate([field.values for field in fields]), options)
+    limits = limits_of(run, run.frames)
+    size, beside = shape_of(limits)
+    figure, axes = sheet(options, size, into, beside)
+
+    def show(k):
+        axes.clear()
+        paint(run, axes, run.frames[k], fields[k], colours, options, limits, sides)
+        colours.key(figure, axes)
+        return []
+
+    show(0)
+    close_up(figure, options, into)
+    return figure, axes, show

@@ -1,0 +1,61 @@
+"""The tools of a run in three dimensions: pieces of surfaces, seen from the powder counter-clockwise."""
+import numpy as np
+
+UPRIGHT = 1e-3
+
+
+def pieces(run, frame):
+    """(corners [n, 4, 3] m, kinds [n]) of all pieces in a frame."""
+    if "tools/quads" not in run.file or "tools/outline" not in frame:
+        return np.empty((0, 4, 3)), np.empty(0, str)
+    of_tool = run.file["tools/quad_tool"]
+    text = of_tool.attrs["kinds"]
+    kinds = (text.decode() if isinstance(text, bytes) else text).split("\n")
+    return frame["tools/outline"][()][run.file["tools/quads"][()]], np.array(kinds)[of_tool[()]]
+
+
+def normals(corners):
+    cross = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    return cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-300)
+
+
+def rims(run, frame):
+    """Edges that one piece alone has: [n, 2, 3] m."""
+    if "tools/quads" not in run.file or "tools/outline" not in frame:
+        return np.empty((0, 2, 3))
+    quads = run.file["tools/quads"][()]
+    edges = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    once, count = np.unique(edges[edges[:, 0] != edges[:, 1]], axis=0, return_counts=True)
+    return frame["tools/outline"][()][once[count == 1]]
+
+
+def cut(corners, axis, at):
+    """Where the plane across `axis` cuts pieces: lines [n, 2, 2] along the other axes."""
+    lines = []
+    for piece in corners:
+        away = piece[:, axis] - at
+        points = []
+        for i in range(4):
+            j = (i + 1) % 4
+            if (away[i] > 0) != (away[j] > 0):
+                points.append(np.delete(piece[i] + away[i] / (away[i] - away[j]) * (piece[j] - piece[i]), axis))
+        if len(points) == 2:
+            lines.append(points)
+    return np.array(lines).reshape(-1, 2, 2)
+
+
+def cross_section(run, frame, position):
+    """m^2, of the room across z: of a round die, or of the box that upright walls make, as wide as the powder where there
+    is none."""
+    corners, kinds = pieces(run, frame)
+    normal = normals(corners)
+    upright = np.abs(normal[:, 2]) < UPRIGHT
+    die = corners[upright & (kinds == "die")].reshape(-1, 3)
+    if len(die):
+        return np.pi / 4 * np.prod(np.ptp(die[:, :2], axis=0))
+    low, high = position[:, :2].min(axis=0), position[:, :2].max(axis=0)
+    for piece, across in zip(corners[upright & (kinds == "plane")], normal[upright & (kinds == "plane")]):
+        k = int(np.abs(across[:2]).argmax())
+        if abs(across[1 - k]) < UPRIGHT:
+            (low if across[k] > 0 else high)[k] = piece[0, k]
+    return np.prod(high - low)

@@ -1,0 +1,205 @@
+// The moving picture of particles in three dimensions: turned by dragging, cut by a plane, coloured as the plane one is.
+// Lengths here are shares of the widest extent of the powder, from its lowest corner over all frames; `seen` has them to
+// the right, up and away.
+"use strict";
+
+const SPACE_STEPS = 65534;  // of a position
+const SPACE_VIEWS = {
+  isometric: ["Isometric", -Math.PI / 4, Math.atan(Math.SQRT1_2)],
+  x: ["Along x", -Math.PI / 2, 0],
+  y: ["Along y", 0, 0],
+  z: ["From above", 0, Math.PI / 2],
+};
+const SPACE_KEYS = "Shift and arrows turn, plus and minus zoom, x, y, z and i look along an axis or from a corner, 0 shows all.";
+
+class SpaceView extends FieldView {
+  static radiusOf({head: {low, high}}) { return Math.hypot(...high.map((end, k) => end - low[k])) / 2 || 1; }
+
+  prepare() {
+    const {low, high} = this.run.head, [, turn, tilt] = SPACE_VIEWS.isometric;
+    Object.assign(this, {turn, tilt, zoom: 1, moved: [0, 0], cut: "", cutAt: 0.5, cutNormal: [1, 0, 0], slice: false,
+                         showTools: true, edges: false, surface: SpaceSurface.of(this.run)});
+    this.box = high.map((end, k) => (end - low[k]) / this.width);
+    this.middle = this.box.map(length => length / 2);
+    this.radius = (this.whole?.radius || SpaceView.radiusOf(this.run)) / this.width;
+    this.gl = SpacePicture.create(this.run, this.surface);
+    this.outline = [];
+  }
+
+  get direction() {
+    const [ct, st, cu, su] = [Math.cos(this.turn), Math.sin(this.turn), Math.cos(this.tilt), Math.sin(this.tilt)];
+    return [[ct, -st, 0], [su * st, su * ct, cu], [cu * st, cu * ct, -su]];  // rows: right, up, away
+  }
+
+  layout() {
+    const ratio = Math.min(devicePixelRatio || 1, 2), {canvas} = this;
+    const width = this.drawnWidth = canvas.parentElement.clientWidth, room = width - this.legendWidth();
+    const height = Math.round(Math.min(Math.max(0.85 * room, 220), this.most));
+    canvas.style.height = height + "px";
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    const unit = this.zoom * 0.5 * Math.min(room, height) / this.radius;  // pixels
+    this.place = {ratio, width, room, height, unit, scale: unit / this.width, rows: this.direction};
+  }
+
+  // In pixels of the canvas; the third is how far away, as a share.
+  seen([x, y, z]) {
+    const {rows, unit, room, height} = this.place, [a, b, c] = this.middle, [dx, dy, dz] = [x - a, y - b, z - c];
+    const [right, up, away] = rows.map(row => row[0] * dx + row[1] * dy + row[2] * dz);
+    return [room / 2 + unit * (right + this.moved[0]), height / 2 - unit * (up + this.moved[1]), away];
+  }
+
+  // {normal, offset}: what lies beyond it is cut away; null: nothing is.
+  plane() {
+    const axis = "xyz".indexOf(this.cut);
+    if (!this.cut) return null;
+    const normal = axis < 0 ? this.cutNormal : [0, 1, 2].map(k => k === axis ? 1 : 0);
+    const reach = this.box.map((length, k) => length * normal[k]), low = reach.reduce((sum, part) => sum + Math.min(0, part), 0);
+    const high = reach.reduce((sum, part) => sum + Math.max(0, part), 0);
+    return {normal, offset: low + this.cutAt * (high - low) + 1e-6};  // through no node of a lattice
+  }
+
+  draw() {
+    if (!this.position) return;
+    const start = performance.now();
+    this.layout();
+    const ctx = this.canvas.getContext("2d"), {ratio, room, height} = this.place, colours = this.cellColours();
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.font = "12px system-ui, sans-serif";
+    const plane = this.plane();
+    this.section = plane ? sectionOf(this.run.cells, this.position, plane, this.surface.isOuter) : null;
+    this.projected = null;
+    if (this.gl) {
+      this.gl.show(this, colours, plane);
+      ctx.drawImage(this.gl.canvas, 0, 0, room, height);
+    } else {
+      ctx.fillStyle = theme().soft;
+      ctx.fillText("This browser has no WebGL 2, which pictures in three dimensions need.", 12, 24);
+    }
+    this.at = this.place;
+    this.drawSpaceAxes(ctx);
+    this.drawScaleBar(ctx);
+    this.drawLegend(ctx);
+    this.tell();
+    this.tellPointer();
+    this.fit.hidden = !this.isMoved();
+    this.canvas.dataset.drawnIn = (performance.now() - start).toFixed(1);
+    this.canvas.dataset.drawn = `${this.frame} ${this.shown}`;
+    this.canvas.dataset.cells = this.section ? this.section.cell.length : "";
+  }
+
+  drawSpaceAxes(ctx) {
+    const {height, rows} = this.place, x0 = 34, y0 = height - 30, long = 24;
+    Object.assign(ctx, {strokeStyle: theme().soft, fillStyle: theme().soft, lineWidth: 1, textAlign: "center"});
+    [..."xyz"].forEach((name, k) => {
+      const [x, y] = [rows[0][k], rows[1][k]];
+      if (Math.hypot(x, y) < 0.1) return;  // straight at the reader
+      ctx.beginPath();
+      ctx.moveTo(x0, y0);
+      ctx.lineTo(x0 + long * x, y0 - long * y);
+      ctx.stroke();
+      ctx.fillText(name, x0 + 1.4 * long * x, y0 - 1.4 * long * y + 4);
+    });
+  }
+
+  cutInWords() {
+    const plane = this.plane(), {low} = this.run.head;
+    if (!plane) return "";
+    const at = plane.offset * this.width + plane.normal.reduce((sum, part, k) => sum + part * low[k], 0);
+    return this.cut === "free" ? "plane as chosen" : `${this.cut} = ${withUnit(at, "m", 3)}`;
+  }
+
+  tell() {
+    super.tell();
+    const cut = this.cutInWords();
+    if (cut) this.note.textContent += ` Cut at ${cut}${this.slice ? ", the slice alone" : ""}.`;
+    this.canvas.setAttribute("aria-label", `Picture of the particles in three dimensions. ${this.note.textContent} ${SPACE_KEYS}`);
+  }
+
+  isMoved() {
+    const [, turn, tilt] = SPACE_VIEWS.isometric;
+    return this.zoom !== 1 || this.turn !== turn || this.tilt !== tilt || this.moved.some(part => part !== 0);
+  }
+  showAll() { this.zoom = 1; this.moved = [0, 0]; this.lookFrom("isometric"); }
+  lookFrom(name) {
+    [, this.turn, this.tilt] = SPACE_VIEWS[name];
+    this.draw();
+  }
+  turnBy(turn, tilt) {
+    this.turn += turn;
+    this.tilt = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, this.tilt + tilt));
+    this.draw();
+  }
+  // factor: of what is seen, as in the plane picture.
+  zoomBy(factor, px = this.place.room / 2, py = this.place.height / 2) {
+    const {unit, room, height} = this.place, [x, y] = [(px - room / 2) / unit, (height / 2 - py) / unit];
+    this.zoom /= factor;
+    this.moved = [this.moved[0] + x * (factor - 1), this.moved[1] + y * (factor - 1)];
+    this.draw();
+  }
+  moveBy(px, py) {
+    const {unit} = this.place;
+    this.moved = [this.moved[0] + px / unit, this.moved[1] - py / unit];
+    this.draw();
+  }
+
+  listen() {
+    const {canvas} = this;
+    canvas.addEventListener("wheel", event => {
+      event.preventDefault();
+      this.zoomBy(Math.exp(0.0015 * event.deltaY), event.offsetX, event.offsetY);
+    }, {passive: false});
+    canvas.addEventListener("contextmenu", event => event.preventDefault());
+    canvas.addEventListener("pointerdown", event => canvas.setPointerCapture(event.pointerId));
+    canvas.addEventListener("pointermove", event => {
+      this.pointer = {x: event.offsetX, y: event.offsetY};
+      if (event.buttons & 2 || event.buttons & 1 && event.shiftKey) this.moveBy(event.movementX, event.movementY);
+      else if (event.buttons & 1) this.turnBy(0.008 * event.movementX, 0.008 * event.movementY);
+      else this.tellPointer();
+    });
+    canvas.addEventListener("pointerleave", () => { this.pointer = null; this.tellPointer(); });
+    canvas.addEventListener("dblclick", () => this.showAll());
+    canvas.addEventListener("keydown", event => {
+      if (!this.key(event)) return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
+  }
+  key({key, shiftKey}) {
+    const turns = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]};
+    const views = {x: "x", y: "y", z: "z", i: "isometric"};
+    if (key === "+" || key === "=") this.zoomBy(0.8);
+    else if (key === "-") this.zoomBy(1.25);
+    else if (key === "0") this.showAll();
+    else if (shiftKey && turns[key]) this.turnBy(...turns[key]);
+    else if (views[key]) this.lookFrom(views[key]);
+    else return false;
+    return true;
+  }
+}
+
+// What stands above the picture in space beside the field: view, cut, tools, edges.
+function spaceControls(view) {
+  const note = element("output", {className: "told"}), change = what => { view.show(what).then(() => { note.textContent = view.cutInWords(); }); };
+  const select = (id, entries, onchange) => {
+    const made = element("select", {id});
+    entries.forEach(([value, label]) => made.add(new Option(label, value)));
+    made.onchange = () => onchange(made.value);
+    return made;
+  };
+  const tick = (id, label, name) => {
+    const box = element("input", {type: "checkbox", id, checked: view[name]});
+    box.onchange = () => change({[name]: box.checked});
+    return element("label", {}, box, " " + label);
+  };
+  const look = select("view", Object.entries(SPACE_VIEWS).map(([value, [label]]) => [value, label]), value => view.lookFrom(value));
+  const at = element("input", {type: "range", id: "cut-at", min: 0, max: 1, step: 0.005, value: 0.5, disabled: true, "aria-label": "Place of the cut"});
+  at.oninput = () => change({cutAt: Number(at.value)});
+  const cut = select("cut", [["", "nothing"], ["x", "across x"], ["y", "across y"], ["z", "across z"], ["free", "facing the view"]], value => {
+    at.disabled = !value;
+    change({cut: value, ...value === "free" ? {cutNormal: view.direction[2].map(part => -part)} : {}});
+  });
+  const tools = view.run.toolQuads ? [tick("tools", "tools", "showTools")] : [];
+  return [element("label", {}, "View ", look), element("label", {}, "Cut ", cut), at, note, tick("slice", "slice alone", "slice"),
+          tick("edges", "element edges", "edges"), ...tools];
+}

@@ -1,0 +1,101 @@
+#include "cli/report/report_profile.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "cli/report/report_parts.hpp"
+#include "cli/report/report_tags.hpp"
+
+namespace pulvis {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+using Box = Eigen::AlignedBox3d;
+
+constexpr double upright =
+    1e-3;  // of a unit normal's part along z, and across the axis it is along
+
+Box box_of(std::span<const double> xyz) {
+  Box box;
+  for (std::size_t i = 0; i < xyz.size(); i += 3) box.extend(Vec3(Vec3::Map(&xyz[i])));
+  return box;
+}
+
+struct Piece {
+  std::string kind;
+  std::array<Vec3, 4> corners;
+  Vec3 normal() const {
+    return (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized();
+  }
+};
+
+std::vector<Piece> pieces_of(const hdf5::File& file, const std::string& frame) {
+  if (!file.contains("/tools/quads") || !file.contains(frame + "/tools/outline")) return {};
+  const auto rows = file.read_integers("/tools/quads"),
+             tool = file.read_integers("/tools/quad_tool");
+  const auto kinds = lines_of(file.text_attribute("/tools/quad_tool", "kinds"));
+  const auto xyz = file.read_doubles(frame + "/tools/outline");
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < tool.size(); ++i) {
+    pieces.push_back({kinds.at(static_cast<std::size_t>(tool[i])), {}});
+    for (std::size_t k = 0; k < 4; ++k)
+      pieces.back().corners[k] = Vec3::Map(&xyz.at(3 * static_cast<std::size_t>(rows[4 * i + k])));
+  }
+  return pieces;
+}
+
+// A slice gets of a part as much as it has of the part's height.
+void spread(std::vector<double>& volume, double part, double from, double to) {
+  const auto count = static_cast<double>(volume.size());
+  const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, count - 1));
+  const auto last = static_cast<std::size_t>(std::clamp(to, 0.0, count - 1));
+  for (std::size_t slice = first; slice <= last; ++slice) {
+    const auto below = static_cast<double>(slice);
+    const double inside = std::min(to, below + 1) - std::max(from, below);
+    volume[slice] += to > from ? part * std::max(0.0, inside) / (to - from) : part;
+    if (!(to > from)) return;
+  }
+}
+
+}  // namespace
+
+DensityProfile density_along_z(std::span<const double> xyz, std::span<const std::int32_t> hexahedra,
+                               double area, std::size_t slices) {
+  const Box box = box_of(xyz);
+  const double low = box.min().z(), step = (box.max().z() - low) / static_cast<double>(slices);
+  DensityProfile profile{std::vector(slices, 0.0), {}};
+  for (std::size_t i = 0; i <= slices; ++i)
+    profile.edges.push_back(low + step * static_cast<double>(i));
+  if (!(step > 0) || !(area > 0)) return profile;
+  for (std::size_t first = 0; first < hexahedra.size(); first += 8)
+    for_parts(xyz, hexahedra.subspan(first, 8), [&](double volume, double from, double to) {
+      spread(profile.density, volume, (from - low) / step, (to - low) / step);
+    });
+  for (double& density : profile.density) density /= area * step;
+  return profile;
+}
+
+CrossSection cross_section(const hdf5::File& file, const std::string& frame,
+                           std::span<const double> xyz) {
+  Box room = box_of(xyz), die;
+  bool walls = false;
+  for (const Piece& piece : pieces_of(file, frame)) {
+    const Vec3 normal = piece.normal(), &at = piece.corners[0];
+    if (!(std::abs(normal.z()) < upright)) continue;
+    if (piece.kind == "die")
+      for (const Vec3& corner : piece.corners) die.extend(corner);
+    for (const int k : {0, 1}) {
+      if (piece.kind != "plane" || !(std::abs(normal[1 - k]) < upright)) continue;
+      (normal[k] > 0 ? room.min() : room.max())[k] = at[k];
+      walls = true;
+    }
+  }
+  const Vec3 size = die.isEmpty() ? room.sizes() : die.sizes();
+  if (!die.isEmpty()) return {std::numbers::pi / 4 * size.x() * size.y(), "die"};
+  return {size.x() * size.y(), walls ? "walls" : "powder"};
+}
+
+}  // namespace pulvis

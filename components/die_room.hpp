@@ -1,0 +1,60 @@
+// The room between the tools around a powder in three dimensions: what relative density refers to.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+
+namespace pulvis {
+
+struct DieRoom {
+  enum class Kind { box, round };
+  // Towards -x +x -y +y -z +z; of a round die bottom and top alone, along its axis.
+  enum Side : std::size_t { left, right, front, back, bottom, top };
+  using Vector = std::array<double, 3>;
+
+  Kind kind = Kind::box;
+  std::array<int, 6> tool{};   // by side
+  int die = -1;                // of a round one: the tool
+  Vector axis{0, 0, 1};        // from bottom to top
+  double diameter = 0;         // m, of a round one
+  double in_faces = 0;         // m^3 that profiles of punches take of the room
+  double particle_volume = 0;  // m^3, undeformed, of all particles
+
+  // m, between two sides. `at`: at(tool, component) is where a tool is now.
+  template <class At>
+  double apart(Side low, Side high, const Vector& along, const At& at) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += (at(tool[high], static_cast<int>(k)) - at(tool[low], static_cast<int>(k))) * along[k];
+    return sum;
+  }
+  template <class At>
+  double height(const At& at) const {
+    return apart(bottom, top, axis, at);
+  }
+  template <class At>
+  double width(const At& at) const {
+    return apart(left, right, {1, 0, 0}, at);
+  }
+  template <class At>
+  double depth(const At& at) const {
+    return apart(front, back, {0, 1, 0}, at);
+  }
+  // m^2, across the axis.
+  template <class At>
+  double area(const At& at) const {
+    if (kind == Kind::box) return width(at) * depth(at);
+    return std::numbers::pi / 4 * diameter * diameter;
+  }
+  template <class At>
+  double volume(const At& at) const {
+    return area(at) * height(at) - in_faces;
+  }
+  template <class At>
+  double density(const At& at) const {
+    return particle_volume / volume(at);
+  }
+};
+
+}  // namespace pulvis

@@ -1,0 +1,107 @@
+// Columns of contact in three dimensions: the smooth surfaces, and the candidates, where they may touch. A candidate is one
+// face of a particle (the sampled side, 4 x 4 Gauss points) against one other particle or tool. Both particles of a pair
+// sample each other: the contact is unbiased.
+//
+// Pairs, touches and the sums of blocks are those of two dimensions (components/contact.hpp), as are the rules
+// and the index of rows (components/run_state.hpp). Bodies::Slot::first_control is a particle's first face.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "components/contact.hpp"
+#include "components/run_state.hpp"
+#include "components/space/shape.hpp"
+#include "engine/access.hpp"
+
+namespace pulvis::space {
+
+inline constexpr int face_points = Shape::gauss_points;  // two lanes
+inline constexpr int face_numbers = 3 * 16;              // x of a face's Bezier points, y, z
+
+// ---- surfaces -----------------------------------------------------------------------------------
+struct FacePosition : Component<SurfaceFace, double, face_numbers> {
+  static constexpr ComponentInfo info{"position", "m", "of a face's Bezier points: all x, y, z"};
+};
+struct FaceVelocity : Component<SurfaceFace, double, face_numbers> {
+  static constexpr ComponentInfo info{"velocity", "m/s", "of a face's Bezier points"};
+};
+struct FaceBefore : Component<SurfaceFace, double, face_numbers> {
+  static constexpr ComponentInfo info{"before", "m", "where it was when the candidates were made"};
+};
+struct FaceForce : Component<SurfaceFace, double, face_numbers> {
+  static constexpr ComponentInfo info{"force", "N", "of all contacts, on a face's Bezier points"};
+  static constexpr bool transient = true;
+};
+// What the faces that meet in a Bezier point share: between the nodes and the faces, either way.
+struct PointPosition : Component<SurfacePoint, double, 3> {
+  static constexpr ComponentInfo info{"position", "m", "of a Bezier point"};
+  static constexpr bool transient = true;
+};
+struct PointLoad : Component<SurfacePoint, double, 3> {
+  static constexpr ComponentInfo info{"load", "N", "of all contacts, on a Bezier point"};
+  static constexpr bool transient = true;
+};
+
+// ---- candidates -----------------------------------------------------------------------------------
+// At: FaceContact or FaceToolContact.
+template <class At>
+struct ContactLaw : Component<At, double, 4> {
+  static constexpr ComponentInfo info{"law", "SI", "kappa, Coulomb's mu, damping, 1/face size"};
+  enum Number {
+    stiffness,  // Pa/m, kappa of the pair
+    friction,   // -, Coulomb coefficient of the pair; 0 where the scene has none
+    damping,    // Pa s/m; 0 where the scene has none
+    inv_size    // 1/m, 1/size of the sampled face
+  };
+};
+// Each half of a candidate's points rests by itself: faces touch with a few of their points as a rule.
+template <class At>
+struct Activation : Component<At, double, 2> {
+  static constexpr ComponentInfo info{
+      "activation", "m", "travel of the surfaces from which on a half of the points is active again"};
+};
+template <class At>
+struct PointForce : Component<At, double, 3 * face_points> {
+  static constexpr ComponentInfo info{"point_force", "N",
+                                      "on the sampled face: x of every point, y, z"};
+};
+// Closest point of each Gauss point on the other particle's surface: face + u of all, then v.
+struct ClosestPoint : Component<FaceContact, double, 2 * face_points> {
+  static constexpr ComponentInfo info{"closest_point", "-", "face of the other particle + u; v"};
+};
+
+// ---- only where the scene has friction -----------------------------------------------------------
+template <class At>
+struct ElasticSlip : Component<At, double, 3 * face_points> {
+  static constexpr ComponentInfo info{
+      "elastic_slip", "m", "stretch of the tangential springs, x of all, y, z: history"};
+};
+// Moment that keeps friction across a small gap from spinning the pair (systems/space/contact/contact_law.hpp).
+struct FrictionCouple : Component<FaceContact, double, 6 * face_points> {
+  static constexpr ComponentInfo info{"friction_couple", "N",
+                                      "on the slopes of the other surface: x y z along u, along v"};
+};
+
+// ---- tools that are no planes -----------------------------------------------------------------------
+// Triangles of a tool that a face can touch: in TriangleLists, from there.
+struct TriangleRange : Component<FaceToolContact, std::int32_t, 2> {
+  static constexpr ComponentInfo info{"triangles", "-", "first in the list, and the end"};
+};
+
+// ---- bodies with their shapes -------------------------------------------------------------------------
+struct ShapedBodies {
+  Read<Bodies> bodies;
+  Read<Shapes> shapes;
+
+  int slots() const { return static_cast<int>(bodies->slots.size()); }
+  bool is_empty(int slot) const { return entry(bodies->slots, slot).number == Bodies::empty_slot; }
+  const Shape& shape_of(int slot) const {
+    return entry(shapes->list, entry(bodies->slots, slot).shape);
+  }
+  const Shape& shape_of(Chunk chunk) const { return shape_of(ChunkLane(chunk, 0).slot()); }
+  int first_face(int slot) const { return entry(bodies->slots, slot).first_control; }
+};
+
+}  // namespace pulvis::space

@@ -1,0 +1,73 @@
+// Shapes of rigid tools in three dimensions. What is fixed of a tool stands relative to its position (ToolPosition).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "components/contact.hpp"
+#include "components/space/shape.hpp"
+#include "components/surface.hpp"
+#include "engine/access.hpp"
+
+namespace pulvis::space {
+
+// A closed surface of triangles, counter-clockwise as seen from outside.
+struct TriangleMesh {
+  struct Triangle {
+    std::array<Point, 3> corner;  // m
+    // Outward unit vectors: of the triangle; of its edges (from corner k on) and corners, between those of all that meet
+    // there (weighted with their angles: Baerentzen & Aanaes 2005), which tell inside from outside where these are nearest.
+    Point normal;
+    std::array<Point, 3> edge_normal, corner_normal;
+  };
+  struct Node {  // of a binary tree of boxes: of the triangles [first, first + count); halves where count is 0
+    std::array<double, 3> low{}, high{};
+    std::int32_t first = 0, count = 0;  // of an inner node, `first` is its second half; the first one follows it
+  };
+  std::vector<Triangle> triangles;  // in the order of the tree
+  std::vector<Node> tree;
+};
+
+struct ToolShapes {
+  static constexpr const char* resource_name = "space_tool_shapes";
+  static constexpr bool fixed = true;
+  // A die is the inside of a round hole along the tool's normal, a punch a body of revolution about it.
+  enum class Kind { plane, die, punch, mesh };
+  struct Shape {
+    Kind kind = Kind::plane;
+    double radius = 0;     // m, of a die
+    ToolSurface meridian;  // of a punch: x the radius, y along the normal, mirrored at the axis
+    TriangleMesh mesh;
+  };
+  std::vector<Shape> of_tool;
+};
+
+struct ToolSurfaces {
+  Read<ToolNormal> normal;
+  Read<ToolPosition> position;
+  Read<ToolShapes> shapes;
+
+  const ToolShapes::Shape& shape(int tool) const { return entry(shapes->of_tool, tool); }
+  Point normal_of(int tool) const {
+    const Row<Tool> row(tool);
+    return {normal(row, 0), normal(row, 1), normal(row, 2)};
+  }
+  Point position_of(int tool) const {
+    const Row<Tool> row(tool);
+    return {position(row, 0), position(row, 1), position(row, 2)};
+  }
+};
+
+// Triangles of tools that candidates can touch, made with the rows: each has a range of them.
+struct TriangleLists {
+  static constexpr const char* resource_name = "triangle_lists";
+  std::vector<std::int32_t> triangles;
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(triangles);
+  }
+};
+
+}  // namespace pulvis::space

@@ -1,0 +1,51 @@
+#include "scenes/checks/process_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace pulvis {
+
+void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t drives,
+                      const std::string& path, const Refuse& refuse) {
+  const bool needs_moves =
+      stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
+  if (needs_moves && moves == 0 && drives == 0)
+    refuse(path + ".kind",
+           "no tool moves in this stage, allowed: at least one [[stage.move]] or "
+           "[[stage.servo]], a [stage.cell], or kind = \"settle\" or \"hold\"");
+  if (!needs_moves && moves > 0)
+    refuse(path + ".move[0]",
+           "tools stand still in a stage of this kind, allowed: moves in kind = \"compact\", "
+           "\"unload\", \"eject\" or \"shear\"");
+}
+
+void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
+                     const Refuse& refuse) {
+  const auto is_tool = [&](const std::string& name) {
+    return std::ranges::find(tools, name) != tools.end();
+  };
+  std::set<std::pair<std::string, std::string>> named;
+  for (std::size_t i = 0; i < scene.frictions.size(); ++i) {
+    const FrictionSpec& friction = scene.frictions[i];
+    const std::string path = fmt::format("friction[{}].between", i);
+    if (is_tool(friction.first) && is_tool(friction.second))
+      refuse(path, "two tools never touch, allowed: a material and a tool, or two materials");
+    if (friction.static_coefficient && *friction.static_coefficient < friction.coefficient)
+      refuse(fmt::format("friction[{}].static_coefficient", i),
+             fmt::format("{:g} is below the dynamic coefficient, allowed: >= {:g}",
+                         *friction.static_coefficient, friction.coefficient));
+    if (!named.insert(std::minmax(friction.first, friction.second)).second)
+      refuse(path, fmt::format("the pair '{}' and '{}' is named twice, allowed: once",
+                               friction.first, friction.second));
+  }
+}
+
+void refuse_unused(const std::string& path, const std::string& name, const std::string& user,
+                   const Refuse& refuse) {
+  refuse(path,
+         fmt::format("'{}' is declared but not used, allowed: what a {} refers to", name, user));
+}
+
+}  // namespace pulvis

@@ -1,0 +1,23 @@
+// Checks of stages and frictions that do not depend on the dimension.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenes/spec/material_checks.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// `moves`, `drives`: how many prescribed moves, and what else (servos, driven cells) moves tools in the stage.
+void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t drives,
+                      const std::string& path, const Refuse& refuse);
+
+void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
+                     const Refuse& refuse);
+
+// What is declared and not referred to.
+void refuse_unused(const std::string& path, const std::string& name, const std::string& user,
+                   const Refuse& refuse);
+
+}  // namespace pulvis

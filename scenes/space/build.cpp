@@ -1,0 +1,57 @@
+#include "scenes/space/build.hpp"
+
+#include <algorithm>
+
+#include "components/run_state.hpp"
+#include "scenes/space/contact_columns.hpp"
+#include "scenes/space/layout.hpp"
+#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/packing/place.hpp"
+#include "scenes/space/results/observed_stress.hpp"
+#include "scenes/space/tools/drives.hpp"
+#include "scenes/space/travel.hpp"
+#include "systems/laws/flow_law.hpp"
+
+namespace pulvis::space {
+namespace {
+
+// Of materials without one: linear hardening, whose constants are in columns.
+void add_flow_laws(World& world, const Scene& scene) {
+  if (std::ranges::none_of(scene.materials, [](const MaterialSpec& m) { return bool(m.flow); }))
+    return;
+  FlowLaws laws;
+  for (const MaterialSpec& m : scene.materials)
+    laws.of_material.push_back(m.flow ? *m.flow : FlowLaw{});
+  world.emplace<FlowLaws>(std::move(laws));
+}
+
+void add_run_state(World& world, const Scene& scene) {
+  Clock& clock = world.emplace<Clock>();
+  clock.safety = scene.time.safety;
+  for (const StageSpec& stage : scene.stages) clock.end += stage.duration;
+  world.emplace<Totals>();
+}
+
+}  // namespace
+
+std::unique_ptr<World> build_world(const Scene& scene) {
+  const std::vector<BodySpec> bodies = place_bodies(scene);
+  check_overlaps(scene, bodies);
+  check_travel(scene, bodies);
+  Layout layout = lay_out(scene, bodies);
+  auto world = std::make_unique<World>();
+  add_body_columns(*world, scene, layout.bodies, layout.shapes);
+  fill_bodies(*world, layout.placed, layout.bodies, layout.shapes);
+  fill_materials(*world, scene, layout.bodies);
+  add_flow_laws(*world, scene);
+  add_run_state(*world, scene);
+  world->emplace<Bodies>(std::move(layout.bodies));
+  world->emplace<Shapes>(std::move(layout.shapes));
+  world->emplace<ParticleClasses>(std::move(layout.classes));
+  add_tools(*world, scene);
+  add_contact(*world, scene, bodies);
+  add_observed_stress(*world, scene);
+  return world;
+}
+
+}  // namespace pulvis::space

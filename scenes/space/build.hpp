@@ -1,0 +1,14 @@
+// From a scene in three dimensions to the world that is computed.
+#pragma once
+
+#include <memory>
+
+#include "engine/world.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis::space {
+
+// Throws SceneError for what only the placed particles show: overlaps, travel beyond full density.
+std::unique_ptr<World> build_world(const Scene& scene);
+
+}  // namespace pulvis::space

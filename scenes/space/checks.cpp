@@ -1,0 +1,194 @@
+#include "scenes/space/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "scenes/checks/process_checks.hpp"
+#include "scenes/space/shape_checks.hpp"
+#include "scenes/space/stl_files.hpp"
+#include "scenes/space/tool_checks.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+namespace {
+
+constexpr std::int64_t max_particles_in_space = 1'000'000;
+constexpr std::int64_t max_hexahedra = 100'000'000;  // at 1.5 kB each: 150 GB
+
+std::int64_t hexahedra(const MeshSpec& mesh) {
+  const std::int64_t n = mesh.divisions;
+  return n * n * n + 6 * n * n * mesh.rings;
+}
+
+bool is_lattice_kind(const PackingSpec& packing) {
+  return packing.kind != PackingSpec::Kind::random && packing.kind != PackingSpec::Kind::csv;
+}
+
+// As many as the lattice has at most: cells hold one to four.
+std::int64_t most_particles(const PackingSpec& packing) {
+  const std::int64_t cells = std::int64_t{packing.cells[0]} * packing.cells[1] * packing.cells[2];
+  using Kind = PackingSpec::Kind;
+  return cells * (packing.kind == Kind::body_centred   ? 2
+                  : packing.kind == Kind::face_centred ? 4
+                                                       : 1);
+}
+
+// Over the diameter of spheres that touch.
+double touching_spacing(PackingSpec::Kind kind) {
+  using Kind = PackingSpec::Kind;
+  if (kind == Kind::body_centred) return 2 / std::sqrt(3.0);
+  return kind == Kind::face_centred ? std::sqrt(2.0) : 1;
+}
+
+class SpaceChecks {
+ public:
+  SpaceChecks(Scene& scene, const schema::Origins& origins, Problems& problems)
+      : scene_(scene), space_(*scene.space), origins_(origins), problems_(problems) {}
+
+  void run() {
+    something_is_there();
+    check_materials(scene_, refusal());
+    read_stl_files(scene_, refusal());
+    for (std::size_t i = 0; i < space_.particles.size(); ++i)
+      check_shape(space_.particles[i].shape, fmt::format("particle[{}]", i), refusal());
+    counts();
+    packings();
+    stages();
+    check_frictions(scene_, names_of_tools(), refusal());
+    check_tools(scene_, origins_, refusal());
+    everything_is_used();
+  }
+
+ private:
+  // A default has no place of its own: its table's is told, or the table's above.
+  document::Origin nearest_origin(std::string path) const {
+    while (origins_.count(path) == 0 && path.find('.') != std::string::npos)
+      path.erase(path.rfind('.'));
+    const auto found = origins_.find(path);
+    return found == origins_.end() ? document::Origin{{1, 1}, -1} : found->second;
+  }
+  Refuse refusal() {
+    return [this](const std::string& path, const std::string& message) {
+      problems_.add(nearest_origin(path), path, message);
+    };
+  }
+  void refuse(const std::string& path, const std::string& message) { refusal()(path, message); }
+  bool given(const std::string& path) const { return origins_.contains(path); }
+
+  void refuse_missing(const std::string& key, const std::string& what) {
+    problems_.add({{1, 1}, -1}, key, fmt::format("none is declared, allowed: {}", what));
+  }
+
+  void something_is_there() {
+    if (scene_.materials.empty()) refuse_missing("material", "at least one [[material]]");
+    if (space_.particles.empty()) refuse_missing("particle", "at least one [[particle]]");
+    if (space_.bodies.empty() && space_.packings.empty())
+      refuse_missing("body", "at least one [[body]] or [[packing]]");
+    if (scene_.stages.empty()) refuse_missing("stage", "at least one [[stage]]");
+  }
+
+  std::vector<std::string> names_of_tools() const {
+    std::vector<std::string> names;
+    for (const ToolSpec& tool : space_.tools) names.push_back(tool.name);
+    return names;
+  }
+
+  std::int64_t hexahedra_of(int particle) const {
+    return hexahedra(space_.particles[static_cast<std::size_t>(particle)].mesh);
+  }
+
+  void counts() {
+    std::int64_t particles = static_cast<std::int64_t>(space_.bodies.size()), total = 0;
+    for (const BodySpec& body : space_.bodies) total += hexahedra_of(body.particle);
+    for (std::size_t i = 0; i < space_.packings.size(); ++i) {
+      const PackingSpec& packing = space_.packings[i];
+      if (!is_lattice_kind(packing)) continue;
+      particles += most_particles(packing);
+      if (particles > max_particles_in_space)
+        return refuse(fmt::format("packing[{}]", i),
+                      fmt::format("the scene has {} particles up to here, allowed: at most {}",
+                                  particles, max_particles_in_space));
+      total += most_particles(packing) * hexahedra_of(packing.particle);
+    }
+    if (total > max_hexahedra)
+      problems_.add({{1, 1}, -1}, "particle",
+                    fmt::format("all meshes together have {} hexahedra, allowed: at most {}", total,
+                                max_hexahedra));
+  }
+
+  void packings() {
+    for (std::size_t i = 0; i < space_.packings.size(); ++i) {
+      PackingSpec& packing = space_.packings[i];
+      const std::string path = fmt::format("packing[{}]", i);
+      if (packing.kind != PackingSpec::Kind::random && !packing.classes.empty())
+        refuse(path + ".class[0]",
+               "has no effect with this kind, allowed: classes of kind = \"random\"");
+      if (packing.kind == PackingSpec::Kind::random) container(packing, path);
+      if (is_lattice_kind(packing) && !given(path + ".spacing")) spacing(packing, path);
+    }
+  }
+
+  void container(const PackingSpec& packing, const std::string& path) {
+    const bool round = packing.container.kind == ContainerSpec::Kind::cylinder;
+    const bool box = given(path + ".width");
+    if (round && box)
+      refuse(path + ".diameter",
+             "has no effect together with width, allowed: diameter, or width and depth");
+    if (!round && !box)
+      refuse(path + ".width",
+             "required key is missing, allowed: width and depth of a box, or the diameter of a "
+             "cylinder");
+  }
+
+  void spacing(PackingSpec& packing, const std::string& path) {
+    const ParticleShape& shape = space_.particles[static_cast<std::size_t>(packing.particle)].shape;
+    if (const auto* sphere = std::get_if<SphereShape>(&shape))
+      packing.spacing = touching_spacing(packing.kind) * sphere->diameter;
+    else
+      refuse(path + ".spacing",
+             "required key is missing: only spheres have a spacing of their own, allowed: a "
+             "quantity in m");
+  }
+
+  void stages() {
+    for (std::size_t s = 0; s < scene_.stages.size(); ++s)
+      check_stage_kind(scene_.stages[s], space_.moves[s].size(), space_.servos[s].size(),
+                       fmt::format("stage[{}]", s), refusal());
+  }
+
+  void everything_is_used() {
+    std::set<int> particles, materials;
+    for (const BodySpec& body : space_.bodies) particles.insert(body.particle);
+    for (const PackingSpec& packing : space_.packings) {
+      if (is_lattice_kind(packing)) particles.insert(packing.particle);
+      for (const MixtureClass& mixed : packing.classes) particles.insert(mixed.particle);
+      if (packing.kind != PackingSpec::Kind::csv) continue;
+      for (int p = 0; p < static_cast<int>(space_.particles.size()); ++p) particles.insert(p);
+    }
+    for (const ParticleSpec& particle : space_.particles) materials.insert(particle.material);
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+      if (!materials.contains(static_cast<int>(i)))
+        refuse_unused(fmt::format("material[{}]", i), scene_.materials[i].name, "[[particle]]",
+                      refusal());
+    for (std::size_t i = 0; i < space_.particles.size(); ++i)
+      if (!particles.contains(static_cast<int>(i)))
+        refuse_unused(fmt::format("particle[{}]", i), space_.particles[i].name,
+                      "[[body]] or [[packing]]", refusal());
+  }
+
+  Scene& scene_;
+  SpaceScene& space_;
+  const schema::Origins& origins_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+void complete_and_check(Scene& scene, const schema::Origins& origins, Problems& problems) {
+  SpaceChecks(scene, origins, problems).run();
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,151 @@
+#include "scenes/space/contact_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/body.hpp"
+#include "components/run_state.hpp"
+#include "components/space/body.hpp"
+#include "components/space/contact.hpp"
+#include "components/space/tools.hpp"
+#include "scenes/space/tools/tool_shapes.hpp"
+#include "scenes/tools/contact_rules.hpp"
+
+namespace pulvis::space {
+namespace {
+
+// Surfaces move by this many skins against each other before they can have come near who were no neighbours.
+constexpr double skins_of_neighbourhood = 8;
+
+ContactRules rules_of(const Scene& scene) {
+  ContactRules rules = contact_rules(scene);
+  for (const ToolSpec& tool : scene.space->tools)
+    for (const MaterialSpec& material : scene.materials)
+      rules.tool_friction.push_back(friction_of(scene, tool.name, material.name));
+  rules.tool_thickness.assign(scene.space->tools.size(), std::numeric_limits<double>::infinity());
+  rules.servos = std::ranges::any_of(scene.space->servos,
+                                     [](const auto& of_stage) { return !of_stage.empty(); });
+  return rules;
+}
+
+// m, the least of an element at its middle.
+double edge_of(const Shape::Element& element) {
+  double steepest = 0;
+  for (std::size_t k = 0; k < 9; k += 3) {
+    const auto& rows = element.fibre;  // as long as 1/4 over an edge
+    steepest = std::max(
+        steepest, rows[k] * rows[k] + rows[k + 1] * rows[k + 1] + rows[k + 2] * rows[k + 2]);
+  }
+  return 0.25 / std::sqrt(steepest);
+}
+
+// What surfaces could pass through.
+void find_smallest(const Shapes& shapes, ContactRules& rules) {
+  rules.shortest_edge = std::numeric_limits<double>::max();
+  for (const Shape& shape : shapes.list) {
+    for (const Shape::Face& face : shape.faces)
+      rules.shortest_edge = std::min(rules.shortest_edge, face.size);
+    for (const Shape::Element& element : shape.element)
+      rules.thinnest = std::min(rules.thinnest, edge_of(element));
+  }
+  rules.thinnest = std::min(rules.thinnest, rules.shortest_edge);
+}
+
+struct Touching {  // what can touch, and how
+  bool pairs, tools, friction, damping;
+
+  Touching(const Scene& scene, const ContactRules& rules, std::size_t bodies) {
+    const auto rubs = [](const ContactRules::Friction& f) { return f.coefficient > 0; };
+    pairs = bodies > 1;
+    tools = !scene.space->tools.empty();
+    friction = (pairs && std::ranges::any_of(rules.friction, rubs)) ||
+               (tools && std::ranges::any_of(rules.tool_friction, rubs));
+    damping = rules.damping > 0;
+  }
+};
+
+// Where each particle's faces stand, and how many rows a chunk has of what `count` counts in a particle.
+template <class Count>
+std::vector<std::int32_t> of_chunks(const World& world, const Count& count) {
+  const Bodies& bodies = world.resource<Bodies>();
+  const Shapes& shapes = world.resource<Shapes>();
+  std::vector<std::int32_t> rows;
+  for (int slot = 0; slot < static_cast<int>(bodies.slots.size()); slot += lane_count)
+    rows.push_back(static_cast<std::int32_t>(
+        count(entry(shapes.list, entry(bodies.slots, slot).shape))));
+  return rows;
+}
+void number_faces(World& world) {
+  const Shapes& shapes = world.resource<Shapes>();
+  int first = 0;
+  for (Bodies::Slot& slot : world.resource<Bodies>().slots) {
+    slot.first_control = first;
+    first += static_cast<int>(entry(shapes.list, slot.shape).faces.size());
+  }
+}
+
+void add_surfaces(World& world, const Touching& touching) {
+  world.add_table<BoundaryNode>(of_chunks(world, [](const Shape& s) { return s.surface_nodes; }));
+  world.add_table<SurfacePoint>(
+      of_chunks(world, [](const Shape& s) { return s.surface_points(); }));
+  world.add_table<SurfaceFace>(of_chunks(
+      world, [](const Shape& s) { return lane_count * static_cast<int>(s.faces.size()); }));
+  number_faces(world);
+  world.add<ContactForce>();
+  world.add<PointPosition>();
+  world.add<PointLoad>();
+  world.add<FacePosition>();
+  world.add<FaceBefore>();
+  world.add<FaceForce>();
+  world.add<MaximumSpeed>();
+  if (touching.friction || touching.damping) world.add<FaceVelocity>();
+}
+
+template <class At>
+void add_rows(World& world, const Touching& touching) {
+  world.add_table<At>(std::size_t{0});
+  world.add<ContactPair<At>>();
+  world.add<ContactTouches<At>>();
+  world.add<Activation<At>>();
+  world.add<ContactLaw<At>>();
+  world.add<PointForce<At>>();
+  if (touching.friction) world.add<ElasticSlip<At>>();
+}
+
+void add_pairs(World& world, const Touching& touching) {
+  add_rows<FaceContact>(world, touching);
+  world.add<ClosestPoint>();
+  if (touching.friction) world.add<FrictionCouple>();
+  world.emplace<ContactSums<Contact>>();
+}
+
+void add_tools(World& world, const SpaceScene& scene, const Touching& touching) {
+  add_rows<FaceToolContact>(world, touching);
+  world.emplace<ContactSums<ToolContact>>();
+  const ToolShapes& shapes = world.emplace<ToolShapes>(tool_shapes(scene));
+  const bool meshes = std::ranges::any_of(shapes.of_tool, [](const ToolShapes::Shape& shape) {
+    return shape.kind == ToolShapes::Kind::mesh;
+  });
+  if (!meshes) return;
+  world.add<TriangleRange>();
+  world.emplace<TriangleLists>();
+}
+
+}  // namespace
+
+void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
+  ContactRules rules = rules_of(scene);
+  const Touching touching(scene, rules, bodies.size());
+  if (!touching.pairs && !touching.tools) return;
+  find_smallest(world.resource<Shapes>(), rules);
+  add_surfaces(world, touching);
+  if (touching.pairs) add_pairs(world, touching);
+  if (touching.tools) add_tools(world, *scene.space, touching);
+  ContactIndex& index = world.emplace<ContactIndex>();
+  index.skin = scene.contact.skin * rules.shortest_edge;
+  index.neighbourhood = skins_of_neighbourhood * index.skin;
+  world.emplace<ContactRules>(std::move(rules));
+}
+
+}  // namespace pulvis::space

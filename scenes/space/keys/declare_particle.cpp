@@ -1,0 +1,231 @@
+// Declarations of the particle classes: their shapes and their meshes.
+#include <concepts>
+
+#include "scenes/space/keys/declare.hpp"
+
+namespace pulvis::space::language {
+namespace {
+
+template <class Shape>
+void emplace_shape(ParticleSpec& particle) {
+  particle.shape = Shape{};
+}
+
+// The first key of a particle, its words in this order: the keys after it find the shape they belong to.
+void choose_shape(ParticleSpec& particle, const Decoded& value) {
+  constexpr void (*choices[])(ParticleSpec&) = {
+      emplace_shape<SphereShape>,       emplace_shape<EllipsoidShape>,
+      emplace_shape<SuperquadricShape>, emplace_shape<CylinderShape>,
+      emplace_shape<PolyhedronShape>,   emplace_shape<StlShape>};
+  choices[value.index](particle);
+}
+
+// A key of every shape that has the member: the one chosen does, only_for sees to that.
+template <class Value = double, class Set>
+auto shape_to(Set set, Value Decoded::*member = &Decoded::number) {
+  return [set, member](ParticleSpec& particle, const Decoded& value) {
+    std::visit(
+        [&](auto& shape) {
+          if constexpr (std::invocable<Set, decltype(shape), const Value&>)
+            set(shape, value.*member);
+        },
+        particle.shape);
+  };
+}
+
+template <class Set>
+Key<ParticleSpec> length_key(const char* name, schema::Range range, Words shapes, const char* doc,
+                             Set set) {
+  return {{.name = name,
+           .kind = Kind::quantity,
+           .unit = "m",
+           .range = range,
+           .required = true,
+           .only_for = std::move(shapes),
+           .doc = doc},
+          shape_to(set)};
+}
+
+template <class Set>
+Key<ParticleSpec> exponent_key(const char* name, const char* doc, Set set) {
+  return {{.name = name,
+           .kind = Kind::number,
+           .range = within(2, 20),
+           .fallback = value_of(2.0),
+           .only_for = "superquadric",
+           .doc = doc},
+          shape_to(set)};
+}
+
+std::vector<Key<ParticleSpec>> class_keys() {
+  return {{{.name = "shape",
+            .kind = Kind::choice,
+            .choices = {{"sphere", "a ball"},
+                        {"ellipsoid", "of three axes"},
+                        {"superquadric", "between an ellipsoid and a box, by its exponents"},
+                        {"cylinder", "along its z axis, with rounded rims: tablets, pellets"},
+                        {"polyhedron", "the convex hull of its corners, edges rounded"},
+                        {"stl",
+                         "a closed surface from a file; its centre of volume must see all "
+                         "of it"}},
+            .required = true,
+            .doc = "Shape of the particle."},
+           choose_shape},
+          {{.name = "name",
+            .kind = Kind::name,
+            .required = true,
+            .doc = "Bodies and packings refer to it."},
+           to(&ParticleSpec::name)},
+          {{.name = "material",
+            .kind = Kind::reference,
+            .refers_to = "material",
+            .required = true,
+            .doc = "What it is made of."},
+           schema::index_to(&ParticleSpec::material)}};
+}
+
+std::vector<Key<ParticleSpec>> size_keys_of_shapes() {
+  Key<ParticleSpec> diameter = length_key(
+      "diameter", within(smallest_size, largest_size), {"sphere", "cylinder", "stl"},
+      "Of a ball or cylinder; of an STL surface that of the ball of the same volume, to which it "
+      "is "
+      "scaled.",
+      [](auto& s, double value) requires requires { s.diameter; } { s.diameter = value; });
+  diameter.info.optional_for = "stl";
+  Key<ParticleSpec> rounding = length_key(
+      "rounding", within(0, largest_size), {"cylinder", "polyhedron"},
+      "Radius of the rims of a cylinder, of all edges and corners of a polyhedron. Sharp ones ask "
+      "for "
+      "a fine mesh.",
+      [](auto& s, double value) requires requires { s.rounding; } { s.rounding = value; });
+  return {diameter,
+          {{.name = "size",
+            .kind = Kind::vector,
+            .unit = "m",
+            .range = within(smallest_size, largest_size),
+            .dimensions = 3,
+            .required = true,
+            .only_for = {"ellipsoid", "superquadric"},
+            .doc = "From end to end along the particle's own x, y and z axis."},
+           shape_to<Vec3>(
+               [](auto& s, const Vec3& value) requires requires { s.size; } { s.size = value; },
+               &Decoded::vector3)},
+          length_key(
+              "height", within(smallest_size, largest_size), {"cylinder"}, "From face to face.",
+              [](auto& s, double value) requires requires { s.height; } { s.height = value; }),
+          rounding};
+}
+
+std::vector<Key<ParticleSpec>> form_keys() {
+  return {
+      exponent_key(
+          "exponent_xy",
+          "e of (abs(2x/a)^e + abs(2y/b)^e)^(f/e) + abs(2z/c)^f = 1: 2 is an ellipse, "
+          "more goes towards a rectangle.",
+          [](auto& s, double value) requires requires { s.exponent_xy; } {
+            s.exponent_xy = value;
+          }),
+      exponent_key(
+          "exponent_z", "f of the same, towards both ends.",
+          [](auto& s, double value) requires requires { s.exponent_z; } { s.exponent_z = value; }),
+      {{.name = "corners",
+        .kind = Kind::points,
+        .unit = "m",
+        .range = within(-largest_size, largest_size),
+        .dimensions = 3,
+        .required = true,
+        .only_for = "polyhedron",
+        .doc = "At least four that do not lie in one plane, in any order; the centre of the "
+               "volume becomes the particle's."},
+       shape_to<std::vector<Vec3>>(
+           [](auto& s, const std::vector<Vec3>& value) requires requires { s.corners; } {
+             s.corners = value;
+           },
+           &Decoded::points3)}};
+}
+
+std::vector<Key<ParticleSpec>> file_keys() {
+  return {
+      {{.name = "file",
+        .kind = Kind::file,
+        .required = true,
+        .only_for = "stl",
+        .doc = "Relative to the scene's folder: STL, ASCII or binary, a closed surface."},
+       shape_to<std::string>(
+           [](auto& s, const std::string& value) requires requires { s.file; } { s.file = value; },
+           &Decoded::text)},
+      {{.name = "unit",
+        .kind = Kind::text,
+        .required = true,
+        .only_for = "stl",
+        .doc = "Unit of the file's numbers: \"um\"."},
+       shape_to<std::string>(
+           [](auto& s, const std::string& value) requires requires { s.unit; } { s.unit = value; },
+           &Decoded::text)},
+      {{.name = "smoothing",
+        .kind = Kind::number,
+        .range = within(0, 0.5),
+        .fallback = value_of(0.0),
+        .only_for = "stl",
+        .doc = "Share of the mean radius over which the surface is smoothed."},
+       shape_to(
+           [](auto& s, double value) requires requires { s.smoothing; } { s.smoothing = value; })}};
+}
+
+TableDeclaration<ParticleSpec> declared_particle() {
+  TableDeclaration<ParticleSpec> table;
+  table.info.path = "particle";
+  table.info.repeated = true;
+  table.info.selector = "shape";
+  table.info.doc = "A class of equal particles; bodies and packings place them.";
+  for (const auto& keys : {class_keys(), size_keys_of_shapes(), form_keys(), file_keys()})
+    table.keys.insert(table.keys.end(), keys.begin(), keys.end());
+  return table;
+}
+
+std::vector<Key<ParticleSpec>> mesh_keys() {
+  return {{{.name = "divisions",
+            .kind = Kind::integer,
+            .range = within(1, 64),
+            .doc = "Elements along each edge of the cube in the middle: its core has divisions^3, "
+                   "the surface 6 divisions^2 faces.",
+            .fallback_doc = "by `accuracy`; beside `rings` 4"},
+           [](ParticleSpec& spec, const Decoded& value) {
+             spec.mesh.divisions = static_cast<int>(value.integer);
+           }},
+          {{.name = "rings",
+            .kind = Kind::integer,
+            .range = within(1, 64),
+            .doc = "Layers of elements between the core and the surface, 6 divisions^2 each.",
+            .fallback_doc = "by `accuracy`; beside `divisions` 4"},
+           [](ParticleSpec& spec, const Decoded& value) {
+             spec.mesh.rings = static_cast<int>(value.integer);
+           }},
+          {{.name = "phase",
+            .kind = Kind::choice,
+            .choices = {{"fixed", "as the particle is turned"},
+                        {"random", "every particle's mesh is turned by its own random rotation"}},
+            .fallback = value_of("fixed"),
+            .only_for = "sphere",
+            .doc = "Turn of the mesh inside the shape."},
+           [](ParticleSpec& spec, const Decoded& value) {
+             spec.random_mesh_phase = value.index == 1;
+           }}};
+}
+
+}  // namespace
+
+const TableDeclaration<ParticleSpec>& particle() {
+  static const TableDeclaration<ParticleSpec> declaration = declared_particle();
+  return declaration;
+}
+
+const TableDeclaration<ParticleSpec>& mesh() {
+  static const TableDeclaration<ParticleSpec> declaration{
+      {"particle.mesh", false, "shape",
+       "Finite elements of one particle: an O-grid, a cube in the middle and layers around it."},
+      mesh_keys()};
+  return declaration;
+}
+
+}  // namespace pulvis::space::language

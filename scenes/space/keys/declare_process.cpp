@@ -1,0 +1,228 @@
+// Declarations of the top level, of what happens to the powder, and of the settings of a run, where they are not those
+// of two dimensions.
+#include "scenes/space/keys/declare.hpp"
+
+namespace pulvis::space::language {
+namespace {
+
+std::vector<Key<Scene>> keys_of_top() {
+  std::vector<Key<Scene>> keys;
+  for (const Key<Scene>& key : schema::top_level().keys)
+    if (key.info.name != "thickness" && key.info.name != "initial_state") keys.push_back(key);
+  return keys;
+}
+
+Key<BodySpec> body_vector(const char* name, const char* unit, double largest, const char* zero,
+                          Vec3 BodySpec::*member, const char* doc) {
+  return {{.name = name,
+           .kind = Kind::vector,
+           .unit = unit,
+           .range = within(-largest, largest),
+           .dimensions = 3,
+           .fallback = triple_of(zero, zero, zero),
+           .doc = doc},
+          to(member)};
+}
+
+std::vector<Key<BodySpec>> turn_keys() {
+  return {{{.name = "angle",
+            .kind = Kind::quantity,
+            .unit = "rad",
+            .range = within(-1000, 1000),
+            .fallback = value_of("0 deg"),
+            .doc = "Turn about `axis`, counter-clockwise where that looks at one."},
+           [](BodySpec& spec, const Decoded& value) {
+             spec.rotation = Rotation(Eigen::AngleAxisd(value.number, Vec3::UnitZ()));
+           }},
+          {{.name = "axis",
+            .kind = Kind::direction,
+            .dimensions = 3,
+            .needs = "angle",
+            .doc = "Direction that the particle is turned about, of any length.",
+            .fallback_doc = "`[0, 0, 1]`"},
+           // The key before it has set the angle.
+           [](BodySpec& spec, const Decoded& value) {
+             spec.rotation = Rotation(
+                 Eigen::AngleAxisd(Eigen::AngleAxisd(spec.rotation).angle(), value.vector3));
+           }}};
+}
+
+TableDeclaration<BodySpec> declared_body() {
+  TableDeclaration<BodySpec> table;
+  table.info = schema::body().info;
+  table.keys.push_back({{.name = "particle",
+                         .kind = Kind::reference,
+                         .refers_to = "particle",
+                         .required = true,
+                         .doc = "Its class."},
+                        schema::index_to(&BodySpec::particle)});
+  table.keys.push_back({{.name = "position",
+                         .kind = Kind::vector,
+                         .unit = "m",
+                         .range = within(-largest_size, largest_size),
+                         .dimensions = 3,
+                         .required = true,
+                         .doc = "Centre of its volume."},
+                        to(&BodySpec::position)});
+  for (auto& key : turn_keys()) table.keys.push_back(std::move(key));
+  table.keys.push_back(body_vector("velocity", "m/s", 1e5, "0 m/s", &BodySpec::velocity,
+                                   "Initial velocity of the centre."));
+  table.keys.push_back(body_vector("angular_velocity", "rad/s", 1e12, "0 rad/s",
+                                   &BodySpec::angular_velocity,
+                                   "Initial spin, about the axes of the scene."));
+  return table;
+}
+
+std::vector<Key<MoveSpec>> move_keys() {
+  return {{{.name = "tool",
+            .kind = Kind::reference,
+            .refers_to = "tool",
+            .required = true,
+            .doc = "The tool that moves."},
+           schema::index_to(&MoveSpec::tool)},
+          {{.name = "displacement",
+            .kind = Kind::vector,
+            .unit = "m",
+            .range = within(-largest_size, largest_size),
+            .dimensions = 3,
+            .required = true,
+            .doc = "Displacement over the stage."},
+           to(&MoveSpec::displacement)},
+          {{.name = "ramp",
+            .kind = Kind::number,
+            .range = above(0, 0.5),
+            .fallback = value_of(0.1),
+            .doc = "Share of the stage in which the speed rises smoothly, and falls again at its "
+                   "end."},
+           to(&MoveSpec::ramp)}};
+}
+
+// As in two dimensions, but that the setters are those of another plain value.
+template <class Set>
+Key<ServoSpec> servo_key(const char* name, Set set) {
+  for (const Key<pulvis::ServoSpec>& key : schema::servo().keys)
+    if (key.info.name == name) return {key.info, set};
+  return {{.name = name}, set};
+}
+
+std::vector<Key<ServoSpec>> servo_keys() {
+  Key<ServoSpec> force = servo_key("force", to(&ServoSpec::force));
+  force.info.doc = "With which it is to push.";
+  Key<ServoSpec> tool = servo_key("tool", schema::index_to(&ServoSpec::tool));
+  tool.info.doc = "The tool that holds the force.";
+  Key<ServoSpec> direction = servo_key("direction", to(&ServoSpec::direction));
+  direction.info.dimensions = 3;
+  direction.info.fallback_doc = "the normal of a plane or punch; required of others";
+  return {tool,
+          force,
+          direction,
+          servo_key("rise", to(&ServoSpec::rise)),
+          servo_key("rate", to(&ServoSpec::rate)),
+          servo_key("response", to(&ServoSpec::response)),
+          servo_key("max_speed", to(&ServoSpec::max_speed)),
+          servo_key("tolerance", to(&ServoSpec::tolerance))};
+}
+
+}  // namespace
+
+const TableDeclaration<Scene>& top_level() {
+  static const TableDeclaration<Scene> declaration = [] {
+    TableDeclaration<Scene> table{schema::top_level().info, keys_of_top()};
+    schema::KeyInfo& family = key_of(table, "family").info;
+    family.choices = {{"compaction", "deformable particles in a rigid die"}};
+    schema::KeyInfo& dimension = key_of(table, "dimension").info;
+    dimension.range = within(3, 3);
+    dimension.required = true;
+    dimension.doc = "Scenes of two dimensions are another language: docs/scene.md.";
+    dimension.fallback_doc = "";
+    return table;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<BodySpec>& body() {
+  static const TableDeclaration<BodySpec> declaration = declared_body();
+  return declaration;
+}
+
+const TableDeclaration<StageSpec>& stage() {
+  static const TableDeclaration<StageSpec> declaration = [] {
+    TableDeclaration<StageSpec> table = without(schema::stage(), {"keep_state"});
+    std::erase_if(key_of(table, "kind").info.choices,
+                  [](const schema::Choice& choice) { return choice.word == "shear"; });
+    return table;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<MoveSpec>& move() {
+  static const TableDeclaration<MoveSpec> declaration{schema::move().info, move_keys()};
+  return declaration;
+}
+
+const TableDeclaration<ServoSpec>& servo() {
+  static const TableDeclaration<ServoSpec> declaration{schema::servo().info, servo_keys()};
+  return declaration;
+}
+
+const TableDeclaration<UntilSpec>& until() {
+  static const TableDeclaration<UntilSpec> declaration = [] {
+    TableDeclaration<UntilSpec> table = schema::until();
+    table.info.doc =
+        "Ends the stage above it before its time is over; its tools then come to rest as smoothly "
+        "as they started. A stage whose time is over before that stops the run. One of `force`, "
+        "`displacement` and `relative_density`.";
+    key_of(table, "force").info.doc =
+        "Of the powder on the tool: against the normal of a plane or punch, of others the whole.";
+    key_of(table, "relative_density").info.doc =
+        "Of the powder between six planes, or in a round die between two planes or punches.";
+    return table;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<ContactSpec>& contact() {
+  static const TableDeclaration<ContactSpec> declaration = [] {
+    TableDeclaration<ContactSpec> table = schema::contact();
+    key_of(table, "stiffness").info.doc =
+        "Contact stiffness over bulk modulus times area of a face over volume of the element "
+        "behind it.";
+    key_of(table, "skin").info.doc =
+        "Share of the smallest face that surfaces may approach each other before the search for "
+        "contacts is done anew. Costs time only, changes no result.";
+    return table;
+  }();
+  return declaration;
+}
+
+const TableDeclaration<SpaceScene>& element() {
+  static const TableDeclaration<SpaceScene> declaration{
+      {"element", false, "", "The finite elements of all particles: hexahedra of eight nodes."},
+      {{{.name = "formulation",
+         .kind = Kind::choice,
+         .choices = {{"one-point",
+                      "one point, hourglass modes held by elastic-plastic bending: faster"},
+                     {"eight-point",
+                      "2x2x2 Gauss points, one dilatation (mean dilatation): the reference"}},
+         .fallback = value_of("one-point"),
+         .doc = "Where an element takes its stresses."},
+        [](SpaceScene& spec, const Decoded& value) { spec.full_integration = value.index == 1; }}}};
+  return declaration;
+}
+
+const TableDeclaration<TimeSpec>& time() {
+  static const TableDeclaration<TimeSpec> declaration = without(schema::time(), {"estimate"});
+  return declaration;
+}
+
+const TableDeclaration<OutputSpec>& output() {
+  static const TableDeclaration<OutputSpec> declaration = [] {
+    TableDeclaration<OutputSpec> table = without(schema::output(), {"density_cells", "contacts"});
+    key_of(table, "particle_stress").info.doc =
+        "Mean stress of every particle in every frame, of the compact over time.";
+    return table;
+  }();
+  return declaration;
+}
+
+}  // namespace pulvis::space::language

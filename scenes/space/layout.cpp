@@ -1,0 +1,96 @@
+#include "scenes/space/layout.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "engine/chunk_lane.hpp"
+#include "scenes/space/meshes/mesh.hpp"
+
+namespace pulvis::space {
+namespace {
+
+struct Numbered {
+  Placed placed;
+  int number = 0;  // of the particle in the scene
+  std::uint64_t order = 0;
+};
+
+// Number of a cell on a curve through all cells of a cube (Morton 1966): bits of x, y and z in turn.
+class CurveThroughSpace {
+ public:
+  explicit CurveThroughSpace(const std::vector<BodySpec>& bodies) {
+    for (const BodySpec& body : bodies) {
+      low_ = low_.cwiseMin(body.position);
+      high_ = high_.cwiseMax(body.position);
+    }
+  }
+  std::uint64_t operator()(const Vec3& position) const {
+    constexpr int bits = 16;  // cells far smaller than particles
+    const double size = std::max((high_ - low_).maxCoeff(), std::numeric_limits<double>::min());
+    std::uint64_t number = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double share = (position[k] - low_[k]) / size;
+      const auto cell = static_cast<std::uint64_t>(share * ((1 << bits) - 1));
+      for (int b = 0; b < bits; ++b) number |= (cell >> b & 1U) << (3 * b + k);
+    }
+    return number;
+  }
+
+ private:
+  Vec3 low_ = Vec3::Constant(std::numeric_limits<double>::max());
+  Vec3 high_ = Vec3::Constant(std::numeric_limits<double>::lowest());
+};
+
+std::vector<std::vector<Numbered>> by_classes(const Scene& scene,
+                                              const std::vector<BodySpec>& bodies) {
+  std::mt19937_64 random(scene.seed);
+  std::vector<std::vector<Numbered>> classes(scene.space->particles.size());
+  const CurveThroughSpace curve(bodies);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto which = static_cast<std::size_t>(bodies[i].particle);
+    Rotation turn = bodies[i].rotation;
+    if (scene.space->particles[which].random_mesh_phase) turn = turn * random_rotation(random);
+    classes[which].push_back({{&bodies[i], turn}, static_cast<int>(i), curve(bodies[i].position)});
+  }
+  for (std::vector<Numbered>& of_class : classes)
+    std::ranges::stable_sort(of_class, {}, &Numbered::order);
+  return classes;
+}
+
+void add_class(Layout& layout, const ParticleSpec& spec, const std::vector<Numbered>& particles,
+               int& face) {
+  const int shape = static_cast<int>(layout.shapes.list.size());
+  layout.shapes.list.push_back(make_shape(spec));
+  const std::size_t lanes = (particles.size() + lane_count - 1) / lane_count * lane_count;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const bool there = i < particles.size();
+    const Bodies::Slot slot{there ? particles[i].number : Bodies::empty_slot, shape, spec.material,
+                            face, Bodies::empty_slot};
+    face += static_cast<int>(layout.shapes.list.back().faces.size());
+    if (there)
+      layout.bodies.slot_of_number[static_cast<std::size_t>(slot.number)] =
+          static_cast<int>(layout.bodies.slots.size());
+    layout.bodies.slots.push_back(slot);
+    layout.placed.push_back(there ? std::optional(particles[i].placed) : std::nullopt);
+  }
+}
+
+}  // namespace
+
+Layout lay_out(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  Layout layout;
+  layout.bodies.formulation =
+      scene.space->full_integration ? Formulation::four_point : Formulation::one_point;
+  layout.bodies.slot_of_number.assign(bodies.size(), Bodies::empty_slot);
+  const auto classes = by_classes(scene, bodies);
+  int face = 0;
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    if (classes[c].empty()) continue;
+    layout.classes.of_shape.push_back(static_cast<int>(c));
+    add_class(layout, scene.space->particles[c], classes[c], face);
+  }
+  return layout;
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,33 @@
+// The undeformed smooth surface: places, tangents and areas of its patches.
+#pragma once
+
+#include <vector>
+
+#include "components/space/shape.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+struct PatchPlace {
+  double u, v, weight;  // of the unit square
+};
+PatchPlace gauss_place(int point);  // of a face's 4 x 4, u first
+
+struct PatchPoint {
+  Vec3 at, by_u, by_v;
+  Vec3 area() const { return by_u.cross(by_v); }  // outward, for an area 1 of the unit square
+};
+// `points`: Bezier points of the particle.
+PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points, double u,
+                    double v);
+inline PatchPoint patch_at(const Shape::Face& face, const std::vector<Vec3>& points, double u,
+                           double v) {
+  return patch_at(face.point, points, u, v);
+}
+// m^3: between the origin and a patch.
+double volume_under(const std::array<int, 16>& numbers, const std::vector<Vec3>& points);
+
+// Bezier points where the mesh's nodes are those given.
+std::vector<Vec3> surface_points_of(const Shape& shape, const std::vector<Point>& nodes);
+
+}  // namespace pulvis::space

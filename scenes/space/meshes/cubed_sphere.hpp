@@ -1,0 +1,48 @@
+// O-grid of hexahedra on a cubed sphere: a core of n^3 elements, and layers of 6 n^2 between it and the surface.
+//
+// Node numbers: layer 0 is the surface, and so on inwards; the core follows, whose rim ends the innermost layer. The
+// nodes of a layer are the lattice points i, j, k = 0..n on the faces of a cube.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "components/space/shape.hpp"
+
+namespace pulvis::space {
+
+using Hexahedron = std::array<Row<Node>, 8>;
+using Lattice = std::array<int, 3>;
+
+class CubedSphere {
+ public:
+  CubedSphere(int divisions, int rings);
+
+  int divisions() const { return divisions_; }
+  int rings() const { return rings_; }
+  int layer_nodes() const { return static_cast<int>(rim_.size()); }
+  int nodes() const { return rings_ * layer_nodes() + static_cast<int>(number_.size()); }
+
+  // The lattice points of a layer's nodes, and those of the core's.
+  const std::vector<Lattice>& rim() const { return rim_; }
+  Lattice core_point(int number) const;
+  // Layer `rings` is the core's rim.
+  int layer_node(int layer, int number) const;
+  int core_node(const Lattice& at) const;
+
+  // Of a layer, by its nodes: counter-clockwise as seen from outside, 6 n^2.
+  std::vector<std::array<int, 4>> quads() const;
+  // Those at the surface first, each behind the quad of the same number, with zeta outwards; the core last.
+  std::vector<Hexahedron> hexahedra() const;
+
+ private:
+  int place(const Lattice& at) const {
+    return (at[2] * (divisions_ + 1) + at[1]) * (divisions_ + 1) + at[0];
+  }
+
+  int divisions_, rings_;
+  std::vector<Lattice> rim_;
+  std::vector<int> number_;  // in a layer, [place]; -1: inside
+};
+
+}  // namespace pulvis::space

@@ -1,0 +1,116 @@
+#include "scenes/space/meshes/mesh.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/portable_math.hpp"
+#include "scenes/space/meshes/cubed_sphere.hpp"
+#include "scenes/space/meshes/element_constants.hpp"
+#include "scenes/space/meshes/smooth_hexahedra.hpp"
+#include "scenes/space/meshes/smooth_surface.hpp"
+#include "scenes/space/meshes/true_volume.hpp"
+
+namespace pulvis::space {
+namespace {
+
+constexpr Smoothing smoothing{0.5, 200};
+
+// In [-1, 1]^3.
+Vec3 cube_place(const CubedSphere& grid, const Lattice& at) {
+  const auto along = [&](int i) { return 2.0 * i / grid.divisions() - 1; };
+  return {along(at[0]), along(at[1]), along(at[2])};
+}
+
+// Equiangular on a ball: its faces are of similar size.
+Vec3 on_square_box(const Vec3& on_cube) {
+  return (std::numbers::pi / 4 * on_cube).unaryExpr([](double a) { return portable::tan(a); });
+}
+
+// The cube with its sections drawn into circles: edges that run around the z axis come to lie on the rims of a cylinder.
+// (Fong, Analytical methods for squaring the disc, 2014: elliptical grid.)
+Vec3 on_round_box(const Vec3& on_cube) {
+  const auto even = [](double a) {
+    return std::numbers::sqrt2 * portable::sin(std::numbers::pi / 4 * a);
+  };
+  const double x = even(on_cube.x()), y = even(on_cube.y());
+  return {x * std::sqrt(1 - y * y / 2), y * std::sqrt(1 - x * x / 2), on_cube.z()};
+}
+
+// Where a point of the cube's surface is projected onto the true one.
+Vec3 direction_of(const Vec3& on_cube, const StarSurface& surface) {
+  const Vec3 square = on_square_box(on_cube), round = on_round_box(on_cube);
+  const double share = surface.roundness();
+  const Vec3 on_box = (1 - share) * square + share * round;
+  return on_box.cwiseProduct(surface.half_size()).normalized();
+}
+
+class Mesher {
+ public:
+  Mesher(const MeshSpec& mesh, const StarSurface& surface)
+      : grid_(mesh.divisions, mesh.rings), surface_(surface), hexahedra_(grid_.hexahedra()) {}
+
+  std::vector<Vec3> nodes() {
+    start();
+    make_surface_true();
+    smooth_hexahedra(nodes_, hexahedra_, grid_.layer_nodes(), smoothing);
+    return nodes_;
+  }
+  const std::vector<Hexahedron>& hexahedra() const { return hexahedra_; }
+  int surface_nodes() const { return grid_.layer_nodes(); }
+
+ private:
+  // Layers of even thickness about a core between a cube and a ball, which takes its share of all layers.
+  void start() {
+    const Vec3 half = surface_.half_size();
+    const double n = grid_.divisions(), core = n / (n + 2 * grid_.rings());
+    const auto in_core = [&](const Vec3& on_cube) {
+      const double out = on_cube.cwiseAbs().maxCoeff();
+      if (out == 0) return Vec3(Vec3::Zero());
+      const Vec3 round = surface_.point(direction_of(on_cube / out, surface_)) * out;
+      return Vec3(core * (0.5 * round + 0.35 * on_cube.cwiseProduct(half)));
+    };
+    for (int layer = 0; layer < grid_.rings(); ++layer)
+      for (const Lattice& at : grid_.rim()) {
+        const Vec3 on_cube = cube_place(grid_, at);
+        const double share = static_cast<double>(layer) / grid_.rings();
+        nodes_.push_back((1 - share) * surface_.point(direction_of(on_cube, surface_)) +
+                         share * in_core(on_cube));
+      }
+    for (int i = grid_.core_node({0, 0, 0}); i < grid_.nodes(); ++i)
+      nodes_.push_back(
+          in_core(cube_place(grid_, grid_.core_point(i - grid_.core_node({0, 0, 0})))));
+  }
+
+  void make_surface_true() {
+    std::vector<Vec3> outer(nodes_.begin(), nodes_.begin() + grid_.layer_nodes());
+    make_volume_true(outer, grid_.quads(), surface_);
+    std::ranges::copy(outer, nodes_.begin());
+  }
+
+  CubedSphere grid_;
+  const StarSurface& surface_;
+  std::vector<Hexahedron> hexahedra_;
+  std::vector<Vec3> nodes_;
+};
+
+}  // namespace
+
+Shape make_shape(const ParticleSpec& particle) {
+  const std::unique_ptr<StarSurface> surface = star_surface(particle.shape);
+  Mesher mesher(particle.mesh, *surface);
+  Shape shape;
+  shape.name = particle.name;
+  for (const Vec3& p : mesher.nodes()) shape.nodes.push_back({p.x(), p.y(), p.z()});
+  shape.surface_nodes = mesher.surface_nodes();
+  shape.hexahedra = mesher.hexahedra();
+  shape.true_volume = surface->volume();
+  complete_elements(shape);  // the stiffness of the faces is made of the elements' volumes,
+  complete_surface(shape, *surface);
+  complete_elements(shape);  // and the contact's frequencies of the faces
+  return shape;
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,225 @@
+#include "scenes/space/meshes/smooth_surface.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/space/meshes/bezier_patch.hpp"
+#include "scenes/space/meshes/surface_points.hpp"
+
+namespace pulvis::space {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr double usual_c = 1.0 / 12;
+constexpr double least_c = 0, most_c = 0.25;
+// How much c and the lines at irregular nodes stay as usual, against the surface passing where it should.
+constexpr double stay = 1e-3, stay_turned = 1e-4;
+constexpr int volume_fits = 24;  // halvings
+constexpr int fits = 3;  // as the place to pass moves a little along the surface
+
+Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
+
+// U of smooth_surface.hpp: over the surface nodes.
+Combination umbrella(const SurfaceNet& net, int node) {
+  Combination u{{node, -4.0}};
+  for (const SurfaceNet::Corner c : entry(net.fan, node))
+    u[net.node(c, 1)] += 4.0 / net.valence(node);
+  return u;
+}
+
+Vec3 value_of(const Combination& combination, const std::vector<Vec3>& of) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [number, weight] : combination) sum += weight * entry(of, number);
+  return sum;
+}
+
+// Makes the undeformed surface lie on the true one.
+class Fit {
+ public:
+  Fit(const Shape& shape, const SurfaceNet& net, const StarSurface& surface)
+      : net_(net), surface_(surface), frames_(spline_frames(net)), c_(count(), usual_c) {
+    for (int i = 0; i < net.nodes(); ++i) nodes_.push_back(vector_of(entry(shape.nodes, i)));
+    for (int i = 0; i < net.nodes(); ++i) u_.push_back(value_of(umbrella(net, i), nodes_));
+    for (int i = 0; i < fits; ++i) improve_smoothing();
+    match_volume();
+  }
+
+  const std::vector<double>& smoothing() const { return c_; }
+  // Over the nodes of the net.
+  std::vector<Combination> points() const { return bezier_points(net_, turned_frames()); }
+
+ private:
+  std::size_t count() const { return static_cast<std::size_t>(net_.nodes()); }
+  std::vector<Vec3> net_places() const {
+    std::vector<Vec3> control;
+    for (std::size_t i = 0; i < count(); ++i) control.push_back(nodes_[i] - c_[i] * u_[i]);
+    return control;
+  }
+
+  // The c with which the corners of the faces lie on the true surface, all at once.
+  void improve_smoothing() {
+    const std::vector<Vec3> control = net_places();
+    Sparse by_c(net_.nodes(), net_.nodes());
+    Eigen::VectorXd off = Eigen::VectorXd::Zero(net_.nodes());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int j = 0; j < net_.nodes(); ++j) {
+      const Combination& place = entry(frames_, j).place;
+      if (place.empty()) continue;
+      const Vec3 at = value_of(place, control), direction = at.normalized();
+      const Vec3 normal = surface_.normal(direction);
+      off[j] = normal.dot(surface_.point(direction) - at);
+      for (const auto& [i, weight] : place)
+        entries.emplace_back(j, i, -weight * normal.dot(entry(u_, i)));
+    }
+    by_c.setFromTriplets(entries.begin(), entries.end());
+    solve(by_c, off);
+  }
+
+  // Least squares of the distances, with each c held where it is usual by a weak spring.
+  void solve(const Sparse& by_c, const Eigen::VectorXd& off) {
+    Sparse normal = by_c.transpose() * by_c;
+    Eigen::VectorXd right = by_c.transpose() * off;
+    for (int i = 0; i < net_.nodes(); ++i) {
+      const double spring = stay * entry(u_, i).squaredNorm();
+      normal.coeffRef(i, i) += spring;
+      right[i] += spring * (usual_c - entry(c_, i));
+    }
+    const Eigen::VectorXd change = Eigen::SimplicialLDLT<Sparse>(normal).solve(right);
+    for (int i = 0; i < net_.nodes(); ++i)
+      entry(c_, i) = std::clamp(entry(c_, i) + change[i], least_c, most_c);
+  }
+
+  std::vector<NodeFrame> turned_frames() const {
+    std::vector<NodeFrame> frames = frames_;
+    const std::vector<Vec3> control = net_places();
+    for (int i = 0; i < net_.nodes(); ++i)
+      if (net_.valence(i) == 4)
+        for (int k = 0; k < 2; ++k) turn_line(i, k, control, entry(frames, i));
+    return frames;
+  }
+
+  // m^3, of the smooth surface when every c is larger by `more`, as far as it may be.
+  double volume_with(const std::vector<double>& c, double more) {
+    for (std::size_t i = 0; i < count(); ++i) c_[i] = std::clamp(c[i] + more, least_c, most_c);
+    const std::vector<Vec3> control = net_places();
+    std::vector<Vec3> at;
+    for (const Combination& point : points()) at.push_back(value_of(point, control));
+    double volume = 0;
+    for (int f = 0; f < net_.faces(); ++f) volume += volume_under(points_of(net_, f), at);
+    return volume;
+  }
+
+  // Between its corners the surface may still lie a little off: the same addition to every c makes its volume the true one.
+  void match_volume() {
+    const std::vector<double> c = c_;
+    double low = -most_c, high = most_c;  // the volume rises with c
+    for (int i = 0; i < volume_fits; ++i) {
+      const double more = (low + high) / 2;
+      (volume_with(c, more) < surface_.volume() ? low : high) = more;
+    }
+  }
+
+  // Where a line leads to an irregular node, whose place follows from the derivative D along it at the regular node w:
+  // D = a D_spline + b U_w in the tangent plane at w, its half reaching to that at the irregular node.
+  void turn_line(int w, int line, const std::vector<Vec3>& control, NodeFrame& frame) const {
+    const Vec3 at = value_of(frame.place, control), spline = value_of(frame.along[line], control);
+    const Vec3 u = value_of(umbrella(net_, w), control);
+    Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    const auto demand = [&](const Vec3& normal, double half,
+                            double wanted) {  // normal . half D = wanted
+      const Eigen::Vector2d by(half * normal.dot(spline), half * normal.dot(u));
+      square += by * by.transpose();
+      right += by * (wanted - by[0]);
+    };
+    bool irregular = false;
+    for (const int end : {line, line + 2}) {
+      const int v = net_.node(entry(entry(net_.fan, w), end), 1);
+      if (net_.valence(v) != 3) continue;
+      irregular = true;
+      const Vec3 direction = entry(control, v).normalized(), normal = surface_.normal(direction);
+      demand(normal, end == line ? 0.5 : -0.5, normal.dot(surface_.point(direction) - at));
+    }
+    if (!irregular) return;
+    demand(surface_.normal(at.normalized()), 1, 0);
+    square.diagonal().array() += stay_turned * u.squaredNorm();
+    const Eigen::Vector2d change = square.ldlt().solve(right);
+    Combination turned;
+    add(turned, frame.along[line], 1 + change[0]);
+    add(turned, umbrella(net_, w), change[1]);
+    frame.along[line] = turned;
+  }
+
+  const SurfaceNet& net_;
+  const StarSurface& surface_;
+  std::vector<NodeFrame> frames_;
+  std::vector<double> c_;
+  std::vector<Vec3> nodes_, u_;
+};
+
+// Over the surface nodes instead of the net's.
+void store_points(Shape& shape, const SurfaceNet& net, const std::vector<Combination>& points,
+                  const std::vector<double>& c) {
+  std::vector<Combination> y;
+  for (int i = 0; i < net.nodes(); ++i) {
+    y.push_back({{i, 1.0}});
+    add(y.back(), umbrella(net, i), -entry(c, i));
+  }
+  shape.point_begin = {0};
+  shape.point_terms.clear();
+  for (const Combination& point : points) {
+    Combination nodes;
+    for (const auto& [i, weight] : point) add(nodes, entry(y, i), weight);
+    for (const auto& [node, weight] : nodes)
+      if (weight != 0) shape.point_terms.push_back({Row<BoundaryNode>(node), weight});
+    shape.point_begin.push_back(static_cast<std::int32_t>(shape.point_terms.size()));
+  }
+}
+
+void store_faces(Shape& shape, const SurfaceNet& net) {
+  shape.faces.clear();
+  for (int f = 0; f < net.faces(); ++f) {
+    Shape::Face& face = shape.faces.emplace_back();
+    face.point = points_of(net, f);
+    face.neighbour = entry(net.neighbour, f);
+    face.element = entry(net.element, f);
+    for (int k = 0; k < 4; ++k) entry(face.corner, k) = Row<BoundaryNode>(net.node({f, k}));
+  }
+}
+
+// Areas, and the particle's measures that follow from them.
+void measure(Shape& shape) {
+  const std::vector<Vec3> points = surface_points_of(shape, shape.nodes);
+  shape.area = shape.mean_face_stiffness = 0;
+  for (Shape::Face& face : shape.faces) {
+    double area = 0;
+    for (int g = 0; g < Shape::gauss_points; ++g) {
+      const PatchPlace at = gauss_place(g);
+      entry(face.weight, g) = at.weight * patch_at(face, points, at.u, at.v).area().norm();
+      area += entry(face.weight, g);
+    }
+    face.size = std::sqrt(area);
+    face.stiffness = area / entry(shape.element, face.element).volume;
+    shape.area += area;
+    shape.mean_face_stiffness += area * face.stiffness;
+  }
+  shape.mean_face_stiffness /= shape.area;
+  shape.radius = 0;
+  for (const Vec3& p : points) shape.radius = std::max(shape.radius, p.norm());
+  for (const Point& p : shape.nodes) shape.radius = std::max(shape.radius, vector_of(p).norm());
+}
+
+}  // namespace
+
+void complete_surface(Shape& shape, const StarSurface& surface) {
+  const SurfaceNet net = surface_net(shape);
+  const Fit fit(shape, net, surface);
+  store_points(shape, net, fit.points(), fit.smoothing());
+  store_faces(shape, net);
+  measure(shape);
+}
+
+}  // namespace pulvis::space

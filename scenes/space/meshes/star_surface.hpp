@@ -1,0 +1,27 @@
+// The true surface of a shape, as its centre of volume sees it: how far it is along each direction.
+#pragma once
+
+#include <memory>
+
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+class StarSurface {
+ public:
+  virtual ~StarSurface() = default;
+  // `direction`: unit vector.
+  virtual double radius(const Vec3& direction) const = 0;  // m
+  virtual Vec3 normal(const Vec3& direction) const = 0;    // outward unit vector there
+  // m, from the centre along x, y, z: of a box that has about the same proportions.
+  virtual Vec3 half_size() const = 0;
+  virtual double volume() const = 0;  // m^3, exact
+  // How much the sections z = const of its box are round: 0 (square) to 1.
+  virtual double roundness() const { return 0; }
+
+  Vec3 point(const Vec3& direction) const { return radius(direction) * direction; }
+};
+
+std::unique_ptr<StarSurface> star_surface(const ParticleShape& shape);
+
+}  // namespace pulvis::space

@@ -1,0 +1,37 @@
+// Bezier points of the smooth surface as combinations of its control net: see smooth_surface.hpp.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "scenes/space/meshes/surface_net.hpp"
+
+namespace pulvis::space {
+
+using Combination = std::map<int, double>;  // number -> weight
+void add(Combination& to, const Combination& from, double factor);
+
+// Numbers of Bezier points: of a node; on the side that starts in a corner, next to it; inside, next to it.
+struct PointNumbers {
+  int nodes, faces;
+  int at(int node) const { return node; }
+  int beside(SurfaceNet::Corner c) const { return nodes + 4 * c.face + c.corner; }
+  int inside(SurfaceNet::Corner c) const { return nodes + 4 * faces + 4 * c.face + c.corner; }
+  int count() const { return nodes + 8 * faces; }
+};
+
+// What the surface does at a node, over the nodes of the net: its place, its derivatives towards the first and the second
+// of the fan's neighbours, the mixed one.
+struct NodeFrame {
+  Combination place, along[2], twist;
+};
+// Those of the uniform bicubic B-spline; where three faces meet it is the surface about that decides, there is nothing
+// (on a cube the place).
+std::vector<NodeFrame> spline_frames(const SurfaceNet& net);
+
+// [points] over the nodes of the net. Patches meet with one tangent plane whatever the frames.
+std::vector<Combination> bezier_points(const SurfaceNet& net, const std::vector<NodeFrame>& frames);
+// The numbers of a face's points, u first.
+std::array<int, 16> points_of(const SurfaceNet& net, int face);
+
+}  // namespace pulvis::space

@@ -1,0 +1,31 @@
+// From packings and bodies to single particles.
+//
+// Lattices stand between flat walls as a whole: the outermost particles lie half a distance of neighbours t off the corner.
+//   cubic         t = spacing, one particle in each cell
+//   body-centred  t = sqrt(3)/2 spacing, two: (0,0,0) and (1,1,1)/2 of a cell
+//   face-centred  t = spacing/sqrt(2), four: (0,0,0), (1,1,0)/2, (1,0,1)/2, (0,1,1)/2
+//   hexagonal     t = spacing: rows along x, sqrt(3)/2 apart, every second one shifted by half of it; layers sqrt(2/3)
+//                 apart, every second one shifted into the hollows (ABAB)
+#pragma once
+
+#include <vector>
+
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+// Overlaps up to this share of the smaller particle's size are round-off: particles that touch exactly are meant to.
+inline constexpr double touching_tolerance = 1e-9;
+
+bool is_lattice(const PackingSpec& packing);  // not random, not from a file
+std::int64_t particle_count(const PackingSpec& packing);
+
+// m, where a punch rests on a lattice; on the highest packing.
+double top_of_lattice(const PackingSpec& packing);
+double top_of_packings(const SpaceScene& scene);
+
+// Every particle of the scene. Bodies and packings come in the order of the file; of a lattice along x, then y, then z, cell by
+// cell; random and CSV packings as they were filled. The position in the list is the particle's number.
+std::vector<BodySpec> place_bodies(const Scene& scene);
+
+}  // namespace pulvis::space

@@ -1,0 +1,170 @@
+#include "scenes/space/packing/rigid_shape.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "engine/portable_math.hpp"
+#include "scenes/space/meshes/star_surface.hpp"
+#include "scenes/space/meshes/convex_hull.hpp"
+
+namespace pulvis::space {
+namespace {
+
+constexpr int samples = 16;  // of an STL shape, along an edge of a cube of directions
+
+V3 ellipsoid_support(const V3& half, const V3& n) {
+  const V3 scaled_normal{half.x * n.x, half.y * n.y, half.z * n.z};
+  const V3 on_ball = unit(scaled_normal);
+  return {half.x * on_ball.x, half.y * on_ball.y, half.z * on_ball.z};
+}
+
+// s = (p^e + q^e)^(1/e), from the logarithms of p and q, which become (p/s)^(e-1) and (q/s)^(e-1): its slopes. Returns log s.
+double dual_norm(double& p, double& q, double e) {
+  const double most = std::max(p, q), less = std::min(p, q);
+  const double log_s = most + portable::log(1 + portable::exp(e * (less - most))) / e;
+  p = portable::exp((e - 1) * (p - log_s));
+  q = portable::exp((e - 1) * (q - log_s));
+  return log_s;
+}
+
+// The norm of which a superquadric is the unit ball has as dual norm its support function, with exponents e/(e-1):
+// h = || || (a n_x, b n_y) ||_e', c n_z ||_f'. The point is its gradient.
+V3 superquadric_support(const RigidShape& shape, const V3& n) {
+  constexpr double smallest = 1e-200;  // has a logarithm
+  const V3& half = shape.half;
+  double x = portable::log(half.x * std::abs(n.x) + smallest);
+  double y = portable::log(half.y * std::abs(n.y) + smallest);
+  double z = portable::log(half.z * std::abs(n.z) + smallest);
+  double round = dual_norm(x, y, shape.exponent_xy);
+  dual_norm(round, z, shape.exponent_z);
+  const auto signed_as = [](double size, double sign) { return sign < 0 ? -size : size; };
+  return {signed_as(half.x * round * x, n.x), signed_as(half.y * round * y, n.y),
+          signed_as(half.z * z, n.z)};
+}
+
+V3 cylinder_support(const V3& half, const V3& n) {
+  const double across = std::sqrt(n.x * n.x + n.y * n.y);
+  const double share = across > 0 ? half.x / across : 0;
+  return {share * n.x, share * n.y, n.z < 0 ? -half.z : half.z};
+}
+
+// Largest sqrt(x^2 + y^2) where (x/a)^e + (y/b)^e = 1 (Hoelder).
+double farthest(double a, double b, double e) {
+  if (e <= 2) return std::max(a, b);
+  const double q = 2 * e / (e - 2), most = std::max(a, b);
+  return most * portable::pow(portable::pow(a / most, q) + portable::pow(b / most, q), 1 / q);
+}
+
+void set_core(const SphereShape& s, double unit, RigidShape& rigid) {
+  rigid.radius = s.diameter / 2 / unit;
+  rigid.reach = rigid.radius;
+}
+void set_core(const EllipsoidShape& s, double unit, RigidShape& rigid) {
+  rigid.core = RigidShape::Core::ellipsoid;
+  rigid.half = vector_of(s.size / (2 * unit));
+  rigid.reach = std::max({rigid.half.x, rigid.half.y, rigid.half.z});
+}
+void set_core(const SuperquadricShape& s, double unit, RigidShape& rigid) {
+  set_core(EllipsoidShape{s.size}, unit, rigid);
+  rigid.core = RigidShape::Core::superquadric;
+  rigid.exponent_xy = s.exponent_xy / (s.exponent_xy - 1);
+  rigid.exponent_z = s.exponent_z / (s.exponent_z - 1);
+  const double across = farthest(rigid.half.x, rigid.half.y, s.exponent_xy);
+  rigid.reach = farthest(across, rigid.half.z, s.exponent_z);
+}
+void set_core(const CylinderShape& s, double unit, RigidShape& rigid) {
+  rigid.core = RigidShape::Core::cylinder;
+  rigid.radius = s.rounding / unit;
+  const double half = s.diameter / 2 / unit - rigid.radius;
+  rigid.half = {half, half, s.height / 2 / unit - rigid.radius};
+  rigid.reach = std::sqrt(half * half + rigid.half.z * rigid.half.z) + rigid.radius;
+}
+
+void set_points(std::vector<V3> points, double radius, RigidShape& rigid) {
+  rigid.core = RigidShape::Core::points;
+  rigid.radius = radius;
+  for (const V3& p : points) rigid.reach = std::max(rigid.reach, length(p) + radius);
+  rigid.table = SupportTable(std::move(points));
+}
+
+void set_core(const PolyhedronShape& s, double unit, RigidShape& rigid) {
+  std::vector<HalfSpace> faces = faces_of_hull(s.corners);
+  for (HalfSpace& face : faces) face.offset -= s.rounding;
+  std::vector<V3> points;
+  for (const Vec3& p : corners_between(faces)) points.push_back(vector_of(p / unit));
+  set_points(std::move(points), s.rounding / unit, rigid);
+}
+
+// Of the convex hull: where it is not convex, hollows stay empty.
+void set_core(const StlShape& s, double unit, RigidShape& rigid) {
+  const auto surface = star_surface(s);
+  std::vector<V3> points;
+  for (int side = 0; side < 6; ++side)
+    for (int i = 0; i <= samples; ++i)
+      for (int k = 0; k <= samples; ++k) {
+        const double u = 2.0 * i / samples - 1, v = 2.0 * k / samples - 1,
+                     w = side % 2 == 0 ? 1 : -1;
+        const Vec3 d = side < 2 ? Vec3(w, u, v) : side < 4 ? Vec3(v, w, u) : Vec3(u, v, w);
+        points.push_back(vector_of(surface->point(d / d.norm()) / unit));
+      }
+  set_points(std::move(points), 0, rigid);
+}
+
+void scale_shape(SphereShape& s, double k) { s.diameter *= k; }
+void scale_shape(EllipsoidShape& s, double k) { s.size *= k; }
+void scale_shape(SuperquadricShape& s, double k) { s.size *= k; }
+void scale_shape(CylinderShape& s, double k) {
+  s.diameter *= k;
+  s.height *= k;
+  s.rounding *= k;
+}
+void scale_shape(PolyhedronShape& s, double k) {
+  for (Vec3& corner : s.corners) corner *= k;
+  s.rounding *= k;
+}
+void scale_shape(StlShape& s, double k) {
+  if (s.diameter) *s.diameter *= k;
+  for (auto& triangle : s.triangles)
+    for (Vec3& corner : triangle) corner *= k;
+}
+
+}  // namespace
+
+RigidShape rigid_shape(const ParticleShape& shape, double unit) {
+  RigidShape rigid;
+  std::visit([&](const auto& s) { set_core(s, unit, rigid); }, shape);
+  const Vec3 half = extent_of(shape) / (2 * unit);
+  rigid.volume = volume_of(shape) / (unit * unit * unit);
+  rigid.gyration = 2.0 / 15 * half.squaredNorm();  // of an ellipsoid, the mean over its axes
+  rigid.diameter = portable::cbrt(6 / std::numbers::pi * rigid.volume);
+  return rigid;
+}
+
+double volume_of(const ParticleShape& shape) { return star_surface(shape)->volume(); }
+Vec3 extent_of(const ParticleShape& shape) { return 2 * star_surface(shape)->half_size(); }
+
+ParticleShape scaled(const ParticleShape& shape, double factor) {
+  ParticleShape larger = shape;
+  std::visit([&](auto& s) { scale_shape(s, factor); }, larger);
+  return larger;
+}
+
+V3 RigidShape::core_support(const V3& n) const {
+  switch (core) {
+    case Core::ellipsoid:
+      return ellipsoid_support(half, n);
+    case Core::superquadric:
+      return superquadric_support(*this, n);
+    case Core::cylinder:
+      return cylinder_support(half, n);
+    case Core::points:
+      return table.extreme(n);
+    default:
+      return {};
+  }
+}
+
+V3 RigidShape::support(const V3& n) const { return core_support(n) + radius * n; }
+
+}  // namespace pulvis::space

@@ -1,0 +1,40 @@
+// Particles as rigid convex bodies, for packing them. Each is known by its support function: the point that lies farthest
+// along a direction. Spheres, ellipsoids, superquadrics and cylinders with rounded rims have closed forms; polyhedra and STL
+// shapes are the convex hull of points, with a ball about each.
+#pragma once
+
+#include "scenes/space/packing/support_table.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+struct RigidShape {
+  enum class Core { point, ellipsoid, superquadric, cylinder, points } core = Core::point;
+  V3 half;  // ellipsoid, superquadric: half axes; cylinder: radius, radius, half height
+  double exponent_xy = 2, exponent_z = 2;  // of a superquadric's support function: e/(e-1), f/(f-1)
+  SupportTable table;
+  double radius = 0;  // of the ball about every point of the core
+  double reach = 0;   // of the ball about the centre of volume that holds the shape
+  double volume = 0;
+  double gyration = 0;  // square of a mean radius of gyration
+  double diameter = 0;  // of the ball of the same volume
+
+  bool is_ball() const { return core == Core::point; }
+  V3 support(const V3& n) const;  // n: unit vector
+
+ private:
+  V3 core_support(const V3& n) const;
+};
+
+// In units of `unit` (m).
+RigidShape rigid_shape(const ParticleShape& shape, double unit);
+
+inline V3 vector_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+inline Turn turn_of(const Rotation& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+// Extent along its own x, y, z, m.
+Vec3 extent_of(const ParticleShape& shape);
+double volume_of(const ParticleShape& shape);  // m^3
+ParticleShape scaled(const ParticleShape& shape, double factor);
+
+}  // namespace pulvis::space

@@ -1,0 +1,25 @@
+// The point of many that lies farthest along a direction. Directions are looked up in the cells of a cube around them, each of
+// which keeps the few points that are extreme along one of its directions.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scenes/space/packing/vector.hpp"
+
+namespace pulvis::space {
+
+class SupportTable {
+ public:
+  SupportTable() = default;
+  explicit SupportTable(std::vector<V3> points);
+  const V3& extreme(const V3& direction) const;  // of any length but 0
+  const std::vector<V3>& points() const { return points_; }
+
+ private:
+  std::vector<V3> points_;
+  std::vector<V3> candidates_;
+  std::vector<std::int32_t> begin_;  // [cells + 1] into the candidates
+};
+
+}  // namespace pulvis::space

@@ -1,0 +1,80 @@
+#include "scenes/space/results/space_series.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "scenes/space/tools/die_room.hpp"
+#include "scenes/spec/common_yield.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+namespace {
+
+void add_tool_series(const Scene& scene, int number, std::vector<SeriesInfo>& all) {
+  const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(number)];
+  const std::string name = "tool/" + tool.name + "/";
+  const char* place = tool.shape == ToolSpec::Shape::die     ? "of a point of its axis"
+                      : tool.shape == ToolSpec::Shape::plane ? "of a point of its surface"
+                      : tool.shape == ToolSpec::Shape::punch ? "of the middle of its face"
+                                                             : "of the origin of its file";
+  for (const char* axis : {"x", "y", "z"}) all.push_back({name + "position_" + axis, "m", place});
+  for (const char* axis : {"x", "y", "z"})
+    all.push_back({name + "force_" + axis, "N", "of the particles, on the tool"});
+  if (is_servo_driven(scene, number))
+    all.push_back(
+        {name + "force_asked", "N", "that its servo is to hold now, in the direction it pushes"});
+}
+
+void add_room_series(const Scene& scene, const DieRoom& room, std::vector<SeriesInfo>& all) {
+  const bool box = room.kind == DieRoom::Kind::box;
+  all.push_back({"relative_density", "-", "undeformed particle volume / volume between the tools"});
+  if (common_yield_stress(scene)) {
+    all.push_back({"stress_ratio/axial", "-", "mean of top and bottom stress / yield stress"});
+    if (box)
+      all.push_back({"stress_ratio/lateral", "-",
+                     "mean of the stresses on the four walls / yield "
+                     "stress"});
+  }
+  all.push_back({"stress/axial_top", "Pa",
+                 "on the top tool: force / cross-section of the die; compression > 0"});
+  all.push_back({"stress/axial_bottom", "Pa", "the same of the bottom tool"});
+  if (box)
+    for (const char* side : {"left", "right", "front", "back"})
+      all.push_back({std::string("stress/radial_") + side, "Pa",
+                     "on this wall: force / area between the other tools"});
+  all.push_back({"stress/transmission", "-",
+                 "axial force on the bottom tool / on the top tool; NaN where the top bears none"});
+}
+
+}  // namespace
+
+bool is_servo_driven(const Scene& scene, int tool) {
+  return std::ranges::any_of(scene.space->servos, [&](const std::vector<ServoSpec>& servos) {
+    return std::ranges::find(servos, tool, &ServoSpec::tool) != servos.end();
+  });
+}
+
+std::vector<SeriesInfo> tool_series(const Scene& scene) {
+  std::vector<SeriesInfo> all;
+  for (std::size_t t = 0; t < scene.space->tools.size(); ++t)
+    add_tool_series(scene, static_cast<int>(t), all);
+  if (const auto room = die_room(scene)) add_room_series(scene, *room, all);
+  return all;
+}
+
+std::vector<SeriesInfo> contact_series() {
+  return {{"contacts", "-", "faces that touch another particle or a tool"},
+          {"penetration", "-", "deepest so far, of the size of a face"}};
+}
+
+std::vector<SeriesInfo> momentum_series() {
+  std::vector<SeriesInfo> all;
+  for (const char* axis : {"x", "y", "z"})
+    all.push_back({std::string("momentum/") + axis, "kg m/s", "of all nodes"});
+  for (const char* axis : {"x", "y", "z"})
+    all.push_back(
+        {std::string("momentum/angular_") + axis, "kg m^2/s", "of all nodes, about the origin"});
+  return all;
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,195 @@
+#include "scenes/space/results/tool_sheets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/portable_math.hpp"
+
+namespace pulvis::space {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+constexpr int sectors = 48;
+constexpr double parallel = 1e-9;       // of unit vectors
+constexpr double share_of_punch = 0.2;  // drawn height of a punch over its diameter
+
+const char* kind_of(const ToolSpec& tool) {
+  static constexpr const char* kinds[] = {"plane", "die", "punch", "stl"};
+  return kinds[static_cast<int>(tool.shape)];
+}
+
+std::array<Vec3, 8> corners_of(const Box& box) {
+  std::array<Vec3, 8> corners;
+  for (std::size_t k = 0; k < 8; ++k) corners[k] = box.corner(static_cast<Box::CornerType>(k));
+  return corners;
+}
+
+struct Reach {
+  double low = 0, high = 0;
+};
+
+// Of the box along a direction, from `from`.
+Reach reach_of(const Box& box, const Vec3& direction, const Vec3& from) {
+  Reach reach{direction.dot(box.center() - from), direction.dot(box.center() - from)};
+  for (const Vec3& corner : corners_of(box)) {
+    reach.low = std::min(reach.low, direction.dot(corner - from));
+    reach.high = std::max(reach.high, direction.dot(corner - from));
+  }
+  return reach;
+}
+
+// Two unit vectors across `axis`, along the scene's axes where that is; first cross second is `axis`.
+std::array<Vec3, 2> across(const Vec3& axis) {
+  int least = 0;
+  axis.cwiseAbs().minCoeff(&least);
+  const Vec3 first = (Vec3::Unit(least) - axis[least] * axis).normalized();
+  return {first, axis.cross(first)};
+}
+
+std::vector<Vec3> ring(const Vec3& centre, const Vec3& axis, double radius) {
+  const auto [first, second] = across(axis);
+  std::vector<Vec3> points;
+  for (int i = 0; i < sectors; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sectors;
+    points.emplace_back(centre +
+                        radius * (portable::cos(angle) * first + portable::sin(angle) * second));
+  }
+  return points;
+}
+
+const ToolSpec* die_across(const SpaceScene& scene, const ToolSpec& plane) {
+  const auto found = std::ranges::find_if(scene.tools, [&](const ToolSpec& tool) {
+    return tool.shape == ToolSpec::Shape::die &&
+           std::abs(std::abs(tool.normal.dot(plane.normal)) - 1) < parallel;
+  });
+  return found == scene.tools.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+FieldInfo ToolSheets::field() {
+  return {"tools/outline", "m", "corners of the tools' surfaces, joined by /tools/quads",
+          FieldPlace::list, 3};
+}
+
+ToolSheets::ToolSheets(const SpaceScene& scene, const Box& powder) : box_(powder) {
+  const Vec3 middle = powder.center();
+  for (const ToolSpec& tool : scene.tools) {  // those far off lengthen no other
+    if (tool.shape != ToolSpec::Shape::plane) continue;
+    const Vec3 foot = middle + tool.normal.dot(tool.point - middle) * tool.normal;
+    if ((foot - middle).norm() < powder.diagonal().norm()) box_.extend(foot);
+  }
+  for (const ToolSpec& tool : scene.tools) add_tool(scene, tool);
+}
+
+void ToolSheets::add_tool(const SpaceScene& scene, const ToolSpec& tool) {
+  faces_.names.push_back(tool.name);
+  faces_.kinds.emplace_back(kind_of(tool));
+  switch (tool.shape) {
+    case ToolSpec::Shape::plane:
+      if (const ToolSpec* die = die_across(scene, tool)) {
+        const Vec3 apart = die->point - tool.point;
+        const Vec3 centre = apart - tool.normal.dot(apart) * tool.normal;
+        add_between(Ring(sectors, centre), ring(centre, tool.normal, die->diameter / 2));
+      } else {
+        add_sheet(tool);
+      }
+      break;
+    case ToolSpec::Shape::die:
+      add_die(tool);
+      break;
+    case ToolSpec::Shape::punch:
+      add_punch(tool);
+      break;
+    case ToolSpec::Shape::stl:
+      add_triangles(tool);
+      break;
+  }
+}
+
+void ToolSheets::add_piece(std::span<const Vec3> corners) {
+  const int tool = static_cast<int>(faces_.names.size()) - 1;
+  const auto first = static_cast<std::int32_t>(corners_.size());
+  for (const Vec3& corner : corners) {
+    corners_.push_back(corner);
+    tool_.push_back(tool);
+  }
+  const auto last = static_cast<std::int32_t>(corners.size()) - 1;
+  for (std::int32_t k = 0; k < 4; ++k) faces_.corners.push_back(first + std::min(k, last));
+  faces_.tool.push_back(tool);
+  faces_.points = corners_.size();
+}
+
+// Rings run counter-clockwise as seen from the powder.
+void ToolSheets::add_between(const Ring& inner, const Ring& outer) {
+  const int tool = static_cast<int>(faces_.names.size()) - 1;
+  const auto first = static_cast<std::int32_t>(corners_.size());
+  const auto count = static_cast<std::int32_t>(inner.size());
+  const bool is_tip = inner[0] == inner[1];
+  corners_.insert(corners_.end(), inner.begin(), is_tip ? inner.begin() + 1 : inner.end());
+  const auto begin = static_cast<std::int32_t>(corners_.size());
+  corners_.insert(corners_.end(), outer.begin(), outer.end());
+  tool_.resize(corners_.size(), tool);
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::int32_t next = (i + 1) % count;
+    if (is_tip)
+      faces_.corners.insert(faces_.corners.end(), {first, begin + i, begin + next, begin + next});
+    else
+      faces_.corners.insert(faces_.corners.end(),
+                            {first + i, begin + i, begin + next, first + next});
+    faces_.tool.push_back(tool);
+  }
+  faces_.points = corners_.size();
+}
+
+void ToolSheets::add_sheet(const ToolSpec& plane) {
+  const auto [first, second] = across(plane.normal);
+  const Reach x = reach_of(box_, first, plane.point), y = reach_of(box_, second, plane.point);
+  const std::array<Vec3, 4> corners{x.low * first + y.low * second, x.high * first + y.low * second,
+                                    x.high * first + y.high * second,
+                                    x.low * first + y.high * second};
+  add_piece(corners);
+}
+
+void ToolSheets::add_die(const ToolSpec& die) {
+  const Reach along = reach_of(box_, die.normal, die.point);
+  const double radius = die.diameter / 2;
+  add_between(ring(along.low * die.normal, die.normal, radius),
+              ring(along.high * die.normal, die.normal, radius));
+}
+
+void ToolSheets::add_punch(const ToolSpec& punch) {
+  std::vector<Vec2> profile{Vec2(0, punch.profile.empty() ? 0 : punch.profile.front().y())};
+  for (const Vec2& point : punch.profile)
+    if (point.x() > 0) profile.push_back(point);
+  const double radius = std::max(punch.diameter / 2, profile.back().x());
+  if (profile.back().x() < radius) profile.emplace_back(radius, profile.back().y());
+  profile.emplace_back(radius, profile.back().y() - share_of_punch * 2 * radius);
+  const auto at = [&](const Vec2& point) {
+    const Vec3 centre = point.y() * punch.normal;
+    return point.x() > 0 ? ring(centre, punch.normal, point.x()) : Ring(sectors, centre);
+  };
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+    add_between(at(profile[i]), at(profile[i + 1]));
+}
+
+void ToolSheets::add_triangles(const ToolSpec& tool) {
+  for (const auto& triangle : tool.triangles)
+    add_piece(std::array{Vec3(triangle[0] - tool.point), Vec3(triangle[1] - tool.point),
+                         Vec3(triangle[2] - tool.point)});
+}
+
+std::vector<double> ToolSheets::points(std::span<const double> places) const {
+  std::vector<double> xyz;
+  xyz.reserve(3 * corners_.size());
+  for (std::size_t i = 0; i < corners_.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      xyz.push_back(places[3 * static_cast<std::size_t>(tool_[i]) + k] +
+                    corners_[i][static_cast<Eigen::Index>(k)]);
+  return xyz;
+}
+
+}  // namespace pulvis::space

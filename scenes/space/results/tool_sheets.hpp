@@ -1,0 +1,41 @@
+// Surfaces of the tools in three dimensions for pictures, frame by frame. Planes and dies have no end for the powder; here
+// they reach as far as the powder and the planes around it did at the start. A plane across a die is as round as that.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "engine/files/record.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+class ToolSheets {
+ public:
+  // `powder`: the box of its nodes at the start, m.
+  ToolSheets(const SpaceScene& scene, const Eigen::AlignedBox3d& powder);
+
+  static FieldInfo field();
+  const ToolFaces& faces() const { return faces_; }
+  // Rows of the field: `places` has x, y, z of the tools in their order.
+  std::vector<double> points(std::span<const double> places) const;
+
+ private:
+  using Ring = std::vector<Vec3>;
+
+  void add_tool(const SpaceScene& scene, const ToolSpec& tool);
+  void add_sheet(const ToolSpec& plane);
+  void add_die(const ToolSpec& die);
+  void add_punch(const ToolSpec& punch);
+  void add_triangles(const ToolSpec& tool);
+  void add_piece(std::span<const Vec3> corners);  // three or four, from the tool's place
+  void add_between(const Ring& inner, const Ring& outer);
+
+  Eigen::AlignedBox3d box_;
+  ToolFaces faces_;
+  std::vector<Vec3> corners_;  // m, from the tool's place
+  std::vector<int> tool_;      // of each corner
+};
+
+}  // namespace pulvis::space

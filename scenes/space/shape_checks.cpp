@@ -1,0 +1,53 @@
+#include "scenes/space/shape_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+
+namespace pulvis::space {
+namespace {
+
+void check_sizes(const SphereShape&, const std::string&, const Refuse&) {}
+void check_sizes(const EllipsoidShape&, const std::string&, const Refuse&) {}
+void check_sizes(const SuperquadricShape&, const std::string&, const Refuse&) {}
+void check_sizes(const StlShape&, const std::string&, const Refuse&) {}  // when its file is read
+
+void check_sizes(const CylinderShape& cylinder, const std::string& path, const Refuse& refuse) {
+  const double most = std::min(cylinder.diameter, cylinder.height) / 2;
+  if (cylinder.rounding > most)
+    refuse(
+        path + ".rounding",
+        fmt::format("{:g} m is more than half of the diameter or of the height, allowed: <= {:g} "
+                    "m",
+                    cylinder.rounding, most));
+}
+
+// m, least width of the directions that the corners spread in; 0: they lie in one plane.
+double thickness_of(const std::vector<Vec3>& corners) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& corner : corners) mean += corner / static_cast<double>(corners.size());
+  Eigen::Matrix3Xd spread(3, static_cast<Eigen::Index>(corners.size()));
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    spread.col(static_cast<Eigen::Index>(i)) = corners[i] - mean;
+  const Vec3 singular = spread.jacobiSvd().singularValues();
+  return singular[2] > 1e-9 * singular[0] ? singular[2] : 0;
+}
+
+void check_sizes(const PolyhedronShape& polyhedron, const std::string& path, const Refuse& refuse) {
+  constexpr std::size_t fewest = 4;
+  if (polyhedron.corners.size() < fewest)
+    refuse(path + ".corners", fmt::format("{} points have no volume, allowed: at least {}",
+                                          polyhedron.corners.size(), fewest));
+  else if (thickness_of(polyhedron.corners) == 0)
+    refuse(path + ".corners",
+           "they lie in one plane, allowed: at least four points that have a volume between them");
+}
+
+}  // namespace
+
+void check_shape(const ParticleShape& shape, const std::string& path, const Refuse& refuse) {
+  std::visit([&](const auto& one) { check_sizes(one, path, refuse); }, shape);
+}
+
+}  // namespace pulvis::space

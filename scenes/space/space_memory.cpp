@@ -1,0 +1,81 @@
+#include "scenes/space/space_memory.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "components/body.hpp"
+#include "components/space/body.hpp"
+#include "components/space/contact.hpp"
+#include "components/space/formulation.hpp"
+#include "engine/chunk_lane.hpp"
+#include "scenes/space/meshes/mesh.hpp"
+#include "scenes/space/packing/place.hpp"
+
+namespace pulvis::space {
+namespace {
+
+// Of a compacted powder: rows for all that is nearer than the skin, from both sides.
+constexpr double rows_of_a_face = 2;
+constexpr std::uint64_t copies_in_flight =
+    3;  // of a frame: gathered, into the file, in the journal
+
+template <class... C>
+constexpr std::uint64_t size_of_columns() {
+  return (0 + ... + (sizeof(typename C::value_type) * C::count));
+}
+
+template <class F>
+std::uint64_t bytes_of_element(bool plastic) {
+  std::uint64_t bytes = size_of_columns<DeviatoricStress<F::points>, MeanStress>();
+  if (plastic) bytes += size_of_columns<PlasticMetric<F::points>, PlasticStrain<F::points>>();
+  if (plastic && F::stabilised) bytes += size_of_columns<PlasticHourglass>();
+  return bytes;
+}
+
+std::uint64_t bytes_of_row(bool friction) {
+  using At = FaceContact;
+  std::uint64_t bytes = size_of_columns<ContactPair<At>, ContactTouches<At>, ActivationTravel<At>,
+                                        ContactLaw<At>, PointForce<At>, ClosestPoint>();
+  if (friction) bytes += size_of_columns<ElasticSlip<At>, FrictionCouple>();
+  return bytes;
+}
+
+bool any_friction_in(const Scene& scene) {
+  return scene.contact.friction > 0 ||
+         std::ranges::any_of(scene.frictions,
+                             [](const FrictionSpec& f) { return f.coefficient > 0; });
+}
+
+}  // namespace
+
+SpaceMemory memory_of(const Scene& scene) {
+  std::vector<std::uint64_t> particles(scene.space->particles.size());
+  for (const BodySpec& body : place_bodies(scene))
+    particles[static_cast<std::size_t>(body.particle)] += 1;
+  const bool friction = any_friction_in(scene);
+  const bool plastic = std::ranges::any_of(
+      scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
+  const std::uint64_t element = scene.space->full_integration
+                                    ? bytes_of_element<EightPoint>(plastic)
+                                    : bytes_of_element<OnePoint>(plastic);
+  const std::uint64_t node = size_of_columns<Position, Velocity, InternalForce>();
+  const std::uint64_t face = size_of_columns<FacePosition, FaceBefore, FaceForce>() +
+                             (friction ? size_of_columns<FaceVelocity>() : 0);
+  SpaceMemory need;
+  for (std::size_t c = 0; c < particles.size(); ++c) {
+    if (particles[c] == 0) continue;
+    const Shape shape = make_shape(scene.space->particles[c]);
+    const std::uint64_t lanes = (particles[c] + lane_count - 1) / lane_count * lane_count;
+    const std::uint64_t nodes = shape.nodes.size(), elements = shape.hexahedra.size(),
+                        faces = shape.faces.size(),
+                        surface = static_cast<std::uint64_t>(shape.surface_nodes);
+    need.columns += lanes * (nodes * node + elements * element + faces * face +
+                             surface * size_of_columns<ContactForce>());
+    need.results += particles[c] * copies_in_flight * sizeof(double) * (6 * nodes + 9 * elements);
+    need.contacts += static_cast<std::uint64_t>(
+        rows_of_a_face * static_cast<double>(particles[c] * faces * bytes_of_row(friction)));
+  }
+  return need;
+}
+
+}  // namespace pulvis::space

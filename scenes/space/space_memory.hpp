@@ -1,0 +1,15 @@
+// What a scene in three dimensions will take of memory, known before any of it is taken.
+#pragma once
+
+#include <cstdint>
+
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+struct SpaceMemory {  // bytes, as MemoryNeed (scenes/memory_need.hpp)
+  std::uint64_t columns = 0, contacts = 0, results = 0;
+};
+SpaceMemory memory_of(const Scene& scene);
+
+}  // namespace pulvis::space

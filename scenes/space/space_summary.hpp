@@ -1,0 +1,13 @@
+// What `pulvis check` says of packings and meshes in three dimensions.
+#pragma once
+
+#include <string>
+
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+std::string packing_summary(const Scene& scene);
+std::string mesh_summary(const Scene& scene);
+
+}  // namespace pulvis::space

@@ -1,0 +1,35 @@
+#include "scenes/space/space_warnings.hpp"
+
+#include "scenes/checks/setup_warnings.hpp"
+#include "scenes/space/tools/powder.hpp"
+#include "scenes/space/travel.hpp"
+
+namespace pulvis::space {
+namespace {
+
+// The fastest prescribed move towards the powder; of speed 0 where there is none.
+FastTool fastest_in_space(const Scene& scene) {
+  FastTool fast;
+  for (std::size_t s = 0; s < scene.stages.size(); ++s)
+    for (const MoveSpec& move : scene.space->moves[s]) {
+      const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(move.tool)];
+      const double speed = move.displacement.norm() / (scene.stages[s].duration * (1 - move.ramp));
+      const bool leaves = has_face(tool) && move.displacement.dot(tool.normal) < 0;
+      if (speed > fast.speed && !leaves)
+        fast = fast_tool(scene, static_cast<int>(s), move.tool, speed);
+    }
+  return fast;
+}
+
+}  // namespace
+
+std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  std::vector<std::string> lines = travel_warnings(scene, bodies);
+  const FastTool fast = fastest_in_space(scene);
+  if (!(fast.speed > 0)) return lines;
+  const std::string& name = scene.space->tools[static_cast<std::size_t>(fast.tool)].name;
+  if (const std::string line = too_fast(scene, fast, name); !line.empty()) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace pulvis::space

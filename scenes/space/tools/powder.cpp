@@ -1,0 +1,69 @@
+#include "scenes/space/tools/powder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/shape.hpp"
+#include "components/space/body.hpp"
+#include "components/space/shape.hpp"
+#include "engine/access.hpp"
+
+namespace pulvis::space {
+namespace {
+
+const Shape& shape_in(const World& world, int slot) {
+  const Bodies& bodies = world.resource<Bodies>();
+  return entry(world.resource<Shapes>().list, entry(bodies.slots, slot).shape);
+}
+
+// m, mean of its nodes.
+Vec3 middle_of(const World& world, int slot) {
+  const auto& position = world.column<Position>();
+  const auto first = static_cast<std::size_t>(
+      position.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
+  const std::size_t nodes = shape_in(world, slot).nodes.size();
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const Lane* at = position.lanes() + 3 * (first + n);
+    sum += Vec3(at[0][slot % lane_count], at[1][slot % lane_count], at[2][slot % lane_count]);
+  }
+  return sum / static_cast<double>(nodes);
+}
+
+}  // namespace
+
+bool has_face(const ToolSpec& tool) {
+  return tool.shape == ToolSpec::Shape::plane || tool.shape == ToolSpec::Shape::punch;
+}
+
+Powder powder_of(const World& world, const Scene& scene) {
+  const Bodies& bodies = world.resource<Bodies>();
+  Powder powder;
+  for (const int slot : bodies.slot_of_number) {
+    const MaterialSpec& m =
+        scene.materials[static_cast<std::size_t>(entry(bodies.slots, slot).material)];
+    const double volume = shape_in(world, slot).volume, nu = m.poissons_ratio;
+    const double modulus = m.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+    powder.volume += volume;
+    powder.mass += m.density * volume;
+    powder.impedance = std::max(powder.impedance, std::sqrt(m.density * modulus));
+  }
+  return powder;
+}
+
+double section_across(const World& world, const Vec3& direction) {
+  const Vec3 first = direction.unitOrthogonal(), second = direction.cross(first);
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Vec2 low(far, far), high(-far, -far);
+  for (const int slot : world.resource<Bodies>().slot_of_number) {
+    const Vec3 middle = middle_of(world, slot);
+    const Vec2 at(middle.dot(first), middle.dot(second));
+    const Vec2 reach = Vec2::Constant(shape_in(world, slot).radius);
+    low = low.cwiseMin(at - reach);
+    high = high.cwiseMax(at + reach);
+  }
+  return (high - low).prod();
+}
+
+}  // namespace pulvis::space

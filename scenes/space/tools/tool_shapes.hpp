@@ -1,0 +1,15 @@
+// What the particles touch of a scene's tools.
+#pragma once
+
+#include "components/space/tools.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+ToolShapes tool_shapes(const SpaceScene& scene);
+
+// The meridian of a punch about its axis (x: radius, y: height over its point): the profile, or a flat face, on both sides of
+// the axis. Beyond its rim it goes on outward where it fills its die (`open`), else its side goes down from there.
+ToolSurface punch_meridian(const ToolSpec& punch, bool open);
+
+}  // namespace pulvis::space

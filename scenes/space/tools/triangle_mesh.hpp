@@ -1,0 +1,15 @@
+// The surface of an STL tool, made ready for contact.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "components/space/tools.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+// Corners that coincide exactly are one. Relative to `origin`. Triangles without area are left out.
+TriangleMesh triangle_mesh(const std::vector<std::array<Vec3, 3>>& triangles, const Vec3& origin);
+
+}  // namespace pulvis::space

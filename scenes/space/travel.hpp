@@ -1,0 +1,29 @@
+// Whether prescribed moves leave the powder room for the volume of its particles.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+double powder_volume(const Scene& scene, const std::vector<BodySpec>& bodies);
+// -, between six planes or in a round die before the first step; none where nothing encloses the powder.
+std::optional<double> density_at_start(const Scene& scene, const std::vector<BodySpec>& bodies);
+
+struct FullDensity {  // where moves alone take the tools beyond it
+  int stage = 0, tool = 0;
+  double travel = 0;      // m, of that tool in the stage
+  double until_full = 0;  // m of it at which the room is the particles' volume
+  double density = 0;     // -, at its end; infinite where no room is left
+};
+std::optional<FullDensity> full_density(const Scene& scene, const std::vector<BodySpec>& bodies);
+
+// Throws SceneError where a move goes far beyond full density.
+void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies);
+// One line where it goes a little beyond.
+std::vector<std::string> travel_warnings(const Scene& scene, const std::vector<BodySpec>& bodies);
+
+}  // namespace pulvis::space

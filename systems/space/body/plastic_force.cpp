@@ -1,0 +1,214 @@
+// plastic_force: Cauchy stress at every point of an element, brought back to the von Mises yield surface where it has
+// left it; in elements with one point together with the stress of the hourglass modes; and the forces on the nodes.
+//
+// Source   systems/space/body/element_kernel.hpp, j2_kernel.hpp (Simo & Hughes 1998, box 9.1), j2_hourglass_kernel.hpp; laws:
+//          systems/laws
+// Runs     after integrate of the step before
+// Active   when a material of the scene declares a yield stress
+// Watches  least det F of every particle, for element_health; how well each return met the yield surface, for
+//          return_health
+#include <optional>
+
+#include "systems/space/body/element_force.hpp"
+#include "systems/space/body/j2_hourglass_kernel.hpp"
+
+namespace pulvis::space {
+namespace {
+
+template <class F>
+using CoupledOf =
+    std::conditional_t<F::stabilised, kernels::CoupledHourglass<Packet>, kernels::Uncoupled>;
+
+// ---- laws, of which the loop over the elements is compiled for two: the line, and any other ---------------------
+template <class F>
+struct LinearRule {
+  static constexpr bool iterated = false;
+  pulvis::kernels::LinearHardening<Packet> law;
+
+  Packet flow_stress(Packet eps) const { return law.flow_stress(eps); }
+  kernels::Return<Packet> map(const kernels::TrialPoint<Packet>& at, Packet norm2,
+                              CoupledOf<F>& coupled) const {
+    return kernels::radial_return(at, norm2, law, coupled);
+  }
+  Packet rate_work(Packet, Packet) const { return {}; }
+};
+
+template <class F>
+struct AnyRule {
+  static constexpr bool iterated = true;
+  const void* law;
+  Packet (*flow_stress_of)(const void*, Packet);
+  kernels::Return<Packet> (*map_of)(const void*, const kernels::TrialPoint<Packet>&, Packet,
+                                    CoupledOf<F>&);
+  Packet (*rate_work_of)(const void*, Packet, Packet);
+
+  Packet flow_stress(Packet eps) const { return flow_stress_of(law, eps); }
+  kernels::Return<Packet> map(const kernels::TrialPoint<Packet>& at, Packet norm2,
+                              CoupledOf<F>& coupled) const {
+    return map_of(law, at, norm2, coupled);
+  }
+  Packet rate_work(Packet eps, Packet grown) const { return rate_work_of(law, eps, grown); }
+};
+
+template <class F, class Law>
+AnyRule<F> any_rule(const Law& law) {
+  return {&law,
+          [](const void* p, Packet eps) { return static_cast<const Law*>(p)->flow_stress(eps); },
+          [](const void* p, const kernels::TrialPoint<Packet>& at, Packet norm2,
+             CoupledOf<F>& coupled) {
+            return kernels::radial_return(at, norm2, *static_cast<const Law*>(p), coupled);
+          },
+          [](const void* p, Packet eps, Packet grown) {
+            return pulvis::kernels::rate_work(*static_cast<const Law*>(p), eps, grown);
+          }};
+}
+
+// ---- the material -------------------------------------------------------------------------------------------
+// What the elements of a packet of particles add up to.
+struct PacketSums {
+  Packet hourglass_work{}, rate_work{};  // J
+  Packet residual{}, element = -1;       // the worst return's
+};
+
+// Not a number is worse than any.
+void keep_worst_return(Packet residual, Row<Element> e, PacketSums& sums) {
+  const Packet::Mask worse =
+      ~(abs(residual) <= abs(sums.residual)) & (sums.residual == sums.residual);
+  sums.residual = select(worse, residual, sums.residual);
+  sums.element = select(worse, e.value, sums.element);
+}
+
+template <class F, class Rule>
+struct PlasticMaterial {
+  WritePart<PlasticMetric<F::points>> metric;
+  WritePart<PlasticStrain<F::points>> strain;
+  std::optional<WritePart<PlasticHourglass>> hourglass;
+  Packet mu, inv_mu;
+  Rule rule;
+  PacketSums sums;
+
+  kernels::Symmetric3<Packet> left(const kernels::Matrix3<Packet>& f, Row<Element> e, int g) const {
+    return kernels::left_cauchy_green(f, metric_at(metric, e, g));
+  }
+  void remove_plastic(Row<Element> e, kernels::Hourglass<Packet>& of) const {
+    of = kernels::each_number(of, hourglass_at(*hourglass, e),
+                              [](Packet a, Packet b) { return a - b; });
+  }
+
+  void flow(const PointAt& at, kernels::Deviator<Packet>& s) {
+    const Packet limit = rule.flow_stress(strain(at.element, at.g)), norm2 = squared_norm(s);
+    if (!any(norm2 > (2.0 / 3.0) * limit * limit)) return;
+    kernels::Uncoupled alone;
+    if constexpr (!F::stabilised) return_point(at, s, norm2, alone);
+  }
+
+  void flow(const PointAt& at, kernels::Deviator<Packet>& s, kernels::Hourglass<Packet>& stress,
+            const kernels::Hourglass<Packet>& elastic) {
+    const Packet limit = rule.flow_stress(strain(at.element, 0)), norm2 = squared_norm(s);
+    const Packet limit2 = (2.0 / 3.0) * limit * limit, t2 = kernels::hourglass_norm2(stress);
+    if (!any(norm2 + t2 > limit2)) return;
+    const Packet energy2 = kernels::hourglass_product(stress, elastic);
+    auto coupled = kernels::coupled_hourglass(t2, energy2, mu, limit2);
+    if constexpr (F::stabilised) return_point(at, s, norm2, coupled);
+    keep_hourglass(at, stress, elastic, coupled.retained, energy2);
+  }
+
+ private:
+  template <class Coupled>
+  void return_point(const PointAt& at, kernels::Deviator<Packet>& s, Packet norm2,
+                    Coupled& coupled) {
+    const Packet before = strain(at.element, at.g);
+    const auto r = rule.map({s, before, mu * at.inv_j, at.j * inv_mu}, norm2, coupled);
+    s = scaled(s, r.beta);
+    store(metric, at.element, at.g,
+          kernels::returned_metric(metric_at(metric, at.element, at.g), r, at.adj, at.r2));
+    strain(at.element, at.g) = r.eps;
+    if constexpr (Rule::iterated) {
+      keep_worst_return(r.residual, at.element, sums);
+      sums.rate_work += at.volume * rule.rate_work(before, r.eps - before);
+    }
+  }
+
+  // Keeps the share `retained` of the hourglass stress; the rest of its strain has become plastic.
+  void keep_hourglass(const PointAt& at, kernels::Hourglass<Packet>& stress,
+                      const kernels::Hourglass<Packet>& elastic, Packet retained, Packet energy2) {
+    const Packet lost = 1.0 - retained;
+    store(*hourglass, at.element,
+          kernels::each_number(hourglass_at(*hourglass, at.element), elastic,
+                               [&](Packet p, Packet e) { return fma(lost, e, p); }));
+    stress = kernels::each_number(stress, stress, [&](Packet m, Packet) { return retained * m; });
+    sums.hourglass_work = fma(at.volume * energy2, retained * lost, sums.hourglass_work);
+  }
+};
+
+// What the parts of a chunk need besides their law.
+template <class F>
+struct ChunkAt {
+  const plastic_force<F>& system;
+  BusyChunk chunk;
+  const Shape& shape;
+};
+
+void add_sums(const PacketSums& sums, const auto& work, Chunk chunk, int part) {
+  const Row<Particle> particle;
+  if (const auto& hourglass = work.hourglass)
+    part_of(hourglass->chunk(chunk), part)(particle) += sums.hourglass_work;
+  if (const auto& rate = work.rate) part_of(rate->chunk(chunk), part)(particle) += sums.rate_work;
+  if (const auto& residual = work.residual) {
+    const auto worst = part_of(residual->chunk(chunk), part);
+    worst(particle, 0) = sums.residual;
+    worst(particle, 1) = sums.element;
+  }
+}
+
+template <class F, class Rule>
+void flow_part(const ChunkAt<F>& at, int part, const Rule& rule) {
+  const plastic_force<F>& system = at.system;
+  const auto views =
+      force_views<F>(system.position, system.elastic, system.results, at.chunk, part);
+  PlasticMaterial<F, Rule> material{part_of(system.state.metric.chunk(at.chunk), part),
+                                    part_of(system.state.strain.chunk(at.chunk), part),
+                                    std::nullopt,
+                                    views.mu,
+                                    views.inv_mu,
+                                    rule,
+                                    {}};
+  if constexpr (F::stabilised)
+    material.hourglass = part_of(system.state.hourglass->chunk(at.chunk), part);
+  part_force(at.chunk, part, at.shape, views, system.results.worst, material);
+  add_sums(material.sums, system.work, at.chunk, part);
+}
+
+template <class F>
+[[gnu::flatten]] void flow_by_line(const ChunkAt<F>& at, int part,
+                                   const pulvis::kernels::LinearHardening<Packet>& line) {
+  flow_part(at, part, LinearRule<F>{line});
+}
+template <class F>
+[[gnu::flatten, gnu::noinline]] void flow_by_any(const ChunkAt<F>& at, int part,
+                                                 const AnyRule<F>& rule) {
+  flow_part(at, part, rule);
+}
+
+}  // namespace
+
+template <class F>
+void plastic_force<F>::operator()(BusyChunk chunk) const {
+  const Row<Particle> particle;
+  const ChunkAt<F> at{*this, chunk, meshes.of_chunk(chunk)};
+  for (int part = 0; part < parts_of_a_lane; ++part) {
+    const pulvis::kernels::LinearHardening<Packet> line{
+        part_of(flow.yield_stress.chunk(chunk), part)(particle),
+        part_of(flow.hardening.chunk(chunk), part)(particle)};
+    if (!flow.laws) {
+      flow_by_line(at, part, line);
+      continue;
+    }
+    with_law((*flow.laws)->of_chunk(*meshes.bodies, chunk), line, 1 / clock->dt_before,
+             [&](const auto& law) { flow_by_any(at, part, any_rule<F>(law)); });
+  }
+}
+template struct plastic_force<OnePoint>;
+template struct plastic_force<EightPoint>;
+
+}  // namespace pulvis::space

@@ -1,0 +1,108 @@
+// stable_time_step: the greatest time step that every element (and the contact springs on its faces) of a particle can
+// stand.
+//
+// Source   The highest frequency of an assembly is at most that of its worst element, however the masses of the nodes are
+//          dealt out among the elements around (Irons; Flanagan & Belytschko 1984). Elements:
+//          systems/space/body/time_step_kernel.hpp. One on the surface also bears contact springs of k K A/V, and
+//          dashpots that answer half a step late: as in systems/body/time_step.cpp
+// Runs     every few steps, while the stresses of a chunk are at hand
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "engine/entry.hpp"
+#include "systems/body/element_bound.hpp"
+#include "systems/space/body/element_access.hpp"
+#include "systems/space/body/systems.hpp"
+#include "systems/space/body/time_step_kernel.hpp"
+
+namespace pulvis::space {
+namespace {
+
+// See systems/body/time_step.cpp.
+constexpr double dashpots_too_strict = 1.25;
+
+// Gradients at the Gauss points of a hexahedron are at most (4/3)^2 times those of the middle, of its square.
+constexpr double of_eight_points = 16.0 / 9.0;
+
+template <int Points, class View>
+Lane largest_stress(const View& stress, Row<Element> e) {
+  Lane maximum{};
+  for (int g = 0; g < Points; ++g)
+    maximum = max(maximum, kernels::squared_norm(deviator_at(stress, e, g)));
+  return sqrt(maximum);
+}
+
+// An element with a corner that closes swings faster there than its middle says, about by the square of how much smaller
+// the map is at that Gauss point: at most 9, so that a corner that is about to turn inside out does so (and is
+// named) instead of stopping the clock.
+Lane gauss_factor(const kernels::ElementModes<Lane>& modes,
+                  const std::array<Shape::GaussPoint, 8>& points, const Lane& j) {
+  Lane least = j;
+  for (int g = 0; g < 8; ++g) {
+    const auto f = kernels::point_gradient(modes, entry(points, g).inverse_jacobian,
+                                           kernels::gauss_coordinates(g));
+    least = min(kernels::determinant(f, kernels::adjugate(f)), least);
+  }
+  const Lane ratio = j / max(least, 1e-300);
+  return of_eight_points * min(ratio * ratio, 9.0);
+}
+
+struct Contact {
+  double springs = 0;   // k, of the springs and what little damping asks for
+  double stiff = 0;     // k of the springs alone
+  double dashpots = 0;  // 2 xi of a pair
+};
+
+// gamma/2 + sqrt(gamma^2/4 + omega^2) for omega, squared; times rho.
+Lane late_bound(const Contact& contact, const Shape::Element& element, Lane bulk, Lane solid,
+                double base) {
+  const Lane half = (0.5 * contact.dashpots * element.contact_drag) * sqrt(base * bulk);
+  const Lane omega =
+      half + sqrt(half * half + solid + contact.stiff * element.contact_frequency * bulk);
+  return omega * omega;
+}
+
+}  // namespace
+
+template <class F>
+[[gnu::flatten]] void stable_time_step<F>::operator()(Chunk chunk) const {
+  if (clock->step < clock->next_look) return;
+  const Row<Particle> particle;
+  const Shape& shape = meshes.of_chunk(chunk);
+  const auto nodes = position.chunk(chunk);
+  const auto stress = deviator.chunk(chunk);
+  const Lane k = material.elastic.bulk.chunk(chunk)(particle),
+             mu = material.elastic.shear.chunk(chunk)(particle),
+             rho = material.density.chunk(chunk)(particle);
+  Contact contact;
+  if (rules) {
+    const double stiffening = springs_of(chunk, *meshes.bodies, **rules, *clock);
+    contact = {(*rules)->stiffness * (stiffening + 2 * (*rules)->damping),
+               (*rules)->stiffness * stiffening, dashpot_ratio(**rules)};
+  }
+  Lane highest{}, late{};
+  for (int i = 0; i < shape.elements(); ++i) {
+    const Shape::Element& element = entry(shape.element, i);
+    const auto modes = element_modes(nodes, entry(shape.hexahedra, i));
+    const auto f = kernels::deformation_gradient(modes, element.gradient);
+    Lane solid = kernels::frequency_bound(element, f, k, mu,
+                                          largest_stress<F::points>(stress, Row<Element>(i)));
+    if constexpr (!F::stabilised)
+      solid *=
+          gauss_factor(modes, entry(shape.gauss, i), kernels::determinant(f, kernels::adjugate(f)));
+    highest = max(highest, solid + contact.springs * element.contact_frequency * k);
+    if (contact.dashpots > 0 && element.contact_drag > 0)
+      late = max(late, late_bound(contact, element, k, solid, (*rules)->stiffness));
+  }
+  Lane& step = stable.chunk(chunk)(particle);
+  step = 2.0 * sqrt(rho / highest);
+  if (!(contact.dashpots > 0)) return;
+  const Lane longest = 2.0 * sqrt(rho / late);
+  // A servo's tool lives on the whole of what `safety` leaves; without one, what is known to be too strict in the bound
+  // need not be paid for.
+  step = (*rules)->servos ? min(longest, step)
+                          : min(dashpots_too_strict / clock->safety * longest, step);
+}
+template struct stable_time_step<OnePoint>;
+template struct stable_time_step<EightPoint>;
+
+}  // namespace pulvis::space

@@ -1,0 +1,161 @@
+// bin_faces, bin_tool_faces: broad phase in three dimensions: make the contact rows anew when the surfaces have moved
+// through the skin.
+//
+// History (closest points, friction springs) is carried by the key (particle, face, other): rows are sorted by it, so that
+// old and new rows of a particle are merged in one pass.
+// Runs     after skin_check, which says when; a sync point (rows change)
+#include <oneapi/tbb/parallel_for.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "systems/space/contact/broad_phase.hpp"
+#include "systems/space/contact/systems.hpp"
+#include "systems/space/contact/tool_search.hpp"
+
+namespace pulvis::space {
+namespace {
+
+struct FaceKey {
+  std::int32_t slot, face, other;
+  auto operator<=>(const FaceKey&) const = default;
+};
+FaceKey key_of(const FaceCandidate& c) { return {c.slot, c.face, c.other}; }
+FaceKey key_of(const ToolCandidate& c) { return {c.slot, c.face, c.tool}; }
+
+// For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, as they were made; empty
+// when none were.
+template <class At, class Candidate>
+std::vector<std::int32_t> rows_before(const std::vector<std::int32_t>& before_begin,
+                                      const Write<ContactPair<At>>& pair,
+                                      const BySlot<Candidate>& now) {
+  std::vector<std::int32_t> source(now.all.size(), -1);
+  if (before_begin.empty()) return source;
+  const auto old_key = [&](std::int32_t row) {
+    return FaceKey{pair(Row<At>(row), 0), pair(Row<At>(row), 1), pair(Row<At>(row), 2)};
+  };
+  for_slots(static_cast<int>(now.begin.size()) - 1, [&](int slot) {
+    std::int32_t b = entry(before_begin, slot);
+    const std::int32_t end = entry(before_begin, slot + 1);
+    for (auto n = entry(now.begin, slot); n < entry(now.begin, slot + 1); ++n) {
+      const FaceKey key = key_of(entry(now.all, n));
+      while (b < end && old_key(b) < key) ++b;
+      if (b < end && old_key(b) == key) entry(source, n) = b;
+    }
+  });
+  return source;
+}
+
+// The rows of each slot as the other body.
+void list_rows_of_others(const BySlot<FaceCandidate>& rows, ContactIndex& index) {
+  std::vector<std::int32_t>& begin = index.other_begin;
+  begin.assign(rows.begin.size(), 0);
+  for (const FaceCandidate& c : rows.all) entry(begin, c.other + 1) += 1;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::int32_t> next = begin;
+  index.other_rows.resize(rows.all.size());
+  for (std::size_t r = 0; r < rows.all.size(); ++r)
+    entry(index.other_rows, entry(next, rows.all[r].other)++) = static_cast<std::int32_t>(r);
+}
+
+// kappa = k K A/V of the sampled face in series with the other surface's mean, like two springs: a sphere on its mirror
+// image feels what it feels on a rigid plane.
+double stiffness_of_pair(const ContactStiffness& material, const ShapedBodies& bodies,
+                         const FaceKey& key) {
+  const double a = entry(material.bulk.values(), key.slot) *
+                   entry(bodies.shape_of(key.slot).faces, key.face).stiffness;
+  const double b =
+      entry(material.bulk.values(), key.other) * bodies.shape_of(key.other).mean_face_stiffness;
+  return material.rules->stiffness * a * b / (a + b);
+}
+
+template <class At>
+void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double kappa, double rho,
+             double friction, double share_of_critical, const NewRows<At>& rows) {
+  using Law = ContactLaw<At>;
+  rows.pair(row, 0) = key.slot;
+  rows.pair(row, 1) = key.face;
+  rows.pair(row, 2) = key.other;
+  rows.law(row, Law::stiffness) = kappa;
+  rows.law(row, Law::friction) = friction;
+  // c = 2 xi sqrt(kappa rho h): the mass per area of the element behind on the contact spring.
+  rows.law(row, Law::damping) = 2 * share_of_critical * std::sqrt(kappa * rho / face.stiffness);
+  rows.law(row, Law::inv_size) = 1 / face.size;
+  rows.activation(row, 0) = rows.activation(row, 1) = 0;
+}
+
+void start_from(int face, Row<FaceContact> row, const Write<ClosestPoint>& closest) {
+  for (int g = 0; g < face_points; ++g) {
+    closest(row, g) = face + 0.5;
+    closest(row, face_points + g) = 0.5;
+  }
+}
+
+}  // namespace
+
+void bin_faces::operator()() const {
+  if (!index->due) return;
+  const ContactRules& rules = *material.rules;
+  const SurfaceBoxes boxes = surface_boxes(bodies, position.values());
+  BySlot<std::int32_t> neighbours = particle_neighbours(bodies, boxes, index->neighbourhood);
+  BySlot<FaceCandidate> found = face_candidates(bodies, boxes, neighbours, index->skin);
+  const std::vector<std::int32_t> source =
+      rows_before<FaceContact>(index->sampled_begin, rows.pair, found);
+  structure.rebuild(source);
+  tbb::parallel_for(std::size_t{0}, found.all.size(), [&](std::size_t r) {
+    const Row<FaceContact> row(static_cast<std::int64_t>(r));
+    const FaceKey key = key_of(found.all[r]);
+    const auto material_of = [&](int slot) { return entry(bodies.bodies->slots, slot).material; };
+    set_row(row, key, entry(bodies.shape_of(key.slot).faces, key.face),
+            stiffness_of_pair(material, bodies, key),
+            std::min(entry(material.density.values(), key.slot),
+                     entry(material.density.values(), key.other)),
+            rules.friction_between(material_of(key.slot), material_of(key.other)).coefficient,
+            rules.damping, rows);
+    if (source[r] < 0) start_from(found.all[r].start, row, closest);
+  });
+  list_rows_of_others(found, *index);
+  index->sampled_begin = std::move(found.begin);
+  index->neighbour_begin = std::move(neighbours.begin);
+  index->neighbours = std::move(neighbours.all);
+}
+
+namespace {
+
+// The triangles of mesh tools that the rows can touch.
+void list_triangles(const BySlot<ToolCandidate>& found, const FaceLook& look,
+                    const ToolSurfaces& tools, const bin_tool_faces::Triangles& triangles) {
+  std::vector<std::int32_t>& list = triangles.lists->triangles;
+  list.clear();
+  for (std::size_t r = 0; r < found.all.size(); ++r) {
+    const ToolCandidate& c = found.all[r];
+    const Row<FaceToolContact> row(static_cast<std::int64_t>(r));
+    triangles.range(row, 0) = static_cast<std::int32_t>(list.size());
+    if (tools.shape(c.tool).kind == ToolShapes::Kind::mesh) look.add_triangles(c, list);
+    triangles.range(row, 1) = static_cast<std::int32_t>(list.size());
+  }
+}
+
+}  // namespace
+
+void bin_tool_faces::operator()() const {
+  if (!index->due) return;
+  const ContactRules& rules = *material.rules;
+  const FaceLook look{bodies, position.values(), tools, index->skin};
+  BySlot<ToolCandidate> found = tool_candidates(look);
+  structure.rebuild(rows_before<FaceToolContact>(index->tool_begin, rows.pair, found));
+  for (std::size_t r = 0; r < found.all.size(); ++r) {
+    const FaceKey key = key_of(found.all[r]);
+    const Shape::Face& face = entry(bodies.shape_of(key.slot).faces, key.face);
+    set_row(Row<FaceToolContact>(static_cast<std::int64_t>(r)), key, face,
+            rules.stiffness * entry(material.bulk.values(), key.slot) * face.stiffness,
+            entry(material.density.values(), key.slot),
+            rules.friction_with_tool(key.other, entry(bodies.bodies->slots, key.slot).material)
+                .coefficient,
+            rules.damping, rows);
+  }
+  if (triangles) list_triangles(found, look, tools, *triangles);
+  index->tool_begin = std::move(found.begin);
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,81 @@
+// Axis-aligned boxes, and how far what they hold has come nearer.
+//
+// Source   systems/contact/skin_kernel.hpp, in three dimensions
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "components/space/contact.hpp"
+
+namespace pulvis::space {
+
+struct Box {
+  std::array<double, 3> low, high;
+
+  Point middle() const {
+    return {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2])};
+  }
+};
+
+inline Box joined(const Box& a, const Box& b) {
+  Box box = a;
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] = std::min(a.low[k], b.low[k]);
+    box.high[k] = std::max(a.high[k], b.high[k]);
+  }
+  return box;
+}
+
+// Of the Bezier points of a face, whose hull holds the face (convex hull property).
+inline Box face_box(const double* face) {
+  Box box{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [low, high] = std::minmax_element(face + 16 * k, face + 16 * (k + 1));
+    box.low[k] = *low;
+    box.high[k] = *high;
+  }
+  return box;
+}
+
+inline bool near(const Box& a, const Box& b, double distance) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.low[k] > b.high[k] + distance || b.low[k] > a.high[k] + distance) return false;
+  return true;
+}
+
+inline Box moved(Box box, const Point& by) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] += by[k];
+    box.high[k] += by[k];
+  }
+  return box;
+}
+
+namespace kernels {
+
+// Largest distance between two boxes along an axis; < 0 where they overlap.
+inline double gap(const Box& a, const Box& b) {
+  double largest = -1e300;
+  for (std::size_t k = 0; k < 3; ++k)
+    largest = std::max({largest, a.low[k] - b.high[k], b.low[k] - a.high[k]});
+  return largest;
+}
+
+// How far points with displacements in these boxes can have come nearer along an axis, at most.
+inline double closing(const Box& a, const Box& b) {
+  double maximum = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    maximum = std::max({maximum, a.high[k] - b.low[k], b.high[k] - a.low[k]});
+  return maximum;
+}
+
+// Least x . n of a box.
+inline double min_along(const Box& box, const Point& n) {
+  double minimum = 0;
+  for (std::size_t k = 0; k < 3; ++k) minimum += std::min(n[k] * box.low[k], n[k] * box.high[k]);
+  return minimum;
+}
+
+}  // namespace kernels
+}  // namespace pulvis::space

@@ -1,0 +1,187 @@
+// Projection: where eight points stand against the smooth surface of another particle.
+//
+// Method   Newton's (patch_kernel.hpp) from where a point was closest before; a step goes over one face at most, on to
+//          the next one. A point that is sent to and fro over a side is closest to the side itself, or to its end, where
+//          surfaces have a crease: it moves along it then
+// Lanes    every point stops by itself, so that none depends on the others
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "components/space/contact.hpp"
+#include "engine/lane_memory.hpp"
+#include "systems/space/contact/patch_kernel.hpp"
+#include "systems/space/contact/surface_walk.hpp"
+
+namespace pulvis::space {
+
+using VectorLanes = kernels::Vector<Lane>;
+
+// The Bezier points of eight faces, one a lane.
+struct PatchLanes {
+  std::array<Lane, face_numbers> all;
+  const Lane& operator()(int k, int p) const { return all[static_cast<std::size_t>(16 * k + p)]; }
+
+  // `first`: of the particle's first face.
+  [[gnu::always_inline]] void gather(const double* first, const std::array<std::int32_t, 8>& face) {
+    std::array<const double*, lane_count> row;
+    for (std::size_t block = 0; block < face_numbers; block += 8) {
+      for (std::size_t l = 0; l < lane_count; ++l)
+        row[l] = first + static_cast<std::ptrdiff_t>(face[l]) * face_numbers + block;
+      const auto columns = columns_of(row);
+      for (std::size_t i = 0; i < 8; ++i) all[block + i] = columns[i];
+    }
+  }
+};
+
+// How a point stands against another surface.
+struct Standing {
+  Lane gap;            // m, > 0 in penetration
+  Lane distance;       // m, to the surface
+  VectorLanes normal;  // outward, of the other surface
+};
+
+struct Projection {
+  static constexpr int max_steps = 40;
+  static constexpr int crossings_of_crease = 3;  // over one side, to and fro
+  static constexpr int most_crossings = 16;      // round and round the end of a crease
+
+  const Shape& shape;   // of the other particle
+  const double* first;  // its first face's Bezier points
+  VectorLanes point;    // m
+  std::array<std::int32_t, 8> face;
+  Lane u, v;  // closest so far; when found, on its face
+  unsigned done = 0;
+
+  Projection(const Shape& other, const double* first_face) : shape(other), first(first_face) {}
+
+  unsigned unconverged() const { return ~done & 0xffU; }
+
+  [[gnu::always_inline]] void find() {
+    patch.gather(first, face);
+    for (int step = 0;; ++step) {
+      at_ = kernels::patch_point<Lane>(patch, u, v);
+      r_ = point - at_.x;
+      newton_ = kernels::newton(at_, r_);
+      const Lane along_u = dot(r_, at_.u), along_v = dot(r_, at_.v);
+      du_ = newton_.step_u(along_u, along_v);
+      dv_ = newton_.step_v(along_u, along_v);
+      if (held_u_ | held_v_) hold(along_u, along_v);
+      const unsigned found = find_done();
+      done |= found;
+      if (done == 0xffU || step == max_steps) break;
+      move();
+    }
+    settle();
+  }
+
+  Standing standing() const {
+    const VectorLanes across = cross(slopes.u, slopes.v);
+    const Lane inv_area = 1.0 / sqrt(dot(across, across));
+    Standing s;
+    s.normal = inv_area * across;
+    s.gap = -dot(offset, s.normal);
+    s.distance = sqrt(dot(offset, offset));
+    if ((held_u_ | held_v_) != 0) look_to_crease(s);
+    return s;
+  }
+
+  PatchLanes patch;
+  kernels::PatchSlopes<Lane> slopes;  // of the surface at the closest point
+  VectorLanes offset;                 // m, from there to the point
+
+ private:
+  // Along a crease.
+  [[gnu::noinline]] void hold(const Lane& along_u, const Lane& along_v) {
+    const Lane zero{};
+    const LaneMask u_held = LaneMask::of(held_u_), v_held = LaneMask::of(held_v_);
+    const Lane aa = dot(at_.u, at_.u), cc = dot(at_.v, at_.v);
+    const Lane only_u = along_u / max(aa - dot(r_, at_.uu), 0.25 * aa);
+    const Lane only_v = along_v / max(cc - dot(r_, at_.vv), 0.25 * cc);
+    du_ = select(u_held, zero, select(v_held, only_u, du_));
+    dv_ = select(v_held, zero, select(u_held, only_v, dv_));
+    // No farther than the end of the side.
+    const LaneMask held = u_held | v_held;
+    du_ = select(held, min(max(u + du_, zero), 1.0) - u, du_);
+    dv_ = select(held, min(max(v + dv_, zero), 1.0) - v, dv_);
+  }
+  // Lanes whose step is small and leads to no other face.
+  [[gnu::always_inline]] unsigned find_done() const {
+    const Lane zero{}, one(1.0), next_u = u + du_, next_v = v + dv_;
+    const LaneMask small = max(abs(du_), abs(dv_)) < Lane(kernels::near_step);
+    return (small & (next_u >= zero) & (next_u <= one) & (next_v >= zero) & (next_v <= one)).bits();
+  }
+  [[gnu::noinline]] void move() {
+    const LaneMask fixed = LaneMask::of(done);
+    const Lane zero{};
+    u += select(fixed, zero, min(max(du_, -1.0), 1.0));
+    v += select(fixed, zero, min(max(dv_, -1.0), 1.0));
+    const unsigned inside = ((u >= zero) & (u <= 1.0) & (v >= zero) & (v <= 1.0)).bits();
+    if (inside == 0xffU) return;
+    for (int l = 0; l < lane_count; ++l)
+      if ((inside >> l & 1) == 0) cross_side(l);
+    patch.gather(first, face);
+  }
+  void cross_side(int l) {
+    const auto lane = static_cast<std::size_t>(l);
+    if (!std::isfinite(u[l]) || !std::isfinite(v[l])) {
+      u[l] = v[l] = 0.5;
+      return;
+    }
+    const int side = side_left(u[l], v[l]);
+    const SurfaceSpot from{face[lane], u[l], v[l]};
+    const SurfaceSpot to = across(shape, from, side);
+    const bool back = to.face == came_from_[lane] || to.face == from.face;
+    crossings_[lane] = back ? crossings_[lane] + 1 : 1;
+    came_from_[lane] = from.face;
+    face[lane] = to.face;
+    u[l] = to.u;
+    v[l] = to.v;
+    if (crossings_[lane] >= crossings_of_crease || ++all_crossings_[lane] > most_crossings ||
+        to.face == from.face)
+      stay_on_side(l, from, side);
+  }
+  void stay_on_side(int l, const SurfaceSpot& from, int side) {
+    const auto lane = static_cast<std::size_t>(l);
+    const BesideSide at = beside(side, from.u, from.v);
+    const SurfaceSpot on = space::inside(from.face, side, std::clamp(at.along, 0.0, 1.0), 0);
+    face[lane] = on.face;
+    u[l] = on.u;
+    v[l] = on.v;
+    (side % 2 == 1 ? held_u_ : held_v_) |= 1U << l;
+  }
+  // The last, small step, and its own correction.
+  [[gnu::always_inline]] void settle() {
+    slopes = kernels::taylor(at_, du_, dv_);
+    offset = point - slopes.x;
+    if ((held_u_ | held_v_) == 0) {
+      const Lane along_u = dot(offset, slopes.u), along_v = dot(offset, slopes.v);
+      const Lane more_u = newton_.step_u(along_u, along_v), more_v = newton_.step_v(along_u, along_v);
+      du_ += more_u;
+      dv_ += more_v;
+      slopes = kernels::taylor(at_, du_, dv_);
+      offset = point - slopes.x;
+    }
+    u += du_;
+    v += dv_;
+  }
+  // From a crease the way out leads to the point itself.
+  [[gnu::noinline]] void look_to_crease(Standing& s) const {
+    const LaneMask held = LaneMask::of(held_u_ | held_v_) & (s.distance > 0.0);
+    const Lane sign = select(s.gap > 0.0, Lane(-1.0), Lane(1.0));
+    s.normal = select(held, (sign / s.distance) * offset, s.normal);
+    s.gap = select(held, -(sign * s.distance), s.gap);
+  }
+
+  kernels::PatchPoint<Lane> at_;
+  kernels::Newton<Lane> newton_;
+  VectorLanes r_;
+  Lane du_, dv_;
+  unsigned held_u_ = 0, held_v_ = 0;
+  std::array<std::int32_t, 8> came_from_{-1, -1, -1, -1, -1, -1, -1, -1};
+  std::array<std::int32_t, 8> crossings_{}, all_crossings_{};
+};
+
+}  // namespace pulvis::space

@@ -1,0 +1,132 @@
+// skin_check: whether the contact rows must be made anew, in three dimensions: as systems/contact/skin_check.cpp, by how
+// far surfaces that are near each other have come nearer since the rows were made.
+//
+// Source   systems/space/contact/box.hpp
+// Runs     first of the contact systems; does nothing while Clock::travel is below `look_at`
+// Active   when anything can touch
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "systems/contact/by_slot.hpp"
+#include "systems/space/contact/box.hpp"
+#include "systems/space/contact/systems.hpp"
+
+namespace pulvis::space {
+namespace {
+
+constexpr double min_left = 0.2;  // of the skin: with less, looking costs more than new rows
+
+// What the next step may use up, where steps are long beside the skin.
+double look_ahead(const ContactIndex& index, double travel) {
+  const double step = travel - index.travel_seen;
+  return step > min_left * index.skin ? step : 0;
+}
+
+struct SurfaceMotion {  // of a particle since the rows were made
+  Box before, displacement;
+};
+
+SurfaceMotion motion_of(const double* before, const double* now, std::size_t faces) {
+  SurfaceMotion motion{};
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::array<double, face_numbers> u;
+    for (std::size_t i = 0; i < face_numbers; ++i)
+      u[i] = now[f * face_numbers + i] - before[f * face_numbers + i];
+    const SurfaceMotion of_face{face_box(before + f * face_numbers), face_box(u.data())};
+    motion = f == 0 ? of_face
+                    : SurfaceMotion{joined(motion.before, of_face.before),
+                                    joined(motion.displacement, of_face.displacement)};
+  }
+  return motion;
+}
+
+// What is left of the skin.
+struct Remaining {
+  const ContactIndex& index;
+  const std::vector<SurfaceMotion>& motion;  // [slots]
+
+  // Particles that were no neighbours: whichever of all moved most against each other.
+  double of_non_neighbours(const std::vector<int>& slots) const {
+    Box all = entry(motion, slots.front()).displacement;
+    for (const int slot : slots) all = joined(all, entry(motion, slot).displacement);
+    return index.neighbourhood - kernels::closing(all, all);
+  }
+  double of_neighbours(int slot) const {
+    double minimum = 1e300;
+    if (index.neighbour_begin.empty()) return minimum;
+    const SurfaceMotion& own = entry(motion, slot);
+    for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
+         ++k) {
+      const int other = entry(index.neighbours, k);
+      if (other < slot) continue;  // seen from there
+      const SurfaceMotion& its = entry(motion, other);
+      minimum = std::min(minimum, std::max(index.skin, kernels::gap(own.before, its.before)) -
+                                      kernels::closing(own.displacement, its.displacement));
+    }
+    return minimum;
+  }
+  // Towards a plane only what goes against its normal counts, so that a compact may slide along it; towards others all
+  // that a particle has moved against them.
+  double of_tools(const ToolSurfaces& tools, int slot) const {
+    double minimum = 1e300;
+    for (int t = 0; t < tools.position.rows(); ++t) {
+      const Point& before = entry(index.tools_before, t);
+      const Point now = tools.position_of(t);
+      const Box own = moved(entry(motion, slot).before, {-before[0], -before[1], -before[2]});
+      const Box u = moved(entry(motion, slot).displacement,
+                          {before[0] - now[0], before[1] - now[1], before[2] - now[2]});
+      const Point normal = tools.normal_of(t);
+      const bool plane = tools.shape(t).kind == ToolShapes::Kind::plane;
+      minimum = std::min(minimum,
+                         plane ? std::max(index.skin, kernels::min_along(own, normal)) +
+                                     std::min(kernels::min_along(u, normal), 0.0)
+                               : index.skin - kernels::closing(u, Box{}));
+    }
+    return minimum;
+  }
+};
+
+}  // namespace
+
+void skin_check::operator()() const {
+  index->due = false;
+  const double ahead = look_ahead(*index, clock->travel);
+  index->travel_seen = clock->travel;
+  const auto tool_position = [&](int t) {
+    const Row<Tool> tool(t);
+    return Point3{tools->position(tool, 0), tools->position(tool, 1),
+                          tools->position(tool, 2)};
+  };
+  if (index->travel_at_bin >= 0) {
+    if (clock->travel + ahead < index->look_at) return;
+    std::vector<SurfaceMotion> motion(bodies.bodies->slots.size());
+    const auto& slots = bodies.bodies->slot_of_number;
+    std::vector<double> left(slots.size());
+    const Remaining remaining{*index, motion};
+    tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
+      const std::ptrdiff_t first = bodies.first_face(slots[i]) * std::ptrdiff_t{face_numbers};
+      entry(motion, slots[i]) =
+          motion_of(before.values().data() + first, position.values().data() + first,
+                    bodies.shape_of(slots[i]).faces.size());
+    });
+    tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
+      left[i] = remaining.of_neighbours(slots[i]);
+      if (tools) left[i] = std::min(left[i], remaining.of_tools(*tools, slots[i]));
+    });
+    const double minimum =
+        std::min(remaining.of_non_neighbours(slots), *std::ranges::min_element(left));
+    index->look_at = clock->travel + minimum;
+    if (minimum > std::max(min_left * index->skin, ahead)) return;
+  }
+  index->due = true;
+  index->travel_at_bin = clock->travel;
+  index->look_at = clock->travel + index->skin;
+  index->bins += 1;
+  std::ranges::copy(position.values(), before.values().begin());
+  index->tools_before.clear();
+  for (int t = 0; tools && t < tools->position.rows(); ++t)
+    index->tools_before.push_back(tool_position(t));
+}
+
+}  // namespace pulvis::space

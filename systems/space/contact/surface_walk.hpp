@@ -1,0 +1,57 @@
+// Walking over the faces of a surface: where one comes in who leaves a face over a side.
+#pragma once
+
+#include <algorithm>
+
+#include "components/space/shape.hpp"
+
+namespace pulvis::space {
+
+// A point of a particle's surface.
+struct SurfaceSpot {
+  int face;
+  double u, v;
+};
+
+inline constexpr int no_side = -1;
+
+// Over which side of its face a point has gone, the one farther behind it where it is two.
+inline int side_left(double u, double v) {
+  const double out_u = std::max(-u, u - 1), out_v = std::max(-v, v - 1);
+  if (std::max(out_u, out_v) <= 0) return no_side;
+  if (out_u >= out_v) return u > 1 ? 1 : 3;
+  return v > 1 ? 2 : 0;
+}
+
+// How far along a side, counter-clockwise from 0 to 1, and how far beyond it.
+struct BesideSide {
+  double along, beyond;
+};
+inline BesideSide beside(int side, double u, double v) {
+  switch (side) {
+    case 0: return {u, -v};
+    case 1: return {v, u - 1};
+    case 2: return {1 - u, v - 1};
+    default: return {1 - v, -u};
+  }
+}
+// The point of a face `beyond` inside from its side.
+inline SurfaceSpot inside(int face, int side, double along, double beyond) {
+  switch (side) {
+    case 0: return {face, along, beyond};
+    case 1: return {face, 1 - beyond, along};
+    case 2: return {face, 1 - along, 1 - beyond};
+    default: return {face, beyond, 1 - along};
+  }
+}
+
+// Where a point that left its face over `side` stands in the next one, if there is one; else on the side.
+inline SurfaceSpot across(const Shape& shape, const SurfaceSpot& spot, int side) {
+  const Shape::Neighbour& next = entry(entry(shape.faces, spot.face).neighbour, side);
+  const BesideSide at = beside(side, spot.u, spot.v);
+  const double along = std::clamp(at.along, 0.0, 1.0);
+  if (next.face < 0) return inside(spot.face, side, along, 0);
+  return inside(next.face, next.side, 1 - along, std::clamp(at.beyond, 0.0, 1.0));
+}
+
+}  // namespace pulvis::space

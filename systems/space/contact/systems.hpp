@@ -1,0 +1,150 @@
+// Systems of surfaces that meet in three dimensions. What a system reads and writes is what it declares here, once;
+// systems/space/step.cpp puts them in order, and each is described at the top of its own file.
+#pragma once
+
+#include "components/body.hpp"
+#include "components/space/body.hpp"
+#include "components/space/contact.hpp"
+#include "components/space/tools.hpp"
+
+namespace pulvis::space {
+
+// ---- surfaces -----------------------------------------------------------------------------------
+struct contact_surface {
+  ShapedBodies bodies;
+  struct Motion {
+    Read<Position> position;
+    Read<Velocity> velocity;
+  } motion;
+  Write<PointPosition> points;
+  Write<FacePosition> position;
+  Optional<Write<FaceVelocity>> velocity;
+  Write<MaximumSpeed> speed;
+  void operator()(Chunk chunk) const;
+};
+
+// ---- which rows there are -----------------------------------------------------------------------
+struct skin_check {
+  ShapedBodies bodies;
+  Read<Clock> clock;
+  Read<FacePosition> position;
+  Optional<ToolSurfaces> tools;
+  Write<FaceBefore> before;
+  Write<ContactIndex> index;
+  void operator()() const;
+};
+
+// What the laws of a row follow from.
+struct ContactStiffness {
+  Read<ContactRules> rules;
+  Read<BulkModulus> bulk;
+  Read<Density> density;
+};
+// What is set when a row is made.
+template <class At>
+struct NewRows {
+  Write<ContactPair<At>> pair;
+  Write<ContactLaw<At>> law;
+  Write<Activation<At>> activation;
+};
+
+struct bin_faces {
+  ShapedBodies bodies;
+  ContactStiffness material;
+  Read<FacePosition> position;
+  Write<ContactIndex> index;
+  Structural<FaceContact> structure;
+  NewRows<FaceContact> rows;
+  Write<ClosestPoint> closest;
+  void operator()() const;
+};
+
+struct bin_tool_faces {
+  ShapedBodies bodies;
+  ContactStiffness material;
+  Read<FacePosition> position;
+  ToolSurfaces tools;
+  Write<ContactIndex> index;
+  Structural<FaceToolContact> structure;
+  NewRows<FaceToolContact> rows;
+  struct Triangles {
+    Write<TriangleRange> range;
+    Write<TriangleLists> lists;
+  };
+  Optional<Triangles> triangles;
+  void operator()() const;
+};
+
+// ---- what they do ---------------------------------------------------------------------------------
+struct ContactFaces {
+  Read<FacePosition> position;
+  Optional<Read<FaceVelocity>> velocity;  // with friction or damping
+};
+
+// What the narrow phases read and write of a row.
+template <class At>
+struct RowColumns {
+  Read<ContactPair<At>> pair;
+  Write<ContactTouches<At>> touches;
+  Write<Activation<At>> activation;
+  Read<ContactLaw<At>> law;
+  Write<PointForce<At>> force;
+  Optional<Write<ElasticSlip<At>>> slip;  // with friction
+};
+
+struct face_contact {
+  ShapedBodies bodies;
+  Read<Clock> clock;
+  ContactFaces faces;
+  RowColumns<FaceContact> columns;
+  Write<ClosestPoint> closest;
+  Optional<Write<FrictionCouple>> couple;
+  Write<ContactSums<Contact>> sums;
+  void operator()(SmallTasks) const;
+};
+
+// What the narrow phases leave for those who look at the rows that touch.
+template <class At>
+struct TouchingRows {
+  Read<ContactPair<At>> pair;
+  Read<ContactTouches<At>> touches;
+  Read<PointForce<At>> force;
+};
+
+struct contact_force {
+  ShapedBodies bodies;
+  Read<ContactIndex> index;
+  struct Pairs {
+    TouchingRows<FaceContact> rows;
+    Read<ClosestPoint> closest;
+    Optional<Read<FrictionCouple>> couple;
+  };
+  Optional<Pairs> pairs;
+  Optional<TouchingRows<FaceToolContact>> tools;
+  Write<FaceForce> face_force;
+  Write<PointLoad> load;
+  Write<ContactForce> node_force;
+  void operator()(Chunk chunk) const;
+};
+
+// ---- whether the run is still sound -----------------------------------------------------------------
+struct contact_health {
+  ShapedBodies bodies;
+  Read<Clock> clock;
+  Read<ContactRules> rules;
+  struct Pairs {
+    Read<ContactPair<FaceContact>> pair;
+    Read<ContactSums<Contact>> sums;
+  };
+  Optional<Pairs> pairs;
+  struct Tools {
+    Read<ContactPair<FaceToolContact>> pair;
+    Read<ContactSums<ToolContact>> sums;
+    Read<ToolProgram> program;
+  };
+  Optional<Tools> tools;
+  Write<Totals> totals;
+  void operator()() const;
+};
+
+}  // namespace pulvis::space

@@ -1,0 +1,91 @@
+#include "systems/space/step.hpp"
+
+#include "components/space/observed.hpp"
+#include "engine/system_list.hpp"
+#include "systems/contact/systems.hpp"
+#include "systems/space/body/systems.hpp"
+#include "systems/space/contact/systems.hpp"
+#include "systems/space/tools/systems.hpp"
+#include "systems/tools/systems.hpp"
+
+namespace pulvis::space {
+namespace {
+
+struct Touches {  // what can touch
+  bool pairs, tools;
+  explicit Touches(const World& w)
+      : pairs(w.has<ContactPair<FaceContact>>()), tools(w.has<ContactPair<FaceToolContact>>()) {}
+  bool any() const { return pairs || tools; }
+};
+
+// On sampled steps, when the forces are known.
+template <class F>
+std::vector<System> observed_in_space(World& w) {
+  SystemList observe(w, When::on_sample);
+
+  // clang-format off
+  observe.add<kinetic_energy>     ("kinetic_energy");
+  observe.add<elastic_energy<F>>  ("elastic_energy");
+  observe.add<plastic_work<F>>    ("plastic_work",      w.has<PlasticStrain<F::points>>());
+  observe.add<hourglass_energy>   ("hourglass_energy",  F::stabilised);
+  observe.add<particle_stress<F>> ("particle_stress",   w.has<ParticleStress>());
+  // clang-format on
+  return observe.taken();
+}
+
+// ---- the order of a step: a newcomer's first page ------------------------------------------------
+// F: how the elements of the scene take their stresses (components/space/formulation.hpp).
+template <class F>
+Steps steps_with(World& w) {
+  const bool plastic = w.has<PlasticStrain<F::points>>();
+  const Touches touches(w);
+  SystemList force(w), move(w);
+
+  // clang-format off
+  force.add<tool_motion>         ("tool_motion",       touches.tools);
+  force.add<skin_check>          ("skin_check",        touches.any());
+  force.add<bin_faces>           ("bin_faces",         touches.pairs);
+  force.add<bin_tool_faces>      ("bin_tool_faces",    touches.tools);
+  force.add<face_contact>        ("face_contact",      touches.pairs);
+  force.add<tool_contact>        ("tool_contact",      touches.tools);
+  force.add<contact_totals>      ("contact_totals",    touches.any());
+  force.add<contact_health>      ("contact_health",    touches.any());
+  force.add<contact_force>       ("contact_force",     touches.any());
+  force.add<elastic_force<F>>    ("elastic_force",     !plastic);
+  force.add<plastic_force<F>>    ("plastic_force",     plastic);
+  force.add<stable_time_step<F>> ("stable_time_step");
+  force.add<tool_reaction>       ("tool_reaction",     touches.tools);
+  force.add<stage_control>       ("stage_control",     w.has<StageEnds>());
+  force.add<tool_servo>          ("tool_servo",        w.has<ToolServos>());
+
+  move.add<integrate>            ("integrate");
+  move.add<contact_surface>      ("contact_surface",   touches.any());
+  move.add<element_health>       ("element_health");
+  move.add<return_health>        ("return_health",     w.has<ReturnResidual>());
+  move.add<advance_clock>        ("advance_clock");
+  // clang-format on
+  return {force.taken(), observed_in_space<F>(w), move.taken()};
+}
+
+template <class F>
+std::vector<System> start_with(World& w) {
+  SystemList start(w);
+  start.add<contact_surface>("contact_surface", Touches(w).any());
+  start.add<stable_time_step<F>>("stable_time_step");
+  start.add<first_time_step>("first_time_step");
+  return start.taken();
+}
+
+Formulation formulation_of(const World& w) { return w.resource<Bodies>().formulation; }
+
+}  // namespace
+
+Steps steps_of(World& w) {
+  return with_hexahedra(formulation_of(w), [&]<class F>(F) { return steps_with<F>(w); });
+}
+
+std::vector<System> start_of(World& w) {
+  return with_hexahedra(formulation_of(w), [&]<class F>(F) { return start_with<F>(w); });
+}
+
+}  // namespace pulvis::space

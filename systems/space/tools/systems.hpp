@@ -1,0 +1,45 @@
+// Systems of the tools in three dimensions. What moves them, and the clock, is that of two dimensions
+// (systems/tools/systems.hpp).
+#pragma once
+
+#include "components/servo.hpp"
+#include "components/space/tools.hpp"
+#include "systems/space/contact/systems.hpp"
+#include "systems/tools/systems.hpp"
+
+namespace pulvis::space {
+
+struct tool_contact {
+  ShapedBodies bodies;
+  Read<Clock> clock;
+  ContactFaces faces;
+  RowColumns<FaceToolContact> columns;
+  ToolSurfaces tools;
+  Read<ToolVelocity> tool_velocity;
+  struct Triangles {
+    Read<TriangleRange> range;
+    Read<TriangleLists> lists;
+  };
+  Optional<Triangles> triangles;
+  Write<ContactSums<ToolContact>> sums;
+  void operator()(SmallTasks) const;
+};
+
+struct tool_reaction {
+  Read<Clock> clock;
+  TouchingRows<FaceToolContact> contacts;
+  Read<ToolVelocity> velocity;
+  Write<ToolForce> tool_force;
+  Write<Totals> totals;
+  void operator()() const;
+};
+
+struct tool_servo {
+  Servos servos;
+  ShapedBodies bodies;
+  TouchingRows<FaceToolContact> rows;
+  Read<ContactLaw<FaceToolContact>> law;
+  void operator()() const;
+};
+
+}  // namespace pulvis::space

@@ -1,0 +1,96 @@
+// tool_contact: narrow phase between particles and rigid tools in three dimensions: the Gauss points of every candidate
+// face against the tool's surface.
+//
+// Stages   tool_projection.hpp -> contact_law.hpp, eight points at a time; one pass with the full stiffness, since a tool
+//          is not sampled
+// Runs     after bin_tool_faces and tool_motion, before contact_force
+// Active   when the scene has tools
+#include "engine/prefetch.hpp"
+#include "systems/space/contact/blocks.hpp"
+#include "systems/space/contact/gauss_points.hpp"
+#include "systems/space/tools/systems.hpp"
+#include "systems/space/tools/tool_projection.hpp"
+
+namespace pulvis::space {
+namespace {
+
+struct ToolPass {
+  static constexpr double share = 1;  // of the stiffness
+  const tool_contact& s;
+  const double* points = s.faces.position.values().data();
+  const double* rates = s.faces.velocity ? s.faces.velocity->values().data() : nullptr;
+
+  bool active(Row<FaceToolContact> row) const {
+    return s.clock->travel >= std::min(s.columns.activation(row, 0), s.columns.activation(row, 1));
+  }
+  void fetch(Row<FaceToolContact> row) const { prefetch(&s.columns.force(row)); }
+  void operator()(Row<FaceToolContact> row, FaceSums& sums) const {
+    const int slot = s.columns.pair(row, 0);
+    const Shape::Face& face = entry(s.bodies.shape_of(slot).faces, s.columns.pair(row, 1));
+    const std::ptrdiff_t own =
+        (s.bodies.first_face(slot) + s.columns.pair(row, 1)) * std::ptrdiff_t{face_numbers};
+    RowMotion motion;
+    for (int half = 0; half < 2; ++half) stand(row, half, points + own, face.size, motion);
+    if (motion.touching == 0) {
+      s.columns.touches(row) = 0;
+      return;
+    }
+    if (rates != nullptr)
+      for (int half = 0; half < 2; ++half)
+        if (motion.touches(half))
+          set_rates(row, sampled_points(rates + own, half), entry(motion.half, half));
+    std::array<VectorLanes, 2> along;
+    act(s.columns, row, face, motion, share, s.clock->dt_before, sums, along);
+  }
+
+ private:
+  // A half that is apart rests until it can touch.
+  void stand(Row<FaceToolContact> row, int half, const double* face, double size,
+             RowMotion& motion) const {
+    double& activation = s.columns.activation(row, half);
+    if (s.clock->travel < activation) return;
+    const Standing standing = project(row, sampled_points(face, half), size);
+    if (any(standing.gap > 0.0)) {
+      entry(motion.half, half) = {standing.gap, standing.normal};
+      motion.touching |= 1U << half;
+      activation = 0;
+    } else {
+      activation = s.clock->travel - FaceSums::greatest(standing.gap);
+    }
+  }
+  Standing project(Row<FaceToolContact> row, const VectorLanes& at, double size) const {
+    const int tool = s.columns.pair(row, 2);
+    const VectorLanes from = at - everywhere(s.tools.position_of(tool));
+    const ToolShapes::Shape& shape = s.tools.shape(tool);
+    const Point normal = s.tools.normal_of(tool);
+    switch (shape.kind) {
+      case ToolShapes::Kind::plane: return on_plane(normal, from);
+      case ToolShapes::Kind::die: return in_die(shape.radius, normal, from);
+      case ToolShapes::Kind::punch: return on_punch(shape.meridian, normal, from, size);
+      case ToolShapes::Kind::mesh: break;
+    }
+    const std::span<const std::int32_t> all(s.triangles->lists->triangles);
+    const std::int32_t first = s.triangles->range(row, 0), end = s.triangles->range(row, 1);
+    return on_mesh(shape.mesh,
+                   all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first)),
+                   from, size);
+  }
+  // Against tools that do not turn.
+  void set_rates(Row<FaceToolContact> row, const VectorLanes& velocity, PointMotion& m) const {
+    const Row<Tool> tool(s.columns.pair(row, 2));
+    const VectorLanes relative =
+        velocity -
+        everywhere({s.tool_velocity(tool, 0), s.tool_velocity(tool, 1), s.tool_velocity(tool, 2)});
+    const Lane closing = dot(relative, m.normal);
+    m.gap_rate = -closing;
+    m.slip = fma(-closing, m.normal, relative);
+  }
+};
+
+}  // namespace
+
+void tool_contact::operator()(SmallTasks) const {
+  for_active_rows<FaceToolContact>(columns.pair.rows(), sums->blocks, ToolPass{*this});
+}
+
+}  // namespace pulvis::space

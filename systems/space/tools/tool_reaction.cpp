@@ -1,0 +1,36 @@
+// tool_reaction: what the particles do to each tool in three dimensions, and the work that the tools have done.
+//
+// Runs     after the narrow phase
+#include <algorithm>
+#include <cmath>
+
+#include "systems/space/tools/systems.hpp"
+
+namespace pulvis::space {
+
+// Work by the trapezoidal rule: forces at both ends of the step, which is what keeps the energy balance of the leapfrog to
+// second order.
+void tool_reaction::operator()() const {
+  const auto power = [&] {
+    double sum = 0;
+    for (int t = 0; t < tool_force.rows(); ++t)
+      for (int k = 0; k < 3; ++k) sum -= tool_force(Row<Tool>(t), k) * velocity(Row<Tool>(t), k);
+    return sum;
+  };
+  const double power_before = power();
+  for (int t = 0; t < tool_force.rows(); ++t)
+    for (int k = 0; k < 3; ++k) tool_force(Row<Tool>(t), k) = 0;
+  for (int r = 0; r < contacts.pair.rows(); ++r) {
+    const Row<FaceToolContact> row(r);
+    if (contacts.touches(row) == 0) continue;
+    const Row<Tool> tool(contacts.pair(row, 2));
+    for (int k = 0; k < 3; ++k)
+      for (int g = 0; g < face_points; ++g)
+        tool_force(tool, k) -= contacts.force(row, face_points * k + g);
+  }
+  const double work = 0.5 * (power_before + power()) * clock->dt_before;
+  totals->external_work += work;
+  totals->largest_work = std::max(totals->largest_work, std::abs(work));
+}
+
+}  // namespace pulvis::space

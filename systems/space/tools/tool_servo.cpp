@@ -1,0 +1,54 @@
+// tool_servo: how fast tools that hold a force move in the next step, from the force that they bear now.
+//
+// Source   systems/tools/servo_motion.hpp
+// Runs     after tool_reaction; tool_motion adds the displacement in the next step
+// Active   when a stage of the scene has a servo
+// Watches  that the force is held when its stage ends
+#include <cmath>
+
+#include "systems/laws/normal_contact.hpp"
+#include "systems/space/tools/systems.hpp"
+#include "systems/tools/servo_motion.hpp"
+
+namespace pulvis::space {
+namespace {
+
+// Of a row's points that press now, as if all pointed in the servo's direction.
+kernels::TouchSums touching_of_row(const tool_servo& s, Row<FaceToolContact> row) {
+  using Law = ContactLaw<FaceToolContact>;
+  const Shape::Face& face =
+      entry(s.bodies.shape_of(s.rows.pair(row, 0)).faces, s.rows.pair(row, 1));
+  const double kappa = s.law(row, Law::stiffness);
+  const double g_s = kernels::stiffening_depth / s.law(row, Law::inv_size);
+  kernels::TouchSums sums;
+  for (int g = 0; g < face_points; ++g) {
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double force = s.rows.force(row, k * face_points + g);
+      square += force * force;
+    }
+    const double weight = entry(face.weight, g), pressure = std::sqrt(square) / weight;
+    if (!(pressure > 0)) continue;
+    sums.stiffness += weight * kappa * kernels::tangent_at(pressure, kappa, g_s);
+    sums.damping += weight * s.law(row, Law::damping);
+  }
+  return sums;
+}
+
+}  // namespace
+
+void tool_servo::operator()() const {
+  drive_tools(servos, [&](int tool) {
+    kernels::TouchSums sums;
+    for (int r = 0; r < rows.pair.rows(); ++r) {
+      const Row<FaceToolContact> row(r);
+      if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
+      const kernels::TouchSums one = touching_of_row(*this, row);
+      sums.stiffness += one.stiffness;
+      sums.damping += one.damping;
+    }
+    return sums;
+  });
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "components/contact.hpp"
+#include "components/servo.hpp"
+#include "engine/access.hpp"
+#include "engine/entry.hpp"
+#include "engine/run_failure.hpp"
+#include "systems/tools/servo_kernel.hpp"
+#include "systems/tools/servo_motion.hpp"
+#include "systems/tools/systems.hpp"
+#include "systems/tools/tool_kernel.hpp"
+
+namespace pulvis {
+namespace {
+
+using Servo = ToolServos::Servo;
+
+double along(const auto& column, Row<Tool> tool, const Point3& direction) {
+  return column(tool, 0) * direction[0] + column(tool, 1) * direction[1] +
+         column(tool, 2) * direction[2];
+}
+void set_along(const auto& column, Row<Tool> tool, const Point3& direction, double value) {
+  for (int k = 0; k < tool_axes; ++k) column(tool, k) = value * entry(direction, k);
+}
+
+// What the tool bears against the way it pushes.
+double borne(const Servo& servo, const Read<ToolForce>& force) {
+  return -along(force, Row<Tool>(servo.tool), servo.direction);
+}
+
+const Servo* servo_of(const ToolServos& servos, int tool, std::size_t stage) {
+  for (const Servo& servo : servos.servos)
+    if (servo.tool == tool && static_cast<std::size_t>(servo.stage) == stage) return &servo;
+  return nullptr;
+}
+
+void check_held(const Servo& servo, const ToolProgram& program, const Clock& clock, double force) {
+  if (!servo.holds_force()) return;
+  if (std::abs(force - servo.force) <= servo.tolerance * std::abs(servo.force)) return;
+  throw RunFailure(fmt::format(
+      "tool_servo: '{}' bears {:.6g} N at the end of stage '{}', step {}, t = {:.6g} s; asked for "
+      "{:.6g} N, allowed: within {:g} of it (stage.servo.tolerance); a longer stage, a higher "
+      "max_speed or a powder that bears more would reach it",
+      entry(program.names, servo.tool), force, entry(program.stages, servo.stage).name, clock.step,
+      clock.time, servo.force, servo.tolerance));
+}
+
+// Asked for now: smoothly from what the tool bore when the stage began.
+double asked_for(const Servo& servo, double at_begin, double since) {
+  const double rise = servo.rate > 0 ? std::abs(servo.force - at_begin) / servo.rate : servo.rise;
+  const double share = since < rise ? kernels::ramp_speed(since / rise) : 1;
+  return at_begin + share * (servo.force - at_begin);
+}
+
+// Speed of the drive's far end along its direction between two times.
+double end_speed(const ToolProgram& program, const Servo& servo, double from, double until) {
+  if (!(until > from)) return 0;
+  const Point3 a = tool_position_at(program, servo.tool, from);
+  const Point3 b = tool_position_at(program, servo.tool, until);
+  return ((b[0] - a[0]) * servo.direction[0] + (b[1] - a[1]) * servo.direction[1] +
+          (b[2] - a[2]) * servo.direction[2]) /
+         (until - from);
+}
+
+// The next step of a tool behind a spring; the velocity that is kept is the one relative to the drive's far end.
+void follow(const Servo& servo, Row<Tool> tool, const Clock& clock, const ToolProgram& program,
+            const Servos::Drive& drive, double bears) {
+  const double before = end_speed(program, servo, clock.time - clock.dt_before, clock.time);
+  const double next = end_speed(program, servo, clock.time, clock.time + clock.dt);
+  const double behind = -along(drive.travel, tool, servo.direction);
+  const double slower = -along(drive.velocity, tool, servo.direction);
+  drive.asked(tool, 0) = servo.stiffness * behind + servo.damping * slower;
+  const double speed =
+      kernels::elastic_speed({servo.mass, servo.stiffness, servo.damping}, before - slower, behind,
+                             next, bears, 0.5 * (clock.dt_before + clock.dt));
+  set_along(drive.velocity, tool, servo.direction, speed - next);
+}
+
+void check_mass(const Servo& servo, const ToolProgram& program, const Clock& clock, double needed) {
+  if (servo.mass >= needed) return;
+  throw RunFailure(fmt::format(
+      "tool_servo: the mass of '{}' behind its drive is {:.4g} kg, step {}, t = {:.6g} s; allowed: "
+      "at least {:.4g} kg with what touches it, or a smaller time step",
+      entry(program.names, servo.tool), servo.mass, clock.step, clock.time, needed));
+}
+
+}  // namespace
+
+void drive_tools(const Servos& s, const Touching& touching) {
+  const auto& [clock, program, force, rules, servos, drive] = s;
+  const std::size_t stage = program->stage_at(clock->time);
+  const bool new_stage = stage != servos->stage;
+  for (int t = 0; t < force.rows(); ++t) {
+    const Row<Tool> tool(t);
+    const Servo* servo = servo_of(*servos, t, stage);
+    const Servo* last = servo_of(*servos, t, servos->stage);
+    if (new_stage && last != nullptr) check_held(*last, *program, *clock, borne(*last, force));
+    if (servo == nullptr) {
+      set_along(drive.velocity, tool, {}, 0), set_along(drive.dragged, tool, {}, 0);
+      continue;
+    }
+    const double bears = borne(*servo, force);
+    if (!servo->holds_force()) {
+      kernels::TouchSums sums = touching(t);
+      sums.stiffness += servo->stiffness;
+      check_mass(*servo, *program, *clock, kernels::min_tool_mass(sums, clock->dt, clock->safety));
+      follow(*servo, tool, *clock, *program, drive, bears);
+      continue;
+    }
+    if (new_stage) drive.asked(tool, 1) = bears;
+    if (new_stage && last == nullptr) drive.mass(tool) = servo->mass;
+    drive.asked(tool, 0) =
+        asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
+
+    const double minimum = kernels::min_tool_mass(touching(t), clock->dt, clock->safety);
+    const kernels::ServoState now =
+        kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
+                            along(drive.dragged, tool, servo->direction)},
+                           std::max(servo->mass, minimum));
+    const kernels::ServoState next = kernels::servo_step(
+        now, drive.asked(tool, 0) - bears, servo->damping * std::sqrt(now.mass / servo->mass),
+        servo->max_speed, 0.5 * (clock->dt_before + clock->dt));
+    drive.mass(tool) = next.mass;
+    set_along(drive.velocity, tool, servo->direction, next.speed);
+    set_along(drive.dragged, tool, servo->direction, next.dragged);
+  }
+  servos->stage = stage;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,165 @@
+// The report of particles in three dimensions: what is drawn of hexahedra, the density along z, the page.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
+
+#include "cli/report/report.hpp"
+#include "cli/report/report_profile.hpp"
+#include "cli/report/report_space_mesh.hpp"
+#include "tests/helpers/synthetic_space_run.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+// n x n x n cells of a cube whose edge is 1, all of one particle.
+SpaceMesh block(int n) {
+  SpaceMesh mesh;
+  const int side = n + 1;
+  for (int i = 0; i < side * side * side; ++i)
+    for (const int k : {i % side, i / side % side, i / side / side})
+      mesh.reference.push_back(static_cast<double>(k) / n);
+  for (int i = 0; i < n * n * n; ++i) {
+    const int first = i % n + side * (i / n % n) + side * side * (i / n / n);
+    for (const int above : {0, side * side})
+      for (const int to : {0, 1, side + 1, side}) mesh.hexahedra.push_back(first + above + to);
+  }
+  mesh.cell_particle.assign(static_cast<std::size_t>(n * n * n), 0);
+  mesh.node_particle.assign(static_cast<std::size_t>(side * side * side), 0);
+  return mesh;
+}
+
+TEST(SpaceMesh, OuterSidesAreThoseOfTheBlock) {
+  EXPECT_EQ(outer_sides(block(3).hexahedra).size(), 6U * 9U);
+}
+
+TEST(SpaceMesh, PyramidsKeepTheSurfaceAndTheMeans) {
+  const SpaceMesh mesh = block(4);
+  const DrawnSpace drawn = DrawnSpace::pyramids(mesh);
+  EXPECT_EQ(drawn.cell_count(), 6U * 16U);
+  EXPECT_EQ(drawn.node_count(), 1U + 98U);  // the centre, and the 5^3 - 3^3 outside
+  double volume = 0;  // by the triangles of the surface, as seen from the origin
+  const auto xyz = drawn.positions(mesh.reference);
+  for (const auto side : drawn.surface()) {
+    std::array<Eigen::Vector3d, 4> at;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto corner = sides_of_hexahedron[static_cast<std::size_t>(side % 6)][k];
+      const auto node = drawn.cells()[8 * static_cast<std::size_t>(side / 6) + corner];
+      at[k] = Eigen::Vector3d::Map(&xyz[3 * static_cast<std::size_t>(node)]);
+    }
+    volume += at[0].dot(at[1].cross(at[2]) + at[2].cross(at[3])) / 6;
+  }
+  EXPECT_NEAR(volume, 1, 1e-12);  // and the faces look outward
+  EXPECT_THAT(drawn.values(std::vector<double>(64, 7.0)),
+              Each(AllOf(::testing::Ge(7 - 1e-12), ::testing::Le(7 + 1e-12))));
+}
+
+TEST(DensityAlongZ, IsOneInAFullRoomAndHalfInOneOfTwiceTheArea) {
+  const SpaceMesh mesh = block(3);
+  for (const double area : {1.0, 2.0})
+    for (const double density : density_along_z(mesh.reference, mesh.hexahedra, area, 7).density)
+      EXPECT_NEAR(density, 1 / area, 1e-12);
+}
+
+TEST(DensityAlongZ, HoldsTheWholeVolume) {
+  SpaceMesh mesh = block(3);
+  for (std::size_t i = 0; i < mesh.reference.size(); i += 3)  // sheared: the volume stays
+    mesh.reference[i + 2] += 0.3 * mesh.reference[i] - 0.2 * mesh.reference[i + 1];
+  const auto [density, edges] = density_along_z(mesh.reference, mesh.hexahedra, 2.0, 11);
+  const double sum = std::accumulate(density.begin(), density.end(), 0.0);
+  EXPECT_NEAR(2.0 * sum * (edges[1] - edges[0]), 1, 1e-12);
+  EXPECT_LT(density.front(), 0.5 * density[5]);  // only a corner reaches down there
+}
+
+class SpaceReportTest : public ::testing::Test {
+ protected:
+  // Kept where the environment names a place: tests/report_in_browser.sh opens what lies there.
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    const char* const kept = std::getenv("PULVIS_KEEP_REPORTS");
+    keep = kept != nullptr;
+    folder = (keep ? fs::path(kept) : fs::temp_directory_path()) /
+             (keep ? test->name() : "pulvis-space-" + std::to_string(getpid()) + test->name());
+    fs::remove_all(folder);
+  }
+  void TearDown() override {
+    if (!keep) fs::remove_all(folder);
+  }
+  std::string report_of(const testing::SyntheticSpaceRun& run) const {
+    testing::record(run, folder);
+    write_report(folder);
+    std::ostringstream text;
+    text << std::ifstream(folder / "report.html").rdbuf();
+    return text.str();
+  }
+  static nlohmann::json head_of(const std::string& page) {
+    const std::string opening = "<script type=\"application/json\" id=\"head\">";
+    const auto begin = page.find(opening) + opening.size();
+    return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  }
+
+  fs::path folder;
+  bool keep = false;
+};
+
+TEST_F(SpaceReportTest, ShowsParticlesInABox) {
+  const testing::SyntheticSpaceRun run;
+  const std::string page = report_of(run);
+  const auto head = head_of(page);
+  EXPECT_EQ(head["mesh"]["dimension"], 3);
+  EXPECT_EQ(head["mesh"]["particles"], 8);
+  EXPECT_EQ(head["mesh"]["cells"], 8 * testing::elements_of_sphere(run));
+  EXPECT_EQ(head["frames"].size(), static_cast<std::size_t>(run.frames));
+  EXPECT_EQ(head["fields"].size(), 4U);  // three of elements, one of particles
+  EXPECT_EQ(head["tools"].size(), 6U);
+  const auto& profile = head["frames"][0]["profile"];
+  EXPECT_EQ(profile["bound"], "walls");
+  double mean = 0;
+  for (const double density : profile["profile"]) mean += density / 20;
+  EXPECT_NEAR(mean, 0.40,
+              0.03);  // balls of 24 squares each have less than pi / 6 = 0.52 of their cubes
+  EXPECT_THAT(page, HasSubstr("twgl"));
+}
+
+TEST_F(SpaceReportTest, RefersTheDensityToTheDieOrThePowder) {
+  testing::SyntheticSpaceRun run;
+  run.die = true;
+  EXPECT_EQ(head_of(report_of(run))["frames"][0]["profile"]["bound"], "die");
+  run.tools = false;
+  EXPECT_EQ(head_of(report_of(run))["frames"][0]["profile"]["bound"], "powder");
+}
+
+// What is to be mailed: 100 particles of 448 elements in 40 frames below 25 MB; sizes go with the frames.
+TEST_F(SpaceReportTest, StaysBelowAQuarterOfItsLimitWithAQuarterOfTheFrames) {
+  testing::SyntheticSpaceRun run{.columns = 5, .layers = 4, .divisions = 4, .rings = 4};
+  run.frames = 10;
+  run.samples_a_frame = 2;
+  const std::string page = report_of(run);
+  EXPECT_LT(page.size(), 25'000'000U / 4);
+  EXPECT_FALSE(head_of(page)["mesh"]["pyramids"]);
+}
+
+TEST_F(SpaceReportTest, StandsInAComparison) {
+  report_of({});
+  write_comparison({folder, folder}, folder / "comparison.html");
+  std::ostringstream text;
+  text << std::ifstream(folder / "comparison.html").rdbuf();
+  EXPECT_THAT(text.str(), HasSubstr("twgl.js 7"));
+  EXPECT_EQ(head_of(text.str())["runs"].size(), 2U);
+}
+
+}  // namespace
+}  // namespace pulvis

@@ -1,0 +1,308 @@
+#include "tests/helpers/synthetic_space_run.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "engine/files/own_files.hpp"
+#include "engine/files/recorder.hpp"
+#include "engine/files/run_folder.hpp"
+
+namespace pulvis::testing {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+using Cube = std::array<int, 3>;
+
+constexpr double duration = 1e-3, yield = 290e6;
+constexpr int die_sides = 24;
+
+int spheres(const SyntheticSpaceRun& run) { return run.columns * run.columns * run.layers; }
+double squeeze(double share) { return 1 - 0.25 * share; }
+
+// One sphere of diameter 2: a cube and rings around it.
+struct Ball {
+  std::vector<Vec3> nodes;
+  std::vector<std::int32_t> hexahedra;
+};
+
+// Of the points of an n x n x n cube, those of its surface; four of them a square, counter-clockwise from outside.
+struct CubeSurface {
+  std::vector<Cube> points;
+  std::vector<std::array<std::int32_t, 4>> squares;
+};
+
+CubeSurface surface_of(int n) {
+  CubeSurface surface;
+  std::map<Cube, std::int32_t> number;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int end = 0; end < 2; ++end)
+      for (int i = 0; i < n * n; ++i) {
+        std::array<std::int32_t, 4> square{};
+        for (int corner = 0; corner < 4; ++corner) {
+          const int du = corner == 1 || corner == 2, dv = corner > 1;
+          Cube at{};
+          at[static_cast<std::size_t>(axis)] = end * n;
+          at[static_cast<std::size_t>((axis + 1) % 3)] = i % n + (end == 1 ? du : dv);
+          at[static_cast<std::size_t>((axis + 2) % 3)] = i / n + (end == 1 ? dv : du);
+          const auto [found, is_new] =
+              number.try_emplace(at, static_cast<std::int32_t>(surface.points.size()));
+          if (is_new) surface.points.push_back(at);
+          square[static_cast<std::size_t>(corner)] = found->second;
+        }
+        surface.squares.push_back(square);
+      }
+  return surface;
+}
+
+Vec3 on_cube(const Cube& at, int n) {
+  return {2.0 * at[0] / n - 1, 2.0 * at[1] / n - 1, 2.0 * at[2] / n - 1};
+}
+
+void add_core(Ball& ball, int n, double half) {
+  const int side = n + 1;
+  for (int i = 0; i < side * side * side; ++i)
+    ball.nodes.push_back(half * on_cube({i % side, i / side % side, i / side / side}, n));
+  for (int i = 0; i < n * n * n; ++i) {
+    const int first = i % n + side * (i / n % n) + side * side * (i / n / n);
+    for (const int above : {0, side * side})
+      for (const int to : {0, 1, side + 1, side}) ball.hexahedra.push_back(first + above + to);
+  }
+}
+
+Ball ball_of(const SyntheticSpaceRun& run) {
+  Ball ball;
+  const int n = run.divisions, side = n + 1;
+  constexpr double half = 0.42;  // of the core's edge
+  add_core(ball, n, half);
+  const CubeSurface surface = surface_of(n);
+  const auto node = [&](int ring, std::int32_t point) {
+    const Cube& at = surface.points[static_cast<std::size_t>(point)];
+    return ring == 0
+               ? at[0] + side * at[1] + side * side * at[2]
+               : static_cast<int>(side * side * side +
+                                  (ring - 1) * static_cast<int>(surface.points.size()) + point);
+  };
+  for (int ring = 1; ring <= run.rings; ++ring) {
+    const double out = static_cast<double>(ring) / run.rings;
+    for (const Cube& at : surface.points) {
+      const Vec3 cube = on_cube(at, n);
+      ball.nodes.emplace_back((1 - out) * half * cube + out * cube.normalized());
+    }
+    for (const auto& square : surface.squares)
+      for (const int r : {ring - 1, ring})
+        for (const auto corner : square) ball.hexahedra.push_back(node(r, corner));
+  }
+  return ball;
+}
+
+Vec3 centre_of(const SyntheticSpaceRun& run, int sphere) {
+  const int c = run.columns;
+  return run.diameter * Vec3(sphere % c + 0.5, sphere / c % c + 0.5, sphere / (c * c) + 0.5);
+}
+
+// Every sphere's mesh is turned; as it is squeezed it gets flat sides.
+Vec3 moved(const Vec3& in_ball, int sphere, double flat) {
+  const Eigen::AngleAxisd turn(1.7 * sphere, Vec3(1, 0.3 * sphere, 0.5).normalized());
+  const Vec3 at = turn * in_ball;
+  const double radius = at.norm(), most = at.cwiseAbs().maxCoeff();
+  return most > 0 ? Vec3(at * (1 + flat * std::min(0.25, radius / most - 1))) : at;
+}
+
+std::vector<double> positions(const SyntheticSpaceRun& run, const Ball& ball, double share) {
+  std::vector<double> xyz;
+  for (int sphere = 0; sphere < spheres(run); ++sphere)
+    for (const Vec3& node : ball.nodes) {
+      Vec3 at = centre_of(run, sphere) + run.diameter / 2 * moved(node, sphere, share);
+      at.z() *= squeeze(share);
+      xyz.insert(xyz.end(), at.begin(), at.end());
+    }
+  return xyz;
+}
+
+// Corners of a piece of the plane across `axis`, seen from the side where it grows (`up`) or falls.
+void add_sheet(ToolFaces& tools, const std::string& name) {
+  const auto first = static_cast<std::int32_t>(tools.points);
+  tools.corners.insert(tools.corners.end(), {first, first + 1, first + 2, first + 3});
+  tools.tool.push_back(static_cast<std::int32_t>(tools.names.size()));
+  tools.names.push_back(name);
+  tools.kinds.emplace_back("plane");
+  tools.points += 4;
+}
+
+void add_die(ToolFaces& tools) {
+  for (int i = 0; i < die_sides; ++i) {
+    const auto at = static_cast<std::int32_t>(tools.points), a = at + 2 * i,
+               b = at + 2 * ((i + 1) % die_sides);
+    tools.corners.insert(tools.corners.end(), {a, a + 1, b + 1, b});
+    tools.tool.push_back(static_cast<std::int32_t>(tools.names.size()));
+  }
+  tools.names.emplace_back("die");
+  tools.kinds.emplace_back("die");
+  tools.points += 2 * die_sides;
+}
+
+ToolFaces tool_faces(const SyntheticSpaceRun& run) {
+  ToolFaces tools;
+  for (const char* name : {"top", "bottom"}) add_sheet(tools, name);
+  if (run.die) {
+    add_die(tools);
+    return tools;
+  }
+  for (const char* name : {"left", "right", "front", "back"}) add_sheet(tools, name);
+  return tools;
+}
+
+std::vector<double> tool_corners(const SyntheticSpaceRun& run, double share) {
+  const double w = run.columns * run.diameter, h = run.layers * run.diameter,
+               top = h * squeeze(share);
+  std::vector<double> xyz{0, 0, top, 0, w, top, w, w, top, w, 0, top,
+                          0, 0, 0,   w, 0, 0,   w, w, 0,   0, w, 0};
+  const auto add = [&](std::initializer_list<double> corners) { xyz.insert(xyz.end(), corners); };
+  if (!run.die) {
+    add({0, 0, 0, 0, w, 0, 0, w, h, 0, 0, h});
+    add({w, 0, 0, w, 0, h, w, w, h, w, w, 0});
+    add({0, 0, 0, 0, 0, h, w, 0, h, w, 0, 0});
+    add({0, w, 0, w, w, 0, w, w, h, 0, w, h});
+    return xyz;
+  }
+  for (int i = 0; i < die_sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / die_sides, r = w / std::numbers::sqrt2;
+    const double x = w / 2 + r * std::cos(angle), y = w / 2 + r * std::sin(angle);
+    add({x, y, 0, x, y, h});
+  }
+  return xyz;
+}
+
+std::vector<ParticleTag> tags_of(const SyntheticSpaceRun& run) {
+  ParticleTag number{"number", "of the particle", {}, {}};
+  ParticleTag material{"material", "position in `names`", {}, {"steel", "copper"}};
+  ParticleTag of_class{"class", "position in `names`", {}, {"ball"}};
+  for (int sphere = 0; sphere < spheres(run); ++sphere) {
+    number.values.push_back(sphere);
+    material.values.push_back((sphere % run.columns + sphere / run.columns) % 2);
+    of_class.values.push_back(0);
+  }
+  return {number, material, of_class};
+}
+
+RunMesh mesh_of(const SyntheticSpaceRun& run, const Ball& ball) {
+  RunMesh mesh;
+  const auto nodes = static_cast<std::int32_t>(ball.nodes.size());
+  for (int sphere = 0; sphere < spheres(run); ++sphere) {
+    mesh.node_particle.insert(mesh.node_particle.end(), ball.nodes.size(), sphere);
+    mesh.cell_particle.insert(mesh.cell_particle.end(), ball.hexahedra.size() / 8, sphere);
+    for (const auto node : ball.hexahedra) mesh.hexahedra.push_back(sphere * nodes + node);
+  }
+  mesh.reference = positions(run, ball, 0);
+  mesh.tags = tags_of(run);
+  if (run.tools) mesh.tool_faces = tool_faces(run);
+  return mesh;
+}
+
+// High towards the flat sides, with a little of each sphere's own.
+std::vector<double> stresses(const SyntheticSpaceRun& run, const Ball& ball, double share) {
+  std::vector<double> values;
+  for (int sphere = 0; sphere < spheres(run); ++sphere)
+    for (std::size_t cell = 0; cell < ball.hexahedra.size() / 8; ++cell) {
+      Vec3 middle = Vec3::Zero();
+      for (std::size_t k = 0; k < 8; ++k)
+        middle += ball.nodes[static_cast<std::size_t>(ball.hexahedra[8 * cell + k])] / 8;
+      const double reach = 0.35 + 0.65 * moved(middle, sphere, 0).cwiseAbs().maxCoeff();
+      values.push_back(yield * share *
+                       std::min(1.2, reach * (1.1 + 0.15 * std::sin(3.7 * sphere))));
+    }
+  return values;
+}
+
+std::vector<FieldInfo> fields(const SyntheticSpaceRun& run) {
+  std::vector<FieldInfo> all{
+      {"position", "m", "position of the node", FieldPlace::node, 3},
+      {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
+      {"pressure", "Pa", "made up", FieldPlace::cell, 1},
+      {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
+      {"coordination", "-", "made up", FieldPlace::particle, 1, true}};
+  if (run.tools) all.push_back({"tools/outline", "m", "made up", FieldPlace::list, 3});
+  return all;
+}
+
+std::vector<std::vector<double>> frame_of(const SyntheticSpaceRun& run, const Ball& ball,
+                                          double share) {
+  const auto stress = stresses(run, ball, share);
+  std::vector<double> pressure, strain, coordination;
+  for (const double value : stress) {
+    pressure.push_back(1.5 * value);
+    strain.push_back(0.3 * share * value / yield);
+  }
+  for (int sphere = 0; sphere < spheres(run); ++sphere) coordination.push_back(3 + sphere % 4);
+  std::vector<std::vector<double>> values{positions(run, ball, share), stress, pressure, strain,
+                                          coordination};
+  if (run.tools) values.push_back(tool_corners(run, share));
+  return values;
+}
+
+std::vector<SeriesInfo> series(const SyntheticSpaceRun& run) {
+  std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy"},
+                                 {"energy/elastic", "J", "elastic energy"},
+                                 {"energy/plastic", "J", "plastic work"}};
+  if (!run.tools) return all;
+  for (const std::string tool : {"top", "bottom"})
+    for (const std::string axis : {"x", "y", "z"}) {
+      all.push_back({"tool/" + tool + "/position_" + axis, "m", "position of the tool"});
+      all.push_back({"tool/" + tool + "/force_" + axis, "N", "force on the tool"});
+    }
+  all.push_back({"relative_density", "-", "solid share of the room"});
+  return all;
+}
+
+std::vector<double> row(const SyntheticSpaceRun& run, double share) {
+  const double area = std::pow(run.columns * run.diameter, 2);
+  const double force = yield * area * share * share * 3, work = 0.3 * force * run.diameter;
+  std::vector<double> values{0.004 * work, 0.2 * work, 0.75 * work};
+  if (!run.tools) return values;
+  const double top = run.layers * run.diameter * squeeze(share);
+  values.insert(values.end(), {0, 0.001 * force, 0, 0.002 * force, top, force});
+  values.insert(values.end(), {0, -0.001 * force, 0, -0.002 * force, 0, -0.95 * force});
+  values.push_back(0.52 / squeeze(share));
+  return values;
+}
+
+void write_summary(const SyntheticSpaceRun& run, const std::filesystem::path& folder) {
+  const nlohmann::ordered_json summary = {{"title", "Synthetic spheres"},
+                                          {"outcome", "done"},
+                                          {"steps", 94000},
+                                          {"elements", spheres(run) * elements_of_sphere(run)},
+                                          {"wall_seconds", 18.34},
+                                          {"relative_density", 0.93}};
+  write_own(folder / "summary.json", role::run, summary.dump(2) + "\n");
+}
+
+}  // namespace
+
+int elements_of_sphere(const SyntheticSpaceRun& run) {
+  const int n = run.divisions;
+  return n * n * n + 6 * n * n * run.rings;
+}
+
+void record(const SyntheticSpaceRun& run, const std::filesystem::path& folder) {
+  open_run_folder(folder, true);
+  const Ball ball = ball_of(run);
+  Recorder recorder(folder, {"0.1.0", "0123abc", "Synthetic spheres", "f00d", 7, 2},
+                    mesh_of(run, ball), series(run), fields(run));
+  const int samples = (run.frames - 1) * run.samples_a_frame;
+  for (int i = 0; i <= samples; ++i) {
+    const double share = static_cast<double>(i) / std::max(1, samples);
+    recorder.sample(duration * share, row(run, share));
+    if (i % run.samples_a_frame == 0)
+      recorder.frame(duration * share, 94 * i, frame_of(run, ball, share));
+  }
+  recorder.finish();
+  write_summary(run, folder);
+}
+
+}  // namespace pulvis::testing

@@ -1,0 +1,130 @@
+// The stable time step of bodies in three dimensions against their exact highest frequency: the eigenvalues of the
+// assembled stiffness, by differences of the internal force.
+#include <gtest/gtest.h>
+
+#include "tests/systems/space/body/blocks.hpp"
+
+namespace pulvis::space {
+namespace {
+
+template <class F>
+Eigen::VectorXd all_forces(Body<F>& body) {
+  body.find_forces();
+  Eigen::VectorXd f(3 * body.nodes());
+  for (int n = 0; n < body.nodes(); ++n) f.segment<3>(3 * n) = body.force(n);
+  return f;
+}
+
+// Central differences: round-off over the step and the third derivative leave 1e-8.
+template <class F>
+double highest_frequency(Body<F>& body) {
+  const double h = 1e-6;
+  const int unknowns = 3 * body.nodes();
+  Eigen::MatrixXd k(unknowns, unknowns);
+  for (int j = 0; j < unknowns; ++j) {
+    const Vector at = body.position(j / 3), step = h * Vector::Unit(j % 3);
+    body.put(j / 3, at + step);
+    const Eigen::VectorXd plus = all_forces(body);
+    body.put(j / 3, at - step);
+    k.col(j) = (all_forces(body) - plus) / (2 * h);
+    body.put(j / 3, at);
+  }
+  Eigen::VectorXd weight(unknowns);
+  for (int i = 0; i < unknowns; ++i)
+    weight[i] = 1 / std::sqrt(1000 * body.shape().nodal_volume[std::size_t(i / 3)]);
+  const Eigen::MatrixXd m = weight.asDiagonal() * k * weight.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes((m + m.transpose()) / 2,
+                                                             Eigen::EigenvaluesOnly);
+  return std::sqrt(modes.eigenvalues().maxCoeff());
+}
+
+// Bound over what is exact: above 1 the run would be unstable.
+template <class F>
+double step_ratio(Body<F>& body) {
+  body.find_forces();
+  body.template run<stable_time_step<F>>();
+  return body.template number<StableTimeStep>(0) * highest_frequency(body) / 2;
+}
+
+Matrix random_stretch(Random& random, double by) {
+  Matrix f = Matrix::Identity();
+  for (int i = 0; i < 9; ++i) f(i / 3, i % 3) += by * random.in(-1, 1);
+  return f;
+}
+
+template <class F>
+class TimeSteps : public testing::Test {};
+using Formulations = testing::Types<OnePoint, EightPoint>;
+TYPED_TEST_SUITE(TimeSteps, Formulations);
+
+Vector random_vector(Random& random) {
+  const double x = random.in(-1, 1), y = random.in(-1, 1);
+  return {x, y, random.in(-1, 1)};
+}
+
+struct Range {
+  double least = 1e9, largest = 0;
+  void add(double ratio) {
+    least = std::min(least, ratio);
+    largest = std::max(largest, ratio);
+  }
+};
+
+// Elements of any form and any Poisson's ratio, deformed by up to `by`, then each node by `shaken`.
+template <class F>
+Range range_of_ratios(double distortion, double by, double shaken) {
+  Range range;
+  Random random(1);
+  for (int i = 0; i < 40; ++i) {
+    const Matrix box =
+        (Vector::Constant(0.65) + 0.35 * random_vector(random)).asDiagonal().toDenseMatrix();
+    const Matrix lean = random_stretch(random, distortion);
+    const Shape shape = block({1, 1, 1}, [&](const Vector& x) {
+      return Vector(lean * box * (x + 0.5 * distortion * random_vector(random)));
+    });
+    const double nu[4] = {0, 0.3, 0.45, 0.499};
+    Body<F> body(shape, material(1e6, nu[i % 4]));
+    const Matrix f = random_stretch(random, by);
+    body.place([&](const Vector& x) { return Vector(f * x + shaken * random_vector(random)); });
+    range.add(step_ratio(body));
+  }
+  return range;
+}
+
+// Never above what is exact; the reference formulation pays for its Gauss points.
+template <class F>
+constexpr double least_ratio = F::stabilised ? 0.65 : 0.45;
+
+TYPED_TEST(TimeSteps, OfAnElementIsStableAndNotFarBelow) {
+  for (const double distortion : {0.0, 0.2, 0.35})
+    for (const double by : {0.0, 0.1, 0.3})
+      for (const double shaken : {0.0, 0.03}) {
+        const Range range = range_of_ratios<TypeParam>(distortion, by, shaken);
+        EXPECT_LT(range.largest, 1 + 1e-6) << distortion << " " << by << " " << shaken;
+        EXPECT_GT(range.least, least_ratio<TypeParam>) << distortion << " " << by << " " << shaken;
+      }
+}
+
+// Undeformed boxes are met exactly where one stretch or all three are the fastest: cubes.
+TEST(TimeStep, OfACubeIsExact) {
+  for (const double nu : {0.0, 0.3, 0.499}) {
+    Body<OnePoint> body(block({1, 1, 1}, [](const Vector& x) { return x; }), material(1e6, nu));
+    EXPECT_NEAR(step_ratio(body), 1, 1e-6) << nu;
+  }
+}
+
+TYPED_TEST(TimeSteps, OfAMeshIsStable) {
+  for (const double nu : {0.0, 0.3, 0.499}) {
+    Body<TypeParam> body(distorted_block({3, 2, 2}, 0.25, 3), material(1e6, nu));
+    Random random(4);
+    body.place([&](const Vector& x) {
+      return Vector(Vector(1, 0.8, 1.1).cwiseProduct(x) + 0.02 * random_vector(random));
+    });
+    const double ratio = step_ratio(body);
+    EXPECT_LT(ratio, 1) << nu;
+    EXPECT_GT(ratio, TypeParam::stabilised ? 0.55 : 0.4) << nu;
+  }
+}
+
+}  // namespace
+}  // namespace pulvis::space

@@ -1,0 +1,377 @@
+// Contact between deformable particles in three dimensions: forces from an energy, momentum, patch test, friction.
+#include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "systems/space/contact/broad_phase.hpp"
+#include "tests/systems/space/contact/touching_bodies.hpp"
+
+namespace pulvis::space {
+namespace {
+
+constexpr double diameter = 10e-3;
+
+const Shape& ball() {
+  static const Shape shape = make_shape(sphere_of(diameter));
+  return shape;
+}
+
+Vec3 random_direction(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  return Vec3(normal(random), normal(random), normal(random)).normalized();
+}
+Rotation random_rotation(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  return Rotation(normal(random), normal(random), normal(random), normal(random)).normalized();
+}
+
+// Two balls that overlap by `depth`, turned at random, nodes of both displaced a little.
+struct TwoBalls : TouchingBodies {
+  explicit TwoBalls(double depth, std::uint64_t seed, double mu = 0)
+      : TwoBalls(depth, std::mt19937_64(seed), mu) {}
+
+ private:
+  TwoBalls(double depth, std::mt19937_64 random, double mu)
+      : TouchingBodies({ball()},
+                       {body_at(Vec3::Zero(), random_rotation(random)),
+                        body_at((diameter - depth) * random_direction(random),
+                                random_rotation(random))},
+                       [mu](Scene& s) { s.contact.friction = mu; }) {
+    std::uniform_real_distribution<double> noise(-2e-5, 2e-5);
+    for (int body = 0; body < 2; ++body)
+      move(body, [&](const Vec3& x) {
+        return Vec3(x + Vec3(noise(random), noise(random), noise(random)));
+      });
+  }
+};
+
+double greatest_nodal_force(TouchingBodies& w) {
+  double greatest = 0;
+  for (int body = 0; body < 2; ++body)
+    for (int n = 0; n < w.surface_nodes(body); ++n)
+      greatest = std::max(greatest, w.force_on(body, n).norm());
+  return greatest;
+}
+
+TEST(SpaceContact, ForceIsMinusTheGradientOfTheEnergy) {
+  TwoBalls w(250e-6, 1);
+  w.update();
+  const double greatest = greatest_nodal_force(w);
+  ASSERT_GT(greatest, 0);
+  int looked_at = 0;
+  for (int body = 0; body < 2; ++body)
+    for (int n = 0; n < w.surface_nodes(body); ++n) {
+      const Vec3 force = w.force_on(body, n);
+      if (force.norm() < 0.1 * greatest) continue;
+      for (int k = 0; k < 3; ++k) {
+        constexpr double h = 1e-7;  // 1e-4 of a face: E'' h^2 and round-off of E both below 1e-6
+        const double x = w.node(body, n, k);
+        w.node(body, n, k) = x + h;
+        w.update();
+        const double above = w.energy();
+        w.node(body, n, k) = x - h;
+        w.update();
+        const double below = w.energy();
+        w.node(body, n, k) = x;
+        EXPECT_NEAR(-(above - below) / (2 * h), force[k], 1e-5 * greatest);
+        ++looked_at;
+      }
+      w.update();
+    }
+  EXPECT_GT(looked_at, 30);
+}
+
+// Action and reaction: the law of momentum and of moment of momentum, also with friction across a gap.
+TEST(SpaceContact, KeepsMomentumAndMoment) {
+  for (const double mu : {0.0, 0.4}) {
+    TwoBalls w(250e-6, 2, mu);
+    std::mt19937_64 random(5);
+    const Vec3 v = 30 * random_direction(random), omega = 3e3 * random_direction(random);
+    w.set_velocity(0, [&](const Vec3& x) { return Vec3(v + omega.cross(x)); });
+    w.world.resource<Clock>().dt_before = 1e-8;
+    for (int step = 0; step < 4; ++step) w.update(step == 0);
+    const double force = w.force_on(0).norm();
+    ASSERT_GT(force, 1e3);
+    EXPECT_LT((w.force_on(0) + w.force_on(1)).norm(), 1e-12 * force);
+    EXPECT_LT((w.moment_on(0) + w.moment_on(1)).norm(), 1e-11 * force * diameter);
+    if (mu > 0) {
+      const Vec3 axis = w.bodies[1].position.normalized();
+      EXPECT_GT(w.force_on(0).cross(axis).norm(), 1e-3 * force);  // there is friction
+    }
+  }
+}
+
+TEST(SpaceContact, PairsOfBothSidesPressAlike) {
+  TwoBalls w(250e-6, 3);
+  w.update();
+  const Vec3 axis = w.bodies[1].position.normalized();
+  EXPECT_LT(w.force_on(0).normalized().dot(axis), -0.99);
+  EXPECT_GT(w.world.resource<Totals>().touching, 4);
+  EXPECT_EQ(w.world.resource<Totals>().unconverged, 0);
+}
+
+// Far off, or after they have parted, nothing acts.
+TEST(SpaceContact, ApartNothingActs) {
+  TwoBalls w(250e-6, 3);
+  w.update();
+  ASSERT_GT(w.force_on(0).norm(), 0);
+  const Vec3 away = 0.1 * w.bodies[1].position;
+  w.move(1, [&](const Vec3& x) { return Vec3(x + away); });
+  w.update(false);
+  EXPECT_EQ(w.energy(), 0);
+  EXPECT_EQ(w.force_on(0).norm(), 0);
+  EXPECT_EQ(w.world.resource<Totals>().touching, 0);
+}
+
+TEST(SpaceContact, SameBitsForAnyNumberOfThreads) {
+  std::mt19937_64 random(11);
+  std::vector<BodySpec> bodies;
+  for (int i = 0; i < 27; ++i)
+    bodies.push_back(body_at(0.97 * diameter * Vec3(i % 3, i / 3 % 3, i / 9), random_rotation(random)));
+  std::vector<std::vector<double>> forces;
+  for (const int threads : {1, 2, 4}) {
+    TouchingBodies w({ball()}, bodies, [](Scene& scene) { scene.contact.friction = 0.3; });
+    w.set_velocity(13, [](const Vec3& x) { return Vec3(Vec3(10, 5, 1) + 100 * Vec3(1, 1, 0).cross(x)); });
+    w.world.resource<Clock>().dt_before = 1e-7;
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      w.update();
+      w.update(false);
+    });
+    const auto& column = w.world.column<ContactForce>();
+    forces.emplace_back(reinterpret_cast<const double*>(column.data()),
+                        reinterpret_cast<const double*>(column.data() + column.bytes()));
+    forces.back().push_back(w.energy());
+    ASSERT_GT(w.energy(), 0);
+  }
+  EXPECT_EQ(forces[0], forces[1]);
+  EXPECT_EQ(forces[0], forces[2]);
+}
+
+// ---- flat blocks ------------------------------------------------------------------------------------------
+// A square of n x n flat faces, z = 0, outward normal along z; nobody is behind its sides.
+Shape flat_square(int n, double width, double thickness) {
+  Shape shape;
+  const auto node = [n](int i, int j) { return j * (n + 1) + i; };
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) shape.nodes.push_back({i * width / n, j * width / n, 0});
+  shape.surface_nodes = static_cast<int>(shape.nodes.size());
+  shape.point_begin = {0};
+  const double size = width / n;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      Shape::Face face;
+      const int corners[4] = {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
+      for (std::size_t p = 0; p < 16; ++p) {
+        const double u = static_cast<double>(p % 4) / 3, v = static_cast<double>(p / 4) / 3;
+        const double share[4] = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+        face.point[p] = shape.surface_points();
+        for (int c = 0; c < 4; ++c)
+          shape.point_terms.push_back({Row<BoundaryNode>(corners[c]), share[c]});
+        shape.point_begin.push_back(static_cast<std::int32_t>(shape.point_terms.size()));
+      }
+      const int number = static_cast<int>(shape.faces.size());
+      face.neighbour = {{{j > 0 ? number - n : -1, 2},
+                         {i < n - 1 ? number + 1 : -1, 3},
+                         {j < n - 1 ? number + n : -1, 0},
+                         {i > 0 ? number - 1 : -1, 1}}};
+      face.size = size;
+      face.stiffness = 1 / thickness;
+      const double weight[4] = {0.17392742256872692869, 0.32607257743127307131,
+                                0.32607257743127307131, 0.17392742256872692869};
+      for (std::size_t g = 0; g < 16; ++g)
+        face.weight[g] = size * size * weight[g % 4] * weight[g / 4];
+      shape.faces.push_back(face);
+    }
+  shape.mean_face_stiffness = 1 / thickness;
+  return shape;
+}
+
+// A uniform pressure crosses meshes that do not match: every node bears its share of the area to 2%.
+TEST(SpaceContact, FlatPatchOverMeshesThatDoNotMatch) {
+  constexpr double width = 12e-3, depth = 20e-6;
+  const int coarse = 3, fine = 5;
+  BodySpec upper = body_at(Vec3(0, width, -depth),
+                           Rotation(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX())));
+  upper.particle = 1;
+  TouchingBodies w({flat_square(coarse, width, 1e-3), flat_square(fine, width, 1e-3)},
+                   {body_at(Vec3::Zero()), upper});
+  w.update();
+  const double force = w.force_on(0).z();
+  ASSERT_LT(force, 0);
+  EXPECT_NEAR(w.force_on(1).z(), -force, 1e-12 * std::abs(force));
+  for (const auto& [body, n] : {std::pair(0, coarse), std::pair(1, fine)})
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) {
+        const auto half = [n = n](int k) { return k == 0 || k == n ? 0.5 : 1.0; };
+        const double expected = std::abs(force) * half(i) * half(j) / (n * n);
+        EXPECT_NEAR(w.force_on(body, j * (n + 1) + i).norm(), expected, 0.02 * expected);
+      }
+}
+
+// ---- which rows there are ----------------------------------------------------------------------------------
+// Every face whose box is within the skin of a face of another particle has a row with that, and nobody else has one.
+TEST(SpaceContact, BroadPhaseAgainstAllPairs) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> in(0, 1);
+  std::vector<BodySpec> bodies;
+  for (int i = 0; i < 20; ++i)
+    bodies.push_back(body_at(4 * diameter * Vec3(in(random), in(random), in(random)),
+                             random_rotation(random)));
+  TouchingBodies w({make_shape(sphere_of(diameter, 2, 1))}, bodies);
+  w.update();
+  const double skin = w.world.resource<ContactIndex>().skin;
+  const Bodies& all = w.world.resource<Bodies>();
+  const double* faces = w.world.column<FacePosition>().values();
+  const auto box = [&](int slot, int face) {
+    return face_box(faces + face_numbers *
+                                (all.slots[static_cast<std::size_t>(slot)].first_control + face));
+  };
+  std::set<std::array<int, 3>> expected, found;
+  const int count = static_cast<int>(w.shape().faces.size());
+  for (int a : all.slot_of_number)
+    for (int b : all.slot_of_number)
+      for (int f = 0; f < count && a != b; ++f)
+        for (int g = 0; g < count; ++g)
+          if (near(box(a, f), box(b, g), skin)) expected.insert({a, f, b});
+  const auto& pair = w.world.column<ContactPair<FaceContact>>();
+  for (std::size_t r = 0; r < pair.table.rows; ++r)
+    found.insert({pair.values()[3 * r], pair.values()[3 * r + 1], pair.values()[3 * r + 2]});
+  EXPECT_GT(expected.size(), 50U);
+  EXPECT_EQ(found, expected);
+}
+
+// ---- friction ------------------------------------------------------------------------------------------------
+ToolSpec floor_plane() {
+  ToolSpec tool;
+  tool.name = "floor";
+  tool.shape = ToolSpec::Shape::plane;
+  return tool;
+}
+
+struct BallOnFloor : TouchingBodies {
+  BallOnFloor(double depth, double mu, const Rotation& rotation)
+      : TouchingBodies({ball()}, {body_at(Vec3(0, 0, diameter / 2 - depth), rotation)},
+                       [mu](Scene& s) {
+                         s.space->tools = {floor_plane()};
+                         s.contact.friction = mu;
+                       }) {
+    world.resource<Clock>().dt_before = 1e-8;
+  }
+  void slide(const Vec3& velocity) {
+    const double dt = world.resource<Clock>().dt_before;
+    set_velocity(0, [&](const Vec3&) { return velocity; });
+    move(0, [&](const Vec3& x) { return Vec3(x + dt * velocity); });
+    update(false);
+  }
+};
+
+TEST(SpaceFriction, IsMuTimesThePressureAgainstTheSlipInEveryDirection) {
+  constexpr double mu = 0.3;
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 8; ++i) {
+    BallOnFloor w(100e-6, mu, random_rotation(random));
+    w.update();
+    const double angle = 2 * std::numbers::pi * i / 8;
+    const Vec3 direction(std::cos(angle), std::sin(angle), 0);
+    for (int step = 0; step < 100; ++step) w.slide(100 * direction);
+    const Vec3 force = w.force_on(0);
+    ASSERT_GT(force.z(), 1e3);
+    EXPECT_LT((force - Vec3(0, 0, force.z()) + mu * force.z() * direction).norm(),
+              1e-9 * force.z());
+  }
+}
+
+TEST(SpaceFriction, SticksLikeASpringBelowThat) {
+  BallOnFloor w(100e-6, 0.5, Rotation::Identity());
+  w.update();
+  const double energy = w.energy(), normal = w.force_on(0).z();
+  double slipped = 0;
+  for (int step = 0; step < 10; ++step) {
+    w.slide(Vec3(0.01, 0, 0));
+    slipped += 0.01 * w.world.resource<Clock>().dt_before;
+  }
+  const double force = -w.force_on(0).x();
+  EXPECT_GT(force, 0);
+  EXPECT_LT(force, 0.01 * normal);
+  EXPECT_NEAR(w.energy() - energy, 0.5 * force * slipped, 1e-3 * force * slipped + 1e-12 * energy);
+}
+
+// Of a path at random: what friction spends in a step is never negative while the pressure stays, and with what its springs
+// keep it is the work against it.
+TEST(SpaceFriction, SpendsWhatIsDoneAgainstIt) {
+  std::mt19937_64 random(9);
+  BallOnFloor w(100e-6, 0.3, random_rotation(random));
+  w.update();
+  const double energy = w.energy(), dt = w.world.resource<Clock>().dt_before;
+  double work = 0, spent = 0;
+  for (int step = 0; step < 300; ++step) {
+    Vec3 velocity = 40 * random_direction(random);
+    velocity.z() = 0;
+    const Vec3 before = w.force_on(0);
+    w.slide(velocity);
+    work -= 0.5 * (before + w.force_on(0)).dot(velocity) * dt;
+    const double now = w.world.resource<Totals>().friction_work;
+    EXPECT_GE(now, spent);
+    spent = now;
+  }
+  EXPECT_GT(spent, 0);
+  EXPECT_NEAR(spent + w.energy() - energy, work, 1e-3 * work);
+}
+
+// A pair that turns as a whole turns its forces, those of friction as well: a quarter turn in many steps, about the normal
+// and across it.
+TEST(SpaceFriction, TurnsWithThePair) {
+  for (const bool about_normal : {true, false}) {
+    TwoBalls w(250e-6, 2, 0.4);
+    Clock& clock = w.world.resource<Clock>();
+    clock.dt_before = 1e-8;
+    w.update();
+    const Vec3 axis = w.bodies[1].position.normalized();
+    w.set_velocity(0, [&](const Vec3&) { return Vec3(20 * axis.unitOrthogonal()); });
+    w.update(false);
+    const Vec3 force = w.force_on(0);
+    ASSERT_GT(force.cross(axis).norm(), 1e-3 * force.norm());
+    constexpr int steps = 400;
+    const double angle = std::numbers::pi / 2 / steps;
+    const Eigen::AngleAxisd turn(angle, about_normal ? axis : Vec3(axis.unitOrthogonal()));
+    for (int step = 0; step < steps; ++step) {
+      for (int body = 0; body < 2; ++body) {
+        w.set_velocity(body, [&](const Vec3& x) { return Vec3((turn * x - x) / clock.dt_before); });
+        w.move(body, [&](const Vec3& x) { return Vec3(turn * x); });
+      }
+      w.update(false);
+    }
+    const Vec3 expected = Eigen::AngleAxisd(angle * steps, turn.axis()) * force;
+    // Of the friction: a step turns its spring to second order.
+    EXPECT_LT((w.force_on(0) - expected).norm(), 0.02 * force.cross(axis).norm());
+  }
+}
+
+// ---- how smooth the surface is ----------------------------------------------------------------------------
+// A ball on a plane bears alike however its mesh is turned: scatter of the force.
+TEST(SpaceContact, BallOnAPlaneBearsAlikeHoweverItsMeshIsTurned) {
+  std::mt19937_64 random(12);
+  double sum = 0, squares = 0;
+  constexpr int turns = 40;
+  for (int i = 0; i < turns; ++i) {
+    BallOnFloor w(100e-6, 0, random_rotation(random));
+    w.update();
+    const double force = w.force_on(0).z();
+    sum += force;
+    squares += force * force;
+  }
+  const double mean = sum / turns;
+  const double rms = std::sqrt(squares / turns - mean * mean) / mean;
+  RecordProperty("rms", std::to_string(rms));
+  EXPECT_LT(rms, 0.03);
+}
+
+}  // namespace
+}  // namespace pulvis::space
