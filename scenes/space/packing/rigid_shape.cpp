@@ -11,6 +11,7 @@
 #include "scenes/space/meshes/star_surface.hpp"
 #include "scenes/space/meshes/stl.hpp"
 #include "scenes/space/meshes/triangle.hpp"
+#include "scenes/space/packing/rigid_contact.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -112,13 +113,13 @@ std::vector<Vec3> directions_of_corners(const StlShape& s) {
   return corners;
 }
 
-// `offset`: 0 at the corners of the cells of a cube, 0.5 in their middles.
-std::vector<Vec3> even_directions(double offset) {
+// At one place of each cell of a cube about the centre: shares of the cell's edges.
+std::vector<Vec3> even_directions(double right, double up) {
   std::vector<Vec3> all;
   for (int side = 0; side < 6; ++side)
     for (int i = 0; i <= samples; ++i)
       for (int k = 0; k <= samples; ++k) {
-        const double u = 2 * (i + offset) / samples - 1, v = 2 * (k + offset) / samples - 1;
+        const double u = 2 * (i + right) / samples - 1, v = 2 * (k + up) / samples - 1;
         const double w = side % 2 == 0 ? 1 : -1;
         const Vec3 d = side < 2 ? Vec3(w, u, v) : side < 4 ? Vec3(v, w, u) : Vec3(u, v, w);
         all.push_back(d / d.norm());
@@ -133,16 +134,21 @@ std::vector<V3> points_along(const StarSurface& surface, const std::vector<Vec3>
   return points;
 }
 
-// How far the surface bulges out between the points: a ball of this radius about each covers it.
-double bulge_of(const StarSurface& surface, const std::vector<V3>& points, double unit) {
-  const SupportTable table(points);
+// How far the surface lies outside of the hull at most, at nine places of each cell; a quarter more, since it is looked at in
+// places. A ball of this radius about each of the hull's points covers it.
+double bulge_of(const StarSurface& surface, const RigidShape& hull, double unit) {
+  const RigidShape point;
   double most = 0;
-  for (const double offset : {0.25, 0.5, 0.75})
-    for (const Vec3& d : even_directions(offset)) {
-      const V3 p = vector_of(surface.point(d) / unit), n = vector_of(surface.normal(d));
-      most = std::max(most, dot(p - table.extreme(n), n));
-    }
-  return most;
+  for (const double right : {0.0, 1.0 / 3, 2.0 / 3})
+    for (const double up : {0.0, 1.0 / 3, 2.0 / 3})
+      for (const Vec3& d : even_directions(right, up)) {
+        const RigidPose here, there{vector_of(surface.point(d) / unit), {}};
+        const RigidPair pair(hull, here, point, there);
+        V3 normal = vector_of(d);
+        const auto touch = pair.touch(std::numeric_limits<double>::max(), normal, 1e-9);
+        if (touch) most = std::max(most, pair.distance(touch->normal));
+      }
+  return 1.25 * most;
 }
 
 // The convex hull: hollows stay empty. Of its corners; of many, or of a smoothed surface, of points on it, with what
@@ -153,12 +159,13 @@ void set_core(const StlShape& s, double unit, RigidShape& rigid) {
   const bool few = directions.size() <= most_corners;
   if (s.smoothing == 0 && few)
     return set_points(points_along(*surface, directions, unit), 0, rigid);
-  const std::vector<Vec3> even = even_directions(0);
+  const std::vector<Vec3> even = even_directions(0, 0);
   if (!few) directions.clear();
   directions.insert(directions.end(), even.begin(), even.end());
   std::vector<V3> points = points_along(*surface, directions, unit);
-  const double bulge = bulge_of(*surface, points, unit);
-  set_points(std::move(points), bulge, rigid);
+  set_points(std::move(points), 0, rigid);
+  rigid.radius = bulge_of(*surface, rigid, unit);
+  rigid.reach += rigid.radius;
 }
 
 double extent_along(const RigidShape& rigid, const V3& n) {
