@@ -4,15 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numbers>
 
 #include "tests/systems/space/body/blocks.hpp"
 
 namespace pulvis::space {
 namespace {
 
-constexpr double length = 32.4e-3, radius = 3.2e-3;
+constexpr double rod_length = 32.4e-3, rod_radius = 3.2e-3;
 
-// A quadrilateral block of the section: n * m cells, corner (u, v) at place(u, v).
+// The cells of a section, put together from blocks of n * m with corner (u, v) at place(u, v).
 struct SectionMesh {
   std::vector<Eigen::Vector2d> nodes;
   std::vector<std::array<int, 4>> cells;
@@ -20,7 +21,8 @@ struct SectionMesh {
 
   int node(const Eigen::Vector2d& x) {
     const auto [at, is_new] = known.try_emplace(
-        {std::lround(x[0] / radius * 1e6), std::lround(x[1] / radius * 1e6)}, int(nodes.size()));
+        {std::lround(x[0] / rod_radius * 1e6), std::lround(x[1] / rod_radius * 1e6)},
+        int(nodes.size()));
     if (is_new) nodes.push_back(x);
     return at->second;
   }
@@ -42,14 +44,14 @@ SectionMesh disc(int n, int rings) {
   const auto core = [](double u, double v) {
     const Eigen::Vector2d square(2 * u - 1, 2 * v - 1);
     const double bulge = 1 + 0.15 * (2 - square.squaredNorm());
-    return Eigen::Vector2d(0.4 * radius * bulge * square);
+    return Eigen::Vector2d(0.4 * rod_radius * bulge * square);
   };
   mesh.add(n, n, core);
   for (int side = 0; side < 4; ++side) {
     const Eigen::Matrix2d turn = Eigen::Rotation2Dd(side * std::numbers::pi / 2).toRotationMatrix();
     mesh.add(rings, n, [&](double r, double v) {
       const double angle = (v - 0.5) * std::numbers::pi / 2;
-      const Eigen::Vector2d rim(radius * std::cos(angle), radius * std::sin(angle));
+      const Eigen::Vector2d rim(rod_radius * std::cos(angle), rod_radius * std::sin(angle));
       return Eigen::Vector2d(turn * ((1 - r) * core(1, v) + r * rim));
     });
   }
@@ -60,7 +62,8 @@ Shape rod(int n, int rings, int layers) {
   const SectionMesh section = disc(n, rings);
   Shape shape;
   for (int k = 0; k <= layers; ++k)
-    for (const auto& x : section.nodes) shape.nodes.push_back({x[0], x[1], length * k / layers});
+    for (const auto& x : section.nodes)
+      shape.nodes.push_back({x[0], x[1], rod_length * k / layers});
   const int a_layer = int(section.nodes.size());
   for (int k = 0; k < layers; ++k)
     for (const auto& c : section.cells) {
@@ -76,10 +79,19 @@ Shape rod(int n, int rings, int layers) {
 }
 
 struct Rod {
-  double length = 0, foot = 0, balance = 0, largest_strain = 0,
-         hourglass = 0;  // m; shares of the energy
-  double stable = 0;
+  double length = 0, foot = 0;        // m
+  double balance = 0, hourglass = 0;  // shares of the energy at the start
 };
+
+void stop_at_wall(World& world) {
+  auto& x = world.column<Position>();
+  auto& v = world.column<Velocity>();
+  for (std::size_t i = 2; i < 3 * x.table.rows; i += 3) {
+    const auto outside = x.lanes()[i] < 0.0;
+    x.lanes()[i] = select(outside, 0.0, x.lanes()[i]);
+    v.lanes()[i] = select(outside, 0.0, v.lanes()[i]);
+  }
+}
 
 template <class F>
 Rod fly(int n, int rings, int layers) {
@@ -102,12 +114,7 @@ Rod fly(int n, int rings, int layers) {
     clock.dt = 0.9 * body.template number<StableTimeStep>(0);
     if (clock.step == 0) start = kinetic();
     body.template run<integrate>();
-    for (int i = 0; i < body.nodes(); ++i)
-      if (body.template number<Position>(i, 2) < 0)
-        for (int l = 0; l < lane_count; ++l) {
-          body.template number<Position>(i, 2, l) = 0;
-          body.template number<Velocity>(i, 2, l) = 0;
-        }
+    stop_at_wall(body.world);
     ++clock.step;
   }
   body.find_forces();
@@ -115,7 +122,7 @@ Rod fly(int n, int rings, int layers) {
   for (int i = 0; i < body.nodes(); ++i) {
     const Vector x = body.position(i);
     end.length = std::max(end.length, x[2]);
-    if (x[2] < 1e-6) end.foot = std::max(end.foot, x.head<2>().norm());
+    end.foot = std::max(end.foot, x.head<2>().norm());
   }
   body.template run<plastic_work<F>>();
   const double stored = body.stored_energy();
@@ -125,25 +132,17 @@ Rod fly(int n, int rings, int layers) {
     spent += body.template number<HourglassWork>(0);
   }
   end.balance = (kinetic() + stored + spent) / start;
-  for (int e = 0; e < body.shape().elements(); ++e)
-    end.largest_strain =
-        std::max(end.largest_strain, body.template number<PlasticStrain<F::points>>(e));
-  end.stable = double(clock.step);
   return end;
 }
 
-template <class F>
-void print(int n, int r, int l) {
-  const Rod rod = fly<F>(n, r, l);
-  std::printf("taylor %d: %d %d %d: L %.3f mm R %.3f mm balance %.4f eps %.2f hg %.4f steps %g\n",
-              F::points, n, r, l, rod.length * 1e3, rod.foot * 1e3, rod.balance, rod.largest_strain,
-              rod.hourglass, rod.stable);
-}
-
-TEST(TaylorRod, P) {
-  print<OnePoint>(4, 3, 30);
-  print<EightPoint>(4, 3, 30);
-  print<OnePoint>(6, 5, 50);
+// The layer of nodes that meets the wall is stopped: its share of the mass, 1/60, is lost to the energy. The rim of the
+// foot lifts off the wall; the literature holds it.
+TEST(TaylorRod, LengthAndFootOfTheLiterature) {
+  const Rod rod = fly<OnePoint>(4, 3, 30);
+  EXPECT_NEAR(rod.length, 21.45e-3, 0.1e-3);
+  EXPECT_NEAR(rod.foot, 7.1e-3, 0.15e-3);
+  EXPECT_NEAR(rod.balance, 1 - 1.0 / 60, 0.01);
+  EXPECT_LT(rod.hourglass, 0.03);
 }
 
 }  // namespace
