@@ -49,8 +49,8 @@ check StaysSmall "${particles[@]}" material
 check ShowsLocalDensitiesAndContactsOfEveryFrame "${particles[@]}" contacts
 check ShowsBondsCracksAndFragmentsOfEveryFrame "${particles[@]}" bonds
 check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
-check compaction "${particles[@]}" material contacts whole near-zero-off
-check lever "${everything[@]}"
+check compaction "${particles[@]}" material contacts whole near-zero-off named
+check lever "${everything[@]}" named
 check ShowsTheCurvesOfARunWithoutFrames has-curves
 
 # What to do about a value beyond its limit: the page has the words of the terminal.
