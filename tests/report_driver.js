@@ -107,9 +107,9 @@ function hidesWhatIsNearZero() {
 
 // Lists have words and symbols: no key of a series or a value stands in one.
 function hasNames() {
-  const heads = [...document.querySelectorAll("#summary th, #quality th")].map(head => head.firstChild.textContent);
+  const heads = [...document.querySelectorAll("#summary th, #quality th")].map(head => head.firstChild?.textContent ?? "");
   const told = [...[...document.querySelectorAll("#curve option")].map(option => option.textContent), ...heads];
-  const keys = told.filter(text => /_|[a-z]\/[a-z]/.test(text));
+  const keys = told.filter(text => /_|[a-z]{3}\/[a-z]{3}/.test(text));
   return told.length > 10 && (keys.length === 0 || keys.join("; "));
 }
 

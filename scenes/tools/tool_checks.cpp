@@ -70,7 +70,7 @@ class ToolChecks {
     const bool wanted = drawn || tool.shape == ToolSpec::Shape::plane;
     if (wanted && !given(path + ".normal"))
       refuse(path, "normal",
-             fmt::format("required key is missing{}, allowed: two numbers [x, y]",
+             fmt::format("required key is missing{}, allowed: two numbers [x, y], not both 0",
                          drawn ? ": it says on which side of the drawn line the powder is" : ""));
     if (!wanted && given(path + ".normal"))
       refuse(path, "normal",

@@ -344,12 +344,12 @@ def test_a_lever_s_film_has_its_frames_and_marks_the_forces(loop, tmp_path):
     run = pulvis.open(loop)
     call("figure", loop, "--animate", "film.gif", "--dpi", "40", cwd=tmp_path)
     with Image.open(tmp_path / "film.gif") as film:
-        assert film.n_frames == len(run.frames)
+        assert film.n_frames == len({frame.time for frame in run.frames})  # the end may be there twice
         looks = []
         for k in range(film.n_frames):
             film.seek(k)
             looks.append(np.asarray(film.convert("RGB"), int))
-    assert all(np.abs(a - b).max() > 60 for a, b in zip(looks, looks[1:-1]))
+    assert all(np.abs(a - b).max() > 60 for a, b in zip(looks, looks[1:]))
     figure, axes = run.plot.animate("solid", tmp_path / "again.gif", dpi=30)
     _, forces = figure.axes
     assert axes.name == "3d" and forces.get_ylabel() == "Force / nN"

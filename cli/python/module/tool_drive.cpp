@@ -123,7 +123,7 @@ ServoView servo_view(Simulation& simulation, const std::string& name) {
   const ToolServos::Servo& servo = require_servo(simulation, name);
   const auto stage = world.resource<ToolProgram>().stage_at(simulation.clock().time);
   const bool holds = static_cast<std::size_t>(servo.stage) == stage;
-  return {holds ? world.column<ServoForce>().values()[2 * servo.tool] : 0,
+  return {world.column<ServoForce>().values()[2 * servo.tool],
           {servo.direction[0], servo.direction[1]},
           holds};
 }

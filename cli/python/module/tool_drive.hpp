@@ -18,7 +18,7 @@ void drive_tool(Simulation& simulation, const std::string& name, const Point& ve
 // Tools that hold a force in some stage.
 std::vector<std::string> servo_names(Simulation& simulation);
 struct ServoView {
-  double asked = 0;    // N, in the last step; 0 in a stage without the servo
+  double asked = 0;    // N, when it held last: series force_asked
   Point direction{};   // in which it pushes: of the present stage, else of its first one
   bool holds = false;  // in the present stage
 };

@@ -278,7 +278,7 @@ class Servo:
 
     @property
     def asked(self) -> float:
-        """Force in N that it asked for in the last step: its ramp, or what it was driven to. 0 in other stages."""
+        """Force in N that it asked for when it held last: its ramp, or what it was driven to."""
         return self._run.servo(self.tool)[0]
 
     @property
