@@ -10,10 +10,11 @@ namespace {
 
 // What both pages are made of; last the panels, each a file of its own that enters itself (panels.js).
 std::vector<std::string> scripts(const char* page) {
-  std::vector<std::string> names{
-      "units.js",    "names.js",    "payload.js",  "save.js",   "chart.js",       "maps.js",      "raster.js",
-      "run.js",      "tags.js",     "field.js",  "field_tools.js", "field_tip.js", "solid.js",
-      "timeline.js", "settings.js", "panels.js", "fits.js",        "words.js",     "tables.js"};
+  std::vector<std::string> names{"units.js", "names.js",    "payload.js",     "save.js",
+                                 "chart.js", "maps.js",     "raster.js",      "run.js",
+                                 "tags.js",  "field.js",    "field_tools.js", "field_tip.js",
+                                 "solid.js", "timeline.js", "settings.js",    "panels.js",
+                                 "fits.js",  "words.js",    "tables.js"};
   for (const auto& panel : report_assets_named("panel_")) names.push_back(panel);
   names.emplace_back(page);
   return names;
