@@ -16,6 +16,7 @@
 #include "scenes/language/source_mark.hpp"
 #include "scenes/language/vec2.hpp"
 #include "scenes/spec/cell_spec.hpp"
+#include "scenes/spec/profile_spec.hpp"
 #include "scenes/spec/results_spec.hpp"
 
 namespace pulvis {
@@ -110,6 +111,7 @@ struct PointsOutline {
   using Mesh = StarMesh;
   std::string file = {};          // CSV, relative to the scene
   std::string unit = {};          // of its numbers, where its header names none
+  std::string layer = {};         // of a drawing, whose outline is meant; empty: all of it
   std::vector<Vec2> points = {};  // m, as the file has them
   double smoothing = 0;           // m, root mean square distance of the curve from the points
   std::optional<double> width =
@@ -245,18 +247,6 @@ struct PackingSpec {
   PackingReached reached = {};
 };
 
-// Relief of a target surface: heights below its crests against x. It repeats, or is made, as far as the
-// powder can come.
-struct ProfileSpec {
-  enum class Kind { flat, triangle, sine, trapezoid, rough, file } kind = Kind::flat;
-  double pitch = 0;               // m, from crest to crest
-  std::optional<double> depth;    // m, from crest to valley; or
-  std::optional<double> ra;       // m, arithmetic mean deviation from the mean line
-  double flat_share = 0.25;       // -, of the pitch, of a trapezoid's crest, and of its valley
-  double correlation_length = 0;  // m, of a rough profile
-  std::string file;               // of a measured one, relative to the scene
-};
-
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
 // the right of its points, a profile below its relief; a constraint touches nothing and holds the nodes of one body that lie in a box, or
 // within a radius of `point`.
@@ -266,14 +256,16 @@ struct ToolSpec {
   std::string name;
   Vec2 point = Vec2::Zero();    // m; of a radial constraint, and of one with a radius: its centre
   bool on_packing = false;      // point.y is the top of the highest packing
-  Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
+  Vec2 normal = Vec2::UnitY();  // unit vector, from a plane or a drawn polyline into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
   std::vector<Vec2> points = {};  // m, polyline; of a profile made from `relief`
-  ProfileSpec relief = {};        // of a profile, whose crests are at the height of `point`
-  double rounding = 0;            // m, radius of a polyline's convex corners
-  int body = 0;                   // of a constraint, in the order of placement
-  Vec2 low = Vec2::Zero();        // m, corners of a constraint's box
+  std::string file = {};          // of a drawn polyline, a measured profile: relative to the scene
+  std::string unit = {}, layer = {};  // of a drawing: its unit, where it names none; what is meant
+  ProfileSpec relief = {};            // of a profile, whose crests are at the height of `point`
+  double rounding = 0;                // m, radius of a polyline's convex corners
+  int body = 0;                       // of a constraint, in the order of placement
+  Vec2 low = Vec2::Zero();            // m, corners of a constraint's box
   Vec2 high = Vec2::Zero();
   std::optional<double> radius = {};  // m, about `point`, instead of the box
   Holds holds = Holds::both;

@@ -1,5 +1,6 @@
 // Declarations of the top level, of what happens to the powder, and of the settings of a run, where they are not those
 // of two dimensions.
+#include "engine/portable_math.hpp"
 #include "scenes/space/keys/declare.hpp"
 
 namespace pulvis::space::language {
@@ -32,7 +33,8 @@ std::vector<Key<BodySpec>> turn_keys() {
             .fallback = value_of("0 deg"),
             .doc = "Turn about `axis`, counter-clockwise where that looks at one."},
            [](BodySpec& spec, const Decoded& value) {
-             spec.rotation = Rotation(Eigen::AngleAxisd(value.number, Vec3::UnitZ()));
+             const double half = value.number / 2;
+             spec.rotation = Rotation(portable::cos(half), 0, 0, portable::sin(half));
            }},
           {{.name = "axis",
             .kind = Kind::direction,
@@ -40,10 +42,10 @@ std::vector<Key<BodySpec>> turn_keys() {
             .needs = "angle",
             .doc = "Direction that the particle is turned about, of any length.",
             .fallback_doc = "`[0, 0, 1]`"},
-           // The key before it has set the angle.
+           // The key before it has set the angle, about z.
            [](BodySpec& spec, const Decoded& value) {
-             spec.rotation = Rotation(
-                 Eigen::AngleAxisd(Eigen::AngleAxisd(spec.rotation).angle(), value.vector3));
+             const Vec3 part = spec.rotation.z() * value.vector3.normalized();
+             spec.rotation = Rotation(spec.rotation.w(), part.x(), part.y(), part.z());
            }}};
 }
 
