@@ -39,11 +39,11 @@
 #include "engine/printable.hpp"
 #include "scenes/build.hpp"
 #include "scenes/keys/scene_reference.hpp"
-#include "scenes/space/keys/space_reference.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/materials/library.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
+#include "scenes/space/keys/space_reference.hpp"
 #include "scenes/study/study_read.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/constraints.hpp"
@@ -264,9 +264,10 @@ void add_check(CLI::App& app, Options& options, ExitCode& code) {
   auto* checks = app.add_subcommand("check", "read and check a scene without running it");
   add_scene(*checks, options, false);
   checks
-      ->add_option("--reference", options.reference,
-                   "print the scene language instead: text or schema, in three dimensions text-3d or "
-                   "schema-3d; or the library of materials")
+      ->add_option(
+          "--reference", options.reference,
+          "print the scene language instead: text or schema, in three dimensions text-3d or "
+          "schema-3d; or the library of materials")
       ->check(CLI::IsMember({"text", "schema", "text-3d", "schema-3d", "materials"}));
   checks->add_flag("--print", options.print,
                    "print the scene whole instead: what it extends, overrides and defaults put in");

@@ -9,6 +9,10 @@
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/packing_file.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/packing/packing_file.hpp"
+#include "scenes/space/packing/place.hpp"
+#include "scenes/space/space_summary.hpp"
 
 namespace pulvis {
 
@@ -28,12 +32,26 @@ std::string packing_summary(const Scene& scene) {
   return text;
 }
 
+namespace {
+
+ExitCode pack_in_space(const Scene& scene, const std::filesystem::path& file) {
+  const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
+  space::check_overlaps(scene, bodies);
+  write_own(file, role::packing, space::packing_text(scene, bodies));
+  tell("{}{}: {}\n", space::packing_summary(scene), file.string(),
+       counted(bodies.size(), "particle"));
+  return ExitCode::done;
+}
+
+}  // namespace
+
 ExitCode pack_scene(const Scene& scene, const std::filesystem::path& file) {
   if (scene.afm)
     throw SceneError({{scene.file.string(), 1, 1, "", "family",
                        "an AFM scene has no particles, allowed: a scene of particles to pack"}});
   require_another(scene.file, file);
   require_own_or_none(file, role::packing);
+  if (scene.space) return pack_in_space(scene, file);
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   write_own(file, role::packing, packing_text(scene, bodies));

@@ -64,7 +64,7 @@ Json materials_json(const Scene& scene) {
   return materials;
 }
 
-Json vector_json(const space::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Json direction_json(const space::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Json space_tools_json(const space::SpaceScene& scene, const World& world) {
   static constexpr const char* shapes[] = {"plane", "die", "punch", "stl"};
@@ -76,7 +76,7 @@ Json space_tools_json(const space::SpaceScene& scene, const World& world) {
     Json tool{{"name", spec.name},
               {"shape", shapes[static_cast<int>(spec.shape)]},
               {"point", {at[0], at[1], at[2]}}};
-    if (spec.shape != space::ToolSpec::Shape::stl) tool["normal"] = vector_json(spec.normal);
+    if (spec.shape != space::ToolSpec::Shape::stl) tool["normal"] = direction_json(spec.normal);
     if (spec.diameter > 0) tool["diameter"] = spec.diameter;
     for (const Vec2& p : spec.profile) tool["profile"].push_back({p.x(), p.y()});
     tool["force"] = {f[0], f[1], f[2]};
@@ -229,8 +229,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
   add_figures(json, results);
   add_quality(json, world, quality);
   json["limits"] = limits_json(scene.limits);
-  json["tools"] =
-      scene.space ? space_tools_json(*scene.space, world) : tools_json(scene, world);
+  json["tools"] = scene.space ? space_tools_json(*scene.space, world) : tools_json(scene, world);
   json["materials"] = materials_json(scene);
   add_stages(json, world);
   add_shear(json, results);

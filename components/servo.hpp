@@ -87,7 +87,7 @@ struct StageEnds {
   };
   std::vector<End> ends;
   Cell cell;
-  std::optional<DieRoom> room = {};  // instead of the cell: of three dimensions
+  std::optional<DieRoom> room = {};    // instead of the cell: of three dimensions
   std::vector<Point3> tools_at_begin;  // m, [tools]: where they stood when the stage began
   double run_end = std::numeric_limits<double>::infinity();  // s: Clock::end from the next step on
   std::size_t stage = static_cast<std::size_t>(-1);

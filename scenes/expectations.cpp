@@ -247,8 +247,8 @@ void Expectations::sample(double time, const Lookup& value) {
 std::vector<Verdict> Expectations::judge(const Results& results,
                                          const std::optional<std::string>& failure, int threads,
                                          const std::function<bool()>& stop) const {
-  return judge([&](const std::string& name) { return value_of(name, scene_, results); }, results.end_time(),
-               failure, threads, stop);
+  return judge([&](const std::string& name) { return value_of(name, scene_, results); },
+               results.end_time(), failure, threads, stop);
 }
 
 std::vector<Verdict> Expectations::judge(const Lookup& figure, double end,

@@ -20,9 +20,11 @@
 #include "scenes/materials/library.hpp"
 #include "scenes/packing/fill_packings.hpp"
 #include "scenes/scene_files.hpp"
+#include "scenes/space/accuracy.hpp"
 #include "scenes/space/checks.hpp"
 #include "scenes/space/keys/tables.hpp"
 #include "scenes/space/packing/fill_packings.hpp"
+#include "scenes/space/plane_keys.hpp"
 #include "scenes/space/read.hpp"
 #include "scenes/spec/flow_laws.hpp"
 #include "scenes/tools/profile.hpp"
@@ -90,8 +92,7 @@ class SceneReader : public SceneTables {
     std::vector<MaterialSpec> materials = SceneTables::read_materials();
     const Array& elements = array_at("material");
     for (std::size_t i = 0; i < materials.size(); ++i)
-      if (const document::Entry* entry =
-              document::find(elements[i].get<Table>(), "damping"))
+      if (const document::Entry* entry = document::find(elements[i].get<Table>(), "damping"))
         tables_.read(schema::material_damping(), entry->value, numbered("material", i) + ".damping",
                      family_, materials[i]);
     return materials;

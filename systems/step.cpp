@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "components/space/shape.hpp"
+#include "engine/system_list.hpp"
 #include "systems/body/systems.hpp"
 #include "systems/cell/systems.hpp"
 #include "systems/contact/systems.hpp"
-#include "engine/system_list.hpp"
 #include "systems/observe/systems.hpp"
 #include "systems/space/step.hpp"
 #include "systems/tools/systems.hpp"

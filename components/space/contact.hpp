@@ -2,7 +2,7 @@
 // face of a particle (the sampled side, 4 x 4 Gauss points) against one other particle or tool. Both particles of a pair
 // sample each other: the contact is unbiased.
 //
-// Pairs, touches, activation and the sums of blocks are those of two dimensions (components/contact.hpp), as are the rules
+// Pairs, touches and the sums of blocks are those of two dimensions (components/contact.hpp), as are the rules
 // and the index of rows (components/run_state.hpp). Bodies::Slot::first_control is a particle's first face.
 #pragma once
 
@@ -55,6 +55,12 @@ struct ContactLaw : Component<At, double, 4> {
     damping,    // Pa s/m; 0 where the scene has none
     inv_size    // 1/m, 1/size of the sampled face
   };
+};
+// Each half of a candidate's points rests by itself: faces touch with a few of their points as a rule.
+template <class At>
+struct Activation : Component<At, double, 2> {
+  static constexpr ComponentInfo info{
+      "activation", "m", "travel of the surfaces from which on a half of the points is active again"};
 };
 template <class At>
 struct PointForce : Component<At, double, 3 * face_points> {

@@ -299,8 +299,8 @@ class Checks {
     for (std::size_t i = 0; i < scene_.stages.size(); ++i) {
       const StageSpec& stage = scene_.stages[i];
       const std::string path = fmt::format("stage[{}]", i);
-      check_stage_kind(stage, stage.moves.size(), stage.servos.size() + (stage.cell ? 1U : 0U), path,
-                       refusal());
+      check_stage_kind(stage, stage.moves.size(), stage.servos.size() + (stage.cell ? 1U : 0U),
+                       path, refusal());
       moves(stage, path);
     }
   }

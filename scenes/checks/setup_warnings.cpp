@@ -40,8 +40,7 @@ std::string too_fast(const Scene& scene, const FastTool& fast, const std::string
       "speed, {:.2g} MPa, "
       "is {:.2g} of what the particles bear; quasi-static is <= {:g}, here up to {:.2g} m/s (a "
       "duration of {:.2g} s)",
-      stage.name, tool, fast.speed,
-      fast.energy / 1e6, fast.share, quasi_static,
+      stage.name, tool, fast.speed, fast.energy / 1e6, fast.share, quasi_static,
       fast.speed * std::sqrt(quasi_static / fast.share),
       stage.duration * std::sqrt(fast.share / quasi_static));
 }

@@ -23,8 +23,7 @@ std::vector<MaterialSpec> SceneTables::read_materials() {
   std::vector<MaterialSpec> materials = read_all(schema::material());
   const Array& elements = array_at("material");
   for (std::size_t i = 0; i < materials.size(); ++i)
-    materials[i].flow =
-        read_flow_law(elements[i].get<document::Table>(), numbered("material", i));
+    materials[i].flow = read_flow_law(elements[i].get<document::Table>(), numbered("material", i));
   return materials;
 }
 

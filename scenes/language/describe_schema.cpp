@@ -79,9 +79,8 @@ Json type_of(const schema::KeyInfo& key) {
     case Kind::vector:
       return vector_type(key);
     case Kind::points:
-      return {{"type", "array"},
-              {"items", list_of(quantity_type(), key.dimensions)},
-              {"minItems", 2}};
+      return {
+          {"type", "array"}, {"items", list_of(quantity_type(), key.dimensions)}, {"minItems", 2}};
     case Kind::phase:
       return {{"anyOf", Json::array({Json{{"const", key.word}}, quantity_type()})}};
     case Kind::number:

@@ -75,13 +75,14 @@ struct KeyInfo {
   std::string name = {};
   std::string formerly = {};  // its name in older scenes, which is refused with the new one
   Kind kind = Kind::text;
-  std::string unit = {};             // SI, of quantities
-  Range range = {};                  // of quantities in the SI unit, of vectors for each component
-  int multiple_of = 1;               // of integers
-  int dimensions = 2;                // of vectors, points, directions and counts
-  std::vector<Choice> choices = {};  // of a number, or a vector's last component: words instead of it
-  std::string word = {};             // Kind::phase: the word that stands instead of a quantity
-  std::string refers_to = {};        // Kind::reference: the table whose names are allowed
+  std::string unit = {};  // SI, of quantities
+  Range range = {};       // of quantities in the SI unit, of vectors for each component
+  int multiple_of = 1;    // of integers
+  int dimensions = 2;     // of vectors, points, directions and counts
+  std::vector<Choice> choices =
+      {};                      // of a number, or a vector's last component: words instead of it
+  std::string word = {};       // Kind::phase: the word that stands instead of a quantity
+  std::string refers_to = {};  // Kind::reference: the table whose names are allowed
   std::optional<document::Value> fallback = {};  // the default
   bool required = false;
   Words only_for = {};      // the table's selector must have one of these values

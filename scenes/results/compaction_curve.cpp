@@ -134,8 +134,8 @@ void CompactionCurve::sample_room(const Results& results) {
   const auto place = [&](const std::string& tool) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      sum += results.value("tool/" + tool + "/position_" + std::string(1, "xyz"[k])) *
-             room_->axis[k];
+      sum +=
+          results.value("tool/" + tool + "/position_" + std::string(1, "xyz"[k])) * room_->axis[k];
     return sum;
   };
   const double bottom = place(bottom_), height = place(top_) - bottom;
@@ -148,9 +148,9 @@ void CompactionCurve::sample_room(const Results& results) {
     for (const char* side : {"left", "right", "front", "back"})
       lateral += 0.25 * height * results.value(std::string("stress/radial_") + side);
   }
-  samples_.push_back({results.value("relative_density"),
-                      results.value("stress/axial_top") * width,
-                      results.value("stress/axial_bottom") * width, lateral, width, height, bottom});
+  samples_.push_back({results.value("relative_density"), results.value("stress/axial_top") * width,
+                      results.value("stress/axial_bottom") * width, lateral, width, height,
+                      bottom});
 }
 
 void CompactionCurve::sample(const Results& results) {

@@ -22,8 +22,8 @@ struct CompactionSample {
   double density = 0;
   // N, towards the tool, in three dimensions N/m: over the die's area by its width; lateral: mean of the walls.
   double top = 0, bottom = 0, lateral = 0;
-  double width = 0, height = 0;             // m
-  double bottom_place = 0;                  // m, of the bottom punch, along the axis
+  double width = 0, height = 0;  // m
+  double bottom_place = 0;       // m, of the bottom punch, along the axis
 
   template <class Bytes>
   void state(Bytes& bytes) {

@@ -96,10 +96,10 @@ CellStress cell_stress(const ElementColumns& columns, std::size_t e, int lane) {
 std::vector<FieldInfo> fields_of(const Scene& scene, const World& world) {
   std::vector<FieldInfo> fields{
       {"position", "m", "of the node", FieldPlace::node, 2},
-             {"velocity", "m/s", "of the node, half a step later", FieldPlace::node, 2},
-             {"effective_stress", "Pa", "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
-             {"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
-             {"stress", "Pa", "Cauchy: xx yy zz xy", FieldPlace::cell, 4}};
+      {"velocity", "m/s", "of the node, half a step later", FieldPlace::node, 2},
+      {"effective_stress", "Pa", "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
+      {"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
+      {"stress", "Pa", "Cauchy: xx yy zz xy", FieldPlace::cell, 4}};
   if (element_columns(world).plastic_strain != nullptr)
     fields.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
@@ -276,9 +276,7 @@ void PlaneParts::append_tool_frame(Fields& fields) const {
   if (!outlines_.empty()) fields.push_back(outlines_.points(world_));
 }
 
-double PlaneParts::volume() const {
-  return particle_area_ * world_.resource<Bodies>().thickness;
-}
+double PlaneParts::volume() const { return particle_area_ * world_.resource<Bodies>().thickness; }
 
 std::vector<double> PlaneParts::momentum() const {
   std::vector<double> sum(3);

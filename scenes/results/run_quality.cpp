@@ -20,8 +20,13 @@ constexpr const char* of_kinetic_energy =
 constexpr const char* of_hourglass =
     "the mesh does not resolve the bending of its elements: take more of them "
     "(accuracy = \"fine\"), or element.formulation = \"four-point\"";
+constexpr const char* of_hourglass_in_space =
+    "the mesh does not resolve the bending of its elements: take more of them "
+    "(accuracy = \"fine\"), or element.formulation = \"eight-point\"";
 constexpr const char* of_projections =
     "outlines turn too sharply for their boundary edges: take more of them (boundary_edges)";
+constexpr const char* of_projections_in_space =
+    "surfaces turn too sharply for their faces: take more of them (particle.mesh.divisions)";
 
 std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
@@ -56,6 +61,19 @@ class Figures {
 
   std::vector<QualityFigure> all;
 };
+
+// What three dimensions know of their contacts.
+void add_contacts_in_space(Figures& figures, const Scene& scene, const Totals& totals,
+                           double penetration) {
+  figures.add("Penetration", "deepest overlap of two surfaces, of the size of a face", penetration,
+              scene.limits.penetration,
+              "take stiffer contacts (contact.stiffness), or smaller faces "
+              "(particle.mesh.divisions)");
+  figures.add("Unconverged projections",
+              "share of the closest points of contacting surfaces that were not found",
+              totals.unconverged_share(), scene.limits.unconverged_projections,
+              of_projections_in_space);
+}
 
 void add_contacts(Figures& figures, const Scene& scene, const ContactFindings& contacts) {
   if (contacts.force_error)
@@ -93,7 +111,10 @@ std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
     figures.add("Hourglass energy",
                 "largest energy of bending inside the elements, plastic work included, of the "
                 "largest internal energy",
-                peaks.hourglass / internal, most_hourglass, of_hourglass);
+                peaks.hourglass / internal, most_hourglass,
+                scene.space ? of_hourglass_in_space : of_hourglass);
+  if (scene.space && world.has<ContactRules>())
+    add_contacts_in_space(figures, scene, totals, peaks.penetration);
   if (!world.has<ContactQuality>()) return figures.all;
   figures.add("Penetration", "deepest overlap of two surfaces, of the length of a boundary edge",
               peaks.penetration, limits.penetration, stiffer(scene, contacts));

@@ -11,6 +11,8 @@
 #include "components/probe.hpp"
 #include "components/run_state.hpp"
 #include "components/solid.hpp"
+#include "components/space/body.hpp"
+#include "components/space/contact.hpp"
 #include "engine/files/xxh3.hpp"
 
 namespace pulvis {
@@ -25,8 +27,12 @@ class StateHash {
     add(clock_.step);
     for (const double time : {clock_.time, clock_.dt_before, clock_.dt}) add(time);
     for (const int slot : bodies_.slot_of_number) add_particle(slot);
-    add_contacts<Contact>([this](int slot) { return number_in(slot); });
-    add_contacts<ToolContact>([](int tool) { return tool; });
+    const auto number = [this](int slot) { return number_in(slot); };
+    const auto itself = [](int tool) { return tool; };
+    add_contacts<Contact>(number, [this](int row) { add_history<Contact>(row); });
+    add_contacts<ToolContact>(itself, [this](int row) { add_history<ToolContact>(row); });
+    add_contacts<FaceContact>(number, [this](int row) { add_slip<FaceContact>(row); });
+    add_contacts<FaceToolContact>(itself, [this](int row) { add_slip<FaceToolContact>(row); });
     return hash_.value();
   }
 
@@ -44,6 +50,13 @@ class StateHash {
     add_rows<PlasticStrain<1>>(slot);
     add_rows<PlasticStrain<4>>(slot);
     add_rows<PlasticHourglass>(slot);
+    add_rows<space::Position>(slot);
+    add_rows<space::Velocity>(slot);
+    add_rows<space::PlasticMetric<1>>(slot);
+    add_rows<space::PlasticMetric<8>>(slot);
+    add_rows<space::PlasticStrain<1>>(slot);
+    add_rows<space::PlasticStrain<8>>(slot);
+    add_rows<space::PlasticHourglass>(slot);
   }
 
   // What a laned column holds of the particle in `slot`, row by row; nothing where the scene has none.
@@ -60,8 +73,9 @@ class StateHash {
 
   int number_in(int slot) const { return bodies_.slots[static_cast<std::size_t>(slot)].number; }
 
-  template <class At, class Partner>
-  void add_contacts(const Partner& partner) {
+  // `add_row`: what a row that touches carries on.
+  template <class At, class Partner, class AddRow>
+  void add_contacts(const Partner& partner, const AddRow& add_row) {
     if (!world_.has<ContactPair<At>>()) return;
     const auto& pair = world_.column<ContactPair<At>>();
     const auto& touches = world_.column<ContactTouches<At>>();
@@ -74,12 +88,23 @@ class StateHash {
     std::ranges::sort(touching);
     for (const auto& [number, edge, other, row] : touching) {
       add(std::array{number, edge, other});
-      add_points<ElasticSlip<At>>(row);
-      add_points<SlipWeakening<At>>(row);
-      if (!world_.has<BondedPoints<At>>()) continue;
-      add(world_.column<BondedPoints<At>>().values()[row]);
-      add_points<BondDamage<At>>(row);
+      add_row(row);
     }
+  }
+  template <class At>
+  void add_history(int row) {
+    add_points<ElasticSlip<At>>(row);
+    add_points<SlipWeakening<At>>(row);
+    if (!world_.has<BondedPoints<At>>()) return;
+    add(world_.column<BondedPoints<At>>().values()[row]);
+    add_points<BondDamage<At>>(row);
+  }
+  template <class At>
+  void add_slip(int row) {
+    using Slip = space::ElasticSlip<At>;
+    if (!world_.has<Slip>()) return;
+    for (int i = 0; i < Slip::count; ++i)
+      add(world_.column<Slip>().values()[std::ptrdiff_t{row} * Slip::count + i]);
   }
   template <class C>
   void add_points(int row) {

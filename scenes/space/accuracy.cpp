@@ -1,9 +1,6 @@
-// The meshes that `accuracy` stands for. What they are good for: docs/accuracy.md.
-#include <fmt/format.h>
+#include "scenes/space/accuracy.hpp"
 
 #include <array>
-
-#include "scenes/space/read.hpp"
 
 namespace pulvis::space {
 namespace {

@@ -5,8 +5,9 @@
 #include "components/run_state.hpp"
 #include "scenes/space/contact_columns.hpp"
 #include "scenes/space/layout.hpp"
-#include "scenes/space/overlaps.hpp"
+#include "scenes/space/packing/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
+#include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/tools/drives.hpp"
 #include "scenes/space/travel.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -49,6 +50,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   world->emplace<ParticleClasses>(std::move(layout.classes));
   add_tools(*world, scene);
   add_contact(*world, scene, bodies);
+  add_observed_stress(*world, scene);
   return world;
 }
 

@@ -8,6 +8,7 @@
 
 #include "scenes/checks/process_checks.hpp"
 #include "scenes/space/shape_checks.hpp"
+#include "scenes/space/stl_files.hpp"
 #include "scenes/space/tool_checks.hpp"
 #include "scenes/spec/space_scene.hpp"
 
@@ -30,7 +31,9 @@ bool is_lattice_kind(const PackingSpec& packing) {
 std::int64_t most_particles(const PackingSpec& packing) {
   const std::int64_t cells = std::int64_t{packing.cells[0]} * packing.cells[1] * packing.cells[2];
   using Kind = PackingSpec::Kind;
-  return cells * (packing.kind == Kind::body_centred ? 2 : packing.kind == Kind::face_centred ? 4 : 1);
+  return cells * (packing.kind == Kind::body_centred   ? 2
+                  : packing.kind == Kind::face_centred ? 4
+                                                       : 1);
 }
 
 // Over the diameter of spheres that touch.
@@ -48,6 +51,7 @@ class SpaceChecks {
   void run() {
     something_is_there();
     check_materials(scene_, refusal());
+    read_stl_files(scene_, refusal());
     for (std::size_t i = 0; i < space_.particles.size(); ++i)
       check_shape(space_.particles[i].shape, fmt::format("particle[{}]", i), refusal());
     counts();

@@ -107,7 +107,7 @@ void add_rows(World& world, const Touching& touching) {
   world.add_table<At>(std::size_t{0});
   world.add<ContactPair<At>>();
   world.add<ContactTouches<At>>();
-  world.add<ActivationTravel<At>>();
+  world.add<Activation<At>>();
   world.add<ContactLaw<At>>();
   world.add<PointForce<At>>();
   if (touching.friction) world.add<ElasticSlip<At>>();

@@ -1,10 +1,10 @@
-// What a scene says that has no meaning in three dimensions, though it has one in two.
+#include "scenes/space/plane_keys.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "scenes/space/keys/tables.hpp"
-#include "scenes/space/read.hpp"
 
 namespace pulvis::space {
 namespace {

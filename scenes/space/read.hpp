@@ -9,13 +9,6 @@
 
 namespace pulvis::space {
 
-// Refuses keys, tables and words that two dimensions have and three have not, and a `dimension` that comes from an
-// expression.
-void refuse_keys_of_the_plane(const document::Table& root, Problems& problems);
-
-// Writes the meshes' counts that `accuracy` stands for.
-void fill_meshes(document::Table& root, Problems& problems);
-
 // `origins`: where every key of it is written.
 Scene read_tree(const document::Table& root, const std::filesystem::path& file, Problems& problems,
                 schema::Origins& origins);

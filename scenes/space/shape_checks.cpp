@@ -16,10 +16,11 @@ void check_sizes(const StlShape&, const std::string&, const Refuse&) {}  // when
 void check_sizes(const CylinderShape& cylinder, const std::string& path, const Refuse& refuse) {
   const double most = std::min(cylinder.diameter, cylinder.height) / 2;
   if (cylinder.rounding > most)
-    refuse(path + ".rounding",
-           fmt::format("{:g} m is more than half of the diameter or of the height, allowed: <= {:g} "
-                       "m",
-                       cylinder.rounding, most));
+    refuse(
+        path + ".rounding",
+        fmt::format("{:g} m is more than half of the diameter or of the height, allowed: <= {:g} "
+                    "m",
+                    cylinder.rounding, most));
 }
 
 // m, least width of the directions that the corners spread in; 0: they lie in one plane.

@@ -16,7 +16,8 @@ namespace {
 
 // Of a compacted powder: rows for all that is nearer than the skin, from both sides.
 constexpr double rows_of_a_face = 2;
-constexpr std::uint64_t copies_in_flight = 3;  // of a frame: gathered, into the file, in the journal
+constexpr std::uint64_t copies_in_flight =
+    3;  // of a frame: gathered, into the file, in the journal
 
 template <class... C>
 constexpr std::uint64_t size_of_columns() {

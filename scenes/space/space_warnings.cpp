@@ -13,8 +13,7 @@ FastTool fastest_in_space(const Scene& scene) {
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (const MoveSpec& move : scene.space->moves[s]) {
       const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(move.tool)];
-      const double speed =
-          move.displacement.norm() / (scene.stages[s].duration * (1 - move.ramp));
+      const double speed = move.displacement.norm() / (scene.stages[s].duration * (1 - move.ramp));
       const bool leaves = has_face(tool) && move.displacement.dot(tool.normal) < 0;
       if (speed > fast.speed && !leaves)
         fast = fast_tool(scene, static_cast<int>(s), move.tool, speed);

@@ -39,18 +39,21 @@ class ToolsInSpace {
   void profile(const ToolSpec& tool, const std::string& path) {
     if (tool.profile.empty()) return;
     if (tool.profile.front().x() != 0)
-      return refuse_(path, fmt::format("begins {:g} m from the axis, allowed: a first point [\"0 m\", "
-                                       "..]",
-                                       tool.profile.front().x()));
+      return refuse_(path,
+                     fmt::format("begins {:g} m from the axis, allowed: a first point [\"0 m\", "
+                                 "..]",
+                                 tool.profile.front().x()));
     for (std::size_t i = 1; i < tool.profile.size(); ++i)
       if (!(tool.profile[i].x() > tool.profile[i - 1].x()))
-        return refuse_(path, fmt::format("point {} is not farther from the axis than the one before "
-                                         "it, allowed: growing distances",
-                                         i));
+        return refuse_(path,
+                       fmt::format("point {} is not farther from the axis than the one before "
+                                   "it, allowed: growing distances",
+                                   i));
     const double end = tool.profile.back().x(), radius = tool.diameter / 2;
     if (std::abs(end - radius) > 1e-9 * radius)
-      refuse_(path, fmt::format("ends {:g} m from the axis, allowed: at half of the diameter, {:g} m",
-                                end, radius));
+      refuse_(path,
+              fmt::format("ends {:g} m from the axis, allowed: at half of the diameter, {:g} m",
+                          end, radius));
   }
 
   void moves(const std::vector<MoveSpec>& moves, const std::string& stage) {
@@ -86,10 +89,11 @@ class ToolsInSpace {
       for (const MoveSpec& move : space_.moves[stage])
         if (move.tool == servo.tool &&
             std::abs(move.displacement.dot(direction)) > 1e-9 * move.displacement.norm())
-          refuse_(path + ".tool",
-                  fmt::format("'{}' is moved along its servo's direction in the same stage, allowed: "
-                              "a move across it",
-                              name_of(servo.tool)));
+          refuse_(
+              path + ".tool",
+              fmt::format("'{}' is moved along its servo's direction in the same stage, allowed: "
+                          "a move across it",
+                          name_of(servo.tool)));
     }
   }
 

@@ -13,7 +13,8 @@
 namespace pulvis::space {
 namespace {
 
-constexpr double too_dense = 1.5;  // -, beyond it a scene is refused; soft elastic solids stand less
+constexpr double too_dense =
+    1.5;  // -, beyond it a scene is refused; soft elastic solids stand less
 
 using Places = std::vector<Vec3>;  // of the tools
 
@@ -47,8 +48,8 @@ double share_until_full(double volume, const DieRoom& room, const Places& places
   return high;
 }
 
-FullDensity reached_by(const std::vector<MoveSpec>& moves, const DieRoom& room, const Places& places,
-                       int stage, double volume) {
+FullDensity reached_by(const std::vector<MoveSpec>& moves, const DieRoom& room,
+                       const Places& places, int stage, double volume) {
   const auto farthest = std::ranges::max_element(
       moves, {}, [](const MoveSpec& move) { return move.displacement.norm(); });
   FullDensity full;
@@ -121,11 +122,11 @@ void check_travel(const Scene& scene, const std::vector<BodySpec>& bodies) {
   const std::vector<MoveSpec>& moves = scene.space->moves[static_cast<std::size_t>(full->stage)];
   for (std::size_t m = 0; m < moves.size(); ++m) {
     if (moves[m].tool != full->tool) continue;
-    throw SceneError({{scene.file_of(moves[m].mark).string(), moves[m].mark.line,
-                       moves[m].mark.column, "",
-                       fmt::format("stage[{}].move[{}].displacement", full->stage, m),
-                       fmt::format("{}, allowed: a travel of up to some {:.4g} m",
-                                   told(scene, *full), full->until_full)}});
+    throw SceneError(
+        {{scene.file_of(moves[m].mark).string(), moves[m].mark.line, moves[m].mark.column, "",
+          fmt::format("stage[{}].move[{}].displacement", full->stage, m),
+          fmt::format("{}, allowed: a travel of up to some {:.4g} m", told(scene, *full),
+                      full->until_full)}});
   }
 }
 

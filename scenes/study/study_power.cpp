@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scenes/keys/tables.hpp"
+#include "scenes/space/keys/tables.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/let/dimension.hpp"
 
@@ -119,12 +120,14 @@ std::string unit_of_varied(const std::vector<StudyRun>& runs, const std::string&
   return "-";
 }
 
-std::string unit_of_key(const std::string& path) {
+namespace {
+
+const schema::KeyInfo* key_at(const std::string& path, const schema::Language& language) {
   const std::vector<std::string> words = words_of_path(path);
   const std::vector<std::string> above(words.begin(), words.end() - 1);
   const schema::KeyInfo* found = nullptr;
   std::size_t longest = 0;
-  for (const schema::TableView& table : schema::scene_language()) {
+  for (const schema::TableView& table : language) {
     const std::string& name = table.info.path;
     if (name.size() < longest || (name.empty() ? !above.empty() : !leads_to(above, name))) continue;
     const schema::KeyInfo* key = schema::find_key(table, words.back());
@@ -132,6 +135,15 @@ std::string unit_of_key(const std::string& path) {
     found = key;
     longest = name.size();
   }
+  return found;
+}
+
+}  // namespace
+
+// A key that both dimensions have has one unit.
+std::string unit_of_key(const std::string& path) {
+  const schema::KeyInfo* found = key_at(path, schema::scene_language());
+  if (found == nullptr) found = key_at(path, space::scene_language());
   return found == nullptr || found->unit.empty() ? "-" : found->unit;
 }
 

@@ -1,8 +1,8 @@
 #include "systems/space/step.hpp"
 
 #include "components/space/observed.hpp"
-#include "systems/contact/systems.hpp"
 #include "engine/system_list.hpp"
+#include "systems/contact/systems.hpp"
 #include "systems/space/body/systems.hpp"
 #include "systems/space/contact/systems.hpp"
 #include "systems/space/tools/systems.hpp"

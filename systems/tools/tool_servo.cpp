@@ -29,9 +29,8 @@ kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
 }  // namespace
 
 void tool_servo::operator()() const {
-  drive_tools(servos, [&](int tool) {
-    return touching(tool, rows, law, servos.rules->stiffest_weld());
-  });
+  drive_tools(servos,
+              [&](int tool) { return touching(tool, rows, law, servos.rules->stiffest_weld()); });
 }
 
 }  // namespace pulvis

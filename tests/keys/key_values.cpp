@@ -87,6 +87,13 @@ Value list_of(const KeyInfo& key, const Value& first, const Value& last) {
   return {std::move(array), {}};
 }
 
+std::vector<Value> directions_for(const KeyInfo& key) {
+  std::vector<Value> directions;
+  for (const auto& [first, last] : {std::pair{0.6, 0.8}, {0.0, 1.0}, {1.0, 0.0}})
+    directions.push_back(list_of(key, {first, {}}, {last, {}}));
+  return directions;
+}
+
 std::vector<Value> names_of(const std::string& table, const Table& root) {
   std::vector<Value> names;
   const document::Entry* entry = document::find(root, table);
@@ -137,8 +144,7 @@ std::vector<Value> values_for(const KeyInfo& key, const schema::TableView& view,
       values.push_back({!key.fallback || !key.fallback->get<bool>(), {}});
       break;
     case Kind::direction:
-      values = {list_of(key, {0.6, {}}, {0.8, {}}), list_of(key, {0.0, {}}, {1.0, {}}),
-                list_of(key, {1.0, {}}, {0.0, {}})};
+      values = directions_for(key);
       break;
     case Kind::text:
       values.push_back({std::string("générée \"ici\""), {}});

@@ -19,6 +19,9 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
+#include "scenes/space/keys/tables.hpp"
+#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/packing/place.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "scenes/study/declare_study.hpp"
 #include "scenes/study/study_read.hpp"
@@ -35,25 +38,29 @@ class Bases {
  public:
   const fs::path folder =
       fs::temp_directory_path() / ("pulvis-keys-of-scenes-" + std::to_string(getpid()));
+  const fs::path plane = folder / "plane", space = folder / "space";
 
   Bases() {
-    fs::copy(fs::path(paths::source_dir()) / "tests" / "keys" / "scenes", folder,
-             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-    const LoadedScene loaded = load_scene(folder / "cell.toml");
+    fs::create_directories(folder);
+    const fs::path given = fs::path(paths::source_dir()) / "tests" / "keys";
+    for (const auto& [from, to] : {std::pair{"scenes", plane}, {"scenes-3d", space}})
+      fs::copy(given / from, to,
+               fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    const LoadedScene loaded = load_scene(plane / "cell.toml");
     Simulation simulation(loaded.scene);
     simulation.run_until(loaded.scene.stages.front().duration);
     CheckpointInfo info;
     info.powder_hash = fmt::format("{:016x}", loaded.powder_hash);
-    write_state_file(folder / "data" / "state-press.h5", info, simulation.world());
+    write_state_file(plane / "data" / "state-press.h5", info, simulation.world());
   }
   Bases(const Bases&) = delete;
   Bases& operator=(const Bases&) = delete;
   ~Bases() { fs::remove_all(folder); }
 };
 
-const fs::path& bases() {
+const Bases& bases() {
   static const Bases made;
-  return made.folder;
+  return made;
 }
 
 // What `pulvis check` says of a scene of this text among the bases.
@@ -62,17 +69,40 @@ std::string fault_of_scene(const std::string& text, const fs::path& folder) {
     const Scene scene = load_scene_text(text, folder / "case.toml").scene;
     if (scene.afm)
       build_afm(scene);
+    else if (scene.space)
+      space::check_overlaps(scene, space::place_bodies(scene));
     else
       check_overlaps(scene, place_bodies(scene));
   });
 }
 
 const Plan& plan() {
-  static const Plan made = plan_or_fault(schema::scene_language(), bases(), fault_of_scene);
+  static const Plan made = plan_or_fault(schema::scene_language(), bases().plane, fault_of_scene);
+  return made;
+}
+
+const Plan& plan_in_space() {
+  static const Plan made = plan_or_fault(space::scene_language(), bases().space, fault_of_scene);
   return made;
 }
 
 TEST(KeysOfScenes, AreAllUsed) { expect_all_used(plan(), "scene", "tests/keys/scenes"); }
+
+TEST(KeysOfScenes, AreAllUsedInSpace) {
+  expect_all_used(plan_in_space(), "scene in three dimensions", "tests/keys/scenes-3d");
+}
+
+const std::vector<Case>& all_cases() {
+  static const std::vector<Case> all = [] {
+    std::vector<Case> cases = plan().cases;
+    for (Case one : plan_in_space().cases) {
+      one.name = "space_" + one.name;
+      cases.push_back(std::move(one));
+    }
+    return cases;
+  }();
+  return all;
+}
 
 std::string kind_of(const Scene& scene) {
   if (!scene.afm) return scene.bonds.empty() ? "powder" : "bonds";
@@ -88,7 +118,8 @@ const std::set<std::string>& drawn() {
   static const std::set<std::string> names = [] {
     std::map<std::string, std::string> first;
     for (const Case& one : plan().cases)
-      first.try_emplace(kind_of(load_scene_text(one.text, bases() / "case.toml").scene), one.name);
+      first.try_emplace(kind_of(load_scene_text(one.text, bases().plane / "case.toml").scene),
+                        one.name);
     std::set<std::string> all;
     for (const auto& [kind, name] : first) all.insert(name);
     return all;
@@ -102,7 +133,7 @@ class SceneKeys : public ProgramTest, public ::testing::WithParamInterface<Case>
 
   void SetUp() override {
     ProgramTest::SetUp();
-    fs::copy(bases(), place / sources, fs::copy_options::recursive);
+    fs::copy(GetParam().base.parent_path(), place / sources, fs::copy_options::recursive);
     std::ofstream(place / sources / "case.toml") << GetParam().text;
   }
 
@@ -199,7 +230,7 @@ TEST_P(SceneKeys, StandAloneBesideASavedStudy) {
   EXPECT_EQ(saved.runs.front().hash, given.hash);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, SceneKeys, ::testing::ValuesIn(plan().cases),
+INSTANTIATE_TEST_SUITE_P(Of, SceneKeys, ::testing::ValuesIn(all_cases()),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -14,9 +14,9 @@
 #include "scenes/keys/tables.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/read.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/space/space_warnings.hpp"
-#include "scenes/read.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis::python {

@@ -14,8 +14,9 @@ void emplace_shape(ParticleSpec& particle) {
 // The first key of a particle, its words in this order: the keys after it find the shape they belong to.
 void choose_shape(ParticleSpec& particle, const Decoded& value) {
   constexpr void (*choices[])(ParticleSpec&) = {
-      emplace_shape<SphereShape>,   emplace_shape<EllipsoidShape>,  emplace_shape<SuperquadricShape>,
-      emplace_shape<CylinderShape>, emplace_shape<PolyhedronShape>, emplace_shape<StlShape>};
+      emplace_shape<SphereShape>,       emplace_shape<EllipsoidShape>,
+      emplace_shape<SuperquadricShape>, emplace_shape<CylinderShape>,
+      emplace_shape<PolyhedronShape>,   emplace_shape<StlShape>};
   choices[value.index](particle);
 }
 
@@ -64,8 +65,9 @@ std::vector<Key<ParticleSpec>> class_keys() {
                         {"superquadric", "between an ellipsoid and a box, by its exponents"},
                         {"cylinder", "along its z axis, with rounded rims: tablets, pellets"},
                         {"polyhedron", "the convex hull of its corners, edges rounded"},
-                        {"stl", "a closed surface from a file; its centre of volume must see all "
-                                "of it"}},
+                        {"stl",
+                         "a closed surface from a file; its centre of volume must see all "
+                         "of it"}},
             .required = true,
             .doc = "Shape of the particle."},
            choose_shape},
@@ -85,13 +87,15 @@ std::vector<Key<ParticleSpec>> class_keys() {
 std::vector<Key<ParticleSpec>> size_keys_of_shapes() {
   Key<ParticleSpec> diameter = length_key(
       "diameter", within(smallest_size, largest_size), {"sphere", "cylinder", "stl"},
-      "Of a ball or cylinder; of an STL surface that of the ball of the same volume, to which it is "
+      "Of a ball or cylinder; of an STL surface that of the ball of the same volume, to which it "
+      "is "
       "scaled.",
       [](auto& s, double value) requires requires { s.diameter; } { s.diameter = value; });
   diameter.info.optional_for = "stl";
   Key<ParticleSpec> rounding = length_key(
       "rounding", within(0, largest_size), {"cylinder", "polyhedron"},
-      "Radius of the rims of a cylinder, of all edges and corners of a polyhedron. Sharp ones ask for "
+      "Radius of the rims of a cylinder, of all edges and corners of a polyhedron. Sharp ones ask "
+      "for "
       "a fine mesh.",
       [](auto& s, double value) requires requires { s.rounding; } { s.rounding = value; });
   return {diameter,
@@ -103,74 +107,69 @@ std::vector<Key<ParticleSpec>> size_keys_of_shapes() {
             .required = true,
             .only_for = {"ellipsoid", "superquadric"},
             .doc = "From end to end along the particle's own x, y and z axis."},
-           shape_to<Vec3>([](auto& s, const Vec3& value) requires requires { s.size; } {
-             s.size = value;
-           }, &Decoded::vector3)},
-          length_key("height", within(smallest_size, largest_size), {"cylinder"},
-                     "From face to face.",
-                     [](auto& s, double value) requires requires { s.height; } {
-                       s.height = value;
-                     }),
+           shape_to<Vec3>(
+               [](auto& s, const Vec3& value) requires requires { s.size; } { s.size = value; },
+               &Decoded::vector3)},
+          length_key(
+              "height", within(smallest_size, largest_size), {"cylinder"}, "From face to face.",
+              [](auto& s, double value) requires requires { s.height; } { s.height = value; }),
           rounding};
 }
 
 std::vector<Key<ParticleSpec>> form_keys() {
-  return {exponent_key("exponent_xy",
-                       "e of (abs(2x/a)^e + abs(2y/b)^e)^(f/e) + abs(2z/c)^f = 1: 2 is an ellipse, "
-                       "more goes towards a rectangle.",
-                       [](auto& s, double value) requires requires { s.exponent_xy; } {
-                         s.exponent_xy = value;
-                       }),
-          exponent_key("exponent_z", "f of the same, towards both ends.",
-                       [](auto& s, double value) requires requires { s.exponent_z; } {
-                         s.exponent_z = value;
-                       }),
-          {{.name = "corners",
-            .kind = Kind::points,
-            .unit = "m",
-            .range = within(-largest_size, largest_size),
-            .dimensions = 3,
-            .required = true,
-            .only_for = "polyhedron",
-            .doc = "At least four that do not lie in one plane, in any order; the centre of the "
-                   "volume becomes the particle's."},
-           shape_to<std::vector<Vec3>>(
-               [](auto& s, const std::vector<Vec3>& value) requires requires { s.corners; } {
-                 s.corners = value;
-               },
-               &Decoded::points3)}};
+  return {
+      exponent_key(
+          "exponent_xy",
+          "e of (abs(2x/a)^e + abs(2y/b)^e)^(f/e) + abs(2z/c)^f = 1: 2 is an ellipse, "
+          "more goes towards a rectangle.",
+          [](auto& s, double value) requires requires { s.exponent_xy; } {
+            s.exponent_xy = value;
+          }),
+      exponent_key(
+          "exponent_z", "f of the same, towards both ends.",
+          [](auto& s, double value) requires requires { s.exponent_z; } { s.exponent_z = value; }),
+      {{.name = "corners",
+        .kind = Kind::points,
+        .unit = "m",
+        .range = within(-largest_size, largest_size),
+        .dimensions = 3,
+        .required = true,
+        .only_for = "polyhedron",
+        .doc = "At least four that do not lie in one plane, in any order; the centre of the "
+               "volume becomes the particle's."},
+       shape_to<std::vector<Vec3>>(
+           [](auto& s, const std::vector<Vec3>& value) requires requires { s.corners; } {
+             s.corners = value;
+           },
+           &Decoded::points3)}};
 }
 
 std::vector<Key<ParticleSpec>> file_keys() {
-  return {{{.name = "file",
-            .kind = Kind::file,
-            .required = true,
-            .only_for = "stl",
-            .doc = "Relative to the scene's folder: STL, ASCII or binary, a closed surface."},
-           shape_to<std::string>(
-               [](auto& s, const std::string& value) requires requires { s.file; } {
-                 s.file = value;
-               },
-               &Decoded::text)},
-          {{.name = "unit",
-            .kind = Kind::text,
-            .required = true,
-            .only_for = "stl",
-            .doc = "Unit of the file's numbers: \"um\"."},
-           shape_to<std::string>(
-               [](auto& s, const std::string& value) requires requires { s.unit; } {
-                 s.unit = value;
-               },
-               &Decoded::text)},
-          {{.name = "smoothing",
-            .kind = Kind::number,
-            .range = within(0, 0.5),
-            .fallback = value_of(0.0),
-            .only_for = "stl",
-            .doc = "Share of the mean radius over which the surface is smoothed."},
-           shape_to([](auto& s, double value) requires requires { s.smoothing; } {
-             s.smoothing = value;
-           })}};
+  return {
+      {{.name = "file",
+        .kind = Kind::file,
+        .required = true,
+        .only_for = "stl",
+        .doc = "Relative to the scene's folder: STL, ASCII or binary, a closed surface."},
+       shape_to<std::string>(
+           [](auto& s, const std::string& value) requires requires { s.file; } { s.file = value; },
+           &Decoded::text)},
+      {{.name = "unit",
+        .kind = Kind::text,
+        .required = true,
+        .only_for = "stl",
+        .doc = "Unit of the file's numbers: \"um\"."},
+       shape_to<std::string>(
+           [](auto& s, const std::string& value) requires requires { s.unit; } { s.unit = value; },
+           &Decoded::text)},
+      {{.name = "smoothing",
+        .kind = Kind::number,
+        .range = within(0, 0.5),
+        .fallback = value_of(0.0),
+        .only_for = "stl",
+        .doc = "Share of the mean radius over which the surface is smoothed."},
+       shape_to(
+           [](auto& s, double value) requires requires { s.smoothing; } { s.smoothing = value; })}};
 }
 
 TableDeclaration<ParticleSpec> declared_particle() {

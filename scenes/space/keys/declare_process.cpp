@@ -25,27 +25,26 @@ Key<BodySpec> body_vector(const char* name, const char* unit, double largest, co
 }
 
 std::vector<Key<BodySpec>> turn_keys() {
-  return {
-      {{.name = "angle",
-        .kind = Kind::quantity,
-        .unit = "rad",
-        .range = within(-1000, 1000),
-        .fallback = value_of("0 deg"),
-        .doc = "Turn about `axis`, counter-clockwise where that looks at one."},
-       [](BodySpec& spec, const Decoded& value) {
-         spec.rotation = Rotation(Eigen::AngleAxisd(value.number, Vec3::UnitZ()));
-       }},
-      {{.name = "axis",
-        .kind = Kind::direction,
-        .dimensions = 3,
-        .needs = "angle",
-        .doc = "Direction that the particle is turned about, of any length.",
-        .fallback_doc = "`[0, 0, 1]`"},
-       // The key before it has set the angle.
-       [](BodySpec& spec, const Decoded& value) {
-         spec.rotation = Rotation(
-             Eigen::AngleAxisd(Eigen::AngleAxisd(spec.rotation).angle(), value.vector3));
-       }}};
+  return {{{.name = "angle",
+            .kind = Kind::quantity,
+            .unit = "rad",
+            .range = within(-1000, 1000),
+            .fallback = value_of("0 deg"),
+            .doc = "Turn about `axis`, counter-clockwise where that looks at one."},
+           [](BodySpec& spec, const Decoded& value) {
+             spec.rotation = Rotation(Eigen::AngleAxisd(value.number, Vec3::UnitZ()));
+           }},
+          {{.name = "axis",
+            .kind = Kind::direction,
+            .dimensions = 3,
+            .needs = "angle",
+            .doc = "Direction that the particle is turned about, of any length.",
+            .fallback_doc = "`[0, 0, 1]`"},
+           // The key before it has set the angle.
+           [](BodySpec& spec, const Decoded& value) {
+             spec.rotation = Rotation(
+                 Eigen::AngleAxisd(Eigen::AngleAxisd(spec.rotation).angle(), value.vector3));
+           }}};
 }
 
 TableDeclaration<BodySpec> declared_body() {
@@ -217,8 +216,12 @@ const TableDeclaration<TimeSpec>& time() {
 }
 
 const TableDeclaration<OutputSpec>& output() {
-  static const TableDeclaration<OutputSpec> declaration =
-      without(schema::output(), {"density_cells", "contacts", "particle_stress"});
+  static const TableDeclaration<OutputSpec> declaration = [] {
+    TableDeclaration<OutputSpec> table = without(schema::output(), {"density_cells", "contacts"});
+    key_of(table, "particle_stress").info.doc =
+        "Mean stress of every particle in every frame, of the compact over time.";
+    return table;
+  }();
   return declaration;
 }
 

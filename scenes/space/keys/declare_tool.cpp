@@ -5,46 +5,47 @@ namespace pulvis::space::language {
 namespace {
 
 std::vector<Key<ToolSpec>> keys_of_place() {
-  return {{{.name = "name",
-            .kind = Kind::name,
-            .required = true,
-            .doc = "Moves, friction pairs and the results refer to it."},
-           to(&ToolSpec::name)},
-          {{.name = "shape",
-            .kind = Kind::choice,
-            .choices = {{"plane", "fills the half-space behind its surface"},
-                        {"die", "a round hole: fills all outside of a cylinder"},
-                        {"punch", "a body of revolution about its axis, whose face has a profile"},
-                        {"stl", "a closed surface from a file"}},
-            .required = true,
-            .doc = "What it is."},
-           [](ToolSpec& spec, const Decoded& value) {
-             spec.shape = static_cast<ToolSpec::Shape>(value.index);
-           }},
-          {{.name = "point",
-            .kind = Kind::vector,
-            .unit = "m",
-            .range = within(-largest_size, largest_size),
-            .dimensions = 3,
-            .choices = {{"packing top",
-                         "the height at which a punch rests on the packing; of several the highest"}},
-            .required = true,
-            .doc = "A point of a plane's surface, of the axis of a die, the middle of a punch's "
-                   "face, or where the origin of an STL file lies."},
-           [](ToolSpec& spec, const Decoded& value) {
-             spec.point = value.vector3;
-             spec.on_packing = value.is_word;
-           }},
-          {{.name = "normal",
-            .kind = Kind::direction,
-            .dimensions = 3,
-            .required = true,
-            .only_for = {"plane", "punch", "die"},
-            .optional_for = "die",
-            .doc = "Direction from the tool into the powder, of any length; of a punch and a die "
-                   "their axis.",
-            .fallback_doc = "of a die `[0, 0, 1]`"},
-           to(&ToolSpec::normal)}};
+  return {
+      {{.name = "name",
+        .kind = Kind::name,
+        .required = true,
+        .doc = "Moves, friction pairs and the results refer to it."},
+       to(&ToolSpec::name)},
+      {{.name = "shape",
+        .kind = Kind::choice,
+        .choices = {{"plane", "fills the half-space behind its surface"},
+                    {"die", "a round hole: fills all outside of a cylinder"},
+                    {"punch", "a body of revolution about its axis, whose face has a profile"},
+                    {"stl", "a closed surface from a file"}},
+        .required = true,
+        .doc = "What it is."},
+       [](ToolSpec& spec, const Decoded& value) {
+         spec.shape = static_cast<ToolSpec::Shape>(value.index);
+       }},
+      {{.name = "point",
+        .kind = Kind::vector,
+        .unit = "m",
+        .range = within(-largest_size, largest_size),
+        .dimensions = 3,
+        .choices = {{"packing top",
+                     "the height at which a punch rests on the packing; of several the highest"}},
+        .required = true,
+        .doc = "A point of a plane's surface, of the axis of a die, the middle of a punch's "
+               "face, or where the origin of an STL file lies."},
+       [](ToolSpec& spec, const Decoded& value) {
+         spec.point = value.vector3;
+         spec.on_packing = value.is_word;
+       }},
+      {{.name = "normal",
+        .kind = Kind::direction,
+        .dimensions = 3,
+        .required = true,
+        .only_for = {"plane", "punch", "die"},
+        .optional_for = "die",
+        .doc = "Direction from the tool into the powder, of any length; of a punch and a die "
+               "their axis.",
+        .fallback_doc = "of a die `[0, 0, 1]`"},
+       to(&ToolSpec::normal)}};
 }
 
 std::vector<Key<ToolSpec>> keys_of_form() {

@@ -24,18 +24,29 @@ PatchPlace gauss_place(int point) {
           entry(kernels::edge_w, i) * entry(kernels::edge_w, j)};
 }
 
-PatchPoint patch_at(const Shape::Face& face, const std::vector<Vec3>& points, double u, double v) {
+PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points, double u,
+                    double v) {
   const Four in_u = bernstein(u), in_v = bernstein(v);
   const Four by_u = bernstein_slope(u), by_v = bernstein_slope(v);
   PatchPoint place{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   for (std::size_t j = 0; j < 4; ++j)
     for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3& p = entry(points, face.point[4 * j + i]);
+      const Vec3& p = entry(points, numbers[4 * j + i]);
       place.at += in_u[i] * in_v[j] * p;
       place.by_u += by_u[i] * in_v[j] * p;
       place.by_v += in_u[i] * by_v[j] * p;
     }
   return place;
+}
+
+double volume_under(const std::array<int, 16>& numbers, const std::vector<Vec3>& points) {
+  double volume = 0;
+  for (int g = 0; g < Shape::gauss_points; ++g) {
+    const PatchPlace place = gauss_place(g);
+    const PatchPoint on = patch_at(numbers, points, place.u, place.v);
+    volume += place.weight * on.at.dot(on.area()) / 3;
+  }
+  return volume;
 }
 
 std::vector<Vec3> surface_points_of(const Shape& shape, const std::vector<Point>& nodes) {

@@ -18,7 +18,14 @@ struct PatchPoint {
   Vec3 area() const { return by_u.cross(by_v); }  // outward, for an area 1 of the unit square
 };
 // `points`: Bezier points of the particle.
-PatchPoint patch_at(const Shape::Face& face, const std::vector<Vec3>& points, double u, double v);
+PatchPoint patch_at(const std::array<int, 16>& numbers, const std::vector<Vec3>& points, double u,
+                    double v);
+inline PatchPoint patch_at(const Shape::Face& face, const std::vector<Vec3>& points, double u,
+                           double v) {
+  return patch_at(face.point, points, u, v);
+}
+// m^3: between the origin and a patch.
+double volume_under(const std::array<int, 16>& numbers, const std::vector<Vec3>& points);
 
 // Bezier points where the mesh's nodes are those given.
 std::vector<Vec3> surface_points_of(const Shape& shape, const std::vector<Point>& nodes);

@@ -17,6 +17,7 @@ constexpr double usual_c = 1.0 / 12;
 constexpr double least_c = 0, most_c = 0.25;
 // How much c and the lines at irregular nodes stay as usual, against the surface passing where it should.
 constexpr double stay = 1e-3, stay_turned = 1e-4;
+constexpr int volume_fits = 24;  // halvings
 constexpr int fits = 3;  // as the place to pass moves a little along the surface
 
 Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
@@ -38,19 +39,17 @@ Vec3 value_of(const Combination& combination, const std::vector<Vec3>& of) {
 // Makes the undeformed surface lie on the true one.
 class Fit {
  public:
-  Fit(const Shape& shape, const SurfaceNet& net, std::vector<NodeFrame>& frames,
-      const StarSurface& surface)
-      : net_(net), frames_(frames), surface_(surface), c_(count(), usual_c) {
+  Fit(const Shape& shape, const SurfaceNet& net, const StarSurface& surface)
+      : net_(net), surface_(surface), frames_(spline_frames(net)), c_(count(), usual_c) {
     for (int i = 0; i < net.nodes(); ++i) nodes_.push_back(vector_of(entry(shape.nodes, i)));
     for (int i = 0; i < net.nodes(); ++i) u_.push_back(value_of(umbrella(net, i), nodes_));
     for (int i = 0; i < fits; ++i) improve_smoothing();
-    const std::vector<Vec3> control = net_places();
-    for (int i = 0; i < net.nodes(); ++i)
-      if (net.valence(i) == 4)
-        for (int k = 0; k < 2; ++k) turn_line(i, k, control);
+    match_volume();
   }
 
   const std::vector<double>& smoothing() const { return c_; }
+  // Over the nodes of the net.
+  std::vector<Combination> points() const { return bezier_points(net_, turned_frames()); }
 
  private:
   std::size_t count() const { return static_cast<std::size_t>(net_.nodes()); }
@@ -93,10 +92,39 @@ class Fit {
       entry(c_, i) = std::clamp(entry(c_, i) + change[i], least_c, most_c);
   }
 
+  std::vector<NodeFrame> turned_frames() const {
+    std::vector<NodeFrame> frames = frames_;
+    const std::vector<Vec3> control = net_places();
+    for (int i = 0; i < net_.nodes(); ++i)
+      if (net_.valence(i) == 4)
+        for (int k = 0; k < 2; ++k) turn_line(i, k, control, entry(frames, i));
+    return frames;
+  }
+
+  // m^3, of the smooth surface when every c is larger by `more`, as far as it may be.
+  double volume_with(const std::vector<double>& c, double more) {
+    for (std::size_t i = 0; i < count(); ++i) c_[i] = std::clamp(c[i] + more, least_c, most_c);
+    const std::vector<Vec3> control = net_places();
+    std::vector<Vec3> at;
+    for (const Combination& point : points()) at.push_back(value_of(point, control));
+    double volume = 0;
+    for (int f = 0; f < net_.faces(); ++f) volume += volume_under(points_of(net_, f), at);
+    return volume;
+  }
+
+  // Between its corners the surface may still lie a little off: the same addition to every c makes its volume the true one.
+  void match_volume() {
+    const std::vector<double> c = c_;
+    double low = -most_c, high = most_c;  // the volume rises with c
+    for (int i = 0; i < volume_fits; ++i) {
+      const double more = (low + high) / 2;
+      (volume_with(c, more) < surface_.volume() ? low : high) = more;
+    }
+  }
+
   // Where a line leads to an irregular node, whose place follows from the derivative D along it at the regular node w:
   // D = a D_spline + b U_w in the tangent plane at w, its half reaching to that at the irregular node.
-  void turn_line(int w, int line, const std::vector<Vec3>& control) {
-    NodeFrame& frame = entry(frames_, w);
+  void turn_line(int w, int line, const std::vector<Vec3>& control, NodeFrame& frame) const {
     const Vec3 at = value_of(frame.place, control), spline = value_of(frame.along[line], control);
     const Vec3 u = value_of(umbrella(net_, w), control);
     Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
@@ -126,8 +154,8 @@ class Fit {
   }
 
   const SurfaceNet& net_;
-  std::vector<NodeFrame>& frames_;
   const StarSurface& surface_;
+  std::vector<NodeFrame> frames_;
   std::vector<double> c_;
   std::vector<Vec3> nodes_, u_;
 };
@@ -188,9 +216,8 @@ void measure(Shape& shape) {
 
 void complete_surface(Shape& shape, const StarSurface& surface) {
   const SurfaceNet net = surface_net(shape);
-  std::vector<NodeFrame> frames = spline_frames(net);
-  const Fit fit(shape, net, frames, surface);
-  store_points(shape, net, bezier_points(net, frames), fit.smoothing());
+  const Fit fit(shape, net, surface);
+  store_points(shape, net, fit.points(), fit.smoothing());
   store_faces(shape, net);
   measure(shape);
 }

@@ -58,8 +58,16 @@ Farthest climb(const RigidShape& shape, const RigidPose& pose, V3 along) {
   return best;
 }
 
-std::optional<RigidTouch> round_touch(double radius, const RigidShape& shape, const RigidPose& pose,
-                                      double range) {
+}  // namespace
+
+double Container::floor_area() const {
+  return round() ? std::numbers::pi * radius * radius : width * depth;
+}
+
+int walls_of(const Container& container) { return container.round() ? 3 : 6; }
+
+std::optional<RigidTouch> round_wall_touch(double radius, const RigidShape& shape,
+                                           const RigidPose& pose, double range) {
   const double centre = std::sqrt(pose.at.x * pose.at.x + pose.at.y * pose.at.y);
   if (centre + shape.reach <= radius - range) return std::nullopt;
   V3 along = centre > 0 ? V3{pose.at.x / centre, pose.at.y / centre, 0} : V3{1, 0, 0};
@@ -76,18 +84,10 @@ std::optional<RigidTouch> round_touch(double radius, const RigidShape& shape, co
   return RigidTouch{best.at, {share * best.at.x, share * best.at.y, 0}, gap};
 }
 
-}  // namespace
-
-double Container::floor_area() const {
-  return round() ? std::numbers::pi * radius * radius : width * depth;
-}
-
-int walls_of(const Container& container) { return container.round() ? 3 : 6; }
-
 std::optional<RigidTouch> wall_touch(const Container& container, double height, int wall,
                                      const RigidShape& shape, const RigidPose& pose, double range) {
   if (container.round() && wall == round_wall)
-    return round_touch(container.radius, shape, pose, range);
+    return round_wall_touch(container.radius, shape, pose, range);
   const Plane plane = plane_of(container, height, wall);
   if (dot(plane.normal, pose.at) - plane.offset - shape.reach >= range) return std::nullopt;
   const V3 deepest = farthest_along(shape, pose, -plane.normal);

@@ -22,4 +22,8 @@ int walls_of(const Container& container);
 std::optional<RigidTouch> wall_touch(const Container& container, double height, int wall,
                                      const RigidShape& shape, const RigidPose& pose, double range);
 
+// The same of a round wall about the z axis alone.
+std::optional<RigidTouch> round_wall_touch(double radius, const RigidShape& shape,
+                                           const RigidPose& pose, double range);
+
 }  // namespace pulvis::space

@@ -11,9 +11,13 @@ namespace {
 
 constexpr double margin = 2.5e-4;  // of the smallest particle's diameter
 constexpr double touching = 1e-3;
-// Shaking goes on for as long as ten seconds or so of one core take: sweeps times particles.
-constexpr double sweeps_of_balls = 40e6;
-constexpr double sweeps_of_others = 0.6e6;
+constexpr double hard_vibration =
+    0.2;  // diameters, between pressings: less does not leave a jam in three dimensions
+// Shaking goes on for as long as some seconds of one core take, half a minute for thousands: sweeps times particles.
+constexpr double work_of_balls = 40e6;
+constexpr double work_of_many = 200e6;
+constexpr double work_of_others = 0.8e6;
+constexpr std::size_t many = 1000;
 
 double smallest_of(const DieFilling& order) {
   double minimum = std::numeric_limits<double>::max();
@@ -23,9 +27,10 @@ double smallest_of(const DieFilling& order) {
 
 std::int64_t sweeps_to_shake(const DieFilling& order) {
   if (!order.shaken) return 0;
+  const std::size_t count = order.shape_of.size();
   const bool balls = std::ranges::all_of(order.shapes, &RigidShape::is_ball);
-  const double all = balls ? sweeps_of_balls : sweeps_of_others;
-  return static_cast<std::int64_t>(all / static_cast<double>(order.shape_of.size())) + 1;
+  const double work = !balls ? work_of_others : count > many ? work_of_many : work_of_balls;
+  return static_cast<std::int64_t>(work / static_cast<double>(count)) + 1;
 }
 
 }  // namespace
@@ -39,7 +44,8 @@ double DieFilling::volume() const {
 FilledDie fill_die(const DieFilling& order) {
   RigidPowder powder(order.shapes, order.shape_of, order.container, margin * smallest_of(order));
   const double full = order.volume() / order.container.floor_area();
-  Press press(powder, {order.min_height, sweeps_to_shake(order), order.seed});
+  Press press(powder, {order.min_height, sweeps_to_shake(order), order.seed},
+              {.hard_vibration = hard_vibration});
   press.run([&](double density) { return full / density; });
   FilledDie die{powder.poses(), powder.height(), 0, powder.min_gap(), 0};
   const auto gaps = powder.near_gaps(touching, die.touches);

@@ -6,7 +6,6 @@
 namespace pulvis::space {
 namespace {
 
-constexpr double flat = 5e-5;  // mean diameters: C lies no farther in front of a face that is right
 constexpr double no_length = 1e-12;
 constexpr int most_faces = 60;
 constexpr int most_tilts = 60;
@@ -78,7 +77,7 @@ RigidTouch RigidPair::touch_at(const V3& along, const V3& normal, double gap,
   return {from_ + on_a + 0.5 * (apart_ - in_c), normal, gap};
 }
 
-std::optional<RigidTouch> RigidPair::touch(double range, V3& normal) const {
+std::optional<RigidTouch> RigidPair::touch(double range, V3& normal, double flat) const {
   if (a_.is_ball() && b_.is_ball()) return touch_of_balls(range);
   if (gap_along(normal) >= range) return std::nullopt;
   const V3 along = direction_of(apart_);

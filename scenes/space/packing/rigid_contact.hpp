@@ -37,8 +37,9 @@ class RigidPair {
         from_(at_a.at),
         apart_(at_b.at - at_a.at) {}
 
-  // The touch, where its gap is less than `range`. `normal`: one to try first; that of the last gap afterwards.
-  std::optional<RigidTouch> touch(double range, V3& normal) const;
+  // The touch, where its gap is less than `range`. `normal`: one to try first; that of the last gap afterwards. `flat`: how
+  // much farther C may reach than the face that is taken for its own.
+  std::optional<RigidTouch> touch(double range, V3& normal, double flat = 5e-5) const;
   double gap_along(const V3& normal) const;
   // The largest gap along any normal near this one: their distance, or minus the least way out.
   double distance(V3 normal) const;

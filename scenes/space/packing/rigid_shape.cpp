@@ -6,7 +6,7 @@
 
 #include "engine/portable_math.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
-#include "scenes/space/packing/convex_hull.hpp"
+#include "scenes/space/meshes/convex_hull.hpp"
 
 namespace pulvis::space {
 namespace {

@@ -44,9 +44,8 @@ ElementStresses stresses_of(const StressColumns& columns, std::size_t e, int lan
                  zx = s[4][lane], zz = -(xx + yy);
     const std::array<double, 6> here{xx, yy, zz, xy, yz, zx};
     for (std::size_t k = 0; k < 6; ++k) mean.stress[k] += here[k] / points;
-    mean.effective += std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz +
-                                       2 * (xy * xy + yz * yz + zx * zx))) /
-                      points;
+    mean.effective +=
+        std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * (xy * xy + yz * yz + zx * zx))) / points;
   }
   for (std::size_t k = 0; k < 3; ++k) mean.stress[k] += columns.mean[e][lane];
   return mean;

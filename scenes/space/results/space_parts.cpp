@@ -12,6 +12,7 @@
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
 #include "scenes/space/results/element_results.hpp"
+#include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/results/space_series.hpp"
 #include "scenes/space/results/space_tags.hpp"
 #include "scenes/space/results/tool_sheets.hpp"
@@ -51,6 +52,7 @@ std::vector<FieldInfo> fields_in_space(const World& world) {
   if (is_plastic(world))
     fields.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
+  for (const FieldInfo& observed : stress_fields(world)) fields.push_back(observed);
   return fields;
 }
 
@@ -97,6 +99,7 @@ class SpaceParts : public ResultParts {
   void append_frame(Fields& fields) const override {
     fields = {values_of_nodes<Position>(world_), values_of_nodes<Velocity>(world_)};
     append_element_fields(world_, fields);
+    append_stress_frame(world_, fields);
   }
   void append_tool_frame(Fields& fields) const override {
     if (sheets_.faces().names.empty()) return;
@@ -116,7 +119,11 @@ class SpaceParts : public ResultParts {
   }
 
   void append_contacts(std::vector<double>&) const override {}
-  void append_observed(std::vector<double>&) const override {}
+  void append_observed(std::vector<double>& row) const override {
+    if (!room_) return;
+    append_stress_sample(world_, room_->volume([&](int tool, int k) { return position(tool, k); }),
+                         row);
+  }
 
   std::vector<double> momentum() const override {
     Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();

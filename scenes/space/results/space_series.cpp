@@ -21,8 +21,8 @@ void add_tool_series(const Scene& scene, int number, std::vector<SeriesInfo>& al
   for (const char* axis : {"x", "y", "z"})
     all.push_back({name + "force_" + axis, "N", "of the particles, on the tool"});
   if (is_servo_driven(scene, number))
-    all.push_back({name + "force_asked", "N",
-                   "that its servo is to hold now, in the direction it pushes"});
+    all.push_back(
+        {name + "force_asked", "N", "that its servo is to hold now, in the direction it pushes"});
 }
 
 void add_room_series(const Scene& scene, const DieRoom& room, std::vector<SeriesInfo>& all) {
@@ -31,8 +31,9 @@ void add_room_series(const Scene& scene, const DieRoom& room, std::vector<Series
   if (common_yield_stress(scene)) {
     all.push_back({"stress_ratio/axial", "-", "mean of top and bottom stress / yield stress"});
     if (box)
-      all.push_back({"stress_ratio/lateral", "-", "mean of the stresses on the four walls / yield "
-                                                  "stress"});
+      all.push_back({"stress_ratio/lateral", "-",
+                     "mean of the stresses on the four walls / yield "
+                     "stress"});
   }
   all.push_back({"stress/axial_top", "Pa",
                  "on the top tool: force / cross-section of the die; compression > 0"});
@@ -71,8 +72,8 @@ std::vector<SeriesInfo> momentum_series() {
   for (const char* axis : {"x", "y", "z"})
     all.push_back({std::string("momentum/") + axis, "kg m/s", "of all nodes"});
   for (const char* axis : {"x", "y", "z"})
-    all.push_back({std::string("momentum/angular_") + axis, "kg m^2/s",
-                   "of all nodes, about the origin"});
+    all.push_back(
+        {std::string("momentum/angular_") + axis, "kg m^2/s", "of all nodes, about the origin"});
   return all;
 }
 

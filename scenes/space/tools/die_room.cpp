@@ -23,7 +23,8 @@ double volume_of_face(const ToolSpec& punch) {
 }
 
 // Puts a tool on the side that its normal looks away from.
-bool stand_on(DieRoom& room, DieRoom::Side low, const Vec3& axis, const ToolSpec& tool, int number) {
+bool stand_on(DieRoom& room, DieRoom::Side low, const Vec3& axis, const ToolSpec& tool,
+              int number) {
   const double cosine = tool.normal.dot(axis);
   if (std::abs(cosine) < along_axis) return false;
   int& side = room.tool[static_cast<std::size_t>(cosine > 0 ? low : low + 1)];

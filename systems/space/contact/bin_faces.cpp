@@ -81,7 +81,7 @@ void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double ka
   // c = 2 xi sqrt(kappa rho h): the mass per area of the element behind on the contact spring.
   rows.law(row, Law::damping) = 2 * share_of_critical * std::sqrt(kappa * rho / face.stiffness);
   rows.law(row, Law::inv_size) = 1 / face.size;
-  rows.activation(row) = 0;
+  rows.activation(row, 0) = rows.activation(row, 1) = 0;
 }
 
 void start_from(int face, Row<FaceContact> row, const Write<ClosestPoint>& closest) {

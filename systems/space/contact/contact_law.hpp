@@ -89,12 +89,12 @@ inline void add_friction(const PointLaw& law, const PointMotion& m, double dt, c
 }
 
 // ---- from and to the columns --------------------------------------------------------------------------
-// Nothing acts on a candidate whose points are all apart, and nothing can before `activation` has been travelled. What its
-// columns hold of the last touch is forgotten when it touches anew.
+// Nothing of what a half's columns hold acts.
 template <class At>
-void set_apart(const RowColumns<At>& c, Row<At> row, double activation) {
-  c.activation(row) = activation;
-  c.touches(row) = 0;
+void clear_half(const RowColumns<At>& c, Row<At> row, int half) {
+  const VectorLanes none{Lane{}, Lane{}, Lane{}};
+  store_half(none, &c.force(row), half);
+  if (c.slip) store_half(none, &(*c.slip)(row), half);
 }
 
 // The sums of a block while it is looked at.
@@ -135,23 +135,32 @@ struct FaceSums {
   }
 };
 
-// What both halves of a candidate that touches bear: law, columns, books. `share` of the stiffness: one half where the
-// other particle samples back. Returns the friction [N] of both halves.
+// How the halves of a candidate stand that touch (bit 0, bit 1); the others are apart.
+struct RowMotion {
+  std::array<PointMotion, 2> half;
+  unsigned touching = 0;
+
+  bool touches(int h) const { return (touching >> h & 1) != 0; }
+};
+
+// What the halves of a candidate that touch bear: law, columns, books. `share` of the stiffness: one half where the other
+// particle samples back. Keeps the friction [N] of its points.
 template <class At>
-[[gnu::always_inline]] inline std::array<VectorLanes, 2> act(const RowColumns<At>& c, Row<At> row,
-                                                             const Shape::Face& face,
-                                                             const std::array<PointMotion, 2>& motion,
-                                                             double share, double dt,
-                                                             FaceSums& sums) {
+[[gnu::always_inline]] inline void act(const RowColumns<At>& c, Row<At> row,
+                                       const Shape::Face& face, const RowMotion& motion,
+                                       double share, double dt, FaceSums& sums,
+                                       std::array<VectorLanes, 2>& friction) {
   using Law = ContactLaw<At>;
   const bool new_touch = c.touches(row) == 0;
   c.touches(row) = 1;
-  c.activation(row) = 0;
   sums.block.touching += 1;
-  std::array<VectorLanes, 2> along;
   Lane deepest{};
   for (int half = 0; half < 2; ++half) {
-    const PointMotion& m = entry(motion, half);
+    if (!motion.touches(half)) {
+      clear_half(c, row, half);
+      continue;
+    }
+    const PointMotion& m = entry(motion.half, half);
     const PointLaw law{Lane::load(face.weight.data() + lane_count * half),
                        share * c.law(row, Law::stiffness), c.law(row, Law::friction),
                        share * c.law(row, Law::damping), c.law(row, Law::inv_size)};
@@ -165,10 +174,9 @@ template <class At>
     store_half(f.force, &c.force(row), half);
     sums.add(f);
     deepest = max(m.gap, deepest);
-    entry(along, half) = f.friction;
+    entry(friction, half) = f.friction;
   }
   sums.book_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
-  return along;
 }
 
 }  // namespace pulvis::space

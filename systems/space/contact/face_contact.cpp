@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/prefetch.hpp"
 #include "systems/space/contact/blocks.hpp"
 #include "systems/space/contact/contact_law.hpp"
 #include "systems/space/contact/gauss_points.hpp"
@@ -40,11 +41,10 @@ struct PackedSpots {
 // Reciprocal slopes of the other surface.
 struct Reciprocal {
   VectorLanes u, v;
-  explicit Reciprocal(const kernels::PatchSlopes<Lane>& s) {
+  static Reciprocal of(const kernels::PatchSlopes<Lane>& s) {
     const Lane a = dot(s.u, s.u), b = dot(s.u, s.v), c = dot(s.v, s.v);
     const Lane inv_det = 1.0 / fma(a, c, -(b * b));
-    u = inv_det * (c * s.u - b * s.v);
-    v = inv_det * (a * s.v - b * s.u);
+    return {inv_det * (c * s.u - b * s.v), inv_det * (a * s.v - b * s.u)};
   }
 };
 
@@ -67,50 +67,83 @@ struct FacePass {
   const double* points = s.faces.position.values().data();
   const double* rates = s.faces.velocity ? s.faces.velocity->values().data() : nullptr;
 
-  bool active(Row<FaceContact> row) const { return s.clock->travel >= s.columns.activation(row); }
-
+  bool active(Row<FaceContact> row) const {
+    return s.clock->travel >= std::min(s.columns.activation(row, 0), s.columns.activation(row, 1));
+  }
+  // The row's numbers, and both surfaces, the other where it was met last.
+  void fetch(Row<FaceContact> row) const {
+    const double* closest = &s.closest(row);
+    fetch_lines<4>(closest);
+    fetch_lines<6>(&s.columns.force(row));
+    if (s.columns.slip) fetch_lines<6>(&(*s.columns.slip)(row));
+    const int other = s.columns.pair(row, 2);
+    for (const double* list : {points, rates}) {
+      if (list == nullptr) continue;
+      fetch_lines<6>(list + own_face(row) * face_numbers);
+      fetch_lines<6>(list + (s.bodies.first_face(other) + static_cast<std::ptrdiff_t>(*closest)) *
+                                face_numbers);
+    }
+  }
   void operator()(Row<FaceContact> row, FaceSums& sums) const {
-    const int slot = s.columns.pair(row, 0), other = s.columns.pair(row, 2);
-    const std::ptrdiff_t own = s.bodies.first_face(slot) + s.columns.pair(row, 1);
-    const std::ptrdiff_t its = s.bodies.first_face(other);
+    const std::ptrdiff_t own = own_face(row) * face_numbers;
+    const int other = s.columns.pair(row, 2);
+    const std::ptrdiff_t its = s.bodies.first_face(other) * std::ptrdiff_t{face_numbers};
     const Shape& shape = s.bodies.shape_of(other);
-    Projection low(shape, points + its * face_numbers), high(shape, points + its * face_numbers);
-    std::array<PointMotion, 2> motion;
-    const double nearest = std::min(project(row, 0, points + own * face_numbers, low, motion[0], sums),
-                                    project(row, 1, points + own * face_numbers, high, motion[1], sums));
-    const bool touching = any(motion[0].gap > 0.0) || any(motion[1].gap > 0.0);
-    if (!touching) return set_apart(s.columns, row, s.clock->travel + nearest);
-    const Shape::Face& face = entry(s.bodies.shape_of(slot).faces, s.columns.pair(row, 1));
-    if (rates == nullptr) {
-      act(s.columns, row, face, motion, share, s.clock->dt_before, sums);
+    Projection low(shape, points + its), high(shape, points + its);
+    RowMotion motion;
+    project(row, 0, points + own, low, motion, sums);
+    project(row, 1, points + own, high, motion, sums);
+    if (motion.touching == 0) {
+      s.columns.touches(row) = 0;
       return;
     }
-    const Reciprocal reciprocal[2]{Reciprocal(low.slopes), Reciprocal(high.slopes)};
-    for (int half = 0; half < 2; ++half) {
-      Projection& p = half == 0 ? low : high;
-      set_rates(sampled_points(rates + own * face_numbers, half),
-                rates_at(p, rates + its * face_numbers), reciprocal[half], entry(motion, half));
-    }
-    const auto along = act(s.columns, row, face, motion, share, s.clock->dt_before, sums);
-    if (s.couple)
-      for (int half = 0; half < 2; ++half)
-        keep_couple(row, half, entry(motion, half), entry(along, half), reciprocal[half]);
+    const Shape::Face& face =
+        entry(s.bodies.shape_of(s.columns.pair(row, 0)).faces, s.columns.pair(row, 1));
+    std::array<VectorLanes, 2> along;
+    std::array<Reciprocal, 2> reciprocal;
+    if (rates != nullptr)
+      for (int half = 0; half < 2; ++half) {
+        if (!motion.touches(half)) continue;
+        Projection& p = half == 0 ? low : high;
+        entry(reciprocal, half) = Reciprocal::of(p.slopes);
+        set_rates(sampled_points(rates + own, half), rates_at(p, rates + its),
+                  entry(reciprocal, half), entry(motion.half, half));
+      }
+    act(s.columns, row, face, motion, share, s.clock->dt_before, sums, along);
+    if (!s.couple) return;
+    for (int half = 0; half < 2; ++half)
+      if (motion.touches(half))
+        keep_couple(row, half, entry(motion.half, half), entry(along, half),
+                    entry(reciprocal, half));
   }
 
  private:
-  // Returns the least distance.
-  [[gnu::always_inline]] double project(Row<FaceContact> row, int half, const double* face,
-                                        Projection& p, PointMotion& m, FaceSums& sums) const {
+  template <int Lines>
+  static void fetch_lines(const double* first) {
+    for (int line = 0; line < Lines; ++line) prefetch(first + 8 * line);
+  }
+  std::ptrdiff_t own_face(Row<FaceContact> row) const {
+    return s.bodies.first_face(s.columns.pair(row, 0)) + s.columns.pair(row, 1);
+  }
+  // A half that is apart rests until it can touch.
+  [[gnu::always_inline]] void project(Row<FaceContact> row, int half, const double* face,
+                                      Projection& p, RowMotion& motion, FaceSums& sums) const {
+    if (s.clock->travel < s.columns.activation(row, half)) return;
     const PackedSpots spots{&s.closest(row)};
     p.point = sampled_points(face, half);
     spots.unpack(half, p);
     p.find();
     spots.pack(half, p);
     const Standing standing = p.standing();
-    m.gap = standing.gap;
-    m.normal = standing.normal;
     book(row, p.unconverged(), sums.block);
-    return -FaceSums::greatest(-standing.distance);
+    double& activation = s.columns.activation(row, half);
+    if (any(standing.gap > 0.0)) {
+      entry(motion.half, half) = {standing.gap, standing.normal};
+      motion.touching |= 1U << half;
+      activation = 0;
+    } else {
+      activation = s.clock->travel - FaceSums::greatest(-standing.distance);
+    }
   }
   static void book(Row<FaceContact> row, unsigned unconverged, BlockSums& block) {
     block.projections += lane_count;
@@ -135,10 +168,7 @@ struct FacePass {
 }  // namespace
 
 void face_contact::operator()(SmallTasks) const {
-  const FacePass pass{*this};
-  for_active_rows<FaceContact>(
-      columns.pair.rows(), sums->blocks, [&](Row<FaceContact> row) { return pass.active(row); },
-      [&](Row<FaceContact> row, FaceSums& of_block) { pass(row, of_block); });
+  for_active_rows<FaceContact>(columns.pair.rows(), sums->blocks, FacePass{*this});
 }
 
 }  // namespace pulvis::space

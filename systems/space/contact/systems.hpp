@@ -45,7 +45,7 @@ template <class At>
 struct NewRows {
   Write<ContactPair<At>> pair;
   Write<ContactLaw<At>> law;
-  Write<ActivationTravel<At>> activation;
+  Write<Activation<At>> activation;
 };
 
 struct bin_faces {
@@ -86,7 +86,7 @@ template <class At>
 struct RowColumns {
   Read<ContactPair<At>> pair;
   Write<ContactTouches<At>> touches;
-  Write<ActivationTravel<At>> activation;
+  Write<Activation<At>> activation;
   Read<ContactLaw<At>> law;
   Write<PointForce<At>> force;
   Optional<Write<ElasticSlip<At>>> slip;  // with friction

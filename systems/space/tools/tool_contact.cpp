@@ -5,6 +5,7 @@
 //          is not sampled
 // Runs     after bin_tool_faces and tool_motion, before contact_force
 // Active   when the scene has tools
+#include "engine/prefetch.hpp"
 #include "systems/space/contact/blocks.hpp"
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/tools/systems.hpp"
@@ -20,31 +21,43 @@ struct ToolPass {
   const double* rates = s.faces.velocity ? s.faces.velocity->values().data() : nullptr;
 
   bool active(Row<FaceToolContact> row) const {
-    return s.clock->travel >= s.columns.activation(row);
+    return s.clock->travel >= std::min(s.columns.activation(row, 0), s.columns.activation(row, 1));
   }
+  void fetch(Row<FaceToolContact> row) const { prefetch(&s.columns.force(row)); }
   void operator()(Row<FaceToolContact> row, FaceSums& sums) const {
     const int slot = s.columns.pair(row, 0);
     const Shape::Face& face = entry(s.bodies.shape_of(slot).faces, s.columns.pair(row, 1));
     const std::ptrdiff_t own =
         (s.bodies.first_face(slot) + s.columns.pair(row, 1)) * std::ptrdiff_t{face_numbers};
-    std::array<PointMotion, 2> motion;
-    double nearest = std::numeric_limits<double>::max();
-    bool touching = false;
-    for (int half = 0; half < 2; ++half) {
-      const Standing standing = project(row, sampled_points(points + own, half), face.size);
-      entry(motion, half).gap = standing.gap;
-      entry(motion, half).normal = standing.normal;
-      touching = touching || any(standing.gap > 0.0);
-      nearest = std::min(nearest, -FaceSums::greatest(standing.gap));
+    RowMotion motion;
+    for (int half = 0; half < 2; ++half) stand(row, half, points + own, face.size, motion);
+    if (motion.touching == 0) {
+      s.columns.touches(row) = 0;
+      return;
     }
-    if (!touching) return set_apart(s.columns, row, s.clock->travel + nearest);
     if (rates != nullptr)
       for (int half = 0; half < 2; ++half)
-        set_rates(row, sampled_points(rates + own, half), entry(motion, half));
-    act(s.columns, row, face, motion, share, s.clock->dt_before, sums);
+        if (motion.touches(half))
+          set_rates(row, sampled_points(rates + own, half), entry(motion.half, half));
+    std::array<VectorLanes, 2> along;
+    act(s.columns, row, face, motion, share, s.clock->dt_before, sums, along);
   }
 
  private:
+  // A half that is apart rests until it can touch.
+  void stand(Row<FaceToolContact> row, int half, const double* face, double size,
+             RowMotion& motion) const {
+    double& activation = s.columns.activation(row, half);
+    if (s.clock->travel < activation) return;
+    const Standing standing = project(row, sampled_points(face, half), size);
+    if (any(standing.gap > 0.0)) {
+      entry(motion.half, half) = {standing.gap, standing.normal};
+      motion.touching |= 1U << half;
+      activation = 0;
+    } else {
+      activation = s.clock->travel - FaceSums::greatest(standing.gap);
+    }
+  }
   Standing project(Row<FaceToolContact> row, const VectorLanes& at, double size) const {
     const int tool = s.columns.pair(row, 2);
     const VectorLanes from = at - everywhere(s.tools.position_of(tool));
@@ -77,10 +90,7 @@ struct ToolPass {
 }  // namespace
 
 void tool_contact::operator()(SmallTasks) const {
-  const ToolPass pass{*this};
-  for_active_rows<FaceToolContact>(
-      columns.pair.rows(), sums->blocks, [&](Row<FaceToolContact> row) { return pass.active(row); },
-      [&](Row<FaceToolContact> row, FaceSums& of_block) { pass(row, of_block); });
+  for_active_rows<FaceToolContact>(columns.pair.rows(), sums->blocks, ToolPass{*this});
 }
 
 }  // namespace pulvis::space

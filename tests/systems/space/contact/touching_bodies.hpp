@@ -141,13 +141,13 @@ class TouchingBodies {
     return lane_row<C>(body, number)[k][lane(body)];
   }
   void wake() {
-    if (world.has<ActivationTravel<FaceContact>>()) wake_rows<FaceContact>();
-    if (world.has<ActivationTravel<FaceToolContact>>()) wake_rows<FaceToolContact>();
+    if (world.has<Activation<FaceContact>>()) wake_rows<FaceContact>();
+    if (world.has<Activation<FaceToolContact>>()) wake_rows<FaceToolContact>();
   }
   template <class At>
   void wake_rows() {
-    auto& column = world.column<ActivationTravel<At>>();
-    std::fill_n(column.values(), column.table.rows, 0.0);
+    auto& column = world.column<Activation<At>>();
+    std::fill_n(column.values(), 2 * column.table.rows, 0.0);
   }
   void lay_out(const std::vector<Shape>& shapes) {
     Bodies& all = world.emplace<Bodies>();

@@ -1,4 +1,4 @@
-#include "scenes/space/packing/convex_hull.hpp"
+#include "scenes/space/meshes/convex_hull.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,0 +1,21 @@
+// Sums over all directions from the centre of a star-shaped surface.
+#pragma once
+
+#include <vector>
+
+#include "scenes/space/meshes/star_surface.hpp"
+
+namespace pulvis::space {
+
+struct Direction {
+  Vec3 unit;
+  double weight;  // solid angle that it stands for; the sum is 4 pi
+};
+// 6 * cells^2 equiangular cells, four Gauss points each.
+std::vector<Direction> directions(int cells);
+
+// From numeric sums: m^3; m, where the surface's origin is the centre of the rays.
+double volume_about(const StarSurface& surface);
+Vec3 centre_of_volume(const StarSurface& surface);
+
+}  // namespace pulvis::space

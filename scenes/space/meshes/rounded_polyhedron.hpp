@@ -1,0 +1,16 @@
+// The true surface of a convex polyhedron with rounded edges: all points within `rounding` of a smaller polyhedron.
+#pragma once
+
+#include <memory>
+
+#include "scenes/space/meshes/star_surface.hpp"
+
+namespace pulvis::space {
+
+// Throws std::invalid_argument where the rounding leaves nothing.
+std::unique_ptr<StarSurface> polyhedron_surface(const PolyhedronShape& shape);
+
+// The centre of its volume, in the frame of its corners, m.
+Vec3 centre_of(const PolyhedronShape& shape);
+
+}  // namespace pulvis::space

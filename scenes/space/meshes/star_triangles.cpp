@@ -1,0 +1,181 @@
+#include "scenes/space/meshes/star_triangles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/entry.hpp"
+#include "engine/portable_math.hpp"
+#include "scenes/space/meshes/directions.hpp"
+#include "scenes/space/meshes/stl.hpp"
+
+namespace pulvis::space {
+namespace {
+
+using std::numbers::pi;
+
+// Triangles by the cells of a cube about the centre through which they are seen.
+class TriangleFan {
+ public:
+  explicit TriangleFan(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+    cells_ =
+        std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles_.size()) / 6)), 1, 40);
+    in_cell_.resize(static_cast<std::size_t>(6 * cells_ * cells_));
+    const std::vector<Vec3> middles = cell_middles();
+    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) add(t, middles);
+  }
+
+  struct Hit {
+    double distance;
+    Vec3 normal;  // not of length 1
+  };
+  // The surface is closed about the centre: the triangle of which the ray is most inside.
+  Hit along(const Vec3& d) const {
+    double best = -std::numeric_limits<double>::max();
+    Hit hit{};
+    for (const int t : entry(in_cell_, cell_of(d))) {
+      const Triangle& triangle = entry(triangles_, t);
+      const Vec3 normal = area_vector(triangle);
+      if (normal.dot(d) <= 0) continue;
+      const double inside = least_share(triangle, normal, d);
+      if (inside <= best) continue;
+      best = inside;
+      hit = {normal.dot(triangle[0]) / normal.dot(d), normal};
+    }
+    return hit;
+  }
+
+ private:
+  // The least of the three shares of the corners at the point that the ray meets.
+  static double least_share(const Triangle& t, const Vec3& normal, const Vec3& d) {
+    const double all = normal.dot(d);
+    return std::min({t[0].cross(t[1]).dot(d), t[1].cross(t[2]).dot(d), t[2].cross(t[0]).dot(d)}) /
+           all;
+  }
+
+  int cell_of(const Vec3& d) const {
+    Eigen::Index axis = 0;
+    const double largest = d.cwiseAbs().maxCoeff(&axis);
+    const auto along = [&](Eigen::Index i) {
+      const double share = (d[i % 3] / largest + 1) / 2;
+      return std::clamp(static_cast<int>(share * cells_), 0, cells_ - 1);
+    };
+    const int side = static_cast<int>(2 * axis) + (d[axis] > 0 ? 1 : 0);
+    return (side * cells_ + along(axis + 1)) * cells_ + along(axis + 2);
+  }
+
+  // To all cells whose cap about their middle meets the triangle's.
+  void add(int t, const std::vector<Vec3>& middles) {
+    const Triangle& triangle = entry(triangles_, t);
+    const Vec3 middle =
+        (triangle[0].normalized() + triangle[1].normalized() + triangle[2].normalized())
+            .normalized();
+    double reach = portable::atan(std::numbers::sqrt2 / cells_) + 1e-6;
+    double far = 0;
+    for (const Vec3& p : triangle)
+      far = std::max(far, portable::atan2(middle.cross(p).norm(), middle.dot(p)));
+    reach = std::min(reach + far, pi);
+    const double least = portable::cos(reach);
+    for (std::size_t c = 0; c < middles.size(); ++c)
+      if (middle.dot(middles[c]) >= least) in_cell_[c].push_back(t);
+  }
+
+  std::vector<Vec3> cell_middles() const {
+    std::vector<Vec3> middles;
+    for (int side = 0; side < 6; ++side)
+      for (int a = 0; a < cells_; ++a)
+        for (int b = 0; b < cells_; ++b) {
+          Vec3 d;
+          d[side / 2] = side % 2 == 1 ? 1 : -1;
+          d[(side / 2 + 1) % 3] = (2 * a + 1.0) / cells_ - 1;
+          d[(side / 2 + 2) % 3] = (2 * b + 1.0) / cells_ - 1;
+          middles.push_back(d.normalized());
+        }
+    return middles;
+  }
+
+  std::vector<Triangle> triangles_;
+  int cells_ = 1;
+  std::vector<std::vector<int>> in_cell_;
+};
+
+// Two unit vectors across a unit vector.
+std::array<Vec3, 2> across(const Vec3& d) {
+  Eigen::Index least = 0;
+  d.cwiseAbs().minCoeff(&least);
+  const Vec3 x = Vec3::Unit(least).cross(d).normalized();
+  return {x, d.cross(x)};
+}
+
+class TriangleSurface final : public StarSurface {
+ public:
+  TriangleSurface(std::vector<Triangle> triangles, double smoothing)
+      : smoothing_(smoothing), fan_(triangles), volume_(volume_of(triangles)) {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
+    for (const Triangle& t : triangles)
+      for (const Vec3& p : t) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
+    half_size_ = (high - low) / 2;
+    if (smoothing_ > 0) volume_ = volume_about(*this);
+  }
+
+  // Smoothed: the mean over rays in rings about the direction, with the weights of a bell.
+  double radius(const Vec3& d) const override {
+    if (smoothing_ == 0) return fan_.along(d).distance;
+    constexpr int rings = 3, rays = 8;
+    const std::array<Vec3, 2> side = across(d);
+    double sum = fan_.along(d).distance / 2, weights = 0.5;
+    for (int ring = 1; ring <= rings; ++ring) {
+      const double out = static_cast<double>(ring) / rings,
+                   weight = ring * (1 - out * out + 0.05) / rays;
+      for (int k = 0; k < rays; ++k) {
+        const double turn = 2 * pi * (k + 0.5 * (ring % 2)) / rays;
+        const Vec3 off = portable::cos(turn) * side[0] + portable::sin(turn) * side[1];
+        sum += weight * fan_.along((d + smoothing_ * out * off).normalized()).distance;
+        weights += weight;
+      }
+    }
+    return sum / weights;
+  }
+  // Of r(d) d: along d - grad r / r.
+  Vec3 normal(const Vec3& d) const override {
+    if (smoothing_ == 0) return fan_.along(d).normal.normalized();
+    const double step = smoothing_ / 2, r = radius(d);
+    Vec3 n = d;
+    for (const Vec3& side : across(d))
+      n -= (radius((d + step * side).normalized()) - radius((d - step * side).normalized())) /
+           (2 * step * r) * side;
+    return n.normalized();
+  }
+  Vec3 half_size() const override { return half_size_; }
+  double volume() const override { return volume_; }
+
+ private:
+  double smoothing_;
+  TriangleFan fan_;
+  double volume_;
+  Vec3 half_size_;
+};
+
+}  // namespace
+
+std::unique_ptr<StarSurface> triangle_surface(const StlShape& shape) {
+  if (shape.triangles.empty()) throw std::invalid_argument("an STL shape whose file was not read");
+  if (const auto why = why_not_star_shaped(shape.triangles)) throw std::invalid_argument(*why);
+  const Vec3 centre = centre_of_volume(shape.triangles);
+  const auto built = [&](double scale) {
+    std::vector<Triangle> triangles = shape.triangles;
+    for (Triangle& t : triangles)
+      for (Vec3& p : t) p = scale * (p - centre);
+    return std::make_unique<TriangleSurface>(std::move(triangles), shape.smoothing);
+  };
+  auto surface = built(1);
+  if (!shape.diameter) return surface;
+  return built(*shape.diameter * portable::cbrt(pi / 6 / surface->volume()));
+}
+
+}  // namespace pulvis::space

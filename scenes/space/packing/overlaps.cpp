@@ -1,0 +1,204 @@
+#include "scenes/space/packing/overlaps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "scenes/language/problem.hpp"
+#include "scenes/space/packing/container.hpp"
+#include "scenes/space/packing/near_pairs.hpp"
+#include "scenes/space/packing/place.hpp"
+
+namespace pulvis::space {
+namespace {
+
+constexpr std::size_t most_reports = 20;  // a packing that is too dense overlaps everywhere
+constexpr double exact_face = 1e-11;      // mean diameters
+// Of the smaller particle's size: what the search for the least way out of a body that is no ball leaves open.
+constexpr double search_tolerance = 1e-7;
+
+struct Overlap {
+  std::size_t particle, other;  // particle or tool
+  double depth;                 // m
+};
+
+// The rotation by the shortest way that makes the unit vector `axis` the z axis.
+Turn turn_to_z(const Vec3& axis) {
+  const double w = 1 + axis.z();
+  if (w < 1e-12) return {0, 1, 0, 0};
+  const double norm = 1 / std::sqrt(w * w + axis.y() * axis.y() + axis.x() * axis.x());
+  return {norm * w, norm * axis.y(), -norm * axis.x(), 0};
+}
+
+class BodyOverlaps {
+ public:
+  BodyOverlaps(const Scene& scene, const std::vector<BodySpec>& bodies)
+      : scene_(*scene.space), bodies_(bodies) {
+    double sum = 0;
+    for (const ParticleSpec& particle : scene_.particles)
+      sum += rigid_shape(particle.shape, 1).diameter;
+    unit_ = sum / static_cast<double>(scene_.particles.size());
+    for (const ParticleSpec& particle : scene_.particles)
+      shapes_.push_back(rigid_shape(particle.shape, unit_));
+    for (const BodySpec& body : bodies)
+      poses_.push_back({vector_of(body.position / unit_), turn_of(body.rotation)});
+  }
+
+  std::vector<Overlap> between_particles() {
+    std::vector<Ball> balls;
+    for (std::size_t i = 0; i < poses_.size(); ++i) balls.push_back({poses_[i].at, shape(i).reach});
+    auto pairs = near_pairs(balls, 0);
+    pairs_ = pairs.size();
+    std::ranges::sort(pairs, {}, [](const auto& p) { return std::pair(p.second, p.first); });
+    std::vector<Overlap> found;
+    for (const auto& [a, b] : pairs) {
+      const auto i = static_cast<std::size_t>(b), k = static_cast<std::size_t>(a);
+      const double depth = depth_of(i, k);
+      if (depth > std::min(tolerance(i), tolerance(k))) found.push_back({i, k, depth * unit_});
+    }
+    return found;
+  }
+  std::size_t pairs() const { return pairs_; }
+
+  std::vector<Overlap> with_tool(std::size_t number) const {
+    std::vector<Overlap> found;
+    const ToolSpec& tool = scene_.tools[number];
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      const double depth = depth_behind(tool, tool.normal, i);
+      if (depth > tolerance(i)) found.push_back({i, number, depth * unit_});
+    }
+    return found;
+  }
+
+  // Turned round, the plane has every particle in front of it.
+  bool is_reversed(const ToolSpec& tool) const {
+    if (tool.shape != ToolSpec::Shape::plane) return false;
+    for (std::size_t i = 0; i < poses_.size(); ++i)
+      if (depth_behind(tool, -tool.normal, i) > tolerance(i)) return false;
+    return true;
+  }
+
+ private:
+  const RigidShape& shape(std::size_t i) const {
+    return shapes_[static_cast<std::size_t>(bodies_[i].particle)];
+  }
+  double tolerance(std::size_t i) const {
+    return (shape(i).is_ball() ? touching_tolerance : search_tolerance) * shape(i).diameter;
+  }
+
+  double depth_of(std::size_t i, std::size_t k) const {
+    const RigidPair pair(shape(i), poses_[i], shape(k), poses_[k]);
+    V3 normal{0, 0, 1};
+    const auto touch = pair.touch(0, normal, exact_face);
+    return touch ? -pair.distance(touch->normal) : 0;
+  }
+
+  double depth_behind(const ToolSpec& tool, const Vec3& along, std::size_t i) const {
+    const V3 normal = vector_of(along), at = poses_[i].at - vector_of(tool.point / unit_);
+    if (tool.shape == ToolSpec::Shape::plane) {
+      const V3 deepest = poses_[i].turn * shape(i).support(turned_back(poses_[i].turn, -normal));
+      return -dot(normal, at + deepest);
+    }
+    if (tool.shape != ToolSpec::Shape::die) return 0;
+    const Turn turn = turn_to_z(along);
+    const auto touch = round_wall_touch(tool.diameter / 2 / unit_, shape(i),
+                                        {turn * at, turn * poses_[i].turn}, 0);
+    return touch ? -touch->gap : 0;
+  }
+
+  const SpaceScene& scene_;
+  const std::vector<BodySpec>& bodies_;
+  double unit_ = 1;  // m
+  std::vector<RigidShape> shapes_;
+  std::vector<RigidPose> poses_;
+  std::size_t pairs_ = 0;
+};
+
+class OverlapReport {
+ public:
+  OverlapReport(const Scene& scene, const std::vector<BodySpec>& bodies)
+      : scene_(scene), bodies_(bodies) {}
+
+  void particles(const Overlap& overlap) {
+    add(overlap,
+        fmt::format("{} overlaps {} by {:.6g} m, allowed: particles that touch or are apart",
+                    described(overlap.particle), described(overlap.other), overlap.depth));
+  }
+  void outside(const Overlap& overlap) {
+    add(overlap,
+        fmt::format("{} is outside the die: it reaches {:.6g} m behind tool '{}', allowed: "
+                    "particles in front of every tool",
+                    described(overlap.particle), overlap.depth,
+                    scene_.space->tools[overlap.other].name));
+  }
+  void turned_away(std::size_t number) {
+    const ToolSpec& tool = scene_.space->tools[number];
+    const Vec3 n = -tool.normal;
+    problems_.push_back(
+        {scene_.file_of(tool.mark).string(), tool.mark.line, tool.mark.column, "",
+         fmt::format("tool[{}].normal", number),
+         fmt::format(
+             "tool '{}' faces away from the powder: every particle lies behind it, allowed: "
+             "the normal out of the tool into the powder, [{:g}, {:g}, {:g}]",
+             tool.name, n.x() + 0, n.y() + 0, n.z() + 0)});
+  }
+
+  void throw_if_any() const {
+    if (!problems_.empty()) throw SceneError(problems_);
+  }
+
+ private:
+  void add(const Overlap& overlap, const std::string& message) {
+    if (problems_.size() > most_reports) return;
+    const BodySpec& body = bodies_[overlap.particle];
+    const bool last = problems_.size() == most_reports;
+    problems_.push_back({scene_.file_of(body.mark).string(), body.mark.line, body.mark.column, "",
+                         last ? "scene" : key_of(body),
+                         last ? "there are more overlaps, not listed" : message});
+  }
+
+  // A packing's particles share its mark, so the mark tells where a particle comes from.
+  std::string key_of(const BodySpec& body) const {
+    const SpaceScene& space = *scene_.space;
+    for (std::size_t i = 0; i < space.packings.size(); ++i)
+      if (space.packings[i].mark == body.mark) return fmt::format("packing[{}]", i);
+    for (std::size_t i = 0; i < space.bodies.size(); ++i)
+      if (space.bodies[i].mark == body.mark) return fmt::format("body[{}].position", i);
+    return "particle";
+  }
+
+  std::string described(std::size_t i) const {
+    const BodySpec& body = bodies_[i];
+    const Vec3& p = body.position;
+    return fmt::format("particle {} ('{}' at ({:.6g}, {:.6g}, {:.6g}) m)", i,
+                       scene_.space->particles[static_cast<std::size_t>(body.particle)].name, p.x(),
+                       p.y(), p.z());
+  }
+
+  const Scene& scene_;
+  const std::vector<BodySpec>& bodies_;
+  std::vector<SceneProblem> problems_;
+};
+
+}  // namespace
+
+std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
+  if (bodies.empty()) return 0;
+  BodyOverlaps search(scene, bodies);
+  OverlapReport report(scene, bodies);
+  for (std::size_t t = 0; t < scene.space->tools.size(); ++t) {
+    const std::vector<Overlap> found = search.with_tool(t);
+    if (!found.empty() && search.is_reversed(scene.space->tools[t]))
+      report.turned_away(t);
+    else
+      for (const Overlap& overlap : found) report.outside(overlap);
+  }
+  for (const Overlap& overlap : search.between_particles()) report.particles(overlap);
+  report.throw_if_any();
+  return search.pairs();
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,16 @@
+// Particles that overlap each other, or reach into planes and round dies.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+// Throws SceneError: each overlap with both particles, or particle and tool, and its depth; twenty at most. Particles are
+// looked at as the convex bodies that packings are made of (rigid_shape.hpp). Punches with a profile and STL tools are not
+// looked at. Returns the number of pairs whose bounding balls meet.
+std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies);
+
+}  // namespace pulvis::space

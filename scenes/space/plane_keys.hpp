@@ -1,0 +1,11 @@
+// What a scene says that has no meaning in three dimensions, though it has one in two.
+#pragma once
+
+#include "scenes/language/problem.hpp"
+
+namespace pulvis::space {
+
+// Refuses such keys, tables and words.
+void refuse_keys_of_the_plane(const document::Table& root, Problems& problems);
+
+}  // namespace pulvis::space

@@ -1,0 +1,137 @@
+// Scenes in three dimensions: what is read, and that what two dimensions alone have is refused with a sentence.
+#include <gmock/gmock.h>
+
+#include "scenes/keys/tables.hpp"
+#include "scenes/space/keys/space_reference.hpp"
+#include "scenes/space/keys/tables.hpp"
+#include "scenes/space/packing/place.hpp"
+#include "scenes/spec/space_scene.hpp"
+#include "tests/helpers/paths.hpp"
+#include "tests/helpers/right_scene.hpp"
+#include "tests/helpers/right_space_scene.hpp"
+
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+namespace pulvis {
+namespace {
+
+using testing::HasSubstr;
+
+LoadedScene loaded(const std::vector<std::string>& overrides = {}) {
+  return load_scene_text(right_space_scene, "right.toml", overrides);
+}
+
+TEST(SpaceScene, HasWhatItsFileSays) {
+  const Scene scene = loaded().scene;
+  ASSERT_NE(scene.space, nullptr);
+  const space::SpaceScene& in_space = *scene.space;
+  EXPECT_TRUE(scene.particles.empty());
+  ASSERT_EQ(in_space.particles.size(), 2U);
+  EXPECT_EQ(std::get<space::SphereShape>(in_space.particles[0].shape).diameter, 10e-3);
+  EXPECT_EQ(in_space.particles[0].mesh.divisions, 2);
+  EXPECT_EQ(std::get<space::CylinderShape>(in_space.particles[1].shape).rounding, 1e-3);
+  ASSERT_EQ(in_space.tools.size(), 2U);
+  EXPECT_EQ(in_space.tools[1].normal, space::Vec3(0, 0, -1));
+  EXPECT_EQ(in_space.tools[1].point, space::Vec3(0, 0, 20e-3));
+  ASSERT_EQ(in_space.moves.size(), 1U);
+  EXPECT_EQ(in_space.moves[0][0].displacement, space::Vec3(0, 0, -1e-3));
+  EXPECT_EQ(scene.frictions[0].coefficient, 0.3);
+  EXPECT_EQ(space::place_bodies(scene).size(), 5U);
+}
+
+// A turn of 30 degrees about z takes the x axis to (cos 30, sin 30, 0).
+TEST(SpaceScene, TurnsBodiesAboutTheirAxis) {
+  const space::Vec3 turned = loaded().scene.space->bodies[0].rotation * space::Vec3::UnitX();
+  EXPECT_NEAR(turned.x(), std::numbers::sqrt3 / 2, 1e-15);
+  EXPECT_NEAR(turned.y(), 0.5, 1e-15);
+  const auto about_x = loaded({"body[0].axis=[2, 0, 0]"}).scene.space->bodies[0].rotation;
+  EXPECT_NEAR((about_x * space::Vec3::UnitY()).z(), 0.5, 1e-15);
+}
+
+TEST(SpaceScene, SavedItIsTheSame) {
+  const LoadedScene given = loaded();
+  const LoadedScene again = load_scene_text(given.text, "right.toml");
+  EXPECT_THAT(given.text, HasSubstr("dimension = 3\n"));
+  EXPECT_EQ(again.text, given.text);
+  EXPECT_EQ(again.hash, given.hash);
+}
+
+TEST(SpaceScene, AccuracyStandsForMeshes) {
+  const auto mesh = [](const char* accuracy) {
+    return loaded({std::string("accuracy=") + accuracy, "particle[1].mesh={}"})
+        .scene.space->particles[1]
+        .mesh;
+  };
+  EXPECT_LT(mesh("draft").divisions, mesh("standard").divisions);
+  EXPECT_LT(mesh("standard").divisions, mesh("fine").divisions);
+  EXPECT_EQ(mesh("standard").divisions, 4);
+  EXPECT_EQ(mesh("standard").rings, 4);
+}
+
+TEST(SpaceScene, SpheresOfALatticeTouchWithoutASpacing) {
+  const auto spacing = [](const char* kind) {
+    return loaded({std::string("packing[0].kind=") + kind}).scene.space->packings[0].spacing;
+  };
+  EXPECT_DOUBLE_EQ(spacing("cubic"), 10e-3);
+  EXPECT_DOUBLE_EQ(spacing("body-centred"), 20e-3 / std::numbers::sqrt3);
+  EXPECT_DOUBLE_EQ(spacing("face-centred"), 10e-3 * std::numbers::sqrt2);
+}
+
+TEST(SpaceScene, TwoDimensionsNeedNotBeSaidAndChangeNothing) {
+  const LoadedScene unsaid = load_scene_text(right_scene, "right.toml");
+  const LoadedScene said = load_scene_text(right_scene, "right.toml", {"dimension=2"});
+  EXPECT_EQ(said.text, unsaid.text);
+  EXPECT_EQ(said.hash, unsaid.hash);
+  EXPECT_EQ(said.scene.space, nullptr);
+}
+
+TEST(SpaceScene, VariablesStandForComponents) {
+  const Scene scene = loaded({"let.h=20 mm", "tool.top.point=[\"0 mm\", \"0 mm\", \"h\"]"}).scene;
+  EXPECT_EQ(scene.space->tools[1].point.z(), 20e-3);
+}
+
+// Extending and copying files go by the language of two dimensions, before the dimension is known.
+TEST(SpaceLanguage, NamesFilesAndElementsWhereTwoDimensionsDo) {
+  for (const schema::TableView& view : space::scene_language()) {
+    const schema::TableView* plane = schema::find_table(view.info.path, schema::scene_language());
+    ASSERT_NE(plane, nullptr) << view.info.path;
+    EXPECT_EQ(plane->info.repeated, view.info.repeated) << view.info.path;
+    for (const char* matched : {"name", "tool"})
+      EXPECT_EQ(schema::find_key(*plane, matched) != nullptr,
+                schema::find_key(view, matched) != nullptr)
+          << view.info.path;
+    for (const schema::KeyInfo& key : view.keys) {
+      if (key.kind != schema::Kind::file && key.kind != schema::Kind::scene) continue;
+      const schema::KeyInfo* same = schema::find_key(*plane, key.name);
+      ASSERT_NE(same, nullptr) << view.info.path << "." << key.name;
+      EXPECT_EQ(same->kind, key.kind) << view.info.path << "." << key.name;
+    }
+  }
+}
+
+std::string text_of_doc(const std::string& name) {
+  std::ostringstream text;
+  text << std::ifstream(paths::source_dir() + "/docs/" + name).rdbuf();
+  return text.str();
+}
+
+TEST(SpaceLanguage, ItsDescriptionsAreCurrent) {
+  EXPECT_EQ(text_of_doc("scene-3d.md"), space_scene_reference())
+      << "pulvis check --reference text-3d > docs/scene-3d.md";
+  EXPECT_EQ(text_of_doc("scene-3d.schema.json"), space_scene_json_schema())
+      << "pulvis check --reference schema-3d > docs/scene-3d.schema.json";
+}
+
+TEST(SpaceLanguage, EveryKeyIsDescribed) {
+  const std::string markdown = space_scene_reference();
+  for (const schema::TableView& view : space::scene_language())
+    for (const schema::KeyInfo& key : view.keys) {
+      EXPECT_THAT(markdown, HasSubstr("| `" + key.name + "` |"));
+      EXPECT_FALSE(key.doc.empty()) << key.name;
+    }
+}
+
+}  // namespace
+}  // namespace pulvis
