@@ -27,7 +27,8 @@ constexpr std::array<const char*, 6> shape_names{"sphere",   "ellipsoid",  "supe
                                                  "cylinder", "polyhedron", "STL surface"};
 static_assert(shape_names.size() == std::variant_size_v<space::ParticleShape>);
 
-const space::ParticleSpec& base_of(const space::SpaceScene& scene, const space::BodySpec& body) {
+const space::ParticleSpec& class_of_body(const space::SpaceScene& scene,
+                                         const space::BodySpec& body) {
   const auto& spec = scene.particles[static_cast<std::size_t>(body.particle)];
   return spec.class_of < 0 ? spec : scene.particles[static_cast<std::size_t>(spec.class_of)];
 }
@@ -35,7 +36,7 @@ const space::ParticleSpec& base_of(const space::SpaceScene& scene, const space::
 json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 // x, y, z, x, ... of the surface's nodes; four of them a face, counter-clockwise from outside.
-json surface_setup(const World& world, std::size_t first, int lane, const space::Shape& shape) {
+json particle_surface(const World& world, std::size_t first, int lane, const space::Shape& shape) {
   json nodes = json::array(), faces = json::array();
   const Lane* x = world.column<space::Position>().lanes() + 3 * first;
   for (int n = 0; n < shape.surface_nodes; ++n)
@@ -53,8 +54,8 @@ json particles_in_space(const Scene& scene, const std::vector<space::BodySpec>& 
   json out = json::array();
   space::visit_particles<Node>(world, [&](std::size_t first, int lane, const space::Shape& shape) {
     const space::BodySpec& body = bodies.at(out.size());
-    const space::ParticleSpec& spec = base_of(*scene.space, body);
-    json one = surface_setup(world, first, lane, shape);
+    const space::ParticleSpec& spec = class_of_body(*scene.space, body);
+    json one = particle_surface(world, first, lane, shape);
     one["class"] = spec.name;
     one["material"] = scene.materials[static_cast<std::size_t>(spec.material)].name;
     one["elements"] = shape.elements();
@@ -70,7 +71,7 @@ json classes_in_space(const Scene& scene, const std::vector<space::BodySpec>& bo
                       const json& particles) {
   json out = json::array();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const space::ParticleSpec& spec = base_of(*scene.space, bodies[i]);
+    const space::ParticleSpec& spec = class_of_body(*scene.space, bodies[i]);
     const double diameter = std::cbrt(6 / std::numbers::pi * particles[i]["volume"].get<double>());
     auto one = std::ranges::find_if(out, [&](const json& c) { return c["name"] == spec.name; });
     if (one == out.end()) {

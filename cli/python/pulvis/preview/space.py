@@ -53,7 +53,7 @@ class SpaceDrawing(PowderDrawing):
 
     def limits(self, rows):
         seen = self.ends @ rows[:2].T
-        pad = 0.06 * self.span
+        pad = self.span * np.array([0.06, 0.17])  # room for arrows up and down
         return seen.min(axis=0) - pad, seen.max(axis=0) + pad
 
     def shape(self, rows):
