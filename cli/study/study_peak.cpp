@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scenes/results/results.hpp"
+#include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
 namespace {

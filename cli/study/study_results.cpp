@@ -16,6 +16,7 @@
 #include "scenes/lever/afm_figures.hpp"
 #include "scenes/results/results.hpp"
 #include "scenes/study/study_series.hpp"
+#include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/results/results.hpp"
+#include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
 namespace {

@@ -81,11 +81,11 @@ Formulation formulation_of(const World& w) { return w.resource<Bodies>().formula
 }  // namespace
 
 Steps steps_of(World& w) {
-  return with_formulation(formulation_of(w), [&]<class F>(F) { return steps_with<F>(w); });
+  return with_hexahedra(formulation_of(w), [&]<class F>(F) { return steps_with<F>(w); });
 }
 
 std::vector<System> start_of(World& w) {
-  return with_formulation(formulation_of(w), [&]<class F>(F) { return start_with<F>(w); });
+  return with_hexahedra(formulation_of(w), [&]<class F>(F) { return start_with<F>(w); });
 }
 
 }  // namespace pulvis::space

@@ -65,7 +65,7 @@ ROOMS = {
         "": "checks space space/keys space/packing grains keys let lever lever/mesh materials meshes packing tools results outlines spec language",
         "volts": "lever keys outlines spec language",
         "records": "lever volts keys results spec language /",
-        "study": "checks let results keys space/keys spec language /",
+        "study": "checks let results tools keys space/keys spec language /",
         "probe": "keys spec language /",
         "fit": "records keys lever outlines packing spec language /",
     },

@@ -25,8 +25,8 @@ StressColumns stress_columns_of(const World& world) {
           plastic ? world.column<PlasticStrain<F::points>>().lanes() : nullptr, F::points};
 }
 StressColumns stress_columns(const World& world) {
-  return with_formulation(world.resource<Bodies>().formulation,
-                          [&]<class F>(F) { return stress_columns_of<F>(world); });
+  return with_hexahedra(world.resource<Bodies>().formulation,
+                        [&]<class F>(F) { return stress_columns_of<F>(world); });
 }
 
 struct ElementStresses {

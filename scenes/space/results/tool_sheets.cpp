@@ -162,10 +162,9 @@ void ToolSheets::add_die(const ToolSpec& die) {
 }
 
 void ToolSheets::add_punch(const ToolSpec& punch) {
-  std::vector<Vec2> profile;
-  if (punch.profile.empty() || punch.profile.front().x() > 0)
-    profile.emplace_back(0, punch.profile.empty() ? 0 : punch.profile.front().y());
-  for (const Vec2& point : punch.profile) profile.push_back(point);
+  std::vector<Vec2> profile{Vec2(0, punch.profile.empty() ? 0 : punch.profile.front().y())};
+  for (const Vec2& point : punch.profile)
+    if (point.x() > 0) profile.push_back(point);
   const double radius = std::max(punch.diameter / 2, profile.back().x());
   if (profile.back().x() < radius) profile.emplace_back(radius, profile.back().y());
   profile.emplace_back(radius, profile.back().y() - share_of_punch * 2 * radius);

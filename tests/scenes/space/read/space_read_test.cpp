@@ -59,8 +59,11 @@ TEST(SpaceScene, SavedItIsTheSame) {
 }
 
 TEST(SpaceScene, AccuracyStandsForMeshes) {
-  const auto mesh = [](const char* accuracy) {
-    return loaded({std::string("accuracy=") + accuracy, "particle[1].mesh={}"})
+  const auto mesh = [](const std::string& accuracy) {
+    std::string text = right_space_scene;
+    const std::string counts = "divisions = 3\nrings = 3\n";
+    text.erase(text.find(counts), counts.size());
+    return load_scene_text(text, "right.toml", {"accuracy=" + accuracy})
         .scene.space->particles[1]
         .mesh;
   };

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 
 #include "scenes/build.hpp"
 #include "scenes/read.hpp"
@@ -15,93 +16,120 @@ using testing::HasSubstr;
 
 struct WrongSpaceScene {
   const char* name;
-  std::vector<std::string> set;
+  std::vector<std::string> set;         // as for --set
+  std::array<const char*, 2> replaced;  // in the text, by what
   const char* key;
   std::vector<const char*> says;
 };
 
 void PrintTo(const WrongSpaceScene& wrong, std::ostream* stream) { *stream << wrong.name; }
 
+constexpr std::array<const char*, 2> as_it_is{"", ""};
+
 // While it is read, or, where only the placed particles can tell, while it is built.
-std::vector<SceneProblem> problems_in_space(const std::vector<std::string>& set) {
-  return problems_in(
-      [&] { build_world(load_scene_text(right_space_scene, "wrong.toml", set).scene); });
+std::vector<SceneProblem> problems_in_space(const WrongSpaceScene& wrong) {
+  std::string text = right_space_scene;
+  const std::string from = wrong.replaced[0];
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos);
+  text.replace(at, from.size(), wrong.replaced[1]);
+  return problems_in([&] { build_world(load_scene_text(text, "wrong.toml", wrong.set).scene); });
 }
 
 class WrongSpaceScenes : public testing::TestWithParam<WrongSpaceScene> {};
 
 TEST_P(WrongSpaceScenes, AreRefused) {
-  const auto problems = problems_in_space(GetParam().set);
+  const auto problems = problems_in_space(GetParam());
   const auto found = std::ranges::find(problems, GetParam().key, &SceneProblem::key);
   ASSERT_NE(found, problems.end()) << (problems.empty() ? "accepted" : problems[0].text());
   for (const char* words : GetParam().says) EXPECT_THAT(found->message, HasSubstr(words));
   EXPECT_THAT(found->message, HasSubstr("allowed: "));
 }
 
+constexpr const char* time_table = "[time]\n";
+constexpr const char* lattice = "kind = \"cubic\"\nparticle = \"ball\"\ncells = [2, 2, 1]\n";
+constexpr const char* one_move =
+    "[[stage.move]]\ntool = \"top\"\ndisplacement = [\"0 mm\", \"0 mm\", \"-1 mm\"]\n";
+constexpr const char* pill_sizes = "shape = \"cylinder\"\ndiameter = \"8 mm\"\nheight = \"6 mm\"\n";
 const std::vector<WrongSpaceScene> wrong_in_space{
-    {"Thickness", {"thickness=1 mm"}, "thickness", {"belongs to two dimensions", "dimension = 3"}},
+    {"Thickness", {"thickness=1 mm"}, as_it_is, "thickness", {"two dimensions", "dimension = 3"}},
     {"Bonds",
-     {"bond=[{between=[\"316L\", \"316L\"], strength=\"1 MPa\"}]"},
+     {},
+     {time_table, "[[bond]]\nbetween = [\"316L\", \"316L\"]\n\n[time]\n"},
      "bond",
-     {"belongs to two dimensions"}},
-    {"Cell", {"cell={width=\"10 mm\"}"}, "cell", {"belongs to two dimensions"}},
-    {"Outline", {"particle[0].outline=disc"}, "particle[0].outline", {"shape"}},
-    {"Grains", {"particle[0].grains={number=3}"}, "particle[0].grains", {"two dimensions"}},
+     {"two dimensions"}},
+    {"Cell", {}, {time_table, "[cell]\nwidth = \"10 mm\"\n\n[time]\n"}, "cell", {"two dim"}},
+    {"Outline", {"particle[0].outline=disc"}, as_it_is, "particle[0].outline", {"shape"}},
+    {"Grains", {"particle[0].grains.number=3"}, as_it_is, "particle[0].grains", {"two dim"}},
     {"Damping",
-     {"material[0].damping={mass_proportional=\"1 1/s\"}"},
+     {"material[0].damping.mass_proportional=1 1/s"},
+     as_it_is,
      "material[0].damping",
      {"two dimensions"}},
-    {"Constraint", {"tool.top.shape=constraint"}, "tool[1].shape", {"two dimensions", "plane"}},
-    {"Shear", {"stage.press.kind=shear"}, "stage[0].kind", {"two dimensions", "compact"}},
+    {"Constraint", {"tool.top.shape=constraint"}, as_it_is, "tool[1].shape", {"two dim", "plane"}},
+    {"Shear", {"stage.press.kind=shear"}, as_it_is, "stage[0].kind", {"two dimensions", "compact"}},
     {"ShortVector",
      {"tool.top.point=[\"0 mm\", \"20 mm\"]"},
+     as_it_is,
      "tool[1].point",
      {"length 2", "[x, y, z]"}},
-    {"FourDimensions", {"dimension=4"}, "dimension", {"out of range"}},
-    {"OfAVariable", {"let.d=3", "dimension=d"}, "dimension", {"expression"}},
-    {"Rounding", {"particle.pill.rounding=5 mm"}, "particle[1].rounding", {"half"}},
+    {"FourDimensions", {"dimension=4"}, as_it_is, "dimension", {"out of range"}},
+    {"OfAVariable", {"let.d=3", "dimension=d"}, as_it_is, "dimension", {"expression"}},
+    {"Rounding", {"particle.pill.rounding=5 mm"}, as_it_is, "particle[1].rounding", {"half"}},
     {"FlatPolyhedron",
-     {"particle[1]={name=\"pill\", material=\"316L\", shape=\"polyhedron\", rounding=\"1 mm\", "
-      "corners=[[\"0 mm\", \"0 mm\", \"0 mm\"], [\"9 mm\", \"0 mm\", \"0 mm\"], [\"0 mm\", \"9 "
-      "mm\", \"0 mm\"], [\"9 mm\", \"9 mm\", \"0 mm\"]]}"},
+     {},
+     {pill_sizes,
+      "shape = \"polyhedron\"\ncorners = [[\"0 mm\", \"0 mm\", \"0 mm\"], [\"9 mm\", \"0 mm\", \"0 "
+      "mm\"], [\"0 mm\", \"9 mm\", \"0 mm\"], [\"9 mm\", \"9 mm\", \"0 mm\"]]\n"},
      "particle[1].corners",
      {"one plane"}},
     {"NoContainer",
-     {"packing[0]={kind=\"random\", density=0.5, class=[{particle=\"ball\", number=3}]}"},
+     {},
+     {lattice, "kind = \"random\"\ndensity = 0.5\n[[packing.class]]\nparticle = \"ball\"\n"},
      "packing[0].width",
      {"depth"}},
     {"TwoContainers",
-     {"packing[0]={kind=\"random\", density=0.5, diameter=\"20 mm\", width=\"20 mm\", depth=\"20 "
-      "mm\", class=[{particle=\"ball\", number=3}]}"},
+     {},
+     {lattice,
+      "kind = \"random\"\ndensity = 0.5\ndiameter = \"20 mm\"\nwidth = \"20 mm\"\ndepth = \"20 "
+      "mm\"\n[[packing.class]]\nparticle = \"ball\"\nnumber = 3\n"},
      "packing[0].diameter",
      {"width"}},
     {"Density",
-     {"stage.press.until={relative_density=0.9}"},
+     {"stage.press.until.relative_density=0.9"},
+     as_it_is,
      "stage[0].until.relative_density",
      {"no die"}},
     {"TwiceMoved",
-     {"stage.press.move=[{tool=\"top\", displacement=[\"0 m\", \"0 m\", \"-1 mm\"]}, "
-      "{tool=\"top\", displacement=[\"0 m\", \"0 m\", \"-1 mm\"]}]"},
+     {},
+     {one_move,
+      "[[stage.move]]\ntool = \"top\"\ndisplacement = [\"0 mm\", \"0 mm\", \"-1 "
+      "mm\"]\n\n[[stage.move]]\ntool = \"top\"\ndisplacement = [\"0 mm\", \"0 mm\", \"-1 mm\"]\n"},
      "stage[0].move[1].tool",
      {"twice"}},
     {"ServoWithoutDirection",
-     {"tool.top={name=\"top\", shape=\"die\", point=[\"10 mm\", \"10 mm\", \"0 m\"], "
-      "diameter=\"40 mm\"}",
-      "stage.press.move=[{tool=\"bottom\", displacement=[\"0 m\", \"0 m\", \"1 mm\"]}]",
-      "stage.press.servo=[{tool=\"top\", force=\"1 N\"}]"},
+     {"tool.top.shape=die", "tool.top.diameter=90 mm", "tool.top.normal=[0, 0, 1]"},
+     {one_move, "[[stage.servo]]\ntool = \"top\"\nforce = \"1 N\"\n"},
      "stage[0].servo[0].direction",
      {"normal"}},
-    {"Overlap", {"body[0].position=[\"10 mm\", \"10 mm\", \"10 mm\"]"}, "packing[0]", {"overlap"}},
+    {"Overlap",
+     {"body[0].position=[\"10 mm\", \"10 mm\", \"10 mm\"]"},
+     as_it_is,
+     "packing[0]",
+     {"overlap"}},
     {"BehindATool",
      {"tool.top.point=[\"0 mm\", \"0 mm\", \"16 mm\"]"},
+     as_it_is,
      "body[0].position",
-     {"behind tool 'top'"}},
+     {"tool 'top'"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Of, WrongSpaceScenes, testing::ValuesIn(wrong_in_space),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(RightSpaceScene, IsAccepted) { EXPECT_TRUE(problems_in_space({}).empty()); }
+TEST(RightSpaceScene, IsAccepted) {
+  EXPECT_TRUE(problems_in_space({"Right", {}, as_it_is, "", {}}).empty());
+}
 
 }  // namespace
 }  // namespace pulvis
