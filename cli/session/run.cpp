@@ -33,9 +33,11 @@ void print_end(const Session& run, const RunOptions& options) {
        counted(steps, "step"), seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
        r.energy_balance_error());
   if (r.has("stress_ratio/axial"))
-    tell("relative density {:.4f}, axial stress / yield stress {:.4f}, lateral {:.4f}\n",
+    tell("relative density {:.4f}, axial stress / yield stress {:.4f}{}\n",
          r.value("relative_density"), r.value("stress_ratio/axial"),
-         r.value("stress_ratio/lateral"));
+         r.has("stress_ratio/lateral")
+             ? fmt::format(", lateral {:.4f}", r.value("stress_ratio/lateral"))
+             : "");
   if (const auto shear = r.shear().figures())
     tell("friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
          shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,

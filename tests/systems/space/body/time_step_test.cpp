@@ -54,7 +54,6 @@ Matrix random_stretch(Random& random, double by) {
 
 template <class F>
 class TimeSteps : public testing::Test {};
-using Formulations = testing::Types<OnePoint, EightPoint>;
 TYPED_TEST_SUITE(TimeSteps, Formulations);
 
 Vector random_vector(Random& random) {
