@@ -20,7 +20,7 @@ using pulvis::kernels::barrier_ratio;
 
 inline constexpr double harmless_distortion2 = 0.3278;  // 3 (1 - 0.3^(1/3))^2, rounded down
 
-// Where this is not below 1, a corner may be closing.
+// Where |p|^2 over what is harmless is not below 1, a corner may be closing.
 template <class T>
 T closing_measure(const HourglassComponents<T>& p, const Shape::Element& element) {
   const auto add = [](const Vector3<T>& a, T sum) {
