@@ -6,6 +6,7 @@
 
 #include "components/run_state.hpp"
 #include "components/space/body.hpp"
+#include "components/space/formulation.hpp"
 #include "scenes/space/body_columns.hpp"
 #include "scenes/space/meshes/element_constants.hpp"
 #include "systems/space/body/systems.hpp"
@@ -77,6 +78,35 @@ S open(World& world) {
   return detail::Opener{world}.open<S>();
 }
 
+template <class F>
+std::vector<double> plastic_strains(World& world) {
+  const auto& eps = world.column<PlasticStrain<F::points>>();
+  return {eps.values(), eps.values() + eps.bytes() / sizeof(double)};
+}
+
+// Share of the points of the first chunk whose plastic strain grows, a mean over twenty steps there and back.
+double flowing_share(World& world, Formulation formulation, const auto& force) {
+  const auto move = open<integrate>(world);
+  const auto strains = [&] {
+    return with_hexahedra(formulation, [&]<class F>(F) { return plastic_strains<F>(world); });
+  };
+  Clock& clock = world.resource<Clock>();
+  double grown = 0, all = 0;
+  for (int at = 1; at <= 20; ++at) {
+    const std::vector<double> before = strains();
+    clock.dt = at % 20 < 10 ? 1e-9 : -1e-9;
+    clock.dt_before = -clock.dt;
+    force(BusyChunk{Chunk{0}});
+    move(Chunk{0});
+    const std::vector<double> after = strains();
+    const std::size_t points =
+        world.table<Element>().chunk_begin[1] * before.size() / world.table<Element>().rows;
+    for (std::size_t i = 0; i < points; ++i) grown += after[i] > before[i];
+    all += static_cast<double>(points);
+  }
+  return grown / all;
+}
+
 template <class ForceSystem>
 void step(benchmark::State& state, Formulation formulation, bool plastic, double speed) {
   const int n = static_cast<int>(state.range(0)), chunks = static_cast<int>(state.range(1));
@@ -96,6 +126,7 @@ void step(benchmark::State& state, Formulation formulation, bool plastic, double
     }
   }
   state.SetItemsProcessed(state.iterations() * n * n * n * lane_count * chunks);
+  if (plastic) state.counters["flowing"] = flowing_share(*world, formulation, force);
 }
 
 constexpr double flowing = 1e6, resting = 1;  // m/s: strains of 1e-2 a step, and of 1e-8

@@ -52,13 +52,29 @@ struct ToolServos {
     double stiffness = 0;
     bool holds_force() const { return stiffness == 0; }
   };
+  // Set from outside: at once, and in all stages instead of what their servos of this tool are to hold.
+  struct Driven {
+    int tool = 0;
+    double force = 0;  // N
+    template <class Bytes>
+    void state(Bytes& bytes) {
+      bytes(tool, force);
+    }
+  };
   std::vector<Servo> servos;
+  std::vector<Driven> driven;
   std::size_t stage = static_cast<std::size_t>(-1);  // in which the last step was
+
+  const Driven* driven_force(int of_tool) const {
+    for (const Driven& one : driven)
+      if (one.tool == of_tool) return &one;
+    return nullptr;
+  }
 
   // The servos are the scene's.
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(stage);
+    bytes(stage, driven);
   }
 };
 

@@ -105,10 +105,19 @@ function hidesWhatIsNearZero() {
   return isShown && drawn() === before;
 }
 
+// Lists have words and symbols: no key of a series or a value stands in one.
+function hasNames() {
+  const heads = [...document.querySelectorAll("#summary th, #quality th")].map(head => head.firstChild?.textContent ?? "");
+  const told = [...[...document.querySelectorAll("#curve option")].map(option => option.textContent), ...heads];
+  const keys = told.filter(text => /_|[a-z]{3}\/[a-z]{3}/.test(text));
+  return told.length > 10 && (keys.length === 0 || keys.join("; "));
+}
+
 async function drive() {
   await until(() => document.body.dataset.ready);
   told("hasCurves", document.querySelectorAll("path.curve").length > 0);
   told("whole", isWhole());
+  told("named", hasNames());
   told("nearZeroOff", hidesWhatIsNearZero());
   told("network", performance.getEntriesByType("resource").filter(entry => !entry.name.startsWith("data:")).length);
   if (!canvas()) return;

@@ -50,8 +50,8 @@ check StaysSmall "${particles[@]}" material
 check ShowsLocalDensitiesAndContactsOfEveryFrame "${particles[@]}" contacts
 check ShowsBondsCracksAndFragmentsOfEveryFrame "${particles[@]}" bonds
 check ShowsThePeriodicCellWithTheParticlesInside "${particles[@]}" contacts
-check compaction "${particles[@]}" material contacts whole near-zero-off
-check lever "${everything[@]}"
+check compaction "${particles[@]}" material contacts whole near-zero-off named
+check lever "${everything[@]}" named
 check ShowsTheCurvesOfARunWithoutFrames has-curves
 
 # Particles in three dimensions: turned, cut, asked; and 100 particles of 448 elements open fast enough.

@@ -39,19 +39,6 @@ json material_setup(const MaterialSpec& material) {
   return out;
 }
 
-// Between particles, of every pair of materials.
-json pairs_setup(const Scene& scene) {
-  json out = json::array();
-  for (std::size_t a = 0; a < scene.materials.size(); ++a)
-    for (std::size_t b = a; b < scene.materials.size(); ++b) {
-      const std::string &first = scene.materials[a].name, &second = scene.materials[b].name;
-      out.push_back({{"first", first},
-                     {"second", second},
-                     {"coefficient", friction_of(scene, first, second).coefficient}});
-    }
-  return out;
-}
-
 // ---- classes ----------------------------------------------------------------------------------------
 struct Size {
   double width = 0, height = 0, diameter = 0;  // m; the last of the circle of equal area
@@ -239,6 +226,24 @@ json bonds_setup(const Scene& scene, const World& world) {
 
 }  // namespace
 
+json materials_setup(const Scene& scene) {
+  json out = json::array();
+  for (const MaterialSpec& material : scene.materials) out.push_back(material_setup(material));
+  return out;
+}
+
+json pairs_setup(const Scene& scene) {
+  json out = json::array();
+  for (std::size_t a = 0; a < scene.materials.size(); ++a)
+    for (std::size_t b = a; b < scene.materials.size(); ++b) {
+      const std::string &first = scene.materials[a].name, &second = scene.materials[b].name;
+      out.push_back({{"first", first},
+                     {"second", second},
+                     {"coefficient", friction_of(scene, first, second).coefficient}});
+    }
+  return out;
+}
+
 json powder_setup(const Scene& scene, const std::vector<BodySpec>& particles, const World& world) {
   json setup{
       {"family", "particles"},          {"thickness", scene.thickness},
@@ -246,9 +251,7 @@ json powder_setup(const Scene& scene, const std::vector<BodySpec>& particles, co
       {"count", particles.size()},      {"classes", classes_setup(scene, particles)},
       {"stages", stage_setup(scene)},   {"bonds", bonds_setup(scene, world)},
       {"cell", cell_setup(world)}};
-  setup["materials"] = json::array();
-  for (const MaterialSpec& material : scene.materials)
-    setup["materials"].push_back(material_setup(material));
+  setup["materials"] = materials_setup(scene);
   setup["tools"] = scene.tools.empty() ? json::array() : tool_setup(scene, world);
   setup["die"] = die_setup(scene, setup["tools"]);
   if (scene.output.density()) setup["density_cells"] = scene.output.density_cells;

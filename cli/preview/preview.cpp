@@ -8,15 +8,17 @@
 #include "cli/preview/lever_setup.hpp"
 #include "cli/preview/powder_setup.hpp"
 #include "cli/preview/scene_check.hpp"
+#include "cli/preview/space_setup.hpp"
 #include "cli/python_scripts/python_scripts.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/output_error.hpp"
 #include "engine/files/own_files.hpp"
 #include "scenes/checks/overlaps.hpp"
-#include "scenes/language/problem.hpp"
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
+#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/packing/place.hpp"
 #include "scenes/spec/afm_scene.hpp"
 
 namespace pulvis {
@@ -43,6 +45,16 @@ json of_powder(const Scene& scene, SceneFindings& findings) {
   return setup;
 }
 
+json of_space(const Scene& scene, SceneFindings& findings) {
+  const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
+  space::check_overlaps(scene, bodies);
+  require_memory(scene);
+  Simulation simulation(scene);
+  json setup = space_setup(scene, bodies, simulation.world());
+  findings = findings_of(scene, bodies, &simulation);
+  return setup;
+}
+
 std::string text_of(const json& setup) {
   return setup.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -64,14 +76,12 @@ ExitCode draw(const json& setup, const fs::path& output) {
 
 ExitCode draw_preview(const PreviewOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
-  if (scene.space)
-    throw SceneError({{scene.file.string(), 1, 1, "", "dimension",
-                       "scenes in three dimensions have no preview, allowed: `pulvis check`, and "
-                       "the first frame of a run"}});
   require_another(scene.file, options.output);
   require_own_or_none(options.output, role::figure);
   SceneFindings findings;
-  json setup = scene.afm ? of_lever(scene, findings) : of_powder(scene, findings);
+  json setup = scene.afm     ? of_lever(scene, findings)
+               : scene.space ? of_space(scene, findings)
+                             : of_powder(scene, findings);
   tell_findings(findings);
   setup["title"] = scene.title;
   setup["file"] = scene.file.filename().string();

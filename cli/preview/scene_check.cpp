@@ -75,10 +75,8 @@ SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodie
   return findings;
 }
 
-namespace {
-
-SceneFindings findings_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
-                                Simulation* simulation) {
+SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>& bodies,
+                          Simulation* simulation) {
   SceneFindings findings;
   findings.sizes = space::packing_summary(scene) + space::mesh_summary(scene);
   findings.warnings = space::setup_warnings(scene, bodies);
@@ -90,12 +88,14 @@ SceneFindings findings_in_space(const Scene& scene, const std::vector<space::Bod
   return findings;
 }
 
+namespace {
+
 void check_in_space(const Scene& scene) {
   const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
   space::check_overlaps(scene, bodies);
   std::optional<Simulation> simulation;
   if (memory_need(scene).total() <= available_memory()) simulation.emplace(scene);
-  tell_findings(findings_in_space(scene, bodies, simulation ? &*simulation : nullptr));
+  tell_findings(findings_of(scene, bodies, simulation ? &*simulation : nullptr));
 }
 
 }  // namespace

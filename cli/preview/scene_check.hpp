@@ -8,6 +8,7 @@
 #include "scenes/lever/afm_build.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/spec/scene.hpp"
+#include "scenes/spec/space_scene.hpp"
 
 namespace pulvis {
 
@@ -24,6 +25,8 @@ struct SceneFindings {
 };
 // Moves the simulation on.
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
+                          Simulation* simulation);
+SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>& bodies,
                           Simulation* simulation);
 SceneFindings findings_of(const Scene& scene, const AfmModel& model);
 void tell_findings(const SceneFindings& findings);

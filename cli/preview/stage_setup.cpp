@@ -3,6 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "scenes/spec/space_scene.hpp"
 #include "scenes/tools/servo_checks.hpp"
 
 namespace pulvis {
@@ -16,6 +17,7 @@ constexpr std::array<const char*, 6> stage_kinds{"settle", "compact", "hold",
 json vector_of(const Vec2& v) { return {v.x(), v.y()}; }
 
 const std::string& tool_name(const Scene& scene, int tool) {
+  if (scene.space) return scene.space->tools[static_cast<std::size_t>(tool)].name;
   return scene.tools[static_cast<std::size_t>(tool)].name;
 }
 

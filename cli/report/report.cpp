@@ -12,11 +12,11 @@ namespace {
 // for particles in three dimensions alone.
 std::vector<std::string> scripts(const char* page, bool in_space) {
   std::vector<std::string> names{
-      "units.js",     "payload.js",       "save.js",          "chart.js",      "maps.js",
-      "raster.js",    "run.js",           "tags.js",          "field.js",      "field_tools.js",
-      "field_tip.js", "space_section.js", "space_picture.js", "space_view.js", "space_tip.js",
-      "solid.js",     "timeline.js",      "settings.js",      "panels.js",     "fits.js",
-      "words.js",     "tables.js"};
+      "units.js",       "names.js",     "payload.js",       "save.js",          "chart.js",
+      "maps.js",        "raster.js",    "run.js",           "tags.js",          "field.js",
+      "field_tools.js", "field_tip.js", "space_section.js", "space_picture.js", "space_view.js",
+      "space_tip.js",   "solid.js",     "timeline.js",      "settings.js",      "panels.js",
+      "fits.js",        "words.js",     "tables.js"};
   if (in_space) names.insert(names.begin(), "twgl.js");
   for (const auto& panel : report_assets_named("panel_")) names.push_back(panel);
   names.emplace_back(page);

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -80,17 +79,16 @@ DrawnSpace DrawnSpace::whole(const SpaceMesh& mesh) {
   drawn.particles_ = mesh.cell_particle;
   drawn.nodes_.resize(mesh.nodes());
   drawn.first_.resize(mesh.nodes() + 1);
-  drawn.drawn_.resize(mesh.cells());
   std::iota(drawn.nodes_.begin(), drawn.nodes_.end(), 0);
   std::iota(drawn.first_.begin(), drawn.first_.end(), 0);
-  std::iota(drawn.drawn_.begin(), drawn.drawn_.end(), 0);
+  for (std::size_t c = 0; c < mesh.cells(); ++c)
+    drawn.shares_.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(c)});
   drawn.volume_.assign(mesh.cells(), 1.0);
   return drawn;
 }
 
 DrawnSpace DrawnSpace::pyramids(const SpaceMesh& mesh) {
   DrawnSpace drawn;
-  drawn.drawn_.resize(mesh.cells());
   const std::span hexahedra(mesh.hexahedra);
   for (std::size_t c = 0; c < mesh.cells(); ++c)
     drawn.volume_.push_back(hexahedron_volume(mesh.reference, hexahedra.subspan(8 * c, 8)));
@@ -107,7 +105,7 @@ void DrawnSpace::add_node(std::span<const std::int32_t> mean_of_nodes) {
   first_.push_back(static_cast<std::int32_t>(nodes_.size()));
 }
 
-// A cell of the mesh counts for the pyramid that lies in its direction from the centre.
+// A cell of the mesh counts for the pyramids of its own sides, one inside for that in its direction from the centre.
 void DrawnSpace::add_particle(const SpaceMesh& mesh, std::span<const std::int32_t> sides,
                               std::span<const std::int32_t> cells) {
   std::set<std::int32_t> outer;
@@ -124,7 +122,10 @@ void DrawnSpace::add_particle(const SpaceMesh& mesh, std::span<const std::int32_
     add_node({&node, 1});
   }
   std::vector<Vec3> direction;
+  std::set<std::int32_t> at_surface;
   for (const auto side : sides) {
+    at_surface.insert(side / 6);
+    shares_.push_back({side / 6, static_cast<std::int32_t>(cell_count())});
     const Side corners = nodes_of(mesh.hexahedra, side);
     for (const std::size_t k : {0U, 3U, 2U, 1U}) cells_.push_back(number[corners[k]]);
     cells_.insert(cells_.end(), 4, tip);
@@ -133,11 +134,12 @@ void DrawnSpace::add_particle(const SpaceMesh& mesh, std::span<const std::int32_
     direction.push_back((mean_of(mesh.reference, corners) - middle).normalized());
   }
   for (const auto cell : cells) {
+    if (at_surface.contains(cell)) continue;
     const auto c = static_cast<std::size_t>(cell);
     const Vec3 to = mean_of(mesh.reference, std::span(mesh.hexahedra).subspan(8 * c, 8)) - middle;
     const auto nearest =
         std::ranges::max_element(direction, {}, [&](const Vec3& d) { return d.dot(to); });
-    drawn_[c] = first + static_cast<std::int32_t>(nearest - direction.begin());
+    shares_.push_back({cell, first + static_cast<std::int32_t>(nearest - direction.begin())});
   }
 }
 
@@ -155,13 +157,12 @@ std::vector<double> DrawnSpace::positions(std::span<const double> xyz) const {
 
 std::vector<double> DrawnSpace::values(std::span<const double> of_cells) const {
   std::vector<double> sum(cell_count(), 0.0), volume(cell_count(), 0.0);
-  for (std::size_t c = 0; c < drawn_.size(); ++c) {
-    const auto to = static_cast<std::size_t>(drawn_[c]);
+  for (const Share& share : shares_) {
+    const auto c = static_cast<std::size_t>(share.cell), to = static_cast<std::size_t>(share.drawn);
     sum[to] += volume_[c] * of_cells[c];
     volume[to] += volume_[c];
   }
-  for (std::size_t k = 0; k < sum.size(); ++k)  // a thin pyramid may have caught no cell
-    sum[k] = volume[k] > 0 ? sum[k] / volume[k] : std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] /= volume[k];
   return sum;
 }
 

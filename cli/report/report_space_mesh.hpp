@@ -48,9 +48,12 @@ class DrawnSpace {
 
   std::vector<std::int32_t> cells_, surface_, particles_;
   std::vector<std::int32_t> first_{0},
-      nodes_;                        // drawn node k: nodes_[first_[k]] up to first_[k + 1]
-  std::vector<std::int32_t> drawn_;  // where the value of each cell of the mesh goes
-  std::vector<double> volume_;       // of each cell of the mesh
+      nodes_;  // drawn node k: nodes_[first_[k]] up to first_[k + 1]
+  struct Share {
+    std::int32_t cell, drawn;  // where the value of a cell of the mesh goes: one place or several
+  };
+  std::vector<Share> shares_;
+  std::vector<double> volume_;  // of each cell of the mesh
 };
 
 // m^3, of a hexahedron whose corners are these rows of `xyz`: by the midpoints of its eight parts.

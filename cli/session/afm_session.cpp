@@ -177,6 +177,13 @@ void AfmSession::tell(double time, const std::vector<double>& row, bool is_frame
   if (hooks.tick) hooks.tick();
 }
 
+// The last increment is no part's end: behind it the programme is over.
+bool AfmSession::reached() const {
+  constexpr double rounding = 1e-9;  // of the sum of increments
+  return history_.rows.size() < total_ &&
+         (increment() >= target_.increment || history_.times.back() >= target_.actions - rounding);
+}
+
 // False where the run is to stop here.
 bool AfmSession::take(double time, const std::vector<double>& row) {
   history_.times.push_back(time);
@@ -184,19 +191,27 @@ bool AfmSession::take(double time, const std::vector<double>& row) {
   if (recorder_) recorder_->sample(time, row);
   const bool is_frame = history_.rows.size() % every_ == 1 || every_ == 1;
   if (is_frame) frame(time);
+  tell(time, row, is_frame);
   const bool stop = stops();
   if (recorder_ && (stop || checkpoints_->due(increment(), time)))
     write_checkpoint(simulation_.world());
   if (!stop && recorder_) keep();
-  tell(time, row, is_frame);
-  return !stop;
+  return !stop && !reached();
 }
 
 void AfmSession::begin(const Checkpoint* from) {
-  std::size_t total = 1;
-  for (const ActionSpec& action : loaded_.scene.afm->actions) total += action.samples();
-  every_ = std::max<std::size_t>(1, total / 12);
+  has_begun_ = true;
+  if (loaded_.scene.afm->actions.empty()) return;
+  for (const ActionSpec& action : loaded_.scene.afm->actions) total_ += action.samples();
+  every_ = std::max<std::size_t>(1, total_ / 12);
   mesh_ = mesh_of(simulation_);
+  open_recorder(from);
+  std::function<void(World&)> restore;
+  if (from != nullptr) restore = [from](World& world) { from->restore(world); };
+  simulation_.begin(restore);
+}
+
+void AfmSession::open_recorder(const Checkpoint* from) {
   if (from != nullptr) {
     RecorderPosition results;
     const std::vector<std::byte> bytes = from->run("afm");
@@ -215,21 +230,24 @@ void AfmSession::begin(const Checkpoint* from) {
   if (recorder_) checkpoints_->of_run(recorder_->run_id());
 }
 
-void AfmSession::run_programme(const Checkpoint* from) {
-  begin(from);
-  std::function<void(World&)> restore;
-  if (from != nullptr) restore = [from](World& world) { from->restore(world); };
+void AfmSession::run_programme() {
   try {
-    end_.done = simulation_.run(
-        [this](double time, const std::vector<double>& row) { return take(time, row); }, position_,
-        restore);
+    end_.done = simulation_.go_on(
+        [this](double time, const std::vector<double>& row) { return take(time, row); }, position_);
   } catch (const RunFailure& failure) {
     end_.failure = failure.what();
   } catch (const Interrupted&) {
     if (recorder_) write_kept_checkpoint();
     end_.given_up = true;
   }
+}
+
+void AfmSession::leave() {
+  if (has_left_) return;
+  const bool goes_on = has_begun_ && !over();
+  has_left_ = true;
   if (recorder_ == nullptr) return;
+  if (goes_on && !history_.times.empty()) write_checkpoint(simulation_.world());
   if (!history_.times.empty() && !end_.given_up) frame(history_.times.back());
   for (const AfmImage& image : raster_images(loaded_.scene, history_))
     recorder_->image(image.info, image.lines, image.pixels, image.values, image.spacing);
@@ -237,11 +255,23 @@ void AfmSession::run_programme(const Checkpoint* from) {
   if (end_.done) checkpoints_->remove();
 }
 
-void AfmSession::run(const Checkpoint* from) {
-  if (!report_.calibration) return;
-  if (!loaded_.scene.afm->actions.empty()) return run_programme(from);
+void AfmSession::go(const Target& target) {
+  if (!report_.calibration || over()) return;
+  if (!has_begun_) begin(nullptr);
+  target_ = target;
+  if (!loaded_.scene.afm->actions.empty()) {
+    if (history_.times.empty() || !reached()) run_programme();
+    return;
+  }
   if (writes()) write_load_cases(folder_, loaded_, threads_, simulation_);
   end_.done = true;
+}
+
+void AfmSession::run(const Checkpoint* from) {
+  if (!report_.calibration) return;
+  begin(from);
+  go({});
+  leave();
 }
 
 // A lever that has no answer: there is nothing to draw or to go on from.

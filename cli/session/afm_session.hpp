@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,12 @@ struct ProgrammeEnd {
 
 class AfmSession {
  public:
+  // How far to go.
+  struct Target {
+    double actions = std::numeric_limits<double>::infinity();  // done, a part of one included
+    std::int64_t increment = std::numeric_limits<std::int64_t>::max();
+  };
+
   // Calibrates, which may take minutes: before any folder is touched.
   AfmSession(LoadedScene scene, int threads);
 
@@ -35,6 +42,11 @@ class AfmSession {
   void write_to(const std::filesystem::path& folder, const CheckpointOptions& options);
   // To the programme's end, or until it is stopped; without actions, the load cases of the calibration.
   void run(const Checkpoint* from = nullptr);
+  // The same in parts, which leaves the same bits: to a target, until it is over(); then, or before, leave().
+  void go(const Target& target);
+  void leave();  // completes the files of the run; there is a checkpoint where it has not ended
+  // Nothing is left to go on with.
+  bool over() const { return end_.done || end_.given_up || !end_.failure.empty() || has_left_; }
   // What came of it, with verdicts, summary and report.
   void finish();
 
@@ -45,16 +57,18 @@ class AfmSession {
   const AfmHistory& history() const { return history_; }
   const std::filesystem::path& folder() const { return folder_; }
   AfmSimulation& simulation() { return simulation_; }
+  std::int64_t increment() const { return position_.told - 1; }  // -1: not begun
 
  private:
   bool writes() const { return !folder_.empty(); }
-  void run_programme(const Checkpoint* from);
   void begin(const Checkpoint* from);
+  void open_recorder(const Checkpoint* from);
+  void run_programme();
+  bool reached() const;
   bool take(double time, const std::vector<double>& row);
   void frame(double time);
   void tell(double time, const std::vector<double>& row, bool is_frame);
   bool stops() const;
-  std::int64_t increment() const { return position_.told - 1; }
   template <class State>
   void write_checkpoint(const State& state);
   void write_kept_checkpoint();
@@ -76,7 +90,10 @@ class AfmSession {
   AfmPosition position_;
   std::unique_ptr<Recorder> recorder_;
   std::size_t every_ = 1;  // increments a frame
-  StateParts kept_;        // of the world after the last increment
+  std::size_t total_ = 1;  // rows of the whole history
+  Target target_;
+  bool has_begun_ = false, has_left_ = false;
+  StateParts kept_;  // of the world after the last increment
   AfmPosition kept_position_;
 };
 

@@ -41,6 +41,9 @@ struct Shape {
     // 1/m: rows a_i / (8 |a_i|^2). Times an hourglass mode X: its components along the edges over half an edge.
     Tensor fibre{};
     std::array<Point, hourglasses> natural{};  // fibre * X of the undeformed element
+    // How far hourglass modes of unit norm, as components along the edges, change the gradient at a Gauss point at most,
+    // squared (systems/space/body/inversion_barrier_kernel.hpp).
+    double hourglass_reach2 = 0;
     // Of the planes 23, 31, 12: |a_j|/|a_k| and its inverse, the cosine c of the angle between both, 1/(1 - c^2) and its
     // square root.
     struct Plane {

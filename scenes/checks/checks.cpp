@@ -18,6 +18,7 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/results/observe.hpp"
 #include "scenes/spec/material_checks.hpp"
+#include "scenes/tools/drawn_face.hpp"
 #include "scenes/tools/tool_checks.hpp"
 
 namespace pulvis {
@@ -385,6 +386,7 @@ class Checks {
 
 void complete_and_check(Scene& scene, const schema::Origins& origins, Problems& problems) {
   Checks(scene, origins, problems).run();
+  read_drawn_faces(scene, origins, problems);
   check_tools(scene, origins, problems);
   check_cell(scene, origins, problems);
   check_output(scene, origins, problems);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/portable_math.hpp"
+#include "scenes/language/problem.hpp"
 
 namespace pulvis::drawing {
 namespace {
@@ -72,12 +73,12 @@ double side_of(const Vec2& a, const Vec2& b, const Vec2& p) {
   return along.x() * to.y() - along.y() * to.x();
 }
 
-void refuse_size(const Chain& outline) {
+void refuse_size(const Chain& outline, const char* what) {
   const double across = diagonal({outline});
   const bool finite =
       std::ranges::all_of(outline.points, [](const Vec2& point) { return point.allFinite(); });
   if (!finite || !(across >= smallest && across <= largest))
-    throw BadDrawing(fmt::format("the outline is {:g} m across, allowed: {:g} m to {:g} m", across,
+    throw BadDrawing(fmt::format("the {} is {:g} m across, allowed: {:g} m to {:g} m", what, across,
                                  smallest, largest));
 }
 
@@ -138,8 +139,8 @@ std::vector<Vec2> only_outline(const std::vector<Chain>& chains) {
   std::vector<const Chain*> closed, open;
   for (const Chain& chain : chains) (chain.closed ? closed : open).push_back(&chain);
   if (closed.size() > 1)
-    throw BadDrawing(
-        fmt::format("{} closed outlines (in {}), allowed: one", closed.size(), layers_of(closed)));
+    throw BadDrawing(fmt::format("{} closed outlines (in {}), allowed: one, or the key layer",
+                                 closed.size(), layers_of(closed)));
   if (closed.empty() && !open.empty()) {
     const auto& points = open.front()->points;
     throw BadDrawing(fmt::format(
@@ -150,11 +151,51 @@ std::vector<Vec2> only_outline(const std::vector<Chain>& chains) {
   if (closed.empty()) throw BadDrawing("no outline is in it, allowed: one closed outline");
   if (!open.empty())
     throw BadDrawing(fmt::format(
-        "open lines beside the outline (in {}), allowed: the outline alone", layers_of(open)));
-  refuse_size(*closed.front());
+        "open lines beside the outline (in {}), allowed: the outline alone, or the key layer",
+        layers_of(open)));
+  refuse_size(*closed.front(), "outline");
   std::vector<Vec2> points = evenly(closed.front()->points);
   refuse_crossing(points);
   return points;
+}
+
+std::vector<Vec2> only_line(const std::vector<Chain>& chains) {
+  std::vector<const Chain*> closed, open;
+  for (const Chain& chain : chains) (chain.closed ? closed : open).push_back(&chain);
+  if (!closed.empty())
+    throw BadDrawing(
+        fmt::format("a closed outline (in {}), allowed: one open line, the face of the tool",
+                    layers_of(closed)));
+  if (open.size() > 1)
+    throw BadDrawing(fmt::format(
+        "{} lines whose ends do not meet (in {}), allowed: one open line, or the key layer",
+        open.size(), layers_of(open)));
+  if (open.empty())
+    throw BadDrawing("no line is in it, allowed: one open line, the face of the tool");
+  refuse_size(*open.front(), "line");
+  const double near = meeting * diagonal(chains);
+  std::vector<Vec2> points;
+  for (const Vec2& point : open.front()->points)
+    if (points.empty() || (point - points.back()).norm() > near) points.push_back(point);
+  return points;
+}
+
+bool Selection::takes(const std::string& name) {
+  if (!name.empty() && std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
+  const bool is_meant = !empty() && name == layer_;
+  found_ = found_ || is_meant;
+  return is_meant;
+}
+
+void Selection::require_found() const {
+  constexpr std::size_t most = 12;  // of a drawing with names for all its parts
+  if (empty() || found_) return;
+  const std::vector<std::string> first(
+      names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(std::min(most, names_.size())));
+  throw BadDrawing(fmt::format("there is no layer '{}'{}, allowed: {}{}", layer_,
+                               suggestion(layer_, names_),
+                               names_.empty() ? "none, the drawing names none" : listed(first),
+                               names_.size() > most ? ", ..." : ""));
 }
 
 }  // namespace pulvis::drawing

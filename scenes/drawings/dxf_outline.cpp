@@ -241,17 +241,22 @@ std::optional<Chain> chain_of(const Entity& entity) {
 
 }  // namespace
 
-std::vector<Chain> chains_of_dxf(const std::string& text, const std::string& unit) {
+std::vector<Chain> chains_of_dxf(const std::string& text, const std::string& unit,
+                                 const std::string& layer) {
   const Drawing drawing = drawing_of(groups_of(text));
   if (drawing.entities.empty()) throw BadDrawing("no DXF, or one without entities");
   const double scale = scale_of(drawing.unit, unit);
   std::vector<Chain> chains;
-  for (const Entity& entity : drawing.entities)
+  Selection selection(layer);
+  for (const Entity& entity : drawing.entities) {
+    if (!selection.takes(entity.text(8)) && !selection.empty()) continue;
     if (std::optional<Chain> chain = chain_of(entity)) {
       for (Vec2& point : chain->points) point *= scale;
       chain->layer = entity.text(8);
       chains.push_back(std::move(*chain));
     }
+  }
+  selection.require_found();
   return joined(std::move(chains));
 }
 

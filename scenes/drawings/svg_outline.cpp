@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -315,21 +316,56 @@ std::string called(const pugi::xml_node& node) {
   return label ? label.value() : node.attribute("id").value();
 }
 
+bool is_selected(const pugi::xml_node& node, Selection& selection) {
+  constexpr std::array<std::string_view, 7> drawn{"g",    "path",   "polygon", "polyline",
+                                                  "rect", "circle", "ellipse"};
+  if (std::ranges::find(drawn, std::string_view(node.name())) == drawn.end()) return false;
+  const bool by_label = selection.takes(node.attribute("inkscape:label").value());
+  return selection.takes(node.attribute("id").value()) || by_label;
+}
+
 // What is drawn, not what is defined for use elsewhere. Nested groups are few; the depth is bounded for the stack.
-void collect(const pugi::xml_node& parent, const Map& map, const std::string& layer, int depth,
-             std::vector<Chain>& chains) {
-  if (depth > 64) throw BadDrawing("groups nested too deeply, allowed: 64");
-  for (const pugi::xml_node& node : parent.children()) {
-    const Map own = map.after(map_of(node.attribute("transform").value()));
-    const std::string name = called(node).empty() ? layer : called(node);
-    if (std::string_view(node.name()) == "g") collect(node, own, name, depth + 1, chains);
-    for (Chain& chain : shape_of(node)) {
-      for (Vec2& point : chain.points) point = own(point);
-      chain.layer = name;
-      chains.push_back(std::move(chain));
+class Collector {
+ public:
+  explicit Collector(const std::string& layer) : selection_(layer) {}
+
+  std::vector<Chain> chains_in(const pugi::xml_node& svg, const Map& map) {
+    collect(svg, map, "", {0, selection_.empty()});
+    selection_.require_found();
+    return joined(std::move(chains_));
+  }
+
+ private:
+  struct Place {
+    int depth;
+    bool is_meant;
+  };
+
+  void collect(const pugi::xml_node& parent, const Map& map, const std::string& layer,
+               Place place) {
+    if (place.depth > 64) throw BadDrawing("groups nested too deeply, allowed: 64");
+    for (const pugi::xml_node& node : parent.children()) {
+      const std::string_view kind = node.name();
+      const bool is_meant = is_selected(node, selection_) || place.is_meant;
+      if (!is_meant && kind != "g") continue;  // whatever it is
+      const Map own = map.after(map_of(node.attribute("transform").value()));
+      const std::string name = called(node).empty() ? layer : called(node);
+      if (kind == "g") collect(node, own, name, {place.depth + 1, is_meant});
+      if (is_meant) add(node, own, selection_.empty() ? name : selection_.layer());
     }
   }
-}
+
+  void add(const pugi::xml_node& node, const Map& map, const std::string& layer) {
+    for (Chain& chain : shape_of(node)) {
+      for (Vec2& point : chain.points) point = map(point);
+      chain.layer = layer;
+      chains_.push_back(std::move(chain));
+    }
+  }
+
+  Selection selection_;
+  std::vector<Chain> chains_;
+};
 
 // Metres for a length of 1 in the drawing: by its width in a unit, "40mm", over that of its viewBox.
 double scale_of(const pugi::xml_node& svg, const std::string& unit) {
@@ -361,7 +397,8 @@ double scale_of(const pugi::xml_node& svg, const std::string& unit) {
 
 }  // namespace
 
-std::vector<Chain> chains_of_svg(const std::string& text, const std::string& unit) {
+std::vector<Chain> chains_of_svg(const std::string& text, const std::string& unit,
+                                 const std::string& layer) {
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
   const pugi::xml_node svg = document.child("svg");
@@ -369,9 +406,7 @@ std::vector<Chain> chains_of_svg(const std::string& text, const std::string& uni
     throw BadDrawing(fmt::format("no SVG: {} at byte {}", parsed.description(), parsed.offset));
   if (!svg) throw BadDrawing("no SVG: its first element is another, allowed: svg");
   const double scale = scale_of(svg, unit);
-  std::vector<Chain> chains;
-  collect(svg, Map{{scale, 0, 0, -scale, 0, 0}}, "", 0, chains);  // y points down there
-  return joined(std::move(chains));
+  return Collector(layer).chains_in(svg, Map{{scale, 0, 0, -scale, 0, 0}});  // y points down there
 }
 
 }  // namespace pulvis::drawing

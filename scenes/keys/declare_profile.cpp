@@ -48,13 +48,16 @@ Key<ToolSpec> profile_file_key() {
   return {
       {.name = "file",
        .kind = Kind::file,
-       .only_for = "profile",
-       .doc = "CSV file, relative to the scene, with the columns `x` and `height` and the unit "
-              "of each in the header: `x [mm], height [um]`. x must rise from row to row. A tilt "
-              "is taken off (least squares). Along its grooves a surface is flat: relief = "
-              "\"flat\".",
-       .fallback_doc = "required of a measured one"},
-      [](ToolSpec& spec, const Decoded& value) { spec.relief.file = value.text; }};
+       .only_for = {"polyline", "profile"},
+       .doc =
+           "Relative to the scene. Of a polyline, instead of `points`: a drawing (SVG, DXF) with "
+           "one open line of straight parts, arcs and curves, the face of the tool; `normal` "
+           "says on which side the powder is. Of a profile: a CSV file with the columns `x` and "
+           "`height` and the unit of each in the header: `x [mm], height [um]`. x must rise "
+           "from row to row. A tilt is taken off (least squares). Along its grooves a surface "
+           "is flat: relief = \"flat\".",
+       .fallback_doc = "`points`; required of a measured profile"},
+      to(&ToolSpec::file)};
 }
 
 }  // namespace

@@ -9,11 +9,22 @@ Key<ToolSpec> points_key() {
            .kind = Kind::points,
            .unit = "m",
            .range = within(-largest_size, largest_size),
-           .required = true,
            .only_for = "polyline",
            .doc = "Corners of the surface, in order, the powder to the left: a floor is walked "
-                  "towards +x. Beyond the first and the last it goes on straight."},
+                  "towards +x. Beyond the first and the last it goes on straight.",
+           .fallback_doc = "required, unless there is a `file`"},
           to(&ToolSpec::points)};
+}
+
+Key<ToolSpec> drawing_key(const char* name, std::string ToolSpec::*member, const char* doc,
+                          const char* fallback_doc) {
+  return {{.name = name,
+           .kind = Kind::text,
+           .only_for = "polyline",
+           .needs = "file",
+           .doc = doc,
+           .fallback_doc = fallback_doc},
+          to(member)};
 }
 
 Key<ToolSpec> rounding_key() {
@@ -113,24 +124,34 @@ std::vector<Key<ToolSpec>> place_keys() {
                      "the height at which a punch rests on the packing; of several the highest"}},
         .doc = "A point of a plane's surface, a crest of a profile, or the centre of a constraint "
                "with "
-               "holds = \"radial\" or a `radius`.",
-        .fallback_doc = "required of those, refused elsewhere"},
+               "holds = \"radial\" or a `radius`. Of a drawn polyline: where the drawing is moved "
+               "to, so that the place furthest along `normal` is level with it, and the middle "
+               "between the line's ends beside it.",
+        .fallback_doc = "required of those, of a drawn polyline its place in the drawing; refused "
+                        "elsewhere"},
        [](ToolSpec& spec, const Decoded& value) {
          spec.point = value.vector;
          spec.on_packing = value.is_word;
        }},
       {{.name = "normal",
         .kind = Kind::direction,
-        .required = true,
-        .only_for = "plane",
-        .doc = "Direction from the tool into the powder, of any length."},
+        .only_for = {"plane", "polyline"},
+        .doc = "Direction from the tool into the powder, of any length.",
+        .fallback_doc = "required of planes, and of polylines with a `file`"},
        to(&ToolSpec::normal)}};
 }
 
 std::vector<Key<ToolSpec>> keys() {
   std::vector<Key<ToolSpec>> all = place_keys();
   for (Key<ToolSpec> key :
-       {points_key(), rounding_key(), body_key(),
+       {points_key(),
+        drawing_key("unit", &ToolSpec::unit, "Unit of a drawing that names none: \"um\".",
+                    "the drawing names it"),
+        drawing_key("layer", &ToolSpec::layer,
+                    "What of a drawing is meant: a layer of a DXF file; a group or shape of an SVG "
+                    "file, by its id or Inkscape's label.",
+                    "the whole drawing"),
+        rounding_key(), body_key(),
         corner_key("low", &ToolSpec::low,
                    "Lower left corner of the box; nodes on its border count, where they lie before "
                    "the run."),

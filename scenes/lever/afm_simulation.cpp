@@ -56,15 +56,17 @@ double AfmSimulation::stiffest_material() const {
          lever.youngs_modulus;
 }
 
-bool AfmSimulation::run(const AfmProgramme::Record& record, AfmPosition& position,
-                        const std::function<void(World&)>& restore) {
-  bool done = false;
+void AfmSimulation::begin(const std::function<void(World&)>& restore) {
   workers_.run([&] {
     if (model_.normal_stiffness == 0) calibrate_here();
     place_target(scene_, model_, stiffest_);
     if (restore) restore(world());
-    done = AfmProgramme(scene_, model_, *solver_, position, record).run();
   });
+}
+
+bool AfmSimulation::go_on(const AfmProgramme::Record& record, AfmPosition& position) {
+  bool done = false;
+  workers_.run([&] { done = AfmProgramme(scene_, model_, *solver_, position, record).run(); });
   return done;
 }
 

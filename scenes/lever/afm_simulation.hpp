@@ -21,13 +21,15 @@ class AfmSimulation {
   Calibration calibrate();
   // Displacements [3 nodes] by 1 N at the tip's end; after calibrate().
   std::vector<double> unit_displacements(const Vec3& direction);
-  // Calibrates, puts the target under the tip and runs the scene's actions from `position` on; see
-  // AfmProgramme. `restore` puts a checkpoint's state into the world before.
-  bool run(const AfmProgramme::Record& record, AfmPosition& position,
-           const std::function<void(World&)>& restore = {});
+  // Calibrates and puts the target under the tip. `restore` puts a checkpoint's state into the world then.
+  void begin(const std::function<void(World&)>& restore = {});
+  // After begin(): runs the scene's actions from `position` on, where the world stands; see AfmProgramme. When `record` has
+  // ended it, it may be called anew.
+  bool go_on(const AfmProgramme::Record& record, AfmPosition& position);
   bool run(const AfmProgramme::Record& record) {
     AfmPosition beginning;
-    return run(record, beginning);
+    begin();
+    return go_on(record, beginning);
   }
   // Equilibrium under a dead load at the tip's end, from the present state.
   NewtonReport load_tip(const Vec3& force, const NewtonSettings& settings = {});

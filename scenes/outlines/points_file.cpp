@@ -10,8 +10,7 @@
 #include <sstream>
 
 #include "engine/files/input_file.hpp"
-#include "scenes/drawings/dxf_outline.hpp"
-#include "scenes/drawings/svg_outline.hpp"
+#include "scenes/drawings/drawing_file.hpp"
 #include "scenes/language/csv_table.hpp"
 #include "scenes/language/encoding.hpp"
 #include "scenes/language/units.hpp"
@@ -151,32 +150,22 @@ class PointsReader {
   std::vector<int> lines_;  // of each point
 };
 
-// Of a drawing; empty: it is a table.
-std::optional<std::vector<Vec2>> drawn_points(const std::filesystem::path& path,
-                                              const std::string& text, const std::string& unit) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  });
-  if (ending != ".svg" && ending != ".dxf") return std::nullopt;
-  try {
-    return drawing::only_outline(ending == ".svg" ? drawing::chains_of_svg(text, unit)
-                                                  : drawing::chains_of_dxf(text, unit));
-  } catch (const drawing::BadDrawing& bad) {
-    throw BadFile{0, bad.what()};
-  }
-}
-
-std::vector<Vec2> points_in(const std::filesystem::path& path, const std::string& unit) {
+std::vector<Vec2> points_in(const std::filesystem::path& path, const PointsOutline& outline) {
   std::string text;
   try {
     text = text_of_input(path, largest_file);
   } catch (const UnfitInput& unfit) {
     throw BadFile{0, fmt::format("{}, allowed: a file of points (CSV, SVG, DXF)", unfit.what())};
   }
-  if (const auto drawn = drawn_points(path, text, unit)) return *drawn;
+  if (drawing::is_drawing(path)) {
+    try {
+      return drawing::only_outline(drawing::chains_in(path, text, outline.unit, outline.layer));
+    } catch (const drawing::BadDrawing& bad) {
+      throw BadFile{0, bad.what()};
+    }
+  }
   std::istringstream stream(as_utf8(std::move(text)));
-  return PointsReader(unit).read(stream);
+  return PointsReader(outline.unit).read(stream);
 }
 
 double size_of(const std::vector<Vec2>& points) {
@@ -192,8 +181,11 @@ double size_of(const std::vector<Vec2>& points) {
 
 std::vector<OutlineFault> read_points(const std::filesystem::path& folder, PointsOutline& outline) {
   const std::filesystem::path path = folder / outline.file;
+  if (!outline.layer.empty() && !drawing::is_drawing(path))
+    return {{"layer", fmt::format("has no effect with {}, allowed: with a drawing (SVG, DXF)",
+                                  path.string())}};
   try {
-    outline.points = points_in(path, outline.unit);
+    outline.points = points_in(path, outline);
   } catch (const BadFile& bad) {
     return {{"file", bad.line > 0 ? fmt::format("{}:{}: {}", path.string(), bad.line, bad.message)
                                   : fmt::format("{}: {}", path.string(), bad.message)}};

@@ -185,7 +185,10 @@ void put_tools_on(Scene& scene, const schema::Origins& origins, Problems& proble
                    "or a quantity in m");
       continue;
     }
-    scene.tools[t].point.y() = top_of_packings(scene);
+    ToolSpec& tool = scene.tools[t];
+    const double rise = top_of_packings(scene) - tool.point.y();
+    for (Vec2& p : tool.points) p.y() += rise;  // of a drawn one
+    tool.point.y() += rise;
   }
 }
 

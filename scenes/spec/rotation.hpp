@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "engine/portable_math.hpp"
 
 namespace pulvis {
+
+using Rotation3 = Eigen::Quaterniond;  // made of its four numbers, never of an angle
 
 inline Eigen::Matrix2d rotation(double angle) {
   const double c = portable::cos(angle), s = portable::sin(angle);

@@ -16,6 +16,8 @@
 #include "scenes/language/source_mark.hpp"
 #include "scenes/language/vec2.hpp"
 #include "scenes/spec/cell_spec.hpp"
+#include "scenes/spec/profile_spec.hpp"
+#include "scenes/spec/results_spec.hpp"
 
 namespace pulvis {
 
@@ -109,6 +111,7 @@ struct PointsOutline {
   using Mesh = StarMesh;
   std::string file = {};          // CSV, relative to the scene
   std::string unit = {};          // of its numbers, where its header names none
+  std::string layer = {};         // of a drawing, whose outline is meant; empty: all of it
   std::vector<Vec2> points = {};  // m, as the file has them
   double smoothing = 0;           // m, root mean square distance of the curve from the points
   std::optional<double> width =
@@ -244,18 +247,6 @@ struct PackingSpec {
   PackingReached reached = {};
 };
 
-// Relief of a target surface: heights below its crests against x. It repeats, or is made, as far as the
-// powder can come.
-struct ProfileSpec {
-  enum class Kind { flat, triangle, sine, trapezoid, rough, file } kind = Kind::flat;
-  double pitch = 0;               // m, from crest to crest
-  std::optional<double> depth;    // m, from crest to valley; or
-  std::optional<double> ra;       // m, arithmetic mean deviation from the mean line
-  double flat_share = 0.25;       // -, of the pitch, of a trapezoid's crest, and of its valley
-  double correlation_length = 0;  // m, of a rough profile
-  std::string file;               // of a measured one, relative to the scene
-};
-
 // Rigid. A plane fills the half-plane behind `point`, its surface looks along `normal`; a polyline lies to
 // the right of its points, a profile below its relief; a constraint touches nothing and holds the nodes of one body that lie in a box, or
 // within a radius of `point`.
@@ -265,14 +256,16 @@ struct ToolSpec {
   std::string name;
   Vec2 point = Vec2::Zero();    // m; of a radial constraint, and of one with a radius: its centre
   bool on_packing = false;      // point.y is the top of the highest packing
-  Vec2 normal = Vec2::UnitY();  // unit vector, from the tool into the powder
+  Vec2 normal = Vec2::UnitY();  // unit vector, from a plane or a drawn polyline into the powder
   SourceMark mark;
   Shape shape = Shape::plane;
   std::vector<Vec2> points = {};  // m, polyline; of a profile made from `relief`
-  ProfileSpec relief = {};        // of a profile, whose crests are at the height of `point`
-  double rounding = 0;            // m, radius of a polyline's convex corners
-  int body = 0;                   // of a constraint, in the order of placement
-  Vec2 low = Vec2::Zero();        // m, corners of a constraint's box
+  std::string file = {};          // of a drawn polyline, a measured profile: relative to the scene
+  std::string unit = {}, layer = {};  // of a drawing: its unit, where it names none; what is meant
+  ProfileSpec relief = {};            // of a profile, whose crests are at the height of `point`
+  double rounding = 0;                // m, radius of a polyline's convex corners
+  int body = 0;                       // of a constraint, in the order of placement
+  Vec2 low = Vec2::Zero();            // m, corners of a constraint's box
   Vec2 high = Vec2::Zero();
   std::optional<double> radius = {};  // m, about `point`, instead of the box
   Holds holds = Holds::both;
@@ -364,45 +357,6 @@ struct TimeSpec {
 
 struct ElementSpec {
   Formulation formulation = Formulation::one_point;
-};
-
-struct OutputSpec {
-  int frames = 50;                     // fields written over the run, besides the first
-  int samples = 1000;                  // history rows over the run, besides the first
-  std::array<int, 2> density_cells{};  // columns and rows; 0: no local densities
-  bool contacts = false;               // the network of contacts
-  bool particle_stress = false;
-
-  bool density() const { return density_cells[0] > 0; }
-};
-
-struct LimitSpec {                        // health: a run that passes one of these stops
-  double energy_balance = 0.05;           // -, |balance| / largest energy of the run
-  double penetration = 0.5;               // -, penetration / boundary edge length
-  double unconverged_projections = 1e-3;  // -, share of the closest points of contact
-  std::optional<double>
-      kinetic_energy;  // -, kinetic / internal energy, where the scene asks for quasi-statics
-};
-
-// What must hold of the run; `pulvis run` checks it at its end.
-struct ExpectSpec {
-  enum class When { end, always, max, min, mean, range };
-  struct Bound {
-    double number = 0;  // in the SI unit of the series
-    std::string
-        quantity;  // as written, until the unit of the series is known; empty: a bare number
-  };
-  std::string series;  // empty: the expectation is one of the outcome
-  std::optional<When> when;
-  std::optional<Bound> above, below, equals;
-  std::optional<double>
-      within;  // -, of |equals| or of the other series; absolute where equals is 0
-  std::optional<double> from, until;  // -, share of the run
-  std::string like;                   // another scene, relative to this one's folder
-  double scale = 1;                   // -, the other series times this
-  bool stops = false;                 // the run is to be stopped by a health check or limit
-  std::string message;                // regular expression that its message must contain
-  SourceMark mark;
 };
 
 struct AfmScene;  // scenes/spec/afm_scene.hpp

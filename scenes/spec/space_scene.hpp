@@ -2,7 +2,6 @@
 // it shares with two dimensions (materials, friction, contact, stages, limits, output) is in scenes/spec/scene.hpp.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -10,12 +9,13 @@
 #include <variant>
 #include <vector>
 
+#include "scenes/spec/rotation.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis::space {
 
 using Vec3 = Eigen::Vector3d;
-using Rotation = Eigen::Quaterniond;
+using Rotation = Rotation3;
 
 // ---- shapes, each in its own frame; size: extent along x, y, z, m ---------------------------------
 struct SphereShape {

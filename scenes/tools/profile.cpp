@@ -236,7 +236,7 @@ class ProfileMaker {
   }
 
   std::vector<Vec2> measured() {
-    std::vector<Vec2> points = read_profile(scene_.file.parent_path() / tool_.relief.file);
+    std::vector<Vec2> points = read_profile(scene_.file.parent_path() / tool_.file);
     const double begin = points.front().x();
     for (Vec2& p : points) p.x() += tool_.point.x() - begin;
     const double from = points.front().x(), to = points.back().x();

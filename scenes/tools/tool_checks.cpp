@@ -18,6 +18,7 @@ class ToolChecks {
     for (std::size_t t = 0; t < scene_.tools.size(); ++t) {
       const std::string path = fmt::format("tool[{}]", t);
       point(scene_.tools[t], path);
+      normal(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::polyline) polyline(scene_.tools[t], path);
       if (scene_.tools[t].shape == ToolSpec::Shape::profile)
         check_profile(scene_.tools[t], path, origins_, problems_);
@@ -46,6 +47,7 @@ class ToolChecks {
         tool.shape == ToolSpec::Shape::constraint && tool.holds == ToolSpec::Holds::radial;
     const bool profile = tool.shape == ToolSpec::Shape::profile;
     const bool wanted = plane || profile || radial || tool.radius;
+    const bool allowed = wanted || is_drawn(tool, path);
     if (wanted && !given(path + ".point"))
       refuse(path, "point",
              fmt::format("required key is missing: {}, allowed: two quantities [x, y] in m",
@@ -53,18 +55,42 @@ class ToolChecks {
                          : profile ? "a crest stands there"
                          : radial  ? "nodes move radially from it"
                                    : "it is the centre of the radius"));
-    if (!wanted && given(path + ".point"))
+    if (!allowed && given(path + ".point"))
       refuse(path, "point",
-             "has no effect, allowed: only with shape = \"plane\" or \"profile\", or shape = "
-             "\"constraint\" and holds = "
-             "\"radial\" or a radius");
+             "has no effect, allowed: only with shape = \"plane\" or \"profile\", with a file of a "
+             "polyline, or with shape = \"constraint\" and holds = \"radial\" or a radius");
+  }
+
+  bool is_drawn(const ToolSpec& tool, const std::string& path) const {
+    return tool.shape == ToolSpec::Shape::polyline && given(path + ".file");
+  }
+
+  void normal(const ToolSpec& tool, const std::string& path) {
+    const bool drawn = is_drawn(tool, path);
+    const bool wanted = drawn || tool.shape == ToolSpec::Shape::plane;
+    if (wanted && !given(path + ".normal"))
+      refuse(path, "normal",
+             fmt::format("required key is missing{}, allowed: two numbers [x, y], not both 0",
+                         drawn ? ": it says on which side of the drawn line the powder is" : ""));
+    if (!wanted && given(path + ".normal"))
+      refuse(path, "normal",
+             "has no effect, allowed: only with shape = \"plane\", or with a file of a polyline: "
+             "the powder is to the left of its points");
   }
 
   void polyline(const ToolSpec& tool, const std::string& path) {
+    const bool drawn = is_drawn(tool, path);
+    if (drawn == given(path + ".points"))
+      return refuse(path, drawn ? "file" : "points",
+                    drawn ? "has no effect together with points, allowed: one of the two"
+                          : "required key is missing, allowed: points in m, or the file of a "
+                            "drawing instead");
+    if (tool.points.empty()) return;  // its drawing is refused already
+    const char* const key = drawn ? "file" : "points";
     const std::string sharp = fault_of_polyline(tool.points, 0);
     const std::string rounded = fault_of_polyline(tool.points, tool.rounding);
     if (!sharp.empty())
-      refuse(path, "points", sharp);
+      refuse(path, key, sharp);
     else if (!rounded.empty())
       refuse(path, "rounding", rounded);
   }

@@ -18,9 +18,9 @@ void element_health::operator()() const {
     totals->min_jacobian = std::min(totals->min_jacobian, values[slot]);
     if (values[slot] > 0) continue;  // NaN is not
     throw RunFailure(fmt::format(
-        "trial_stress: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the "
-        "element "
-        "turned inside out; allowed > 0 (is a tool too fast, or the mesh too coarse for the load?)",
+        "element_health: particle {}, element {}: det F = {:.6g} at step {}, t = {:.6g} s: the "
+        "element turned inside out; allowed > 0 (is a tool too fast, or the mesh too coarse for "
+        "the load?)",
         bodies->slots[slot].number, static_cast<int>(worst.element.values()[slot]), values[slot],
         clock->step, clock->time));
   }

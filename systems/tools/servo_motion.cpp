@@ -96,7 +96,9 @@ void drive_tools(const Servos& s, const Touching& touching) {
     const Row<Tool> tool(t);
     const Servo* servo = servo_of(*servos, t, stage);
     const Servo* last = servo_of(*servos, t, servos->stage);
-    if (new_stage && last != nullptr) check_held(*last, *program, *clock, borne(*last, force));
+    const ToolServos::Driven* driven = servos->driven_force(t);
+    if (new_stage && last != nullptr && driven == nullptr)
+      check_held(*last, *program, *clock, borne(*last, force));
     if (servo == nullptr) {
       set_along(drive.velocity, tool, {}, 0), set_along(drive.dragged, tool, {}, 0);
       continue;
@@ -112,7 +114,9 @@ void drive_tools(const Servos& s, const Touching& touching) {
     if (new_stage) drive.asked(tool, 1) = bears;
     if (new_stage && last == nullptr) drive.mass(tool) = servo->mass;
     drive.asked(tool, 0) =
-        asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
+        driven != nullptr
+            ? driven->force
+            : asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
 
     const double minimum = kernels::min_tool_mass(touching(t), clock->dt, clock->safety);
     const kernels::ServoState now =

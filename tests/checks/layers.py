@@ -50,7 +50,7 @@ ROOMS = {
         "meshes": "outlines spec",
         "packing": "outlines spec language",
         "grains": "meshes packing outlines spec language",
-        "tools": "packing outlines spec language",
+        "tools": "drawings packing outlines spec language",
         "results/parts": "",
         "results": "results/parts space/results space/tools tools spec language",
         "lever/mesh": "spec language",

@@ -68,7 +68,9 @@ TEST_F(RunMeshTest, KeepsWhatParticlesAreOnceAndWithNames) {
 TEST_F(RunMeshTest, ShowsParticlesAndToolsInSpaceToMeshio) {
   fs::remove_all(folder);
   open_run_folder(folder);
-  RunMesh mesh{.cell_particle = {0}, .node_particle = std::vector<std::int32_t>(8, 0)};
+  RunMesh mesh;
+  mesh.cell_particle = {0};
+  mesh.node_particle.assign(8, 0);
   mesh.reference = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
   mesh.hexahedra = {0, 1, 2, 3, 4, 5, 6, 7};
   mesh.tags = {{"material", "position", {1}, {"iron", "tin"}}};

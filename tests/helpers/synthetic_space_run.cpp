@@ -19,11 +19,11 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using Cube = std::array<int, 3>;
 
-constexpr double duration = 1e-3, yield = 290e6;
+constexpr double space_duration = 1e-3, space_yield = 290e6;
 constexpr int die_sides = 24;
 
 int spheres(const SyntheticSpaceRun& run) { return run.columns * run.columns * run.layers; }
-double squeeze(double share) { return 1 - 0.25 * share; }
+double space_squeeze(double share) { return 1 - 0.25 * share; }
 
 // One sphere of diameter 2: a cube and rings around it.
 struct Ball {
@@ -114,12 +114,12 @@ Vec3 moved(const Vec3& in_ball, int sphere, double flat) {
   return most > 0 ? Vec3(at * (1 + flat * std::min(0.25, radius / most - 1))) : at;
 }
 
-std::vector<double> positions(const SyntheticSpaceRun& run, const Ball& ball, double share) {
+std::vector<double> space_positions(const SyntheticSpaceRun& run, const Ball& ball, double share) {
   std::vector<double> xyz;
   for (int sphere = 0; sphere < spheres(run); ++sphere)
     for (const Vec3& node : ball.nodes) {
       Vec3 at = centre_of(run, sphere) + run.diameter / 2 * moved(node, sphere, share);
-      at.z() *= squeeze(share);
+      at.z() *= space_squeeze(share);
       xyz.insert(xyz.end(), at.begin(), at.end());
     }
   return xyz;
@@ -158,9 +158,9 @@ ToolFaces tool_faces(const SyntheticSpaceRun& run) {
   return tools;
 }
 
-std::vector<double> tool_corners(const SyntheticSpaceRun& run, double share) {
+std::vector<double> space_tool_corners(const SyntheticSpaceRun& run, double share) {
   const double w = run.columns * run.diameter, h = run.layers * run.diameter,
-               top = h * squeeze(share);
+               top = h * space_squeeze(share);
   std::vector<double> xyz{0, 0, top, 0, w, top, w, w, top, w, 0, top,
                           0, 0, 0,   w, 0, 0,   w, w, 0,   0, w, 0};
   const auto add = [&](std::initializer_list<double> corners) { xyz.insert(xyz.end(), corners); };
@@ -191,7 +191,7 @@ std::vector<ParticleTag> tags_of(const SyntheticSpaceRun& run) {
   return {number, material, of_class};
 }
 
-RunMesh mesh_of(const SyntheticSpaceRun& run, const Ball& ball) {
+RunMesh space_mesh_of(const SyntheticSpaceRun& run, const Ball& ball) {
   RunMesh mesh;
   const auto nodes = static_cast<std::int32_t>(ball.nodes.size());
   for (int sphere = 0; sphere < spheres(run); ++sphere) {
@@ -199,14 +199,14 @@ RunMesh mesh_of(const SyntheticSpaceRun& run, const Ball& ball) {
     mesh.cell_particle.insert(mesh.cell_particle.end(), ball.hexahedra.size() / 8, sphere);
     for (const auto node : ball.hexahedra) mesh.hexahedra.push_back(sphere * nodes + node);
   }
-  mesh.reference = positions(run, ball, 0);
+  mesh.reference = space_positions(run, ball, 0);
   mesh.tags = tags_of(run);
   if (run.tools) mesh.tool_faces = tool_faces(run);
   return mesh;
 }
 
 // High towards the flat sides, with a little of each sphere's own.
-std::vector<double> stresses(const SyntheticSpaceRun& run, const Ball& ball, double share) {
+std::vector<double> space_stresses(const SyntheticSpaceRun& run, const Ball& ball, double share) {
   std::vector<double> values;
   for (int sphere = 0; sphere < spheres(run); ++sphere)
     for (std::size_t cell = 0; cell < ball.hexahedra.size() / 8; ++cell) {
@@ -214,13 +214,13 @@ std::vector<double> stresses(const SyntheticSpaceRun& run, const Ball& ball, dou
       for (std::size_t k = 0; k < 8; ++k)
         middle += ball.nodes[static_cast<std::size_t>(ball.hexahedra[8 * cell + k])] / 8;
       const double reach = 0.35 + 0.65 * moved(middle, sphere, 0).cwiseAbs().maxCoeff();
-      values.push_back(yield * share *
+      values.push_back(space_yield * share *
                        std::min(1.2, reach * (1.1 + 0.15 * std::sin(3.7 * sphere))));
     }
   return values;
 }
 
-std::vector<FieldInfo> fields(const SyntheticSpaceRun& run) {
+std::vector<FieldInfo> space_fields(const SyntheticSpaceRun& run) {
   std::vector<FieldInfo> all{
       {"position", "m", "position of the node", FieldPlace::node, 3},
       {"effective_stress", "Pa", "von Mises stress", FieldPlace::cell, 1},
@@ -231,22 +231,22 @@ std::vector<FieldInfo> fields(const SyntheticSpaceRun& run) {
   return all;
 }
 
-std::vector<std::vector<double>> frame_of(const SyntheticSpaceRun& run, const Ball& ball,
-                                          double share) {
-  const auto stress = stresses(run, ball, share);
+std::vector<std::vector<double>> space_frame_of(const SyntheticSpaceRun& run, const Ball& ball,
+                                                double share) {
+  const auto stress = space_stresses(run, ball, share);
   std::vector<double> pressure, strain, coordination;
   for (const double value : stress) {
     pressure.push_back(1.5 * value);
-    strain.push_back(0.3 * share * value / yield);
+    strain.push_back(0.3 * share * value / space_yield);
   }
   for (int sphere = 0; sphere < spheres(run); ++sphere) coordination.push_back(3 + sphere % 4);
-  std::vector<std::vector<double>> values{positions(run, ball, share), stress, pressure, strain,
-                                          coordination};
-  if (run.tools) values.push_back(tool_corners(run, share));
+  std::vector<std::vector<double>> values{space_positions(run, ball, share), stress, pressure,
+                                          strain, coordination};
+  if (run.tools) values.push_back(space_tool_corners(run, share));
   return values;
 }
 
-std::vector<SeriesInfo> series(const SyntheticSpaceRun& run) {
+std::vector<SeriesInfo> space_series(const SyntheticSpaceRun& run) {
   std::vector<SeriesInfo> all = {{"energy/kinetic", "J", "kinetic energy"},
                                  {"energy/elastic", "J", "elastic energy"},
                                  {"energy/plastic", "J", "plastic work"}};
@@ -260,19 +260,19 @@ std::vector<SeriesInfo> series(const SyntheticSpaceRun& run) {
   return all;
 }
 
-std::vector<double> row(const SyntheticSpaceRun& run, double share) {
+std::vector<double> space_row(const SyntheticSpaceRun& run, double share) {
   const double area = std::pow(run.columns * run.diameter, 2);
-  const double force = yield * area * share * share * 3, work = 0.3 * force * run.diameter;
+  const double force = space_yield * area * share * share * 3, work = 0.3 * force * run.diameter;
   std::vector<double> values{0.004 * work, 0.2 * work, 0.75 * work};
   if (!run.tools) return values;
-  const double top = run.layers * run.diameter * squeeze(share);
+  const double top = run.layers * run.diameter * space_squeeze(share);
   values.insert(values.end(), {0, 0.001 * force, 0, 0.002 * force, top, force});
   values.insert(values.end(), {0, -0.001 * force, 0, -0.002 * force, 0, -0.95 * force});
-  values.push_back(0.52 / squeeze(share));
+  values.push_back(0.52 / space_squeeze(share));
   return values;
 }
 
-void write_summary(const SyntheticSpaceRun& run, const std::filesystem::path& folder) {
+void space_write_summary(const SyntheticSpaceRun& run, const std::filesystem::path& folder) {
   const nlohmann::ordered_json summary = {{"title", "Synthetic spheres"},
                                           {"outcome", "done"},
                                           {"steps", 94000},
@@ -293,16 +293,16 @@ void record(const SyntheticSpaceRun& run, const std::filesystem::path& folder) {
   open_run_folder(folder, true);
   const Ball ball = ball_of(run);
   Recorder recorder(folder, {"0.1.0", "0123abc", "Synthetic spheres", "f00d", 7, 2},
-                    mesh_of(run, ball), series(run), fields(run));
+                    space_mesh_of(run, ball), space_series(run), space_fields(run));
   const int samples = (run.frames - 1) * run.samples_a_frame;
   for (int i = 0; i <= samples; ++i) {
     const double share = static_cast<double>(i) / std::max(1, samples);
-    recorder.sample(duration * share, row(run, share));
+    recorder.sample(space_duration * share, space_row(run, share));
     if (i % run.samples_a_frame == 0)
-      recorder.frame(duration * share, 94 * i, frame_of(run, ball, share));
+      recorder.frame(space_duration * share, 94 * i, space_frame_of(run, ball, share));
   }
   recorder.finish();
-  write_summary(run, folder);
+  space_write_summary(run, folder);
 }
 
 }  // namespace pulvis::testing

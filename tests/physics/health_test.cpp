@@ -56,7 +56,7 @@ TEST(Health, ElementTurnedInsideOutIsNamed) {
       2);
   const std::string failure = failure_of(e.simulation, 10000);
   EXPECT_THAT(failure,
-              ContainsRegex("^trial_stress: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
+              ContainsRegex("^element_health: particle [0-9]+, element [0-9]+: det F = -?[0-9.e-]+"));
   EXPECT_THAT(failure, HasSubstr(step_now(e.simulation)));
 }
 
@@ -89,7 +89,7 @@ TEST_P(NotANumber, InAPositionStopsTheRunInTheSameStep) {
   e.simulation.run_steps(10);
   const std::int64_t step = e.simulation.clock().step;
   const std::string failure = failure_with_nan<Position>(e, 7, node, 1);
-  EXPECT_THAT(failure, StartsWith("trial_stress: particle 7, element "));
+  EXPECT_THAT(failure, StartsWith("element_health: particle 7, element "));
   EXPECT_THAT(failure, ContainsRegex("det F = -?nan at step " + std::to_string(step) + ","));
   EXPECT_EQ(e.simulation.clock().step, step);
   EXPECT_TRUE(element_has_node(e, failure, node)) << failure;
@@ -101,7 +101,7 @@ TEST_P(NotANumber, InAVelocityStopsTheRunOneStepLater) {
   e.simulation.run_steps(10);
   const std::int64_t step = e.simulation.clock().step;
   const std::string failure = failure_with_nan<Velocity>(e, 7, GetParam(), 2);
-  EXPECT_THAT(failure, StartsWith("trial_stress: particle 7, element "));
+  EXPECT_THAT(failure, StartsWith("element_health: particle 7, element "));
   EXPECT_EQ(e.simulation.clock().step, step + 1);
 }
 

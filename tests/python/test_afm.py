@@ -68,3 +68,59 @@ def test_what_belongs_to_powders_is_refused(scenes):
         pulvis.pack(lever)
     with pytest.raises(AttributeError):
         pulvis.Scene(scenes / "compaction/unit-cell.toml").calibration()
+
+
+def files_of(folder):
+    return (folder / "history.csv").read_text()
+
+
+def test_a_programme_in_parts_keeps_its_bits_and_files(scenes, tmp_path):
+    """Press, hold, scan: by increments, up to the end of an action, and to the end."""
+    file = scenes / "afm/loop-beam-0.toml"
+    whole = pulvis.Scene(file).simulation(folder=tmp_path / "whole").run()
+    lever = pulvis.Scene(file).simulation(folder=tmp_path / "parts")
+    seen, frames = [], []
+    lever.every(4, lambda one: seen.append(one.increments))
+    lever.on_frame(lambda one: frames.append(one.actions))
+    assert lever.step(3).increments == 3
+    assert lever.actions == whole.history["actions"][3]
+    lever.run_until(1)
+    assert lever.actions == pytest.approx(1, abs=1e-9) and not lever.finished
+    assert lever.step(0).run_until(0.5).actions == pytest.approx(1, abs=1e-9)
+    lever.run()
+    assert lever.finished and lever.hash == whole.hash
+    assert files_of(tmp_path / "parts") == files_of(tmp_path / "whole")
+    assert [frame.time for frame in lever.results.frames] == [frame.time for frame in whole.results.frames]
+    assert seen == list(range(4, lever.increments + 1, 4))
+    assert frames[0] == 0 and sorted(frames) == frames
+
+
+def test_steps_beyond_the_end_finish_the_programme(scenes):
+    lever = pulvis.Scene(scenes / "afm/loop-beam-0.toml").simulation()
+    assert lever.step(10_000).finished
+    with pytest.raises(pulvis.RunError, match="has run"):
+        lever.step()
+
+
+def test_a_lever_is_stopped_and_goes_on(scenes):
+    file = scenes / "afm/loop-beam-0.toml"
+    lever = pulvis.Scene(file).simulation()
+    lever.every(5, lambda one: one.stop() if one.increments == 5 else None)
+    assert lever.run().increments == 5
+    assert lever.run().hash == pulvis.Scene(file).simulation().run().hash
+
+
+def test_a_lever_that_is_closed_is_resumed(scenes, read_summary, tmp_path):
+    file = scenes / "afm/loop-beam-0.toml"
+    with pulvis.Scene(file).simulation(folder=tmp_path / "run") as lever:
+        lever.step(6)
+    assert read_summary(tmp_path / "run")["outcome"] == "interrupted"
+    resumed = pulvis.resume(tmp_path / "run")
+    assert resumed.finished and resumed.hash == pulvis.Scene(file).simulation().run().hash
+
+
+def test_a_callback_takes_no_increments_of_its_own_lever(scenes):
+    lever = pulvis.Scene(scenes / "afm/loop-beam-0.toml").simulation()
+    lever.on_sample(lambda actions, row: lever.step())
+    with pytest.raises(pulvis.RunError, match="taking increments"):
+        lever.run()

@@ -13,6 +13,7 @@ from matplotlib import pyplot as plt
 from PIL import Image
 
 import pulvis
+from pulvis.figures.lever_film import VISIBLE, magnification
 from pulvis.figures.names import label, name_of, over, plain
 from pulvis.figures.quantities import inches, limits_of
 
@@ -336,3 +337,43 @@ def test_lengths_and_ranges_are_read_with_their_units():
     assert limits_of(":2 kN", "N") == (None, 2000) and limits_of((0.5, None), "-") == (0.5, None)
     assert limits_of("5 um:0.1mm", "m") == pytest.approx((5e-6, 1e-4)) and limits_of("0:50 %", "-") == (0, 0.5)
     assert limits_of("-1:1", "Pa") == (-1, 1)
+
+
+def test_a_lever_s_film_has_its_frames_and_marks_the_forces(loop, tmp_path):
+    """The solid moves; the marks stand on the curves of the forces at the time of the frame."""
+    run = pulvis.open(loop)
+    call("figure", loop, "--animate", "film.gif", "--dpi", "40", cwd=tmp_path)
+    with Image.open(tmp_path / "film.gif") as film:
+        assert film.n_frames == len({frame.time for frame in run.frames})  # the end may be there twice
+        looks = []
+        for k in range(film.n_frames):
+            film.seek(k)
+            looks.append(np.asarray(film.convert("RGB"), int))
+    assert all(np.abs(a - b).max() > 60 for a, b in zip(looks, looks[1:]))
+    figure, axes = run.plot.animate("solid", tmp_path / "again.gif", dpi=30)
+    _, forces = figure.axes
+    assert axes.name == "3d" and forces.get_ylabel() == "Force / nN"
+    (x,), (y,) = forces.get_lines()[1].get_data()
+    assert x == run.series("time")[-1] and y == pytest.approx(1e9 * run.series("probe/force_z")[-1])
+
+
+def test_a_lever_s_displacements_are_drawn_so_that_they_are_seen(loop):
+    run, times = pulvis.open(loop), magnification(pulvis.open(loop))
+    moved = max(np.linalg.norm(frame.nodes - run.mesh.reference, axis=1).max() for frame in run.frames)
+    length = np.ptp(run.mesh.reference, axis=0).max()
+    assert times > 1 and 0.4 * VISIBLE < times * moved / length <= VISIBLE
+    figure, _ = run.plot.animate("solid", loop.parent / "film.gif", dpi=30)
+    assert f"displacements × {times:g}" in figure.axes[0].texts[0].get_text()
+
+
+def test_a_lever_s_film_as_mp4(loop, tmp_path):
+    if not shutil.which("ffprobe"):
+        pytest.skip("ffmpeg is not installed")
+    call("figure", loop, "--animate", "film.mp4", cwd=tmp_path)
+    wide, tall, _, rate, count = frames_of(tmp_path / "film.mp4")
+    assert count == str(len(pulvis.open(loop).frames)) and rate == "3/1" and int(wide) % 2 == int(tall) % 2 == 0
+
+
+def test_what_a_lever_has_not_is_not_filmed(loop, tmp_path):
+    says = call("figure", loop, "--animate", "film.gif", "--field", "pressure", code=2, cwd=tmp_path)
+    assert "--field pressure: a lever is animated as one of: solid" in says

@@ -4,7 +4,11 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "cli/python/module/interruptible.hpp"
 #include "cli/python/module/module.hpp"
@@ -21,7 +25,7 @@ namespace pulvis::python {
 namespace py = pybind11;
 namespace {
 
-// A lever's run: it goes through at once, with a look after every increment.
+// A lever's run, with a look after every increment.
 class PythonLever {
  public:
   // Calibrates.
@@ -36,26 +40,62 @@ class PythonLever {
     });
     if (!session_->end().failure.empty()) throw RunFailure(session_->end().failure);
   }
+  // Files that nobody completed are left as an interrupted run leaves them.
+  ~PythonLever() {
+    try {
+      if (lock_ != nullptr && !is_finished_) close();
+    } catch (const std::exception&) {  // the disk is full: what was written before is whole
+    }
+  }
+  PythonLever(const PythonLever&) = delete;
+  PythonLever& operator=(const PythonLever&) = delete;
 
-  void on_sample(const py::function& f) { calls_.push_back(f); }
+  void on_sample(const py::function& f) { sample_calls_.push_back(f); }
+  void on_frame(const py::function& f) { frame_calls_.push_back(f); }
+  void every(std::int64_t increments, const py::function& f) {
+    if (increments < 1)
+      throw py::value_error(fmt::format("every: {} increments, allowed: >= 1", increments));
+    every_calls_.emplace_back(increments, f);
+  }
 
-  void run(const std::string& folder, bool overwrite) {
-    if (has_run_) throw NotNow("the lever has run; allowed: scene.simulation() makes another one");
-    open(folder, overwrite);
-    has_run_ = true;
-    whole([&] { session_->run(); });
+  void write_to(const std::string& folder, bool overwrite) {
+    if (folder.empty() || lock_ != nullptr || is_finished_) return;
+    require_free_folder(session_->loaded(), folder);
+    lock_ = std::unique_ptr<FolderLock>(new FolderLock(open_run_folder(folder, overwrite)));
+    save_scene(folder, session_->loaded());
+    session_->write_to(folder, {});
+  }
+  // Until its target is reached, it is stopped, or the programme is over.
+  void go(const AfmSession::Target& target) {
+    if (is_going_) throw NotNow("the lever is taking increments; allowed: when it has come back");
+    if (is_finished_)
+      throw NotNow("the lever has run; allowed: scene.simulation() makes another one");
+    whole([&] { session_->go(target); });
+    if (session_->over()) finish();
+  }
+  void step(std::int64_t count) {
+    if (count < 0) throw py::value_error(fmt::format("step: {} increments, allowed: >= 0", count));
+    go({.increment = std::max<std::int64_t>(session_->increment(), 0) + count});
+  }
+  void run_until(double actions) {
+    if (!(actions >= 0))
+      throw py::value_error(fmt::format("run_until: {} actions, allowed: >= 0", actions));
+    go({.actions = actions});
+  }
+  void stop() { stop_ = true; }
+  void close() {
+    if (is_going_) throw NotNow("a callback cannot close its own lever");
     finish();
   }
   void resume(const std::string& folder, OpenFolder stopped) {
     lock_ = std::move(stopped.lock);
     session_->write_to(folder, {});
-    has_run_ = true;
     whole([&] { session_->run(stopped.run.checkpoint.get()); });
     finish();
   }
 
   const AfmSession& session() const { return *session_; }
-  bool has_run() const { return has_run_; }
+  bool is_finished() const { return is_finished_; }
 
  private:
   // Without the GIL, and until somebody presses Ctrl-C.
@@ -63,41 +103,53 @@ class PythonLever {
   void whole(const Work& work) {
     Interruptible interruptible;
     std::exception_ptr thrown;
+    stop_ = false;
     if (session_) listen(interruptible, thrown);
+    is_going_ = true;
     try {
       py::gil_scoped_release others_may_run;
       work();
     } catch (const Interrupted&) {
+    } catch (...) {  // of the disk
+      is_going_ = false;
+      if (session_) session_->hooks = {};
+      throw;
     }
+    is_going_ = false;
     if (session_) session_->hooks = {};
-    if (thrown) {
-      finish();
-      std::rethrow_exception(thrown);
-    }
-    if (interruptible.asked() && session_ && has_run_) finish();
+    // What is in a folder can be resumed; nothing else can be lost.
+    if ((thrown || interruptible.asked()) && lock_ != nullptr) finish();
+    if (thrown) std::rethrow_exception(thrown);
     interruptible.raise_if_asked();
   }
 
   void listen(const Interruptible& interruptible, std::exception_ptr& thrown) {
-    session_->hooks.stop = [&] { return interruptible.asked() || thrown != nullptr; };
-    if (calls_.empty()) return;
-    session_->hooks.on_sample = [this, &thrown](double time, const std::vector<double>& row) {
+    SessionHooks& hooks = session_->hooks;
+    hooks.stop = [&] { return stop_ || interruptible.asked() || thrown != nullptr; };
+    const auto guarded = [&thrown](const auto& call) {
       if (thrown) return;
       py::gil_scoped_acquire gil;
       try {
-        for (const py::function& f : calls_) f(time, row);
+        call();
       } catch (...) {  // the increment is whole: the run stops behind it
         thrown = std::current_exception();
       }
     };
-  }
-
-  void open(const std::string& folder, bool overwrite) {
-    if (folder.empty()) return;
-    require_free_folder(session_->loaded(), folder);
-    lock_ = std::unique_ptr<FolderLock>(new FolderLock(open_run_folder(folder, overwrite)));
-    save_scene(folder, session_->loaded());
-    session_->write_to(folder, {});
+    if (!sample_calls_.empty())
+      hooks.on_sample = [this, guarded](double time, const std::vector<double>& row) {
+        guarded([&] {
+          for (const py::function& f : std::vector(sample_calls_)) f(time, row);
+        });
+      };
+    if (!frame_calls_.empty())
+      hooks.on_frame = [this, guarded](std::int64_t) {
+        guarded([&] {
+          for (const py::function& f : std::vector(frame_calls_)) f();
+        });
+      };
+    for (std::size_t i = 0; i < every_calls_.size(); ++i)
+      hooks.every.emplace_back(every_calls_[i].first,
+                               [this, guarded, i] { guarded([&] { every_calls_[i].second(); }); });
   }
 
   void finish() {
@@ -105,10 +157,13 @@ class PythonLever {
     is_finished_ = true;
     {
       py::gil_scoped_release others_may_run;
+      session_->leave();
       session_->finish();
     }
     lock_ = nullptr;
-    calls_.clear();
+    sample_calls_.clear();
+    frame_calls_.clear();
+    every_calls_.clear();
     const std::string& failure = session_->end().failure;
     if (!failure.empty() && !ended_as_expected(session_->loaded().scene, failure))
       throw RunFailure(failure);
@@ -116,8 +171,10 @@ class PythonLever {
 
   std::unique_ptr<AfmSession> session_;
   std::unique_ptr<FolderLock> lock_;
-  std::vector<py::function> calls_;
-  bool has_run_ = false, is_finished_ = false;
+  std::vector<py::function> sample_calls_, frame_calls_;
+  std::vector<std::pair<std::int64_t, py::function>> every_calls_;
+  std::atomic<bool> stop_{false}, is_going_{false};
+  bool is_finished_ = false;
 };
 
 py::dict calibration_of(const PythonLever& lever) {
@@ -217,9 +274,19 @@ void bind_afm(py::module_& core) {
   using Self = const PythonLever&;
   py::class_<PythonLever, std::shared_ptr<PythonLever>>(core, "Lever")
       .def(py::init<const LoadedScene&, int>(), py::arg("scene"), py::arg("threads"))
-      .def("run", &PythonLever::run, py::arg("folder"), py::arg("overwrite"))
+      .def("write_to", &PythonLever::write_to, py::arg("folder"), py::arg("overwrite"))
+      .def("run", [](PythonLever& lever) { lever.go({}); })
+      .def("run_until", &PythonLever::run_until)
+      .def("step", &PythonLever::step)
+      .def("stop", &PythonLever::stop)
+      .def("close", &PythonLever::close)
       .def("on_sample", &PythonLever::on_sample)
-      .def_property_readonly("has_run", &PythonLever::has_run)
+      .def("on_frame", &PythonLever::on_frame)
+      .def("every", &PythonLever::every)
+      .def_property_readonly("is_finished", &PythonLever::is_finished)
+      .def_property_readonly(
+          "increments",
+          [](Self lever) { return std::max<std::int64_t>(lever.session().increment(), 0); })
       .def_property_readonly("calibration", &calibration_of)
       .def_property_readonly("loops", &loops_of)
       .def_property_readonly("curves", &curves_of)

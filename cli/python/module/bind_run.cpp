@@ -109,6 +109,22 @@ void bind_course(RunClass& run) {
       });
 }
 
+void bind_servos(RunClass& run) {
+  run.def("drive_servo",
+          [](PythonRun& r, const std::string& name, double force) {
+            Session& session = r.session_between_steps("the force of a servo");
+            drive_servo(session.simulation(), name, force);
+            session.drive("servo of tool " + name);
+          })
+      .def("servo",
+           [](PythonRun& r, const std::string& name) {
+             const ServoView servo = servo_view(r.session().simulation(), name);
+             return py::make_tuple(servo.asked, servo.direction, servo.holds);
+           })
+      .def_property_readonly("servos",
+                             [](PythonRun& r) { return servo_names(r.session().simulation()); });
+}
+
 void bind_state(RunClass& run) {
   run.def_property_readonly("time", [](PythonRun& r) { return r.session().clock().time; })
       .def_property_readonly("dt", [](PythonRun& r) { return r.session().clock().dt; })
@@ -161,6 +177,7 @@ void bind_run(py::module_& core) {
       },
       py::arg("folder"), py::arg("threads"), py::arg("checkpoint_every") = 60.0);
   bind_course(run);
+  bind_servos(run);
   bind_state(run);
 }
 

@@ -23,7 +23,8 @@ void require_free(const World& world, int tool, const std::string& name) {
     if (servo.tool == tool)
       throw NotNow(fmt::format(
           "tool {}: a servo or a drive that gives moves it in stage '{}', allowed: tools that the "
-          "scene moves by set displacements, or not at all",
+          "scene moves by set displacements, or not at all; the force of a servo: "
+          "sim.servos[name].drive(force)",
           name,
           world.resource<ToolProgram>().stages.at(static_cast<std::size_t>(servo.stage)).name));
 }
@@ -41,6 +42,37 @@ void require_seen(const World& world, const std::string& name, const Point& velo
                     name, speed, fastest));
 }
 
+int index_of(Simulation& simulation, const std::string& name) {
+  const std::vector<std::string> names = tool_names(simulation);
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end())
+    throw NotNow(fmt::format("there is no tool '{}'{}, allowed: {}", name, suggestion(name, names),
+                             listed(names)));
+  return static_cast<int>(found - names.begin());
+}
+
+// That of the present stage, else the first one; nullptr where no stage has one that holds a force.
+const ToolServos::Servo* servo_of_tool(const World& world, int tool, std::size_t stage) {
+  if (!world.has<ToolServos>()) return nullptr;
+  const ToolServos::Servo* found = nullptr;
+  for (const ToolServos::Servo& servo : world.resource<ToolServos>().servos) {
+    if (servo.tool != tool || !servo.holds_force()) continue;
+    if (static_cast<std::size_t>(servo.stage) == stage) return &servo;
+    if (found == nullptr) found = &servo;
+  }
+  return found;
+}
+
+const ToolServos::Servo& require_servo(Simulation& simulation, const std::string& name) {
+  const std::size_t stage =
+      simulation.world().resource<ToolProgram>().stage_at(simulation.clock().time);
+  const auto* servo = servo_of_tool(simulation.world(), index_of(simulation, name), stage);
+  if (servo != nullptr) return *servo;
+  const std::vector<std::string> with_servo = servo_names(simulation);
+  throw NotNow(fmt::format("tool {}: no stage has a servo that holds its force, allowed: {}", name,
+                           with_servo.empty() ? "none in this scene" : listed(with_servo)));
+}
+
 }  // namespace
 
 std::vector<std::string> tool_names(Simulation& simulation) {
@@ -51,12 +83,7 @@ std::vector<std::string> tool_names(Simulation& simulation) {
 
 void drive_tool(Simulation& simulation, const std::string& name, const Point& velocity) {
   World& world = simulation.world();
-  const std::vector<std::string> names = tool_names(simulation);
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end())
-    throw NotNow(fmt::format("there is no tool '{}'{}, allowed: {}", name, suggestion(name, names),
-                             listed(names)));
-  const int tool = static_cast<int>(found - names.begin());
+  const int tool = index_of(simulation, name);
   require_free(world, tool, name);
   require_seen(world, name, velocity);
   auto& program = world.resource<ToolProgram>();
@@ -80,6 +107,37 @@ void drive_tool(Simulation& simulation, const std::string& name, const Point& ve
                               .duration = duration,
                               .displacement = {velocity[0] * duration, velocity[1] * duration, 0},
                               .stage = no_stage});
+}
+
+std::vector<std::string> servo_names(Simulation& simulation) {
+  std::vector<std::string> all;
+  const std::vector<std::string> names = tool_names(simulation);
+  for (std::size_t t = 0; t < names.size(); ++t)
+    if (servo_of_tool(simulation.world(), static_cast<int>(t), 0) != nullptr)
+      all.push_back(names[t]);
+  return all;
+}
+
+ServoView servo_view(Simulation& simulation, const std::string& name) {
+  World& world = simulation.world();
+  const ToolServos::Servo& servo = require_servo(simulation, name);
+  const auto stage = world.resource<ToolProgram>().stage_at(simulation.clock().time);
+  const bool holds = static_cast<std::size_t>(servo.stage) == stage;
+  return {world.column<ServoForce>().values()[2 * servo.tool],
+          {servo.direction[0], servo.direction[1]},
+          holds};
+}
+
+void drive_servo(Simulation& simulation, const std::string& name, double force) {
+  const int tool = require_servo(simulation, name).tool;
+  if (!(force >= 0) || !std::isfinite(force))
+    throw NotNow(fmt::format(
+        "tool {}: a force of {:.6g} N, allowed: finite and >= 0 N, in the direction in which its "
+        "servo pushes",
+        name, force));
+  auto& driven = simulation.world().resource<ToolServos>().driven;
+  std::erase_if(driven, [&](const auto& one) { return one.tool == tool; });
+  driven.push_back({tool, force});
 }
 
 }  // namespace pulvis::python

@@ -1,4 +1,5 @@
-// Tools driven from outside: from the present step on with a set velocity, instead of what their stages say.
+// Tools driven from outside, instead of what their stages say: from the present step on with a set velocity, or, where a
+// servo moves them, with a set force.
 #pragma once
 
 #include <string>
@@ -13,5 +14,17 @@ std::vector<std::string> tool_names(Simulation& simulation);
 // Between two steps. The tool's programme of motion is replaced from t_n on; where it stood, and how fast it came there,
 // stays. Throws NotNow for a tool that holds a force or gives, and for a velocity beyond what a step can see.
 void drive_tool(Simulation& simulation, const std::string& name, const Point& velocity);
+
+// Tools that hold a force in some stage.
+std::vector<std::string> servo_names(Simulation& simulation);
+struct ServoView {
+  double asked = 0;    // N, when it held last: series force_asked
+  Point direction{};   // in which it pushes: of the present stage, else of its first one
+  bool holds = false;  // in the present stage
+};
+ServoView servo_view(Simulation& simulation, const std::string& name);
+// Between two steps: from the end of the next step on the servo asks for `force`, in N, in every stage that has it, without
+// a ramp. Throws NotNow for a tool without servo, and for a force that none can push with.
+void drive_servo(Simulation& simulation, const std::string& name, double force);
 
 }  // namespace pulvis::python

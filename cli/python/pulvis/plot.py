@@ -125,8 +125,13 @@ class Plot:
         """Sizes of the fragments."""
         return self._drawn(bonds.fragment_sizes, "cracks", options_of(look, frame=frame), ax)
 
-    def animate(self, name: str, path: str | os.PathLike[str], ax: Axes | None = None, per_second: int = 12, **look: Any) -> Any:
-        """Writes all frames of a field as .mp4 (needs ffmpeg) or .gif."""
+    def animate(self, name: str, path: str | os.PathLike[str], ax: Axes | None = None, per_second: int | None = None,
+                **look: Any) -> Any:
+        """Writes all frames as .mp4 (needs ffmpeg) or .gif, `per_second` of them a second: 12, of levers 3.
+
+        `name` is a field; of a lever "solid", its parts, or "plastic_strain", above the forces on its tip.
+        Displacements of a lever that could not be seen are drawn larger; the title says how many times.
+        """
         options = options_of(look, field=name)
         with plt.rc_context(options.context(ax)):
             return animate(self._run, path, options, ax, per_second)

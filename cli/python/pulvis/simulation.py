@@ -219,6 +219,11 @@ class Simulation:
         return {name: Tool(self._run, name, i) for i, name in enumerate(self._run.tools)}
 
     @property
+    def servos(self) -> dict[str, Servo]:
+        """The servos, by the names of the tools whose force they hold: mapping to `Servo`."""
+        return {name: Servo(self._run, name) for name in self._run.servos}
+
+    @property
     def mesh(self) -> dict[str, np.ndarray]:
         """``quads`` [elements, 4] of node numbers, ``cell_particle`` [elements], ``node_particle`` [nodes]: dict of
         arrays. Nodes are numbered as in ``numpy.asarray(sim.column("position"))``."""
@@ -255,13 +260,55 @@ class Tool:
 
         It replaces what the scene's stages say of this tool, until the run ends or it is driven anew; other tools go
         on as they do. Checkpoints keep the drive, and `pulvis.resume` goes on with it; the program's ``resume``
-        refuses a driven run, since nobody drives it there. Allowed between two steps; not for tools with a servo.
+        refuses a driven run, since nobody drives it there. Allowed between two steps; of tools with a servo the force
+        is driven: `Simulation.servos`.
         """
         x, y = (_core.quantity(v, "m/s") if isinstance(v, str) else float(v) for v in velocity)
         self._run.drive_tool(self.name, x, y)
 
     def __repr__(self) -> str:
         return f"<pulvis.Tool {self.name!r} at {tuple(self.position)} m>"
+
+
+class Servo:
+    """A servo of a simulation: it moves its tool so that this bears a force (``[[stage.servo]]``)."""
+
+    def __init__(self, run: _core.Run, tool: str) -> None:
+        self._run, self.tool = run, tool
+
+    @property
+    def asked(self) -> float:
+        """Force in N that it asked for when it held last: its ramp, or what it was driven to."""
+        return self._run.servo(self.tool)[0]
+
+    @property
+    def direction(self) -> np.ndarray:
+        """Unit vector in which it pushes, - [2]."""
+        return np.asarray(self._run.servo(self.tool)[1])
+
+    @property
+    def holds(self) -> bool:
+        """Whether the present stage has it."""
+        return self._run.servo(self.tool)[2]
+
+    @property
+    def bears(self) -> float:
+        """Force in N that the tool bears against its direction."""
+        row = self._run.tools.index(self.tool)
+        return -float(self._run.column_rows("tool.force")[row][:2] @ self.direction)
+
+    def drive(self, force: Any) -> None:
+        """From now on it asks for `force`, in N or a string with unit, at once and without a ramp.
+
+        It replaces the force of every stage that has this servo, until it is driven anew, and what the scene's
+        ``tolerance`` says of a stage's end; ``response`` and ``max_speed`` stay. Allowed between two steps, and kept
+        in checkpoints as drives of tools are.
+        """
+        newton = _core.quantity(force, "N") if isinstance(force, str) else float(force)
+        self._run.drive_servo(self.tool, newton)
+
+    def __repr__(self) -> str:
+        return f"<pulvis.Servo of {self.tool!r}, asks for {self.asked:.6g} N>"
 
 
 class History(Mapping[str, np.ndarray]):

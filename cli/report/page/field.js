@@ -57,7 +57,7 @@ class FieldView {
 
   // What can be shown: [value, label].
   get choices() {
-    const fields = this.run.head.fields.map(field => [field.name, titled(field.name)]);
+    const fields = this.run.head.fields.map(field => [field.name, titled(nameOf(field.name).words)]);
     if (this.run.densities.length) fields.push(["density", "Local density"]);
     this.run.tags.forEach(({name}) => fields.push([name, titled(name)]));
     return [...fields, ["number", "Particle number"], ["", "Outlines alone"]];
@@ -377,7 +377,7 @@ class FieldView {
 
   tell() {
     const {run, frame, field} = this, {time, step} = run.frames[frame];
-    const name = this.shown === "density" ? "Local relative density" : field ? titled(field.name)
+    const name = this.shown === "density" ? "Local relative density" : field ? titled(nameOf(field.name).words)
       : this.tag ? this.tag.names.length ? titled(this.tag.name) : "Particle number" : "Outlines";
     const meaning = field && this.shown !== "density" ? ` (${field.meaning})` : "";
     const contacts = this.lines?.length ? ` Lines: normal contact forces, widest ${withUnit(this.mostForce, "N")}.` : "";

@@ -30,7 +30,7 @@ Object.assign(FieldView.prototype, {
     const code = cell >= 0 && this.codes ? this.codes[cell] : NO_NUMBER;
     if (code === NO_NUMBER) return "";
     return this.showsFragments ? `fragment ${Math.round(this.valueOf(code))}`
-      : `${words(this.field.name)} ${withUnit(this.valueOf(code), this.field.unit)}`;
+      : `${nameOf(this.field.name).words} ${withUnit(this.valueOf(code), this.field.unit)}`;
   },
 
   densityAt(px, py) {

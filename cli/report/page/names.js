@@ -34,3 +34,8 @@ const toldName = key => {
   const {words, symbol} = nameOf(key);
   return symbol ? `${words} ${plainSymbol(symbol)}` : words;
 };
+// What a scene expects: a key, then what of it ("tool/top/force_y, smallest").
+function toldExpectation(what) {
+  const [, key, rest] = /^([^\s,]*)(.*)$/s.exec(what);
+  return toldName(key) + rest;
+}

@@ -64,7 +64,7 @@ addCurves(run => {
   const moved = [...x("scanner/y", "scanner, y"), ...x("scanner/x", "scanner, x"), ...x("scanner/z", "scanner, z")];
   const xs = moved.filter(axis => largest(axis.values) > 0);
   const against = first => [...xs.filter(a => a.label.endsWith(first)), ...xs.filter(a => !a.label.endsWith(first)), timeAxis(run)];
-  const whole = names => names.filter(name => run.has(name)).map(name => run.series(name, words(name.replace("/", ", "))));
+  const whole = names => names.filter(name => run.has(name)).map(name => run.series(name, toldName(name)));
   const group = (title, first, y, lines, more) => ({title, y, xs: against(first), lines, ...more});
   const loops = ["y", "x"].flatMap(axis => {
     const lateral = axis === "y", along = lateral ? "" : " along the lever";

@@ -5,7 +5,8 @@
 function placeCurves(report, host) {
   const {run} = report;
   const single = run.head.series.filter(({name}) => name !== "time").map(({name, meaning}) =>
-    ({title: name, meaning, xs: [timeAxis(run)], y: name, lines: [run.series(name)]}));
+    ({title: titled(toldName(name)), meaning: `${meaning} (${name})`, xs: [timeAxis(run)], y: toldName(name),
+      lines: [run.series(name, toldName(name))]}));
   const groups = [...curvesOf(run), ...single];
   if (run.times.length < 2 || !groups.length) return;
   const what = element("select", {id: "curve"}), against = element("select", {id: "against"});

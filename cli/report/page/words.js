@@ -110,7 +110,8 @@ function otherRows(value, name, rows) {
   } else {
     for (const [key, item] of Object.entries(value)) {
       const inner = Array.isArray(value) && item && item.name ? item.name : key;
-      if (key !== "name") otherRows(item, `${name}, ${words(inner)}`, rows);
+      const told = inner === key ? toldName(key) : words(inner);
+      if (key !== "name") otherRows(item, name ? `${name}, ${told}` : told, rows);
     }
   }
 }
@@ -122,7 +123,7 @@ function fillSummary(run) {
                         "loops", "force_curves", "cost", "contact_quality", "warnings", ...known.flatMap(row => row[2])]);
   const rows = known.filter(row => row[1]);
   for (const [key, value] of Object.entries(run.summary)) {
-    if (!told.has(key)) otherRows(value, key, rows);
+    if (!told.has(key)) otherRows(value, key === "values" ? "" : toldName(key), rows);
   }
   const table = document.getElementById("summary");
   table.replaceChildren();
@@ -165,7 +166,7 @@ function fillQuality(run) {
   }
   for (const text of run.summary.warnings || []) add("Warning", text, ["", ""], "", false);
   for (const one of expected) {
-    add(one.what, "expected by the scene", [one.measured, one.expected], one.met ? "met" : "NOT met", one.met);
+    add(toldExpectation(one.what), `${one.what.split(/[\s,]/)[0]}, expected by the scene`, [one.measured, one.expected], one.met ? "met" : "NOT met", one.met);
   }
 }
 

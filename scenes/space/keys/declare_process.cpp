@@ -33,8 +33,8 @@ std::vector<Key<BodySpec>> turn_keys() {
             .fallback = value_of("0 deg"),
             .doc = "Turn about `axis`, counter-clockwise where that looks at one."},
            [](BodySpec& spec, const Decoded& value) {
-             spec.rotation =
-                 Rotation(portable::cos(value.number / 2), 0, 0, portable::sin(value.number / 2));
+             const double half = value.number / 2;
+             spec.rotation = Rotation(portable::cos(half), 0, 0, portable::sin(half));
            }},
           {{.name = "axis",
             .kind = Kind::direction,
@@ -44,7 +44,7 @@ std::vector<Key<BodySpec>> turn_keys() {
             .fallback_doc = "`[0, 0, 1]`"},
            // The key before it has set the angle, about z.
            [](BodySpec& spec, const Decoded& value) {
-             const Vec3 part = spec.rotation.z() * value.vector3;
+             const Vec3 part = spec.rotation.z() * value.vector3.normalized();
              spec.rotation = Rotation(spec.rotation.w(), part.x(), part.y(), part.z());
            }}};
 }

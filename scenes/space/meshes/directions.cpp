@@ -8,8 +8,6 @@
 namespace pulvis::space {
 namespace {
 
-constexpr int fine = 32;  // cells along a quarter turn
-
 struct AngleStation {
   double tangent, weight;
 };
@@ -46,19 +44,19 @@ std::vector<Direction> directions(int cells) {
   return all;
 }
 
-double volume_about(const StarSurface& surface) {
+double volume_about(const StarSurface& surface, int cells) {
   double volume = 0;
-  for (const Direction& d : directions(fine)) {
+  for (const Direction& d : directions(cells)) {
     const double r = surface.radius(d.unit);
     volume += d.weight * r * r * r / 3;
   }
   return volume;
 }
 
-Vec3 centre_of_volume(const StarSurface& surface) {
+Vec3 centre_of_volume(const StarSurface& surface, int cells) {
   Vec3 moment = Vec3::Zero();
   double volume = 0;
-  for (const Direction& d : directions(fine)) {
+  for (const Direction& d : directions(cells)) {
     const double r = surface.radius(d.unit), cube = d.weight * r * r * r;
     moment += cube * r / 4 * d.unit;
     volume += cube / 3;

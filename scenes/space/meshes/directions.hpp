@@ -14,8 +14,8 @@ struct Direction {
 // 6 * cells^2 equiangular cells, four Gauss points each.
 std::vector<Direction> directions(int cells);
 
-// From numeric sums: m^3; m, where the surface's origin is the centre of the rays.
-double volume_about(const StarSurface& surface);
-Vec3 centre_of_volume(const StarSurface& surface);
+// m^3; m, from the origin: sums over `directions(cells)`.
+double volume_about(const StarSurface& surface, int cells);
+Vec3 centre_of_volume(const StarSurface& surface, int cells);
 
 }  // namespace pulvis::space

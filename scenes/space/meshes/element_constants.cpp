@@ -110,6 +110,36 @@ void set_fibres(Shape::Element& element, const Corners& x) {
     entry(element.plane, k) = plane_of(half_edges.col((k + 1) % 3), half_edges.col((k + 2) % 3));
 }
 
+// The modes' derivatives by (xi, eta, zeta) at Gauss point g.
+Eigen::Matrix<double, Shape::modes, 3> mode_derivatives(int g) {
+  const AtPoint at = shape_functions(gauss_coordinates(g));
+  Eigen::Matrix<double, Shape::modes, 3> sum = Eigen::Matrix<double, Shape::modes, 3>::Zero();
+  for (int m = 0; m < Shape::modes; ++m)
+    for (int i = 0; i < 8; ++i) sum.row(m) += Shape::mode_sign(m, i) * at.by_xi.row(i);
+  return sum;
+}
+
+// With the mean gradient held, what hourglass modes X_m = fibre^-1 p_m add to it at a Gauss point is, in the axes of the
+// edges, sum p_m w_m: w_m fibre = (d_m - g_m . d)(dX/dxi)^-1/8 with d_m the mode's derivatives there and the stretches'
+// parts taken off that keep the mean. Needs the gradients and fibres.
+void set_hourglass_reach(Shape::Element& element, const Integrals& integrals) {
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Eigen::Matrix<double, Shape::modes, 3> mean;
+  for (int m = 0; m < Shape::modes; ++m)
+    for (int k = 0; k < 3; ++k) mean(m, k) = entry(entry(element.gradient, m), k);
+  const Matrix3d edges = Eigen::Map<const RowMajor>(element.fibre.data()).inverse();
+  const Eigen::Matrix<double, 4, 3> stretches = mean.bottomRows<4>() * mean.topRows<3>().inverse();
+  for (int g = 0; g < 8; ++g) {
+    const auto by = mode_derivatives(g);
+    const Matrix3d inverse =
+        Eigen::Map<const RowMajor>(entry(integrals.points, g).inverse_jacobian.data());
+    const Eigen::Matrix<double, 4, 3> reach =
+        (by.bottomRows<4>() - stretches * by.topRows<3>()) * inverse * edges / 8;
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> squares(reach.transpose() * reach);
+    element.hourglass_reach2 = std::max(element.hourglass_reach2, squares.eigenvalues().maxCoeff());
+  }
+}
+
 void set_gradients(Shape::Element& element, const Integrals& integrals) {
   for (int m = 0; m < Shape::modes; ++m) {
     Vector3d sum = Vector3d::Zero();
@@ -195,6 +225,7 @@ void complete_elements(Shape& shape) {
     element.volume = integrals.volume;
     set_gradients(element, integrals);
     set_fibres(element, x);
+    set_hourglass_reach(element, integrals);
     set_hourglass_bounds(element, x, integrals);
     shape.gauss.push_back(integrals.points);
     for (int i = 0; i < 8; ++i)

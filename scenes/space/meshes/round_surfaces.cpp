@@ -50,12 +50,13 @@ class SuperquadricSurface final : public StarSurface {
   // Jaklic, Leonardis & Solina (2000), eq. 2.60, with the exponents 2/eps1 = f and 2/eps2 = e.
   double volume() const override {
     const double eps1 = 2 / f_, eps2 = 2 / e_;
-    return 2 * half_.prod() * eps1 * eps2 * beta(eps1 / 2 + 1, eps1) * beta(eps2 / 2, eps2 / 2);
+    return 2 * half_.prod() * eps1 * eps2 * euler_beta(eps1 / 2 + 1, eps1) *
+           euler_beta(eps2 / 2, eps2 / 2);
   }
 
  private:
   static double log_gamma(double x) { return portable::log_gamma(x + 1) - portable::log(x); }
-  static double beta(double x, double y) {
+  static double euler_beta(double x, double y) {
     return portable::exp(log_gamma(x) + log_gamma(y) - log_gamma(x + y));
   }
 

@@ -18,7 +18,7 @@ constexpr double least_c = 0, most_c = 0.25;
 // How much c and the lines at irregular nodes stay as usual, against the surface passing where it should.
 constexpr double stay = 1e-3, stay_turned = 1e-4;
 constexpr int volume_fits = 24;  // halvings
-constexpr int fits = 3;  // as the place to pass moves a little along the surface
+constexpr int fits = 3;          // as the place to pass moves a little along the surface
 
 Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
 

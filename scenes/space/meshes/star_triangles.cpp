@@ -109,6 +109,8 @@ std::array<Vec3, 2> across(const Vec3& d) {
   return {x, d.cross(x)};
 }
 
+constexpr int volume_cells = 16;  // along a quarter turn: the volume of what is smoothed, to 1e-4
+
 class TriangleSurface final : public StarSurface {
  public:
   TriangleSurface(std::vector<Triangle> triangles, double smoothing)
@@ -120,12 +122,18 @@ class TriangleSurface final : public StarSurface {
         high = high.cwiseMax(p);
       }
     half_size_ = (high - low) / 2;
-    if (smoothing_ > 0) volume_ = volume_about(*this);
+    if (smoothing_ > 0) volume_ = volume_about(*this, volume_cells);
+  }
+
+  void scale(double factor) {
+    scale_ *= factor;
+    volume_ *= factor * factor * factor;
+    half_size_ *= factor;
   }
 
   // Smoothed: the mean over rays in rings about the direction, with the weights of a bell.
   double radius(const Vec3& d) const override {
-    if (smoothing_ == 0) return fan_.along(d).distance;
+    if (smoothing_ == 0) return scale_ * fan_.along(d).distance;
     constexpr int rings = 3, rays = 8;
     const std::array<Vec3, 2> side = across(d);
     double sum = fan_.along(d).distance / 2, weights = 0.5;
@@ -139,7 +147,7 @@ class TriangleSurface final : public StarSurface {
         weights += weight;
       }
     }
-    return sum / weights;
+    return scale_ * sum / weights;
   }
   // Of r(d) d: along d - grad r / r.
   Vec3 normal(const Vec3& d) const override {
@@ -155,7 +163,7 @@ class TriangleSurface final : public StarSurface {
   double volume() const override { return volume_; }
 
  private:
-  double smoothing_;
+  double smoothing_, scale_ = 1;
   TriangleFan fan_;
   double volume_;
   Vec3 half_size_;
@@ -167,15 +175,12 @@ std::unique_ptr<StarSurface> triangle_surface(const StlShape& shape) {
   if (shape.triangles.empty()) throw std::invalid_argument("an STL shape whose file was not read");
   if (const auto why = why_not_star_shaped(shape.triangles)) throw std::invalid_argument(*why);
   const Vec3 centre = centre_of_volume(shape.triangles);
-  const auto built = [&](double scale) {
-    std::vector<Triangle> triangles = shape.triangles;
-    for (Triangle& t : triangles)
-      for (Vec3& p : t) p = scale * (p - centre);
-    return std::make_unique<TriangleSurface>(std::move(triangles), shape.smoothing);
-  };
-  auto surface = built(1);
-  if (!shape.diameter) return surface;
-  return built(*shape.diameter * portable::cbrt(pi / 6 / surface->volume()));
+  std::vector<Triangle> triangles = shape.triangles;
+  for (Triangle& t : triangles)
+    for (Vec3& p : t) p -= centre;
+  auto surface = std::make_unique<TriangleSurface>(std::move(triangles), shape.smoothing);
+  if (shape.diameter) surface->scale(*shape.diameter * portable::cbrt(pi / 6 / surface->volume()));
+  return surface;
 }
 
 }  // namespace pulvis::space

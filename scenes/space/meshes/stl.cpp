@@ -31,11 +31,12 @@ void refuse_count(std::size_t count) {
     throw BadStl(fmt::format("{} triangles, allowed: at most {}", count, most_triangles));
 }
 
-// Many binary files start with "solid" too: their length tells.
+// Many binary files start with "solid" too: their length tells, or that no word of a text is in them.
 bool is_binary(const std::string& bytes) {
   if (bytes.size() < header) return false;
   const std::uint64_t count = little_endian(&bytes[header - 4]);
-  return bytes.size() == header + record * count || !bytes.starts_with("solid");
+  return bytes.size() == header + record * count || !bytes.starts_with("solid") ||
+         bytes.find("vertex") == std::string::npos;
 }
 
 std::vector<Triangle> binary_triangles(const std::string& bytes) {

@@ -3,15 +3,21 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "engine/portable_math.hpp"
-#include "scenes/space/meshes/star_surface.hpp"
 #include "scenes/space/meshes/convex_hull.hpp"
+#include "scenes/space/meshes/rounded_polyhedron.hpp"
+#include "scenes/space/meshes/star_surface.hpp"
+#include "scenes/space/meshes/stl.hpp"
+#include "scenes/space/meshes/triangle.hpp"
+#include "scenes/space/packing/rigid_contact.hpp"
 
 namespace pulvis::space {
 namespace {
 
-constexpr int samples = 16;  // of an STL shape, along an edge of a cube of directions
+constexpr int samples = 24;  // of an STL shape, along an edge of a cube of directions
+constexpr std::size_t most_corners = 4000;
 
 V3 ellipsoid_support(const V3& half, const V3& n) {
   const V3 scaled_normal{half.x * n.x, half.y * n.y, half.z * n.z};
@@ -89,26 +95,85 @@ void set_points(std::vector<V3> points, double radius, RigidShape& rigid) {
 }
 
 void set_core(const PolyhedronShape& s, double unit, RigidShape& rigid) {
+  const Vec3 centre = centre_of(s);
   std::vector<HalfSpace> faces = faces_of_hull(s.corners);
   for (HalfSpace& face : faces) face.offset -= s.rounding;
   std::vector<V3> points;
-  for (const Vec3& p : corners_between(faces)) points.push_back(vector_of(p / unit));
+  for (const Vec3& p : corners_between(faces)) points.push_back(vector_of((p - centre) / unit));
   set_points(std::move(points), s.rounding / unit, rigid);
 }
 
-// Of the convex hull: where it is not convex, hollows stay empty.
-void set_core(const StlShape& s, double unit, RigidShape& rigid) {
-  const auto surface = star_surface(s);
-  std::vector<V3> points;
+std::vector<Vec3> directions_of_corners(const StlShape& s) {
+  const Vec3 centre = centre_of_volume(s.triangles);
+  std::vector<Vec3> corners;
+  for (const Triangle& triangle : s.triangles)
+    for (const Vec3& p : triangle) corners.push_back((p - centre) / (p - centre).norm());
+  std::ranges::sort(corners, {}, [](const Vec3& p) { return std::tuple(p.x(), p.y(), p.z()); });
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+// At one place of each cell of a cube about the centre: shares of the cell's edges.
+std::vector<Vec3> even_directions(double right, double up) {
+  std::vector<Vec3> all;
   for (int side = 0; side < 6; ++side)
     for (int i = 0; i <= samples; ++i)
       for (int k = 0; k <= samples; ++k) {
-        const double u = 2.0 * i / samples - 1, v = 2.0 * k / samples - 1,
-                     w = side % 2 == 0 ? 1 : -1;
+        const double u = 2 * (i + right) / samples - 1, v = 2 * (k + up) / samples - 1;
+        const double w = side % 2 == 0 ? 1 : -1;
         const Vec3 d = side < 2 ? Vec3(w, u, v) : side < 4 ? Vec3(v, w, u) : Vec3(u, v, w);
-        points.push_back(vector_of(surface->point(d / d.norm()) / unit));
+        all.push_back(d / d.norm());
       }
+  return all;
+}
+
+std::vector<V3> points_along(const StarSurface& surface, const std::vector<Vec3>& directions,
+                             double unit) {
+  std::vector<V3> points;
+  for (const Vec3& d : directions) points.push_back(vector_of(surface.point(d) / unit));
+  return points;
+}
+
+// How far the surface lies outside of the hull at most, at nine places of each cell; a quarter more, since it is looked at in
+// places. A ball of this radius about each of the hull's points covers it.
+double bulge_of(const StarSurface& surface, const RigidShape& hull, double unit) {
+  const RigidShape point;
+  double most = 0;
+  for (const double right : {0.0, 1.0 / 3, 2.0 / 3})
+    for (const double up : {0.0, 1.0 / 3, 2.0 / 3})
+      for (const Vec3& d : even_directions(right, up)) {
+        const RigidPose here, there{vector_of(surface.point(d) / unit), {}};
+        const RigidPair pair(hull, here, point, there);
+        V3 normal = vector_of(d);
+        const auto touch = pair.touch(std::numeric_limits<double>::max(), normal, 1e-9);
+        if (touch) most = std::max(most, pair.distance(touch->normal));
+      }
+  return 1.25 * most;
+}
+
+// The convex hull: hollows stay empty. Of its corners; of many, or of a smoothed surface, of points on it, with what
+// bulges out between them.
+void set_core(const StlShape& s, double unit, RigidShape& rigid) {
+  const auto surface = star_surface(s);
+  std::vector<Vec3> directions = directions_of_corners(s);
+  const bool few = directions.size() <= most_corners;
+  if (s.smoothing == 0 && few)
+    return set_points(points_along(*surface, directions, unit), 0, rigid);
+  const std::vector<Vec3> even = even_directions(0, 0);
+  if (!few) directions.clear();
+  directions.insert(directions.end(), even.begin(), even.end());
+  std::vector<V3> points = points_along(*surface, directions, unit);
   set_points(std::move(points), 0, rigid);
+  rigid.radius = bulge_of(*surface, rigid, unit);
+  rigid.reach += rigid.radius;
+}
+
+double extent_along(const RigidShape& rigid, const V3& n) {
+  return dot(rigid.support(n) - rigid.support(-n), n);
+}
+V3 extent_of(const RigidShape& rigid) {
+  return {extent_along(rigid, {1, 0, 0}), extent_along(rigid, {0, 1, 0}),
+          extent_along(rigid, {0, 0, 1})};
 }
 
 void scale_shape(SphereShape& s, double k) { s.diameter *= k; }
@@ -134,15 +199,18 @@ void scale_shape(StlShape& s, double k) {
 RigidShape rigid_shape(const ParticleShape& shape, double unit) {
   RigidShape rigid;
   std::visit([&](const auto& s) { set_core(s, unit, rigid); }, shape);
-  const Vec3 half = extent_of(shape) / (2 * unit);
+  const V3 half = 0.5 * extent_of(rigid);
   rigid.volume = volume_of(shape) / (unit * unit * unit);
-  rigid.gyration = 2.0 / 15 * half.squaredNorm();  // of an ellipsoid, the mean over its axes
+  rigid.gyration = 2.0 / 15 * dot(half, half);  // of an ellipsoid, the mean over its axes
   rigid.diameter = portable::cbrt(6 / std::numbers::pi * rigid.volume);
   return rigid;
 }
 
 double volume_of(const ParticleShape& shape) { return star_surface(shape)->volume(); }
-Vec3 extent_of(const ParticleShape& shape) { return 2 * star_surface(shape)->half_size(); }
+Vec3 extent_of(const ParticleShape& shape) {
+  const V3 extent = extent_of(rigid_shape(shape, 1));
+  return {extent.x, extent.y, extent.z};
+}
 
 ParticleShape scaled(const ParticleShape& shape, double factor) {
   ParticleShape larger = shape;

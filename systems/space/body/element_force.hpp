@@ -9,6 +9,7 @@
 #pragma once
 
 #include "systems/space/body/element_access.hpp"
+#include "systems/space/body/inversion_barrier_kernel.hpp"
 #include "systems/space/body/systems.hpp"
 
 namespace pulvis::space {
@@ -80,7 +81,18 @@ inline void add_one_point_forces(const ForceViews<OnePoint>& v, const PointAt& a
       {zero, zero, zero, y.ez.z, y.zx.z, y.xe.z, y.xez.z});
 }
 
-// Returns its det F.
+// Returns its least det F at a Gauss point. Seldom called, with a copy of the views so that these stay in registers
+// elsewhere.
+[[gnu::noinline, gnu::cold]] inline Packet add_barrier_force(ForceViews<OnePoint> v,
+                                                             const Shape& shape, Row<Element> e) {
+  const Hexahedron& nodes = entry(shape.hexahedra, e);
+  const auto barrier = kernels::inversion_barrier(element_modes(v.x, nodes), entry(shape.gauss, e),
+                                                  entry(shape.element, e), v.mu);
+  for (int k = 0; k < 3; ++k) add_force(v.force, nodes, k, entry(barrier.force, k));
+  return barrier.least;
+}
+
+// Returns its det F; where a corner may be closing, the least of that and of the Gauss points.
 template <class Material>
 Packet element_force(const ForceViews<OnePoint>& v, Material& material, const Shape& shape,
                      Row<Element> e) {
@@ -90,7 +102,9 @@ Packet element_force(const ForceViews<OnePoint>& v, Material& material, const Sh
   const PointAt at =
       point_at(e, 0, element.volume, kernels::deformation_gradient(modes, element.gradient));
   const auto to = kernels::to_fibres(element.fibre, at.adj, at.inv_j);
-  auto strain = kernels::hourglass_strain(modes, to, element);
+  const auto components = kernels::hourglass_components(modes, to, element);
+  const Packet closing = kernels::closing_measure(components, element);
+  auto strain = kernels::hourglass_strain(components, element);
   material.remove_plastic(e, strain);
   auto bending = kernels::hourglass_stress(strain, v.moduli);
   auto s = kernels::scaled_deviator(material.left(at.f, e, 0), v.mu * at.inv_j * at.r2);
@@ -102,7 +116,9 @@ Packet element_force(const ForceViews<OnePoint>& v, Material& material, const Sh
   const auto y = kernels::hourglass_force(bending, to, element);
   add_one_point_forces(v, at, nodes, weighted_stress(s, element.volume, element.volume * mean), y,
                        kernels::hourglass_moment(y, modes), element.gradient);
-  return at.j;
+  const Packet::Mask may_close = ~(closing < 1.0);
+  if (!any(may_close)) return at.j;
+  return select(may_close, min(add_barrier_force(v, shape, e), at.j), at.j);
 }
 
 // ---- eight points, one dilatation --------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
 #include "systems/space/body/element_access.hpp"
+#include "systems/space/body/inversion_barrier_kernel.hpp"
 #include "systems/space/body/systems.hpp"
 
 namespace pulvis::space {
@@ -113,8 +114,8 @@ template struct plastic_work<EightPoint>;
   const Row<Particle> particle;
   const Shape& shape = meshes.of_chunk(chunk);
   const auto nodes = position.chunk(chunk);
-  const auto moduli = kernels::hourglass_moduli(elastic.shear.chunk(chunk)(particle),
-                                                elastic.bulk.chunk(chunk)(particle));
+  const Lane mu = elastic.shear.chunk(chunk)(particle);
+  const auto moduli = kernels::hourglass_moduli(mu, elastic.bulk.chunk(chunk)(particle));
   Lane total{};
   for (int i = 0; i < shape.elements(); ++i) {
     const Row<Element> e(i);
@@ -122,14 +123,17 @@ template struct plastic_work<EightPoint>;
     const auto modes = element_modes(nodes, entry(shape.hexahedra, i));
     const auto f = kernels::deformation_gradient(modes, element.gradient);
     const auto adj = kernels::adjugate(f);
-    const auto to =
-        kernels::to_fibres(element.fibre, adj, Lane(1.0) / kernels::determinant(f, adj));
-    auto strain = kernels::hourglass_strain(modes, to, element);
+    const Lane inv_j = Lane(1.0) / kernels::determinant(f, adj);
+    const auto to = kernels::to_fibres(element.fibre, adj, inv_j);
+    auto strain =
+        kernels::hourglass_strain(kernels::hourglass_components(modes, to, element), element);
     if (plastic)
       strain = kernels::each_number(strain, hourglass_at(plastic->chunk(chunk), e),
                                     [](Lane a, Lane b) { return a - b; });
     total += (0.5 * element.volume) *
              kernels::hourglass_product(kernels::hourglass_stress(strain, moduli), strain);
+    const auto determinants = kernels::gauss_determinants(modes, entry(shape.gauss, i));
+    total += element.volume * kernels::inversion_barrier_energy(determinants, inv_j, mu);
   }
   if (spent) total += spent->chunk(chunk)(particle);
   energy.chunk(chunk)(particle) = total;

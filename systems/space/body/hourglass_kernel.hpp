@@ -76,15 +76,23 @@ PlateMode<T> plate_strain(T e_j, T e_k, T j_of_k, T k_of_j, const Shape::Element
 }
 
 template <class T>
-Hourglass<T> hourglass_strain(const ElementModes<T>& m, const Matrix3<T>& to,
-                              const Shape::Element& e) {
-  const auto ez = fibre_components(to, Vector3<T>{m.x.ez, m.y.ez, m.z.ez}, e.natural[0]);
-  const auto zx = fibre_components(to, Vector3<T>{m.x.zx, m.y.zx, m.z.zx}, e.natural[1]);
-  const auto xe = fibre_components(to, Vector3<T>{m.x.xe, m.y.xe, m.z.xe}, e.natural[2]);
-  return {plate_strain(xe.y, zx.z, zx.y, xe.z, e.plane[0]),
-          plate_strain(ez.z, xe.x, xe.z, ez.x, e.plane[1]),
-          plate_strain(zx.x, ez.y, ez.x, zx.y, e.plane[2]),
+struct HourglassComponents {  // p
+  Vector3<T> ez, zx, xe, xez;
+};
+template <class T>
+HourglassComponents<T> hourglass_components(const ElementModes<T>& m, const Matrix3<T>& to,
+                                            const Shape::Element& e) {
+  return {fibre_components(to, Vector3<T>{m.x.ez, m.y.ez, m.z.ez}, e.natural[0]),
+          fibre_components(to, Vector3<T>{m.x.zx, m.y.zx, m.z.zx}, e.natural[1]),
+          fibre_components(to, Vector3<T>{m.x.xe, m.y.xe, m.z.xe}, e.natural[2]),
           fibre_components(to, Vector3<T>{m.x.xez, m.y.xez, m.z.xez}, e.natural[3])};
+}
+
+template <class T>
+Hourglass<T> hourglass_strain(const HourglassComponents<T>& p, const Shape::Element& e) {
+  return {plate_strain(p.xe.y, p.zx.z, p.zx.y, p.xe.z, e.plane[0]),
+          plate_strain(p.ez.z, p.xe.x, p.xe.z, p.ez.x, e.plane[1]),
+          plate_strain(p.zx.x, p.ez.y, p.ez.x, p.zx.y, e.plane[2]), p.xez};
 }
 
 template <class T>

@@ -125,6 +125,30 @@ TEST(SvgOutline, IsRefusedWithTheReason) {
   EXPECT_THAT(fault("<svg", "um"), HasSubstr("no SVG"));
 }
 
+// By Inkscape's label or by id, of the group or the shape; whatever else is drawn does not matter.
+TEST(SvgOutline, IsThatOfItsLayer) {
+  const std::string text = svg_of(
+      "<g inkscape:label='grain' id='layer1'><g transform='scale(2)'><rect id='r' width='40' "
+      "height='20'/></g></g>"
+      "<g id='frame'><rect rx='3' width='9' height='9'/><path d='M0 0H9'/></g>");
+  for (const char* layer : {"grain", "layer1", "r"}) {
+    const auto points = drawing::only_outline(drawing::chains_of_svg(text, "", layer));
+    EXPECT_NEAR(area_of(points) / mm2, 32, 0.032) << layer;
+  }
+  EXPECT_THAT(
+      message_of<BadDrawing>([&] { drawing::chains_of_svg(text, "", "grains"); }),
+      HasSubstr(
+          "there is no layer 'grains', did you mean 'grain'?, allowed: grain, layer1, r, frame"));
+}
+
+// Pieces with names of their own are one outline in their layer.
+TEST(SvgOutline, IsJoinedInItsLayer) {
+  const std::string text =
+      svg_of("<g id='l'><path id='a' d='M0 0H80V40'/><path id='b' d='M0 0V40H80'/></g>");
+  EXPECT_NEAR(area_of(drawing::only_outline(drawing::chains_of_svg(text, "", "l"))) / mm2, 32,
+              0.032);
+}
+
 std::string test_file(const std::string& name) {
   std::ifstream file(paths::source_dir() + "/tests/scenes/drawings/" + name);
   std::ostringstream text;
@@ -169,6 +193,18 @@ TEST(DxfOutline, IsACircle) {
     for (const Vec2& point : points)
       EXPECT_NEAR((point - factor * Vec2(1, 2)).norm(), 3 * factor, 1e-3 * factor);
   }
+}
+
+TEST(DxfOutline, IsThatOfItsLayer) {
+  const std::string text =
+      dxf_of(circle + "0\nCIRCLE\n8\nB\n10\n9\n20\n9\n40\n1\n" + "0\nELLIPSE\n8\nC\n");
+  const auto of_layer = [&](const char* layer) {
+    return area_of(drawing::only_outline(drawing::chains_of_dxf(text, "", layer))) / mm2;
+  };
+  EXPECT_NEAR(of_layer("A"), 9 * std::numbers::pi, 0.03);
+  EXPECT_NEAR(of_layer("B"), std::numbers::pi, 0.003);
+  EXPECT_THAT(message_of<BadDrawing>([&] { of_layer("D"); }),
+              HasSubstr("there is no layer 'D', allowed: A, B, C"));
 }
 
 TEST(DxfOutline, IsRefusedWithTheReason) {

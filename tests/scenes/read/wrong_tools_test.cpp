@@ -102,7 +102,7 @@ const WrongTool cases[] = {
      "shape = \"polyline\"\npoints = [[\"0 mm\", \"-1 mm\"], [\"1 mm\", \"-1 mm\"]]\nnormal = [0, "
      "1]",
      "tool[2].normal",
-     {"has no effect with shape = \"polyline\""}},
+     {"only with shape = \"plane\", or with a file of a polyline"}},
     {"PointOfAPolyline",
      "shape = \"polyline\"\npoints = [[\"0 mm\", \"-1 mm\"], [\"1 mm\", \"-1 mm\"]]\npoint = [\"0 "
      "mm\", \"0 mm\"]",

@@ -24,16 +24,25 @@ def outer_faces(hexahedra):
     return [faces[0] for faces in seen.values() if len(faces) == 1]
 
 
-def draw_solid(axis, position, faces, parts, title):
+def draw_solid(axis, position, faces, colours, title, ends=None):
+    """colours: one of each face; ends: corners of what is shown, m [2, 3], if it is not the solid's own box."""
     polygons = [position[list(nodes)] * 1e6 for nodes, _ in faces]
-    colours = [COLOURS[parts[cell]] for _, cell in faces]
     axis.add_collection3d(Poly3DCollection(polygons, facecolors=colours, edgecolors="#00000030",
                                            linewidths=0.3))
-    low, high = position.min(axis=0) * 1e6, position.max(axis=0) * 1e6
+    low, high = np.array([position.min(axis=0), position.max(axis=0)] if ends is None else ends) * 1e6
     axis.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]), title=title,
              xlabel="$x$ / µm", ylabel="$y$ / µm", zlabel="$z$ / µm")
     axis.set_box_aspect(np.maximum(high - low, 0.15 * (high - low).max()))
     axis.view_init(18, -60)
+
+
+def part_colours(run, faces):
+    return [COLOURS[run.mesh.cell_particle[cell]] for _, cell in faces]
+
+
+def progress_words(run):
+    """What the times of a lever's frames count."""
+    return "actions done" if run.has("scanner/z") else "load case"
 
 
 def solid(run, options=None):
@@ -46,11 +55,11 @@ def solid(run, options=None):
         chosen = [run.frame(options.frame)]
     faces = outer_faces(run.mesh.cells.tolist())
     figure = plt.figure(figsize=options.size(7 * len(chosen), 6))
-    done = "actions done" if run.has("scanner/z") else "load case"
+    colours = part_colours(run, faces)
     for i, frame in enumerate(chosen):
         axis = figure.add_subplot(1, len(chosen), i + 1, projection="3d")
-        title = f"frame {frame.number}, {done} {frame.time:.3g}" if options.title else ""
-        draw_solid(axis, frame.nodes, faces, run.mesh.cell_particle, title)
+        title = f"frame {frame.number}, {progress_words(run)} {frame.time:.3g}" if options.title else ""
+        draw_solid(axis, frame.nodes, faces, colours, title)
     last = chosen[-1].nodes
     figure.table = [(axis, "m", last[:, k]) for k, axis in enumerate("xyz")]
     return figure

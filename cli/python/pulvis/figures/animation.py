@@ -1,4 +1,4 @@
-"""A field over all frames of a run, as MP4 or GIF."""
+"""A powder's field, or a lever, over all frames of a run, as MP4 or GIF."""
 import shutil
 from pathlib import Path
 
@@ -10,11 +10,13 @@ from pulvis.figures.bonds import BOND_FIELDS, draw_bonds
 from pulvis.figures.cell import Cell
 from pulvis.figures.colours import colours_of
 from pulvis.figures.fields import DEFAULT_FIELD, field_of, paint
+from pulvis.figures.lever_film import lever_film
 from pulvis.figures.look import Options, close_up, shape_of, sheet
 from pulvis.figures.space import space_film
 
 SUFFIXES = (".mp4", ".gif")
 PER_SECOND = 12
+PER_SECOND_OF_LEVERS = 3  # they have a dozen of frames
 MOST_DPI = 150  # of a film: its pixels are an even number, and no more than a screen has
 
 
@@ -38,9 +40,10 @@ def writer_for(path, per_second=PER_SECOND):
 def film(run, options=None, into=None):
     """(figure, axes, a function that draws frame k, its bar or legend with it: they go with what is cleared)."""
     options = options or Options()
-    if run.is_solid or not run.frames:
-        raise PulvisError("--animate: only a powder's fields are animated; this run has "
-                          + ("a lever" if run.is_solid else "no frames"))
+    if not run.frames:
+        raise PulvisError("--animate: this run has no frames")
+    if run.is_solid:
+        return lever_film(run, options, into)
     if run.in_space:
         return space_film(run, options, into)
     key = options.field or DEFAULT_FIELD
@@ -64,10 +67,10 @@ def film(run, options=None, into=None):
     return figure, axes, show
 
 
-def animate(run, path, options=None, axes=None, per_second=PER_SECOND):
+def animate(run, path, options=None, axes=None, per_second=None):
     """Writes the film; returns (figure, axes) of its last frame."""
     options, path = options or Options(), Path(path)
-    writer = writer_for(path, per_second)
+    writer = writer_for(path, per_second or (PER_SECOND_OF_LEVERS if run.is_solid else PER_SECOND))
     figure, axes, show = film(run, options, axes)
     figure.canvas.draw()
     figure.set_layout_engine("none")  # laid out once: what follows stays in its place

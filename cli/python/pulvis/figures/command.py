@@ -163,7 +163,7 @@ def arguments(words=None):
     parser.add_argument("--cmap", help="colour map of what is on a scale, by matplotlib's name")
     parser.add_argument("--range", help="LOW:HIGH of the field's colours, as 0:400MPa")
     parser.add_argument("--dpi", default="200")
-    parser.add_argument("--animate", type=Path, help="file .mp4 or .gif: all frames of the field")
+    parser.add_argument("--animate", type=Path, help="file .mp4 or .gif: all frames of the field, or of a lever")
     parser.add_argument("-o", "--output", type=Path, help="a file, or a folder for all figures")
     parser.add_argument("--draw-into", type=Path, help=argparse.SUPPRESS)
     asked = parser.parse_args(words)

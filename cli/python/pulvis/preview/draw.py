@@ -3,7 +3,7 @@ import argparse
 import json
 from pathlib import Path
 
-from pulvis.preview import lever, powder
+from pulvis.preview import lever, powder, space
 from pulvis.preview.sheet import FAINT, LINE, MARGIN, STYLE, WARNING, WIDTH, Sheet, plt, wrapped
 
 
@@ -16,7 +16,8 @@ def footer_rows(setup):
 def draw(setup):
     """The figure of a set-up, as `pulvis preview -o FILE.json` writes it."""
     plt.rcParams.update(STYLE)
-    scene = lever.LeverDrawing(setup) if setup["family"] == "afm" else powder.PowderDrawing(setup)
+    drawing = space.SpaceDrawing if setup.get("dimension") == 3 else powder.PowderDrawing
+    scene = lever.LeverDrawing(setup) if setup["family"] == "afm" else drawing(setup)
     title, footer = wrapped(setup["title"] or setup["file"], WIDTH - 2 * MARGIN, 13), footer_rows(setup)
     top = MARGIN + 0.24 * len(title) + 0.22
     body = max(scene.height, scene.column.height) + 0.15

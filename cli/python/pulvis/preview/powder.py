@@ -38,10 +38,13 @@ class PowderDrawing:
         self.setup = setup
         self.colour = {material["name"]: MATERIAL_COLOURS[i % len(MATERIAL_COLOURS)]
                        for i, material in enumerate(setup["materials"])}
-        self.points = np.vstack([np.reshape(one["loops"][0], (-1, 2)) for one in setup["particles"]])
+        self.points = self.outer_points()
         self.column = self.written()
         self.programme = self.stages()
         self.layout()
+
+    def outer_points(self):
+        return np.vstack([np.reshape(one["loops"][0], (-1, 2)) for one in self.setup["particles"]])
 
     # ---- where everything lies ----------------------------------------------------------------------
     def layout(self):
@@ -166,24 +169,37 @@ class PowderDrawing:
         several = len(setup["classes"]) > 1
         for one in setup["classes"]:
             beginning = f"{one['name']} ({one['material']}): {one['count']:,} × " if several else f"{one['name']}: "
-            if one["name"] == one["outline"] and not several:
+            if one["name"] == self.shape_of(one) and not several:
                 beginning = ""
-            column.line(beginning + size_text(one), {"facecolor": self.colour[one["material"]],
+            column.line(beginning + self.size_text(one), {"facecolor": self.colour[one["material"]],
                                                      "edgecolor": "#4a5561", "linewidth": 0.6})
-        elements = [one["elements"] for one in setup["particles"]]
-        column.line(f"{words.counted(sum(elements), 'element')}, {min(elements)}"
-                    + (f" to {max(elements)}" if max(elements) > min(elements) else "")
-                    + f" in each; slice of {words.quantity(setup['thickness'], 'm')}")
+        column.line(self.sizes())
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         if setup["count"] > 1:
-            column.line(f"All of them: {words.quantity(float(f'{high[0] - low[0]:.3g}'), 'm')} wide,"
-                        f" {words.quantity(float(f'{high[1] - low[1]:.3g}'), 'm')} high")
+            column.line(self.extent_text(low, high))
         if "initial_state" in setup:
             column.line(f"As kept in {setup['initial_state']}")
         self.write_materials(column)
         self.write_tools(column)
-        self.write_bonds(column)
+        if "bonds" in setup:
+            self.write_bonds(column)
         return column
+
+    def sizes(self):
+        elements = [one["elements"] for one in self.setup["particles"]]
+        return (f"{words.counted(sum(elements), 'element')}, {min(elements)}"
+                + (f" to {max(elements)}" if max(elements) > min(elements) else "")
+                + f" in each; slice of {words.quantity(self.setup['thickness'], 'm')}")
+
+    def extent_text(self, low, high):
+        wide, tall = (words.quantity(float(f"{length:.3g}"), "m") for length in high - low)
+        return f"All of them: {wide} wide, {tall} high"
+
+    def size_text(self, one):
+        return size_text(one)
+
+    def shape_of(self, one):
+        return one["outline"]
 
     def write_materials(self, column):
         column.heading("Materials")
@@ -221,7 +237,8 @@ class PowderDrawing:
                 friction = ", ".join(f"{words.number(value)} ({name})" for name, value in tool["friction"].items())
             column.line(f"{tool['name']}: {tool['shape']}, friction {friction}", swatch)
         if self.tools_move():
-            column.line("Arrows: directions of moves and forces, by number of the stage; dashed: how far faces get")
+            column.line("Arrows: directions of moves and forces, by number of the stage"
+                        + ("" if self.setup.get("dimension") == 3 else "; dashed: how far faces get"))
         if self.setup.get("density_cells") and self.setup["die"]:
             columns, rows = self.setup["density_cells"]
             column.line(f"Dotted: {columns} × {rows} cells of local density")

@@ -56,10 +56,15 @@ def counted(count, what):
 
 
 def way(vector):
-    """An arrow for a direction of the plane."""
+    """An arrow for a direction of the plane; of space its largest component, or all of them."""
     size = math.hypot(*vector)
     if size == 0:
         return "·"
+    if len(vector) == 3:
+        axis = max(range(3), key=lambda k: abs(vector[k]))
+        if abs(vector[axis]) > (1 - 1e-9) * size:
+            return f"along {'−' if vector[axis] < 0 else ''}{'xyz'[axis]}"
+        return f"along ({', '.join(number(part / size) for part in vector)})"
     return "→↗↑↖←↙↓↘"[round(4 * math.atan2(vector[1], vector[0]) / math.pi) % 8]
 
 

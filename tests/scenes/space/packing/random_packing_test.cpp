@@ -25,14 +25,45 @@ struct Case {
 void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
 
 const SphereShape ball{10e-3};
-const Case cases[] = {
-    {"Balls", {ball}, {100}, 0.52},
-    {"BallsOfTwoSizes", {ball, SphereShape{5e-3}}, {50, 200}, 0.55},
-    {"Ellipsoids", {EllipsoidShape{{16e-3, 10e-3, 8e-3}}}, {60}, 0.55},
-    {"Superquadrics", {SuperquadricShape{{10e-3, 10e-3, 12e-3}, 5, 8}}, {40}, 0.5},
-    {"Tablets", {CylinderShape{12e-3, 6e-3, 1e-3}}, {60}, 0.55},
-    {"SharpCylinders", {CylinderShape{8e-3, 12e-3, 0}}, {40}, 0.48, 0.45},
-    {"BallsAndTablets", {ball, CylinderShape{12e-3, 6e-3, 1e-3}}, {30, 30}, 0.5}};
+const SuperquadricShape rounded_cube{{10e-3, 10e-3, 12e-3}, 5, 8};
+
+// A cube cut off at one corner, not about its centre.
+PolyhedronShape cut_cube(double rounding) {
+  PolyhedronShape shape{.corners = {}, .rounding = rounding};
+  for (const Vec3& p :
+       {Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(0, 10, 0), Vec3(0, 0, 10), Vec3(10, 10, 0),
+        Vec3(10, 0, 10), Vec3(0, 10, 10), Vec3(10, 10, 4), Vec3(10, 4, 10), Vec3(4, 10, 10)})
+    shape.corners.push_back(1e-3 * p);
+  return shape;
+}
+
+// An octahedron with a dent in each face: its hull is packed.
+StlShape dented(double smoothing) {
+  StlShape shape;
+  shape.diameter = 10e-3;
+  shape.smoothing = smoothing;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vec3 sign(octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1);
+    const Vec3 x(sign.x(), 0, 0), y(0, sign.y(), 0), z(0, 0, sign.z()), dent = 0.25 * sign;
+    const bool outward = sign.prod() > 0;
+    for (const auto& [a, b] : {std::pair(x, y), std::pair(y, z), std::pair(z, x)})
+      shape.triangles.push_back(outward ? std::array<Vec3, 3>{a, b, dent}
+                                        : std::array<Vec3, 3>{b, a, dent});
+  }
+  return shape;
+}
+
+const Case cases[] = {{"Balls", {ball}, {100}, 0.52},
+                      {"BallsOfTwoSizes", {ball, SphereShape{5e-3}}, {50, 200}, 0.55},
+                      {"Ellipsoids", {EllipsoidShape{{16e-3, 10e-3, 8e-3}}}, {60}, 0.55},
+                      {"Superquadrics", {rounded_cube}, {40}, 0.5},
+                      {"Tablets", {CylinderShape{12e-3, 6e-3, 1e-3}}, {60}, 0.55},
+                      {"SharpCylinders", {CylinderShape{8e-3, 12e-3, 0}}, {40}, 0.48, 0.45},
+                      {"RoundedPolyhedra", {cut_cube(1e-3)}, {50}, 0.5},
+                      {"SharpPolyhedra", {cut_cube(0)}, {50}, 0.5, 0.45},
+                      {"StlShapes", {dented(0)}, {60}, 0.35, 0.35},
+                      {"SmoothStlShapes", {dented(0.2)}, {30}, 0.4, 0.4},
+                      {"BallsAndTablets", {ball, CylinderShape{12e-3, 6e-3, 1e-3}}, {30, 30}, 0.5}};
 
 // Points on the surface of a body, in its own frame, and the test whether a point lies inside: by the shape's own formula,
 // which the packing does not use.
@@ -53,7 +84,7 @@ class Surface {
   std::vector<Vec3> points;
 
  private:
-  static constexpr int steps = 24;
+  static constexpr int steps = 16;
   std::unique_ptr<StarSurface> star_;
 };
 
@@ -98,10 +129,12 @@ double density_in(const Scene& scene) {
   const double area = die.kind == ContainerSpec::Kind::cylinder
                           ? pi / 4 * die.diameter * die.diameter
                           : die.width * die.depth;
+  std::vector<double> volumes;
+  for (const ParticleSpec& particle : scene.space->particles)
+    volumes.push_back(star_surface(particle.shape)->volume());
   double volume = 0;
   for (const BodySpec& body : place_bodies(scene))
-    volume += star_surface(scene.space->particles[static_cast<std::size_t>(body.particle)].shape)
-                  ->volume();
+    volume += volumes[static_cast<std::size_t>(body.particle)];
   return volume / (area * (packing.top - die.corner.z()));
 }
 
@@ -119,10 +152,10 @@ TEST_P(RandomPackingsInSpace, AreAsDenseAsWantedInABox) {
 
 TEST_P(RandomPackingsInSpace, AreAsDenseAsWantedInARoundDie) {
   PackingSpec packing = in_cylinder(50e-3, GetParam().counts);
-  packing.density = 0.45;
+  packing.density = std::min(0.45, GetParam().density);
   Scene scene = scene_of(GetParam().shapes, packing);
   filled(scene);
-  EXPECT_NEAR(density_in(scene), 0.45, 1e-9);
+  EXPECT_NEAR(density_in(scene), *packing.density, 1e-9);
   expect_apart(scene);
 }
 

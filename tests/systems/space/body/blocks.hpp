@@ -1,7 +1,9 @@
 // Blocks of hexahedra for the tests of the bodies in three dimensions, and the systems that run on them.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <Eigen/Dense>
+
 #include <functional>
 #include <memory>
 
@@ -17,6 +19,8 @@ namespace pulvis::space {
 using pulvis::kernels::Random;
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
+// Both element formulations, for typed tests.
+using Formulations = testing::Types<OnePoint, EightPoint>;
 
 // nx * ny * nz hexahedra of the unit cube, moved by `place`.
 inline Shape block(std::array<int, 3> n, const std::function<Vector(const Vector&)>& place) {

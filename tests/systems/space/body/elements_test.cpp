@@ -11,7 +11,6 @@ namespace {
 
 template <class F>
 class Elements : public testing::Test {};
-using Formulations = testing::Types<OnePoint, EightPoint>;
 TYPED_TEST_SUITE(Elements, Formulations);
 
 const Matrix some_gradient =

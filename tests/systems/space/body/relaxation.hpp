@@ -39,4 +39,29 @@ Displacements small_displacements(Body<F>& body, const Held& held, const Force& 
   return k.partialPivLu().solve(load);
 }
 
+// Slow, damped motion: `steps` of nine tenths of the stable step, velocities losing a share in each.
+// `hold(n, share, x, v)` puts what is prescribed of a node when that share of the steps is done.
+template <class F, class Hold>
+void move_slowly(Body<F>& body, int steps, const Hold& hold) {
+  std::vector<Vector> v(std::size_t(body.nodes()), Vector::Zero());
+  const double rho = body.template number<Density>(0);
+  double dt = 0;
+  for (int step = 0; step < steps; ++step) {
+    body.find_forces();
+    if (step % 100 == 0) {
+      body.template run<stable_time_step<F>>();
+      dt = 0.9 * body.template number<StableTimeStep>(0);
+    }
+    for (int n = 0; n < body.nodes(); ++n) {
+      Vector& speed = v[std::size_t(n)];
+      const double mass = rho * body.shape().nodal_volume[std::size_t(n)];
+      speed = Vector(0.99 * speed + dt / mass * body.force(n));
+      Vector x = body.position(n) + dt * speed;
+      hold(n, double(step + 1) / steps, x, speed);
+      body.put(n, x);
+    }
+  }
+  body.find_forces();
+}
+
 }  // namespace pulvis::space

@@ -1,0 +1,166 @@
+#include "cli/preview/space_setup.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "cli/preview/powder_setup.hpp"
+#include "cli/preview/stage_setup.hpp"
+#include "components/contact.hpp"
+#include "components/space/body.hpp"
+#include "engine/access.hpp"
+#include "scenes/space/results/tool_sheets.hpp"
+#include "scenes/space/results/visit_particles.hpp"
+#include "scenes/space/tools/drives.hpp"
+#include "scenes/tools/contact_rules.hpp"
+
+namespace pulvis {
+namespace {
+
+using nlohmann::json;
+using space::Vec3;
+
+constexpr std::array<const char*, 6> shape_names{"sphere",   "ellipsoid",  "superquadric",
+                                                 "cylinder", "polyhedron", "STL surface"};
+static_assert(shape_names.size() == std::variant_size_v<space::ParticleShape>);
+
+const space::ParticleSpec& class_of_body(const space::SpaceScene& scene,
+                                         const space::BodySpec& body) {
+  const auto& spec = scene.particles[static_cast<std::size_t>(body.particle)];
+  return spec.class_of < 0 ? spec : scene.particles[static_cast<std::size_t>(spec.class_of)];
+}
+
+json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+// x, y, z, x, ... of the surface's nodes; four of them a face, counter-clockwise from outside.
+json particle_surface(const World& world, std::size_t first, int lane, const space::Shape& shape) {
+  json nodes = json::array(), faces = json::array();
+  const Lane* x = world.column<space::Position>().lanes() + 3 * first;
+  for (int n = 0; n < shape.surface_nodes; ++n)
+    for (int k = 0; k < 3; ++k) nodes.push_back(x[3 * n + k][lane]);
+  for (const auto& face : shape.faces) {
+    json corners = json::array();
+    for (const auto& corner : face.corner) corners.push_back(corner.value);
+    faces.push_back(std::move(corners));
+  }
+  return {{"nodes", nodes}, {"faces", faces}};
+}
+
+json particles_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
+                        const World& world) {
+  json out = json::array();
+  space::visit_particles<Node>(world, [&](std::size_t first, int lane, const space::Shape& shape) {
+    const space::BodySpec& body = bodies.at(out.size());
+    const space::ParticleSpec& spec = class_of_body(*scene.space, body);
+    json one = particle_surface(world, first, lane, shape);
+    one["class"] = spec.name;
+    one["material"] = scene.materials[static_cast<std::size_t>(spec.material)].name;
+    one["elements"] = shape.elements();
+    one["volume"] = shape.true_volume;
+    if (body.velocity.norm() > 0) one["velocity"] = triple(body.velocity);
+    out.push_back(std::move(one));
+  });
+  return out;
+}
+
+// Diameters: of balls of the same volume.
+json classes_in_space(const Scene& scene, const std::vector<space::BodySpec>& bodies,
+                      const json& particles) {
+  json out = json::array();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const space::ParticleSpec& spec = class_of_body(*scene.space, bodies[i]);
+    const double diameter = std::cbrt(6 / std::numbers::pi * particles[i]["volume"].get<double>());
+    auto one = std::ranges::find_if(out, [&](const json& c) { return c["name"] == spec.name; });
+    if (one == out.end()) {
+      out.push_back({{"name", spec.name},
+                     {"material", particles[i]["material"]},
+                     {"shape", shape_names[spec.shape.index()]},
+                     {"count", 0},
+                     {"diameter", {diameter, diameter}}});
+      one = out.end() - 1;
+    }
+    (*one)["count"] = (*one)["count"].get<int>() + 1;
+    (*one)["diameter"][0] = std::min((*one)["diameter"][0].get<double>(), diameter);
+    (*one)["diameter"][1] = std::max((*one)["diameter"][1].get<double>(), diameter);
+  }
+  return out;
+}
+
+Eigen::AlignedBox3d box_of(const json& particles) {
+  Eigen::AlignedBox3d box;
+  for (const json& one : particles) {
+    const auto nodes = one["nodes"].get<std::vector<double>>();
+    for (std::size_t i = 0; i < nodes.size(); i += 3) box.extend(Vec3(Vec3::Map(&nodes[i])));
+  }
+  return box;
+}
+
+json tools_in_space(const Scene& scene, const json& particles, const World& world) {
+  const space::SpaceScene& space = *scene.space;
+  if (space.tools.empty()) return json::array();
+  const space::ToolSheets sheets(space, box_of(particles));
+  const ToolFaces& faces = sheets.faces();
+  const std::vector<double> xyz =
+      sheets.points({world.column<ToolPosition>().values(), tool_axes * space.tools.size()});
+  json out = json::array();
+  for (std::size_t t = 0; t < space.tools.size(); ++t) {
+    json friction = json::object();
+    for (const MaterialSpec& m : scene.materials)
+      friction[m.name] = friction_of(scene, m.name, space.tools[t].name).coefficient;
+    out.push_back({{"name", space.tools[t].name},
+                   {"shape", faces.kinds[t]},
+                   {"normal", triple(space.tools[t].normal)},
+                   {"friction", friction},
+                   {"pieces", json::array()}});
+  }
+  for (std::size_t i = 0; i < faces.corners.size(); i += 4) {
+    json piece = json::array();
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        piece.push_back(xyz[3 * static_cast<std::size_t>(faces.corners[i + k]) + axis]);
+    out[static_cast<std::size_t>(faces.tool[i / 4])]["pieces"].push_back(std::move(piece));
+  }
+  return out;
+}
+
+json stages_in_space(const Scene& scene) {
+  const space::SpaceScene& space = *scene.space;
+  json stages = stage_setup(scene);  // without moves and servos, which are in `space`
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    const double duration = scene.stages[s].duration;
+    if (s < space.moves.size())
+      for (const space::MoveSpec& move : space.moves[s])
+        stages[s]["moves"].push_back(
+            {{"tool", space.tools[static_cast<std::size_t>(move.tool)].name},
+             {"displacement", triple(move.displacement)},
+             {"speed", move.displacement.norm() / (duration * (1 - move.ramp))}});
+    if (s < space.servos.size())
+      for (const space::ServoSpec& servo : space.servos[s])
+        stages[s]["servos"].push_back(
+            {{"tool", space.tools[static_cast<std::size_t>(servo.tool)].name},
+             {"direction", triple(space::direction_of(servo, space))},
+             {"force", servo.force}});
+  }
+  return stages;
+}
+
+}  // namespace
+
+json space_setup(const Scene& scene, const std::vector<space::BodySpec>& bodies,
+                 const World& world) {
+  json setup{{"family", "particles"},
+             {"dimension", 3},
+             {"friction", pairs_setup(scene)},
+             {"materials", materials_setup(scene)},
+             {"particles", particles_in_space(scene, bodies, world)},
+             {"count", bodies.size()},
+             {"stages", stages_in_space(scene)}};
+  setup["classes"] = classes_in_space(scene, bodies, setup["particles"]);
+  setup["tools"] = tools_in_space(scene, setup["particles"], world);
+  return setup;
+}
+
+}  // namespace pulvis

@@ -1,0 +1,157 @@
+"""Figures of particles in three dimensions: what is drawn of blocks whose volumes and sections are known."""
+import h5py
+import numpy as np
+import pytest
+from conftest import call
+from matplotlib import pyplot as plt
+from PIL import Image
+
+import pulvis
+from pulvis.errors import PulvisError
+from pulvis.figures.space_mesh import density_along_z, outer_sides, section
+from pulvis.figures.space_tools import cross_section, normals, pieces
+
+N = 3  # cells along an edge of a block
+SIZE = 1e-3  # m
+
+
+@pytest.fixture(autouse=True)
+def no_figure_stays():
+    yield
+    plt.close("all")
+
+
+def block(corner, number):
+    """(nodes, hexahedra) of a cube of N^3 cells; numbers of nodes begin with those of `number` blocks."""
+    side = N + 1
+    x, y, z = np.meshgrid(*[np.linspace(0, SIZE, side)] * 3, indexing="ij")
+    nodes = np.stack([x, y, z], axis=-1).transpose(2, 1, 0, 3).reshape(-1, 3) + corner
+    i, j, k = (index.ravel() for index in np.meshgrid(*[np.arange(N)] * 3, indexing="ij"))
+    first = i + side * j + side**2 * k + number * side**3
+    return nodes, np.stack([first + step + up for up in (0, side**2) for step in (0, 1, side + 1, side)], axis=1)
+
+
+def write(file, name, values, **attributes):
+    data = file.create_dataset(name, data=values)
+    data.attrs.update({"unit": "-", "meaning": "made up", "components": 1, **attributes})
+
+
+@pytest.fixture(scope="module")
+def blocks(tmp_path_factory):
+    """Two blocks on one another in a box of planes twice as wide as they are; they rise by a tenth of their height."""
+    folder = tmp_path_factory.mktemp("blocks")
+    both = [block([0, 0, level * SIZE], level) for level in (0, 1)]
+    nodes, cells = (np.concatenate(parts) for parts in zip(*both))
+    with h5py.File(folder / "run.h5", "w") as file:
+        file.attrs.update({"title": "Two blocks", "scene_hash": "f00d"})
+        write(file, "mesh/hexahedra", cells.astype(np.int32))
+        write(file, "mesh/cell_particle", np.repeat([0, 1], N**3).astype(np.int32))
+        write(file, "mesh/node_particle", np.repeat([0, 1], (N + 1)**3).astype(np.int32))
+        write(file, "mesh/reference", nodes)
+        write(file, "particles/material", np.array([0, 1], np.int32), place="particle", names="iron\ncopper")
+        write(file, "tools/quads", np.array([[0, 1, 2, 3], [4, 5, 6, 7]], np.int32))
+        write(file, "tools/quad_tool", np.array([0, 1], np.int32), names="left\nright", kinds="plane\nplane")
+        for k in range(3):
+            frame = f"frames/{k:06}"
+            write(file, f"{frame}/position", nodes * [1, 1, 1 + 0.05 * k], place="node", components=3, unit="m")
+            write(file, f"{frame}/effective_stress", 1e8 * np.arange(2 * N**3) / N**3 * (k + 1), place="cell", unit="Pa")
+            x = [0] * 4 + [2 * SIZE] * 4
+            y, z = np.array([0, 1, 1, 0, 0, 0, 1, 1]) * SIZE, np.array([0, 0, 2, 2, 0, 2, 2, 0]) * SIZE
+            write(file, f"{frame}/tools/outline", np.stack([x, y, z], axis=1), place="list", components=3, unit="m")
+            file[frame].attrs.update({"time": 1e-3 * k, "step": k, "complete": 1})
+        write(file, "history/time", np.array([0.0, 1e-3, 2e-3]), unit="s")
+        write(file, "history/tool/right/force_x", np.array([0.0, 10, 30]), unit="N")
+    return folder
+
+
+def test_is_no_lever(blocks):
+    run = pulvis.open(blocks)
+    assert run.in_space and not run.is_solid and run.family == "compaction"
+    assert run.mesh.cells.shape == (2 * N**3, 8)
+
+
+def test_outer_sides_are_the_faces_of_the_blocks_and_look_outward(blocks):
+    run = pulvis.open(blocks)
+    faces, cells = outer_sides(run.mesh.cells)
+    assert len(faces) == 2 * 6 * N**2 and set(cells) <= set(range(2 * N**3))
+    corners = run.mesh.reference[faces]
+    volume = (np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]) / 2 * corners.mean(axis=1)).sum() / 3
+    assert volume == pytest.approx(2 * SIZE**3)  # Gauss: the integral of x . n / 3
+
+
+def area(polygon):
+    x, y = polygon.T
+    return abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
+
+
+@pytest.mark.parametrize("axis, expected", [(0, 2), (1, 2), (2, 1)])
+def test_a_section_has_the_area_of_the_cut_body(blocks, axis, expected):
+    run = pulvis.open(blocks)
+    turn = np.array([[np.cos(0.3), -np.sin(0.3), 0], [np.sin(0.3), np.cos(0.3), 0], [0, 0, 1]])
+    polygons, cells = section(run.mesh.cells, run.mesh.reference, axis, 0.41 * SIZE)
+    assert sum(map(area, polygons)) == pytest.approx(expected * SIZE**2)
+    assert len(polygons) == len(cells) == expected * N**2
+    if axis == 2:  # the area across z stays, however it is turned about z
+        polygons, _ = section(run.mesh.cells, run.mesh.reference @ turn.T, 2, 0.41 * SIZE)
+        assert sum(map(area, polygons)) == pytest.approx(SIZE**2)
+
+
+def test_density_along_z_is_that_of_the_block_in_its_room(blocks):
+    run = pulvis.open(blocks)
+    frame = run.frame(2)
+    room = cross_section(run, frame, frame.nodes)
+    assert room == pytest.approx(2 * SIZE**2)  # between the two planes, and as wide as the powder across them
+    density, z = density_along_z(run.mesh.cells, frame.nodes, room, 7)
+    np.testing.assert_allclose(density, 0.5)
+    assert z[-1] == pytest.approx(2.2 * SIZE)
+    figure, axes = run.plot.density_profile()
+    assert axes.get_ylabel() == "$z$ / mm" and len(axes.lines) == 3
+
+
+def test_tools_look_at_the_powder(blocks):
+    run = pulvis.open(blocks)
+    corners, kinds = pieces(run, run.frame(0))
+    np.testing.assert_allclose(normals(corners), [[1, 0, 0], [-1, 0, 0]], atol=1e-12)
+    assert list(kinds) == ["plane", "plane"]
+
+
+def test_the_picture_shows_the_faces_that_look_at_the_reader(blocks):
+    run = pulvis.open(blocks)
+    figure, axes = run.plot.field(frame=0)
+    faces = next(one for one in axes.collections if one.get_zorder() == 1)
+    assert len(faces.get_paths()) == 2 * 3 * N**2  # three sides of each block
+    assert axes.child_axes[0].get_ylabel().startswith("Effective stress")
+    names = [text.get_text() for text in axes.texts]
+    assert {"$x$", "$y$", "$z$"} <= set(names) and any(name.endswith("mm") or name.endswith("µm") for name in names)
+    figure, axes = run.plot.field("material", frame=0)
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["iron", "copper"]
+
+
+def test_the_section_shows_cells_and_tools(blocks):
+    run = pulvis.open(blocks)
+    _, axes = run.plot.section(frame=0, across="y", at=0.5 * SIZE)
+    cells, tools = axes.collections
+    assert len(cells.get_paths()) == 2 * N**2 and len(tools.get_segments()) == 2
+    assert axes.get_xlabel() == "$x$ / mm" and axes.get_ylabel() == "$z$ / mm"
+    with pytest.raises(PulvisError, match="allowed: x, y, z"):
+        run.plot.section(across="w")
+
+
+def test_sections_are_of_three_dimensions(compact):
+    with pytest.raises(PulvisError, match="sections, which three dimensions have"):
+        pulvis.open(compact).plot.section()
+
+
+def test_all_figures_of_the_command(blocks, tmp_path):
+    told = call("figure", blocks, "-o", tmp_path / "all", "--width", "85mm", "--no-title")
+    names = sorted(path.name for path in (tmp_path / "all").iterdir())
+    assert names == ["density_profile.png", "effective_stress.png", "force.png", "section.png"]
+    assert "nothing recorded for energies.png" in told
+    with Image.open(tmp_path / "all/effective_stress.png") as picture:
+        assert picture.width == pytest.approx(85 / 25.4 * 200, abs=2)
+    call("figure", blocks, "--animate", tmp_path / "film.gif", "--range", "0:400MPa", "--cmap", "cividis")
+    with Image.open(tmp_path / "film.gif") as film:
+        assert film.n_frames == 3
+    call("figure", blocks, "-o", tmp_path / "one.csv", "--field", "effective_stress", "--frame", "0")
+    assert len(np.genfromtxt(tmp_path / "one.csv", delimiter=",", skip_header=1)) == 2 * N**3
+    assert "no field heat" in call("figure", blocks, "-o", tmp_path / "one.png", "--field", "heat", code=2)

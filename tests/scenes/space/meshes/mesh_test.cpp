@@ -1,0 +1,138 @@
+// Meshes of all shapes: volume, elements that are not folded, symmetry, evenness.
+#include "scenes/space/meshes/mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "scenes/space/meshes/thinnest.hpp"
+#include "tests/scenes/space/meshes/shape_cases.hpp"
+
+namespace pulvis::space {
+namespace {
+
+const std::vector<std::array<int, 2>> mesh_sizes{{1, 1}, {1, 3}, {2, 1}, {3, 2},
+                                                 {4, 4}, {5, 2}, {7, 1}};
+
+struct MeshCase {
+  std::string name;
+  ParticleShape true_shape;
+  int divisions, rings;
+  Shape shape;
+};
+const std::vector<MeshCase>& mesh_cases() {
+  static const std::vector<MeshCase> cases = [] {
+    std::vector<MeshCase> made;
+    for (const ShapeCase& c : shape_cases())
+      for (const auto& [n, rings] : mesh_sizes)
+        made.push_back(
+            {c.name + ", " + std::to_string(n) + " divisions, " + std::to_string(rings) + " rings",
+             c.shape, n, rings, shape_of(c.shape, n, rings)});
+    return made;
+  }();
+  return cases;
+}
+
+TEST(SpaceMesh, HasTheCountsOfACubedSphere) {
+  for (const auto& [name, true_shape, n, rings, shape] : mesh_cases()) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(shape.elements(), n * n * n + 6 * n * n * rings);
+    EXPECT_EQ(shape.surface_nodes, 6 * n * n + 2);
+    EXPECT_EQ(static_cast<int>(shape.nodes.size()),
+              rings * (6 * n * n + 2) + (n + 1) * (n + 1) * (n + 1));
+  }
+  EXPECT_EQ(shape_of(SphereShape{1}, 1, 1).elements(), 7);
+  EXPECT_EQ(shape_of(SphereShape{1}, 4, 4).elements(), 448);
+}
+
+// Round-off of some thousand sums.
+TEST(SpaceMesh, HasTheVolumeOfTheTrueShape) {
+  for (const auto& [name, true_shape, n, rings, shape] : mesh_cases()) {
+    SCOPED_TRACE(name);
+    const double wanted = star_surface(true_shape)->volume();
+    EXPECT_NEAR(mesh_volume(shape), wanted, 1e-12 * wanted);
+    EXPECT_NEAR(shape.volume, wanted, 1e-12 * wanted);
+    EXPECT_EQ(shape.true_volume, wanted);
+  }
+}
+
+TEST(SpaceMesh, HasNoFoldedElement) {
+  for (const auto& [name, true_shape, n, rings, shape] : mesh_cases()) {
+    SCOPED_TRACE(name);
+    double least = 1;
+    for (int e = 0; e < shape.elements(); ++e)
+      for (int g = 0; g < 27; ++g)  // corners, middles of edges and sides, middle
+        least = std::min(least, jacobian(shape, e, Vec3(g % 3 - 1, g / 3 % 3 - 1, g / 9 - 1)) * 8 /
+                                    entry(shape.element, e).volume);
+    EXPECT_GT(least, 0.02);
+  }
+}
+
+// The smallest element sets the time step of all.
+TEST(SpaceMesh, OfASphereHasElementsOfSimilarSize) {
+  for (const auto& [divisions, rings] : mesh_sizes) {
+    const Shape shape = shape_of(SphereShape{1}, divisions, rings);
+    const double mean = shape.volume / shape.elements();
+    for (const Shape::Element& element : shape.element) EXPECT_GT(element.volume, 0.3 * mean);
+    if (rings <= 2) {
+      EXPECT_GT(thinnest_part(shape), 0.45 * std::cbrt(mean));
+    }
+  }
+}
+
+TEST(SpaceMesh, OfASphereHasTheSymmetriesOfTheCube) {
+  const Shape shape = shape_of(SphereShape{2}, 4, 2);
+  const auto has_node = [&](const Vec3& p) {
+    return std::ranges::any_of(shape.nodes, [&](const Point& q) {
+      return (Vec3(q[0], q[1], q[2]) - p).norm() <
+             1e-9;  // sums in another order, over 200 steps of descent
+    });
+  };
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i) {
+    const Vec3 p = node_of(shape, i);
+    EXPECT_TRUE(has_node({p.y(), p.z(), p.x()})) << i;
+    EXPECT_TRUE(has_node({p.y(), p.x(), p.z()})) << i;
+    EXPECT_TRUE(has_node({-p.x(), p.y(), p.z()})) << i;
+  }
+}
+
+TEST(SpaceMesh, IsTheSameInMicrometresAndInMetres) {
+  const Shape small = shape_of(CylinderShape{2e-6, 1e-6, 0.2e-6}, 3, 2);
+  const Shape large = shape_of(CylinderShape{2, 1, 0.2}, 3, 2);
+  for (int i = 0; i < static_cast<int>(small.nodes.size()); ++i)
+    EXPECT_LT((1e6 * node_of(small, i) - node_of(large, i)).norm(), 1e-6);
+}
+
+TEST(SpaceMesh, KnowsItsMeasures) {
+  const Shape shape = shape_of(SphereShape{2}, 5, 2);
+  EXPECT_NEAR(shape.area, 4 * std::numbers::pi, 2e-3 * shape.area);
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
+    EXPECT_LE(node_of(shape, i).norm(), shape.radius);
+  double faces = 0, stiffness = 0;
+  for (const Shape::Face& face : shape.faces) {
+    double area = 0;
+    for (const double weight : face.weight) area += weight;
+    EXPECT_NEAR(face.size * face.size, area, 1e-14);
+    EXPECT_NEAR(face.stiffness * entry(shape.element, face.element).volume, area, 1e-14);
+    faces += area;
+    stiffness += area * face.stiffness;
+  }
+  EXPECT_NEAR(faces, shape.area, 1e-12);
+  EXPECT_NEAR(stiffness / faces, shape.mean_face_stiffness, 1e-12 * shape.mean_face_stiffness);
+}
+
+// Base: a rhomboid of width 1 along y.
+TEST(ThinnestPart, IsTheWidthOfABrick) {
+  Shape shape;
+  for (const double z : {0.0, 0.5})
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {3.0, 1.0}, {1.0, 1.0}})
+      shape.nodes.push_back({x, y, z});
+  shape.hexahedra.emplace_back();
+  for (int i = 0; i < 8; ++i) entry(shape.hexahedra[0], i) = Row<Node>(i);
+  EXPECT_NEAR(thinnest_part(shape), 0.5, 1e-15);
+  for (Point& p : shape.nodes) p[2] *= 10;
+  EXPECT_NEAR(thinnest_part(shape), 1, 1e-15);  // of the rhomboid, not its edge, which is sqrt 2
+}
+
+}  // namespace
+}  // namespace pulvis::space
