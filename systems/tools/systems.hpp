@@ -2,9 +2,12 @@
 // systems/step.cpp puts them in order, and each is described at the top of its own file.
 #pragma once
 
+#include <functional>
+
 #include "components/bundles.hpp"
 #include "components/servo.hpp"
 #include "systems/contact/systems.hpp"
+#include "systems/tools/servo_kernel.hpp"
 
 namespace pulvis {
 
@@ -33,21 +36,29 @@ struct stage_control {
   void operator()() const;
 };
 
-struct tool_servo {
+// What drives tools that hold a force, whatever they touch.
+struct ServoDrive {
   Read<Clock> clock;
   Read<ToolProgram> program;
   Read<ToolForce> force;
-  TouchingRows<ToolContact> rows;
-  Read<ContactLaw<ToolContact>> law;
-  Read<ContactRules> rules;
   Write<ToolServos> servos;
-  struct Drive {
+  struct Motion {
     Read<ServoTravel> travel;
     Write<ServoMass> mass;
     Write<ServoVelocity> velocity;
     Write<ServoDragged> dragged;
     Write<ServoForce> asked;
   } drive;
+};
+// Their velocities over the next step. `touching`: springs and dashpots of all that touches a tool.
+void drive_tools(const ServoDrive& servo,
+                 const std::function<kernels::TouchSums(int tool)>& touching);
+
+struct tool_servo {
+  ServoDrive servo;
+  TouchingRows<ToolContact> rows;
+  Read<ContactLaw<ToolContact>> law;
+  Read<ContactRules> rules;
   void operator()() const;
 };
 

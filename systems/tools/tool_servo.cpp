@@ -85,7 +85,7 @@ double end_speed(const ToolProgram& program, const Servo& servo, double from, do
 
 // The next step of a tool behind a spring; the velocity that is kept is the one relative to the drive's far end.
 void follow(const Servo& servo, Row<Tool> tool, const Clock& clock, const ToolProgram& program,
-            const tool_servo::Drive& drive, double bears) {
+            const ServoDrive::Motion& drive, double bears) {
   const double before = end_speed(program, servo, clock.time - clock.dt_before, clock.time);
   const double next = end_speed(program, servo, clock.time, clock.time + clock.dt);
   const double behind = -along(drive.travel, tool, servo.direction);
@@ -107,7 +107,8 @@ void check_mass(const Servo& servo, const ToolProgram& program, const Clock& clo
 
 }  // namespace
 
-void tool_servo::operator()() const {
+void drive_tools(const ServoDrive& s, const std::function<kernels::TouchSums(int)>& touching_tool) {
+  const auto& [clock, program, force, servos, drive] = s;
   const std::size_t stage = program->stage_at(clock->time);
   const bool new_stage = stage != servos->stage;
   for (int t = 0; t < force.rows(); ++t) {
@@ -121,7 +122,7 @@ void tool_servo::operator()() const {
     }
     const double bears = borne(*servo, force);
     if (!servo->holds_force()) {
-      kernels::TouchSums sums = touching(t, rows, law, rules->stiffest_weld());
+      kernels::TouchSums sums = touching_tool(t);
       sums.stiffness += servo->stiffness;
       check_mass(*servo, *program, *clock, kernels::min_tool_mass(sums, clock->dt, clock->safety));
       follow(*servo, tool, *clock, *program, drive, bears);
@@ -132,7 +133,7 @@ void tool_servo::operator()() const {
     drive.asked(tool, 0) =
         asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
 
-    const double minimum = kernels::min_tool_mass(touching(t, rows, law, rules->stiffest_weld()),
+    const double minimum = kernels::min_tool_mass(touching_tool(t),
                                                   clock->dt, clock->safety);
     const kernels::ServoState now =
         kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
@@ -146,6 +147,10 @@ void tool_servo::operator()() const {
     set_along(drive.dragged, tool, servo->direction, next.dragged);
   }
   servos->stage = stage;
+}
+
+void tool_servo::operator()() const {
+  drive_tools(servo, [&](int tool) { return touching(tool, rows, law, rules->stiffest_weld()); });
 }
 
 }  // namespace pulvis

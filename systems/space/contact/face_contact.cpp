@@ -142,7 +142,7 @@ struct FacePass {
       motion.touching |= 1U << half;
       activation = 0;
     } else {
-      activation = s.clock->travel - FaceSums::greatest(-standing.distance);
+      activation = s.clock->travel - FaceSums::greatest(standing.gap);
     }
   }
   static void book(Row<FaceContact> row, unsigned unconverged, BlockSums& block) {

@@ -38,8 +38,7 @@ struct PatchLanes {
 
 // How a point stands against another surface.
 struct Standing {
-  Lane gap;            // m, > 0 in penetration
-  Lane distance;       // m, to the surface
+  Lane gap;            // m, > 0 in penetration; else minus the distance
   VectorLanes normal;  // outward, of the other surface
 };
 
@@ -60,9 +59,9 @@ struct Projection {
   unsigned unconverged() const { return ~done & 0xffU; }
 
   [[gnu::always_inline]] void find() {
-    patch.gather(first, face);
+    gather();
     for (int step = 0;; ++step) {
-      at_ = kernels::patch_point<Lane>(patch, u, v);
+      evaluate();
       r_ = point - at_.x;
       newton_ = kernels::newton(at_, r_);
       const Lane along_u = dot(r_, at_.u), along_v = dot(r_, at_.v);
@@ -83,16 +82,32 @@ struct Projection {
     Standing s;
     s.normal = inv_area * across;
     s.gap = -dot(offset, s.normal);
-    s.distance = sqrt(dot(offset, offset));
     if ((held_u_ | held_v_) != 0) look_to_crease(s);
     return s;
   }
 
   PatchLanes patch;
-  kernels::PatchSlopes<Lane> slopes;  // of the surface at the closest point
+  kernels::PatchSlopes<Lane> slopes;  // of the surface at the closest point (x: before the last correction)
   VectorLanes offset;                 // m, from there to the point
 
  private:
+  // Points that stand against one and the same face need no patches side by side.
+  [[gnu::always_inline]] void gather() {
+    unsigned other = 0;
+    for (std::size_t l = 1; l < lane_count; ++l)
+      other |= static_cast<unsigned>(face[l]) ^ static_cast<unsigned>(face[0]);
+    same_ = other == 0;
+    if (!same_) patch.gather(first, face);
+  }
+  struct OnePatch {
+    const double* numbers;
+    Lane operator()(int k, int p) const { return {numbers[16 * k + p]}; }
+  };
+  [[gnu::noinline]] void evaluate() {
+    const std::ptrdiff_t one = std::ptrdiff_t{face[0]} * face_numbers;
+    at_ = same_ ? kernels::patch_point<Lane>(OnePatch{first + one}, u, v)
+                : kernels::patch_point<Lane>(patch, u, v);
+  }
   // Along a crease.
   [[gnu::noinline]] void hold(const Lane& along_u, const Lane& along_v) {
     const Lane zero{};
@@ -122,7 +137,7 @@ struct Projection {
     if (inside == 0xffU) return;
     for (int l = 0; l < lane_count; ++l)
       if ((inside >> l & 1) == 0) cross_side(l);
-    patch.gather(first, face);
+    gather();
   }
   void cross_side(int l) {
     const auto lane = static_cast<std::size_t>(l);
@@ -159,22 +174,25 @@ struct Projection {
     if ((held_u_ | held_v_) == 0) {
       const Lane along_u = dot(offset, slopes.u), along_v = dot(offset, slopes.v);
       const Lane more_u = newton_.step_u(along_u, along_v), more_v = newton_.step_v(along_u, along_v);
+      offset = offset - (more_u * slopes.u + more_v * slopes.v);
+      slopes.u = fma(more_u, at_.uu, fma(more_v, at_.uv, slopes.u));
+      slopes.v = fma(more_u, at_.uv, fma(more_v, at_.vv, slopes.v));
       du_ += more_u;
       dv_ += more_v;
-      slopes = kernels::taylor(at_, du_, dv_);
-      offset = point - slopes.x;
     }
     u += du_;
     v += dv_;
   }
   // From a crease the way out leads to the point itself.
   [[gnu::noinline]] void look_to_crease(Standing& s) const {
-    const LaneMask held = LaneMask::of(held_u_ | held_v_) & (s.distance > 0.0);
+    const Lane distance = sqrt(dot(offset, offset));
+    const LaneMask held = LaneMask::of(held_u_ | held_v_) & (distance > 0.0);
     const Lane sign = select(s.gap > 0.0, Lane(-1.0), Lane(1.0));
-    s.normal = select(held, (sign / s.distance) * offset, s.normal);
-    s.gap = select(held, -(sign * s.distance), s.gap);
+    s.normal = select(held, (sign / distance) * offset, s.normal);
+    s.gap = select(held, -(sign * distance), s.gap);
   }
 
+  bool same_ = false;
   kernels::PatchPoint<Lane> at_;
   kernels::Newton<Lane> newton_;
   VectorLanes r_;

@@ -5,6 +5,7 @@
 #include "components/servo.hpp"
 #include "components/space/tools.hpp"
 #include "systems/space/contact/systems.hpp"
+#include "systems/tools/systems.hpp"
 
 namespace pulvis::space {
 
@@ -30,6 +31,14 @@ struct tool_reaction {
   Read<ToolVelocity> velocity;
   Write<ToolForce> tool_force;
   Write<Totals> totals;
+  void operator()() const;
+};
+
+struct tool_servo {
+  ServoDrive servo;
+  TouchingRows<FaceToolContact> rows;
+  Read<ContactLaw<FaceToolContact>> law;
+  ShapedBodies bodies;
   void operator()() const;
 };
 
