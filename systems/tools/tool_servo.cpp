@@ -133,8 +133,7 @@ void drive_tools(const ServoDrive& s, const std::function<kernels::TouchSums(int
     drive.asked(tool, 0) =
         asked_for(*servo, drive.asked(tool, 1), clock->time - program->stages[stage].begin);
 
-    const double minimum = kernels::min_tool_mass(touching_tool(t),
-                                                  clock->dt, clock->safety);
+    const double minimum = kernels::min_tool_mass(touching_tool(t), clock->dt, clock->safety);
     const kernels::ServoState now =
         kernels::with_mass({drive.mass(tool), along(drive.velocity, tool, servo->direction),
                             along(drive.dragged, tool, servo->direction)},

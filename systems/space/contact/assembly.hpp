@@ -107,7 +107,8 @@ void to_points(const Shape& shape, double* face_force, std::ptrdiff_t apart,
       for (int l = 0; l < lane_count; ++l) entry(rows, l) = first + l * apart;
       const std::array<Lane, lane_count> of_point = columns_of(rows);
       for (int i = 0; i < lane_count; ++i)
-        load(Row<SurfacePoint>(entry(face.point, block % 16 + i)), block / 16) += entry(of_point, i);
+        load(Row<SurfacePoint>(entry(face.point, block % 16 + i)), block / 16) +=
+            entry(of_point, i);
       for (int l = 0; l < lane_count; ++l) Lane{}.store(first + l * apart);
     }
     for (const int p : face.point) entry(loaded, p) = 1;

@@ -26,8 +26,7 @@ struct PackedSpots {
     const Lane number = Lane::load(first + lane_count * half), whole_number = whole(number);
     std::array<double, lane_count> faces;
     whole_number.store(faces.data());
-    for (std::size_t l = 0; l < lane_count; ++l)
-      p.face[l] = static_cast<std::int32_t>(faces[l]);
+    for (std::size_t l = 0; l < lane_count; ++l) p.face[l] = static_cast<std::int32_t>(faces[l]);
     p.u = number - whole_number;
     p.v = Lane::load(first + face_points + lane_count * half);
   }
@@ -53,8 +52,7 @@ void set_rates(const VectorLanes& velocity, const kernels::PatchSlopes<Lane>& ot
                const Reciprocal& to, PointMotion& m) {
   const VectorLanes relative = velocity - other.x;
   const Lane closing = dot(relative, m.normal);
-  const VectorLanes normal_rate =
-      -(dot(other.u, m.normal) * to.u + dot(other.v, m.normal) * to.v);
+  const VectorLanes normal_rate = -(dot(other.u, m.normal) * to.u + dot(other.v, m.normal) * to.v);
   m.gap_rate = -closing;
   m.slip = fma(m.gap, normal_rate, fma(-closing, m.normal, relative));
   const Lane drill = 0.5 * dot(m.normal, cross(to.u, other.u) + cross(to.v, other.v));

@@ -87,8 +87,9 @@ struct Projection {
   }
 
   PatchLanes patch;
-  kernels::PatchSlopes<Lane> slopes;  // of the surface at the closest point (x: before the last correction)
-  VectorLanes offset;                 // m, from there to the point
+  kernels::PatchSlopes<Lane>
+      slopes;          // of the surface at the closest point (x: before the last correction)
+  VectorLanes offset;  // m, from there to the point
 
  private:
   // Points that stand against one and the same face need no patches side by side.
@@ -173,7 +174,8 @@ struct Projection {
     offset = point - slopes.x;
     if ((held_u_ | held_v_) == 0) {
       const Lane along_u = dot(offset, slopes.u), along_v = dot(offset, slopes.v);
-      const Lane more_u = newton_.step_u(along_u, along_v), more_v = newton_.step_v(along_u, along_v);
+      const Lane more_u = newton_.step_u(along_u, along_v),
+                 more_v = newton_.step_v(along_u, along_v);
       offset = offset - (more_u * slopes.u + more_v * slopes.v);
       slopes.u = fma(more_u, at_.uu, fma(more_v, at_.uv, slopes.u));
       slopes.v = fma(more_u, at_.uv, fma(more_v, at_.vv, slopes.v));

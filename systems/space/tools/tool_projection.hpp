@@ -59,8 +59,7 @@ inline Standing on_mesh(const TriangleMesh& mesh, std::span<const std::int32_t> 
   kernels::NearestOfMesh<Lane> nearest{Lane(farthest * farthest), everywhere({}), everywhere({})};
   for (const std::int32_t t : triangles)
     kernels::look_at_triangle(entry(mesh.triangles, t), from, nearest);
-  const Lane side =
-      select(dot(nearest.offset, nearest.outward) < 0.0, Lane(-1.0), Lane(1.0));
+  const Lane side = select(dot(nearest.offset, nearest.outward) < 0.0, Lane(-1.0), Lane(1.0));
   const Lane distance = sqrt(nearest.square);
   Standing s;
   s.gap = -(side * distance);

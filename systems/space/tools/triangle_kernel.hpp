@@ -28,8 +28,8 @@ void look_at_triangle(const TriangleMesh::Triangle& t, const Vector<T>& p,
   const Vector<T> a = everywhere<T>(t.corner[0]), b = everywhere<T>(t.corner[1]),
                   c = everywhere<T>(t.corner[2]);
   const Vector<T> ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const T d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp),
-          d5 = dot(ab, cp), d6 = dot(ac, cp);
+  const T d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
+          d6 = dot(ac, cp);
   const T area_a = d3 * d6 - d5 * d4, area_b = d5 * d2 - d1 * d6, area_c = d1 * d4 - d3 * d2;
   const T scale = one / (area_a + area_b + area_c);
   T v = area_b * scale, w = area_c * scale;  // of corners b, c

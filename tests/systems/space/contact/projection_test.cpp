@@ -15,7 +15,9 @@ constexpr double diameter = 10e-3;
 
 // A ball whose nodes are displaced at random, and its Bezier points.
 struct Surface : TouchingBodies {
-  Surface() : TouchingBodies({make_shape(sphere_of(diameter))}, {body_at(Vec3::Zero()), body_at(Vec3(1, 0, 0))}) {
+  Surface()
+      : TouchingBodies({make_shape(sphere_of(diameter))},
+                       {body_at(Vec3::Zero()), body_at(Vec3(1, 0, 0))}) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> noise(-1e-4, 1e-4);
     move(0, [&](const Vec3& x) {
@@ -29,8 +31,7 @@ struct Surface : TouchingBodies {
     const auto bu = kernels::bernstein(u), bv = kernels::bernstein(v);
     Vec3 x = Vec3::Zero();
     for (int p = 0; p < 16; ++p)
-      for (int k = 0; k < 3; ++k)
-        x[k] += entry(bu, p % 4) * entry(bv, p / 4) * numbers[16 * k + p];
+      for (int k = 0; k < 3; ++k) x[k] += entry(bu, p % 4) * entry(bv, p / 4) * numbers[16 * k + p];
     return x;
   }
   int faces() const { return static_cast<int>(shape().faces.size()); }
@@ -99,9 +100,8 @@ TEST(SpaceProjection, FindsTheClosestPointOfPointsAllOverTheSurface) {
   std::mt19937_64 random(2);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 25; ++i)
-    surface.expect_found(random, [&] {
-      return Vec3(normal(random), normal(random), normal(random)).normalized();
-    });
+    surface.expect_found(
+        random, [&] { return Vec3(normal(random), normal(random), normal(random)).normalized(); });
 }
 
 // About the corners of the cube, where three faces meet.
