@@ -20,7 +20,7 @@ class BuildByCMake(build_ext):
         build = Path(self.build_temp).resolve()
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DPULVIS_TESTS=OFF", "-DPULVIS_BENCH=OFF", "-DPULVIS_PYTHON=ON",
                    f"-DPython3_EXECUTABLE={sys.executable}", "-DPULVIS_PYTHON_DESTINATION=.",
-                   "-DCMAKE_INSTALL_LIBDIR=pulvis/lib", "-DCMAKE_INSTALL_PREFIX=/"]
+                   "-DCMAKE_INSTALL_LIBDIR=pulvis/lib"]
         subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", *options,
                         *shlex.split(os.environ.get("PULVIS_CMAKE", ""))], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "pulvis_python"], check=True)

@@ -68,6 +68,21 @@ std::size_t end_of_string(const std::string& text, std::size_t at) {
   return at + closing.size();
 }
 
+// Behind the array that begins there.
+std::size_t end_of_array(const std::string& text, std::size_t at) {
+  int open = 0;
+  do {
+    const char c = text.at(at);
+    if (c == '[') ++open;
+    if (c == ']') --open;
+    if (c == '"' || c == '\'')
+      at = end_of_string(text, at);
+    else
+      at = c == '#' ? text.find('\n', at) : at + 1;
+  } while (open > 0);
+  return at;
+}
+
 std::string with_changes(std::string text, std::vector<Change> changes) {
   std::ranges::sort(changes, [](const Change& a, const Change& b) {
     return std::pair(a.mark.line, a.mark.column) > std::pair(b.mark.line, b.mark.column);
@@ -103,11 +118,8 @@ class Gathering {
         input.hash = file_hash(file);
       made.inputs.push_back(std::move(input));
     }
-    for (std::string change : given_.overrides) {
-      std::ranges::replace(change, '\n', ' ');
-      made.text += fmt::format("# as changed by --set '{}'\n", change);
-    }
-    made.text += moved(given_.text, given_.language, given_.file.parent_path(), "", true);
+    made.text =
+        with_overrides(moved(given_.text, given_.language, given_.file.parent_path(), "", true));
     return made;
   }
 
@@ -169,6 +181,34 @@ class Gathering {
     std::vector<Change> changes;
     add_changes(before, after, changes);
     return with_changes(text, std::move(changes));
+  }
+
+  // Behind the file's own `overrides`, as they are applied.
+  std::string with_overrides(std::string text) const {
+    const Table root = document::parse(text);
+    const document::Entry* own = document::find(root, "overrides");
+    Array changes = own == nullptr ? Array{} : own->value.get<Array>();
+    for (const std::string& change : given_.overrides) changes.push_back({change, {}});
+    for (Value& change : changes) change = {moved_change(change.get<std::string>()), {}};
+    if (changes.empty()) return text;
+    const std::string list = document::value_text({std::move(changes), {}});
+    if (own == nullptr) return fmt::format("overrides = {}\n{}", list, text);
+    const std::size_t at = position_of(text, own->value.origin.mark);
+    return text.replace(at, end_of_array(text, at) - at, list);
+  }
+
+  // "outline.file=/where/it/is.svg"; on one line.
+  std::string moved_change(std::string change) const {
+    std::ranges::replace_if(
+        change, [](unsigned char c) { return c < 0x20; }, ' ');
+    const std::size_t value = change.find_first_not_of(" =", change.find('='));
+    if (value == std::string::npos || scene_folders_.size() != 1) return change;
+    const std::string text = change.substr(value);
+    const Value before = document::parse_value(text).value_or(Value{text, {}});
+    Value after = before;
+    move_absolute(after);
+    const bool same = document::value_text(after) == document::value_text(before);
+    return same ? change : change.substr(0, value) + document::value_text(after);
   }
 
   // Paths among the values that a study sets in its scene are found by what they lead to.

@@ -25,7 +25,7 @@ struct GivenSettings {
   const schema::Language& language;
   // Files that the scenes have read: an override may name some that stand in no scene.
   std::set<std::filesystem::path> read;
-  std::vector<std::string> overrides;  // kept as comments
+  std::vector<std::string> overrides;  // join the file's own
 };
 
 WholeSettings whole_settings(const GivenSettings& given);

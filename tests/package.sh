@@ -24,5 +24,16 @@ for scene in "$usr"/share/pulvis/scenes/{afm,basic,shear,extreme}/*.toml; do
 done
 "$usr/bin/pulvis" run "$usr/share/pulvis/scenes/compaction/unit-cell.toml" -o run --quiet
 test -s run/report.html
+if [[ -d $usr/lib/python3/dist-packages/pulvis ]]; then  # its module, over its own library: the same bits
+  PYTHONPATH=$usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 - "$usr" <<'PYTHON'
+import sys
+import pulvis
+assert pulvis.__file__.startswith(sys.argv[1]), pulvis.__file__
+pulvis.Scene(f"{sys.argv[1]}/share/pulvis/scenes/compaction/unit-cell.toml").simulation(folder="module").run()
+assert f"{sys.argv[1]}/lib/pulvis/libpulvis_core.so" in open("/proc/self/maps").read()
+hashes = [pulvis.open(run).summary["state_hash"] for run in ("run", "module")]
+assert hashes[0] == hashes[1], hashes
+PYTHON
+fi
 test -s "$usr/share/doc/pulvis/scene.schema.json"
 exit "$failed"

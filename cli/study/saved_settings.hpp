@@ -7,7 +7,7 @@
 
 namespace pulvis {
 
-// Copies of an earlier state of the files are replaced; a file that Pulvis did not write is not: ForeignFile.
+// Copies of an earlier state of the files are replaced, those that are named no longer go; a file that Pulvis did not write is not: ForeignFile.
 void save_settings(const std::filesystem::path& file, const char* role,
                    const WholeSettings& settings);
 

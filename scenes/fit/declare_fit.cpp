@@ -16,7 +16,15 @@ const TableDeclaration<PlateFitSpec>& fit_top_level() {
          .kind = Kind::scene,
          .required = true,
          .doc = "A scene whose target slides under a compact, as a path from this file's folder."},
-        to(&PlateFitSpec::scene)}}};
+        to(&PlateFitSpec::scene)},
+       {{.name = "overrides",
+         .kind = Kind::texts,
+         .doc = "Changes of the scene as `--set` makes them, applied after all others but those of "
+                "the "
+                "command line. The settings that are saved beside results keep here what `--set` "
+                "gave.",
+         .fallback_doc = "none"},
+        [](PlateFitSpec& spec, const Decoded& value) { spec.overrides = value.texts; }}}};
   return declaration;
 }
 

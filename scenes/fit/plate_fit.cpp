@@ -166,6 +166,7 @@ std::vector<std::string> PlateFit::settings_at(const std::vector<double>& values
   std::vector<std::string> settings;
   for (std::size_t i = 0; i < values.size(); ++i)
     settings.push_back(spec.parameters[i].setting(values[i]));
+  settings.insert(settings.end(), spec.overrides.begin(), spec.overrides.end());
   settings.insert(settings.end(), overrides.begin(), overrides.end());
   return settings;
 }

@@ -36,6 +36,7 @@ struct PlateMeasured {  // [measured]
 
 struct PlateFitSpec {
   std::string title, scene;
+  std::vector<std::string> overrides;  // as for --set
   std::vector<SoughtKey> parameters;
   PlateMeasured measured;
   std::string target;

@@ -314,7 +314,7 @@ Decoded decode(const KeyInfo& key, const Value& value, const Names& names) {
       number_or_text(key, value, result);
       break;
     case Kind::texts:
-      for (const Value& one : list(key, value)) result.texts.push_back(line_of_text(key, one));
+      for (const Value& one : list(key, value)) result.texts.push_back(line_of_text(key, one, 10'000));
       break;
     case Kind::integers:
       for (const Value& one : list(key, value)) result.integers.push_back(integer(key, one));

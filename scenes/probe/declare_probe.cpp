@@ -25,7 +25,15 @@ const TableDeclaration<ProbeSpec>& probe_top_level() {
          .doc = "Every path is gone with each of these as the scene's `seed`: parameters are then "
                 "given with their scatter.",
          .fallback_doc = "the scene's own, once"},
-        [](ProbeSpec& spec, const Decoded& value) { spec.seeds = value.integers; }}}};
+        [](ProbeSpec& spec, const Decoded& value) { spec.seeds = value.integers; }},
+       {{.name = "overrides",
+         .kind = Kind::texts,
+         .doc = "Changes of every path's scene as `--set` makes them, applied after all others but "
+                "those of the "
+                "command line. The settings that are saved beside results keep here what `--set` "
+                "gave.",
+         .fallback_doc = "none"},
+        [](ProbeSpec& spec, const Decoded& value) { spec.overrides = value.texts; }}}};
   return declaration;
 }
 

@@ -19,8 +19,9 @@ struct ProbePath {  // [[path]]
 struct ProbeSpec {
   enum class Control { strain, stress };
   std::string title;
-  std::vector<double> densities;    // -, relative, rising
-  std::vector<std::int64_t> seeds;  // none: each scene's own
+  std::vector<double> densities;       // -, relative, rising
+  std::vector<std::int64_t> seeds;     // none: each scene's own
+  std::vector<std::string> overrides;  // as for --set
   std::vector<ProbePath> paths;
   Control control = Control::strain;
   int directions = 12;

@@ -104,7 +104,8 @@ class ProbeReader {
     const bool own = seeds.empty();
     if (own) seeds.push_back(0);
     for (const std::int64_t seed : seeds) {
-      std::vector<std::string> overrides = overrides_;
+      std::vector<std::string> overrides = probe_.spec.overrides;
+      overrides.insert(overrides.end(), overrides_.begin(), overrides_.end());
       if (!own) overrides.push_back(fmt::format("seed={}", seed));
       ProbeLoading loading{path.name, path.name, seed, {}};
       try {

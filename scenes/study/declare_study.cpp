@@ -252,7 +252,15 @@ const TableDeclaration<StudySpec>& study_top_level() {
          .doc = "Every variation is run once with each of these as the scene's `seed`; the report "
                 "shows their mean, standard deviation and the band from smallest to largest.",
          .fallback_doc = "the scene's own, once"},
-        [](StudySpec& spec, const Decoded& value) { spec.seeds = value.integers; }}}};
+        [](StudySpec& spec, const Decoded& value) { spec.seeds = value.integers; }},
+       {{.name = "overrides",
+         .kind = Kind::texts,
+         .doc = "Changes of every run's scene as `--set` makes them, applied after all others but "
+                "those of the "
+                "command line. The settings that are saved beside results keep here what `--set` "
+                "gave.",
+         .fallback_doc = "none"},
+        [](StudySpec& spec, const Decoded& value) { spec.overrides = value.texts; }}}};
   return declaration;
 }
 

@@ -74,6 +74,7 @@ struct StudyFit : StudyQuantity, StudyBounds {  // [[fit]], of a strength or a v
 struct StudySpec {
   std::string title, scene;
   std::vector<std::int64_t> seeds;
+  std::vector<std::string> overrides;  // as for --set
   std::vector<StudySetting> common;  // [set]
   std::vector<StudyAxis> grid;
   std::vector<VariationSpec> list;

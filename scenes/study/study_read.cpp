@@ -44,7 +44,7 @@ trend = "increasing"
 ```
 
 Keys of the scene are written as for `--set` (docs/scene.md). What a variation changes is applied in this
-order: `[set]`, the variation's own `set`, the grid, the seed, and `--set` of the command line. Anything
+order: `[set]`, the variation's own `set`, the grid, the seed, `overrides`, and `--set` of the command line. Anything
 that is wrong, in the study or in a scene it makes, is refused before the first run as
 `file:line:col: key: what is wrong, allowed: what is allowed`.
 
@@ -169,9 +169,12 @@ class StudyReader {
     study_.spec.fits = elements(reader, schema::study_fit(), table);
     study_.spec.expects = elements(reader, schema::study_expect(), table);
     problems_.throw_if_any();
-    scene_origin_ = document::find(table, "scene") == nullptr
-                        ? root.origin
-                        : document::find(table, "scene")->value.origin;
+    const auto origin_of = [&](const char* key) {
+      const Entry* entry = document::find(table, key);
+      return entry == nullptr ? root.origin : entry->value.origin;
+    };
+    scene_origin_ = origin_of("scene");
+    overrides_origin_ = origin_of("overrides");
     make_runs();
     problems_.throw_if_any();
     complete_and_check_study(study_, reader.origins(), problems_);
@@ -323,6 +326,10 @@ class StudyReader {
       run.overrides.push_back(fmt::format("seed={}", *run.seed));
       origins.push_back(scene_origin);
     }
+    for (const std::string& change : study_.spec.overrides) {
+      run.overrides.push_back(change);
+      origins.push_back(overrides_origin_);
+    }
     for (std::size_t i = 0; i < overrides_.size(); ++i) {
       run.overrides.push_back(overrides_[i]);
       origins.push_back({{}, static_cast<int>(i)});
@@ -351,7 +358,7 @@ class StudyReader {
   std::vector<std::string> overrides_;
   Problems problems_;
   Study study_;
-  Origin scene_origin_;
+  Origin scene_origin_, overrides_origin_;
   std::set<std::string> told_;
 };
 

@@ -123,6 +123,28 @@ TEST_F(FitCommand, FindsAKnownFrictionAgainAndKeepsItsRuns) {
               0.23, half);
 }
 
+// Folders of fits stand alone: scene, record and what --set changed lie in them.
+TEST_F(FitCommand, AMovedFolderDoesTheSameAgain) {
+  fs::create_directories(place / "given/records");
+  fs::rename(place / "plate.toml", place / "given/plate.toml");
+  std::string samples = "distance [mm],friction\n";
+  for (int i = 0; i <= 40; ++i) samples += std::to_string(i * 0.1) + ",0.2\n";
+  write("given/records/measured.csv", samples);
+  std::string fit = one_key + "from = \"0 mm\"\n[fit]\nmax_rounds = 1\n";
+  fit.replace(fit.find("measured.csv"), 12, "records/measured.csv");
+  fit.erase(fit.find("from = \"1 mm\"\n"), 14);
+  write("given/fit.toml", fit);
+  const auto run = [&](const Words& words) { return pulvis(with(words, {"--jobs", "2"})); };
+  const Outcome first =
+      run({"fit", "given/fit.toml", "-o", "fitted", "--set", "contact.damping=0.2"});
+  ASSERT_TRUE(fs::exists(place / "fitted/fit.json")) << first.out << first.err;
+  fs::remove_all(place / "given");
+  fs::rename(place / "fitted", place / "moved");
+  const Outcome again = run({"fit", "moved/fit.toml", "-o", "again"});
+  EXPECT_EQ(again.code, first.code) << again.out << again.err;
+  EXPECT_EQ(text_of(place / "again/fit.json"), text_of(place / "moved/fit.json"));
+}
+
 TEST_F(FitCommand, RefusesWhatCannotBeSought) {
   write("measured.csv", "distance [mm],friction\n0,0.1\n1,0.2\n");
   EXPECT_EQ(refusal(), "");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/study/saved_settings.hpp"
 #include "engine/files/own_files.hpp"
@@ -80,8 +81,10 @@ class WholeSettingsTest : public ProgramTest {
     return count;
   }
 
-  void expect_same_again(const Words& command, const char* settings, const Words& results) const {
-    Words first{command}, again{command};
+  // `changes` are given the first time alone.
+  void expect_same_again(const Words& command, const char* settings, const Words& results,
+                         const Words& changes = {}) const {
+    Words first = with(command, changes), again{command};
     first.insert(first.end(),
                  {std::string("given/studies/") + settings, "-o", "results", "--jobs", "2"});
     again.insert(again.end(), {std::string("moved/") + settings, "-o", "again", "--jobs", "2"});
@@ -139,6 +142,26 @@ TEST_F(WholeSettingsTest, OfAStudyGiveTheSameResults) {
   expect_same_again({"study"}, "study.toml", {"variations.csv"});
 }
 
+// What --set changes, behind the file's own changes: a number, and a file by its whole path.
+TEST_F(WholeSettingsTest, OfAStudyHoldWhatTheCommandLineChanged) {
+  const fs::path keys = fs::path(paths::source_dir()) / "tests/keys/scenes";
+  fs::create_directories(place / "given/more");
+  fs::copy(keys, place / "given/scenes", fs::copy_options::recursive);
+  const fs::path outline = place / "given/more/other.csv";
+  fs::copy(keys / "data/grain.csv", outline);
+  put("given/studies/study.toml",
+      "scene = '../scenes/outlines.toml'\noverrides = ['output.samples=9', # ']'\n"
+      "  \"title=an \\\"]\\\"\"]\n[grid]\ncontact.friction = [0.1]\n");
+  expect_same_again({"study"}, "study.toml", {"variations.csv", "friction=0.1/history.csv"},
+                    {"--set", "material.steel.density=7 g/cm^3", "--set",
+                     "particle.traced.file=" + outline.string()});
+  const std::string text = text_of(place / "moved/study.toml");
+  EXPECT_THAT(text,
+              ::testing::HasSubstr("overrides = [\"output.samples=9\", \"title=an \\\"]\\\"\", "
+                                   "\"material.steel.density=7 g/cm^3\", "
+                                   "\"particle.traced.file=\\\"../more/other.csv\\\"\"]\n[grid]"));
+}
+
 // A block that fills its cell, in a scene that extends another.
 TEST_F(WholeSettingsTest, OfAProbeGiveTheSameResults) {
   put("given/parts/steel.toml", R"(family = "compaction"
@@ -190,6 +213,34 @@ release = 0.9
   expect_same_again({"probe"}, "probe.toml", {"yield_points.csv", "moduli.csv"});
 }
 
+// Copies go with the names that led to them; what lies among them and is not Pulvis's stays, and so does what is read.
+TEST_F(WholeSettingsTest, LeaveNoCopyThatIsNotNamed) {
+  for (const char* name : {"one/first.toml", "two/second.toml", "third.toml"})
+    put(fs::path("given") / name, std::string("title = '") + name + "'\n");
+  fs::create_directories(place / "results");
+  const auto save = [&](const std::string& scene, const fs::path& file) {
+    const std::string text = "scene = '" + scene + "'\n";
+    save_settings(place / "results/study.toml", role::study,
+                  whole_settings({text, place / file, schema::study_language(), {}, {}}));
+  };
+  const auto copies = [&] {
+    std::set<std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(place / "results/inputs"))
+      if (entry.path().filename() != ".pulvis-files")
+        found.insert(entry.path().lexically_relative(place / "results/inputs").string());
+    return found;
+  };
+  save("one/first.toml", "given/study.toml");
+  EXPECT_EQ(copies(), (std::set<std::string>{"one", "one/first.toml"}));
+  save("two/second.toml", "given/study.toml");
+  EXPECT_EQ(copies(), (std::set<std::string>{"two", "two/second.toml"}));
+  put("results/inputs/two/mine.txt", "somebody's notes");
+  save("third.toml", "given/study.toml");
+  EXPECT_EQ(copies(), (std::set<std::string>{"given", "given/third.toml", "two", "two/mine.txt"}));
+  save("inputs/given/third.toml", "results/study.toml");
+  EXPECT_EQ(copies(), (std::set<std::string>{"given", "given/third.toml", "two", "two/mine.txt"}));
+}
+
 TEST_F(WholeSettingsTest, OfAStudyFollowTheOriginalsInItsFolder) {
   put("given/other.toml", "title = 'one'\n");
   const std::string text = "scene = 'other.toml'\n";
@@ -206,7 +257,7 @@ TEST_F(WholeSettingsTest, OfAStudyFollowTheOriginalsInItsFolder) {
   const fs::path copy = place / "results/inputs/given/other.toml";
   EXPECT_EQ(text_of(copy), "title = 'two'\n");
   EXPECT_EQ(text_of(place / "results/study.toml"),
-            "# as changed by --set 'seed=3'\nscene = \"inputs/given/other.toml\"\n");
+            "overrides = [\"seed=3\"]\nscene = \"inputs/given/other.toml\"\n");
   std::ofstream(copy) << "somebody's notes";
   EXPECT_THROW(save(), ForeignFile);
   EXPECT_EQ(text_of(copy), "somebody's notes");

@@ -237,7 +237,8 @@ TEST(Cell, ShearsAnyDistance) {
        "stage.shear.cell.rotation=\"-1 rad\"", "stage.shear.duration=\"4 ms\"",
        "stage.isostatic.cell.stress_xx=\"-5 MPa\"", "stage.isostatic.cell.stress_yy=\"-5 MPa\"",
        "stage.shear.cell.stress_xx=\"-5 MPa\"", "stage.shear.cell.stress_yy=\"-5 MPa\"",
-       "stage.shear.cell.tolerance=1"});
+       "stage.shear.cell.tolerance=1", "cell.width=\"5 mm\"", "packing[0].width=\"5 mm\"",
+       "packing[0].class[0].number=24"});
   e.run(20);
   EXPECT_LT(e.results.energy_balance_error(), 0.01);
   EXPECT_NEAR(e.value("cell/rotation"), -1, 1e-9);

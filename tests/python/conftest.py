@@ -110,10 +110,15 @@ def scenes():
 
 
 @pytest.fixture
-def cell(scenes):
+def make_cell(scenes):
     """One plastic disc in a die: a second or less."""
-    return pulvis.Scene(scenes / "compaction/unit-cell.toml", stage__press__duration="0.1 ms", output__samples=20,
-                        output__frames=4)
+    return lambda **changes: pulvis.Scene(scenes / "compaction/unit-cell.toml", stage__press__duration="0.1 ms",
+                                          output__samples=20, output__frames=4, **changes)
+
+
+@pytest.fixture
+def cell(make_cell):
+    return make_cell()
 
 
 @pytest.fixture

@@ -109,18 +109,17 @@ def test_velocities_are_writable_between_steps(cell):
     assert sim.driven == {"column node.velocity"}
 
 
-def test_a_softer_yield_stress_bears_less(cell):
-    hard, soft = cell.simulation(), cell.simulation()
-
-    @soft.every(10)
-    def _(sim):
-        with sim.writable("yield_stress") as stress:
-            stress[0][:] = 120e6
-
-    hard.run()
-    soft.run()
-    ratio = soft.history["tool/top/force_y"][-1] / hard.history["tool/top/force_y"][-1]
-    assert ratio == pytest.approx(0.5, abs=0.1)  # half the yield stress; hardening stays
+def test_a_softer_yield_stress_bears_less(cell, make_cell):
+    """Written before anything flows it is the material's own, to the bit."""
+    hard, written = cell.simulation(), cell.simulation().step(1)
+    soft = make_cell(overrides={"material.316L.yield_stress": "120 MPa"}).simulation()
+    with written.writable("yield_stress") as stress:
+        stress[0][:] = 120e6
+    for sim in (hard, soft, written):
+        sim.run()
+    of_hard, of_soft, of_written = (sim.history["tool/top/force_y"] for sim in (hard, soft, written))
+    assert np.array_equal(of_written, of_soft)
+    assert of_soft[-1] == pytest.approx(0.5 * of_hard[-1], rel=0.05)  # all of it flows, without hardening
 
 
 def test_what_is_not_safe_is_refused(cell):

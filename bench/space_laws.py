@@ -1,0 +1,287 @@
+#!/usr/bin/python3
+"""Runs in three dimensions held against laws and independent solutions: a table for each.
+
+usage: space_laws.py [--pulvis PROGRAM] [--folder DIR] LAW...
+
+LAW  hertz      an elastic sphere between frictionless planes, and two spheres: F = 4/3 E* sqrt(R) d^(3/2) (Hertz 1882)
+     flatten    a plastic sphere between frictionless planes against axisymmetric elements (axisymmetric_sphere.py)
+     cell       a sphere in a cubic box at three meshes: observed order, wall stress against the mean stress of the particle
+     turns      force of a sphere between planes for random turns of its mesh: rms over the mean
+     taylor     copper rod against a rigid wall at 227 m/s: length, radius of the foot
+     mindlin    a sphere pressed and rubbed between planes: friction work of a cycle (Mindlin & Deresiewicz 1953)
+"""
+import argparse
+import csv
+import math
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+STEEL = """
+[[material]]
+name = "m"
+density = "7990 kg/m^3"
+youngs_modulus = "200 GPa"
+poissons_ratio = 0.3
+"""
+PLASTIC = STEEL + 'yield_stress = "240 MPa"\nhardening_modulus = "440 MPa"\n'
+
+
+def head(title, material):
+    return f'family = "compaction"\ndimension = 3\ntitle = "{title}"\n{material}'
+
+
+def ball(diameter, divisions, rings, phase=""):
+    return (f'\n[[particle]]\nname = "ball"\nmaterial = "m"\nshape = "sphere"\ndiameter = "{diameter} m"\n'
+            f'[particle.mesh]\ndivisions = {divisions}\nrings = {rings}\n{phase}')
+
+
+def body(x, y, z, particle="ball", more=""):
+    return f'\n[[body]]\nparticle = "{particle}"\nposition = ["{x} m", "{y} m", "{z} m"]\n{more}'
+
+
+def plane(name, point, normal):
+    p = ", ".join(f'"{c} m"' for c in point)
+    return f'\n[[tool]]\nname = "{name}"\nshape = "plane"\npoint = [{p}]\nnormal = {list(normal)}\n'
+
+
+def stage(duration, moves, kind="compact", name="press", ramp=0.3):
+    text = f'\n[[stage]]\nname = "{name}"\nkind = "{kind}"\nduration = "{duration} s"\n'
+    for tool, d in moves.items():
+        p = ", ".join(f'"{c} m"' for c in d)
+        text += f'[[stage.move]]\ntool = "{tool}"\ndisplacement = [{p}]\nramp = {ramp}\n'
+    return text
+
+
+def contact(**keys):
+    return "\n[contact]\n" + "".join(f"{k} = {v}\n" for k, v in keys.items())
+
+
+OUTPUT = '\n[output]\nframes = 4\nsamples = 200\n[limits]\nenergy_balance = 0.02\n'
+
+
+class Bench:
+    def __init__(self, program, folder):
+        self.program, self.folder = program, folder
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def run(self, name, text):
+        """History of the scene as arrays by the names of its series, without their units."""
+        scene = self.folder / f"{name}.toml"
+        scene.write_text(text, encoding="utf-8")
+        result = subprocess.run([self.program, "run", scene, "-o", self.folder / name, "--overwrite"],
+                                capture_output=True, text=True)
+        if result.returncode not in (0,):
+            sys.exit(f"{name}: exit {result.returncode}\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
+        with open(self.folder / name / "history.csv", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        data = np.array([[float(v) if v else math.nan for v in row] for row in rows[1:]])
+        return {title.split(" [")[0]: data[:, i] for i, title in enumerate(rows[0])}
+
+
+def hertz(bench):
+    radius, share, duration = 5e-3, 0.02, 2e-4
+    modulus = 200e9 / (1 - 0.09)
+    print("law hertz: force over Hertz's at set approaches d/R of each contact")
+    print(f"{'case':28} {'elements':>9}  " + "  ".join(f"{s:>7}" for s in ("0.005", "0.01", "0.02")))
+    for divisions, rings in ((8, 4), (16, 5), (24, 6)):
+        for two in (False, True):
+            text = head("Hertz", STEEL) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
+            height = 4 * radius if two else 2 * radius
+            if two:
+                text += body(0, 0, 3 * radius)
+            # Between two equal spheres the approach is twice that against a plane, for the same force.
+            contacts = 4 if two else 2
+            text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, height), (0, 0, -1))
+            text += stage(duration, {"top": (0, 0, -contacts * share * radius)})
+            text += contact(stiffness=10, damping=0.1) + OUTPUT
+            h = bench.run(f"hertz-{divisions}-{'two' if two else 'one'}", text)
+            d = (height - h["tool/top/position_z"]) / contacts / radius
+            f = 0.5 * (np.abs(h["tool/top/force_z"]) + np.abs(h["tool/bottom/force_z"]))
+            ratios = []
+            for s in (0.005, 0.01, 0.02):
+                law = 4 / 3 * modulus * radius**2 * s**1.5
+                ratios.append(np.interp(s, d, f) / law)
+            elements = divisions**3 + 6 * divisions**2 * rings
+            print(f"{'two spheres' if two else 'sphere between planes':28} {elements:9d}  " +
+                  "  ".join(f"{r:7.4f}" for r in ratios))
+
+
+def flatten(bench):
+    radius = 5e-3
+    reference = bench.folder / "axisymmetric.csv"
+    if not reference.exists():
+        subprocess.run(["/usr/bin/python3", ROOT / "bench/axisymmetric_sphere.py", "--edges", "12", "--csv", reference],
+                       check=True, stdout=subprocess.DEVNULL)
+    rows = np.genfromtxt(reference, delimiter=",", skip_header=1)
+    at = (0.03, 0.05, 0.1, 0.15, 0.195)
+    print("law flatten: force over pi R^2 sigma_y at set approaches of plane and centre over R")
+    print(f"{'case':34} {'elements':>9}  " + "  ".join(f"{s:>7}" for s in at))
+    print(f"{'axisymmetric':34} {'':9}  " + "  ".join(f"{np.interp(s, rows[:, 0], rows[:, 1]):7.4f}" for s in at))
+    for formulation in ("one-point", "eight-point"):
+        for divisions, rings in ((4, 4), (8, 6), (12, 8)):
+            if formulation == "eight-point" and divisions > 8:
+                continue
+            text = head("Flattening", PLASTIC) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
+            text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
+            text += stage(6e-4, {"top": (0, 0, -0.4 * radius)}) + contact(damping=0.1)
+            text += f'\n[element]\nformulation = "{formulation}"\n' + OUTPUT
+            h = bench.run(f"flatten-{formulation}-{divisions}", text)
+            d = (2 * radius - h["tool/top/position_z"]) / 2 / radius
+            f = 0.5 * (np.abs(h["tool/top/force_z"]) + np.abs(h["tool/bottom/force_z"])) / (math.pi * radius**2 * 240e6)
+            print(f"{formulation + f', {divisions} divisions':34} {divisions**3 + 6 * divisions**2 * rings:9d}  " +
+                  "  ".join(f"{np.interp(s, d, f):7.4f}" for s in at))
+
+
+def cell(bench):
+    radius = 5e-3
+    move = 0.11 * 2 * radius
+    print("law cell: a perfectly plastic sphere in a cubic box that closes in alike; wall stress over sigma_y at densities")
+    at = (0.6, 0.65, 0.7)
+    print(f"{'divisions':>9} {'elements':>9}  " + "  ".join(f"{s:>8}" for s in at) + "   wall over mean stress at the end")
+    found = []
+    perfectly = STEEL + 'yield_stress = "240 MPa"\n'
+    for divisions, rings in ((4, 4), (8, 8), (16, 16)):
+        text = head("Cell", perfectly) + ball(2 * radius, divisions, rings) + body(radius, radius, radius)
+        size = 2 * radius
+        for axis, low, high in ((0, "left", "right"), (1, "front", "back"), (2, "bottom", "top")):
+            normal = [0, 0, 0]
+            normal[axis] = 1
+            text += plane(low, (0, 0, 0), normal)
+            point = [0, 0, 0]
+            point[axis] = size
+            text += plane(high, point, [-n for n in normal])
+        half = move / 2
+        moves = {}
+        for axis, low, high in ((0, "left", "right"), (1, "front", "back"), (2, "bottom", "top")):
+            d = [0.0, 0.0, 0.0]
+            d[axis] = half
+            moves[low] = tuple(d)
+            moves[high] = tuple(-c for c in d)
+        text += stage(3e-4, moves) + contact(damping=0.1) + OUTPUT.replace("frames = 4", "frames = 4\nparticle_stress = true")
+        h = bench.run(f"cell-{divisions}", text)
+        sides = [h["tool/top/position_z"] - h["tool/bottom/position_z"], h["tool/right/position_x"] - h["tool/left/position_x"],
+                 h["tool/back/position_y"] - h["tool/front/position_y"]]
+        volume = sides[0] * sides[1] * sides[2]
+        density = 4 / 3 * math.pi * radius**3 / volume
+        stress = np.mean([np.abs(h[f"tool/{t}/force_{a}"]) for t, a in
+                          (("top", "z"), ("bottom", "z"), ("left", "x"), ("right", "x"), ("front", "y"), ("back", "y"))], 0)
+        stress = stress / np.mean(sides, 0) ** 2 / 240e6
+        values = [np.interp(s, density, stress) for s in at]
+        found.append(values)
+        mean = ""
+        if "stress/mean" in h:
+            mean = f"{stress[-1] * 240e6 / abs(h['stress/mean'][-1]):.4f}"
+        print(f"{divisions:9d} {divisions**3 + 6 * divisions**2 * rings:9d}  " + "  ".join(f"{v:8.4f}" for v in values) + f"   {mean}")
+    for k, s in enumerate(at):
+        a, b, c = (row[k] for row in found)
+        order = math.log2(abs((a - b) / (b - c))) if b != c else math.inf
+        print(f"  density {s}: observed order {order:.2f}")
+
+
+def turns(bench):
+    radius, number = 5e-3, 64
+    print("law turns: 64 spheres, each with its mesh turned at random, between two planes: rms of single forces over their mean")
+    for name, material in (("elastic", STEEL), ("plastic", PLASTIC)):
+        for divisions, rings in ((2, 2), (4, 4), (8, 6)):
+            row = []
+            text = head("Turns", material) + ball(2 * radius, divisions, rings, 'phase = "random"\n')
+            count = number if divisions < 8 else 16
+            for i in range(count):
+                text += body(3 * radius * i, 0, radius)
+            text += plane("bottom", (0, 0, 0), (0, 0, 1))
+            for i in range(count):
+                # A punch of its own for each: its force is what is compared.
+                text += (f'\n[[tool]]\nname = "p{i}"\nshape = "punch"\npoint = ["{3 * radius * i} m", "0 m", "{2 * radius} m"]\n'
+                         f'normal = [0, 0, -1]\ndiameter = "{2.6 * radius} m"\n')
+            text += stage(3e-4, {f"p{i}": (0, 0, -0.2 * radius) for i in range(count)}) + contact(damping=0.1) + OUTPUT
+            h = bench.run(f"turns-{name}-{divisions}", text)
+            d = (2 * radius - h["tool/p0/position_z"]) / (2 * radius)
+            for s in (0.02, 0.05, 0.095):
+                f = [np.interp(s, d, np.abs(h[f"tool/p{i}/force_z"])) for i in range(count)]
+                row.append(np.std(f) / np.mean(f))
+            print(f"  {name:8} {divisions} divisions: compressed by 2, 5, 9.5% of the diameter: " +
+                  "  ".join(f"{100 * r:.2f}%" for r in row))
+
+
+def taylor(bench):
+    length, radius, speed = 32.4e-3, 3.2e-3, 227
+    copper = """
+[[material]]
+name = "m"
+density = "8930 kg/m^3"
+youngs_modulus = "117 GPa"
+poissons_ratio = 0.35
+yield_stress = "400 MPa"
+hardening_modulus = "100 MPa"
+"""
+    print("law taylor: final length and radius of the foot, mm (literature 21.4 to 21.5 and 7.0 to 7.2)")
+    import h5py
+    for formulation, divisions, rings in (("one-point", 6, 3), ("one-point", 10, 4), ("eight-point", 6, 3)):
+        text = head("Taylor", copper)
+        text += (f'\n[[particle]]\nname = "rod"\nmaterial = "m"\nshape = "cylinder"\ndiameter = "{2 * radius} m"\n'
+                 f'height = "{length} m"\nrounding = "0.1 mm"\n[particle.mesh]\ndivisions = {divisions}\nrings = {rings}\n')
+        text += body(0, 0, length / 2, "rod", f'velocity = ["0 m/s", "0 m/s", "-{speed} m/s"]\n')
+        text += plane("wall", (0, 0, 0), (0, 0, 1))
+        text += '\n[[stage]]\nname = "impact"\nkind = "settle"\nduration = "80 us"\n' + contact()
+        text += f'\n[element]\nformulation = "{formulation}"\n' + OUTPUT
+        name = f"taylor-{formulation}-{divisions}"
+        bench.run(name, text)
+        with h5py.File(bench.folder / name / "run.h5") as file:
+            frame = sorted(file["frames"])[-1]
+            x = file[f"frames/{frame}/position"][:]
+        foot = np.hypot(x[:, 0], x[:, 1]).max()
+        print(f"  {name:24} length {1e3 * (x[:, 2].max() - x[:, 2].min()):.3f}  foot {1e3 * foot:.3f}")
+
+
+def mindlin(bench):
+    radius, mu, d = 5e-3, 0.3, 0.02
+    shear, nu = 200e9 / 2.6, 0.3
+    print("law mindlin: friction work of a cycle of both planes, a sphere pressed between them and held by frictionless walls,")
+    print("over Mindlin & Deresiewicz's for the amplitude Q of the tangential force")
+    for divisions, rings in ((16, 5), (24, 6)):
+        text = head("Mindlin", STEEL) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
+        text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
+        text += plane("left", (-radius, 0, 0), (1, 0, 0)) + plane("right", (radius, 0, 0), (-1, 0, 0))
+        for wall in ("left", "right"):
+            text += f'\n[[friction]]\nbetween = ["m", "{wall}"]\ncoefficient = 0\n'
+        press = d * radius
+        text += stage(2e-4, {"top": (0, 0, -press), "bottom": (0, 0, press), "left": (press, 0, 0), "right": (-press, 0, 0)})
+        t = 0.004 * radius
+        for name, share, duration in (("forth", 1, 1e-4), ("back", -2, 2e-4), ("again", 2, 2e-4)):
+            text += stage(duration, {"top": (share * t, 0, 0), "bottom": (share * t, 0, 0)}, "shear", name)
+        text += contact(stiffness=10, friction=mu, damping=0.1) + OUTPUT
+        h = bench.run(f"mindlin-{divisions}", text)
+        time, spent = h["time"], h["energy/friction"]
+        late = time > 2.5e-4
+        normal = np.mean(np.abs(h["tool/top/force_z"][late]))
+        q = (h["tool/top/force_x"][late].max() - h["tool/top/force_x"][late].min()) / 2 / (mu * normal)
+        a = radius * math.sqrt(d)
+        # Johnson (1985), eq. 7.58, one of the bodies rigid; two contacts.
+        k = 9 * (mu * normal) ** 2 / (10 * a) * (2 - nu) / shear
+        law = 2 * k * (1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3)))
+        of_cycle = np.interp(7e-4, time, spent) - np.interp(3e-4, time, spent)
+        print(f"  {divisions} divisions: Q/(mu N) = {q:.3f}, work {of_cycle / law:.4f}")
+
+
+LAWS = {f.__name__: f for f in (hertz, flatten, cell, turns, taylor, mindlin)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--pulvis", default=ROOT / "build/release/cli/pulvis")
+    parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build/space-laws")
+    parser.add_argument("laws", nargs="+", choices=sorted(LAWS), metavar="LAW")
+    options = parser.parse_args()
+    bench = Bench(os.fspath(options.pulvis), options.folder)
+    for law in options.laws:
+        LAWS[law](bench)
+
+
+if __name__ == "__main__":
+    main()
