@@ -104,7 +104,7 @@ struct FacePass {
         if (!motion.touches(half)) continue;
         Projection& p = half == 0 ? low : high;
         entry(reciprocal, half) = Reciprocal::of(p.slopes);
-        set_rates(sampled_points(rates + own, half), rates_at(p, rates + its),
+        set_rates(sampled_points(rates + own, half), p.carried(rates + its),
                   entry(reciprocal, half), entry(motion.half, half));
       }
     act(s.columns, row, face, motion, share, s.clock->dt_before, sums, along);
@@ -148,10 +148,6 @@ struct FacePass {
     if (unconverged == 0) return;
     if (block.unconverged == 0) block.first_unconverged = row.value;
     block.unconverged += std::popcount(unconverged);
-  }
-  static kernels::PatchSlopes<Lane> rates_at(Projection& p, const double* first) {
-    p.patch.gather(first, p.face);
-    return kernels::patch_slopes<Lane>(p.patch, p.u, p.v);
   }
   // -g (T . a^u) n acts on the other surface's slope along u; the same along v.
   void keep_couple(Row<FaceContact> row, int half, const PointMotion& m, const VectorLanes& along,

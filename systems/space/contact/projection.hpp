@@ -86,28 +86,60 @@ struct Projection {
     return s;
   }
 
+  // What the faces carry, `from` those of the particle, at the closest points.
+  kernels::PatchSlopes<Lane> carried(const double* from) {
+    const TwoPatches two = two_patches(from);
+    if (faces_ == 1) return kernels::patch_slopes<Lane>(OnePatch{two.numbers}, u, v);
+    if (faces_ == 2) return kernels::patch_slopes<Lane>(two, u, v);
+    patch.gather(from, face);
+    return kernels::patch_slopes<Lane>(patch, u, v);
+  }
+
   PatchLanes patch;
   kernels::PatchSlopes<Lane>
       slopes;          // of the surface at the closest point (x: before the last correction)
   VectorLanes offset;  // m, from there to the point
 
  private:
-  // Points that stand against one and the same face need no patches side by side.
+  // Points that stand against one face or two need no patches side by side.
   [[gnu::always_inline]] void gather() {
-    unsigned other = 0;
-    for (std::size_t l = 1; l < lane_count; ++l)
-      other |= static_cast<unsigned>(face[l]) ^ static_cast<unsigned>(face[0]);
-    same_ = other == 0;
-    if (!same_) patch.gather(first, face);
+    faces_ = 1;
+    unsigned of_second = 0;
+    second_ = face[0];
+    for (std::size_t l = 1; l < lane_count; ++l) {
+      if (face[l] == face[0]) continue;
+      if (faces_ == 1) {
+        faces_ = 2;
+        second_ = face[l];
+      }
+      if (face[l] == second_)
+        of_second |= 1U << l;
+      else
+        faces_ = 3;
+    }
+    on_second_ = LaneMask::of(of_second);
+    if (faces_ == 3) patch.gather(first, face);
   }
   struct OnePatch {
     const double* numbers;
     Lane operator()(int k, int p) const { return {numbers[16 * k + p]}; }
   };
+  struct TwoPatches {
+    const double *numbers, *of_second;
+    LaneMask on_second;
+    Lane operator()(int k, int p) const {
+      return select(on_second, Lane(of_second[16 * k + p]), Lane(numbers[16 * k + p]));
+    }
+  };
+  TwoPatches two_patches(const double* from) const {
+    return {from + std::ptrdiff_t{face[0]} * face_numbers,
+            from + std::ptrdiff_t{second_} * face_numbers, on_second_};
+  }
   [[gnu::noinline]] void evaluate() {
-    const std::ptrdiff_t one = std::ptrdiff_t{face[0]} * face_numbers;
-    at_ = same_ ? kernels::patch_point<Lane>(OnePatch{first + one}, u, v)
-                : kernels::patch_point<Lane>(patch, u, v);
+    const TwoPatches two = two_patches(first);
+    at_ = faces_ == 1   ? kernels::patch_point<Lane>(OnePatch{two.numbers}, u, v)
+          : faces_ == 2 ? kernels::patch_point<Lane>(two, u, v)
+                        : kernels::patch_point<Lane>(patch, u, v);
   }
   // Along a crease.
   [[gnu::noinline]] void hold(const Lane& along_u, const Lane& along_v) {
@@ -194,7 +226,9 @@ struct Projection {
     s.gap = select(held, -(sign * distance), s.gap);
   }
 
-  bool same_ = false;
+  int faces_ = 1;  // that the points stand against; 3: or more
+  std::int32_t second_ = 0;
+  LaneMask on_second_;
   kernels::PatchPoint<Lane> at_;
   kernels::Newton<Lane> newton_;
   VectorLanes r_;
