@@ -11,12 +11,12 @@
 namespace pulvis::space {
 namespace {
 
-constexpr double diameter = 10e-3;
+constexpr double ball_diameter = 10e-3;
 
 // A ball whose nodes are displaced at random, and its Bezier points.
 struct Surface : TouchingBodies {
   Surface()
-      : TouchingBodies({make_shape(sphere_of(diameter))},
+      : TouchingBodies({make_shape(sphere_of(ball_diameter))},
                        {body_at(Vec3::Zero()), body_at(Vec3(1, 0, 0))}) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> noise(-1e-4, 1e-4);
@@ -79,7 +79,7 @@ struct Surface : TouchingBodies {
     std::array<Vec3, 8> points;
     std::array<int, 8> start;
     for (std::size_t l = 0; l < 8; ++l) {
-      points[l] = (diameter / 2 + height(random)) * direction();
+      points[l] = (ball_diameter / 2 + height(random)) * direction();
       start[l] = nearest_middle(points[l]);
     }
     const Projection p = project(points, start);
@@ -87,9 +87,9 @@ struct Surface : TouchingBodies {
     const Standing standing = p.standing();
     for (int l = 0; l < 8; ++l) {
       const double expected = distance(entry(points, l));
-      EXPECT_NEAR(std::abs(standing.gap[l]), expected, 1e-9 * diameter);
+      EXPECT_NEAR(std::abs(standing.gap[l]), expected, 1e-9 * ball_diameter);
       const Vec3 found = at(entry(p.face, l), p.u[l], p.v[l]);
-      EXPECT_NEAR((entry(points, l) - found).norm(), expected, 1e-9 * diameter);
+      EXPECT_NEAR((entry(points, l) - found).norm(), expected, 1e-9 * ball_diameter);
       EXPECT_EQ(standing.gap[l] > 0, entry(points, l).norm() < found.norm());
     }
   }
@@ -135,7 +135,7 @@ TEST(SpaceProjection, WalksOverSides) {
     const Standing standing = p.standing();
     for (const int l : {3, 6}) {
       EXPECT_EQ(entry(p.face, l), p.face[0]);
-      EXPECT_NEAR(standing.gap[l], standing.gap[0], 1e-10 * diameter);
+      EXPECT_NEAR(standing.gap[l], standing.gap[0], 1e-10 * ball_diameter);
       ++walked;
     }
   }
