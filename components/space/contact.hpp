@@ -60,7 +60,8 @@ struct ContactLaw : Component<At, double, 4> {
 template <class At>
 struct Activation : Component<At, double, 2> {
   static constexpr ComponentInfo info{
-      "activation", "m", "travel of the surfaces from which on a half of the points is active again"};
+      "activation", "m",
+      "travel of the surfaces from which on a half of the points is active again"};
 };
 template <class At>
 struct PointForce : Component<At, double, 3 * face_points> {
@@ -75,8 +76,8 @@ struct ClosestPoint : Component<FaceContact, double, 2 * face_points> {
 // ---- only where the scene has friction -----------------------------------------------------------
 template <class At>
 struct ElasticSlip : Component<At, double, 3 * face_points> {
-  static constexpr ComponentInfo info{
-      "elastic_slip", "m", "stretch of the tangential springs, x of all, y, z: history"};
+  static constexpr ComponentInfo info{"elastic_slip", "m",
+                                      "stretch of the tangential springs, x of all, y, z: history"};
 };
 // Moment that keeps friction across a small gap from spinning the pair (systems/space/contact/contact_law.hpp).
 struct FrictionCouple : Component<FaceContact, double, 6 * face_points> {

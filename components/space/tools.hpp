@@ -21,9 +21,12 @@ struct TriangleMesh {
     Point normal;
     std::array<Point, 3> edge_normal, corner_normal;
   };
-  struct Node {  // of a binary tree of boxes: of the triangles [first, first + count); halves where count is 0
+  struct
+      Node {  // of a binary tree of boxes: of the triangles [first, first + count); halves where count is 0
     std::array<double, 3> low{}, high{};
-    std::int32_t first = 0, count = 0;  // of an inner node, `first` is its second half; the first one follows it
+    std::int32_t first = 0,
+                 count =
+                     0;  // of an inner node, `first` is its second half; the first one follows it
   };
   std::vector<Triangle> triangles;  // in the order of the tree
   std::vector<Node> tree;

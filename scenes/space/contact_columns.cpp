@@ -34,8 +34,8 @@ double edge_of(const Shape::Element& element) {
   double steepest = 0;
   for (std::size_t k = 0; k < 9; k += 3) {
     const auto& rows = element.fibre;  // as long as 1/4 over an edge
-    steepest = std::max(
-        steepest, rows[k] * rows[k] + rows[k + 1] * rows[k + 1] + rows[k + 2] * rows[k + 2]);
+    steepest = std::max(steepest,
+                        rows[k] * rows[k] + rows[k + 1] * rows[k + 1] + rows[k + 2] * rows[k + 2]);
   }
   return 0.25 / std::sqrt(steepest);
 }
@@ -72,8 +72,8 @@ std::vector<std::int32_t> of_chunks(const World& world, const Count& count) {
   const Shapes& shapes = world.resource<Shapes>();
   std::vector<std::int32_t> rows;
   for (int slot = 0; slot < static_cast<int>(bodies.slots.size()); slot += lane_count)
-    rows.push_back(static_cast<std::int32_t>(
-        count(entry(shapes.list, entry(bodies.slots, slot).shape))));
+    rows.push_back(
+        static_cast<std::int32_t>(count(entry(shapes.list, entry(bodies.slots, slot).shape))));
   return rows;
 }
 void number_faces(World& world) {

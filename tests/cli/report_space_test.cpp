@@ -99,7 +99,7 @@ class SpaceReportTest : public ::testing::Test {
     if (!keep) fs::remove_all(folder);
   }
   std::string report_of(const testing::SyntheticSpaceRun& run) const {
-    testing::record(run, folder);
+    testing::record_in_space(run, folder);
     write_report(folder);
     std::ostringstream text;
     text << std::ifstream(folder / "report.html").rdbuf();

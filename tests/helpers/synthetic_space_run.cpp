@@ -289,7 +289,7 @@ int elements_of_sphere(const SyntheticSpaceRun& run) {
   return n * n * n + 6 * n * n * run.rings;
 }
 
-void record(const SyntheticSpaceRun& run, const std::filesystem::path& folder) {
+void record_in_space(const SyntheticSpaceRun& run, const std::filesystem::path& folder) {
   open_run_folder(folder, true);
   const Ball ball = ball_of(run);
   Recorder recorder(folder, {"0.1.0", "0123abc", "Synthetic spheres", "f00d", 7, 2},

@@ -19,6 +19,6 @@ struct SyntheticSpaceRun {
 int elements_of_sphere(const SyntheticSpaceRun& run);
 
 // Writes run.h5, run.xdmf, history.csv and summary.json into the folder.
-void record(const SyntheticSpaceRun& run, const std::filesystem::path& folder);
+void record_in_space(const SyntheticSpaceRun& run, const std::filesystem::path& folder);
 
 }  // namespace pulvis::testing

@@ -144,7 +144,7 @@ def test_sections_are_of_three_dimensions(compact):
 
 def test_all_figures_of_the_command(blocks, tmp_path):
     told = call("figure", blocks, "-o", tmp_path / "all", "--width", "85mm", "--no-title")
-    names = sorted(path.name for path in (tmp_path / "all").iterdir())
+    names = sorted(path.name for path in (tmp_path / "all").glob("*.png"))
     assert names == ["density_profile.png", "effective_stress.png", "force.png", "section.png"]
     assert "nothing recorded for energies.png" in told
     with Image.open(tmp_path / "all/effective_stress.png") as picture:

@@ -23,11 +23,15 @@ function faceNormal(tool) {
 const SIGNS = "Forces of the powder on the tools. Normal: out of the powder into the tool, compression > 0, tension < 0. " +
   "Tangential: along the face, > 0 towards +x, or +y on an upright face. Fx, Fy: along the axes.";
 
+const SPACE_SIGNS = "Forces of the powder on the tools. Normal: out of the powder into the tool, compression > 0, tension < 0. " +
+  "Tangential: along the face. Of a die: along its axis, which its normal gives, and across it. Fx, Fy, Fz: along the axes.";
+
 // In three dimensions a tangential force has no sign.
-function spaceForces(normal, axes, line) {
+function spaceForces({normal, shape}, axes, line) {
   if (normal?.length !== 3) return [..."xyz"].map((axis, k) => line(`F${axis}`, `force_${axis}`, axes[k]));
   const pressed = axes[0].map((_, i) => -axes.reduce((sum, force, k) => sum + force[i] * normal[k], 0));
   const along = pressed.map((force, i) => Math.sqrt(Math.max(0, axes.reduce((sum, part) => sum + part[i] ** 2, 0) - force ** 2)));
+  if (shape === "die") return [line("along its axis", "axial", pressed.map(force => -force)), line("across it", "across", along)];
   return [line("normal", "normal", pressed), line("tangential", "tangential", along)];
 }
 
@@ -37,10 +41,10 @@ const bySize = (a, b) => largest(b.values) - largest(a.values);
 function forceLines(run) {
   return run.named(/^tool\/.+\/force_x$/).flatMap(series => {
     const name = series.name.split("/")[1], fx = series.values, fy = run.values(`tool/${name}/force_y`);
-    const normal = faceNormal((run.summary.tools || []).find(tool => tool.name === name) || {});
+    const tool = (run.summary.tools || []).find(one => one.name === name) || {}, normal = faceNormal(tool);
     const line = (label, key, values) => ({...series, label: `${name}, ${label}`, name: `tool/${name}/${key}`, values});
     const fz = run.values(`tool/${name}/force_z`);
-    if (fz.length) return spaceForces(normal, [fx, fy, fz], line);
+    if (fz.length) return spaceForces(tool, [fx, fy, fz], line);
     if (!normal) return [line("Fx", "force_x", fx), line("Fy", "force_y", fy)];
     const [nx, ny] = normal, sign = (Math.abs(ny) >= Math.abs(nx) ? ny : -nx) > 0 ? 1 : -1;
     return [line("normal", "normal", fx.map((f, i) => -f * nx - fy[i] * ny)),
@@ -52,7 +56,7 @@ addCurves(run => {
   const density = run.has("relative_density") ? [run.series("relative_density", "relative density")] : [];
   const xs = [timeAxis(run), ...travels(run), ...density];
   const ratio = ["axial", "lateral"].filter(name => run.has(`stress_ratio/${name}`));
-  return [{title: "Forces on the tools", xs, y: "force", lines: forceLines(run), meaning: SIGNS},
+  return [{title: "Forces on the tools", xs, y: "force", lines: forceLines(run), meaning: run.inSpace ? SPACE_SIGNS : SIGNS},
           {title: "Stress over yield stress", xs: [...density, ...xs.filter(x => !density.includes(x))],
            y: "stress ratio σ / σy", lines: ratio.map(name => run.series(`stress_ratio/${name}`, name))}];
 });

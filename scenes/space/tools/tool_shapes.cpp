@@ -22,10 +22,14 @@ bool fills_a_die(const ToolSpec& punch, const SpaceScene& scene) {
 
 Kind kind_of(const ToolSpec& tool) {
   switch (tool.shape) {
-    case ToolSpec::Shape::plane: return Kind::plane;
-    case ToolSpec::Shape::die: return Kind::die;
-    case ToolSpec::Shape::punch: return Kind::punch;
-    case ToolSpec::Shape::stl: break;
+    case ToolSpec::Shape::plane:
+      return Kind::plane;
+    case ToolSpec::Shape::die:
+      return Kind::die;
+    case ToolSpec::Shape::punch:
+      return Kind::punch;
+    case ToolSpec::Shape::stl:
+      break;
   }
   return Kind::mesh;
 }

@@ -74,9 +74,10 @@ void add_node(TriangleMesh& mesh, std::int32_t first, std::int32_t last) {
   if (last - first <= most_of_a_leaf) return;
   const std::int32_t middle = first + (last - first) / 2;
   const auto begin = mesh.triangles.begin();
-  std::stable_sort(begin + first, begin + last, [axis = extent.longest()](const auto& a, const auto& b) {
-    return middle_along(a, axis) < middle_along(b, axis);
-  });
+  std::stable_sort(begin + first, begin + last,
+                   [axis = extent.longest()](const auto& a, const auto& b) {
+                     return middle_along(a, axis) < middle_along(b, axis);
+                   });
   add_node(mesh, first, middle);
   mesh.tree[number].first = static_cast<std::int32_t>(mesh.tree.size());
   mesh.tree[number].count = 0;

@@ -64,34 +64,50 @@ inline void add_sampled(const double* force, double* face) {
   }
 }
 
-// What a closest point bears: shares of Bezier points times a vector.
-[[gnu::always_inline]] inline void subtract(const OfPatch& share, const std::array<double, 3>& f,
-                                            double* face) {
-  for (int k = 0; k < 3; ++k)
-    for (int half = 0; half < 2; ++half) {
-      double* at = face + 16 * k + lane_count * half;
-      fma(entry(share, half), Lane(-entry(f, k)), Lane::load(at)).store(at);
+// What a face bears, in registers while one closest point after the other stands on it.
+struct FaceLoad {
+  double* at = nullptr;
+  std::array<OfPatch, 3> sum;
+
+  void move_to(double* face) {
+    if (face == at) return;
+    put_back();
+    at = face;
+    for (int k = 0; k < 3; ++k)
+      entry(sum, k) = {Lane::load(face + 16 * k), Lane::load(face + 16 * k + lane_count)};
+  }
+  void put_back() const {
+    if (at == nullptr) return;
+    for (int k = 0; k < 3; ++k)
+      for (int half = 0; half < 2; ++half)
+        entry(entry(sum, k), half).store(at + 16 * k + lane_count * half);
+  }
+  // Shares of Bezier points times a vector, that of point g in a list (all x, y, z).
+  [[gnu::always_inline]] void subtract(const OfPatch& share, const double* list, int g) {
+    for (int k = 0; k < 3; ++k) {
+      const Lane f(-list[face_points * k + g]);
+      OfPatch& of = entry(sum, k);
+      of = {fma(share[0], f, of[0]), fma(share[1], f, of[1])};
     }
-}
+  }
+};
 
 // The opposite forces on the other body. `couple`: null without friction.
-inline void add_other(const double* closest, const double* force, const double* couple,
-                      const FaceForces& other) {
-  const auto vector_at = [](const double* list, int g) {
-    return std::array{list[g], list[face_points + g], list[2 * face_points + g]};
-  };
+[[gnu::always_inline]] inline void add_other(const double* closest, const double* force,
+                                             const double* couple, const FaceForces& other) {
+  FaceLoad load;
   for (int g = 0; g < face_points; ++g) {
-    const std::array<double, 3> f = vector_at(force, g);
-    if (f[0] == 0 && f[1] == 0 && f[2] == 0) continue;
+    if (force[g] == 0 && force[face_points + g] == 0 && force[2 * face_points + g] == 0) continue;
     const int face = static_cast<int>(closest[g]);
     const double u = closest[g] - face, v = closest[face_points + g];
     const auto bu = kernels::bernstein(u), bv = kernels::bernstein(v);
-    double* on = other.on(face);
-    subtract(outer(bu, bv), f, on);
+    load.move_to(other.on(face));
+    load.subtract(outer(bu, bv), force, g);
     if (couple == nullptr) continue;
-    subtract(outer(kernels::bernstein_slope(u), bv), vector_at(couple, g), on);
-    subtract(outer(bu, kernels::bernstein_slope(v)), vector_at(couple + 3 * face_points, g), on);
+    load.subtract(outer(kernels::bernstein_slope(u), bv), couple, g);
+    load.subtract(outer(bu, kernels::bernstein_slope(v)), couple + 3 * face_points, g);
   }
+  load.put_back();
 }
 
 // From the faces of eight particles, `apart` numbers a particle, to the Bezier points that they share; marks these.
@@ -107,7 +123,8 @@ void to_points(const Shape& shape, double* face_force, std::ptrdiff_t apart,
       for (int l = 0; l < lane_count; ++l) entry(rows, l) = first + l * apart;
       const std::array<Lane, lane_count> of_point = columns_of(rows);
       for (int i = 0; i < lane_count; ++i)
-        load(Row<SurfacePoint>(entry(face.point, block % 16 + i)), block / 16) += entry(of_point, i);
+        load(Row<SurfacePoint>(entry(face.point, block % 16 + i)), block / 16) +=
+            entry(of_point, i);
       for (int l = 0; l < lane_count; ++l) Lane{}.store(first + l * apart);
     }
     for (const int p : face.point) entry(loaded, p) = 1;

@@ -124,14 +124,14 @@ struct FaceSearch {
 }  // namespace
 
 SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> faces) {
-  SurfaceBoxes boxes{
-      std::vector<Box>(static_cast<std::size_t>(bodies.slots())),
-      list_by_slot<Box>(bodies.slots(), [&](int slot, std::vector<Box>& found) {
-        if (bodies.is_empty(slot)) return;
-        const double* face = faces.data() + bodies.first_face(slot) * std::ptrdiff_t{face_numbers};
-        for (std::size_t f = 0; f < bodies.shape_of(slot).faces.size(); ++f)
-          found.push_back(face_box(face + f * face_numbers));
-      })};
+  SurfaceBoxes boxes{std::vector<Box>(static_cast<std::size_t>(bodies.slots())),
+                     list_by_slot<Box>(bodies.slots(), [&](int slot, std::vector<Box>& found) {
+                       if (bodies.is_empty(slot)) return;
+                       const double* face =
+                           faces.data() + bodies.first_face(slot) * std::ptrdiff_t{face_numbers};
+                       for (std::size_t f = 0; f < bodies.shape_of(slot).faces.size(); ++f)
+                         found.push_back(face_box(face + f * face_numbers));
+                     })};
   for (int slot = 0; slot < bodies.slots(); ++slot) {
     const std::span<const Box> own = boxes.face.of(slot);
     if (own.empty()) continue;
@@ -164,8 +164,7 @@ BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const Surfa
 BySlot<FaceCandidate> face_candidates(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
                                       const BySlot<std::int32_t>& neighbours, double skin) {
   if (bodies.bodies->slot_of_number.empty()) return {{0}, {}};
-  return list_by_slot<FaceCandidate>(bodies.slots(),
-                                     FaceSearch{bodies, boxes, neighbours, skin});
+  return list_by_slot<FaceCandidate>(bodies.slots(), FaceSearch{bodies, boxes, neighbours, skin});
 }
 
 }  // namespace pulvis::space

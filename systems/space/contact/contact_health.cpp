@@ -45,8 +45,7 @@ struct Watch {
   void depth(const char* system, const Read<ContactPair<At>>& pair, const Deepest& worst,
              const std::string& partner) const {
     const Row<At> row(worst.row);
-    const double size =
-        entry(bodies.shape_of(pair(row, 0)).faces, pair(row, 1)).size;
+    const double size = entry(bodies.shape_of(pair(row, 0)).faces, pair(row, 1)).size;
     throw RunFailure(fmt::format(
         "{}: {}{}: penetration {:.6g} m is {:.3g} of the size of the face at step {}, t = {:.6g} "
         "s; allowed {:.3g} (limits.penetration)",
@@ -83,15 +82,16 @@ void contact_health::operator()() const {
   // A point that was not found may look deep: that is told first. Where nothing is a number, nothing is found.
   if (pairs && !std::isnan(of_pairs.depth)) watch.projections(*pairs, *totals);
   if (pairs && watch.too_deep(of_pairs))
-    watch.depth("face_contact", pairs->pair, of_pairs,
-                fmt::format("particle {}", entry(bodies.bodies->slots,
-                                                 pairs->pair(Row<FaceContact>(of_pairs.row), 2))
-                                               .number));
+    watch.depth(
+        "face_contact", pairs->pair, of_pairs,
+        fmt::format(
+            "particle {}",
+            entry(bodies.bodies->slots, pairs->pair(Row<FaceContact>(of_pairs.row), 2)).number));
   if (tools && watch.too_deep(of_tools))
-    watch.depth("tool_contact", tools->pair, of_tools,
-                fmt::format("tool '{}'",
-                            entry(tools->program->names,
-                                  tools->pair(Row<FaceToolContact>(of_tools.row), 2))));
+    watch.depth(
+        "tool_contact", tools->pair, of_tools,
+        fmt::format("tool '{}'", entry(tools->program->names,
+                                       tools->pair(Row<FaceToolContact>(of_tools.row), 2))));
   totals->worst_penetration = std::max(totals->worst_penetration, totals->penetration);
 }
 

@@ -23,8 +23,7 @@ using VectorLanes = kernels::Vector<Lane>;
 // Eight of the sixteen points: those from 8 half on.
 inline VectorLanes load_half(const double* numbers, int half) {
   const double* first = numbers + lane_count * half;
-  return {Lane::load(first), Lane::load(first + face_points),
-          Lane::load(first + 2 * face_points)};
+  return {Lane::load(first), Lane::load(first + face_points), Lane::load(first + 2 * face_points)};
 }
 inline void store_half(const VectorLanes& a, double* numbers, int half) {
   double* first = numbers + lane_count * half;
@@ -35,23 +34,23 @@ inline void store_half(const VectorLanes& a, double* numbers, int half) {
 
 // ---- the law of a point -----------------------------------------------------------------------------
 struct PointMotion {
-  Lane gap;             // m, > 0 in penetration
-  VectorLanes normal;   // outward, of the other surface
-  Lane gap_rate{};      // m/s
-  VectorLanes slip{};   // m/s, in the plane across the normal
-  VectorLanes spin{};   // rad/s, of the other surface
+  Lane gap;            // m, > 0 in penetration
+  VectorLanes normal;  // outward, of the other surface
+  Lane gap_rate{};     // m/s
+  VectorLanes slip{};  // m/s, in the plane across the normal
+  VectorLanes spin{};  // rad/s, of the other surface
 };
 struct PointLaw {
-  Lane weight;                             // m^2, undeformed area that a point stands for
+  Lane weight;                                // m^2, undeformed area that a point stands for
   double kappa, friction, damping, inv_size;  // of the pass
 };
 struct PointForces {
   VectorLanes force;     // N, on the sampled face
   VectorLanes friction;  // N, of it
   VectorLanes elastic_slip;
-  Lane energy;           // J
-  Lane friction_work;    // J, of this step
-  Lane damping_work;     // J, of this step
+  Lane energy;         // J
+  Lane friction_work;  // J, of this step
+  Lane damping_work;   // J, of this step
 };
 
 // A spring, turned with the other surface in a step; its length stays.
@@ -64,8 +63,8 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
 
 [[gnu::always_inline]] inline PointForces normal_forces(const PointLaw& law, const PointMotion& m,
                                                         double dt, Lane& pressure) {
-  const auto normal = pulvis::kernels::normal_traction(
-      m.gap, m.gap_rate, Lane(law.kappa), Lane(law.damping), Lane(law.inv_size));
+  const auto normal = pulvis::kernels::normal_traction(m.gap, m.gap_rate, Lane(law.kappa),
+                                                       Lane(law.damping), Lane(law.inv_size));
   pressure = normal.pressure;
   PointForces f{};
   f.energy = normal.spring_energy * law.weight;
@@ -77,15 +76,15 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
 inline void add_friction(const PointLaw& law, const PointMotion& m, double dt, const Lane& pressure,
                          const VectorLanes& before, PointForces& f) {
   pulvis::kernels::Coulomb<Lane> coulomb{Lane(law.friction)};
-  const auto friction = pulvis::kernels::friction_return_in_plane(
-      turned(before, m, dt), Lane(dt) * m.slip, pressure, coulomb, Lane(law.kappa),
-      Lane(1 / law.kappa));
+  const auto friction =
+      pulvis::kernels::friction_return_in_plane(turned(before, m, dt), Lane(dt) * m.slip, pressure,
+                                                coulomb, Lane(law.kappa), Lane(1 / law.kappa));
   f.elastic_slip = friction.elastic_slip;
   f.friction = law.weight * friction.traction;
   f.force = f.force + f.friction;
   f.friction_work = friction.work * law.weight;
-  f.energy = fma(0.5 * law.kappa * law.weight,
-                 dot(friction.elastic_slip, friction.elastic_slip), f.energy);
+  f.energy = fma(0.5 * law.kappa * law.weight, dot(friction.elastic_slip, friction.elastic_slip),
+                 f.energy);
 }
 
 // ---- from and to the columns --------------------------------------------------------------------------

@@ -46,8 +46,8 @@ void set_faces(const Shape& shape, const Points& points, const Faces& faces) {
               &points(Row<SurfacePoint>(entry(face.point, lane_count * half + i)), k));
         const std::array<Lane, lane_count> of_particle = columns_of(rows);
         for (int l = 0; l < lane_count; ++l)
-          entry(of_particle, l).store(first + (l * count + f) * face_numbers + 16 * k +
-                                      lane_count * half);
+          entry(of_particle, l)
+              .store(first + (l * count + f) * face_numbers + 16 * k + lane_count * half);
       }
   }
 }

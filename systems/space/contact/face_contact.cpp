@@ -26,8 +26,7 @@ struct PackedSpots {
     const Lane number = Lane::load(first + lane_count * half), whole_number = whole(number);
     std::array<double, lane_count> faces;
     whole_number.store(faces.data());
-    for (std::size_t l = 0; l < lane_count; ++l)
-      p.face[l] = static_cast<std::int32_t>(faces[l]);
+    for (std::size_t l = 0; l < lane_count; ++l) p.face[l] = static_cast<std::int32_t>(faces[l]);
     p.u = number - whole_number;
     p.v = Lane::load(first + face_points + lane_count * half);
   }
@@ -53,8 +52,7 @@ void set_rates(const VectorLanes& velocity, const kernels::PatchSlopes<Lane>& ot
                const Reciprocal& to, PointMotion& m) {
   const VectorLanes relative = velocity - other.x;
   const Lane closing = dot(relative, m.normal);
-  const VectorLanes normal_rate =
-      -(dot(other.u, m.normal) * to.u + dot(other.v, m.normal) * to.v);
+  const VectorLanes normal_rate = -(dot(other.u, m.normal) * to.u + dot(other.v, m.normal) * to.v);
   m.gap_rate = -closing;
   m.slip = fma(m.gap, normal_rate, fma(-closing, m.normal, relative));
   const Lane drill = 0.5 * dot(m.normal, cross(to.u, other.u) + cross(to.v, other.v));
@@ -106,7 +104,7 @@ struct FacePass {
         if (!motion.touches(half)) continue;
         Projection& p = half == 0 ? low : high;
         entry(reciprocal, half) = Reciprocal::of(p.slopes);
-        set_rates(sampled_points(rates + own, half), rates_at(p, rates + its),
+        set_rates(sampled_points(rates + own, half), p.carried(rates + its),
                   entry(reciprocal, half), entry(motion.half, half));
       }
     act(s.columns, row, face, motion, share, s.clock->dt_before, sums, along);
@@ -142,7 +140,7 @@ struct FacePass {
       motion.touching |= 1U << half;
       activation = 0;
     } else {
-      activation = s.clock->travel - FaceSums::greatest(-standing.distance);
+      activation = s.clock->travel - FaceSums::greatest(standing.gap);
     }
   }
   static void book(Row<FaceContact> row, unsigned unconverged, BlockSums& block) {
@@ -150,10 +148,6 @@ struct FacePass {
     if (unconverged == 0) return;
     if (block.unconverged == 0) block.first_unconverged = row.value;
     block.unconverged += std::popcount(unconverged);
-  }
-  static kernels::PatchSlopes<Lane> rates_at(Projection& p, const double* first) {
-    p.patch.gather(first, p.face);
-    return kernels::patch_slopes<Lane>(p.patch, p.u, p.v);
   }
   // -g (T . a^u) n acts on the other surface's slope along u; the same along v.
   void keep_couple(Row<FaceContact> row, int half, const PointMotion& m, const VectorLanes& along,

@@ -35,9 +35,10 @@ template <class T>
 }
 template <class T>
 [[gnu::always_inline]] inline Basis<T> basis(const T& u) {
-  return {bernstein(u),
-          bernstein_slope(u),
-          {6.0 * (1.0 - u), fma(T{} + 18.0, u, T{} - 12.0), fma(T{} - 18.0, u, T{} + 6.0), 6.0 * u}};
+  return {
+      bernstein(u),
+      bernstein_slope(u),
+      {6.0 * (1.0 - u), fma(T{} + 18.0, u, T{} - 12.0), fma(T{} - 18.0, u, T{} + 6.0), 6.0 * u}};
 }
 
 template <class T>
@@ -63,7 +64,7 @@ template <class T, class Control>
     slope[i] = combined(v.slope, along);
     curvature[i] = combined(v.curvature, along);
   }
-  return {combined(u.value, value), combined(u.slope, value),     combined(u.value, slope),
+  return {combined(u.value, value),     combined(u.slope, value), combined(u.value, slope),
           combined(u.curvature, value), combined(u.slope, slope), combined(u.value, curvature)};
 }
 
@@ -109,8 +110,12 @@ inline constexpr double near_step = 5e-4;  // of a patch
 template <class T>
 struct Newton {
   T a, b, c, inv_det;  // [a b; b c]
-  T step_u(const T& along_u, const T& along_v) const { return (along_u * c - along_v * b) * inv_det; }
-  T step_v(const T& along_u, const T& along_v) const { return (along_v * a - along_u * b) * inv_det; }
+  T step_u(const T& along_u, const T& along_v) const {
+    return (along_u * c - along_v * b) * inv_det;
+  }
+  T step_v(const T& along_u, const T& along_v) const {
+    return (along_v * a - along_u * b) * inv_det;
+  }
 };
 
 template <class T>
@@ -126,7 +131,8 @@ template <class T>
 
 // The patch near a point of it.
 template <class T>
-[[gnu::always_inline]] inline PatchSlopes<T> taylor(const PatchPoint<T>& p, const T& du, const T& dv) {
+[[gnu::always_inline]] inline PatchSlopes<T> taylor(const PatchPoint<T>& p, const T& du,
+                                                    const T& dv) {
   const Vector<T> u = fma(du, p.uu, dv * p.uv), v = fma(du, p.uv, dv * p.vv);
   return {fma(du, fma(T{} + 0.5, u, p.u), fma(dv, fma(T{} + 0.5, v, p.v), p.x)), p.u + u, p.v + v};
 }

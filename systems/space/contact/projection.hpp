@@ -38,8 +38,7 @@ struct PatchLanes {
 
 // How a point stands against another surface.
 struct Standing {
-  Lane gap;            // m, > 0 in penetration
-  Lane distance;       // m, to the surface
+  Lane gap;            // m, > 0 in penetration; else minus the distance
   VectorLanes normal;  // outward, of the other surface
 };
 
@@ -60,9 +59,9 @@ struct Projection {
   unsigned unconverged() const { return ~done & 0xffU; }
 
   [[gnu::always_inline]] void find() {
-    patch.gather(first, face);
+    gather();
     for (int step = 0;; ++step) {
-      at_ = kernels::patch_point<Lane>(patch, u, v);
+      evaluate();
       r_ = point - at_.x;
       newton_ = kernels::newton(at_, r_);
       const Lane along_u = dot(r_, at_.u), along_v = dot(r_, at_.v);
@@ -83,16 +82,65 @@ struct Projection {
     Standing s;
     s.normal = inv_area * across;
     s.gap = -dot(offset, s.normal);
-    s.distance = sqrt(dot(offset, offset));
     if ((held_u_ | held_v_) != 0) look_to_crease(s);
     return s;
   }
 
+  // What the faces carry, `from` those of the particle, at the closest points.
+  kernels::PatchSlopes<Lane> carried(const double* from) {
+    const TwoPatches two = two_patches(from);
+    if (faces_ == 1) return kernels::patch_slopes<Lane>(OnePatch{two.numbers}, u, v);
+    if (faces_ == 2) return kernels::patch_slopes<Lane>(two, u, v);
+    patch.gather(from, face);
+    return kernels::patch_slopes<Lane>(patch, u, v);
+  }
+
   PatchLanes patch;
-  kernels::PatchSlopes<Lane> slopes;  // of the surface at the closest point
-  VectorLanes offset;                 // m, from there to the point
+  kernels::PatchSlopes<Lane>
+      slopes;          // of the surface at the closest point (x: before the last correction)
+  VectorLanes offset;  // m, from there to the point
 
  private:
+  // Points that stand against one face or two need no patches side by side.
+  [[gnu::always_inline]] void gather() {
+    faces_ = 1;
+    unsigned of_second = 0;
+    second_ = face[0];
+    for (std::size_t l = 1; l < lane_count; ++l) {
+      if (face[l] == face[0]) continue;
+      if (faces_ == 1) {
+        faces_ = 2;
+        second_ = face[l];
+      }
+      if (face[l] == second_)
+        of_second |= 1U << l;
+      else
+        faces_ = 3;
+    }
+    on_second_ = LaneMask::of(of_second);
+    if (faces_ == 3) patch.gather(first, face);
+  }
+  struct OnePatch {
+    const double* numbers;
+    Lane operator()(int k, int p) const { return {numbers[16 * k + p]}; }
+  };
+  struct TwoPatches {
+    const double *numbers, *of_second;
+    LaneMask on_second;
+    Lane operator()(int k, int p) const {
+      return select(on_second, Lane(of_second[16 * k + p]), Lane(numbers[16 * k + p]));
+    }
+  };
+  TwoPatches two_patches(const double* from) const {
+    return {from + std::ptrdiff_t{face[0]} * face_numbers,
+            from + std::ptrdiff_t{second_} * face_numbers, on_second_};
+  }
+  [[gnu::noinline]] void evaluate() {
+    const TwoPatches two = two_patches(first);
+    at_ = faces_ == 1   ? kernels::patch_point<Lane>(OnePatch{two.numbers}, u, v)
+          : faces_ == 2 ? kernels::patch_point<Lane>(two, u, v)
+                        : kernels::patch_point<Lane>(patch, u, v);
+  }
   // Along a crease.
   [[gnu::noinline]] void hold(const Lane& along_u, const Lane& along_v) {
     const Lane zero{};
@@ -122,7 +170,7 @@ struct Projection {
     if (inside == 0xffU) return;
     for (int l = 0; l < lane_count; ++l)
       if ((inside >> l & 1) == 0) cross_side(l);
-    patch.gather(first, face);
+    gather();
   }
   void cross_side(int l) {
     const auto lane = static_cast<std::size_t>(l);
@@ -158,23 +206,29 @@ struct Projection {
     offset = point - slopes.x;
     if ((held_u_ | held_v_) == 0) {
       const Lane along_u = dot(offset, slopes.u), along_v = dot(offset, slopes.v);
-      const Lane more_u = newton_.step_u(along_u, along_v), more_v = newton_.step_v(along_u, along_v);
+      const Lane more_u = newton_.step_u(along_u, along_v),
+                 more_v = newton_.step_v(along_u, along_v);
+      offset = offset - (more_u * slopes.u + more_v * slopes.v);
+      slopes.u = fma(more_u, at_.uu, fma(more_v, at_.uv, slopes.u));
+      slopes.v = fma(more_u, at_.uv, fma(more_v, at_.vv, slopes.v));
       du_ += more_u;
       dv_ += more_v;
-      slopes = kernels::taylor(at_, du_, dv_);
-      offset = point - slopes.x;
     }
     u += du_;
     v += dv_;
   }
   // From a crease the way out leads to the point itself.
   [[gnu::noinline]] void look_to_crease(Standing& s) const {
-    const LaneMask held = LaneMask::of(held_u_ | held_v_) & (s.distance > 0.0);
+    const Lane distance = sqrt(dot(offset, offset));
+    const LaneMask held = LaneMask::of(held_u_ | held_v_) & (distance > 0.0);
     const Lane sign = select(s.gap > 0.0, Lane(-1.0), Lane(1.0));
-    s.normal = select(held, (sign / s.distance) * offset, s.normal);
-    s.gap = select(held, -(sign * s.distance), s.gap);
+    s.normal = select(held, (sign / distance) * offset, s.normal);
+    s.gap = select(held, -(sign * distance), s.gap);
   }
 
+  int faces_ = 1;  // that the points stand against; 3: or more
+  std::int32_t second_ = 0;
+  LaneMask on_second_;
   kernels::PatchPoint<Lane> at_;
   kernels::Newton<Lane> newton_;
   VectorLanes r_;

@@ -78,10 +78,9 @@ struct Remaining {
                           {before[0] - now[0], before[1] - now[1], before[2] - now[2]});
       const Point normal = tools.normal_of(t);
       const bool plane = tools.shape(t).kind == ToolShapes::Kind::plane;
-      minimum = std::min(minimum,
-                         plane ? std::max(index.skin, kernels::min_along(own, normal)) +
-                                     std::min(kernels::min_along(u, normal), 0.0)
-                               : index.skin - kernels::closing(u, Box{}));
+      minimum = std::min(minimum, plane ? std::max(index.skin, kernels::min_along(own, normal)) +
+                                              std::min(kernels::min_along(u, normal), 0.0)
+                                        : index.skin - kernels::closing(u, Box{}));
     }
     return minimum;
   }
@@ -95,8 +94,7 @@ void skin_check::operator()() const {
   index->travel_seen = clock->travel;
   const auto tool_position = [&](int t) {
     const Row<Tool> tool(t);
-    return Point3{tools->position(tool, 0), tools->position(tool, 1),
-                          tools->position(tool, 2)};
+    return Point3{tools->position(tool, 0), tools->position(tool, 1), tools->position(tool, 2)};
   };
   if (index->travel_at_bin >= 0) {
     if (clock->travel + ahead < index->look_at) return;

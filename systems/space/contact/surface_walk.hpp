@@ -29,19 +29,27 @@ struct BesideSide {
 };
 inline BesideSide beside(int side, double u, double v) {
   switch (side) {
-    case 0: return {u, -v};
-    case 1: return {v, u - 1};
-    case 2: return {1 - u, v - 1};
-    default: return {1 - v, -u};
+    case 0:
+      return {u, -v};
+    case 1:
+      return {v, u - 1};
+    case 2:
+      return {1 - u, v - 1};
+    default:
+      return {1 - v, -u};
   }
 }
 // The point of a face `beyond` inside from its side.
 inline SurfaceSpot inside(int face, int side, double along, double beyond) {
   switch (side) {
-    case 0: return {face, along, beyond};
-    case 1: return {face, 1 - beyond, along};
-    case 2: return {face, 1 - along, 1 - beyond};
-    default: return {face, beyond, 1 - along};
+    case 0:
+      return {face, along, beyond};
+    case 1:
+      return {face, 1 - beyond, along};
+    case 2:
+      return {face, 1 - along, 1 - beyond};
+    default:
+      return {face, beyond, 1 - along};
   }
 }
 

@@ -9,9 +9,7 @@ namespace {
 
 Point point_of(const double* face, int p) { return {face[p], face[16 + p], face[32 + p]}; }
 
-Point difference(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double product(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Height along an axis through a tool's position, and distance from it.
@@ -66,7 +64,8 @@ bool FaceLook::can_touch(int slot, int face, int tool) const {
       return false;
     case ToolShapes::Kind::punch:
       return near_meridian(shape.meridian, points, at, normal, reach);
-    case ToolShapes::Kind::mesh: break;
+    case ToolShapes::Kind::mesh:
+      break;
   }
   std::vector<std::int32_t> list;
   triangles_near(shape.mesh, around_origin(points, at), reach, list);

@@ -64,16 +64,21 @@ struct ToolPass {
     const ToolShapes::Shape& shape = s.tools.shape(tool);
     const Point normal = s.tools.normal_of(tool);
     switch (shape.kind) {
-      case ToolShapes::Kind::plane: return on_plane(normal, from);
-      case ToolShapes::Kind::die: return in_die(shape.radius, normal, from);
-      case ToolShapes::Kind::punch: return on_punch(shape.meridian, normal, from, size);
-      case ToolShapes::Kind::mesh: break;
+      case ToolShapes::Kind::plane:
+        return on_plane(normal, from);
+      case ToolShapes::Kind::die:
+        return in_die(shape.radius, normal, from);
+      case ToolShapes::Kind::punch:
+        return on_punch(shape.meridian, normal, from, size);
+      case ToolShapes::Kind::mesh:
+        break;
     }
     const std::span<const std::int32_t> all(s.triangles->lists->triangles);
     const std::int32_t first = s.triangles->range(row, 0), end = s.triangles->range(row, 1);
-    return on_mesh(shape.mesh,
-                   all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first)),
-                   from, size);
+    return on_mesh(
+        shape.mesh,
+        all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first)), from,
+        size);
   }
   // Against tools that do not turn.
   void set_rates(Row<FaceToolContact> row, const VectorLanes& velocity, PointMotion& m) const {

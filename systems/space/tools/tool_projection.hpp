@@ -19,7 +19,6 @@ inline Standing on_plane(const Point& normal, const VectorLanes& from) {
   Standing s;
   s.normal = everywhere(normal);
   s.gap = -dot(from, s.normal);
-  s.distance = -s.gap;
   return s;
 }
 
@@ -39,7 +38,6 @@ inline Standing in_die(double radius, const Point& axis, const VectorLanes& from
   Standing s;
   s.normal = -at.outward;
   s.gap = at.radius - radius;
-  s.distance = -s.gap;
   return s;
 }
 
@@ -52,7 +50,6 @@ inline Standing on_punch(const ToolSurface& meridian, const Point& axis, const V
   Standing s;
   s.normal = fma(nearest.nx, at.outward, nearest.ny * along);
   s.gap = -nearest.distance;
-  s.distance = nearest.distance;
   return s;
 }
 
@@ -62,12 +59,10 @@ inline Standing on_mesh(const TriangleMesh& mesh, std::span<const std::int32_t> 
   kernels::NearestOfMesh<Lane> nearest{Lane(farthest * farthest), everywhere({}), everywhere({})};
   for (const std::int32_t t : triangles)
     kernels::look_at_triangle(entry(mesh.triangles, t), from, nearest);
-  const Lane side =
-      select(dot(nearest.offset, nearest.outward) < 0.0, Lane(-1.0), Lane(1.0));
+  const Lane side = select(dot(nearest.offset, nearest.outward) < 0.0, Lane(-1.0), Lane(1.0));
   const Lane distance = sqrt(nearest.square);
   Standing s;
   s.gap = -(side * distance);
-  s.distance = side * distance;
   // On the surface itself, up to round-off, its own normal.
   constexpr double round_off = 1e-12;
   const LaneMask apart = distance > Lane(round_off * farthest);

@@ -49,14 +49,16 @@ class SpaceView extends FieldView {
     return [room / 2 + unit * (right + this.moved[0]), height / 2 - unit * (up + this.moved[1]), away];
   }
 
-  // {normal, offset}: what lies beyond it is cut away; null: nothing is.
+  // {normal, offset}: what lies beyond it is cut away; null: nothing is. What is across an axis is open to the reader,
+  // from whichever side that is.
   plane() {
     const axis = "xyz".indexOf(this.cut);
     if (!this.cut) return null;
-    const normal = axis < 0 ? this.cutNormal : [0, 1, 2].map(k => k === axis ? 1 : 0);
+    const side = axis < 0 || this.direction[2][axis] <= 0 ? 1 : -1;
+    const normal = axis < 0 ? this.cutNormal : [0, 1, 2].map(k => k === axis ? side : 0);
     const reach = this.box.map((length, k) => length * normal[k]), low = reach.reduce((sum, part) => sum + Math.min(0, part), 0);
-    const high = reach.reduce((sum, part) => sum + Math.max(0, part), 0);
-    return {normal, offset: low + this.cutAt * (high - low) + 1e-6};  // through no node of a lattice
+    const high = reach.reduce((sum, part) => sum + Math.max(0, part), 0), share = side > 0 ? this.cutAt : 1 - this.cutAt;
+    return {normal, side, offset: low + share * (high - low) + 1e-6};  // through no node of a lattice
   }
 
   draw() {
@@ -105,7 +107,7 @@ class SpaceView extends FieldView {
   cutInWords() {
     const plane = this.plane(), {low} = this.run.head;
     if (!plane) return "";
-    const at = plane.offset * this.width + plane.normal.reduce((sum, part, k) => sum + part * low[k], 0);
+    const at = plane.side * (plane.offset * this.width + plane.normal.reduce((sum, part, k) => sum + part * low[k], 0));
     return this.cut === "free" ? "plane as chosen" : `${this.cut} = ${withUnit(at, "m", 3)}`;
   }
 

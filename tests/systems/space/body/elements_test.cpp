@@ -26,7 +26,7 @@ bool inside(const Vector& x) { return x.minCoeff() > 0.1 && x.maxCoeff() < 0.9; 
 // force inside.
 TYPED_TEST(Elements, PatchTest) {
   Body<TypeParam> body(distorted_block({3, 3, 3}, 0.25, 1), material(2.5, 0.3));
-  body.place([](const Vector& x) { return some_gradient * x + Vector(1, 2, 3); });
+  body.place([](const Vector& x) -> Vector { return some_gradient * x + Vector(1, 2, 3); });
   body.find_forces();
   const double mu = 2.5 / 2.6, bulk = 2.5 / 1.2, j = some_gradient.determinant();
   const Matrix b = std::pow(j, -2.0 / 3) * some_gradient * some_gradient.transpose();
@@ -50,7 +50,7 @@ TYPED_TEST(Elements, RigidMotionHasNoForce) {
   Body<TypeParam> body(distorted_block({2, 2, 2}, 0.25, 2), material(1, 0.45));
   for (double angle = 0; angle <= 720; angle += 45) {
     const Matrix turn = turned(angle * std::numbers::pi / 180);
-    body.place([&](const Vector& x) { return turn * x + Vector(0.3, 0.2, 0.1); });
+    body.place([&](const Vector& x) -> Vector { return turn * x + Vector(0.3, 0.2, 0.1); });
     body.find_forces();
     for (int n = 0; n < body.nodes(); ++n) EXPECT_LT(body.force(n).norm(), 1e-14);
   }

@@ -100,8 +100,10 @@ class TouchingBodies {
 
   // Contact at the present places.
   void update(bool anew = true) {
-    if (anew) world.resource<ContactIndex>().travel_at_bin = -1;
-    else wake();
+    if (anew)
+      world.resource<ContactIndex>().travel_at_bin = -1;
+    else
+      wake();
     const bool pairs = world.has<ContactPair<FaceContact>>();
     const bool tools = world.has<ContactPair<FaceToolContact>>();
     run<contact_surface>("contact_surface");
@@ -161,7 +163,8 @@ class TouchingBodies {
       }
       while (all.slots.size() % lane_count != 0)
         all.slots.push_back({Bodies::empty_slot, static_cast<int>(s), 0, 0, 0});
-      nodes.resize(all.slots.size() / lane_count, static_cast<std::int32_t>(shapes[s].nodes.size()));
+      nodes.resize(all.slots.size() / lane_count,
+                   static_cast<std::int32_t>(shapes[s].nodes.size()));
     }
     const std::size_t lanes = all.slots.size();
     world.add_table<Node>(nodes);

@@ -1,0 +1,146 @@
+// Closest points on smooth surfaces of particles, against a search of the whole surface.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "systems/space/contact/projection.hpp"
+#include "tests/systems/space/contact/touching_bodies.hpp"
+
+namespace pulvis::space {
+namespace {
+
+constexpr double diameter = 10e-3;
+
+// A ball whose nodes are displaced at random, and its Bezier points.
+struct Surface : TouchingBodies {
+  Surface()
+      : TouchingBodies({make_shape(sphere_of(diameter))},
+                       {body_at(Vec3::Zero()), body_at(Vec3(1, 0, 0))}) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> noise(-1e-4, 1e-4);
+    move(0, [&](const Vec3& x) {
+      return Vec3(x + Vec3(noise(random), noise(random), noise(random)));
+    });
+    run<contact_surface>("contact_surface");
+  }
+  const double* first() { return world.column<FacePosition>().values(); }
+  Vec3 at(int face, double u, double v) {
+    const double* numbers = first() + face * face_numbers;
+    const auto bu = kernels::bernstein(u), bv = kernels::bernstein(v);
+    Vec3 x = Vec3::Zero();
+    for (int p = 0; p < 16; ++p)
+      for (int k = 0; k < 3; ++k) x[k] += entry(bu, p % 4) * entry(bv, p / 4) * numbers[16 * k + p];
+    return x;
+  }
+  int faces() const { return static_cast<int>(shape().faces.size()); }
+
+  // Least distance, by ever finer grids around the best point of every face that may have it.
+  double distance(const Vec3& p) {
+    double least = std::numeric_limits<double>::max();
+    for (int f = 0; f < faces(); ++f) {
+      double u = 0.5, v = 0.5, reach = 0.5, of_face = (at(f, u, v) - p).norm();
+      if (of_face > least + 3e-3) continue;  // no point of a face is farther from its middle
+      for (int zoom = 0; zoom < 24; ++zoom) {
+        const double from_u = u, from_v = v;
+        for (int i = -4; i <= 4; ++i)
+          for (int j = -4; j <= 4; ++j) {
+            const double a = std::clamp(from_u + reach * i / 4, 0.0, 1.0),
+                         b = std::clamp(from_v + reach * j / 4, 0.0, 1.0);
+            const double d = (at(f, a, b) - p).norm();
+            if (d < of_face) of_face = d, u = a, v = b;
+          }
+        reach *= 0.5;
+      }
+      least = std::min(least, of_face);
+    }
+    return least;
+  }
+  int nearest_middle(const Vec3& p) {
+    int nearest = 0;
+    for (int f = 1; f < faces(); ++f)
+      if ((at(f, 0.5, 0.5) - p).norm() < (at(nearest, 0.5, 0.5) - p).norm()) nearest = f;
+    return nearest;
+  }
+  Projection project(const std::array<Vec3, 8>& points, const std::array<int, 8>& start) {
+    Projection p(shape(), first());
+    p.point = {Lane::from([&](int l) { return entry(points, l).x(); }),
+               Lane::from([&](int l) { return entry(points, l).y(); }),
+               Lane::from([&](int l) { return entry(points, l).z(); })};
+    for (std::size_t l = 0; l < 8; ++l) p.face[l] = start[l];
+    p.u = p.v = Lane(0.5);
+    p.find();
+    return p;
+  }
+  // Whether the closest points are found of points near the surface: in `direction`, which may scatter.
+  void expect_found(std::mt19937_64& random, const std::function<Vec3()>& direction) {
+    std::uniform_real_distribution<double> height(-0.3e-3, 0.5e-3);
+    std::array<Vec3, 8> points;
+    std::array<int, 8> start;
+    for (std::size_t l = 0; l < 8; ++l) {
+      points[l] = (diameter / 2 + height(random)) * direction();
+      start[l] = nearest_middle(points[l]);
+    }
+    const Projection p = project(points, start);
+    EXPECT_EQ(p.unconverged(), 0U);
+    const Standing standing = p.standing();
+    for (int l = 0; l < 8; ++l) {
+      const double expected = distance(entry(points, l));
+      EXPECT_NEAR(std::abs(standing.gap[l]), expected, 1e-9 * diameter);
+      const Vec3 found = at(entry(p.face, l), p.u[l], p.v[l]);
+      EXPECT_NEAR((entry(points, l) - found).norm(), expected, 1e-9 * diameter);
+      EXPECT_EQ(standing.gap[l] > 0, entry(points, l).norm() < found.norm());
+    }
+  }
+};
+
+TEST(SpaceProjection, FindsTheClosestPointOfPointsAllOverTheSurface) {
+  Surface surface;
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 25; ++i)
+    surface.expect_found(
+        random, [&] { return Vec3(normal(random), normal(random), normal(random)).normalized(); });
+}
+
+// About the corners of the cube, where three faces meet.
+TEST(SpaceProjection, FindsTheClosestPointAboutNodesWhereThreeFacesMeet) {
+  Surface surface;
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> noise(-0.15, 0.15);
+  std::bernoulli_distribution sign;
+  for (int i = 0; i < 25; ++i)
+    surface.expect_found(random, [&] {
+      const auto axis = [&] { return (sign(random) ? 1 : -1) + noise(random); };
+      return Vec3(axis(), axis(), axis()).normalized();
+    });
+}
+
+// From two faces away it walks there, over sides and corners.
+TEST(SpaceProjection, WalksOverSides) {
+  Surface surface;
+  int walked = 0;
+  for (int f = 0; f < surface.faces(); ++f) {
+    const int next = entry(entry(surface.shape().faces, f).neighbour, 0).face;
+    const int far = entry(entry(surface.shape().faces, next).neighbour, 1).face;
+    std::array<Vec3, 8> points;
+    points.fill(1.02 * surface.at(f, 0.4, 0.6));
+    std::array<int, 8> start;
+    start.fill(f);
+    start[3] = next;
+    start[6] = far;
+    const Projection p = surface.project(points, start);
+    EXPECT_EQ(p.unconverged(), 0U);
+    const Standing standing = p.standing();
+    for (const int l : {3, 6}) {
+      EXPECT_EQ(entry(p.face, l), p.face[0]);
+      EXPECT_NEAR(standing.gap[l], standing.gap[0], 1e-10 * diameter);
+      ++walked;
+    }
+  }
+  EXPECT_GT(walked, 100);
+}
+
+}  // namespace
+}  // namespace pulvis::space

@@ -1,0 +1,209 @@
+// Rigid tools in three dimensions against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "scenes/space/tools/tool_shapes.hpp"
+#include "scenes/space/tools/triangle_mesh.hpp"
+#include "systems/space/contact/tool_search.hpp"
+#include "systems/space/tools/tool_projection.hpp"
+#include "tests/systems/space/contact/touching_bodies.hpp"
+
+namespace pulvis::space {
+namespace {
+
+VectorLanes everywhere_at(const Vec3& p) { return everywhere({p.x(), p.y(), p.z()}); }
+Vec3 normal_of(const Standing& s) { return {s.normal.x[0], s.normal.y[0], s.normal.z[0]}; }
+
+struct RandomPoints {
+  std::mt19937_64 random{1};
+  Vec3 operator()(double size) {
+    std::uniform_real_distribution<double> in(-size, size);
+    return {in(random), in(random), in(random)};
+  }
+};
+
+TEST(SpaceTools, ADieIsTheInsideOfACylinder) {
+  RandomPoints points;
+  const Vec3 axis = Vec3(1, 2, -0.5).normalized();
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p = points(2);
+    const Vec3 arm = p - p.dot(axis) * axis;
+    const Standing s = in_die(1.5, {axis.x(), axis.y(), axis.z()}, everywhere_at(p));
+    EXPECT_NEAR(s.gap[0], arm.norm() - 1.5, 1e-14);
+    EXPECT_LT((normal_of(s) + arm.normalized()).norm(), 1e-13);
+  }
+}
+
+ToolSpec punch(std::vector<Vec2> profile) {
+  ToolSpec tool;
+  tool.shape = ToolSpec::Shape::punch;
+  tool.diameter = 2;
+  tool.profile = std::move(profile);
+  return tool;
+}
+
+TEST(SpaceTools, APunchThatFillsItsDieIsFlatBeyondItsRim) {
+  RandomPoints points;
+  const ToolSurface meridian = punch_meridian(punch({}), true);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p = points(1.9);
+    const Standing s = on_punch(meridian, {0, 0, 1}, everywhere_at(p), 10);
+    EXPECT_NEAR(s.gap[0], -p.z(), 1e-14);
+    EXPECT_LT((normal_of(s) - Vec3::UnitZ()).norm(), 1e-13);
+  }
+}
+
+// Outside: the distance of the whole solid cylinder; inside: to the nearer of face and side.
+TEST(SpaceTools, APunchAloneHasASide) {
+  RandomPoints points;
+  const ToolSurface meridian = punch_meridian(punch({}), false);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 p = points(1.9);
+    const double out = std::hypot(p.x(), p.y()) - 1, up = p.z();
+    const double expected = out > 0 && up > 0 ? std::hypot(out, up) : std::max(out, up);
+    EXPECT_NEAR(on_punch(meridian, {0, 0, 1}, everywhere_at(p), 10).gap[0], -expected, 1e-13);
+  }
+}
+
+// A cone with its tip up: the distance to its mantle, or to its tip where that is nearer.
+TEST(SpaceTools, APunchWithAProfile) {
+  RandomPoints points;
+  const double slope = 0.5;
+  const ToolSurface meridian = punch_meridian(punch({Vec2(0, 0), Vec2(1, -slope)}), false);
+  int at_tip = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 p = 0.3 * points(1);
+    const double r = std::hypot(p.x(), p.y()), z = p.z();
+    const double along = (r - slope * z) / std::hypot(1, slope);
+    const double mantle = (z + slope * r) / std::hypot(1, slope);
+    const bool tip = along < 0 && mantle > 0;
+    at_tip += tip ? 1 : 0;
+    EXPECT_NEAR(on_punch(meridian, {0, 0, 1}, everywhere_at(p), 10).gap[0],
+                -(tip ? p.norm() : mantle), 1e-13);
+  }
+  EXPECT_GT(at_tip, 10);
+}
+
+// Two triangles a side, normals outward.
+std::vector<std::array<Vec3, 3>> cube(double half) {
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const auto corner = [&](double a, double b) {
+        Vec3 p;
+        p[axis] = side * half;
+        p[(axis + 1) % 3] = half * (side > 0 ? a : b);
+        p[(axis + 2) % 3] = half * (side > 0 ? b : a);
+        return p;
+      };
+      triangles.push_back({corner(-1, -1), corner(1, -1), corner(1, 1)});
+      triangles.push_back({corner(-1, -1), corner(1, 1), corner(-1, 1)});
+    }
+  return triangles;
+}
+double outside_cube(const Vec3& p, double half) {
+  const Vec3 q = p.cwiseAbs() - Vec3::Constant(half);
+  return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
+}
+
+TEST(SpaceTools, AMeshIsTheSignedDistanceToItsTriangles) {
+  RandomPoints points;
+  const Vec3 origin(0.3, -0.2, 0.1);
+  const TriangleMesh mesh = triangle_mesh(cube(1), origin);
+  ASSERT_EQ(mesh.triangles.size(), 12U);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p = points(1.8), q = p + Vec3::Constant(1e-6);
+    std::vector<std::int32_t> near;
+    const Vec3 from = p - origin;
+    const Point at{from.x(), from.y(), from.z()};
+    triangles_near(mesh, Box{at, at}, 4, near);
+    const Standing s = on_mesh(mesh, near, everywhere_at(from), 4);
+    EXPECT_NEAR(s.gap[0], -outside_cube(p, 1), 1e-12);
+    // The normal is the slope of the distance.
+    const double moved = outside_cube(q, 1) - outside_cube(p, 1);
+    EXPECT_NEAR(normal_of(s).dot(q - p), moved, 1e-9);
+  }
+}
+
+TEST(SpaceTools, TrianglesNearABoxAreAllThatAre) {
+  RandomPoints points;
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 middle = points(10);
+    triangles.push_back({middle, middle + points(1), middle + points(1)});
+  }
+  const TriangleMesh mesh = triangle_mesh(triangles, Vec3::Zero());
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 p = points(10);
+    const Box box{{p.x(), p.y(), p.z()}, {p.x() + 1, p.y() + 2, p.z() + 0.5}};
+    std::vector<std::int32_t> found, expected;
+    triangles_near(mesh, box, 0.7, found);
+    std::ranges::sort(found);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      Box own{mesh.triangles[t].corner[0], mesh.triangles[t].corner[0]};
+      for (const Point& c : mesh.triangles[t].corner) own = joined(own, Box{c, c});
+      if (near(own, box, 0.7)) expected.push_back(static_cast<std::int32_t>(t));
+    }
+    // Triangles come in leaves of up to four, whose common box is looked at.
+    EXPECT_TRUE(std::ranges::includes(found, expected));
+    EXPECT_LE(found.size(), expected.size() + 60);
+  }
+}
+
+// A ball that is pressed on a mesh whose surface is a plane, on a flat punch and on a plane bears the same.
+TEST(SpaceTools, ToolsWithTheSameSurfaceBearTheSame) {
+  constexpr double diameter = 10e-3;
+  const Shape ball = make_shape(sphere_of(diameter));
+  std::vector<double> forces;
+  for (const auto shape : {ToolSpec::Shape::plane, ToolSpec::Shape::punch, ToolSpec::Shape::stl}) {
+    TouchingBodies w({ball}, {body_at(Vec3(0, 0, diameter / 2 - 100e-6))}, [shape](Scene& s) {
+      ToolSpec tool;
+      tool.name = "tool";
+      tool.shape = shape;
+      tool.diameter = 1;
+      for (auto& triangle : cube(0.05)) {
+        for (Vec3& p : triangle) p.z() -= 0.05;
+        tool.triangles.push_back(triangle);
+      }
+      s.space->tools = {tool};
+    });
+    w.update();
+    forces.push_back(w.force_on(0).z());
+    const double* on_tool = w.world.column<ToolForce>().values();
+    EXPECT_NEAR(on_tool[2], -forces.back(), 1e-12 * forces.back());
+  }
+  ASSERT_GT(forces[0], 1e3);
+  EXPECT_NEAR(forces[1], forces[0], 1e-11 * forces[0]);
+  EXPECT_NEAR(forces[2], forces[0], 1e-11 * forces[0]);
+}
+
+// Forces of a ball in a die are the slope of its energy.
+TEST(SpaceTools, ForcesInADieAreTheSlopeOfTheEnergy) {
+  constexpr double diameter = 10e-3, h = 1e-8;
+  TouchingBodies w({make_shape(sphere_of(diameter))}, {body_at(Vec3(2.15e-3, 0.4e-3, 0))},
+                   [](Scene& s) {
+                     ToolSpec die;
+                     die.name = "die";
+                     die.shape = ToolSpec::Shape::die;
+                     die.diameter = 14e-3;
+                     s.space->tools = {die};
+                   });
+  w.update();
+  const Vec3 force = w.force_on(0);
+  ASSERT_GT(force.norm(), 100);
+  for (int k = 0; k < 3; ++k) {
+    const auto energy_at = [&](double shift) {
+      w.move(0, [&](const Vec3& x) { return Vec3(x + shift * Vec3::Unit(k)); });
+      w.update();
+      return w.energy();
+    };
+    const double above = energy_at(h), below = energy_at(-2 * h);
+    energy_at(h);
+    EXPECT_NEAR(-(above - below) / (2 * h), force[k], 1e-5 * force.norm());
+  }
+}
+
+}  // namespace
+}  // namespace pulvis::space
