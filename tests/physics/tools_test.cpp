@@ -6,6 +6,7 @@
 
 #include "components/body.hpp"
 #include "components/surface.hpp"
+#include "scenes/tools/die_cell.hpp"
 #include "tests/helpers/experiment.hpp"
 #include "tests/helpers/paths.hpp"
 
