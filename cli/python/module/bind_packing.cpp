@@ -27,6 +27,10 @@ void require_particles(const LoadedScene& loaded) {
   if (loaded.scene.afm)
     throw SceneError({{loaded.scene.file.string(), 1, 1, "", "family",
                        "an AFM scene has no particles, allowed: a scene of particles"}});
+  if (loaded.scene.space)
+    throw SceneError({{loaded.scene.file.string(), 1, 1, "", "dimension",
+                       "is 3, allowed: 2; packings in three dimensions come from `pulvis pack`, "
+                       "meshes from `sim.mesh`"}});
 }
 
 // m, rad, names: every particle in the order of its number.

@@ -81,6 +81,10 @@ py::dict mesh_of_run(PythonRun& run) {
   py::dict all;
   all["quads"] = py::array_t<std::int32_t>(
       {static_cast<py::ssize_t>(mesh.quads.size() / 4), py::ssize_t{4}}, mesh.quads.data());
+  if (mesh.dimension() == 3)
+    all["hexahedra"] = py::array_t<std::int32_t>(
+        {static_cast<py::ssize_t>(mesh.hexahedra.size() / 8), py::ssize_t{8}},
+        mesh.hexahedra.data());
   all["cell_particle"] = py::array_t<std::int32_t>(
       static_cast<py::ssize_t>(mesh.cell_particle.size()), mesh.cell_particle.data());
   all["node_particle"] = py::array_t<std::int32_t>(
@@ -102,9 +106,9 @@ void bind_course(RunClass& run) {
       .def("on_frame", &PythonRun::on_frame)
       .def("every", &PythonRun::every)
       .def("on_tick", &PythonRun::on_tick)
-      .def("drive_tool", [](PythonRun& r, const std::string& name, double x, double y) {
+      .def("drive_tool", [](PythonRun& r, const std::string& name, const Point3& velocity) {
         Session& session = r.session_between_steps("the drive of a tool");
-        drive_tool(session.simulation(), name, {x, y});
+        drive_tool(session.simulation(), name, velocity);
         session.drive("tool " + name);
       });
 }
@@ -137,6 +141,8 @@ void bind_state(RunClass& run) {
       .def_property_readonly("samples", &rows_of)
       .def_property_readonly("verdicts", &verdicts_of)
       .def_property_readonly("mesh", &mesh_of_run)
+      .def_property_readonly("dimension",
+                             [](PythonRun& r) { return r.session().loaded().scene.space ? 3 : 2; })
       .def_property_readonly("driven", [](PythonRun& r) { return r.session().driven(); })
       .def_property_readonly("elements",
                              [](PythonRun& r) { return r.session().results().elements(); })

@@ -29,8 +29,8 @@ void require_free(const World& world, int tool, const std::string& name) {
           world.resource<ToolProgram>().stages.at(static_cast<std::size_t>(servo.stage)).name));
 }
 
-void require_seen(const World& world, const std::string& name, const Point& velocity) {
-  const double speed = std::hypot(velocity[0], velocity[1]);
+void require_seen(const World& world, const std::string& name, const Point3& velocity) {
+  const double speed = std::hypot(velocity[0], velocity[1], velocity[2]);
   if (!std::isfinite(speed)) throw NotNow(fmt::format("tool {}: the velocity is not finite", name));
   if (!world.has<ContactRules>()) return;
   const double fastest =
@@ -81,7 +81,7 @@ std::vector<std::string> tool_names(Simulation& simulation) {
                                   : std::vector<std::string>();
 }
 
-void drive_tool(Simulation& simulation, const std::string& name, const Point& velocity) {
+void drive_tool(Simulation& simulation, const std::string& name, const Point3& velocity) {
   World& world = simulation.world();
   const int tool = index_of(simulation, name);
   require_free(world, tool, name);
@@ -95,18 +95,20 @@ void drive_tool(Simulation& simulation, const std::string& name, const Point& ve
   program.start[static_cast<std::size_t>(tool)] = before;
   // Within a step nobody asks but for its two ends.
   if (clock.dt_before > 0)
-    program.segments.push_back({.tool = tool,
-                                .begin = clock.time - clock.dt_before,
-                                .duration = clock.dt_before,
-                                .displacement = {now[0] - before[0], now[1] - before[1], 0},
-                                .stage = no_stage});
+    program.segments.push_back(
+        {.tool = tool,
+         .begin = clock.time - clock.dt_before,
+         .duration = clock.dt_before,
+         .displacement = {now[0] - before[0], now[1] - before[1], now[2] - before[2]},
+         .stage = no_stage});
   // Beyond the end: the last steps are longer than the time that is left.
   const double duration = 2 * (clock.end - clock.time);
-  program.segments.push_back({.tool = tool,
-                              .begin = clock.time,
-                              .duration = duration,
-                              .displacement = {velocity[0] * duration, velocity[1] * duration, 0},
-                              .stage = no_stage});
+  program.segments.push_back(
+      {.tool = tool,
+       .begin = clock.time,
+       .duration = duration,
+       .displacement = {velocity[0] * duration, velocity[1] * duration, velocity[2] * duration},
+       .stage = no_stage});
 }
 
 std::vector<std::string> servo_names(Simulation& simulation) {
@@ -123,9 +125,7 @@ ServoView servo_view(Simulation& simulation, const std::string& name) {
   const ToolServos::Servo& servo = require_servo(simulation, name);
   const auto stage = world.resource<ToolProgram>().stage_at(simulation.clock().time);
   const bool holds = static_cast<std::size_t>(servo.stage) == stage;
-  return {world.column<ServoForce>().values()[2 * servo.tool],
-          {servo.direction[0], servo.direction[1]},
-          holds};
+  return {world.column<ServoForce>().values()[2 * servo.tool], servo.direction, holds};
 }
 
 void drive_servo(Simulation& simulation, const std::string& name, double force) {

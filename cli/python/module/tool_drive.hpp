@@ -13,13 +13,13 @@ namespace pulvis::python {
 std::vector<std::string> tool_names(Simulation& simulation);
 // Between two steps. The tool's programme of motion is replaced from t_n on; where it stood, and how fast it came there,
 // stays. Throws NotNow for a tool that holds a force or gives, and for a velocity beyond what a step can see.
-void drive_tool(Simulation& simulation, const std::string& name, const Point& velocity);
+void drive_tool(Simulation& simulation, const std::string& name, const Point3& velocity);
 
 // Tools that hold a force in some stage.
 std::vector<std::string> servo_names(Simulation& simulation);
 struct ServoView {
   double asked = 0;    // N, when it held last: series force_asked
-  Point direction{};   // in which it pushes: of the present stage, else of its first one
+  Point3 direction{};  // in which it pushes: of the present stage, else of its first one
   bool holds = false;  // in the present stage
 };
 ServoView servo_view(Simulation& simulation, const std::string& name);

@@ -235,36 +235,39 @@ class Simulation:
 
 
 class Tool:
-    """A tool of a simulation. Arrays have x and y."""
+    """A tool of a simulation. Arrays have as many components as its scene has dimensions."""
 
     def __init__(self, run: _core.Run, name: str, row: int) -> None:
         self._run, self.name, self._row = run, name, row
 
     @property
     def position(self) -> np.ndarray:
-        """A point of its surface, m [2]."""
-        return self._run.column_rows("tool.position")[self._row]
+        """A point of its surface, m [dimension]."""
+        return self._run.column_rows("tool.position")[self._row][:self._run.dimension]
 
     @property
     def velocity(self) -> np.ndarray:
-        """Mean over the last step, m/s [2]."""
-        return self._run.column_rows("tool.velocity")[self._row]
+        """Mean over the last step, m/s [dimension]."""
+        return self._run.column_rows("tool.velocity")[self._row][:self._run.dimension]
 
     @property
     def force(self) -> np.ndarray:
-        """Of the particles on the tool, N [2]."""
-        return self._run.column_rows("tool.force")[self._row]
+        """Of the particles on the tool, N [dimension]."""
+        return self._run.column_rows("tool.force")[self._row][:self._run.dimension]
 
     def drive(self, velocity: Any) -> None:
-        """From now on the tool moves with `velocity`: (x, y) in m/s, or strings with units.
+        """From now on the tool moves with `velocity`: (x, y), or (x, y, z) in three dimensions, in m/s, or
+        strings with units.
 
         It replaces what the scene's stages say of this tool, until the run ends or it is driven anew; other tools go
         on as they do. Checkpoints keep the drive, and `pulvis.resume` goes on with it; the program's ``resume``
         refuses a driven run, since nobody drives it there. Allowed between two steps; of tools with a servo the force
         is driven: `Simulation.servos`.
         """
-        x, y = (_core.quantity(v, "m/s") if isinstance(v, str) else float(v) for v in velocity)
-        self._run.drive_tool(self.name, x, y)
+        parts = [_core.quantity(v, "m/s") if isinstance(v, str) else float(v) for v in velocity]
+        if len(parts) != self._run.dimension:
+            raise ValueError(f"velocity: {len(parts)} components are given, allowed: {self._run.dimension}")
+        self._run.drive_tool(self.name, parts + [0.0] * (3 - len(parts)))
 
     def __repr__(self) -> str:
         return f"<pulvis.Tool {self.name!r} at {tuple(self.position)} m>"
@@ -283,8 +286,8 @@ class Servo:
 
     @property
     def direction(self) -> np.ndarray:
-        """Unit vector in which it pushes, - [2]."""
-        return np.asarray(self._run.servo(self.tool)[1])
+        """Unit vector in which it pushes, - [dimension]."""
+        return np.asarray(self._run.servo(self.tool)[1])[:self._run.dimension]
 
     @property
     def holds(self) -> bool:
@@ -295,7 +298,7 @@ class Servo:
     def bears(self) -> float:
         """Force in N that the tool bears against its direction."""
         row = self._run.tools.index(self.tool)
-        return -float(self._run.column_rows("tool.force")[row][:2] @ self.direction)
+        return -float(self._run.column_rows("tool.force")[row][:self._run.dimension] @ self.direction)
 
     def drive(self, force: Any) -> None:
         """From now on it asks for `force`, in N or a string with unit, at once and without a ramp.

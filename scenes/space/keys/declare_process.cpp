@@ -183,6 +183,14 @@ const TableDeclaration<UntilSpec>& until() {
   return declaration;
 }
 
+// Coulomb's coefficient alone.
+const TableDeclaration<FrictionSpec>& friction() {
+  static const TableDeclaration<FrictionSpec> declaration =
+      without(schema::friction(),
+              {"static_coefficient", "decay_length", "shear_strength", "rate", "reference_speed"});
+  return declaration;
+}
+
 const TableDeclaration<ContactSpec>& contact() {
   static const TableDeclaration<ContactSpec> declaration = [] {
     TableDeclaration<ContactSpec> table = schema::contact();

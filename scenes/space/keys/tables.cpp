@@ -29,7 +29,7 @@ const schema::Language& scene_language() {
                                        view_of(move()),
                                        view_of(servo()),
                                        view_of(until()),
-                                       view_of(schema::friction()),
+                                       view_of(friction()),
                                        view_of(contact()),
                                        view_of(element()),
                                        view_of(time()),
