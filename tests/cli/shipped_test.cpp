@@ -31,7 +31,7 @@ constexpr double share_of_a_large_one = 0.004;
 // Grains have small elements and short steps: of a powder of them only the first cracks are waited for.
 constexpr double most_updates_with_bonds = 8e8;  // of elements
 // Hexahedra cost ten times as much as quads: of a powder of them only the first contacts are made.
-constexpr double most_updates_in_space = 1.5e8;
+constexpr double most_updates_in_space = 4e7;
 
 double share_of(Experiment& e) {
   if (e.results.elements() > max_elements) return share_of_a_large_one;

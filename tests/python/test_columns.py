@@ -54,7 +54,7 @@ def test_columns_say_what_they_are(cell):
     assert infos["node.position"].unit == "m" and infos["node.position"].numbers == 2
     assert infos["node.velocity"].writable and not infos["node.position"].writable
     assert sim.column("velocity").name == "node.velocity"
-    assert sim.column("tool.velocity").rows.shape == (4, 2)
+    assert sim.column("tool.velocity").rows.shape == (4, 3)  # tools live in space
     with pytest.raises(KeyError, match="did you mean 'node.velocity'"):
         sim.column("node.velocty")
 
