@@ -62,6 +62,8 @@ def kinds_of(setup):
     for name in ("moves", "servos", "until", "cell"):
         if any(stage.get(name) for stage in setup["stages"]):
             kinds.add(f"stage with {name}")
+    if setup.get("dimension") == 3:
+        return {f"space {kind}" for kind in kinds}
     if len(setup["particles"]) > setup["count"]:
         kinds.add("grains")
     if setup["bonds"]["edges"]:
@@ -79,7 +81,8 @@ MUST_COVER = {"lever beam", "lever v", "lever mesh", "tip none", "tip block", "t
               "surface map", "surface bump", "surface calibration", "action press", "action retract", "action scan",
               "action raster", "tool plane", "tool polyline", "tool constraint", "stage compact", "stage eject",
               "stage shear", "stage hold", "stage with moves", "stage with servos", "stage with cell",
-              "grains", "bonds", "classes", "velocity", "cell", "die"}
+              "grains", "bonds", "classes", "velocity", "cell", "die",
+              "space tool plane", "space tool die", "space stage eject", "space stage with moves"}
 
 
 def drawn_count(svg):
