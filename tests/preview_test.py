@@ -82,7 +82,7 @@ MUST_COVER = {"lever beam", "lever v", "lever mesh", "tip none", "tip block", "t
               "action raster", "tool plane", "tool polyline", "tool constraint", "stage compact", "stage eject",
               "stage shear", "stage hold", "stage with moves", "stage with servos", "stage with cell",
               "grains", "bonds", "classes", "velocity", "cell", "die",
-              "space tool plane", "space tool die", "space stage eject", "space stage with moves"}
+              "space tool plane", "space stage with moves"}
 
 
 def drawn_count(svg):
@@ -141,10 +141,13 @@ class PreviewTest(unittest.TestCase):
         count = int(re.search(r": good: (\d+) particle", told)[1])
         self.assertEqual(setup["count"], count)
         self.assertEqual(sum(one["count"] for one in setup["classes"]), count)
-        self.assertEqual(len({one["particle"] for one in setup["particles"]}), count)
-        self.assertEqual(drawn_count(svg), len(setup["particles"]))
         for tool in setup["tools"]:
             self.assertIn(tool["name"], written)
+        if setup.get("dimension") == 3:  # drawn by faces
+            self.assertEqual(len(setup["particles"]), count)
+            return
+        self.assertEqual(len({one["particle"] for one in setup["particles"]}), count)
+        self.assertEqual(drawn_count(svg), len(setup["particles"]))
         if setup["die"]:
             left, right = setup["die"]["x"]
             self.assertIn(words.quantity(right - left, "m"), written)
