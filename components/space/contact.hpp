@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "components/contact.hpp"
@@ -56,12 +57,12 @@ struct ContactLaw : Component<At, double, 4> {
     inv_size    // 1/m, 1/size of the sampled face
   };
 };
-// Each half of a candidate's points rests by itself: faces touch with a few of their points as a rule.
+// What rests by itself: a point against another particle, of which a few touch as a rule; a half of the points against a
+// tool.
 template <class At>
-struct Activation : Component<At, double, 2> {
+struct Activation : Component<At, double, std::is_same_v<At, FaceContact> ? face_points : 2> {
   static constexpr ComponentInfo info{
-      "activation", "m",
-      "travel of the surfaces from which on a half of the points is active again"};
+      "activation", "m", "travel of the surfaces from which on what rests is active again"};
 };
 template <class At>
 struct PointForce : Component<At, double, 3 * face_points> {
@@ -79,10 +80,40 @@ struct ElasticSlip : Component<At, double, 3 * face_points> {
   static constexpr ComponentInfo info{"elastic_slip", "m",
                                       "stretch of the tangential springs, x of all, y, z: history"};
 };
-// Moment that keeps friction across a small gap from spinning the pair (systems/space/contact/contact_law.hpp).
-struct FrictionCouple : Component<FaceContact, double, 6 * face_points> {
-  static constexpr ComponentInfo info{"friction_couple", "N",
-                                      "on the slopes of the other surface: x y z along u, along v"};
+// ---- pairs of particles ------------------------------------------------------------------------------
+// The rows of one particle against one other. Made with the rows, which stand in this order: (particle, other, face).
+struct FacePairs {
+  static constexpr const char* resource_name = "face_pairs";
+  std::vector<std::int32_t> begin{0};     // [pairs + 1] into rows
+  std::vector<std::int32_t> other_begin;  // [slots + 1] into of_other
+  std::vector<std::int32_t> of_other;     // pairs that have a particle as the other one
+
+  int count() const { return static_cast<int>(begin.size()) - 1; }
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(begin, other_begin, of_other);
+  }
+};
+
+// What the points of each pair do to the other particle's faces: made anew in every step.
+struct OtherLoads {
+  static constexpr const char* resource_name = "other_loads";
+  struct alignas(64) Load {
+    std::array<double, face_numbers> force{};  // N, on the face's Bezier points: all x, y, z
+  };
+  struct Pair {
+    std::vector<std::int32_t> face;
+    std::vector<Load> load;  // [face]
+
+    void clear() {
+      face.clear();
+      load.clear();
+    }
+  };
+  std::vector<Pair> pairs;
+
+  template <class Bytes>
+  void state(Bytes&) {}
 };
 
 // ---- tools that are no planes -----------------------------------------------------------------------

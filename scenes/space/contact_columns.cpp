@@ -116,7 +116,8 @@ void add_rows(World& world, const Touching& touching) {
 void add_pairs(World& world, const Touching& touching) {
   add_rows<FaceContact>(world, touching);
   world.add<ClosestPoint>();
-  if (touching.friction) world.add<FrictionCouple>();
+  world.emplace<FacePairs>();
+  world.emplace<OtherLoads>();
   world.emplace<ContactSums<Contact>>();
 }
 

@@ -34,10 +34,10 @@ std::uint64_t bytes_of_element(bool plastic) {
 
 std::uint64_t bytes_of_row(bool friction) {
   using At = FaceContact;
-  std::uint64_t bytes = size_of_columns<ContactPair<At>, ContactTouches<At>, ActivationTravel<At>,
+  std::uint64_t bytes = size_of_columns<ContactPair<At>, ContactTouches<At>, Activation<At>,
                                         ContactLaw<At>, PointForce<At>, ClosestPoint>();
-  if (friction) bytes += size_of_columns<ElasticSlip<At>, FrictionCouple>();
-  return bytes;
+  if (friction) bytes += size_of_columns<ElasticSlip<At>>();
+  return bytes + sizeof(OtherLoads::Load);
 }
 
 bool any_friction_in(const Scene& scene) {

@@ -1,23 +1,20 @@
 // Assembly: from the forces of contact points to those of Bezier points, and from there to surface nodes.
 //
-// Law      Bezier point p of the sampled face takes N_p(u_g, v_g) f_g, that of the other body -N_p(u*, v*) f_g at the
-//          closest point, and where friction acts across a gap minus its slopes times the couples; nodes take the transpose
-//          of points = terms * nodes
+// Law      Bezier point p of the sampled face takes N_p(u_g, v_g) f_g; what that of the other body takes is in
+//          other_loads.hpp; nodes take the transpose of points = terms * nodes
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
 #include "components/space/contact.hpp"
 #include "engine/lane_memory.hpp"
+#include "systems/space/contact/face_load.hpp"
 #include "systems/space/contact/gauss_points.hpp"
-#include "systems/space/contact/patch_kernel.hpp"
 
 namespace pulvis::space {
-
-// A number of all sixteen Bezier points of a face, in their order.
-using OfPatch = std::array<Lane, 2>;
 
 // Of the Gauss points: [Gauss point][Bezier point].
 inline constexpr auto basis_by_point = [] {
@@ -26,13 +23,6 @@ inline constexpr auto basis_by_point = [] {
     for (std::size_t p = 0; p < 16; ++p) n[g][p] = basis_at_points[g / 8][p][g % 8];
   return n;
 }();
-
-// b_i(u) c_j(v)
-[[gnu::always_inline]] inline OfPatch outer(const std::array<double, 4>& b,
-                                            const std::array<double, 4>& c) {
-  const Lane along_u = load_halves(b.data(), b.data());
-  return {along_u * halves(c[0], c[1]), along_u * halves(c[2], c[3])};
-}
 
 // The faces that bear a force on some particle of the chunk. The others are passed over: their forces are zero, since
 // to_nodes clears what it has read and nobody else writes them.
@@ -49,65 +39,35 @@ struct FaceForces {
   }
 };
 
-// Forces of sixteen points (all x, y, z) on the face that they sample.
-inline void add_sampled(const double* force, double* face) {
-  for (int k = 0; k < 3; ++k) {
-    Lane low = Lane::load(face + 16 * k), high = Lane::load(face + 16 * k + lane_count);
-    for (int g = 0; g < face_points; ++g) {
-      const double* n = entry(basis_by_point, g).data();
-      const Lane f(force[face_points * k + g]);
-      low = fma(f, Lane::load(n), low);
-      high = fma(f, Lane::load(n + lane_count), high);
-    }
-    low.store(face + 16 * k);
-    high.store(face + 16 * k + lane_count);
+// Bit g: point g bears a force.
+inline unsigned bearing_points(const double* force) {
+  unsigned bits = 0;
+  for (int half = 0; half < 2; ++half) {
+    const Lane x = Lane::load(force + lane_count * half),
+               y = Lane::load(force + face_points + lane_count * half),
+               z = Lane::load(force + 2 * face_points + lane_count * half);
+    bits |= (~((x == 0.0) & (y == 0.0) & (z == 0.0))).bits() << (lane_count * half);
   }
+  return bits;
 }
 
-// What a face bears, in registers while one closest point after the other stands on it.
-struct FaceLoad {
-  double* at = nullptr;
-  std::array<OfPatch, 3> sum;
-
-  void move_to(double* face) {
-    if (face == at) return;
-    put_back();
-    at = face;
-    for (int k = 0; k < 3; ++k)
-      entry(sum, k) = {Lane::load(face + 16 * k), Lane::load(face + 16 * k + lane_count)};
-  }
-  void put_back() const {
-    if (at == nullptr) return;
-    for (int k = 0; k < 3; ++k)
-      for (int half = 0; half < 2; ++half)
-        entry(entry(sum, k), half).store(at + 16 * k + lane_count * half);
-  }
-  // Shares of Bezier points times a vector, that of point g in a list (all x, y, z).
-  [[gnu::always_inline]] void subtract(const OfPatch& share, const double* list, int g) {
-    for (int k = 0; k < 3; ++k) {
-      const Lane f(-list[face_points * k + g]);
-      OfPatch& of = entry(sum, k);
-      of = {fma(share[0], f, of[0]), fma(share[1], f, of[1])};
-    }
-  }
-};
-
-// The opposite forces on the other body. `couple`: null without friction.
-[[gnu::always_inline]] inline void add_other(const double* closest, const double* force,
-                                             const double* couple, const FaceForces& other) {
+// Forces of sixteen points (all x, y, z) on the face that they sample. A few of them bear one as a rule.
+inline void add_sampled(const double* force, double* face) {
   FaceLoad load;
-  for (int g = 0; g < face_points; ++g) {
-    if (force[g] == 0 && force[face_points + g] == 0 && force[2 * face_points + g] == 0) continue;
-    const int face = static_cast<int>(closest[g]);
-    const double u = closest[g] - face, v = closest[face_points + g];
-    const auto bu = kernels::bernstein(u), bv = kernels::bernstein(v);
-    load.move_to(other.on(face));
-    load.subtract(outer(bu, bv), force, g);
-    if (couple == nullptr) continue;
-    load.subtract(outer(kernels::bernstein_slope(u), bv), couple, g);
-    load.subtract(outer(bu, kernels::bernstein_slope(v)), couple + 3 * face_points, g);
+  load.fetch(face);
+  for (unsigned left = bearing_points(force); left != 0; left &= left - 1) {
+    const int g = std::countr_zero(left);
+    const double* n = entry(basis_by_point, g).data();
+    load.add({Lane::load(n), Lane::load(n + lane_count)},
+             {force[g], force[face_points + g], force[2 * face_points + g]});
   }
-  load.put_back();
+  load.store(face);
+}
+
+// Adds what a pair does to a face of its other particle.
+inline void add_load(const OtherLoads::Load& load, double* face) {
+  for (int i = 0; i < face_numbers; i += lane_count)
+    (Lane::load(face + i) + Lane::load(load.force.data() + i)).store(face + i);
 }
 
 // From the faces of eight particles, `apart` numbers a particle, to the Bezier points that they share; marks these.

@@ -1,8 +1,8 @@
 // bin_faces, bin_tool_faces: broad phase in three dimensions: make the contact rows anew when the surfaces have moved
 // through the skin.
 //
-// History (closest points, friction springs) is carried by the key (particle, face, other): rows are sorted by it, so that
-// old and new rows of a particle are merged in one pass.
+// History (closest points, friction springs) is carried by the key (particle, other, face) or (particle, face, tool): rows
+// are sorted by it, so that old and new rows of a particle are merged in one pass.
 // Runs     after skin_check, which says when; a sync point (rows change)
 #include <oneapi/tbb/parallel_for.h>
 
@@ -18,10 +18,16 @@ namespace {
 
 struct FaceKey {
   std::int32_t slot, face, other;
-  auto operator<=>(const FaceKey&) const = default;
 };
 FaceKey key_of(const FaceCandidate& c) { return {c.slot, c.face, c.other}; }
 FaceKey key_of(const ToolCandidate& c) { return {c.slot, c.face, c.tool}; }
+
+// As rows are sorted.
+template <class At>
+std::array<std::int32_t, 3> order_of(const FaceKey& key) {
+  if constexpr (std::is_same_v<At, FaceContact>) return {key.slot, key.other, key.face};
+  return {key.slot, key.face, key.other};
+}
 
 // For every new row the old one with the same key, or -1. Old rows of a slot: `before_begin`, as they were made; empty
 // when none were.
@@ -31,31 +37,40 @@ std::vector<std::int32_t> rows_before(const std::vector<std::int32_t>& before_be
                                       const BySlot<Candidate>& now) {
   std::vector<std::int32_t> source(now.all.size(), -1);
   if (before_begin.empty()) return source;
-  const auto old_key = [&](std::int32_t row) {
-    return FaceKey{pair(Row<At>(row), 0), pair(Row<At>(row), 1), pair(Row<At>(row), 2)};
+  const auto old_order = [&](std::int32_t row) {
+    return order_of<At>({pair(Row<At>(row), 0), pair(Row<At>(row), 1), pair(Row<At>(row), 2)});
   };
   for_slots(static_cast<int>(now.begin.size()) - 1, [&](int slot) {
     std::int32_t b = entry(before_begin, slot);
     const std::int32_t end = entry(before_begin, slot + 1);
     for (auto n = entry(now.begin, slot); n < entry(now.begin, slot + 1); ++n) {
-      const FaceKey key = key_of(entry(now.all, n));
-      while (b < end && old_key(b) < key) ++b;
-      if (b < end && old_key(b) == key) entry(source, n) = b;
+      const auto order = order_of<At>(key_of(entry(now.all, n)));
+      while (b < end && old_order(b) < order) ++b;
+      if (b < end && old_order(b) == order) entry(source, n) = b;
     }
   });
   return source;
 }
 
-// The rows of each slot as the other body.
-void list_rows_of_others(const BySlot<FaceCandidate>& rows, ContactIndex& index) {
-  std::vector<std::int32_t>& begin = index.other_begin;
+void list_pairs(const BySlot<FaceCandidate>& rows, FacePairs& pairs) {
+  std::vector<std::int32_t> other;  // [pairs]
+  pairs.begin.assign(1, 0);
+  for (std::size_t r = 0; r < rows.all.size(); ++r) {
+    const FaceCandidate& c = rows.all[r];
+    if (r == 0 || rows.all[r - 1].slot != c.slot || rows.all[r - 1].other != c.other) {
+      other.push_back(c.other);
+      pairs.begin.push_back(0);
+    }
+    pairs.begin.back() = static_cast<std::int32_t>(r) + 1;
+  }
+  std::vector<std::int32_t>& begin = pairs.other_begin;
   begin.assign(rows.begin.size(), 0);
-  for (const FaceCandidate& c : rows.all) entry(begin, c.other + 1) += 1;
+  for (const std::int32_t slot : other) entry(begin, slot + 1) += 1;
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<std::int32_t> next = begin;
-  index.other_rows.resize(rows.all.size());
-  for (std::size_t r = 0; r < rows.all.size(); ++r)
-    entry(index.other_rows, entry(next, rows.all[r].other)++) = static_cast<std::int32_t>(r);
+  pairs.of_other.resize(other.size());
+  for (std::size_t p = 0; p < other.size(); ++p)
+    entry(pairs.of_other, entry(next, other[p])++) = static_cast<std::int32_t>(p);
 }
 
 // kappa = k K A/V of the sampled face in series with the other surface's mean, like two springs: a sphere on its mirror
@@ -81,7 +96,7 @@ void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double ka
   // c = 2 xi sqrt(kappa rho h): the mass per area of the element behind on the contact spring.
   rows.law(row, Law::damping) = 2 * share_of_critical * std::sqrt(kappa * rho / face.stiffness);
   rows.law(row, Law::inv_size) = 1 / face.size;
-  rows.activation(row, 0) = rows.activation(row, 1) = 0;
+  for (int i = 0; i < Activation<At>::count; ++i) rows.activation(row, i) = 0;
 }
 
 void start_from(int face, Row<FaceContact> row, const Write<ClosestPoint>& closest) {
@@ -114,7 +129,7 @@ void bin_faces::operator()() const {
             rules.damping, rows);
     if (source[r] < 0) start_from(found.all[r].start, row, closest);
   });
-  list_rows_of_others(found, *index);
+  list_pairs(found, *pairs);
   index->sampled_begin = std::move(found.begin);
   index->neighbour_begin = std::move(neighbours.begin);
   index->neighbours = std::move(neighbours.all);

@@ -82,8 +82,8 @@ struct FaceSearch {
     const std::vector<NearParticle> others = others_of(slot);
     if (others.empty()) return;
     const std::span<const Box> own = boxes.face.of(slot);
-    for (std::int32_t f = 0; f < static_cast<std::int32_t>(own.size()); ++f)
-      for (const NearParticle& other : others) {
+    for (const NearParticle& other : others)
+      for (std::int32_t f = 0; f < static_cast<std::int32_t>(own.size()); ++f) {
         const std::int32_t start = nearest_face(entry(own, f), other);
         if (start >= 0) found.push_back({slot, f, other.slot, start});
       }

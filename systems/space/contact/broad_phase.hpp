@@ -27,7 +27,7 @@ SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> f
 BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
                                          double distance);
 
-// All candidates within `skin`, sorted by (slot, face, other). `neighbours`: within `skin` or more.
+// All candidates within `skin`, sorted by (slot, other, face). `neighbours`: within `skin` or more.
 BySlot<FaceCandidate> face_candidates(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
                                       const BySlot<std::int32_t>& neighbours, double skin);
 

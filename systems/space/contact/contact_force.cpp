@@ -3,40 +3,24 @@
 //
 // Source   systems/space/contact/assembly.hpp
 // Runs     after the narrow phase, before integrate
-// Order    a particle sums its own candidates in their order: the same bits for any number of threads
+// Order    a particle sums its own candidates in their order, then its pairs as other body: the same bits for any number of threads
 #include "engine/chunk_lane.hpp"
-#include "engine/prefetch.hpp"
 #include "systems/space/contact/assembly.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
 namespace {
 
-// The candidates that touch are some among many and stand anywhere in a large powder: their lines are asked for before
-// they are needed.
-void fetch_other(const contact_force::Pairs& pairs, const std::vector<std::int32_t>& rows, int k) {
-  constexpr int rows_ahead = 6;
-  const int last = static_cast<int>(rows.size()) - 1;
-  if (k + 2 * rows_ahead <= last)
-    prefetch(&pairs.rows.touches(Row<FaceContact>(entry(rows, k + 2 * rows_ahead))));
-  if (k + rows_ahead > last) return;
-  const Row<FaceContact> row(entry(rows, k + rows_ahead));
-  if (pairs.rows.touches(row) == 0) return;
-  for (int line = 0; line < 6; ++line) prefetch(&pairs.rows.force(row, lane_count * line));
-  for (int line = 0; line < 4; ++line) prefetch(&pairs.closest(row, lane_count * line));
-}
-
 void add_pairs(const contact_force::Pairs& pairs, const ContactIndex& index, int slot,
                const FaceForces& own) {
   for (const Row<FaceContact> row : RowRange<FaceContact>::of(index.sampled_begin, slot))
     if (pairs.rows.touches(row) != 0)
       add_sampled(&pairs.rows.force(row), own.on(pairs.rows.pair(row, 1)));
-  for (int k = entry(index.other_begin, slot); k < entry(index.other_begin, slot + 1); ++k) {
-    fetch_other(pairs, index.other_rows, k);
-    const Row<FaceContact> row(entry(index.other_rows, k));
-    if (pairs.rows.touches(row) != 0)
-      add_other(&pairs.closest(row), &pairs.rows.force(row),
-                pairs.couple ? &(*pairs.couple)(row) : nullptr, own);
+  const FacePairs& of = *pairs.of;
+  for (int k = entry(of.other_begin, slot); k < entry(of.other_begin, slot + 1); ++k) {
+    const OtherLoads::Pair& loads = entry(pairs.loads->pairs, entry(of.of_other, k));
+    for (std::size_t i = 0; i < loads.face.size(); ++i)
+      add_load(loads.load[i], own.on(loads.face[i]));
   }
 }
 

@@ -1,5 +1,4 @@
-// Contact law: what eight points of a candidate bear, and what its columns keep of it. Alike for pairs of particles and for
-// tools.
+// Contact law: what eight points bear. Alike for pairs of particles and for tools.
 //
 // Laws     systems/laws/normal_contact.hpp (pressure, damping), systems/laws/friction.hpp
 // Slip     of the sampled point x_s against the material point x_m of the other surface, a gap g apart along its normal n:
@@ -41,8 +40,8 @@ struct PointMotion {
   VectorLanes spin{};  // rad/s, of the other surface
 };
 struct PointLaw {
-  Lane weight;                                // m^2, undeformed area that a point stands for
-  double kappa, friction, damping, inv_size;  // of the pass
+  Lane kappa, friction, damping, inv_size;  // of the pass
+  Lane weight;                              // m^2, undeformed area that a point stands for
 };
 struct PointForces {
   VectorLanes force;     // N, on the sampled face
@@ -63,8 +62,8 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
 
 [[gnu::always_inline]] inline PointForces normal_forces(const PointLaw& law, const PointMotion& m,
                                                         double dt, Lane& pressure) {
-  const auto normal = pulvis::kernels::normal_traction(m.gap, m.gap_rate, Lane(law.kappa),
-                                                       Lane(law.damping), Lane(law.inv_size));
+  const auto normal =
+      pulvis::kernels::normal_traction(m.gap, m.gap_rate, law.kappa, law.damping, law.inv_size);
   pressure = normal.pressure;
   PointForces f{};
   f.energy = normal.spring_energy * law.weight;
@@ -75,10 +74,9 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
 
 inline void add_friction(const PointLaw& law, const PointMotion& m, double dt, const Lane& pressure,
                          const VectorLanes& before, PointForces& f) {
-  pulvis::kernels::Coulomb<Lane> coulomb{Lane(law.friction)};
-  const auto friction =
-      pulvis::kernels::friction_return_in_plane(turned(before, m, dt), Lane(dt) * m.slip, pressure,
-                                                coulomb, Lane(law.kappa), Lane(1 / law.kappa));
+  pulvis::kernels::Coulomb<Lane> coulomb{law.friction};
+  const auto friction = pulvis::kernels::friction_return_in_plane(
+      turned(before, m, dt), Lane(dt) * m.slip, pressure, coulomb, law.kappa, 1.0 / law.kappa);
   f.elastic_slip = friction.elastic_slip;
   f.friction = law.weight * friction.traction;
   f.force = f.force + f.friction;
@@ -87,15 +85,7 @@ inline void add_friction(const PointLaw& law, const PointMotion& m, double dt, c
                  f.energy);
 }
 
-// ---- from and to the columns --------------------------------------------------------------------------
-// Nothing of what a half's columns hold acts.
-template <class At>
-void clear_half(const RowColumns<At>& c, Row<At> row, int half) {
-  const VectorLanes none{Lane{}, Lane{}, Lane{}};
-  store_half(none, &c.force(row), half);
-  if (c.slip) store_half(none, &(*c.slip)(row), half);
-}
-
+// ---- books ----------------------------------------------------------------------------------------------
 // The sums of a block while it is looked at.
 struct FaceSums {
   Lane energy{}, friction_work{}, damping_work{};
@@ -133,49 +123,5 @@ struct FaceSums {
     return sums;
   }
 };
-
-// How the halves of a candidate stand that touch (bit 0, bit 1); the others are apart.
-struct RowMotion {
-  std::array<PointMotion, 2> half;
-  unsigned touching = 0;
-
-  bool touches(int h) const { return (touching >> h & 1) != 0; }
-};
-
-// What the halves of a candidate that touch bear: law, columns, books. `share` of the stiffness: one half where the other
-// particle samples back. Keeps the friction [N] of its points.
-template <class At>
-[[gnu::always_inline]] inline void act(const RowColumns<At>& c, Row<At> row,
-                                       const Shape::Face& face, const RowMotion& motion,
-                                       double share, double dt, FaceSums& sums,
-                                       std::array<VectorLanes, 2>& friction) {
-  using Law = ContactLaw<At>;
-  const bool new_touch = c.touches(row) == 0;
-  c.touches(row) = 1;
-  sums.block.touching += 1;
-  Lane deepest{};
-  for (int half = 0; half < 2; ++half) {
-    if (!motion.touches(half)) {
-      clear_half(c, row, half);
-      continue;
-    }
-    const PointMotion& m = entry(motion.half, half);
-    const PointLaw law{Lane::load(face.weight.data() + lane_count * half),
-                       share * c.law(row, Law::stiffness), c.law(row, Law::friction),
-                       share * c.law(row, Law::damping), c.law(row, Law::inv_size)};
-    Lane pressure;
-    PointForces f = normal_forces(law, m, dt, pressure);
-    if (c.slip) {
-      double* spring = &(*c.slip)(row);
-      add_friction(law, m, dt, pressure, new_touch ? VectorLanes{} : load_half(spring, half), f);
-      store_half(f.elastic_slip, spring, half);
-    }
-    store_half(f.force, &c.force(row), half);
-    sums.add(f);
-    deepest = max(m.gap, deepest);
-    entry(friction, half) = f.friction;
-  }
-  sums.book_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
-}
 
 }  // namespace pulvis::space

@@ -56,6 +56,7 @@ struct bin_faces {
   Structural<FaceContact> structure;
   NewRows<FaceContact> rows;
   Write<ClosestPoint> closest;
+  Write<FacePairs> pairs;
   void operator()() const;
 };
 
@@ -98,7 +99,8 @@ struct face_contact {
   ContactFaces faces;
   RowColumns<FaceContact> columns;
   Write<ClosestPoint> closest;
-  Optional<Write<FrictionCouple>> couple;
+  Read<FacePairs> pairs;
+  Write<OtherLoads> loads;
   Write<ContactSums<Contact>> sums;
   void operator()(SmallTasks) const;
 };
@@ -116,8 +118,8 @@ struct contact_force {
   Read<ContactIndex> index;
   struct Pairs {
     TouchingRows<FaceContact> rows;
-    Read<ClosestPoint> closest;
-    Optional<Read<FrictionCouple>> couple;
+    Read<FacePairs> of;
+    Read<OtherLoads> loads;
   };
   Optional<Pairs> pairs;
   Optional<TouchingRows<FaceToolContact>> tools;

@@ -14,8 +14,53 @@
 namespace pulvis::space {
 namespace {
 
+// Nothing of what a half's columns hold acts.
+void clear_half(const RowColumns<FaceToolContact>& c, Row<FaceToolContact> row, int half) {
+  const VectorLanes none{Lane{}, Lane{}, Lane{}};
+  store_half(none, &c.force(row), half);
+  if (c.slip) store_half(none, &(*c.slip)(row), half);
+}
+
+// How the halves of a candidate stand that touch (bit 0, bit 1); the others are apart.
+struct RowMotion {
+  std::array<PointMotion, 2> half;
+  unsigned touching = 0;
+
+  bool touches(int h) const { return (touching >> h & 1) != 0; }
+};
+
+// What the halves of a candidate that touch bear: law, columns, books.
+void act(const RowColumns<FaceToolContact>& c, Row<FaceToolContact> row, const Shape::Face& face,
+         const RowMotion& motion, double dt, FaceSums& sums) {
+  using Law = ContactLaw<FaceToolContact>;
+  const bool new_touch = c.touches(row) == 0;
+  c.touches(row) = 1;
+  sums.block.touching += 1;
+  Lane deepest{};
+  for (int half = 0; half < 2; ++half) {
+    if (!motion.touches(half)) {
+      clear_half(c, row, half);
+      continue;
+    }
+    const PointMotion& m = entry(motion.half, half);
+    const PointLaw law{Lane(c.law(row, Law::stiffness)), Lane(c.law(row, Law::friction)),
+                       Lane(c.law(row, Law::damping)), Lane(c.law(row, Law::inv_size)),
+                       Lane::load(face.weight.data() + lane_count * half)};
+    Lane pressure;
+    PointForces f = normal_forces(law, m, dt, pressure);
+    if (c.slip) {
+      double* spring = &(*c.slip)(row);
+      add_friction(law, m, dt, pressure, new_touch ? VectorLanes{} : load_half(spring, half), f);
+      store_half(f.elastic_slip, spring, half);
+    }
+    store_half(f.force, &c.force(row), half);
+    sums.add(f);
+    deepest = max(m.gap, deepest);
+  }
+  sums.book_depth(row.value, FaceSums::greatest(deepest) * c.law(row, Law::inv_size));
+}
+
 struct ToolPass {
-  static constexpr double share = 1;  // of the stiffness
   const tool_contact& s;
   const double* points = s.faces.position.values().data();
   const double* rates = s.faces.velocity ? s.faces.velocity->values().data() : nullptr;
@@ -39,8 +84,7 @@ struct ToolPass {
       for (int half = 0; half < 2; ++half)
         if (motion.touches(half))
           set_rates(row, sampled_points(rates + own, half), entry(motion.half, half));
-    std::array<VectorLanes, 2> along;
-    act(s.columns, row, face, motion, share, s.clock->dt_before, sums, along);
+    act(s.columns, row, face, motion, s.clock->dt_before, sums);
   }
 
  private:

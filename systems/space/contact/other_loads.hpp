@@ -1,0 +1,90 @@
+// What the points of a pair do to the other particle's faces, at the points that are closest to them.
+//
+// Law      Bezier point p of the other face takes -N_p(u, v) f, and where friction acts across a gap g
+//          -(N_p,u C_u + N_p,v C_v) n with C_a = g (T . a^a): see contact_law.hpp
+#pragma once
+
+#include <array>
+
+#include "components/space/contact.hpp"
+#include "engine/lane_memory.hpp"
+#include "systems/space/contact/face_load.hpp"
+#include "systems/space/contact/patch_kernel.hpp"
+#include "systems/space/contact/vector.hpp"
+
+namespace pulvis::space {
+
+// Eight points: where they are closest, what they bear. `couple` along u and v: C_u, C_v.
+struct OtherForces {
+  Lane u, v;
+  kernels::Vector<Lane> force, normal;
+  std::array<Lane, 2> couple;
+};
+
+// Eight numbers of eight points, a point's side by side.
+using ByPoint = std::array<std::array<double, 8>, 8>;
+[[gnu::always_inline]] inline void by_point(const std::array<Lane, 8>& numbers, ByPoint& out) {
+  std::array<const double*, 8> row;
+  for (std::size_t i = 0; i < 8; ++i) row[i] = reinterpret_cast<const double*>(&numbers[i]);
+  const auto column = columns_of(row);
+  for (std::size_t i = 0; i < 8; ++i) column[i].store(out[i].data());
+}
+
+class OtherFaces {
+ public:
+  explicit OtherFaces(OtherLoads::Pair& loads) : loads_(loads) { loads_.clear(); }
+
+  // Those of the points whose bit is set in `bearing`. face[l]: of the other particle.
+  template <bool Friction>
+  void subtract(const std::array<std::int32_t, 8>& face, unsigned bearing, const OtherForces& f) {
+    const auto bu = kernels::bernstein(f.u), bv = kernels::bernstein(f.v);
+    alignas(64) ByPoint basis, slopes, acting;
+    by_point({bu[0], bu[1], bu[2], bu[3], bv[0], bv[1], bv[2], bv[3]}, basis);
+    if constexpr (Friction) {
+      const auto du = kernels::bernstein_slope(f.u), dv = kernels::bernstein_slope(f.v);
+      const Lane &cu = f.couple[0], &cv = f.couple[1];
+      by_point({cu * du[0], cu * du[1], cu * du[2], cu * du[3], cv * dv[0], cv * dv[1], cv * dv[2],
+                cv * dv[3]},
+               slopes);
+    }
+    const Lane none{};
+    by_point(
+        {-f.force.x, -f.force.y, -f.force.z, -f.normal.x, -f.normal.y, -f.normal.z, none, none},
+        acting);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if ((bearing >> l & 1) == 0) continue;
+      move_to(face[l]);
+      const double *b = basis[l].data(), *c = b + 4, *a = acting[l].data();
+      load_.add(outer(b, c), {a[0], a[1], a[2]});
+      if constexpr (Friction) {
+        const double* d = slopes[l].data();
+        const OfPatch along_u = outer(d, c), along_v = outer(b, d + 4);
+        load_.add({along_u[0] + along_v[0], along_u[1] + along_v[1]}, {a[3], a[4], a[5]});
+      }
+    }
+  }
+  void finish() {
+    if (at_ >= 0) load_.store(loads_.load[static_cast<std::size_t>(at_)].force.data());
+  }
+
+ private:
+  void move_to(std::int32_t face) {
+    if (at_ >= 0 && loads_.face[static_cast<std::size_t>(at_)] == face) return;
+    finish();
+    at_ = place_of(face);
+    load_.fetch(loads_.load[static_cast<std::size_t>(at_)].force.data());
+  }
+  int place_of(std::int32_t face) {
+    for (std::size_t i = loads_.face.size(); i-- > 0;)  // the last ones are the likeliest
+      if (loads_.face[i] == face) return static_cast<int>(i);
+    loads_.face.push_back(face);
+    loads_.load.emplace_back();
+    return static_cast<int>(loads_.face.size()) - 1;
+  }
+
+  OtherLoads::Pair& loads_;
+  FaceLoad load_;
+  int at_ = -1;  // in the list of faces
+};
+
+}  // namespace pulvis::space
