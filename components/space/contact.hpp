@@ -35,7 +35,17 @@ struct FaceForce : Component<SurfaceFace, double, face_numbers> {
   static constexpr ComponentInfo info{"force", "N", "of all contacts, on a face's Bezier points"};
   static constexpr bool transient = true;
 };
-// What the faces that meet in a Bezier point share: between the nodes and the faces, either way.
+// Between the nodes and the faces, either way: the net, a point of it for each node, and what the faces that meet in a Bezier
+// point share.
+struct NetPosition : Component<BoundaryNode, double, 3> {
+  static constexpr ComponentInfo info{"net_position", "m", "of a point of the control net"};
+  static constexpr bool transient = true;
+};
+struct NetLoad : Component<BoundaryNode, double, 3> {
+  static constexpr ComponentInfo info{"net_load", "N",
+                                      "of all contacts, on a point of the control net"};
+  static constexpr bool transient = true;
+};
 struct PointPosition : Component<SurfacePoint, double, 3> {
   static constexpr ComponentInfo info{"position", "m", "of a Bezier point"};
   static constexpr bool transient = true;
@@ -69,9 +79,19 @@ struct PointForce : Component<At, double, 3 * face_points> {
   static constexpr ComponentInfo info{"point_force", "N",
                                       "on the sampled face: x of every point, y, z"};
 };
-// Closest point of each Gauss point on the other particle's surface: face + u of all, then v.
-struct ClosestPoint : Component<FaceContact, double, 2 * face_points> {
-  static constexpr ComponentInfo info{"closest_point", "-", "face of the other particle + u; v"};
+// Of each point of a row against another particle, side by side: a point that touches is one line of memory.
+struct ContactPoint : Component<FaceContact, double, 8 * face_points> {
+  static constexpr ComponentInfo info{"contact_point", "SI",
+                                      "of each point: face of the other particle + u, v of the "
+                                      "closest point; tangential spring x y z (history); force on "
+                                      "the sampled face x y z"};
+  enum Number {
+    face_u,      // -, face + u, 0 <= u < 1
+    v,           // -
+    spring,      // m, its x
+    force = 5,   // N, its x
+    numbers = 8  // of a point
+  };
 };
 
 // ---- only where the scene has friction -----------------------------------------------------------
@@ -99,7 +119,8 @@ struct FacePairs {
 struct OtherLoads {
   static constexpr const char* resource_name = "other_loads";
   struct alignas(64) Load {
-    std::array<double, face_numbers> force{};  // N, on the face's Bezier points: all x, y, z
+    std::array<double, face_numbers> force;  // N, on the face's Bezier points: all x, y, z
+    Load() {}                                // set when the face has borne its last point
   };
   struct Pair {
     std::vector<std::int32_t> face;

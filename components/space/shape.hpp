@@ -24,7 +24,8 @@ using Tensor = std::array<double, 9>;  // row by row
 // same at zeta = +.
 //
 // The surface consists of faces: four-sided bicubic Bezier patches x(u, v) = sum_ij B_i(u) B_j(v) p_(4 j + i),
-// 0 <= u, v <= 1, whose points are linear in the surface nodes (points = terms * nodes). Outward normal: x_u cross x_v.
+// 0 <= u, v <= 1, whose points are linear in the surface nodes (points = terms * net, net = its terms * nodes; a point of
+// the net for each node). Outward normal: x_u cross x_v.
 struct Shape {
   static constexpr int gauss_points = 16;  // of a face: 4 x 4, u first
 
@@ -64,9 +65,19 @@ struct Shape {
     Tensor inverse_jacobian;  // 1/m
     double volume;            // m^3 that the point stands for
   };
-  struct PointTerm {  // share of a surface node in a Bezier point
-    Row<BoundaryNode> node;
+  struct Term {  // share of a surface node in a point of the net, or of that in a Bezier point
+    Row<BoundaryNode> row;
     double weight;
+  };
+  struct Terms {
+    std::vector<std::int32_t> begin{0};  // [points + 1] into all
+    std::vector<Term> all;
+
+    int points() const { return static_cast<int>(begin.size()) - 1; }
+    std::span<const Term> of(int point) const {
+      return {&all[0] + entry(begin, point), &all[0] + entry(begin, point + 1)};
+    }
+    void close() { begin.push_back(static_cast<std::int32_t>(all.size())); }
   };
   // A side of a face: 0: v = 0, 1: u = 1, 2: v = 1, 3: u = 0, each run counter-clockwise (as seen from outside).
   struct Neighbour {
@@ -92,8 +103,8 @@ struct Shape {
   std::vector<std::array<GaussPoint, 8>> gauss;  // [elements]
   std::vector<double> nodal_volume;              // m^3, lumped: times density, a node's mass
   std::vector<Face> faces;
-  std::vector<std::int32_t> point_begin;  // [Bezier points + 1] into point_terms
-  std::vector<PointTerm> point_terms;
+  Terms net;                       // [surface nodes], of surface nodes
+  Terms points;                    // [Bezier points], of the net
   double mean_face_stiffness = 0;  // 1/m: of its faces, weighted with their area
   double volume = 0;               // m^3, of the mesh
   double true_volume = 0;          // m^3, of the shape that it stands for
@@ -109,11 +120,7 @@ struct Shape {
     return sign;
   }
   int elements() const { return static_cast<int>(hexahedra.size()); }
-  int surface_points() const { return static_cast<int>(point_begin.size()) - 1; }
-  std::span<const PointTerm> terms_of(int point) const {
-    return {&point_terms[0] + entry(point_begin, point),
-            &point_terms[0] + entry(point_begin, point + 1)};
-  }
+  int surface_points() const { return points.points(); }
 };
 
 // Shapes by the number that Bodies::Slot::shape has. Bodies::shapes, those of two dimensions, are empty then.

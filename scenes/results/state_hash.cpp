@@ -31,8 +31,8 @@ class StateHash {
     const auto itself = [](int tool) { return tool; };
     add_contacts<Contact>(number, [this](int row) { add_history<Contact>(row); });
     add_contacts<ToolContact>(itself, [this](int row) { add_history<ToolContact>(row); });
-    add_contacts<FaceContact>(number, [this](int row) { add_slip<FaceContact>(row); });
-    add_contacts<FaceToolContact>(itself, [this](int row) { add_slip<FaceToolContact>(row); });
+    add_contacts<FaceContact>(number, [this](int row) { add_springs(row); });
+    add_contacts<FaceToolContact>(itself, [this](int row) { add_slip(row); });
     return hash_.value();
   }
 
@@ -99,9 +99,14 @@ class StateHash {
     add(world_.column<BondedPoints<At>>().values()[row]);
     add_points<BondDamage<At>>(row);
   }
-  template <class At>
+  void add_springs(int row) {
+    using Point = space::ContactPoint;
+    const double* first = world_.column<Point>().values() + std::ptrdiff_t{row} * Point::count;
+    for (int g = 0; g < space::face_points; ++g)
+      for (int k = Point::spring; k < Point::force; ++k) add(first[g * Point::numbers + k]);
+  }
   void add_slip(int row) {
-    using Slip = space::ElasticSlip<At>;
+    using Slip = space::ElasticSlip<FaceToolContact>;
     if (!world_.has<Slip>()) return;
     for (int i = 0; i < Slip::count; ++i)
       add(world_.column<Slip>().values()[std::ptrdiff_t{row} * Slip::count + i]);

@@ -93,6 +93,8 @@ void add_surfaces(World& world, const Touching& touching) {
       world, [](const Shape& s) { return lane_count * static_cast<int>(s.faces.size()); }));
   number_faces(world);
   world.add<ContactForce>();
+  world.add<NetPosition>();
+  world.add<NetLoad>();
   world.add<PointPosition>();
   world.add<PointLoad>();
   world.add<FacePosition>();
@@ -103,26 +105,26 @@ void add_surfaces(World& world, const Touching& touching) {
 }
 
 template <class At>
-void add_rows(World& world, const Touching& touching) {
+void add_rows(World& world) {
   world.add_table<At>(std::size_t{0});
   world.add<ContactPair<At>>();
   world.add<ContactTouches<At>>();
   world.add<Activation<At>>();
   world.add<ContactLaw<At>>();
-  world.add<PointForce<At>>();
-  if (touching.friction) world.add<ElasticSlip<At>>();
 }
 
-void add_pairs(World& world, const Touching& touching) {
-  add_rows<FaceContact>(world, touching);
-  world.add<ClosestPoint>();
+void add_pairs(World& world) {
+  add_rows<FaceContact>(world);
+  world.add<ContactPoint>();
   world.emplace<FacePairs>();
   world.emplace<OtherLoads>();
   world.emplace<ContactSums<Contact>>();
 }
 
 void add_tools(World& world, const SpaceScene& scene, const Touching& touching) {
-  add_rows<FaceToolContact>(world, touching);
+  add_rows<FaceToolContact>(world);
+  world.add<PointForce<FaceToolContact>>();
+  if (touching.friction) world.add<ElasticSlip<FaceToolContact>>();
   world.emplace<ContactSums<ToolContact>>();
   const ToolShapes& shapes = world.emplace<ToolShapes>(tool_shapes(scene));
   const bool meshes = std::ranges::any_of(shapes.of_tool, [](const ToolShapes::Shape& shape) {
@@ -141,7 +143,7 @@ void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& 
   if (!touching.pairs && !touching.tools) return;
   find_smallest(world.resource<Shapes>(), rules);
   add_surfaces(world, touching);
-  if (touching.pairs) add_pairs(world, touching);
+  if (touching.pairs) add_pairs(world);
   if (touching.tools) add_tools(world, *scene.space, touching);
   ContactIndex& index = world.emplace<ContactIndex>();
   index.skin = scene.contact.skin * rules.shortest_edge;

@@ -32,12 +32,11 @@ std::uint64_t bytes_of_element(bool plastic) {
   return bytes;
 }
 
-std::uint64_t bytes_of_row(bool friction) {
+std::uint64_t bytes_of_row() {
   using At = FaceContact;
-  std::uint64_t bytes = size_of_columns<ContactPair<At>, ContactTouches<At>, Activation<At>,
-                                        ContactLaw<At>, PointForce<At>, ClosestPoint>();
-  if (friction) bytes += size_of_columns<ElasticSlip<At>>();
-  return bytes + sizeof(OtherLoads::Load);
+  return size_of_columns<ContactPair<At>, ContactTouches<At>, Activation<At>, ContactLaw<At>,
+                         ContactPoint>() +
+         sizeof(OtherLoads::Load);
 }
 
 bool any_friction_in(const Scene& scene) {
@@ -73,7 +72,7 @@ SpaceMemory memory_of(const Scene& scene) {
                              surface * size_of_columns<ContactForce>());
     need.results += particles[c] * copies_in_flight * sizeof(double) * (6 * nodes + 9 * elements);
     need.contacts += static_cast<std::uint64_t>(
-        rows_of_a_face * static_cast<double>(particles[c] * faces * bytes_of_row(friction)));
+        rows_of_a_face * static_cast<double>(particles[c] * faces * bytes_of_row()));
   }
   return need;
 }

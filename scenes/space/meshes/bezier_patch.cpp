@@ -50,15 +50,17 @@ double volume_under(const std::array<int, 16>& numbers, const std::vector<Vec3>&
 }
 
 std::vector<Vec3> surface_points_of(const Shape& shape, const std::vector<Point>& nodes) {
-  std::vector<Vec3> points;
-  for (int i = 0; i < shape.surface_points(); ++i) {
-    Vec3& sum = points.emplace_back(Vec3::Zero());
-    for (const Shape::PointTerm& term : shape.terms_of(i)) {
-      const Point& x = entry(nodes, term.node);
-      sum += term.weight * Vec3(x[0], x[1], x[2]);
+  std::vector<Vec3> at;
+  for (const Point& x : nodes) at.push_back({x[0], x[1], x[2]});
+  for (const Shape::Terms* terms : {&shape.net, &shape.points}) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < terms->points(); ++i) {
+      Vec3& sum = points.emplace_back(Vec3::Zero());
+      for (const Shape::Term& term : terms->of(i)) sum += term.weight * entry(at, term.row.value);
     }
+    at = std::move(points);
   }
-  return points;
+  return at;
 }
 
 }  // namespace pulvis::space

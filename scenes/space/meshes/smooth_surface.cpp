@@ -160,23 +160,22 @@ class Fit {
   std::vector<Vec3> nodes_, u_;
 };
 
-// Over the surface nodes instead of the net's.
+void store(const Combination& combination, Shape::Terms& terms) {
+  constexpr double rounding = 1e-14;  // of weights that cancel
+  for (const auto& [number, weight] : combination)
+    if (std::abs(weight) > rounding) terms.all.push_back({Row<BoundaryNode>(number), weight});
+  terms.close();
+}
+
 void store_points(Shape& shape, const SurfaceNet& net, const std::vector<Combination>& points,
                   const std::vector<double>& c) {
-  std::vector<Combination> y;
+  shape.net = shape.points = {};
   for (int i = 0; i < net.nodes(); ++i) {
-    y.push_back({{i, 1.0}});
-    add(y.back(), umbrella(net, i), -entry(c, i));
+    Combination y{{i, 1.0}};
+    add(y, umbrella(net, i), -entry(c, i));
+    store(y, shape.net);
   }
-  shape.point_begin = {0};
-  shape.point_terms.clear();
-  for (const Combination& point : points) {
-    Combination nodes;
-    for (const auto& [i, weight] : point) add(nodes, entry(y, i), weight);
-    for (const auto& [node, weight] : nodes)
-      if (weight != 0) shape.point_terms.push_back({Row<BoundaryNode>(node), weight});
-    shape.point_begin.push_back(static_cast<std::int32_t>(shape.point_terms.size()));
-  }
+  for (const Combination& point : points) store(point, shape.points);
 }
 
 void store_faces(Shape& shape, const SurfaceNet& net) {

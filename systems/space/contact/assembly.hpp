@@ -1,7 +1,7 @@
 // Assembly: from the forces of contact points to those of Bezier points, and from there to surface nodes.
 //
 // Law      Bezier point p of the sampled face takes N_p(u_g, v_g) f_g; what that of the other body takes is in
-//          other_loads.hpp; nodes take the transpose of points = terms * nodes
+//          other_loads.hpp; the net takes the transpose of points = terms * net, the nodes that of net = terms * nodes
 #pragma once
 
 #include <array>
@@ -39,28 +39,35 @@ struct FaceForces {
   }
 };
 
-// Bit g: point g bears a force.
-inline unsigned bearing_points(const double* force) {
-  unsigned bits = 0;
-  for (int half = 0; half < 2; ++half) {
-    const Lane x = Lane::load(force + lane_count * half),
-               y = Lane::load(force + face_points + lane_count * half),
-               z = Lane::load(force + 2 * face_points + lane_count * half);
-    bits |= (~((x == 0.0) & (y == 0.0) & (z == 0.0))).bits() << (lane_count * half);
-  }
-  return bits;
+[[gnu::always_inline]] inline OfPatch share_of_point(int g) {
+  const double* n = entry(basis_by_point, g).data();
+  return {Lane::load(n), Lane::load(n + lane_count)};
 }
 
-// Forces of sixteen points (all x, y, z) on the face that they sample. A few of them bear one as a rule.
+// Bit g: point g touches, and never rests then.
+inline unsigned touching_points(const double* activation) {
+  const Lane low = Lane::load(activation), high = Lane::load(activation + lane_count);
+  return (low == 0.0).bits() | (high == 0.0).bits() << lane_count;
+}
+
+// Forces of the points that touch on the face that they sample: a few as a rule.
+inline void add_touching(const double* points, unsigned touching, double* face) {
+  FaceLoad load;
+  load.fetch(face);
+  for (unsigned left = touching; left != 0; left &= left - 1) {
+    const int g = std::countr_zero(left);
+    const double* f = points + ContactPoint::numbers * g + ContactPoint::force;
+    load.add(share_of_point(g), {f[0], f[1], f[2]});
+  }
+  load.store(face);
+}
+
+// Forces of sixteen points (all x, y, z) on the face that they sample.
 inline void add_sampled(const double* force, double* face) {
   FaceLoad load;
   load.fetch(face);
-  for (unsigned left = bearing_points(force); left != 0; left &= left - 1) {
-    const int g = std::countr_zero(left);
-    const double* n = entry(basis_by_point, g).data();
-    load.add({Lane::load(n), Lane::load(n + lane_count)},
-             {force[g], force[face_points + g], force[2 * face_points + g]});
-  }
+  for (int g = 0; g < face_points; ++g)
+    load.add(share_of_point(g), {force[g], force[face_points + g], force[2 * face_points + g]});
   load.store(face);
 }
 
@@ -91,22 +98,32 @@ void to_points(const Shape& shape, double* face_force, std::ptrdiff_t apart,
   }
 }
 
-template <class Load, class Nodes>
+// The transpose of `terms`: adds a load to what it is made of.
+template <class To>
+void spread(std::span<const Shape::Term> terms, Lane x, Lane y, Lane z, const To& to) {
+  for (const Shape::Term& term : terms) {
+    const Lane weight(term.weight);
+    to(term.row, 0) = fma(weight, x, to(term.row, 0));
+    to(term.row, 1) = fma(weight, y, to(term.row, 1));
+    to(term.row, 2) = fma(weight, z, to(term.row, 2));
+  }
+}
+
+template <class Load, class Net, class Nodes>
 void to_nodes(const Shape& shape, const Load& load, const std::vector<std::uint8_t>& loaded,
-              const Nodes& node_force) {
-  for (int node = 0; node < shape.surface_nodes; ++node)
-    for (int k = 0; k < 3; ++k) node_force(Row<BoundaryNode>(node), k) = Lane{};
+              const Net& net, const Nodes& node_force) {
+  for (int i = 0; i < shape.surface_nodes; ++i)
+    for (int k = 0; k < 3; ++k)
+      net(Row<BoundaryNode>(i), k) = node_force(Row<BoundaryNode>(i), k) = Lane{};
   for (int p = 0; p < shape.surface_points(); ++p) {
     if (entry(loaded, p) == 0) continue;
     const Row<SurfacePoint> row(p);
-    const Lane x = load(row, 0), y = load(row, 1), z = load(row, 2);
-    for (const Shape::PointTerm& term : shape.terms_of(p)) {
-      const Lane weight(term.weight);
-      node_force(term.node, 0) = fma(weight, x, node_force(term.node, 0));
-      node_force(term.node, 1) = fma(weight, y, node_force(term.node, 1));
-      node_force(term.node, 2) = fma(weight, z, node_force(term.node, 2));
-    }
+    spread(shape.points.of(p), load(row, 0), load(row, 1), load(row, 2), net);
     for (int k = 0; k < 3; ++k) load(row, k) = Lane{};
+  }
+  for (int i = 0; i < shape.surface_nodes; ++i) {
+    const Row<BoundaryNode> row(i);
+    spread(shape.net.of(i), net(row, 0), net(row, 1), net(row, 2), node_force);
   }
 }
 

@@ -99,10 +99,10 @@ void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double ka
   for (int i = 0; i < Activation<At>::count; ++i) rows.activation(row, i) = 0;
 }
 
-void start_from(int face, Row<FaceContact> row, const Write<ClosestPoint>& closest) {
+void start_from(int face, Row<FaceContact> row, const Write<ContactPoint>& point) {
   for (int g = 0; g < face_points; ++g) {
-    closest(row, g) = face + 0.5;
-    closest(row, face_points + g) = 0.5;
+    point(row, ContactPoint::numbers * g + ContactPoint::face_u) = face + 0.5;
+    point(row, ContactPoint::numbers * g + ContactPoint::v) = 0.5;
   }
 }
 
@@ -127,7 +127,7 @@ void bin_faces::operator()() const {
                      entry(material.density.values(), key.other)),
             rules.friction_between(material_of(key.slot), material_of(key.other)).coefficient,
             rules.damping, rows);
-    if (source[r] < 0) start_from(found.all[r].start, row, closest);
+    if (source[r] < 0) start_from(found.all[r].start, row, point);
   });
   list_pairs(found, *pairs);
   index->sampled_begin = std::move(found.begin);

@@ -5,17 +5,36 @@
 // Runs     after the narrow phase, before integrate
 // Order    a particle sums its own candidates in their order, then its pairs as other body: the same bits for any number of threads
 #include "engine/chunk_lane.hpp"
+#include "engine/prefetch.hpp"
 #include "systems/space/contact/assembly.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
 namespace {
 
+// The points that touch stand scattered among many: their lines are asked for a few rows before they are needed.
+void fetch_points(const contact_force::Pairs& pairs, Row<FaceContact> row) {
+  if (pairs.touches(row) == 0) return;
+  for (unsigned left = touching_points(&pairs.activation(row)); left != 0; left &= left - 1)
+    prefetch(&pairs.point(row, ContactPoint::numbers * std::countr_zero(left)));
+}
+
+void add_own_rows(const contact_force::Pairs& pairs, const RowRange<FaceContact>& rows,
+                  const FaceForces& own) {
+  constexpr int rows_ahead = 8;
+  const std::int64_t end = (*rows.end()).value;
+  for (const Row<FaceContact> row : rows) {
+    const std::int64_t ahead = row.value + rows_ahead;
+    if (ahead < end) fetch_points(pairs, Row<FaceContact>(ahead));
+    if (pairs.touches(row) == 0) continue;
+    add_touching(&pairs.point(row), touching_points(&pairs.activation(row)),
+                 own.on(pairs.pair(row, 1)));
+  }
+}
+
 void add_pairs(const contact_force::Pairs& pairs, const ContactIndex& index, int slot,
                const FaceForces& own) {
-  for (const Row<FaceContact> row : RowRange<FaceContact>::of(index.sampled_begin, slot))
-    if (pairs.rows.touches(row) != 0)
-      add_sampled(&pairs.rows.force(row), own.on(pairs.rows.pair(row, 1)));
+  add_own_rows(pairs, RowRange<FaceContact>::of(index.sampled_begin, slot), own);
   const FacePairs& of = *pairs.of;
   for (int k = entry(of.other_begin, slot); k < entry(of.other_begin, slot + 1); ++k) {
     const OtherLoads::Pair& loads = entry(pairs.loads->pairs, entry(of.of_other, k));
@@ -46,7 +65,7 @@ void add_tools(const TouchingRows<FaceToolContact>& tools, const ContactIndex& i
   const auto loads = load.chunk(chunk);
   std::vector<std::uint8_t> loaded(static_cast<std::size_t>(shape.surface_points()));
   to_points(shape, all, apart, borne, loads, loaded);
-  to_nodes(shape, loads, loaded, node_force.chunk(chunk));
+  to_nodes(shape, loads, loaded, net_load.chunk(chunk), node_force.chunk(chunk));
 }
 
 }  // namespace pulvis::space

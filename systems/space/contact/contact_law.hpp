@@ -65,11 +65,10 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
   const auto normal =
       pulvis::kernels::normal_traction(m.gap, m.gap_rate, law.kappa, law.damping, law.inv_size);
   pressure = normal.pressure;
-  PointForces f{};
-  f.energy = normal.spring_energy * law.weight;
-  f.force = (normal.pressure * law.weight) * m.normal;
-  f.damping_work = normal.damping_power * law.weight * dt;
-  return f;
+  const VectorLanes none{Lane{}, Lane{}, Lane{}};
+  return {
+      (normal.pressure * law.weight) * m.normal, none,   none,
+      normal.spring_energy * law.weight,         Lane{}, normal.damping_power * law.weight * dt};
 }
 
 inline void add_friction(const PointLaw& law, const PointMotion& m, double dt, const Lane& pressure,

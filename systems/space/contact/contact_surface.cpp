@@ -11,24 +11,31 @@
 namespace pulvis::space {
 namespace {
 
-// All Bezier points of what the nodes carry.
-template <class Nodes, class Points>
-void set_points(const Shape& shape, const Nodes& nodes, const Points& points) {
-  const int count = shape.surface_points();
+template <class From, class To>
+void combine(const Shape::Terms& terms, const From& from, const To& to) {
+  const int count = terms.points();
   for (int p = 0; p < count; ++p) {
     Lane x{}, y{}, z{};
-    for (const Shape::PointTerm& term : shape.terms_of(p)) {
-      const Row<Node> node(term.node.value);  // those of the surface come first among the nodes
+    for (const Shape::Term& term : terms.of(p)) {
       const Lane weight(term.weight);
-      x = fma(weight, nodes(node, 0), x);
-      y = fma(weight, nodes(node, 1), y);
-      z = fma(weight, nodes(node, 2), z);
+      x = fma(weight, from(term.row, 0), x);
+      y = fma(weight, from(term.row, 1), y);
+      z = fma(weight, from(term.row, 2), z);
     }
-    const Row<SurfacePoint> row(p);
-    points(row, 0) = x;
-    points(row, 1) = y;
-    points(row, 2) = z;
+    to(p, 0) = x;
+    to(p, 1) = y;
+    to(p, 2) = z;
   }
+}
+
+// All Bezier points of what the nodes carry. Those of the surface come first among the nodes.
+template <class Nodes, class Net, class Points>
+void set_points(const Shape& shape, const Nodes& nodes, const Net& net, const Points& points) {
+  combine(
+      shape.net, [&](auto row, int k) -> const Lane& { return nodes(Row<Node>(row.value), k); },
+      [&](int p, int k) -> Lane& { return net(Row<BoundaryNode>(p), k); });
+  combine(shape.points, net,
+          [&](int p, int k) -> Lane& { return points(Row<SurfacePoint>(p), k); });
 }
 
 // From lanes to the plain list of faces, particle after particle.
@@ -68,10 +75,11 @@ Lane fastest(const Shape& shape, const Points& velocity) {
 [[gnu::flatten]] void contact_surface::operator()(Chunk chunk) const {
   const Shape& shape = bodies.shape_of(chunk);
   const auto scratch = points.chunk(chunk);
-  set_points(shape, motion.velocity.chunk(chunk), scratch);
+  const auto of_net = net.chunk(chunk);
+  set_points(shape, motion.velocity.chunk(chunk), of_net, scratch);
   speed.chunk(chunk)(Row<Particle>()) = fastest(shape, scratch);
   if (velocity) set_faces(shape, scratch, velocity->chunk(chunk));
-  set_points(shape, motion.position.chunk(chunk), scratch);
+  set_points(shape, motion.position.chunk(chunk), of_net, scratch);
   set_faces(shape, scratch, position.chunk(chunk));
 }
 

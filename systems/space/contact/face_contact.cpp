@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/deal.hpp"
+#include "engine/prefetch.hpp"
 #include "systems/space/contact/contact_law.hpp"
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/contact/other_loads.hpp"
@@ -50,6 +51,8 @@ class PairPass {
     end_ = entry(pairs.begin, pair + 1);
     const Row<FaceContact> row(first_);
     const int slot = s_.columns.pair(row, 0), other = s_.columns.pair(row, 2);
+    friction_ = s_.columns.law(row, ContactLaw<FaceContact>::friction);
+    rubs_ = s_.columns.law(row, ContactLaw<FaceContact>::friction) > 0;
     own_ = &s_.bodies.shape_of(slot);
     its_ = &s_.bodies.shape_of(other);
     own_face_ = s_.bodies.first_face(slot) * std::ptrdiff_t{face_numbers};
@@ -57,11 +60,18 @@ class PairPass {
   }
 
   void run() {
-    for (std::int32_t r = first_; r < end_; ++r) {
-      const unsigned active = active_points(Row<FaceContact>(r));
-      if (active == 0) continue;
-      if (points_.is_full()) work();
-      take(Row<FaceContact>(r), active);
+    std::array<unsigned, rows_at_once> active;
+    for (std::int32_t from = first_; from < end_; from += rows_at_once) {
+      const std::int32_t rows = std::min(end_ - from, rows_at_once);
+      for (int i = 0; i < rows; ++i) {
+        entry(active, i) = active_points(Row<FaceContact>(from + i));
+        fetch(Row<FaceContact>(from + i), entry(active, i));
+      }
+      for (int i = 0; i < rows; ++i) {
+        if (entry(active, i) == 0) continue;
+        if (points_.is_full()) work();
+        take(Row<FaceContact>(from + i), entry(active, i));
+      }
     }
     work();
     faces_.finish();
@@ -69,6 +79,7 @@ class PairPass {
 
  private:
   static constexpr double share = 0.5;  // of the stiffness: the other particle samples back
+  static constexpr std::int32_t rows_at_once = 32;
 
   unsigned active_points(Row<FaceContact> row) const {
     const Lane travel(s_.clock->travel);
@@ -77,32 +88,44 @@ class PairPass {
            (Lane::load(activation + lane_count) <= travel).bits() << lane_count;
   }
 
+  // The points that touch stand scattered among many: their lines are asked for before they are needed.
+  void fetch(Row<FaceContact> row, unsigned active) const {
+    for (unsigned left = active; left != 0; left &= left - 1)
+      prefetch(&s_.columns.point(row, ContactPoint::numbers * std::countr_zero(left)));
+  }
+
   void take(Row<FaceContact> row, unsigned active) {
     using Law = ContactLaw<FaceContact>;
     const int number = s_.columns.pair(row, 1);
     const std::ptrdiff_t own = own_face_ + std::ptrdiff_t{number} * face_numbers;
     const Shape::Face& face = entry(own_->faces, number);
-    alignas(64) std::array<double, 3 * face_points> x, velocity{};
+    alignas(64) std::array<double, 3 * face_points> x, velocity;
     for (int half = 0; half < 2; ++half) {
       if ((active >> lane_count * half & 0xffU) == 0) continue;
       store_half(sampled_points(positions_ + own, half), x.data(), half);
-      if (rates_ != nullptr) store_half(sampled_points(rates_ + own, half), velocity.data(), half);
+      store_half(rates_ != nullptr ? sampled_points(rates_ + own, half) : no_vector,
+                 velocity.data(), half);
     }
-    const double* spring = s_.columns.slip ? &(*s_.columns.slip)(row) : no_spring.data();
     const double kappa = share * s_.columns.law(row, Law::stiffness),
-                 friction = s_.columns.law(row, Law::friction),
                  damping = share * s_.columns.law(row, Law::damping),
                  inv_size = s_.columns.law(row, Law::inv_size);
     for (unsigned left = active; left != 0; left &= left - 1) {
       const auto g = static_cast<std::size_t>(std::countr_zero(left));
-      PairPoint& p = points_.add();
-      p.motion = {x[g], x[16 + g], x[32 + g], velocity[g], velocity[16 + g], velocity[32 + g],
-                  0,    0};
-      p.law = {kappa,          friction,  damping,        inv_size,
-               face.weight[g], spring[g], spring[16 + g], spring[32 + g]};
+      double* kept = &s_.columns.point(row, ContactPoint::numbers * static_cast<int>(g));
+      PairPoint& p = points_.add(static_cast<int>(kept[ContactPoint::face_u]));
+      p.motion = {x[g],
+                  x[face_points + g],
+                  x[2 * face_points + g],
+                  velocity[g],
+                  velocity[face_points + g],
+                  velocity[2 * face_points + g],
+                  face.weight[g],
+                  inv_size};
+      p.kappa = kappa;
+      p.damping = damping;
+      p.kept = kept;
+      p.activation = &s_.columns.activation(row, static_cast<int>(g));
       p.row = static_cast<std::int32_t>(row.value);
-      p.number = static_cast<std::int32_t>(g);
-      PackedSpot::unpack(&s_.closest(row), p.number, p);
     }
     s_.columns.touches(row) = 0;
   }
@@ -111,84 +134,80 @@ class PairPass {
     points_.for_eights([this](PointLanes& eight) { act(eight); });
   }
 
-  void act(PointLanes& eight) {
-    eight.set_motion();
+  void act(const PointLanes& eight) {
+    const auto motion = numbers_of(eight, [](const PairPoint& p) { return p.motion.data(); });
+    const auto kept = numbers_of(eight, [](const PairPoint& p) { return p.kept; });
     Projection p(*its_, positions_ + its_face_);
-    p.point = eight.x;
-    p.u = eight.u;
-    p.v = eight.v;
-    for (std::size_t l = 0; l < lane_count; ++l) p.face[l] = eight.point[l]->face;
+    p.point = {motion[0], motion[1], motion[2]};
+    p.face = eight.face;
+    p.u = kept[ContactPoint::face_u] - whole(kept[ContactPoint::face_u]);
+    p.v = kept[ContactPoint::v];
     p.find();
     book(eight, p.unconverged());
     const Standing standing = p.standing();
     const LaneMask real = LaneMask::of(eight.real);
     // What is no number is not apart.
     const LaneMask touching = ~(standing.gap <= 0.0) & real;
-    keep_spots(eight, p, standing.gap, touching.bits());
     PointMotion m{select(touching, standing.gap, Lane{}), standing.normal};
-    bear(eight, p, m, touching.bits());
+    Reciprocal to;
+    if (rates_ != nullptr) {
+      to = Reciprocal::of(p.slopes);
+      set_rates({motion[3], motion[4], motion[5]}, p.carried(rates_ + its_face_), to, m);
+    }
+    const PointLaw law{Lane::from([&](int l) { return entry(eight.point, l)->kappa; }), friction_,
+                       Lane::from([&](int l) { return entry(eight.point, l)->damping; }), motion[7],
+                       motion[6]};
+    Lane pressure;
+    PointForces f = normal_forces(law, m, s_.clock->dt_before, pressure);
+    if (rubs_) {
+      const VectorLanes spring{kept[2], kept[3], kept[4]};
+      add_friction(law, m, s_.clock->dt_before, pressure, select(real, spring, no_vector), f);
+    }
+    keep(eight, p, standing.gap, touching.bits(), f);
+    if (!any(touching)) return;
+    sums_.add(f);
+    book_depth(eight, m.gap * law.inv_size);
+    act_back(p, m, f, to, touching.bits());
   }
 
-  void bear(const PointLanes& eight, Projection& p, PointMotion& m, unsigned touching) {
-    const auto law = eight.law();
-    const VectorLanes spring =
-        select(LaneMask::of(eight.real), VectorLanes{law[5], law[6], law[7]}, VectorLanes{});
-    Reciprocal reciprocal;
-    if (rates_ != nullptr) {
-      reciprocal = Reciprocal::of(p.slopes);
-      set_rates(eight.velocity, p.carried(rates_ + its_face_), reciprocal, m);
-    }
-    const PointLaw of{law[0], law[1], law[2], law[3], law[4]};
-    Lane pressure;
-    PointForces f = normal_forces(of, m, s_.clock->dt_before, pressure);
-    if (s_.columns.slip) add_friction(of, m, s_.clock->dt_before, pressure, spring, f);
-    keep_forces(eight, f);
-    if (touching == 0) return;
-    sums_.add(f);
-    book_depth(eight, m.gap * of.inv_size);
-    std::array<std::int32_t, 8> face = p.face;
-    OtherForces back{min(max(p.u, Lane{}), 1.0), min(max(p.v, Lane{}), 1.0), f.force, m.normal, {}};
-    if (!s_.columns.slip) return faces_.subtract<false>(face, touching, back);
-    back.couple = {m.gap * dot(f.friction, reciprocal.u), m.gap * dot(f.friction, reciprocal.v)};
-    faces_.subtract<true>(face, touching, back);
+  void act_back(const Projection& p, const PointMotion& m, const PointForces& f,
+                const Reciprocal& to, unsigned touching) {
+    const Lane u = min(max(p.u, Lane{}), 1.0), v = min(max(p.v, Lane{}), 1.0);
+    if (rubs_)
+      faces_.subtract<true>(
+          p.face, touching,
+          {u, v, f.force, m.normal, m.gap * dot(f.friction, to.u), m.gap * dot(f.friction, to.v)});
+    else
+      faces_.subtract<false>(p.face, touching, {u, v, f.force, m.normal, Lane{}, Lane{}});
+  }
+
+  template <class First>
+  static std::array<Lane, 8> numbers_of(const PointLanes& eight, const First& first) {
+    std::array<const double*, lane_count> row;
+    for (int l = 0; l < lane_count; ++l) entry(row, l) = first(*entry(eight.point, l));
+    return columns_of(row);
   }
 
   // ---- columns and books -------------------------------------------------------------------------------
-  void keep_spots(const PointLanes& eight, const Projection& p, const Lane& gap,
-                  unsigned touching) const {
-    std::array<double, lane_count> u, v, distance;
-    min(max(p.u, Lane{}), 1.0).store(u.data());
-    min(max(p.v, Lane{}), 1.0).store(v.data());
-    gap.store(distance.data());
+  void keep(const PointLanes& eight, const Projection& p, const Lane& gap, unsigned touching,
+            const PointForces& f) const {
+    static constexpr double last = 1 - 1e-12;  // an end belongs to its own face
+    const Lane faces = Lane::from([&](int l) { return static_cast<double>(entry(p.face, l)); });
+    alignas(64) ByPoint kept;
+    by_point({faces + min(max(p.u, Lane{}), last), min(max(p.v, Lane{}), 1.0), f.elastic_slip.x,
+              f.elastic_slip.y, f.elastic_slip.z, f.force.x, f.force.y, f.force.z},
+             kept);
+    // A point that is apart rests until it can touch.
+    alignas(64) std::array<double, lane_count> activation;
+    select(LaneMask::of(touching), Lane{}, s_.clock->travel - gap).store(activation.data());
     for (std::size_t l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l) {
       const PairPoint& point = *eight.point[l];
-      const Row<FaceContact> row(point.row);
-      PackedSpot::pack(&s_.closest(row), point.number, p.face[l], u[l], v[l]);
-      const bool touches = (touching >> l & 1) != 0;
-      // A point that is apart rests until it can touch.
-      s_.columns.activation(row, point.number) = touches ? 0 : s_.clock->travel - distance[l];
-      if (touches && s_.columns.touches(row) == 0) {
-        s_.columns.touches(row) = 1;
-        sums_.block.touching += 1;
-      }
-    }
-  }
-  void keep_forces(const PointLanes& eight, const PointForces& f) const {
-    keep(eight, f.force, [this](Row<FaceContact> row) { return &s_.columns.force(row); });
-    if (s_.columns.slip)
-      keep(eight, f.elastic_slip,
-           [this](Row<FaceContact> row) { return &(*s_.columns.slip)(row); });
-  }
-  template <class Column>
-  static void keep(const PointLanes& eight, const VectorLanes& vector, const Column& column) {
-    std::array<double, 3 * lane_count> all;
-    vector.x.store(all.data());
-    vector.y.store(all.data() + lane_count);
-    vector.z.store(all.data() + 2 * lane_count);
-    for (std::size_t l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l) {
-      const PairPoint& point = *eight.point[l];
-      double* to = column(Row<FaceContact>(point.row)) + point.number;
-      for (std::size_t k = 0; k < 3; ++k) to[face_points * k] = all[lane_count * k + l];
+      Lane::load(kept[l].data()).store(point.kept);
+      *point.activation = activation[l];
+      if ((touching >> l & 1) == 0) continue;
+      std::uint8_t& touches = s_.columns.touches(Row<FaceContact>(point.row));
+      sums_.block.touching += touches == 0 ? 1 : 0;
+      touches = 1;
     }
   }
   void book(const PointLanes& eight, unsigned unconverged) const {
@@ -205,11 +224,13 @@ class PairPass {
     for (int l = 0; l < lane_count; ++l) sums_.book_depth(entry(eight.point, l)->row, depth[l]);
   }
 
-  static constexpr std::array<double, 3 * face_points> no_spring{};
+  const VectorLanes no_vector{Lane{}, Lane{}, Lane{}};
   const face_contact& s_;
   const double* positions_ = s_.faces.position.values().data();
   const double* rates_ = s_.faces.velocity ? s_.faces.velocity->values().data() : nullptr;
   FaceSums& sums_;
+  Lane friction_;
+  bool rubs_;
   OtherFaces faces_;
   PairPoints points_;
   std::int32_t first_, end_;

@@ -21,6 +21,9 @@ using OfPatch = std::array<Lane, 2>;
 struct FaceLoad {
   std::array<OfPatch, 3> sum;  // N: x, y, z
 
+  void clear() {
+    for (OfPatch& of : sum) of = {Lane{}, Lane{}};
+  }
   void fetch(const double* face) {
     for (int k = 0; k < 3; ++k)
       entry(sum, k) = {Lane::load(face + 16 * k), Lane::load(face + 16 * k + lane_count)};

@@ -4,6 +4,7 @@
 //          -(N_p,u C_u + N_p,v C_v) n with C_a = g (T . a^a): see contact_law.hpp
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "components/space/contact.hpp"
@@ -14,11 +15,11 @@
 
 namespace pulvis::space {
 
-// Eight points: where they are closest, what they bear. `couple` along u and v: C_u, C_v.
+// Eight points: where they are closest, what they bear.
 struct OtherForces {
   Lane u, v;
   kernels::Vector<Lane> force, normal;
-  std::array<Lane, 2> couple;
+  Lane couple_u, couple_v;  // C_u, C_v
 };
 
 // Eight numbers of eight points, a point's side by side.
@@ -42,7 +43,7 @@ class OtherFaces {
     by_point({bu[0], bu[1], bu[2], bu[3], bv[0], bv[1], bv[2], bv[3]}, basis);
     if constexpr (Friction) {
       const auto du = kernels::bernstein_slope(f.u), dv = kernels::bernstein_slope(f.v);
-      const Lane &cu = f.couple[0], &cv = f.couple[1];
+      const Lane &cu = f.couple_u, &cv = f.couple_v;
       by_point({cu * du[0], cu * du[1], cu * du[2], cu * du[3], cv * dv[0], cv * dv[1], cv * dv[2],
                 cv * dv[3]},
                slopes);
@@ -71,15 +72,13 @@ class OtherFaces {
   void move_to(std::int32_t face) {
     if (at_ >= 0 && loads_.face[static_cast<std::size_t>(at_)] == face) return;
     finish();
-    at_ = place_of(face);
-    load_.fetch(loads_.load[static_cast<std::size_t>(at_)].force.data());
-  }
-  int place_of(std::int32_t face) {
-    for (std::size_t i = loads_.face.size(); i-- > 0;)  // the last ones are the likeliest
-      if (loads_.face[i] == face) return static_cast<int>(i);
+    const auto last = std::find(loads_.face.rbegin(), loads_.face.rend(), face);
+    at_ = static_cast<int>(loads_.face.rend() - last) - 1;
+    if (at_ >= 0) return load_.fetch(loads_.load[static_cast<std::size_t>(at_)].force.data());
+    at_ = static_cast<int>(loads_.face.size());
     loads_.face.push_back(face);
     loads_.load.emplace_back();
-    return static_cast<int>(loads_.face.size()) - 1;
+    load_.clear();
   }
 
   OtherLoads::Pair& loads_;

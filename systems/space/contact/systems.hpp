@@ -16,6 +16,7 @@ struct contact_surface {
     Read<Position> position;
     Read<Velocity> velocity;
   } motion;
+  Write<NetPosition> net;
   Write<PointPosition> points;
   Write<FacePosition> position;
   Optional<Write<FaceVelocity>> velocity;
@@ -55,7 +56,7 @@ struct bin_faces {
   Write<ContactIndex> index;
   Structural<FaceContact> structure;
   NewRows<FaceContact> rows;
-  Write<ClosestPoint> closest;
+  Write<ContactPoint> point;
   Write<FacePairs> pairs;
   void operator()() const;
 };
@@ -97,8 +98,14 @@ struct face_contact {
   ShapedBodies bodies;
   Read<Clock> clock;
   ContactFaces faces;
-  RowColumns<FaceContact> columns;
-  Write<ClosestPoint> closest;
+  struct Columns {
+    Read<ContactPair<FaceContact>> pair;
+    Write<ContactTouches<FaceContact>> touches;
+    Write<Activation<FaceContact>> activation;
+    Read<ContactLaw<FaceContact>> law;
+    Write<ContactPoint> point;
+  };
+  Columns columns;
   Read<FacePairs> pairs;
   Write<OtherLoads> loads;
   Write<ContactSums<Contact>> sums;
@@ -117,7 +124,10 @@ struct contact_force {
   ShapedBodies bodies;
   Read<ContactIndex> index;
   struct Pairs {
-    TouchingRows<FaceContact> rows;
+    Read<ContactPair<FaceContact>> pair;
+    Read<ContactTouches<FaceContact>> touches;
+    Read<Activation<FaceContact>> activation;
+    Read<ContactPoint> point;
     Read<FacePairs> of;
     Read<OtherLoads> loads;
   };
@@ -125,6 +135,7 @@ struct contact_force {
   Optional<TouchingRows<FaceToolContact>> tools;
   Write<FaceForce> face_force;
   Write<PointLoad> load;
+  Write<NetLoad> net_load;
   Write<ContactForce> node_force;
   void operator()(Chunk chunk) const;
 };

@@ -63,11 +63,12 @@ const std::vector<SurfaceCase>& surface_cases() {
 TEST(SmoothSurface, HasWeightsThatSumToOne) {
   for (const auto& [name, shape] : surface_cases()) {
     SCOPED_TRACE(name);
-    for (int p = 0; p < shape.surface_points(); ++p) {
-      double sum = 0;
-      for (const Shape::PointTerm& term : shape.terms_of(p)) sum += term.weight;
-      EXPECT_NEAR(sum, 1, 1e-13);
-    }
+    for (const Shape::Terms* terms : {&shape.net, &shape.points})
+      for (int p = 0; p < terms->points(); ++p) {
+        double sum = 0;
+        for (const Shape::Term& term : terms->of(p)) sum += term.weight;
+        EXPECT_NEAR(sum, 1, 1e-13);
+      }
   }
 }
 
@@ -76,9 +77,10 @@ TEST(SmoothSurface, IsMadeOfNodesNearBy) {
   const Shape shape = shape_of(SphereShape{2}, 8, 1);
   const std::vector<Vec3> points = surface_points_of(shape, shape.nodes);
   for (int p = 0; p < shape.surface_points(); ++p)
-    for (const Shape::PointTerm& term : shape.terms_of(p))
-      EXPECT_LT((entry(points, p) - node_of(shape, term.node.value)).norm(),
-                4.5 * shape.faces[0].size);
+    for (const Shape::Term& of_net : shape.points.of(p))
+      for (const Shape::Term& term : shape.net.of(static_cast<int>(of_net.row.value)))
+        EXPECT_LT((entry(points, p) - node_of(shape, term.row.value)).norm(),
+                  4.5 * shape.faces[0].size);
 }
 
 TEST(SmoothSurface, NeighboursFindBack) {
@@ -169,8 +171,9 @@ std::vector<Vec3> pressure_loads(const Shape& shape, const std::vector<Point>& n
             entry(bernstein(at.u), k % 4) * entry(bernstein(at.v), k / 4) * area;
     }
   for (int p = 0; p < shape.surface_points(); ++p)
-    for (const Shape::PointTerm& term : shape.terms_of(p))
-      entry(load, term.node) += term.weight * entry(on_point, p);
+    for (const Shape::Term& of_net : shape.points.of(p))
+      for (const Shape::Term& term : shape.net.of(static_cast<int>(of_net.row.value)))
+        entry(load, term.row) += of_net.weight * term.weight * entry(on_point, p);
   return load;
 }
 

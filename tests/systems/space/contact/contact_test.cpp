@@ -164,7 +164,10 @@ Shape flat_square(int n, double width, double thickness) {
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) shape.nodes.push_back({i * width / n, j * width / n, 0});
   shape.surface_nodes = static_cast<int>(shape.nodes.size());
-  shape.point_begin = {0};
+  for (int i = 0; i < shape.surface_nodes; ++i) {
+    shape.net.all.push_back({Row<BoundaryNode>(i), 1});
+    shape.net.close();
+  }
   const double size = width / n;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
@@ -175,8 +178,8 @@ Shape flat_square(int n, double width, double thickness) {
         const double share[4] = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
         face.point[p] = shape.surface_points();
         for (int c = 0; c < 4; ++c)
-          shape.point_terms.push_back({Row<BoundaryNode>(corners[c]), share[c]});
-        shape.point_begin.push_back(static_cast<std::int32_t>(shape.point_terms.size()));
+          shape.points.all.push_back({Row<BoundaryNode>(corners[c]), share[c]});
+        shape.points.close();
       }
       const int number = static_cast<int>(shape.faces.size());
       face.neighbour = {{{j > 0 ? number - n : -1, 2},
