@@ -138,7 +138,8 @@ std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) 
 // What lies beside the folders of the runs.
 constexpr std::array files_of_a_study{
     "study.toml",   "study.csv",   "fits.csv",    "strengths.csv", "sensitivities.csv",
-    "summary.json", "curves.json", "report.html", "pictures",      "inputs"};
+    "summary.json", "curves.json", "report.html", "pictures",      "inputs",
+    "slurm.sh",     "slurm.json",  "slurm"};
 
 // File systems that know no capital letters take two such names for one.
 bool can_be_folder(std::string name) {
