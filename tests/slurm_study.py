@@ -179,7 +179,7 @@ class Check:
         self.cluster, self.place = cluster, place
 
     def write(self, name, frictions, duration):
-        """A study whose runs take about a second for each 60 us."""
+        """A study whose runs take about a second for each 150 us."""
         file = self.place / name
         file.write_text(STUDY.format(scene=self.source / "scenes/compaction/regular-25.toml",
                                      frictions=frictions, duration=duration))
@@ -272,7 +272,7 @@ class Check:
 
     def cancelled(self):
         """What somebody cancels stays so; a local study goes on with it."""
-        file, results = self.write("cancelled.toml", "[0.1]", "400 us"), self.place / "cancelled"
+        file, results = self.write("cancelled.toml", "[0.1]", "240 us"), self.place / "cancelled"
         job = self.submit(file, results)
         comes("a run", lambda: self.has_begun(results / "friction=0.1"))
         self.cluster.says("scancel", job)
@@ -283,10 +283,10 @@ class Check:
 
     def time_limit(self):
         """A real one, of a minute: the signal comes up to a minute before, since Slurm looks twice a minute."""
-        file = self.write("long.toml", "[0.1, 0.2]", "4 ms")
+        file = self.write("long.toml", "[0.1]", "12 ms")
         local, results = self.place / "local", self.place / "cluster"
         job = self.submit(file, results, "--time", "1")
-        comes("both tasks queued again", lambda: all(self.cluster.restarts(f"{job}_{i}") > 0 for i in (0, 1)), 90)
+        comes("the task queued again", lambda: self.cluster.restarts(f"{job}_0") > 0, 90)
         comes("the end of the array", lambda: not self.cluster.waits(), 600)
         self.study(file, results)
         self.study(file, local)
@@ -303,6 +303,7 @@ def main():
     missing = [name for name in PROGRAMS if shutil.which(name) is None]
     if missing:
         sys.exit(f"slurm_study: there is no {', '.join(missing)}: install Debian's slurm-wlm and munge")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("slurm_study: ended by SIGTERM"))  # and cleans up
     begin = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="pulvis-slurm-") as folder:
         place = pathlib.Path(folder)

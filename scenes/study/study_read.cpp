@@ -80,6 +80,7 @@ below = -1.6
 | `curves.json` | the curves as drawn; of several seeds mean (`y`), `standard_deviation`, `low` and `high` |
 | `summary.json` | all of this, and the verdicts |
 | `report.html` | charts with bars of the standard deviation, effect plots, the last frame of each run, tables |
+| `slurm.sh`, `slurm.json`, `slurm/` | on a cluster: the job, which runs it has, what it prints (docs/cluster.md) |
 
 Runs that did not reach their end are in `study.csv` alone. Values of compactions between four planes are also told at the
 sample with the highest relative density: `peak/relative_density`, `peak/top_force`, `peak/bottom_force`, `peak/top_pressure`,
