@@ -4,8 +4,8 @@
     slurm_study.py PROGRAM SOURCE_DIR [--time-limit]
 
 Runs of a study that Slurm does have the bits of a local study; none is started twice, stopped ones go on from their
-checkpoints, and a node that is lost costs no finished run. --time-limit waits for a real time limit instead, which
-takes two minutes: by hand.
+checkpoints, and a node that is lost costs no finished run. --time-limit waits for real time limits instead, which
+takes some minutes: by hand.
 """
 import argparse
 import csv
@@ -283,7 +283,7 @@ class Check:
 
     def time_limit(self):
         """A real one, of a minute: the signal comes up to a minute before, since Slurm looks twice a minute."""
-        file = self.write("long.toml", "[0.1]", "12 ms")
+        file = self.write("long.toml", "[0.1]", "40 ms")
         local, results = self.place / "local", self.place / "cluster"
         job = self.submit(file, results, "--time", "1")
         comes("the task queued again", lambda: self.cluster.restarts(f"{job}_0") > 0, 90)

@@ -1,6 +1,7 @@
 #include "cli/study/study_folder.hpp"
 
 #include "cli/slurm/slurm_queue.hpp"
+#include "cli/slurm/slurm_script.hpp"
 #include "cli/study/saved_settings.hpp"
 #include "cli/study/study_runner.hpp"
 #include "engine/files/own_files.hpp"

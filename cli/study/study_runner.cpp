@@ -113,7 +113,7 @@ class StudyRunner::Parts {
     const auto kept = std::ranges::count(results_, true, &StudyResult::kept);
     tell("{}: {} to do, {} finished before; {} at once, {} each\n", counted(results_.size(), "run"),
          waiting_.size(), kept, times_.jobs, counted(times_.threads, "thread"));
-    if (elsewhere() > 0) tell("not started here, since others have them: {}\n", elsewhere());
+    tell_elsewhere();
     const auto resumed = std::ranges::count(results_, true, &StudyResult::resumed);
     if (resumed > 0) tell("interrupted before, resumed from their checkpoints: {}\n", resumed);
     std::fflush(stdout);
@@ -149,9 +149,19 @@ class StudyRunner::Parts {
   }
 
   const StudyTimes& times() const { return times_; }
+
   std::size_t elsewhere() const {
     return static_cast<std::size_t>(std::ranges::count_if(
         results_, [](const StudyResult& result) { return !result.elsewhere.empty(); }));
+  }
+
+  void tell_elsewhere() const {
+    constexpr std::size_t most_named = 3;
+    std::size_t told = 0;
+    for (const StudyResult& result : results_)
+      if (!result.elsewhere.empty() && told++ < most_named)
+        tell("not started here: {}: {}\n", result.run->name, result.elsewhere);
+    if (told > most_named) tell("... and {} more\n", told - most_named);
   }
 
   std::vector<std::string> waiting() const {

@@ -157,6 +157,8 @@ TEST_F(SlurmCommand, RunsInTheQueueAreNotStartedTwice) {
   const Outcome some = study();
   EXPECT_EQ(some.code, 130) << some.err;
   EXPECT_THAT(some.out, HasSubstr("1 of 3 runs good, 2 not finished yet"));
+  EXPECT_THAT(some.out,
+              HasSubstr("not started here: friction=0.3: under way: task 0 of Slurm's job 77\n"));
   EXPECT_FALSE(has("friction=0.1"));
   EXPECT_TRUE(has("friction=0.2"));
   EXPECT_FALSE(has("friction=0.3"));
