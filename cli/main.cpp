@@ -28,7 +28,7 @@
 #include "cli/report/report.hpp"
 #include "cli/session/run.hpp"
 #include "cli/session/run_afm.hpp"
-#include "cli/study/study.hpp"
+#include "cli/study/study_options.hpp"
 #include "cli/summary.hpp"
 #include "cli/tell.hpp"
 #include "engine/files/output_error.hpp"
@@ -44,7 +44,6 @@
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/space/keys/space_reference.hpp"
-#include "scenes/study/study_read.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/constraints.hpp"
 
@@ -163,44 +162,10 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
   command->callback([&] { code = draw_figures(options); });
 }
 
-ExitCode study(const Options& options) {
-  if (options.reference.empty()) return run_study(options.study);
-  tell("{}", study_reference());
-  return ExitCode::done;
-}
-
 void add_scene(CLI::App& command, Options& options, bool required = true) {
   auto* scene = command.add_option("scene", options.run.scene, "scene file (TOML)");
   if (required) scene->required();
   add_overrides(command, options.run.overrides, "this run");
-}
-
-void add_study(CLI::App& app, Options& options, ExitCode& code) {
-  auto* command = app.add_subcommand(
-      "study", "run a scene with a table of variations; table, curves and trends in one report");
-  command->add_option("study", options.study.study, "study file (TOML), docs/study.md");
-  command
-      ->add_option("-o,--output", options.study.folder,
-                   "results folder (default runs/<study name>); what is finished in it is kept")
-      ->transform(without_detours);
-  command
-      ->add_option("--jobs", options.study.jobs,
-                   "runs at once (default: what the processors allow)")
-      ->check(CLI::Range(1, 1024));
-  command
-      ->add_option("--threads-per-run", options.study.threads,
-                   "threads of each run (default: one, more where runs are fewer than processors)")
-      ->check(CLI::Range(1, 1024));
-  command->add_flag("--fresh", options.study.fresh,
-                    "run everything from its beginning, finished and broken off runs too");
-  command->add_flag("--list", options.study.list, "check everything, print the runs, run nothing");
-  command->add_option("--reference", options.reference, "print the study language instead: text")
-      ->check(CLI::IsMember({"text"}));
-  add_overrides(*command, options.study.overrides, "every run");
-  command->callback([&options, &code] {
-    if (options.study.study.empty() && options.reference.empty()) throw CLI::RequiredError("study");
-    code = study(options);
-  });
 }
 
 // CLI11's own checks let "nan" and "inf" pass.
@@ -328,7 +293,7 @@ int parse_and_run(int argc, char** argv) {
 
   add_run(app, options, code);
   add_resume(app, options, code);
-  add_study(app, options, code);
+  add_study(app, options.study, code);
   add_probe(app, options.probe, code);
   add_fit(app, options.fit, code);
 

@@ -2,18 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/interrupt.hpp"
-#include "cli/study/saved_settings.hpp"
+#include "cli/slurm/slurm_queue.hpp"
 #include "cli/study/study_fit_files.hpp"
+#include "cli/study/study_folder.hpp"
 #include "cli/study/study_report.hpp"
 #include "cli/study/study_results.hpp"
 #include "cli/study/study_runner.hpp"
+#include "cli/study/study_slurm.hpp"
 #include "cli/tell.hpp"
-#include "engine/files/output_error.hpp"
-#include "engine/files/own_files.hpp"
 #include "engine/files/run_folder.hpp"
 #include "scenes/language/counted.hpp"
-#include "scenes/study/declare_study.hpp"
 #include "scenes/study/study_read.hpp"
 #include "scenes/study/study_trends.hpp"
 
@@ -21,18 +22,14 @@ namespace pulvis {
 namespace {
 
 namespace fs = std::filesystem;
-// Of the study itself.
-void require_own_study(const fs::path& folder, const fs::path& study) {
-  for (const char* const name :
-       {"study.toml", "study.csv", "variations.csv", "effects.csv", "fits.csv", "strengths.csv",
-        "sensitivities.csv", "summary.json", "curves.json", "report.html"}) {
-    require_another(study, folder / name);
-    require_own_or_none(folder / name, role::study);
-  }
-  std::error_code ignored;
-  if (fs::exists(folder / "run.h5", ignored))
-    throw RunFolderTaken(folder, "run a study here",
-                         "it holds a run; allowed: a folder of its own");
+
+ExitCode tell_end(const StudyRunner& runner, std::size_t of, std::size_t bad,
+                  const fs::path& folder) {
+  const std::size_t open = runner.elsewhere();
+  tell("{} of {} good{}; results in {}\n", of - bad - open, counted(of, "run"),
+       open > 0 ? fmt::format(", {} not finished yet", open) : "", folder.string());
+  if (open > 0) return ExitCode::interrupted;
+  return bad > 0 ? ExitCode::run_failed : ExitCode::done;
 }
 
 ExitCode finish(StudyRunner& runner, const Study& study, const fs::path& folder) {
@@ -55,9 +52,8 @@ ExitCode finish(StudyRunner& runner, const Study& study, const fs::path& folder)
   const std::size_t bad = runner.tell_bad();
   if (!verdicts.empty()) tell("expectations\n");
   for (const Verdict& verdict : verdicts) tell("  {}\n", verdict.text());
-  tell("{} of {} good; results in {}\n", results.size() - bad, counted(results.size(), "run"),
-       folder.string());
-  return bad > 0 || !all_met(verdicts) ? ExitCode::run_failed : ExitCode::done;
+  const ExitCode code = tell_end(runner, results.size(), bad, folder);
+  return code == ExitCode::done && !all_met(verdicts) ? ExitCode::run_failed : code;
 }
 
 void print_list(const Study& study) {
@@ -70,33 +66,70 @@ void print_list(const Study& study) {
        counted(study.spec.expects.size(), "expectation"));
 }
 
+// Of the runs that were asked for; says which there are not.
+bool keep_only(Study& study, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (std::ranges::find(study.runs, name, &StudyRun::name) != study.runs.end()) continue;
+    tell(stderr, "{}: there is no run '{}' in this study; allowed: a name that --list prints\n",
+         study.file.string(), name);
+    return false;
+  }
+  std::erase_if(study.runs, [&](const StudyRun& run) {
+    return std::ranges::find(names, run.name) == names.end();
+  });
+  return true;
+}
+
+ExitCode tell_interrupted(const StudyRunner& runner) {
+  tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command continues\n",
+       runner.done(), runner.to_do());
+  return ExitCode::interrupted;
+}
+
+// Some runs of a study whose folder may be somebody else's at the same time: the tables are his, too.
+ExitCode run_part(const StudyOptions& options, const Study& study, const fs::path& folder) {
+  take_interrupts();
+  make_folder(folder);
+  StudyRunner runner({options.jobs, options.threads, options.fresh,
+                      runs_elsewhere(folder, study, {}), options.gather},
+                     study.runs, folder);
+  runner.go();
+  if (!interrupted()) {
+    const std::size_t runs = runner.read().size(), bad = runner.tell_bad();
+    return tell_end(runner, runs, bad, folder);
+  }
+  if (runner.has_come_further()) return tell_interrupted(runner);
+  // A task that is queued again for this would never come to an end.
+  tell(stderr,
+       "pulvis: interrupted before the first step of a run; it needs more time than that\n");
+  return ExitCode::machine;
+}
+
 }  // namespace
 
 ExitCode run_study(const StudyOptions& options) {
   leave_at_interrupts();
-  const Study study = load_study(options.study, options.overrides);
+  Study study = load_study(options.study, options.overrides);
+  if (!options.only.empty() && !keep_only(study, options.only)) return ExitCode::usage;
   if (options.list) {
     print_list(study);
     return ExitCode::done;
   }
-  take_interrupts();
   const fs::path folder =
       options.folder.empty() ? fs::path("runs") / options.study.stem() : options.folder;
+  if (!options.only.empty() && !options.slurm.submit) return run_part(options, study, folder);
   require_own_study(folder, options.study);
-  make_folder(folder);
-  // Two studies in one folder would take each other's runs away.
-  const FolderLock lock(folder, "another study is running in it");
-  StudyRunner runner({options.jobs, options.threads, options.fresh}, study.runs, folder);
-  save_settings(folder / "study.toml", role::study,
-                whole_settings({study.text, study.file, schema::study_language(), study.files,
-                                study.overrides}));
+  if (options.slurm.submit) return submit_study(options, study, folder);
+  take_interrupts();
+  const FolderLock lock = lock_study(folder);
+  const SlurmQueue queue(folder);
+  StudyRunner runner({options.jobs, options.threads, options.fresh,
+                      runs_elsewhere(folder, study, queue.runs()), options.gather},
+                     study.runs, folder);
+  queue.write();
+  save_study(folder, study);
   runner.go();
-  if (interrupted()) {
-    tell(stderr, "pulvis: interrupted; {} of {} runs were finished, the same command continues\n",
-         runner.done(), runner.to_do());
-    return ExitCode::interrupted;
-  }
-  return finish(runner, study, folder);
+  return interrupted() ? tell_interrupted(runner) : finish(runner, study, folder);
 }
 
 }  // namespace pulvis

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/exit_code.hpp"
+#include "cli/slurm/slurm_script.hpp"
 
 namespace pulvis {
 
@@ -16,7 +17,12 @@ struct StudyOptions {
   int threads = 0;               // of each run; 0: one, or the processors shared out among few runs
   bool fresh = false;            // run everything again
   bool list = false;             // only say what would be run
+  bool gather = false;           // run nothing, write what there is to tell of finished runs
+  std::vector<std::string>
+      only;  // names of runs: these alone, without the study's table; empty: all
   std::vector<std::string> overrides;
+  SlurmOptions slurm;
+  std::string reference;  // the study language instead: "text"
 };
 
 ExitCode run_study(const StudyOptions& options);

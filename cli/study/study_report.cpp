@@ -103,7 +103,8 @@ Json with_thumbnails(Json head, const std::vector<StudyResult>& results) {
   std::map<std::string, Json> scales;
   std::vector<std::optional<Thumbnail>> all;
   for (const StudyResult& result : results) {
-    all.push_back(thumbnail_of(result.folder / "run.h5", side));
+    all.push_back(result.elsewhere.empty() ? thumbnail_of(result.folder / "run.h5", side)
+                                           : std::nullopt);
     const std::optional<Thumbnail>& one = all.back();
     if (!one || one->field.empty()) continue;
     Json& scale = scales

@@ -168,7 +168,7 @@ const std::vector<double>& StudyResult::series(const std::string& name) const {
   if (run->scene.afm && is_figure_of_a_run(name)) {
     if (const Json figure = afm_figure(summary, name); !figure.is_null())
       values.push_back(figure.get<double>());
-  } else if (std::filesystem::exists(folder / "run.h5")) {
+  } else if (elsewhere.empty() && std::filesystem::exists(folder / "run.h5")) {
     const auto file = hdf5::File::open(folder / "run.h5");
     const auto rows = file.contains("/history/time") ? file.shape("/history/time").at(0) : 0;
     const auto history = [&](const std::string& series) {
@@ -185,6 +185,10 @@ const std::vector<double>& StudyResult::series(const std::string& name) const {
 }
 
 void read_result(StudyResult& result) {
+  if (!result.elsewhere.empty()) {
+    result.failure = result.elsewhere;
+    return;
+  }
   result.summary = read_summary(result.folder);
   const std::string outcome = text_in(result.summary, "outcome");
   const bool stopped_well = outcome.starts_with("stopped as expected");

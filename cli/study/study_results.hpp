@@ -22,9 +22,11 @@ struct StudyResult {
   std::filesystem::path folder;
   bool kept = false;     // found finished
   bool resumed = false;  // found broken off, with a checkpoint to go on from
-  int code = 0;          // exit code of the run; of a kept one as it must have been
-  std::string failure;   // why it is not as it should be; empty: good
-  bool usable = false;   // it reached its end: its curves can be compared
+  std::string
+      elsewhere;  // who runs it, where that is not this study; then nothing of its folder is read
+  int code = 0;   // exit code of the run; of a kept one as it must have been
+  std::string failure;  // why it is not as it should be; empty: good
+  bool usable = false;  // it reached its end: its curves can be compared
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
 
   // A series of the study (scenes/study/study_series.hpp); empty where the run has left none.

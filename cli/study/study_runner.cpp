@@ -56,6 +56,13 @@ std::string failure_of(const JobEnd& end, const fs::path& log) {
   return fmt::format("exit code {}: {}", end.code, last_line(log));
 }
 
+// Who runs what is not finished, where that is not this study.
+std::string who_has(const StudyResult& result, const RunnerOptions& options) {
+  const auto known = options.elsewhere.find(result.run->name);
+  if (known != options.elsewhere.end()) return known->second;
+  return options.gather ? "not finished" : "";
+}
+
 void require_own_run(const fs::path& folder) {
   std::error_code ignored;
   const fs::file_status status = fs::symlink_status(folder, ignored);
@@ -83,26 +90,30 @@ void make_folder(const fs::path& folder) {
 class StudyRunner::Parts {
  public:
   Parts(const RunnerOptions& options, const std::vector<StudyRun>& runs, fs::path folder)
-      : folder_(std::move(folder)), terminal_(isatty(STDERR_FILENO) != 0) {
+      : folder_(std::move(folder)),
+        elsewhere_(options.elsewhere),
+        terminal_(isatty(STDERR_FILENO) != 0) {
     for (const StudyRun& run : runs) {
       StudyResult result;
       result.run = &run;
       result.folder = folder_ / run.name;
       result.kept = !options.fresh && state_of(result.folder, run.hash) == RunState::finished;
-      result.resumed = !options.fresh && !result.kept && can_go_on(result.folder, run.hash);
-      if (!result.kept) require_own_run(result.folder);
+      if (!result.kept) result.elsewhere = who_has(result, options);
+      const bool is_waiting = !result.kept && result.elsewhere.empty();
+      result.resumed = is_waiting && !options.fresh && can_go_on(result.folder, run.hash);
+      if (is_waiting) require_own_run(result.folder);
       if (result.kept) require_own_or_none(result.folder / "report.html", role::run);
+      if (is_waiting) waiting_.push_back(results_.size());
       results_.push_back(std::move(result));
     }
-    for (std::size_t i = 0; i < results_.size(); ++i)
-      if (!results_[i].kept) waiting_.push_back(i);
     times_ = shares(options, waiting_.size());
   }
 
   void go() {
-    const auto kept = results_.size() - waiting_.size();
+    const auto kept = std::ranges::count(results_, true, &StudyResult::kept);
     tell("{}: {} to do, {} finished before; {} at once, {} each\n", counted(results_.size(), "run"),
          waiting_.size(), kept, times_.jobs, counted(times_.threads, "thread"));
+    tell_elsewhere();
     const auto resumed = std::ranges::count(results_, true, &StudyResult::resumed);
     if (resumed > 0) tell("interrupted before, resumed from their checkpoints: {}\n", resumed);
     std::fflush(stdout);
@@ -120,8 +131,8 @@ class StudyRunner::Parts {
     for (StudyResult& result : results_) {
       read_result(result);
       // A run that was killed between its summary and its report.
-      if (result.kept && !fs::exists(result.folder / "report.html") &&
-          fs::exists(result.folder / "run.h5"))
+      if (result.kept && !elsewhere_.contains(result.run->name) &&
+          !fs::exists(result.folder / "report.html") && fs::exists(result.folder / "run.h5"))
         write_report(result.folder);
     }
     return results_;
@@ -130,7 +141,7 @@ class StudyRunner::Parts {
   std::size_t tell_bad() const {
     std::size_t bad = 0;
     for (const StudyResult& result : results_) {
-      if (result.failure.empty()) continue;
+      if (result.failure.empty() || !result.elsewhere.empty()) continue;
       tell(stderr, "pulvis: {}: {}\n", result.run->name, result.failure);
       ++bad;
     }
@@ -138,6 +149,33 @@ class StudyRunner::Parts {
   }
 
   const StudyTimes& times() const { return times_; }
+
+  std::size_t elsewhere() const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        results_, [](const StudyResult& result) { return !result.elsewhere.empty(); }));
+  }
+
+  void tell_elsewhere() const {
+    constexpr std::size_t most_named = 3;
+    std::size_t told = 0;
+    for (const StudyResult& result : results_)
+      if (!result.elsewhere.empty() && told++ < most_named)
+        tell("not started here: {}: {}\n", result.run->name, result.elsewhere);
+    if (told > most_named) tell("... and {} more\n", told - most_named);
+  }
+
+  std::vector<std::string> waiting() const {
+    std::vector<std::string> names;
+    for (const std::size_t i : waiting_) names.push_back(results_[i].run->name);
+    return names;
+  }
+
+  bool has_come_further() const {
+    return done_ > 0 || std::ranges::any_of(waiting_, [&](std::size_t i) {
+             return can_go_on(results_[i].folder, results_[i].run->hash);
+           });
+  }
+
   std::size_t done() const { return done_; }
   std::size_t to_do() const { return waiting_.size(); }
 
@@ -201,6 +239,7 @@ class StudyRunner::Parts {
   }
 
   fs::path folder_;
+  std::map<std::string, std::string> elsewhere_;
   bool terminal_, open_ = false;
   std::vector<StudyResult> results_;
   std::vector<std::size_t> waiting_;  // positions in results_, of those to run
@@ -219,6 +258,9 @@ void StudyRunner::go() { parts_->go(); }
 std::vector<StudyResult>& StudyRunner::read() { return parts_->read(); }
 std::size_t StudyRunner::tell_bad() const { return parts_->tell_bad(); }
 const StudyTimes& StudyRunner::times() const { return parts_->times(); }
+std::size_t StudyRunner::elsewhere() const { return parts_->elsewhere(); }
+std::vector<std::string> StudyRunner::waiting() const { return parts_->waiting(); }
+bool StudyRunner::has_come_further() const { return parts_->has_come_further(); }
 std::size_t StudyRunner::done() const { return parts_->done(); }
 std::size_t StudyRunner::to_do() const { return parts_->to_do(); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct RunnerOptions {
   int jobs = 0;        // runs at once; 0: as many as the processors are enough for
   int threads = 0;     // of each run; 0: one, or the processors shared out among few runs
   bool fresh = false;  // run everything again
+  std::map<std::string, std::string> elsewhere = {};  // runs that others do, and who: not started
+  bool gather = false;                                // start none
 };
 
 void make_folder(const std::filesystem::path& folder);
@@ -35,9 +38,12 @@ class StudyRunner {
   void go();                         // until all have ended, or an interrupt
   std::vector<StudyResult>& read();  // in the order of the runs, with what their folders tell
   std::size_t tell_bad() const;      // names those that went bad; how many
+  std::size_t elsewhere() const;     // how many are not finished, and not for this to run
+  std::vector<std::string> waiting() const;  // names of those that go() would run
   const StudyTimes& times() const;
   std::size_t done() const;
   std::size_t to_do() const;
+  bool has_come_further() const;  // something was finished, or can go on from where it stopped
 
  private:
   class Parts;

@@ -88,6 +88,17 @@ FolderLock::FolderLock(const fs::path& folder, const char* taken)
     throw RunFolderTaken(folder, "use the folder", taken);
 }
 
+bool is_locked(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return false;
+  try {
+    FolderLock{folder};
+    return false;
+  } catch (const RunFolderTaken&) {
+    return true;
+  }
+}
+
 void require_own_files(const fs::path& folder) {
   for (const fs::path& file : files_of_a_run(folder)) require_own_or_none(file, role::run);
 }
@@ -118,9 +129,9 @@ FolderLock open_run_folder(const fs::path& given, bool overwrite) {
   require_own_files(folder);
   const std::string result = result_in(folder);
   if (!result.empty() && !overwrite)
-    throw RunFolderTaken(given, "start a run here",
-                         "the folder already holds one (" + result +
-                             "); allowed: another folder, or --overwrite");
+    throw RunFolderTaken(
+        given, "start a run here",
+        "the folder already holds one (" + result + "); allowed: another folder, or --overwrite");
   make_results_folder(given);
   FolderLock lock(folder);
   remove_old_run(folder);

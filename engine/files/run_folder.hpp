@@ -26,6 +26,10 @@ class FolderLock {
   FileDescriptor folder_;
 };
 
+// Whether some process has such a lock now; false of a folder that is not there. Who takes one at that very moment is
+// refused: ask only about folders in which nothing is about to start.
+bool is_locked(const std::filesystem::path& folder);
+
 // Makes the folder, parents included, and checks that files can be written into it. One that holds a file where
 // the run will write its own, and that no run wrote, is refused (ForeignFile: engine/files/own_files.hpp), and one with
 // results of a run unless `overwrite`. Then the old run's own files (run.h5, run.xdmf, history.csv, summary.json,

@@ -80,6 +80,7 @@ below = -1.6
 | `curves.json` | the curves as drawn; of several seeds mean (`y`), `standard_deviation`, `low` and `high` |
 | `summary.json` | all of this, and the verdicts |
 | `report.html` | charts with bars of the standard deviation, effect plots, the last frame of each run, tables |
+| `slurm.sh`, `slurm.json`, `slurm/` | on a cluster: the job, which runs it has, what it prints (docs/cluster.md) |
 
 Runs that did not reach their end are in `study.csv` alone. Values of compactions between four planes are also told at the
 sample with the highest relative density: `peak/relative_density`, `peak/top_force`, `peak/bottom_force`, `peak/top_pressure`,
@@ -138,7 +139,8 @@ std::string axis_name(const StudyAxis& axis, const std::vector<StudyAxis>& all) 
 // What lies beside the folders of the runs.
 constexpr std::array files_of_a_study{
     "study.toml",   "study.csv",   "fits.csv",    "strengths.csv", "sensitivities.csv",
-    "summary.json", "curves.json", "report.html", "pictures",      "inputs"};
+    "summary.json", "curves.json", "report.html", "pictures",      "inputs",
+    "slurm.sh",     "slurm.json",  "slurm"};
 
 // File systems that know no capital letters take two such names for one.
 bool can_be_folder(std::string name) {

@@ -71,7 +71,8 @@ ROOMS = {
     },
     "cli": {
         "report": "",
-        "study": "report /",
+        "slurm": "/",
+        "study": "report slurm /",
         "probe": "report study /",
         "volts": "report /",
         "lab": "report volts /",

@@ -1,0 +1,77 @@
+#include "cli/study/study_slurm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/interrupt.hpp"
+#include "cli/slurm/slurm_queue.hpp"
+#include "cli/slurm/slurm_script.hpp"
+#include "cli/study/study_folder.hpp"
+#include "cli/study/study_runner.hpp"
+#include "cli/tell.hpp"
+#include "engine/files/own_files.hpp"
+#include "scenes/language/counted.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As StudyRunner finds them; nothing is started.
+std::vector<std::string> runs_to_submit(const Study& study, const fs::path& folder,
+                                        const SlurmQueue& queue) {
+  RunnerOptions options;
+  options.elsewhere = runs_elsewhere(folder, study, queue.runs());
+  const StudyRunner runner(options, study.runs, folder);
+  const std::size_t finished = study.runs.size() - runner.waiting().size() - runner.elsewhere();
+  tell("{}: {} to do, {} finished before, {} under way\n", counted(study.runs.size(), "run"),
+       runner.waiting().size(), finished, runner.elsewhere());
+  return runner.waiting();
+}
+
+SlurmJob job_of(const StudyOptions& options, std::vector<std::string> runs) {
+  return {"pulvis-" + options.study.stem().string(), fs::read_symlink("/proc/self/exe").string(),
+          std::move(runs), std::max(1, options.threads), options.jobs};
+}
+
+void print_job(const SlurmJob& job, const SlurmOptions& options, const fs::path& folder) {
+  tell("\n# {}\n{}\n# It would be submitted by\ncd {} && sbatch --parsable {}\n",
+       (folder / slurm_script_file).string(), slurm_script(job, options),
+       shell_word(folder.string()), slurm_script_file);
+}
+
+}  // namespace
+
+ExitCode submit_study(const StudyOptions& options, const Study& study, const fs::path& folder) {
+  if (options.slurm.dry_run) {
+    const auto runs = runs_to_submit(study, folder, SlurmQueue(folder));
+    if (!runs.empty()) print_job(job_of(options, runs), options.slurm, folder);
+    return ExitCode::done;
+  }
+  require_sbatch();
+  take_interrupts();
+  const FolderLock lock = lock_study(folder);
+  SlurmQueue queue(folder);
+  const SlurmJob job = job_of(options, runs_to_submit(study, folder, queue));
+  queue.write();
+  if (job.runs.empty()) {
+    tell("there is nothing to submit\n");
+    return ExitCode::done;
+  }
+  save_study(folder, study);
+  make_folder(folder / slurm_log_folder);
+  write_own(folder / slurm_script_file, role::study, slurm_script(job, options.slurm));
+  SlurmArray array = submit_slurm_script(folder);
+  array.tasks = task_count(options.slurm, job.runs.size());
+  array.runs = job.runs;
+  queue.add(array);
+  tell(
+      "submitted as Slurm's job {}: {} of {}; logs in {}\n"
+      "the same command without --slurm and its options gathers what has finished\n",
+      array.job, counted(array.tasks, "task"), counted(job.threads, "thread"),
+      (folder / slurm_log_folder).string());
+  return ExitCode::done;
+}
+
+}  // namespace pulvis
