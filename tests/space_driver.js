@@ -85,6 +85,11 @@ async function driveSpace() {
   told("uncut", hashOf(canvas()) === first);
   const edges = await ticked("edges");
   told("edged", edges !== first && await ticked("edges") === first);
+  const forces = await ticked("contacts"), lines = Number(canvas().dataset.contacts), named = /normal contact forces, widest \S+ k?N/.test(canvas().getAttribute("aria-label"));
+  await settle("cut", "z");
+  const half = hashOf(canvas());
+  await settle("cut", "");
+  told("networkInSpace", forces !== first && lines > 0 && named && half !== forces && await ticked("contacts") === first);
   told("toolsHidden", !box("tools") || await ticked("tools") !== first && await ticked("tools") === first);
   told("labels", [...document.querySelectorAll("#picture-place select, #picture-place input")].every(one => one.labels.length || one.ariaLabel || one.getAttribute("aria-label")));
 }

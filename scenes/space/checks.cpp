@@ -59,6 +59,7 @@ class SpaceChecks {
     stages();
     check_frictions(scene_, names_of_tools(), refusal());
     check_tools(scene_, origins_, refusal());
+    output();
     everything_is_used();
   }
 
@@ -151,6 +152,14 @@ class SpaceChecks {
       refuse(path + ".spacing",
              "required key is missing: only spheres have a spacing of their own, allowed: a "
              "quantity in m");
+  }
+
+  void output() {
+    if (scene_.output.contacts && space_.tools.empty() && space_.packings.empty() &&
+        space_.bodies.size() < 2)
+      refuse("output.contacts",
+             "has no effect, nothing can touch the only particle, allowed: with two particles or "
+             "a tool");
   }
 
   void stages() {

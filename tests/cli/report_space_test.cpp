@@ -134,6 +134,18 @@ TEST_F(SpaceReportTest, ShowsParticlesInABox) {
   EXPECT_THAT(page, HasSubstr("twgl"));
 }
 
+// Twelve contacts along the edges of the lattice, four at either punch.
+TEST_F(SpaceReportTest, CarriesTheContactForcesOfEveryFrame) {
+  testing::SyntheticSpaceRun run;
+  const auto head = head_of(report_of(run));
+  for (const auto& frame : head["frames"]) {
+    EXPECT_EQ(frame["network"]["lines"], 12 + 8);
+    EXPECT_EQ(frame["network"]["unit"], "N");
+  }
+  run.contacts = false;
+  EXPECT_FALSE(head_of(report_of(run))["frames"][0].contains("network"));
+}
+
 TEST_F(SpaceReportTest, RefersTheDensityToTheDieOrThePowder) {
   testing::SyntheticSpaceRun run;
   run.die = true;

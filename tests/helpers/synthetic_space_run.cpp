@@ -227,8 +227,54 @@ std::vector<FieldInfo> space_fields(const SyntheticSpaceRun& run) {
       {"pressure", "Pa", "made up", FieldPlace::cell, 1},
       {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
       {"coordination", "-", "made up", FieldPlace::particle, 1, true}};
+  if (run.contacts) {
+    all.push_back({"particle_centre", "m", "made up", FieldPlace::particle, 3});
+    for (const std::string group : {"contacts/", "tool_contacts/"}) {
+      all.push_back({group + "ids", "-", "made up", FieldPlace::list, 2, true});
+      all.push_back({group + "point", "m", "made up", FieldPlace::list, 3});
+      all.push_back({group + "normal_force", "N", "made up", FieldPlace::list, 1});
+    }
+  }
   if (run.tools) all.push_back({"tools/outline", "m", "made up", FieldPlace::list, 3});
   return all;
+}
+
+// Where a contact stands, between which, and its force.
+struct SpaceContacts {
+  std::vector<double> ids, point, force;
+  void add(int first, int second, const Vec3& at, double size) {
+    ids.insert(ids.end(), {static_cast<double>(first), static_cast<double>(second)});
+    point.insert(point.end(), {at.x(), at.y(), at.z()});
+    force.push_back(size);
+  }
+};
+
+// Neighbours along the axes of the lattice; the top punch is tool 0, the bottom one 1.
+void append_contacts_in_space(const SyntheticSpaceRun& run, double share,
+                              std::vector<std::vector<double>>& values) {
+  const int c = run.columns, layer = c * c;
+  const double half = 0.5 * run.diameter;
+  const auto centre = [&](int sphere) {
+    Vec3 at = centre_of(run, sphere);
+    at.z() *= space_squeeze(share);
+    return at;
+  };
+  SpaceContacts pairs, tools;
+  std::vector<double> centres;
+  for (int sphere = 0; sphere < spheres(run); ++sphere) {
+    const Vec3 at = centre(sphere);
+    const double size = 100 * share * (1 + sphere % 3);
+    centres.insert(centres.end(), {at.x(), at.y(), at.z()});
+    if (sphere % c + 1 < c) pairs.add(sphere, sphere + 1, at + half * Vec3::UnitX(), size);
+    if (sphere / c % c + 1 < c) pairs.add(sphere, sphere + c, at + half * Vec3::UnitY(), size);
+    if (sphere + layer < spheres(run))
+      pairs.add(sphere, sphere + layer, 0.5 * (at + centre(sphere + layer)), 3 * size);
+    if (sphere + layer >= spheres(run)) tools.add(sphere, 0, at + half * Vec3::UnitZ(), 3 * size);
+    if (sphere < layer) tools.add(sphere, 1, at - half * Vec3::UnitZ(), 3 * size);
+  }
+  values.push_back(centres);
+  for (const SpaceContacts& of : {pairs, tools})
+    values.insert(values.end(), {of.ids, of.point, of.force});
 }
 
 std::vector<std::vector<double>> space_frame_of(const SyntheticSpaceRun& run, const Ball& ball,
@@ -242,6 +288,7 @@ std::vector<std::vector<double>> space_frame_of(const SyntheticSpaceRun& run, co
   for (int sphere = 0; sphere < spheres(run); ++sphere) coordination.push_back(3 + sphere % 4);
   std::vector<std::vector<double>> values{space_positions(run, ball, share), stress, pressure,
                                           strain, coordination};
+  if (run.contacts) append_contacts_in_space(run, share, values);
   if (run.tools) values.push_back(space_tool_corners(run, share));
   return values;
 }

@@ -102,11 +102,13 @@ class Plot:
 
     def network(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Normal forces of the contacts, and force chains."""
-        return self._drawn(network.contact_network, "network", options_of(look, frame=frame), ax)
+        draw = space.space_network if self._run.in_space else network.contact_network
+        return self._drawn(draw, "network", options_of(look, frame=frame), ax)
 
     def rose(self, frame: int = -1, **look: Any) -> tuple[Figure, Axes]:
-        """Directions of the contacts' normals."""
-        return self._drawn(network.rose, "network", options_of(look, frame=frame))
+        """Directions of the contacts' normals, in two dimensions."""
+        draw = (lambda *_: None) if self._run.in_space else network.rose
+        return self._drawn(draw, "network in two dimensions" if self._run.in_space else "network", options_of(look, frame=frame))
 
     def density(self, frame: int | None = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Local densities of a frame; of several frames from the first to the last with frame=None."""

@@ -124,7 +124,8 @@ class Frame:
 
     def network(self, tools: bool = False) -> DataFrame:
         """DataFrame of the contacts between particles, or of particles and tools: `first`, `second` (numbers of
-        particles, or the tool's position in the scene), `x`, `y`, `normal_x`, `normal_y`, `normal_force` ..."""
+        particles, or the tool's position in the scene), `x`, `y`, `normal_x`, `normal_y`, `normal_force` ...; in three
+        dimensions `z`, `normal_z`, and `area` instead of `length`."""
         group = "tool_contacts" if tools else "contacts"
         if group not in self.group:
             raise RunError(f"frame {self.number} has no contacts: the scene needs output.contacts = true",
@@ -136,7 +137,7 @@ class Frame:
                 continue
             values, unit = data[()], data.attrs["unit"]
             parts = {name: values} if values.ndim == 1 else {
-                (axis if name == "point" else f"{name}_{axis}"): values[:, k] for k, axis in enumerate("xy")}
+                (axis if name == "point" else f"{name}_{axis}"): values[:, k] for k, axis in zip(range(values.shape[1]), "xyz")}
             columns.update({key: (part, unit) for key, part in parts.items()})
         return table(columns, name="contact")
 

@@ -227,9 +227,10 @@ const TableDeclaration<TimeSpec>& time() {
 
 const TableDeclaration<OutputSpec>& output() {
   static const TableDeclaration<OutputSpec> declaration = [] {
-    TableDeclaration<OutputSpec> table = without(schema::output(), {"density_cells", "contacts"});
-    key_of(table, "particle_stress").info.doc =
-        "Mean stress of every particle in every frame, of the compact over time.";
+    TableDeclaration<OutputSpec> table = without(schema::output(), {"density_cells"});
+    key_of(table, "contacts").info.doc =
+        "The network of contacts: forces, normals and areas of every pair that touches and force "
+        "chains in every frame; coordination, fabric and mean forces over time.";
     return table;
   }();
   return declaration;

@@ -12,6 +12,7 @@
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
 #include "scenes/space/results/element_results.hpp"
+#include "scenes/space/results/observed_network.hpp"
 #include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/results/space_series.hpp"
 #include "scenes/space/results/space_tags.hpp"
@@ -52,7 +53,8 @@ std::vector<FieldInfo> fields_in_space(const World& world) {
   if (is_plastic(world))
     fields.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
-  for (const FieldInfo& observed : stress_fields(world)) fields.push_back(observed);
+  for (const auto& observed : {stress_fields(world), network_fields(world)})
+    fields.insert(fields.end(), observed.begin(), observed.end());
   return fields;
 }
 
@@ -100,6 +102,7 @@ class SpaceParts : public ResultParts {
     fields = {values_of_nodes<Position>(world_), values_of_nodes<Velocity>(world_)};
     append_element_fields(world_, fields);
     append_stress_frame(world_, fields);
+    append_network_frame(world_, fields);
   }
   void append_tool_frame(Fields& fields) const override {
     if (sheets_.faces().names.empty()) return;
@@ -120,9 +123,10 @@ class SpaceParts : public ResultParts {
 
   void append_contacts(std::vector<double>&) const override {}
   void append_observed(std::vector<double>& row) const override {
-    if (!room_) return;
-    append_stress_sample(world_, room_->volume([&](int tool, int k) { return position(tool, k); }),
-                         row);
+    if (room_)
+      append_stress_sample(
+          world_, room_->volume([&](int tool, int k) { return position(tool, k); }), row);
+    append_network_sample(world_, row);
   }
 
   std::vector<double> momentum() const override {

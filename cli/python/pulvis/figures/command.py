@@ -27,7 +27,7 @@ from pulvis.figures.look import Options, write_csv
 from pulvis.figures.network import contact_network, rose
 from pulvis.figures.probe import figures_of_probe
 from pulvis.figures.quantities import inches
-from pulvis.figures.space import section_picture, space_picture, space_profile
+from pulvis.figures.space import section_picture, space_network, space_picture, space_profile
 from pulvis.figures.study import figures_of_study
 from pulvis.results import Run
 
@@ -36,8 +36,8 @@ PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "energies": ener
                  "local_density": local_density, "density_profile": density_profile,
                  "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
                  "breaking": breaking, "fragment_sizes": fragment_sizes}
-SPACE_FIGURES = {"section": section_picture, "density_profile": space_profile, "force": forces,
-                 "stress_ratio": stress_ratio, "energies": energies}
+SPACE_FIGURES = {"section": section_picture, "density_profile": space_profile, "contact_network": space_network,
+                 "force": forces, "stress_ratio": stress_ratio, "energies": energies}
 OF_A_FIELD = (field_picture, space_picture, section_picture)
 LIKE_EVERY_FIGURE = {"limits": None}  # a range of colours is of one field
 
