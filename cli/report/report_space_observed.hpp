@@ -1,4 +1,4 @@
-// What the report shows of what a run in three dimensions observes: the contact network.
+// What the report shows of what a run in three dimensions observes: the contact network, densities in the cells of a grid.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "components/die_room.hpp"
 #include "components/entities.hpp"
 #include "components/space/shape.hpp"
 
@@ -58,6 +59,27 @@ struct ContactNetwork {
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(pairs, tools);
+  }
+};
+
+// ---- output.density_cells ---------------------------------------------------------------------------
+struct DensityGrid {
+  static constexpr const char* resource_name = "density_grid";
+  // The face of a punch: distances from its axis, and heights over its middle, along its normal, m.
+  using Profile = std::vector<std::array<double, 2>>;
+
+  std::array<int, 3> cells{};           // along x, y, z
+  DieRoom between;                      // the tools
+  std::array<Profile, 2> bottom_top{};  // of a round room; flat: empty
+
+  // As last observed.
+  std::array<double, 3> low{}, high{};  // m
+  std::vector<double> filled;           // m^3, [z * y * x]: of the particles in a cell
+  std::vector<double> room;             // m^3, of the cell between the tools
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(low, high, filled, room);
   }
 };
 

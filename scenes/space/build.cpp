@@ -7,6 +7,7 @@
 #include "scenes/space/layout.hpp"
 #include "scenes/space/packing/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
+#include "scenes/space/results/observed_density.hpp"
 #include "scenes/space/results/observed_network.hpp"
 #include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/tools/drives.hpp"
@@ -53,6 +54,7 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   add_contact(*world, scene, bodies);
   add_observed_stress(*world, scene);
   add_observed_network(*world, scene);
+  add_observed_density(*world, scene);
   return world;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scenes/checks/process_checks.hpp"
+#include "scenes/space/results/observed_density.hpp"
 #include "scenes/space/shape_checks.hpp"
 #include "scenes/space/stl_files.hpp"
 #include "scenes/space/tool_checks.hpp"
@@ -160,6 +161,10 @@ class SpaceChecks {
       refuse("output.contacts",
              "has no effect, nothing can touch the only particle, allowed: with two particles or "
              "a tool");
+    if (scene_.output.density() && !has_grid_room(scene_))
+      refuse("output.density_cells",
+             "the tools are around no room that a grid can fill, allowed: with six planes whose "
+             "normals are along the axes, or a round die along one between two planes or punches");
   }
 
   void stages() {

@@ -33,6 +33,7 @@ std::vector<System> observed_in_space(World& w) {
   observe.add<particle_stress<F>> ("particle_stress",   w.has<ParticleStress>());
   observe.add<contact_network>    ("contact_network",   w.has<ContactNetwork>());
   observe.add<force_chains>       ("force_chains",      w.has<ForceChains>());
+  observe.add<local_density>      ("local_density",     w.has<DensityGrid>());
   // clang-format on
   return observe.taken();
 }

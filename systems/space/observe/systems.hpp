@@ -37,4 +37,12 @@ struct force_chains {
   void operator()() const;
 };
 
+struct local_density {
+  ShapedBodies bodies;
+  Read<Position> position;
+  Read<ToolPosition> tool_position;
+  Write<DensityGrid> grid;
+  void operator()() const;
+};
+
 }  // namespace pulvis::space
