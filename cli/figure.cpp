@@ -29,6 +29,8 @@ std::vector<std::string> arguments(const ScriptFolder& scripts, const FigureOpti
   add("cmap", options.colours);
   add("range", options.range);
   add("dpi", options.dpi);
+  add("across", options.across);
+  add("at", options.at);
   if (options.no_title) all.push_back("--no-title");
   all.insert(all.end(), {"--", options.folder.string()});  // its name may begin with a '-'
   return all;

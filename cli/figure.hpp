@@ -23,6 +23,7 @@ struct FigureOptions {
   std::filesystem::path animation;  // .mp4 or .gif of all frames; empty: none
   // As given; empty: not given.
   std::string width, height, colours, range, dpi;
+  std::string across, at;  // in three dimensions: axis and place of sections
   bool no_title = false;
 };
 

@@ -158,6 +158,12 @@ void add_figure(CLI::App& app, FigureOptions& options, ExitCode& code) {
       ->add_option("--level", options.level,
                    "levelling of a raster's images: none, plane, or lines (the median of each)")
       ->check(CLI::IsMember({"none", "plane", "lines"}));
+  command
+      ->add_option(
+          "--across", options.across,
+          "axis that sections and density maps are across, in three dimensions (default y)")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  command->add_option("--at", options.at, "where, as 2mm (default: near the middle)");
   add_look(*command, options);
   command->callback([&] { code = draw_figures(options); });
 }

@@ -47,6 +47,11 @@ struct DieRoom {
     if (kind == Kind::box) return width(at) * depth(at);
     return std::numbers::pi / 4 * diameter * diameter;
   }
+  // m^2, of the inside of a round die between the two other tools.
+  template <class At>
+  double wall(const At& at) const {
+    return std::numbers::pi * diameter * height(at);
+  }
   template <class At>
   double volume(const At& at) const {
     return area(at) * height(at) - in_faces;

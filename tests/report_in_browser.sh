@@ -56,7 +56,7 @@ check ShowsTheCurvesOfARunWithoutFrames has-curves
 
 # Particles in three dimensions: turned, cut, asked; and 100 particles of 448 elements open fast enough.
 drivers=("$source_dir/tests/space_driver.js") wanted=spaced
-in_space=("${everything[@]}" fit material turned looked tip-in-space cut cut-told tip-in-section sliced uncut edged tools-hidden labels)
+in_space=("${everything[@]}" fit material turned looked tip-in-space cut cut-told tip-in-section sliced uncut edged network-in-space layers tools-hidden labels)
 check ShowsParticlesInABox "${in_space[@]}"
 drivers=() wanted=driven
 check StandsInAComparison "${everything[@]}" fit material

@@ -46,6 +46,21 @@ function tipIsRight(found, layers) {
   return wrong ? `wrong: ${wrong.text}` : true;
 }
 
+// The map of densities: a layer of 3 x 4 cells across y, of 3 x 2 across z; others have other values.
+function layersAreDrawn() {
+  const across = document.querySelector("select[aria-label^=Axis]"), place = document.querySelector("input[aria-label^=Layer]");
+  const map = across.closest(".card").querySelector("canvas"), note = () => map.getAttribute("aria-label"), seen = [hashOf(map)];
+  if (!/in 3 × 4 cells, x to the right, z up, y from/.test(note())) return false;
+  across.value = 2;
+  across.onchange();
+  for (const layer of [0, 3]) {
+    place.value = layer;
+    place.oninput();
+    seen.push(hashOf(map));
+  }
+  return place.max === "3" && /in 3 × 2 cells, x to the right, y up, z from/.test(note()) && allDiffer(seen);
+}
+
 async function driveSpace() {
   await until(() => document.body.dataset.driven);
   canvas().focus();
@@ -85,6 +100,12 @@ async function driveSpace() {
   told("uncut", hashOf(canvas()) === first);
   const edges = await ticked("edges");
   told("edged", edges !== first && await ticked("edges") === first);
+  const forces = await ticked("contacts"), lines = Number(canvas().dataset.contacts), named = /normal contact forces, widest \S+ k?N/.test(canvas().getAttribute("aria-label"));
+  await settle("cut", "z");
+  const half = hashOf(canvas());
+  await settle("cut", "");
+  told("networkInSpace", forces !== first && lines > 0 && named && half !== forces && await ticked("contacts") === first);
+  told("layers", layersAreDrawn());
   told("toolsHidden", !box("tools") || await ticked("tools") !== first && await ticked("tools") === first);
   told("labels", [...document.querySelectorAll("#picture-place select, #picture-place input")].every(one => one.labels.length || one.ariaLabel || one.getAttribute("aria-label")));
 }

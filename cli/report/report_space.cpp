@@ -9,6 +9,7 @@
 #include "cli/report/report_frames.hpp"
 #include "cli/report/report_profile.hpp"
 #include "cli/report/report_space_mesh.hpp"
+#include "cli/report/report_space_observed.hpp"
 #include "cli/report/report_tags.hpp"
 
 namespace pulvis {
@@ -118,6 +119,7 @@ class SpaceFrames {
     head_["frames"].push_back({{"time", file_.number_attribute(frame, "time")},
                                {"step", file_.number_attribute(frame, "step")},
                                {"profile", profile(frame)}});
+    add_space_observed(file_, frame, prefix, head_["frames"].back(), sections_);
   }
 
   Json profile(const std::string& frame) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/spec/space_scene.hpp"
@@ -142,12 +141,10 @@ void CompactionCurve::sample_room(const Results& results) {
   const auto at = [&](int tool, int k) { return results.tool_position(tool, k); };
   const bool box = room_->kind == DieRoom::Kind::box;
   const double width = box ? std::sqrt(room_->area(at)) : room_->diameter;
-  double lateral = std::numeric_limits<double>::quiet_NaN();
-  if (box) {
-    lateral = 0;
+  double lateral = box ? 0 : height * results.value("stress/radial");
+  if (box)
     for (const char* side : {"left", "right", "front", "back"})
       lateral += 0.25 * height * results.value(std::string("stress/radial_") + side);
-  }
   samples_.push_back({results.value("relative_density"), results.value("stress/axial_top") * width,
                       results.value("stress/axial_bottom") * width, lateral, width, height,
                       bottom});

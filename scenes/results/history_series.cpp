@@ -7,6 +7,8 @@
 #include "scenes/results/bond_results.hpp"
 #include "scenes/results/observed_results.hpp"
 #include "scenes/results/shear_results.hpp"
+#include "scenes/space/results/observed_density.hpp"
+#include "scenes/space/results/observed_network.hpp"
 #include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/results/space_series.hpp"
 #include "scenes/tools/bond_rules.hpp"
@@ -151,6 +153,8 @@ std::vector<SeriesInfo> history_in_space(const Scene& scene) {
   list.add(space::contact_series());
   list.add_quality();
   list.add(space::stress_series(scene));
+  list.add(space::network_series(scene));
+  list.add(space::density_series(scene));
   return list.taken();
 }
 

@@ -7,6 +7,8 @@
 #include "scenes/space/layout.hpp"
 #include "scenes/space/packing/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
+#include "scenes/space/results/observed_density.hpp"
+#include "scenes/space/results/observed_network.hpp"
 #include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/tools/drives.hpp"
 #include "scenes/space/travel.hpp"
@@ -51,6 +53,8 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   add_tools(*world, scene);
   add_contact(*world, scene, bodies);
   add_observed_stress(*world, scene);
+  add_observed_network(*world, scene);
+  add_observed_density(*world, scene);
   return world;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scenes/checks/process_checks.hpp"
+#include "scenes/space/results/observed_density.hpp"
 #include "scenes/space/shape_checks.hpp"
 #include "scenes/space/stl_files.hpp"
 #include "scenes/space/tool_checks.hpp"
@@ -59,6 +60,7 @@ class SpaceChecks {
     stages();
     check_frictions(scene_, names_of_tools(), refusal());
     check_tools(scene_, origins_, refusal());
+    output();
     everything_is_used();
   }
 
@@ -151,6 +153,18 @@ class SpaceChecks {
       refuse(path + ".spacing",
              "required key is missing: only spheres have a spacing of their own, allowed: a "
              "quantity in m");
+  }
+
+  void output() {
+    if (scene_.output.contacts && space_.tools.empty() && space_.packings.empty() &&
+        space_.bodies.size() < 2)
+      refuse("output.contacts",
+             "has no effect, nothing can touch the only particle, allowed: with two particles or "
+             "a tool");
+    if (scene_.output.density() && !has_grid_room(scene_))
+      refuse("output.density_cells",
+             "the tools are around no room that a grid can fill, allowed: with six planes whose "
+             "normals are along the axes, or a round die along one between two planes or punches");
   }
 
   void stages() {

@@ -19,6 +19,9 @@ constexpr double rows_of_a_face = 2;
 constexpr std::uint64_t copies_in_flight =
     3;  // of a frame: gathered, into the file, in the journal
 
+// Volumes of particles while they are summed, as they are kept, the room, and a frame's copies.
+constexpr std::uint64_t density_bytes_a_cell = 100;
+
 template <class... C>
 constexpr std::uint64_t size_of_columns() {
   return (0 + ... + (sizeof(typename C::value_type) * C::count));
@@ -61,6 +64,9 @@ SpaceMemory memory_of(const Scene& scene) {
   const std::uint64_t face = size_of_columns<FacePosition, FaceBefore, FaceForce>() +
                              (friction ? size_of_columns<FaceVelocity>() : 0);
   SpaceMemory need;
+  const auto [x, y, z] = scene.output.density_cells3;
+  need.results = density_bytes_a_cell * static_cast<std::uint64_t>(x) *
+                 static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(z);
   for (std::size_t c = 0; c < particles.size(); ++c) {
     if (particles[c] == 0) continue;
     const Shape shape = make_shape(scene.space->particles[c]);

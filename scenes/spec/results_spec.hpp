@@ -10,13 +10,14 @@
 namespace pulvis {
 
 struct OutputSpec {
-  int frames = 50;                     // fields written over the run, besides the first
-  int samples = 1000;                  // history rows over the run, besides the first
-  std::array<int, 2> density_cells{};  // columns and rows; 0: no local densities
-  bool contacts = false;               // the network of contacts
+  int frames = 50;                      // fields written over the run, besides the first
+  int samples = 1000;                   // history rows over the run, besides the first
+  std::array<int, 2> density_cells{};   // columns and rows; 0: no local densities
+  std::array<int, 3> density_cells3{};  // in three dimensions, along x, y, z; 0: none
+  bool contacts = false;                // the network of contacts
   bool particle_stress = false;
 
-  bool density() const { return density_cells[0] > 0; }
+  bool density() const { return density_cells[0] > 0 || density_cells3[0] > 0; }
 };
 
 struct LimitSpec {                        // health: a run that passes one of these stops

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -27,12 +28,13 @@ struct PlaneStress {  // Pa, in the plane of the slice; tension > 0
   double xx = 0, yy = 0, xy = 0;
 };
 
+template <std::size_t N>  // of so many dimensions
 struct MajorCompression {
-  double size = 0;    // Pa, > 0 in compression
-  Point direction{};  // unit vector
+  double size = 0;                    // Pa, > 0 in compression
+  std::array<double, N> direction{};  // unit vector
 };
 
-inline MajorCompression major_compression(const PlaneStress& s) {
+inline MajorCompression<2> major_compression(const PlaneStress& s) {
   const double middle = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
   const double angle = 0.5 * portable::atan2(-s.xy, -half);  // of the smallest normal stress
   return {portable::hypot(half, s.xy) - middle, {portable::cos(angle), portable::sin(angle)}};
@@ -41,12 +43,11 @@ inline MajorCompression major_compression(const PlaneStress& s) {
 inline constexpr int min_of_a_chain = 3;
 
 // By particle: its chain, numbered from 1 in the order of their first particles; 0 where it is in none.
-inline std::vector<std::int32_t> force_chains(
-    std::span<const PlaneStress> stress, std::span<const Point> centre,
+template <std::size_t N>
+std::vector<std::int32_t> chains_of(
+    const std::vector<MajorCompression<N>>& load, std::span<const std::array<double, N>> centre,
     std::span<const std::pair<std::int32_t, std::int32_t>> touching) {
-  const std::size_t count = stress.size();
-  std::vector<MajorCompression> load;
-  for (const PlaneStress& s : stress) load.push_back(major_compression(s));
+  const std::size_t count = load.size();
   const double mean = std::accumulate(load.begin(), load.end(), 0.0,
                                       [](double sum, const auto& l) { return sum + l.size; }) /
                       static_cast<double>(count);
@@ -56,16 +57,20 @@ inline std::vector<std::int32_t> force_chains(
     while (leader[p] != p) p = leader[p] = leader[leader[p]];
     return p;
   };
-  const auto leads_on = [&](std::size_t from, const Point& direction, double length) {
+  const auto leads_on = [&](std::size_t from, const std::array<double, N>& way) {
     if (!(load[from].size > mean) || !(load[from].size > 0)) return false;
-    const Point& d = load[from].direction;
-    return std::abs(direction[0] * d[0] + direction[1] * d[1]) >= std::sqrt(0.5) * length;
+    double along = 0, square = 0;
+    for (std::size_t k = 0; k < N; ++k) {
+      along += way[k] * load[from].direction[k];
+      square += way[k] * way[k];
+    }
+    return std::abs(along) >= std::sqrt(0.5 * square);
   };
   for (const auto& [a, b] : touching) {
     const auto p = static_cast<std::size_t>(a), q = static_cast<std::size_t>(b);
-    const Point direction{centre[q][0] - centre[p][0], centre[q][1] - centre[p][1]};
-    const double length = portable::hypot(direction[0], direction[1]);
-    if (!leads_on(p, direction, length) || !leads_on(q, direction, length)) continue;
+    std::array<double, N> way;
+    for (std::size_t k = 0; k < N; ++k) way[k] = centre[q][k] - centre[p][k];
+    if (!leads_on(p, way) || !leads_on(q, way)) continue;
     const std::size_t one = leader_of(p), other = leader_of(q);
     leader[std::max(one, other)] = std::min(one, other);
   }
@@ -79,6 +84,14 @@ inline std::vector<std::int32_t> force_chains(
     chain[p] = number.emplace(first, static_cast<std::int32_t>(number.size()) + 1).first->second;
   }
   return chain;
+}
+
+inline std::vector<std::int32_t> force_chains(
+    std::span<const PlaneStress> stress, std::span<const Point> centre,
+    std::span<const std::pair<std::int32_t, std::int32_t>> touching) {
+  std::vector<MajorCompression<2>> load;
+  for (const PlaneStress& s : stress) load.push_back(major_compression(s));
+  return chains_of<2>(load, centre, touching);
 }
 
 }  // namespace pulvis::kernels

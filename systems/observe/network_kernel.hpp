@@ -41,9 +41,10 @@ struct ForceSizes {
   double mean = 0, maximum = 0;  // N, normal
 };
 
-inline ForceSizes force_sizes(std::span<const ContactLink> links) {
+template <class Links>
+ForceSizes force_sizes(const Links& links) {
   ForceSizes sizes;
-  for (const ContactLink& link : links) {
+  for (const auto& link : links) {
     sizes.mean += link.normal_force() / static_cast<double>(links.size());
     sizes.maximum = std::max(sizes.maximum, link.normal_force());
   }
@@ -51,9 +52,9 @@ inline ForceSizes force_sizes(std::span<const ContactLink> links) {
 }
 
 // By particle: how many others, or tools, it touches.
-inline void count_contacts(std::span<const ContactLink> links, bool both,
-                           std::vector<double>& counts) {
-  for (const ContactLink& link : links) {
+template <class Links>
+void count_contacts(const Links& links, bool both, std::vector<double>& counts) {
+  for (const auto& link : links) {
     entry(counts, link.first) += 1;
     if (both) entry(counts, link.second) += 1;
   }

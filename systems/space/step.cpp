@@ -1,10 +1,12 @@
 #include "systems/space/step.hpp"
 
+#include "components/observed.hpp"
 #include "components/space/observed.hpp"
 #include "engine/system_list.hpp"
 #include "systems/contact/systems.hpp"
 #include "systems/space/body/systems.hpp"
 #include "systems/space/contact/systems.hpp"
+#include "systems/space/observe/systems.hpp"
 #include "systems/space/tools/systems.hpp"
 #include "systems/tools/systems.hpp"
 
@@ -29,6 +31,9 @@ std::vector<System> observed_in_space(World& w) {
   observe.add<plastic_work<F>>    ("plastic_work",      w.has<PlasticStrain<F::points>>());
   observe.add<hourglass_energy>   ("hourglass_energy",  F::stabilised);
   observe.add<particle_stress<F>> ("particle_stress",   w.has<ParticleStress>());
+  observe.add<contact_network>    ("contact_network",   w.has<ContactNetwork>());
+  observe.add<force_chains>       ("force_chains",      w.has<ForceChains>());
+  observe.add<local_density>      ("local_density",     w.has<DensityGrid>());
   // clang-format on
   return observe.taken();
 }

@@ -36,7 +36,8 @@ ROOMS = {
         "space/body": "body laws",
         "space/contact": "contact laws",
         "space/tools": "space/contact contact tools laws",
-        "space": "space/body space/contact space/tools contact tools observe",
+        "space/observe": "space/contact space/tools contact observe",
+        "space": "space/body space/contact space/observe space/tools contact tools observe",
         "": "body cell contact tools observe space",
     },
     "scenes": {

@@ -169,6 +169,19 @@ TEST(Plan, ObservesWhatIsAskedOnSampledStepsOnly) {
     for (const std::string& system : stage.systems) EXPECT_FALSE(observing.contains(system));
 }
 
+TEST(Plan, ObservesInSpaceWhatIsAskedAndOnSampledStepsOnly) {
+  const std::string scene = "compaction-3d/unit-cell-sc.toml";
+  EXPECT_THAT(observing_systems(Asked(scene)), IsEmpty());
+  EXPECT_THAT(observing_systems(Asked(scene, {"output.density_cells=[2, 2, 2]"})),
+              ElementsAre("local_density"));
+  const Asked contacts(scene, {"output.contacts=true"});
+  EXPECT_THAT(observing_systems(contacts),
+              ElementsAre("contact_network", "force_chains", "particle_stress"));
+  for (const System& system : contacts.list.observe) EXPECT_EQ(system.when, When::on_sample);
+  for (const StagePlan& stage : contacts.experiment.simulation.plan().stages)
+    for (const std::string& system : stage.systems) EXPECT_FALSE(observing.contains(system));
+}
+
 TEST(Plan, FragmentsAreLookedForWithBondsOnlyAndOnSampledStepsOnly) {
   const Asked without("compaction/regular-25.toml"), with("bonds/pulled-blocks.toml");
   const auto has_fragments = [](const Asked& asked) {

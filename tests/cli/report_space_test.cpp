@@ -134,6 +134,31 @@ TEST_F(SpaceReportTest, ShowsParticlesInABox) {
   EXPECT_THAT(page, HasSubstr("twgl"));
 }
 
+TEST_F(SpaceReportTest, CarriesTheDensitiesOfEveryFrame) {
+  const auto head = head_of(report_of({}));
+  for (const auto& frame : head["frames"]) {
+    const auto& grid = frame["grid"];
+    ASSERT_EQ(grid["cells"].size(), 24U);
+    EXPECT_TRUE(grid["cells"][0].is_null());
+    EXPECT_EQ(grid["x"].size(), 4U);
+    EXPECT_EQ(grid["z"].size(), 5U);
+    EXPECT_EQ(grid["merged"], 1);
+  }
+  EXPECT_NEAR(double(head["frames"].back()["grid"]["cells"][23]), 0.6 + 0.06 + 0.02 + 0.005, 1e-5);
+}
+
+// Twelve contacts along the edges of the lattice, four at either punch.
+TEST_F(SpaceReportTest, CarriesTheContactForcesOfEveryFrame) {
+  testing::SyntheticSpaceRun run;
+  const auto head = head_of(report_of(run));
+  for (const auto& frame : head["frames"]) {
+    EXPECT_EQ(frame["network"]["lines"], 12 + 8);
+    EXPECT_EQ(frame["network"]["unit"], "N");
+  }
+  run.contacts = false;
+  EXPECT_FALSE(head_of(report_of(run))["frames"][0].contains("network"));
+}
+
 TEST_F(SpaceReportTest, RefersTheDensityToTheDieOrThePowder) {
   testing::SyntheticSpaceRun run;
   run.die = true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -227,8 +228,76 @@ std::vector<FieldInfo> space_fields(const SyntheticSpaceRun& run) {
       {"pressure", "Pa", "made up", FieldPlace::cell, 1},
       {"plastic_strain", "-", "accumulated plastic strain", FieldPlace::cell, 1},
       {"coordination", "-", "made up", FieldPlace::particle, 1, true}};
+  if (run.densities) {
+    all.push_back({"local_density", "-", "made up", FieldPlace::list, 3});
+    for (const std::string axis : {"x", "y", "z"})
+      all.push_back({"density_grid/" + axis, "m", "made up", FieldPlace::list, 1});
+  }
+  if (run.contacts) {
+    all.push_back({"particle_centre", "m", "made up", FieldPlace::particle, 3});
+    for (const std::string group : {"contacts/", "tool_contacts/"}) {
+      all.push_back({group + "ids", "-", "made up", FieldPlace::list, 2, true});
+      all.push_back({group + "point", "m", "made up", FieldPlace::list, 3});
+      all.push_back({group + "normal_force", "N", "made up", FieldPlace::list, 1});
+    }
+  }
   if (run.tools) all.push_back({"tools/outline", "m", "made up", FieldPlace::list, 3});
   return all;
+}
+
+// Densest at the top; no room in the first cell.
+void append_grid_in_space(const SyntheticSpaceRun& run, double share,
+                          std::vector<std::vector<double>>& values) {
+  const std::array<int, 3> count{3, 2, 4};
+  std::vector<double> cells;
+  for (int c = 0; c < 24; ++c)
+    cells.push_back(0.5 + 0.1 * share + 0.02 * (c / 6) + 0.01 * (c % 3) + 0.005 * (c / 3 % 2));
+  cells[0] = std::numeric_limits<double>::quiet_NaN();
+  values.push_back(cells);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double wide = run.diameter * (k < 2 ? run.columns : run.layers * space_squeeze(share));
+    std::vector<double> lines;
+    for (int i = 0; i <= count[k]; ++i) lines.push_back(wide * i / count[k]);
+    values.push_back(lines);
+  }
+}
+
+// Where a contact stands, between which, and its force.
+struct SpaceContacts {
+  std::vector<double> ids, point, force;
+  void add(int first, int second, const Vec3& at, double size) {
+    ids.insert(ids.end(), {static_cast<double>(first), static_cast<double>(second)});
+    point.insert(point.end(), {at.x(), at.y(), at.z()});
+    force.push_back(size);
+  }
+};
+
+// Neighbours along the axes of the lattice; the top punch is tool 0, the bottom one 1.
+void append_contacts_in_space(const SyntheticSpaceRun& run, double share,
+                              std::vector<std::vector<double>>& values) {
+  const int c = run.columns, layer = c * c;
+  const double half = 0.5 * run.diameter;
+  const auto centre = [&](int sphere) {
+    Vec3 at = centre_of(run, sphere);
+    at.z() *= space_squeeze(share);
+    return at;
+  };
+  SpaceContacts pairs, tools;
+  std::vector<double> centres;
+  for (int sphere = 0; sphere < spheres(run); ++sphere) {
+    const Vec3 at = centre(sphere);
+    const double size = 100 * share * (1 + sphere % 3);
+    centres.insert(centres.end(), {at.x(), at.y(), at.z()});
+    if (sphere % c + 1 < c) pairs.add(sphere, sphere + 1, at + half * Vec3::UnitX(), size);
+    if (sphere / c % c + 1 < c) pairs.add(sphere, sphere + c, at + half * Vec3::UnitY(), size);
+    if (sphere + layer < spheres(run))
+      pairs.add(sphere, sphere + layer, 0.5 * (at + centre(sphere + layer)), 3 * size);
+    if (sphere + layer >= spheres(run)) tools.add(sphere, 0, at + half * Vec3::UnitZ(), 3 * size);
+    if (sphere < layer) tools.add(sphere, 1, at - half * Vec3::UnitZ(), 3 * size);
+  }
+  values.push_back(centres);
+  for (const SpaceContacts& of : {pairs, tools})
+    values.insert(values.end(), {of.ids, of.point, of.force});
 }
 
 std::vector<std::vector<double>> space_frame_of(const SyntheticSpaceRun& run, const Ball& ball,
@@ -242,6 +311,8 @@ std::vector<std::vector<double>> space_frame_of(const SyntheticSpaceRun& run, co
   for (int sphere = 0; sphere < spheres(run); ++sphere) coordination.push_back(3 + sphere % 4);
   std::vector<std::vector<double>> values{space_positions(run, ball, share), stress, pressure,
                                           strain, coordination};
+  if (run.densities) append_grid_in_space(run, share, values);
+  if (run.contacts) append_contacts_in_space(run, share, values);
   if (run.tools) values.push_back(space_tool_corners(run, share));
   return values;
 }

@@ -13,6 +13,8 @@ struct SyntheticSpaceRun {
   int samples_a_frame = 10;
   bool tools = true;
   bool die = false;        // round, instead of four walls
+  bool densities = true;   // in 3 x 2 x 4 cells
+  bool contacts = true;    // forces of the lattice's neighbours, and of the punches
   double diameter = 1e-3;  // m
 };
 

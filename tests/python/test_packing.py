@@ -27,6 +27,51 @@ def test_no_two_particles_overlap_and_outlines_have_their_area(scenes):
     assert np.hypot(x - packing.centres[7, 0], y - packing.centres[7, 1]).max() == pytest.approx(packing.radii[7], rel=0.01)
 
 
+def surface_volume(points, faces):
+    """Gauss: the integral of x . n / 3 over the bilinear faces, four triangles about the middle of each."""
+    corners = points[faces]
+    middle = corners.mean(axis=1, keepdims=True)
+    following = np.roll(corners, -1, axis=1)
+    return np.sum(np.cross(corners, following) * middle) / 6
+
+
+def test_a_packing_in_space_is_that_of_the_program(scenes, program, tmp_path):
+    file = scenes / "compaction-3d/tablet.toml"
+    done = program("pack", file, "-o", tmp_path / "packing.csv")
+    assert done.returncode == 0, done.stderr
+    packing = pulvis.pack(pulvis.Scene(file))
+    packing.save(tmp_path / "ours.csv")
+    assert (tmp_path / "ours.csv").read_text() == (tmp_path / "packing.csv").read_text()
+    assert packing.centres.shape == (60, 3) and packing.radii == pytest.approx(4.5e-3, rel=1e-9)
+    apart = np.linalg.norm(packing.centres[:, None] - packing.centres[None], axis=2)
+    np.fill_diagonal(apart, np.inf)
+    assert apart.min() > 0.999 * 9e-3
+    reach = np.linalg.norm(packing.surface(7) - packing.centres[7], axis=1)
+    assert reach == pytest.approx(4.5e-3, rel=0.05)
+
+
+def test_surfaces_are_turned_with_their_particles(scenes):
+    scene = pulvis.Scene(scenes / "compaction-3d/superquadrics.toml")
+    packing, number = pulvis.pack(scene), 3
+    mesh = pulvis.mesh(scene, packing.names[packing.classes[number]])
+    own, turned = mesh.nodes[: mesh.surface_nodes], packing.surface(number) - packing.centres[number]
+    w, x, y, z = packing.rotations[number]
+    rows = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    np.testing.assert_allclose(turned, own @ rows.T, atol=1e-12)
+
+
+def test_a_mesh_in_space_fills_its_surface(scenes):
+    scene = pulvis.Scene(scenes / "compaction-3d/one-sphere.toml", accuracy="draft")
+    mesh = pulvis.mesh(scene, "ball")
+    assert mesh.volume == pytest.approx(4 / 3 * np.pi * 125e-9, rel=1e-9)
+    assert surface_volume(mesh.nodes, mesh.faces) == pytest.approx(mesh.volume, rel=0.02)
+    assert set(mesh.faces.ravel()) == set(range(mesh.surface_nodes)) and mesh.hexahedra.max() == len(mesh.nodes) - 1
+    with pytest.raises(KeyError, match="allowed: ball"):
+        pulvis.mesh(scene, "disc")
+
+
 def test_a_mesh_fills_its_outline(scenes):
     scene = pulvis.Scene(scenes / "compaction/unit-cell.toml")
     mesh = pulvis.mesh(scene, "disc")

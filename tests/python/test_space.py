@@ -1,4 +1,6 @@
 """Figures of particles in three dimensions: what is drawn of blocks whose volumes and sections are known."""
+import shutil
+
 import h5py
 import numpy as np
 import pytest
@@ -140,6 +142,63 @@ def test_the_section_shows_cells_and_tools(blocks):
 def test_sections_are_of_three_dimensions(compact):
     with pytest.raises(PulvisError, match="sections, which three dimensions have"):
         pulvis.open(compact).plot.section()
+
+
+@pytest.fixture(scope="module")
+def observed(blocks, tmp_path_factory):
+    """The same with a contact between the blocks, one with a tool, and densities in 2 x 3 x 4 cells."""
+    folder = tmp_path_factory.mktemp("observed")
+    shutil.copytree(blocks, folder, dirs_exist_ok=True)
+    with h5py.File(folder / "run.h5", "r+") as file:
+        for name in file["frames"]:
+            frame = f"frames/{name}"
+            write(file, f"{frame}/particle_centre", np.array([[0.5, 0.5, 0.5], [0.5, 0.5, 1.5]]) * SIZE, components=3, place="particle")
+            write(file, f"{frame}/force_chain", np.array([1, 0], np.int32), place="particle")
+            for group, ids, point, force in (("contacts", [0, 1], [0.5, 0.5, 1], 30.0), ("tool_contacts", [0, 0], [0, 0.5, 0.5], 10.0)):
+                write(file, f"{frame}/{group}/ids", np.array([ids], np.int32))
+                write(file, f"{frame}/{group}/point", np.array([point]) * SIZE, unit="m")
+                write(file, f"{frame}/{group}/normal", np.array([[0.0, 0, -1]]))
+                write(file, f"{frame}/{group}/normal_force", np.array([force]), unit="N")
+            write(file, f"{frame}/local_density", np.arange(24.0).reshape(12, 2) / 24)
+            for axis, count in (("x", 2), ("y", 3), ("z", 4)):
+                write(file, f"{frame}/density_grid/{axis}", np.linspace(0, 2 * SIZE, count + 1), unit="m")
+    return folder
+
+
+def test_the_network_has_three_axes(observed):
+    run = pulvis.open(observed)
+    table = run.network()
+    assert list(table[["first", "second", "z", "normal_z", "normal_force"]].iloc[0]) == [0, 1, SIZE, -1, 30]
+    figure, axes = run.plot.network()
+    lines = next(one for one in axes.collections if one.get_zorder() == 3)
+    wide = lines.get_linewidths()
+    assert len(wide) == 2 and max(wide) == pytest.approx(3 * min(wide)) and lines.get_array().max() == pytest.approx(30)
+    assert axes.child_axes[0].get_ylabel().startswith("Normal force")
+    with pytest.raises(PulvisError, match="two dimensions"):
+        run.plot.rose()
+
+
+def test_densities_are_indexed_by_the_axes(observed):
+    run = pulvis.open(observed)
+    values, lines = run.density()
+    assert values.shape == (2, 3, 4) and [len(one) for one in lines] == [3, 4, 5]
+    assert values[1, 2, 3] == 23 / 24 and values[1, 0, 0] == 1 / 24 and values[0, 1, 0] == 2 / 24 and values[0, 0, 1] == 6 / 24
+    _, axes = run.plot.density(across="z", at=1.6 * SIZE)
+    np.testing.assert_allclose(axes.collections[0].get_array().ravel(), np.arange(18, 24) / 24)  # rows along y, the top layer
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("$x$ / mm", "$y$ / mm")
+    with pytest.raises(PulvisError, match="allowed: x, y, z"):
+        run.plot.density(across="w")
+
+
+def test_densities_of_two_dimensions(compact):
+    values, lines = pulvis.open(compact).density()
+    assert values.shape == (3, 2) and len(lines) == 2
+
+
+def test_the_command_draws_layers(observed, tmp_path):
+    told = call("figure", observed, "-o", tmp_path / "all", "--across", "x", "--at", "0.2mm")
+    assert "contact_network.png" in told and "local_density.png" in told
+    assert "allowed: a length with its unit" in call("figure", observed, "-o", tmp_path / "no", "--at", "2", code=2)
 
 
 def test_all_figures_of_the_command(blocks, tmp_path):

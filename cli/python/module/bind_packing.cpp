@@ -11,6 +11,11 @@
 #include "scenes/packing/packing_file.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
+#include "scenes/space/meshes/mesh.hpp"
+#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/packing/packing_file.hpp"
+#include "scenes/space/packing/place.hpp"
+#include "scenes/spec/space_scene.hpp"
 
 namespace pulvis::python {
 namespace py = pybind11;
@@ -27,15 +32,77 @@ void require_particles(const LoadedScene& loaded) {
   if (loaded.scene.afm)
     throw SceneError({{loaded.scene.file.string(), 1, 1, "", "family",
                        "an AFM scene has no particles, allowed: a scene of particles"}});
-  if (loaded.scene.space)
-    throw SceneError({{loaded.scene.file.string(), 1, 1, "", "dimension",
-                       "is 3, allowed: 2; packings in three dimensions come from `pulvis pack`, "
-                       "meshes from `sim.mesh`"}});
+}
+
+template <class Number>
+py::array_t<Number> table_of(std::size_t rows, std::size_t columns) {
+  return py::array_t<Number>({rows, columns});
+}
+py::ssize_t array_index(std::size_t i) { return static_cast<py::ssize_t>(i); }
+
+// m, names, and of every particle in the order of its number the quaternion w, x, y, z that turns it from its own frame.
+py::dict packing_in_space(const Scene& scene) {
+  std::vector<space::BodySpec> bodies;
+  {
+    py::gil_scoped_release others_may_run;
+    bodies = space::place_bodies(scene);
+    space::check_overlaps(scene, bodies);
+  }
+  auto centres = table_of<double>(bodies.size(), 3), rotations = table_of<double>(bodies.size(), 4);
+  py::array_t<std::int32_t> classes(array_index(bodies.size()));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto& turn = bodies[i].rotation;
+    const std::array quaternion{turn.w(), turn.x(), turn.y(), turn.z()};
+    for (std::size_t k = 0; k < 3; ++k)
+      centres.mutable_at(array_index(i), array_index(k)) = bodies[i].position[static_cast<int>(k)];
+    for (std::size_t k = 0; k < 4; ++k)
+      rotations.mutable_at(array_index(i), array_index(k)) = quaternion[k];
+    classes.mutable_at(array_index(i)) = bodies[i].particle;
+  }
+  py::list names;
+  for (const auto& particle : scene.space->particles) names.append(particle.name);
+  py::dict all;
+  all["centres"] = centres;
+  all["rotations"] = rotations;
+  all["classes"] = classes;
+  all["names"] = names;
+  all["table"] = space::packing_text(scene, bodies);
+  return all;
+}
+
+py::dict mesh_in_space(const Scene& scene, int number) {
+  const auto& particles = scene.space->particles;
+  if (number < 0 || static_cast<std::size_t>(number) >= particles.size())
+    throw py::index_error("there is no class of particles of this number");
+  const auto& particle = particles[static_cast<std::size_t>(number)];
+  const space::Shape shape = space::make_shape(particle);
+  auto nodes = table_of<double>(shape.nodes.size(), 3);
+  for (std::size_t n = 0; n < shape.nodes.size(); ++n)
+    for (std::size_t k = 0; k < 3; ++k)
+      nodes.mutable_at(array_index(n), array_index(k)) = shape.nodes[n][k];
+  auto hexahedra = table_of<std::int32_t>(shape.hexahedra.size(), 8);
+  for (std::size_t e = 0; e < shape.hexahedra.size(); ++e)
+    for (std::size_t k = 0; k < 8; ++k)
+      hexahedra.mutable_at(array_index(e), array_index(k)) = shape.hexahedra[e][k].value;
+  auto faces = table_of<std::int32_t>(shape.faces.size(), 4);
+  for (std::size_t f = 0; f < shape.faces.size(); ++f)
+    for (std::size_t k = 0; k < 4; ++k)
+      faces.mutable_at(array_index(f), array_index(k)) = shape.faces[f].corner[k].value;
+  py::dict all;
+  all["name"] = particle.name;
+  all["nodes"] = nodes;
+  all["hexahedra"] = hexahedra;
+  all["faces"] = faces;
+  all["surface_nodes"] = shape.surface_nodes;
+  all["volume"] = shape.true_volume;
+  all["area"] = shape.area;
+  return all;
 }
 
 // m, rad, names: every particle in the order of its number.
 py::dict packing_of(const LoadedScene& loaded) {
   require_particles(loaded);
+  if (loaded.scene.space) return packing_in_space(loaded.scene);
   std::vector<BodySpec> bodies;
   {
     py::gil_scoped_release others_may_run;
@@ -68,6 +135,7 @@ py::dict packing_of(const LoadedScene& loaded) {
 py::dict mesh_of_class(const LoadedScene& loaded, int number) {
   require_particles(loaded);
   const Scene& scene = loaded.scene;
+  if (scene.space) return mesh_in_space(scene, number);
   if (number < 0 ||
       static_cast<std::size_t>(number) >= scene.particles.size() + scene.grains.size())
     throw py::index_error("there is no class of particles of this number");

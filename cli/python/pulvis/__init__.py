@@ -11,8 +11,8 @@ if TYPE_CHECKING:  # what the lazy names are, for checkers of types and editors
     from pulvis.afm import Lever as Lever
     from pulvis.columns import Column as Column
     from pulvis.errors import PulvisError as PulvisError, RunError as RunError, SceneError as SceneError
-    from pulvis.meshes import Mesh as Mesh, mesh as mesh
-    from pulvis.packing import Packing as Packing, pack as pack
+    from pulvis.meshes import Mesh as Mesh, SolidMesh as SolidMesh, mesh as mesh
+    from pulvis.packing import Packing as Packing, SolidPacking as SolidPacking, pack as pack
     from pulvis.results import Run as Run, open as open
     from pulvis.scene import Scene as Scene
     from pulvis.simulation import Simulation as Simulation, resume as resume
@@ -32,7 +32,9 @@ _HOMES = {
     "Lever": "pulvis.afm",
     "pack": "pulvis.packing",
     "Packing": "pulvis.packing",
+    "SolidPacking": "pulvis.packing",
     "Mesh": "pulvis.meshes",
+    "SolidMesh": "pulvis.meshes",
     "mesh": "pulvis.meshes",
     "PulvisError": "pulvis.errors",
     "SceneError": "pulvis.errors",

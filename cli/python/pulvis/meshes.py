@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -36,8 +36,30 @@ class Mesh:
         return self.nodes[: self.boundary_nodes]
 
 
-def mesh(scene: Scene, particle: str | int = 0) -> Mesh:
-    """The mesh of a class of a scene, by name or position: `Mesh`."""
+@dataclass(frozen=True)
+class SolidMesh:
+    """The undeformed mesh of a class of particles in three dimensions, about the centre of its volume.
+
+    ``nodes`` [nodes, 3] m, of which the first ``surface_nodes`` are on the surface; ``hexahedra`` [elements, 8] in the order of
+    VTK; ``faces`` [faces, 4] nodes of the elements' sides on the surface, counter-clockwise from outside; ``volume`` m^3 of the
+    true shape; ``area`` m^2 of the surface.
+    """
+
+    name: str
+    nodes: np.ndarray
+    hexahedra: np.ndarray
+    faces: np.ndarray
+    surface_nodes: int
+    volume: float
+    area: float
+
+
+def made(found: dict[str, Any]) -> Mesh | SolidMesh:
+    return SolidMesh(**found) if "hexahedra" in found else Mesh(**found)
+
+
+def mesh(scene: Scene, particle: str | int = 0) -> Mesh | SolidMesh:
+    """The mesh of a class of a scene, by name or position: `Mesh`, in three dimensions `SolidMesh`."""
     if isinstance(particle, str):
         number = 0
         names: list[str] = []
@@ -47,7 +69,7 @@ def mesh(scene: Scene, particle: str | int = 0) -> Mesh:
             except IndexError:
                 raise KeyError(f"there is no class '{particle}', allowed: {', '.join(names)}") from None
             if found["name"] == particle:
-                return Mesh(**found)
+                return made(found)
             names.append(found["name"])
             number += 1
-    return Mesh(**_core.mesh_of_class(scene._core, particle))
+    return made(_core.mesh_of_class(scene._core, particle))

@@ -52,9 +52,51 @@ class Packing:
             out.write(self.table)
 
 
-def pack(scene: Scene) -> Packing:
-    """The packing of a scene: `Packing`."""
+@dataclass(frozen=True)
+class SolidPacking:
+    """Particles as they are placed in three dimensions, in the order of their numbers.
+
+    ``centres`` [particles, 3] m, ``rotations`` [particles, 4] quaternions w, x, y, z from a particle's own frame to the scene's,
+    ``classes`` [particles] positions in ``names``, ``volumes`` [particles] m^3, ``radii`` [particles] m of balls of that volume,
+    ``table`` the CSV text that ``kind = "csv"`` reads back bit for bit.
+    """
+
+    centres: np.ndarray
+    rotations: np.ndarray
+    classes: np.ndarray
+    names: list[str]
+    volumes: np.ndarray
+    table: str
+    _meshes: dict[int, dict[str, Any]]
+
+    @property
+    def radii(self) -> np.ndarray:
+        """Of balls of the particles' volumes, m [particles]."""
+        return np.cbrt(self.volumes * 3 / (4 * np.pi))
+
+    def __len__(self) -> int:
+        return len(self.centres)
+
+    def surface(self, number: int) -> np.ndarray:
+        """Nodes of a particle's surface, m [nodes, 3]; their faces are those of `pulvis.mesh`."""
+        mesh = self._meshes[self.classes[number]]
+        w, axis = self.rotations[number][0], self.rotations[number][1:]
+        points = mesh["nodes"][: mesh["surface_nodes"]]
+        turned = points + 2 * np.cross(axis, np.cross(axis, points) + w * points)
+        return turned + self.centres[number]
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Writes the table."""
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(self.table)
+
+
+def pack(scene: Scene) -> Packing | SolidPacking:
+    """The packing of a scene: `Packing`, in three dimensions `SolidPacking`."""
     made = _core.packing(scene._core)
     meshes = {c: _core.mesh_of_class(scene._core, int(c)) for c in np.unique(made["classes"])}
+    if "rotations" in made:
+        volumes = np.array([meshes[c]["volume"] for c in made["classes"]])
+        return SolidPacking(volumes=volumes, _meshes=meshes, **made)
     areas = np.array([meshes[c]["area"] for c in made["classes"]])
     return Packing(areas=areas, _meshes=meshes, **made)

@@ -20,7 +20,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from pulvis.errors import RunError
-from pulvis.figures import afm, bonds, curves, densities, fields, network, space
+from pulvis.figures import afm, bonds, curves, densities, fields, network, space, space_density
 from pulvis.figures.animation import animate
 from pulvis.figures.look import Options
 from pulvis.figures.names import capital, name_of
@@ -102,15 +102,23 @@ class Plot:
 
     def network(self, frame: int = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Normal forces of the contacts, and force chains."""
-        return self._drawn(network.contact_network, "network", options_of(look, frame=frame), ax)
+        draw = space.space_network if self._run.in_space else network.contact_network
+        return self._drawn(draw, "network", options_of(look, frame=frame), ax)
 
     def rose(self, frame: int = -1, **look: Any) -> tuple[Figure, Axes]:
-        """Directions of the contacts' normals."""
-        return self._drawn(network.rose, "network", options_of(look, frame=frame))
+        """Directions of the contacts' normals, in two dimensions."""
+        draw = (lambda *_: None) if self._run.in_space else network.rose
+        return self._drawn(draw, "network in two dimensions" if self._run.in_space else "network", options_of(look, frame=frame))
 
-    def density(self, frame: int | None = -1, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
-        """Local densities of a frame; of several frames from the first to the last with frame=None."""
-        return self._drawn(densities.local_density, "density", options_of(look, frame=frame), ax)
+    def density(self, frame: int | None = -1, across: str = "y", at: float | None = None, ax: Axes | None = None,
+                **look: Any) -> tuple[Figure, Axes]:
+        """Local densities of a frame; of several frames from the first to the last with frame=None. In three dimensions a layer
+        of cells across an axis, in the middle or `at` a place (m)."""
+        if not self._run.in_space:
+            return self._drawn(densities.local_density, "density", options_of(look, frame=frame), ax)
+        if across not in ("x", "y", "z"):
+            raise RunError(f"across {across}: allowed: x, y, z", self._run.folder, key="across")
+        return self._drawn(space_density.density_slice, "density", options_of(look, frame=frame, across=across, at=at), ax)
 
     def density_profile(self, frame: int | None = None, ax: Axes | None = None, **look: Any) -> tuple[Figure, Axes]:
         """Relative density along the height, at several times or in one frame."""

@@ -32,6 +32,10 @@ Mesh = namedtuple("Mesh", "cells reference cell_particle node_particle")
 Mesh.__doc__ = """The mesh of a run: `cells` [cells, 4 or 8] node numbers, `reference` [nodes, 2 or 3] m, the nodes
 before the first step, and the particle that each cell and each node belongs to."""
 
+Densities = namedtuple("Densities", "values lines")
+Densities.__doc__ = """Relative densities of the cells of a grid: `values` [along x, y (, z)] and `lines`, the places between the
+cells along each axis, m."""
+
 
 def open(folder: str | os.PathLike[str]) -> Run:  # noqa: A001  (pulvis.open)
     """The run in this folder."""
@@ -122,9 +126,20 @@ class Frame:
         count = int(self._run.mesh.node_particle.max()) + 1
         return table(columns, np.arange(count), "particle")
 
+    def density(self) -> Densities:
+        """Relative densities in the cells of the grid: `values` [along x, y (, z)], NaN where a cell has no room, and `lines`,
+        the places between the cells along each axis, m."""
+        if "local_density" not in self.group:
+            raise RunError(f"frame {self.number} has no local densities: the scene needs output.density_cells",
+                           self._run.folder, key="output.density_cells")
+        lines = tuple(self.group[f"density_grid/{axis}"][()] for axis in "xyz" if f"density_grid/{axis}" in self.group)
+        cells = self.group["local_density"][()].reshape([len(one) - 1 for one in reversed(lines)])
+        return Densities(cells.T, lines)
+
     def network(self, tools: bool = False) -> DataFrame:
         """DataFrame of the contacts between particles, or of particles and tools: `first`, `second` (numbers of
-        particles, or the tool's position in the scene), `x`, `y`, `normal_x`, `normal_y`, `normal_force` ..."""
+        particles, or the tool's position in the scene), `x`, `y`, `normal_x`, `normal_y`, `normal_force` ...; in three
+        dimensions `z`, `normal_z`, and `area` instead of `length`."""
         group = "tool_contacts" if tools else "contacts"
         if group not in self.group:
             raise RunError(f"frame {self.number} has no contacts: the scene needs output.contacts = true",
@@ -136,7 +151,7 @@ class Frame:
                 continue
             values, unit = data[()], data.attrs["unit"]
             parts = {name: values} if values.ndim == 1 else {
-                (axis if name == "point" else f"{name}_{axis}"): values[:, k] for k, axis in enumerate("xy")}
+                (axis if name == "point" else f"{name}_{axis}"): values[:, k] for k, axis in zip(range(values.shape[1]), "xyz")}
             columns.update({key: (part, unit) for key, part in parts.items()})
         return table(columns, name="contact")
 
@@ -294,6 +309,10 @@ class Run:
             there = f"there are 0 to {count - 1}" if count else "there is none"
             raise RunError(f"frame {number}: {there}", self.folder)
         return self.frames[number]
+
+    def density(self, frame: int = -1) -> Densities:
+        """Local densities of a frame: see Frame.density."""
+        return self.frame(frame).density()
 
     def network(self, frame: int = -1, tools: bool = False) -> DataFrame:
         """The contacts of a frame: see Frame.network."""

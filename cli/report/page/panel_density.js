@@ -151,7 +151,7 @@ addPanel({
 
 addPanel({
   title: "Directions of the contact normals", order: 12,
-  when: run => run.frames.some(frame => frame.network && frame.network.number.some(share => share > 0)),
+  when: run => run.frames.some(frame => frame.network?.number?.some(share => share > 0)),
   draw(report, host) {
     report.figure(host, {
       title: "Directions of the contact normals", shape: 0.8,

@@ -38,7 +38,7 @@ class Report {
 
   // A canvas that is drawn anew for every frame: draw(ctx, width, height, frame, frames) where the frame has it.
   // `frames` are those of all runs side by side: what they have in common is drawn to one scale, which draw may
-  // return, for tests.
+  // return, for tests. What comes back paints anew what something else than time has changed.
   // `shape`: height over width; columns(frame): its numbers for a CSV.
   figure(host, {title, shape, draw, columns, note}) {
     const canvas = element("canvas", {className: "figure", role: "img"});
@@ -66,6 +66,7 @@ class Report {
     this.timeline.listen(paint);
     [onUnits, onTheme, onMap].forEach(on => on(paint));
     onResize(host, () => { if (host.clientWidth !== drawn) paint(); });
+    return paint;
   }
 
   frame() { return this.run.frames[this.run.frameAt(this.timeline.share * this.endTime)]; }

@@ -227,9 +227,18 @@ const TableDeclaration<TimeSpec>& time() {
 
 const TableDeclaration<OutputSpec>& output() {
   static const TableDeclaration<OutputSpec> declaration = [] {
-    TableDeclaration<OutputSpec> table = without(schema::output(), {"density_cells", "contacts"});
-    key_of(table, "particle_stress").info.doc =
-        "Mean stress of every particle in every frame, of the compact over time.";
+    TableDeclaration<OutputSpec> table = schema::output();
+    Key<OutputSpec>& cells = key_of(table, "density_cells");
+    cells.info.dimensions = 3;
+    cells.info.range = within(1, 200);
+    cells.info.doc =
+        "Cells along x, y and z of a grid between the tools whose relative densities are kept: in "
+        "every frame, and their minimum, maximum and standard deviation over time. Needs a room: "
+        "six planes along the axes, or a round die along one between two planes or punches.";
+    cells.set = [](OutputSpec& spec, const Decoded& value) { spec.density_cells3 = value.counts3; };
+    key_of(table, "contacts").info.doc =
+        "The network of contacts: forces, normals and areas of every pair that touches and force "
+        "chains in every frame; coordination, fabric and mean forces over time.";
     return table;
   }();
   return declaration;

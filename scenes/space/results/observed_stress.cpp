@@ -29,14 +29,14 @@ std::vector<double> of_particles(const World& world) {
 }  // namespace
 
 void add_observed_stress(World& world, const Scene& scene) {
-  if (!scene.output.particle_stress) return;
+  if (!scene.observes_stress()) return;
   world.add<ParticleStress>();
   world.add<DeformedVolume>();
   world.add<ParticleCentre>();
 }
 
 std::vector<SeriesInfo> stress_series(const Scene& scene) {
-  if (!scene.output.particle_stress || !die_room(scene)) return {};
+  if (!scene.observes_stress() || !die_room(scene)) return {};
   return {{"stress/xx", "Pa", "Cauchy, mean over the room between the tools; tension > 0"},
           {"stress/yy", "Pa", "the same"},
           {"stress/zz", "Pa", "the same"},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "components/body.hpp"
@@ -11,7 +12,10 @@
 #include "components/space/body.hpp"
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
+#include "scenes/space/results/die_wall.hpp"
 #include "scenes/space/results/element_results.hpp"
+#include "scenes/space/results/observed_density.hpp"
+#include "scenes/space/results/observed_network.hpp"
 #include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/results/space_series.hpp"
 #include "scenes/space/results/space_tags.hpp"
@@ -52,7 +56,8 @@ std::vector<FieldInfo> fields_in_space(const World& world) {
   if (is_plastic(world))
     fields.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
-  for (const FieldInfo& observed : stress_fields(world)) fields.push_back(observed);
+  for (const auto& observed : {stress_fields(world), network_fields(world), density_fields(world)})
+    fields.insert(fields.end(), observed.begin(), observed.end());
   return fields;
 }
 
@@ -100,6 +105,8 @@ class SpaceParts : public ResultParts {
     fields = {values_of_nodes<Position>(world_), values_of_nodes<Velocity>(world_)};
     append_element_fields(world_, fields);
     append_stress_frame(world_, fields);
+    append_network_frame(world_, fields);
+    append_density_frame(world_, fields);
   }
   void append_tool_frame(Fields& fields) const override {
     if (sheets_.faces().names.empty()) return;
@@ -120,9 +127,11 @@ class SpaceParts : public ResultParts {
 
   void append_contacts(std::vector<double>&) const override {}
   void append_observed(std::vector<double>& row) const override {
-    if (!room_) return;
-    append_stress_sample(world_, room_->volume([&](int tool, int k) { return position(tool, k); }),
-                         row);
+    if (room_)
+      append_stress_sample(world_,
+                           room_->volume([&](int tool, int k) { return position(tool, k); }), row);
+    append_network_sample(world_, row);
+    append_density_sample(world_, row);
   }
 
   std::vector<double> momentum() const override {
@@ -170,18 +179,21 @@ class SpaceParts : public ResultParts {
     const double top = push(DieRoom::top, axis), area = room_->area(at);
     const double bottom = push(DieRoom::bottom, {-axis[0], -axis[1], -axis[2]});
     row.push_back(room_->density(at));
-    std::vector<double> radial;
-    if (box) radial = wall_stresses(at);
+    const std::vector<double> radial = box ? wall_stresses(at) : std::vector{die_stress(at)};
     if (yield_stress_) {
       row.push_back(0.5 * (top + bottom) / area / *yield_stress_);
-      if (box)
-        row.push_back(0.25 * (radial[0] + radial[1] + radial[2] + radial[3]) / *yield_stress_);
+      const double all = std::accumulate(radial.begin(), radial.end(), 0.0);
+      row.push_back(all / static_cast<double>(radial.size()) / *yield_stress_);
     }
     row.insert(row.end(), {top / area, bottom / area});
     row.insert(row.end(), radial.begin(), radial.end());
     row.push_back(top > 0 ? bottom / top : std::numeric_limits<double>::quiet_NaN());
   }
 
+  template <class At>
+  double die_stress(const At& at) const {
+    return normal_force_on_die(world_, room_->die, room_->axis) / room_->wall(at);
+  }
   template <class At>
   std::vector<double> wall_stresses(const At& at) const {
     const double height = room_->height(at);

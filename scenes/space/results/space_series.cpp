@@ -30,10 +30,9 @@ void add_room_series(const Scene& scene, const DieRoom& room, std::vector<Series
   all.push_back({"relative_density", "-", "undeformed particle volume / volume between the tools"});
   if (common_yield_stress(scene)) {
     all.push_back({"stress_ratio/axial", "-", "mean of top and bottom stress / yield stress"});
-    if (box)
-      all.push_back({"stress_ratio/lateral", "-",
-                     "mean of the stresses on the four walls / yield "
-                     "stress"});
+    all.push_back({"stress_ratio/lateral", "-",
+                   box ? "mean of the stresses on the four walls / yield stress"
+                       : "stress on the wall of the die / yield stress"});
   }
   all.push_back({"stress/axial_top", "Pa",
                  "on the top tool: force / cross-section of the die; compression > 0"});
@@ -42,6 +41,9 @@ void add_room_series(const Scene& scene, const DieRoom& room, std::vector<Series
     for (const char* side : {"left", "right", "front", "back"})
       all.push_back({std::string("stress/radial_") + side, "Pa",
                      "on this wall: force / area between the other tools"});
+  else
+    all.push_back({"stress/radial", "Pa",
+                   "on the wall of the die: normal force / area between the other tools"});
   all.push_back({"stress/transmission", "-",
                  "axial force on the bottom tool / on the top tool; NaN where the top bears none"});
 }

@@ -9,6 +9,12 @@
 
 namespace pulvis::space {
 
+// Where tools are meshes.
+struct ToolTriangles {
+  Read<TriangleRange> range;
+  Read<TriangleLists> lists;
+};
+
 struct tool_contact {
   ShapedBodies bodies;
   Read<Clock> clock;
@@ -16,11 +22,7 @@ struct tool_contact {
   RowColumns<FaceToolContact> columns;
   ToolSurfaces tools;
   Read<ToolVelocity> tool_velocity;
-  struct Triangles {
-    Read<TriangleRange> range;
-    Read<TriangleLists> lists;
-  };
-  Optional<Triangles> triangles;
+  Optional<ToolTriangles> triangles;
   Write<ContactSums<ToolContact>> sums;
   void operator()(SmallTasks) const;
 };

@@ -1,7 +1,7 @@
 // tool_contact: narrow phase between particles and rigid tools in three dimensions: the Gauss points of every candidate
 // face against the tool's surface.
 //
-// Stages   tool_projection.hpp -> contact_law.hpp, eight points at a time; one pass with the full stiffness, since a tool
+// Stages   tool_standing.hpp -> contact_law.hpp, eight points at a time; one pass with the full stiffness, since a tool
 //          is not sampled
 // Runs     after bin_tool_faces and tool_motion, before contact_force
 // Active   when the scene has tools
@@ -9,7 +9,7 @@
 #include "systems/space/contact/blocks.hpp"
 #include "systems/space/contact/gauss_points.hpp"
 #include "systems/space/tools/systems.hpp"
-#include "systems/space/tools/tool_projection.hpp"
+#include "systems/space/tools/tool_standing.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -103,26 +103,7 @@ struct ToolPass {
     }
   }
   Standing project(Row<FaceToolContact> row, const VectorLanes& at, double size) const {
-    const int tool = s.columns.pair(row, 2);
-    const VectorLanes from = at - everywhere(s.tools.position_of(tool));
-    const ToolShapes::Shape& shape = s.tools.shape(tool);
-    const Point normal = s.tools.normal_of(tool);
-    switch (shape.kind) {
-      case ToolShapes::Kind::plane:
-        return on_plane(normal, from);
-      case ToolShapes::Kind::die:
-        return in_die(shape.radius, normal, from);
-      case ToolShapes::Kind::punch:
-        return on_punch(shape.meridian, normal, from, size);
-      case ToolShapes::Kind::mesh:
-        break;
-    }
-    const std::span<const std::int32_t> all(s.triangles->lists->triangles);
-    const std::int32_t first = s.triangles->range(row, 0), end = s.triangles->range(row, 1);
-    return on_mesh(
-        shape.mesh,
-        all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first)), from,
-        size);
+    return standing_on_tool(s.tools, s.triangles, s.columns.pair(row, 2), row, at, size);
   }
   // Against tools that do not turn.
   void set_rates(Row<FaceToolContact> row, const VectorLanes& velocity, PointMotion& m) const {

@@ -26,8 +26,9 @@ from pulvis.figures.fields import DEFAULT_FIELD, field_picture
 from pulvis.figures.look import Options, write_csv
 from pulvis.figures.network import contact_network, rose
 from pulvis.figures.probe import figures_of_probe
-from pulvis.figures.quantities import inches
-from pulvis.figures.space import section_picture, space_picture, space_profile
+from pulvis.figures.quantities import inches, length
+from pulvis.figures.space import section_picture, space_network, space_picture, space_profile
+from pulvis.figures.space_density import density_slice
 from pulvis.figures.study import figures_of_study
 from pulvis.results import Run
 
@@ -36,8 +37,8 @@ PLANE_FIGURES = {"force": forces, "stress_ratio": stress_ratio, "energies": ener
                  "local_density": local_density, "density_profile": density_profile,
                  "contact_network": contact_network, "contact_rose": rose, "cracks": cracks,
                  "breaking": breaking, "fragment_sizes": fragment_sizes}
-SPACE_FIGURES = {"section": section_picture, "density_profile": space_profile, "force": forces,
-                 "stress_ratio": stress_ratio, "energies": energies}
+SPACE_FIGURES = {"section": section_picture, "local_density": density_slice, "density_profile": space_profile,
+                 "contact_network": space_network, "force": forces, "stress_ratio": stress_ratio, "energies": energies}
 OF_A_FIELD = (field_picture, space_picture, section_picture)
 LIKE_EVERY_FIGURE = {"limits": None}  # a range of colours is of one field
 
@@ -163,6 +164,8 @@ def arguments(words=None):
     parser.add_argument("--cmap", help="colour map of what is on a scale, by matplotlib's name")
     parser.add_argument("--range", help="LOW:HIGH of the field's colours, as 0:400MPa")
     parser.add_argument("--dpi", default="200")
+    parser.add_argument("--across", choices=["x", "y", "z"], default="y", help="axis of sections and density maps in space")
+    parser.add_argument("--at", help="where, as 2mm; near the middle if not said")
     parser.add_argument("--animate", type=Path, help="file .mp4 or .gif: all frames of the field, or of a lever")
     parser.add_argument("-o", "--output", type=Path, help="a file, or a folder for all figures")
     parser.add_argument("--draw-into", type=Path, help=argparse.SUPPRESS)
@@ -174,7 +177,7 @@ def arguments(words=None):
 
 
 def options_of(asked):
-    options = Options(frame=asked.frame, field=asked.field, series=asked.series, against=asked.against, level=asked.level,
+    options = Options(across=asked.across, at=length("--at", asked.at), frame=asked.frame, field=asked.field, series=asked.series, against=asked.against, level=asked.level,
                       width=inches("--width", asked.width), height=inches("--height", asked.height),
                       title=not asked.no_title, cmap=asked.cmap, limits=asked.range, dpi=resolution(asked.dpi),
                       vector=(asked.output.suffix if asked.output and asked.output.suffix in FORMATS else f".{asked.format}")

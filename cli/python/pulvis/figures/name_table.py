@@ -16,6 +16,7 @@ NAMES = {
   "stress_ratio/lateral": ["lateral stress over yield stress", "\\sigma_\\mathrm{lat}/\\sigma_y"],
   "stress/axial_top": ["axial stress on the top", "\\sigma_\\mathrm{ax}"],
   "stress/axial_bottom": ["axial stress on the bottom", "\\sigma_\\mathrm{ax}"],
+  "stress/radial": ["stress on the wall of the die", "\\sigma_\\mathrm{rad}"],
   "stress/radial_left": ["lateral stress on the left", "\\sigma_\\mathrm{lat}"],
   "stress/radial_right": ["lateral stress on the right", "\\sigma_\\mathrm{lat}"],
   "stress/transmission": ["transmission of the axial force", ""],

@@ -49,6 +49,17 @@ def inches(option, given):
     return length
 
 
+def length(option, given):
+    """A place in the powder, m: "2mm", "-35 µm"."""
+    if given is None:
+        return None
+    match = re.fullmatch(rf"\s*({NUMBER})\s*(\S*)\s*", str(given))
+    factor = factor_of(match[2], "m") if match and match[2] else None
+    if factor is None:
+        raise PulvisError(f"{option} {given}: allowed: a length with its unit, as 2mm", key=option)
+    return factor * float(match[1])
+
+
 def factor_of(unit, si):
     """From a unit to the SI unit `si`, by its prefix; None where it is none of it."""
     if unit in ("", si) or si in ("-", "") and unit in ("", "-"):

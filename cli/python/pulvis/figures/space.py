@@ -1,13 +1,13 @@
-"""Pictures of particles in three dimensions: all of them from a corner, a section through them, the density along z.
+"""Pictures of particles in three dimensions: all of them from a corner, a section through them, the contact network, the density along z.
 
 Faces are drawn from the far ones to the near ones, in parallel projection, true to scale."""
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 from pulvis.errors import PulvisError
-from pulvis.figures.colours import colours_of
+from pulvis.figures.colours import colour_map, colours_of
 from pulvis.figures.fields import DEFAULT_FIELD, OUTLINE, field_of
-from pulvis.figures.look import Options, close_up, moment, seam, shape_of, sheet
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, seam, shape_of, sheet, unit_for, worded
 from pulvis.figures.names import capital, label, name_of
 from pulvis.figures.quantities import with_unit
 from pulvis.figures.space_mesh import density_along_z, outer_sides, section
@@ -123,6 +123,52 @@ def space_picture(run, options=None, axes=None):
     close_up(figure, options, axes)
     middle = frame["position"][()][run.mesh.cells].mean(axis=1)
     figure.table = [*((name, "m", middle[:, k]) for k, name in enumerate("xyz")), (field.key, field.unit, field.values)]
+    return figure
+
+
+def network_lines(frame):
+    """Lines of the contacts, m [contacts, 2, 3], from centre to centre or to where a tool acts, and their normal forces."""
+    centre = frame["particle_centre"][()]
+    pairs, tools = frame["contacts/ids"][()], frame["tool_contacts/ids"][()]
+    lines = np.concatenate([np.stack([centre[pairs[:, 0]], centre[pairs[:, 1]]], axis=1),
+                            np.stack([centre[tools[:, 0]], frame["tool_contacts/point"][()]], axis=1)])
+    return lines, np.concatenate([frame["contacts/normal_force"][()], frame["tool_contacts/normal_force"][()]])
+
+
+def space_network(run, options=None, axes=None):
+    """Normal forces of the contacts as lines between the centres, seen from a corner; particles of force chains shaded."""
+    options = options or Options()
+    frame = recorded(run, options, "contacts")
+    if frame is None or len(frame["contacts/ids"]) + len(frame["tool_contacts/ids"]) == 0:
+        return None
+    rows, limits, (lines, force) = isometric(), limits_of(run, [frame]), network_lines(frame)
+    size, beside = shape_of(limits)
+    figure, place = sheet(options, size, axes, beside)
+    draw_tools(run, place, frame)
+    quads, cells = outer_sides(run.mesh.cells)
+    position, chained = frame["position"][()], frame["force_chain"][()][run.mesh.cell_particle[cells]] > 0
+    seen = 1e3 * position @ rows[:2].T
+    for which, shade in ((~chained, "#dfe5ec"), (chained, "#f3b692")):  # seen through: the lines run inside
+        place.add_collection(PolyCollection(seen[quads[which]], facecolors=shade, edgecolors="none", alpha=0.12, zorder=1))
+    order = np.argsort(-(lines @ rows[2]).mean(axis=1), kind="stable")
+    wide = (options.width or size[0]) / 1.2 if axes is None else axes.get_window_extent().width / figure.dpi
+    diameter = 1e3 * np.cbrt(np.prod(np.ptp(position, axis=0)) / len(frame["particle_centre"]))
+    points = 72 * wide / np.ptp(limits[:, 0]) * 0.14 * diameter  # of the strongest line
+    low, high = options.clim(np.append(force, 0), "N")
+    factor, unit = unit_for("N", force)
+    drawn = LineCollection(1e3 * lines[order] @ rows[:2].T, array=factor * force[order], cmap=colour_map(options, "viridis_r"),
+                           capstyle="round", clim=(factor * low, factor * high), zorder=3,
+                           linewidths=np.maximum(0.3, points * force[order] / force.max()))
+    place.add_collection(drawn)
+    place.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
+    place.axis("off")
+    draw_scale(place, limits)
+    chains = "; shaded: force chains" if chained.any() else ""
+    options.head(place, f"Normal contact forces at {moment(frame)}{chains}", run)
+    bar_beside(figure, place, drawn, worded(("normal force", "F_n"), unit))
+    close_up(figure, options, axes)
+    ends = lines.reshape(-1, 6).T
+    figure.table = [*((name, "m", end) for name, end in zip(("x1", "y1", "z1", "x2", "y2", "z2"), ends)), ("normal force", "N", force)]
     return figure
 
 

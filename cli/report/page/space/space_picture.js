@@ -27,14 +27,14 @@ const SPACE_SHADERS = (() => {
       gl_Position = seenAt(place);
     }`, `${head}
     in vec3 place, normal; in vec2 corner; flat in vec3 colour;
-    uniform vec4 plane; uniform float edges;
+    uniform vec4 plane, paper; uniform float edges;
     out vec4 shown;
     void main() {
       if (dot(place, plane.xyz) > plane.w) discard;
       float light = gl_FrontFacing ? 0.6 + 0.42 * max(0.0, dot(normalize(normal), normalize(vec3(-0.35, 0.5, -0.8)))) : 0.45;
       vec2 border = min(corner, 1.0 - corner) / max(fwidth(corner), vec2(1e-6));
       float line = edges * (1.0 - clamp(min(border.x, border.y), 0.0, 1.0));
-      shown = vec4(colour * min(light, 1.0) * (1.0 - 0.6 * line), 1.0);
+      shown = vec4(mix(colour * min(light, 1.0) * (1.0 - 0.6 * line), paper.rgb, paper.a), 1.0);
     }`];
   const plain = [`${head} ${view}
     in vec3 position; in vec4 colour; out vec4 own;
@@ -90,6 +90,7 @@ class SpacePicture {
     if (!(plane && view.slice)) this.drawSurface(uniforms, view, plane);
     if (view.section) this.drawSection(uniforms, view.section, colours);
     if (view.showTools && view.corners) this.drawTools(uniforms, view);
+    if (view.lines?.length) this.drawNetwork(uniforms, view, plane);
   }
 
   uniforms({place: {rows, unit, room, height}, middle, moved}) {
@@ -101,7 +102,9 @@ class SpacePicture {
     const {gl, programs: {surface}} = this;
     gl.useProgram(surface.program);
     gl.bindVertexArray(this.empty);
+    const pale = view.lines?.length ? 0.7 : 0;  // behind the contact forces
     twgl.setUniforms(surface, {...uniforms, ...Object.fromEntries(this.textures), edges: view.edges ? 1 : 0,
+                               paper: [...(isDark() ? [0.12, 0.15, 0.19] : [1, 1, 1]), pale],
                                plane: plane ? [...plane.normal, plane.offset] : [0, 0, 0, 1]});
     gl.drawArrays(gl.TRIANGLES, 0, 6 * this.surface.cell.length);
   }
@@ -134,6 +137,28 @@ class SpacePicture {
     this.drawPlain(uniforms, gl.TRIANGLES, filled.at, filled.colour, {nearer: 1e-5});
     gl.enable(gl.BLEND);
     this.drawPlain(uniforms, gl.LINES, lines.at, lines.colour, {nearer: 4e-5});
+    gl.disable(gl.BLEND);
+  }
+
+  // Before all particles, the nearer before the farther, as bands that face the reader with a seam of white around them.
+  drawNetwork(uniforms, view, plane) {
+    const {gl} = this, away = view.place.rows[2], bands = view.networkBands(plane);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.BLEND);
+    for (const [rgb, wider, nearer] of [[[255, 255, 255], 0.8 / view.place.unit, 0], [[179, 0, 60], 0, 1e-5]]) {
+      const at = [], colour = [];
+      for (const {from, to, half} of bands) {
+        const along = to.map((x, k) => x - from[k]);
+        const side = [0, 1, 2].map(k => along[(k + 1) % 3] * away[(k + 2) % 3] - along[(k + 2) % 3] * away[(k + 1) % 3]);
+        const long = Math.hypot(...side);
+        if (!long) continue;  // straight at the reader
+        const [a, b, c, d] = [[from, 1], [to, 1], [to, -1], [from, -1]].map(([end, sign]) =>
+          end.map((x, k) => x + sign * (half + wider) / long * side[k]));
+        at.push(...a, ...b, ...c, ...a, ...c, ...d);
+        for (let k = 0; k < 6; ++k) colour.push(...rgb, 255);
+      }
+      this.drawPlain(uniforms, gl.TRIANGLES, at, colour, {nearer});
+    }
     gl.disable(gl.BLEND);
   }
 

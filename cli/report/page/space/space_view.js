@@ -61,6 +61,27 @@ class SpaceView extends FieldView {
     return {normal, side, offset: low + share * (high - low) + 1e-6};  // through no node of a lattice
   }
 
+  // The contact forces as {from, to, half}, half of their widths, which is as their force; without what a plane cuts away.
+  networkBands(plane) {
+    const {lines, width, box, run: {head: {low, mesh}}} = this, bands = [];
+    const most = this.mostForce = largest(lines.filter((_, i) => i % 7 === 6)) || 1;
+    const widest = 0.06 * Math.cbrt(box[0] * box[1] * box[2] / mesh.particles);
+    const beyond = point => plane ? plane.normal.reduce((sum, part, k) => sum + part * point[k], -plane.offset) : -1;
+    for (let i = 0; i < lines.length; i += 7) {
+      const half = widest * lines[i + 6] / most;
+      if (half * this.place.unit < 0.07) continue;
+      let [from, to] = [0, 3].map(first => [0, 1, 2].map(k => (lines[i + first + k] - low[k]) / width));
+      const a = beyond(from), b = beyond(to);
+      if (a > 0 && b > 0) continue;
+      if (a > 0 || b > 0) {
+        const cut = from.map((x, k) => x + a / (a - b) * (to[k] - x));
+        [from, to] = a > 0 ? [cut, to] : [from, cut];
+      }
+      bands.push({from, to, half});
+    }
+    return bands;
+  }
+
   draw() {
     if (!this.position) return;
     const start = performance.now();
@@ -87,6 +108,7 @@ class SpaceView extends FieldView {
     this.fit.hidden = !this.isMoved();
     this.canvas.dataset.drawnIn = (performance.now() - start).toFixed(1);
     this.canvas.dataset.drawn = `${this.frame} ${this.shown}`;
+    this.canvas.dataset.contacts = this.lines ? this.lines.length / 7 : "";
     this.canvas.dataset.cells = this.section ? this.section.cell.length : "";
   }
 

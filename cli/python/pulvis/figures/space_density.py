@@ -1,0 +1,57 @@
+"""Local densities in three dimensions: a layer of cells across an axis."""
+import numpy as np
+from matplotlib.collections import LineCollection
+
+from pulvis.figures.colours import colour_map
+from pulvis.figures.look import Options, bar_beside, close_up, moment, recorded, shape_of, sheet
+from pulvis.figures.names import label
+from pulvis.figures.quantities import with_unit
+from pulvis.figures.space_tools import cut, pieces
+from pulvis.figures.tools import TOOL_EDGE
+
+WRITTEN_UP_TO = 10  # cells side by side whose densities are written in
+
+
+def layer_of(lines, at):
+    """The layer of cells that a place lies in, the middle one without a place."""
+    middle = (lines[0] + lines[-1]) / 2 if at is None else at
+    return int(np.clip(np.searchsorted(lines, middle, side="right") - 1, 0, len(lines) - 2))
+
+
+def density_slice(run, options=None, axes=None):
+    """The cells across `options.across` at `options.at` (m), in the middle if not said; the colours are those of the whole
+    frame."""
+    options = options or Options()
+    frame = recorded(run, options, "local_density")
+    if frame is None or not np.isfinite(frame["local_density"][()]).any():
+        return None
+    values, lines = frame.density()
+    axis, others = "xyz".index(options.across), [k for k in range(3) if "xyz"[k] != options.across]
+    layer = layer_of(lines[axis], options.at)
+    cells = np.take(values, layer, axis).T  # rows: the second of the other axes
+    low, high = options.clim(values, "-")
+    low, high = (low, high) if high - low > 1e-6 else (low - 0.01, high + 0.01)
+    across, up = (1e3 * lines[k] for k in others)
+    limits = np.array([[across[0], up[0]], [across[-1], up[-1]]])
+    limits += 0.03 * np.ptp(limits, axis=0).max() * np.array([[-1], [1]])
+    size, beside = shape_of(limits)
+    figure, place = sheet(options, size, axes, beside)
+    drawn = place.pcolormesh(across, up, cells, cmap=colour_map(options), vmin=low, vmax=high, edgecolors="white", linewidth=0.5)
+    if cells.shape[1] <= WRITTEN_UP_TO and not options.narrow:
+        for (j, i), value in np.ndenumerate(cells):
+            if np.isfinite(value):
+                place.text((across[i] + across[i + 1]) / 2, (up[j] + up[j + 1]) / 2, f"{value:.3f}", size=7, ha="center", va="center",
+                           color="#1d2733" if (value - low) / (high - low) > 0.6 else "white")
+    at = (lines[axis][layer] + lines[axis][layer + 1]) / 2
+    walls = cut(pieces(run, frame)[0], axis, at)
+    place.add_collection(LineCollection(1e3 * walls, colors=TOOL_EDGE, linewidths=1.8, zorder=2))
+    names = ["xyz"[k] for k in others]
+    place.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal", xlabel=f"${names[0]}$ / mm", ylabel=f"${names[1]}$ / mm")
+    place.grid(False)
+    ends = " to ".join(with_unit(lines[axis][layer + k], "m") for k in (0, 1))
+    options.head(place, f"Local relative density, ${options.across}$ from {ends}, at {moment(frame)}", run)
+    bar_beside(figure, place, drawn, label("local_density", ""))
+    close_up(figure, options, axes)
+    middles = np.meshgrid(*((one[1:] + one[:-1]) / 2 for one in lines), indexing="ij")
+    figure.table = [*((name, "m", middle.ravel()) for name, middle in zip("xyz", middles)), ("relative density", "-", values.ravel())]
+    return figure

@@ -1,0 +1,17 @@
+// What the report shows of what a run in three dimensions observes: the contact network, densities in the cells of a grid.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/report/report_data.hpp"
+#include "engine/files/hdf5.hpp"
+
+namespace pulvis {
+
+// To the entry of a frame ("/frames/N") and, as sections that begin with `prefix`, the numbers.
+void add_space_observed(const hdf5::File& file, const std::string& frame, const std::string& prefix,
+                        nlohmann::ordered_json& entry, std::vector<ReportSection>& sections);
+
+}  // namespace pulvis

@@ -1,0 +1,196 @@
+// contact_network: the points of all contact rows summed up into one contact for every pair of particles, and for every
+// particle and tool that touch.
+//
+// Law      force = sum over the points of both half passes, as contact_force gives them to the bodies; the normal is the
+//          direction of the sum of their normal parts, so that it does not depend on where the mesh nodes lie. Area: current
+//          area that the points with a force stand for, mean of both sides
+// Runs     on sampled steps, after the narrow phases
+// Active   when the scene asks for contacts
+#include <algorithm>
+
+#include "engine/entry.hpp"
+#include "systems/contact/by_slot.hpp"
+#include "systems/space/contact/gauss_points.hpp"
+#include "systems/space/observe/systems.hpp"
+#include "systems/space/tools/tool_standing.hpp"
+
+namespace pulvis::space {
+namespace {
+
+using VectorOfPoint = kernels::Vector<double>;
+
+// Gauss-Legendre weights on [0,1], of kernels::gauss_at.
+constexpr std::array<double, 4> weight_at{0.173927422568726928687, 0.326072577431273071313,
+                                          0.326072577431273071313, 0.173927422568726928687};
+
+double length_of(const VectorOfPoint& a) { return std::sqrt(dot(a, a)); }
+
+// A Gauss point that bears a force, `normal` into the sampled side.
+struct TouchingPoint {
+  VectorOfPoint at, normal, force;
+  double area;
+};
+
+// Sums of a contact while its points are gathered.
+struct Gathered {
+  ContactLink link;
+  double weight = 0;
+
+  // `side` -1 where the sampled side is the link's second particle.
+  void add(const TouchingPoint& p, double side) {
+    const double size = length_of(p.force), push = dot(p.force, p.normal);
+    weight += size;
+    link.area += p.area;
+    const std::array at{p.at.x, p.at.y, p.at.z}, force{p.force.x, p.force.y, p.force.z},
+        normal{p.normal.x, p.normal.y, p.normal.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+      link.point[k] += size * at[k];
+      link.force[k] += side * force[k];
+      link.normal[k] += side * push * normal[k];
+    }
+  }
+  ContactLink finished(double sides) const {
+    ContactLink done = link;
+    const auto [x, y, z] = link.normal;
+    const double push = length_of({x, y, z});
+    for (std::size_t k = 0; k < 3; ++k) {
+      done.point[k] /= weight;
+      done.normal[k] /= push;
+    }
+    done.area /= sides;
+    return done;
+  }
+};
+
+// The contacts of one particle, found by their other side.
+class Partners {
+ public:
+  explicit Partners(int first) : first_(first) {}
+  Gathered& with(int second) {
+    const auto same = [&](const Gathered& g) { return g.link.second == second; };
+    const auto found = std::ranges::find_if(all_, same);
+    if (found != all_.end()) return *found;
+    all_.emplace_back().link.first = first_;
+    all_.back().link.second = second;
+    return all_.back();
+  }
+  // Points may touch without a force, where the surfaces just meet: those make no contact.
+  void move_to(std::vector<ContactLink>& links, double sides) const {
+    for (const Gathered& g : all_)
+      if (g.weight > 0) links.push_back(g.finished(sides));
+  }
+
+ private:
+  int first_;
+  std::vector<Gathered> all_;
+};
+
+void sort_by_numbers(std::vector<ContactLink>& links) {
+  std::ranges::sort(links, {}, [](const ContactLink& l) { return std::pair(l.first, l.second); });
+}
+
+struct Looker {
+  const contact_network& s;
+
+  int number(int slot) const { return entry(s.bodies.bodies->slots, slot).number; }
+  // Point and slopes of a particle's surface.
+  kernels::PatchSlopes<double> surface(int slot, int face, double u, double v) const {
+    const double* numbers =
+        s.position.values().data() +
+        (s.bodies.first_face(slot) + std::ptrdiff_t{face}) * std::ptrdiff_t{face_numbers};
+    const auto control = [&](int k, int p) { return numbers[16 * k + p]; };
+    return kernels::patch_slopes<double>(control, u, v);
+  }
+
+  // Adds the points of a row that bear a force; normal_at(g) looks into the sampled particle.
+  template <class At, class NormalAt>
+  void add_points(const TouchingRows<At>& rows, Row<At> row, double side, const NormalAt& normal_at,
+                  Gathered& contact) const {
+    for (int g = 0; g < face_points; ++g) {
+      const auto part = [&](int k) { return rows.force(row, face_points * k + g); };
+      const VectorOfPoint force{part(0), part(1), part(2)};
+      if (force.x == 0 && force.y == 0 && force.z == 0) continue;
+      const double u = entry(kernels::gauss_at, g % 4), v = entry(kernels::gauss_at, g / 4);
+      const auto own = surface(rows.pair(row, 0), rows.pair(row, 1), u, v);
+      const double stretch = length_of(cross(own.u, own.v));
+      contact.add(
+          {own.x, normal_at(g), force, entry(weight_at, g % 4) * entry(weight_at, g / 4) * stretch},
+          side);
+    }
+  }
+  void add_pair(Row<FaceContact> row, double side, Gathered& contact) const {
+    const auto normal_at = [&](int g) {
+      const double spot = s.pairs->closest(row, g), v = s.pairs->closest(row, face_points + g);
+      const int face = static_cast<int>(spot);
+      const auto other = surface(s.pairs->rows.pair(row, 2), face, spot - face, v);
+      const VectorOfPoint across = cross(other.u, other.v);
+      return (1 / length_of(across)) * across;
+    };
+    add_points(s.pairs->rows, row, side, normal_at, contact);
+  }
+  void add_tool(Row<FaceToolContact> row, Gathered& contact) const {
+    const int slot = s.tools->rows.pair(row, 0), face = s.tools->rows.pair(row, 1);
+    const double* points =
+        s.position.values().data() +
+        (s.bodies.first_face(slot) + std::ptrdiff_t{face}) * std::ptrdiff_t{face_numbers};
+    const double size = entry(s.bodies.shape_of(slot).faces, face).size;
+    std::array<VectorLanes, 2> normal;
+    for (int half = 0; half < 2; ++half)
+      entry(normal, half) =
+          standing_on_tool(s.tools->surfaces, s.tools->triangles, s.tools->rows.pair(row, 2), row,
+                           sampled_points(points, half), size)
+              .normal;
+    const auto normal_at = [&](int g) {
+      const VectorLanes& n = entry(normal, g / lane_count);
+      const int lane = g % lane_count;
+      return VectorOfPoint{n.x[lane], n.y[lane], n.z[lane]};
+    };
+    add_points(s.tools->rows, row, 1, normal_at, contact);
+  }
+
+  // Each pair belongs to its particle of lower number, whose rows and those against it are looked through.
+  void find_pairs(int slot, std::vector<ContactLink>& found) const {
+    Partners partners(number(slot));
+    for (const Row<FaceContact> row : RowRange<FaceContact>::of(s.index->sampled_begin, slot)) {
+      const int other = number(s.pairs->rows.pair(row, 2));
+      if (s.pairs->rows.touches(row) != 0 && other > number(slot))
+        add_pair(row, 1, partners.with(other));
+    }
+    for (int k = entry(s.index->other_begin, slot); k < entry(s.index->other_begin, slot + 1);
+         ++k) {
+      const Row<FaceContact> row(entry(s.index->other_rows, k));
+      const int other = number(s.pairs->rows.pair(row, 0));
+      if (s.pairs->rows.touches(row) != 0 && other > number(slot))
+        add_pair(row, -1, partners.with(other));
+    }
+    partners.move_to(found, 2);
+  }
+  void find_tools(int slot, std::vector<ContactLink>& found) const {
+    Partners partners(number(slot));
+    for (const Row<FaceToolContact> row : RowRange<FaceToolContact>::of(s.index->tool_begin, slot))
+      if (s.tools->rows.touches(row) != 0) add_tool(row, partners.with(s.tools->rows.pair(row, 2)));
+    partners.move_to(found, 1);
+  }
+};
+
+}  // namespace
+
+void contact_network::operator()() const {
+  const Looker looker{*this};
+  const auto found_by = [&](const auto& find) {
+    auto links =
+        list_by_slot<ContactLink>(bodies.slots(), [&](int slot, std::vector<ContactLink>& found) {
+          if (!bodies.is_empty(slot)) find(slot, found);
+        });
+    sort_by_numbers(links.all);
+    return std::move(links.all);
+  };
+  network->pairs.clear();
+  network->tools.clear();
+  if (pairs)
+    network->pairs = found_by([&](int slot, auto& found) { looker.find_pairs(slot, found); });
+  if (tools)
+    network->tools = found_by([&](int slot, auto& found) { looker.find_tools(slot, found); });
+}
+
+}  // namespace pulvis::space

@@ -1,0 +1,52 @@
+// What a contact network in three dimensions is like as a whole, and where it carries the load.
+//
+// Source   fabric tensor: Satake, "Fabric tensor in granular materials" (1982); Oda, Soils & Foundations 22(4), 96 (1982)
+// Law      F_ij = mean over the contacts of n_i n_j: trace 1; anisotropy = sqrt(3/2 F' : F') with F' its deviator, 0 where
+//          all directions are alike, 1 where all contacts are parallel
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "components/space/observed.hpp"
+#include "systems/observe/force_chain_kernel.hpp"
+
+namespace pulvis::space::kernels {
+
+struct Fabric {
+  double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
+  double anisotropy() const {
+    const double mean = (xx + yy + zz) / 3, x = xx - mean, y = yy - mean, z = zz - mean;
+    return std::sqrt(1.5 * (x * x + y * y + z * z + 2 * (xy * xy + yz * yz + zx * zx)));
+  }
+};
+
+inline Fabric fabric(std::span<const ContactLink> links) {
+  Fabric f;
+  for (const ContactLink& link : links) {
+    const auto [x, y, z] = link.normal;
+    const double share = 1 / static_cast<double>(links.size());
+    f.xx += share * x * x;
+    f.yy += share * y * y;
+    f.zz += share * z * z;
+    f.xy += share * x * y;
+    f.yz += share * y * z;
+    f.zx += share * z * x;
+  }
+  return f;
+}
+
+// `stress`: Pa, xx yy zz xy yz zx; tension > 0.
+inline pulvis::kernels::MajorCompression<3> major_compression(const std::array<double, 6>& stress) {
+  Eigen::Matrix3d s;
+  s << stress[0], stress[3], stress[5],  //
+      stress[3], stress[1], stress[4],   //
+      stress[5], stress[4], stress[2];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(s);  // least first
+  const Eigen::Vector3d way = principal.eigenvectors().col(0);
+  return {-principal.eigenvalues()[0], {way.x(), way.y(), way.z()}};
+}
+
+}  // namespace pulvis::space::kernels

@@ -1,0 +1,48 @@
+// Systems of sampled steps that look at a powder in three dimensions as a whole. What a system reads and writes is what it
+// declares here, once; systems/space/step.cpp puts them in order, and each is described at the top of its own file.
+#pragma once
+
+#include "components/observed.hpp"
+#include "components/space/observed.hpp"
+#include "systems/space/contact/systems.hpp"
+#include "systems/space/tools/systems.hpp"
+
+namespace pulvis::space {
+
+struct contact_network {
+  ShapedBodies bodies;
+  Read<ContactIndex> index;
+  Read<FacePosition> position;
+  struct Pairs {
+    TouchingRows<FaceContact> rows;
+    Read<ClosestPoint> closest;
+  };
+  Optional<Pairs> pairs;
+  struct Tools {
+    TouchingRows<FaceToolContact> rows;
+    ToolSurfaces surfaces;
+    Optional<ToolTriangles> triangles;
+  };
+  Optional<Tools> tools;
+  Write<ContactNetwork> network;
+  void operator()() const;
+};
+
+struct force_chains {
+  Read<Bodies> bodies;
+  Read<ParticleStress> stress;
+  Read<ParticleCentre> centre;
+  Read<ContactNetwork> network;
+  Write<ForceChains> chains;
+  void operator()() const;
+};
+
+struct local_density {
+  ShapedBodies bodies;
+  Read<Position> position;
+  Read<ToolPosition> tool_position;
+  Write<DensityGrid> grid;
+  void operator()() const;
+};
+
+}  // namespace pulvis::space
