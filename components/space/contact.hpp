@@ -74,8 +74,7 @@ struct Activation : Component<At, double, std::is_same_v<At, FaceContact> ? face
   static constexpr ComponentInfo info{
       "activation", "m", "travel of the surfaces from which on what rests is active again"};
 };
-template <class At>
-struct PointForce : Component<At, double, 3 * face_points> {
+struct PointForce : Component<FaceToolContact, double, 3 * face_points> {
   static constexpr ComponentInfo info{"point_force", "N",
                                       "on the sampled face: x of every point, y, z"};
 };
@@ -95,8 +94,7 @@ struct ContactPoint : Component<FaceContact, double, 8 * face_points> {
 };
 
 // ---- only where the scene has friction -----------------------------------------------------------
-template <class At>
-struct ElasticSlip : Component<At, double, 3 * face_points> {
+struct ElasticSlip : Component<FaceToolContact, double, 3 * face_points> {
   static constexpr ComponentInfo info{"elastic_slip", "m",
                                       "stretch of the tangential springs, x of all, y, z: history"};
 };

@@ -106,7 +106,7 @@ class StateHash {
       for (int k = Point::spring; k < Point::force; ++k) add(first[g * Point::numbers + k]);
   }
   void add_slip(int row) {
-    using Slip = space::ElasticSlip<FaceToolContact>;
+    using Slip = space::ElasticSlip;
     if (!world_.has<Slip>()) return;
     for (int i = 0; i < Slip::count; ++i)
       add(world_.column<Slip>().values()[std::ptrdiff_t{row} * Slip::count + i]);

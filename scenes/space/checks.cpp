@@ -19,11 +19,6 @@ namespace {
 constexpr std::int64_t max_particles_in_space = 1'000'000;
 constexpr std::int64_t max_hexahedra = 100'000'000;  // at 1.5 kB each: 150 GB
 
-std::int64_t hexahedra(const MeshSpec& mesh) {
-  const std::int64_t n = mesh.divisions;
-  return n * n * n + 6 * n * n * mesh.rings;
-}
-
 bool is_lattice_kind(const PackingSpec& packing) {
   return packing.kind != PackingSpec::Kind::random && packing.kind != PackingSpec::Kind::csv;
 }
@@ -53,8 +48,7 @@ class SpaceChecks {
     something_is_there();
     check_materials(scene_, refusal());
     read_stl_files(scene_, refusal());
-    for (std::size_t i = 0; i < space_.particles.size(); ++i)
-      check_shape(space_.particles[i].shape, fmt::format("particle[{}]", i), refusal());
+    for (std::size_t i = 0; i < space_.particles.size(); ++i) particle(i);
     counts();
     packings();
     stages();
@@ -92,6 +86,15 @@ class SpaceChecks {
     if (scene_.stages.empty()) refuse_missing("stage", "at least one [[stage]]");
   }
 
+  void particle(std::size_t i) {
+    const ParticleSpec& of = space_.particles[i];
+    const std::string path = fmt::format("particle[{}]", i);
+    check_shape(of.shape, path, refusal());
+    // Between two corners of the cube there is a node of four faces, or none on all its edges.
+    if (of.mesh.axial_divisions && of.mesh.divisions < 2)
+      refuse(path + ".mesh.axial_divisions", "needs divisions of at least 2");
+  }
+
   std::vector<std::string> names_of_tools() const {
     std::vector<std::string> names;
     for (const ToolSpec& tool : space_.tools) names.push_back(tool.name);
@@ -99,7 +102,7 @@ class SpaceChecks {
   }
 
   std::int64_t hexahedra_of(int particle) const {
-    return hexahedra(space_.particles[static_cast<std::size_t>(particle)].mesh);
+    return space_.particles[static_cast<std::size_t>(particle)].mesh.hexahedra();
   }
 
   void counts() {

@@ -50,10 +50,21 @@ struct StlShape {         // closed surface that its centre of volume sees as a 
 using ParticleShape = std::variant<SphereShape, EllipsoidShape, SuperquadricShape, CylinderShape,
                                    PolyhedronShape, StlShape>;
 
-// O-grid on a cubed sphere: a core of divisions^3 hexahedra and `rings` layers around it, 6 divisions^2 each.
+// O-grid on a cubed sphere: a core of divisions^2 * axial() hexahedra and `rings` layers around it.
 struct MeshSpec {
-  int divisions = 4;  // >= 1, of each edge of the cube
-  int rings = 4;      // >= 1
+  int divisions = 4;                        // >= 1, of the edges of the cube
+  int rings = 4;                            // >= 1
+  std::optional<int> axial_divisions = {};  // >= 2, of those along z; needs divisions >= 2
+
+  int axial() const { return axial_divisions.value_or(divisions); }
+  std::int64_t faces() const {  // of a layer
+    const std::int64_t n = divisions;
+    return 2 * n * n + 4 * n * axial();
+  }
+  std::int64_t hexahedra() const {
+    const std::int64_t n = divisions;
+    return n * n * axial() + faces() * rings;
+  }
 };
 
 struct ParticleSpec {  // a class of equal particles

@@ -10,16 +10,19 @@ Key<PackingSpec> kind_of_packing() {
   return {{.name = "kind",
            .kind = Kind::choice,
            .choices = {{"cubic", "a particle in the middle of every cell"},
-                       {"body-centred", "particles at the corners and in the middle of cells; "
-                                        "between flat walls whole particles alone: half a cell off "
-                                        "the walls"},
-                       {"face-centred", "particles at the corners and on the faces of cells, whole "
-                                        "ones alone"},
+                       {"body-centred",
+                        "particles at the corners and in the middle of cells; "
+                        "between flat walls whole particles alone: half a cell off "
+                        "the walls"},
+                       {"face-centred",
+                        "particles at the corners and on the faces of cells, whole "
+                        "ones alone"},
                        {"hexagonal", "closely packed layers, ABAB"},
-                       {"random", "a mixture, [[packing.class]], thrown into a box or cylinder and "
-                                  "pressed together without friction under shaking, as rigid "
-                                  "particles, until it is as dense as wanted; the same `seed` gives "
-                                  "the same packing on every machine"},
+                       {"random",
+                        "a mixture, [[packing.class]], thrown into a box or cylinder and "
+                        "pressed together without friction under shaking, as rigid "
+                        "particles, until it is as dense as wanted; the same `seed` gives "
+                        "the same packing on every machine"},
                        {"csv", "where a file says, as `pulvis pack` writes it"}},
            .required = true,
            .doc = "How the particles are arranged."},
@@ -29,31 +32,32 @@ Key<PackingSpec> kind_of_packing() {
 }
 
 std::vector<Key<PackingSpec>> keys_of_lattices() {
-  return {{{.name = "particle",
-            .kind = Kind::reference,
-            .refers_to = "particle",
-            .required = true,
-            .only_for = space_lattices,
-            .doc = "Their class."},
-           schema::index_to(&PackingSpec::particle)},
-          {{.name = "cells",
-            .kind = Kind::counts,
-            .range = within(1, 1000),
-            .dimensions = 3,
-            .required = true,
-            .only_for = space_lattices,
-            .doc = "Cells of the lattice along x, y and z; hexagonal: particles of a row, rows of a "
-                   "layer, layers."},
-           [](PackingSpec& packing, const Decoded& value) { packing.cells = value.counts3; }},
-          {{.name = "spacing",
-            .kind = Kind::quantity,
-            .unit = "m",
-            .range = within(smallest_size, largest_size),
-            .only_for = space_lattices,
-            .doc = "Edge of the cubic cell; hexagonal: distance of neighbours. Must be given but for "
-                   "spheres.",
-            .fallback_doc = "that at which spheres touch"},
-           to(&PackingSpec::spacing)}};
+  return {
+      {{.name = "particle",
+        .kind = Kind::reference,
+        .refers_to = "particle",
+        .required = true,
+        .only_for = space_lattices,
+        .doc = "Their class."},
+       schema::index_to(&PackingSpec::particle)},
+      {{.name = "cells",
+        .kind = Kind::counts,
+        .range = within(1, 1000),
+        .dimensions = 3,
+        .required = true,
+        .only_for = space_lattices,
+        .doc = "Cells of the lattice along x, y and z; hexagonal: particles of a row, rows of a "
+               "layer, layers."},
+       [](PackingSpec& packing, const Decoded& value) { packing.cells = value.counts3; }},
+      {{.name = "spacing",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = within(smallest_size, largest_size),
+        .only_for = space_lattices,
+        .doc = "Edge of the cubic cell; hexagonal: distance of neighbours. Must be given but for "
+               "spheres.",
+        .fallback_doc = "that at which spheres touch"},
+       to(&PackingSpec::spacing)}};
 }
 
 Key<PackingSpec> container_length(const char* name, const char* needs, const char* doc,
@@ -91,32 +95,32 @@ std::vector<Key<PackingSpec>> container_keys() {
            [](PackingSpec& packing, const Decoded& value) {
              packing.container.corner = value.vector3;
            }},
-          container_length("width", "depth", "Of the box, along x.",
-                           "required, but for a cylinder", &ContainerSpec::width),
-          container_length("depth", "width", "Of the box, along y.",
-                           "required, but for a cylinder", &ContainerSpec::depth),
+          container_length("width", "depth", "Of the box, along x.", "required, but for a cylinder",
+                           &ContainerSpec::width),
+          container_length("depth", "width", "Of the box, along y.", "required, but for a cylinder",
+                           &ContainerSpec::depth),
           diameter};
 }
 
 std::vector<Key<PackingSpec>> extent_keys() {
-  return {{{.name = "height",
-            .kind = Kind::quantity,
-            .unit = "m",
-            .range = within(smallest_size, largest_size),
-            .only_for = "random",
-            .doc = "From the floor to the top. Two of count, density and height are given.",
-            .fallback_doc = "what follows from count and density"},
-           to(&PackingSpec::height)},
-          {{.name = "count",
-            .kind = Kind::integer,
-            .range = within(1, 1e5),
-            .only_for = "random",
-            .doc = "Particles of all classes, where those give fractions.",
-            .fallback_doc =
-                "the sum of the classes' numbers, or what follows from density and height"},
-           [](PackingSpec& packing, const Decoded& value) {
-             packing.count = static_cast<int>(value.integer);
-           }}};
+  return {
+      {{.name = "height",
+        .kind = Kind::quantity,
+        .unit = "m",
+        .range = within(smallest_size, largest_size),
+        .only_for = "random",
+        .doc = "From the floor to the top. Two of count, density and height are given.",
+        .fallback_doc = "what follows from count and density"},
+       to(&PackingSpec::height)},
+      {{.name = "count",
+        .kind = Kind::integer,
+        .range = within(1, 1e5),
+        .only_for = "random",
+        .doc = "Particles of all classes, where those give fractions.",
+        .fallback_doc = "the sum of the classes' numbers, or what follows from density and height"},
+       [](PackingSpec& packing, const Decoded& value) {
+         packing.count = static_cast<int>(value.integer);
+       }}};
 }
 
 Key<PackingSpec> density_of_packing() {
@@ -184,7 +188,8 @@ const TableDeclaration<MixtureClass>& mixture_class() {
     schema::KeyInfo& law = key_of(table, "distribution").info;
     law.choices.back().doc = "what passes each sieve, by volume, from a file";
     law.doc =
-        "Law of the sizes: by number of particles, \"sieve\" by their volume. The size of a particle "
+        "Law of the sizes: by number of particles, \"sieve\" by their volume. The size of a "
+        "particle "
         "is its smallest width, which a sieve lets through: of a sphere its diameter. The shape of "
         "the class is scaled to it.";
     key_of(table, "file").info.doc =
@@ -193,7 +198,8 @@ const TableDeclaration<MixtureClass>& mixture_class() {
     key_of(table, "sizes").info.doc =
         "How many sizes stand for the law, each for the same share of it (of the particles, of "
         "\"sieve\" of the volume) and with its share's mean volume. Particles of one size share "
-        "their mesh and are computed eight at a time: choose this so that many particles have each.";
+        "their mesh and are computed eight at a time: choose this so that many particles have "
+        "each.";
     return table;
   }();
   return declaration;

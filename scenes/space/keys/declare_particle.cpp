@@ -188,7 +188,8 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
             .kind = Kind::integer,
             .range = within(1, 64),
             .doc = "Elements along each edge of the cube in the middle: its core has divisions^3, "
-                   "the surface 6 divisions^2 faces.",
+                   "the surface 6 divisions^2 faces (with `axial_divisions` m: divisions^2 m and "
+                   "2 divisions^2 + 4 divisions m).",
             .fallback_doc = "by `accuracy`; beside `rings` 4"},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.divisions = static_cast<int>(value.integer);
@@ -196,10 +197,20 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
           {{.name = "rings",
             .kind = Kind::integer,
             .range = within(1, 64),
-            .doc = "Layers of elements between the core and the surface, 6 divisions^2 each.",
+            .doc = "Layers of elements between the core and the surface, as many in each as it has "
+                   "faces.",
             .fallback_doc = "by `accuracy`; beside `divisions` 4"},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.rings = static_cast<int>(value.integer);
+           }},
+          {{.name = "axial_divisions",
+            .kind = Kind::integer,
+            .range = within(2, 1024),
+            .doc = "Elements of the core along z: of long shapes more, of flat ones fewer, so that "
+                   "elements are about as long as they are wide.",
+            .fallback_doc = "divisions"},
+           [](ParticleSpec& spec, const Decoded& value) {
+             spec.mesh.axial_divisions = static_cast<int>(value.integer);
            }},
           {{.name = "phase",
             .kind = Kind::choice,

@@ -4,20 +4,21 @@
 
 namespace pulvis::space {
 
-CubedSphere::CubedSphere(int divisions, int rings) : divisions_(divisions), rings_(rings) {
-  const auto is_end = [divisions](int i) { return i == 0 || i == divisions; };
-  for (int k = 0; k <= divisions; ++k)
-    for (int j = 0; j <= divisions; ++j)
-      for (int i = 0; i <= divisions; ++i) {
-        const bool outside = is_end(i) || is_end(j) || is_end(k);
+CubedSphere::CubedSphere(const Lattice& divisions, int rings)
+    : divisions_(divisions), rings_(rings) {
+  const auto is_end = [this](int i, int axis) { return i == 0 || i == this->divisions(axis); };
+  for (int k = 0; k <= divisions[2]; ++k)
+    for (int j = 0; j <= divisions[1]; ++j)
+      for (int i = 0; i <= divisions[0]; ++i) {
+        const bool outside = is_end(i, 0) || is_end(j, 1) || is_end(k, 2);
         number_.push_back(outside ? layer_nodes() : -1);
         if (outside) rim_.push_back({i, j, k});
       }
 }
 
 Lattice CubedSphere::core_point(int number) const {
-  const int side = divisions_ + 1;
-  return {number % side, number / side % side, number / (side * side)};
+  const int row = divisions_[0] + 1, plane = row * (divisions_[1] + 1);
+  return {number % row, number % plane / row, number / plane};
 }
 
 int CubedSphere::core_node(const Lattice& at) const { return rings_ * layer_nodes() + place(at); }
@@ -32,14 +33,14 @@ std::vector<std::array<int, 4>> CubedSphere::quads() const {
     const bool upper = face % 2 == 1;
     // u cross v is the outward normal.
     const int w = face / 2, u = (w + (upper ? 1 : 2)) % 3, v = (w + (upper ? 2 : 1)) % 3;
-    for (int b = 0; b < divisions_; ++b)
-      for (int a = 0; a < divisions_; ++a) {
+    for (int b = 0; b < divisions(v); ++b)
+      for (int a = 0; a < divisions(u); ++a) {
         std::array<int, 4> quad{};
         for (int c = 0; c < 4; ++c) {
           Lattice at{};
           entry(at, u) = a + (c == 1 || c == 2 ? 1 : 0);
           entry(at, v) = b + (c >= 2 ? 1 : 0);
-          entry(at, w) = upper ? divisions_ : 0;
+          entry(at, w) = upper ? divisions(w) : 0;
           entry(quad, c) = entry(number_, place(at));
         }
         quads.push_back(quad);
@@ -59,9 +60,9 @@ std::vector<Hexahedron> CubedSphere::hexahedra() const {
         hexahedron[c + 4] = Row<Node>(layer_node(layer, quad[c]));
       }
     }
-  for (int k = 0; k < divisions_; ++k)
-    for (int j = 0; j < divisions_; ++j)
-      for (int i = 0; i < divisions_; ++i) {
+  for (int k = 0; k < divisions_[2]; ++k)
+    for (int j = 0; j < divisions_[1]; ++j)
+      for (int i = 0; i < divisions_[0]; ++i) {
         Hexahedron& hexahedron = hexahedra.emplace_back();
         for (int c = 0; c < 8; ++c) {
           const int across = c % 4 == 1 || c % 4 == 2 ? 1 : 0, up = c % 4 >= 2 ? 1 : 0;

@@ -1,7 +1,8 @@
-// O-grid of hexahedra on a cubed sphere: a core of n^3 elements, and layers of 6 n^2 between it and the surface.
+// O-grid of hexahedra on a cubed sphere: a core of n * n * m elements, m along z, and layers of 2 n^2 + 4 n m between it and
+// the surface.
 //
 // Node numbers: layer 0 is the surface, and so on inwards; the core follows, whose rim ends the innermost layer. The
-// nodes of a layer are the lattice points i, j, k = 0..n on the faces of a cube.
+// nodes of a layer are the lattice points i, j = 0..n, k = 0..m on the faces of a cube.
 #pragma once
 
 #include <array>
@@ -16,9 +17,9 @@ using Lattice = std::array<int, 3>;
 
 class CubedSphere {
  public:
-  CubedSphere(int divisions, int rings);
+  CubedSphere(const Lattice& divisions, int rings);
 
-  int divisions() const { return divisions_; }
+  int divisions(int axis) const { return entry(divisions_, axis); }
   int rings() const { return rings_; }
   int layer_nodes() const { return static_cast<int>(rim_.size()); }
   int nodes() const { return rings_ * layer_nodes() + static_cast<int>(number_.size()); }
@@ -30,17 +31,18 @@ class CubedSphere {
   int layer_node(int layer, int number) const;
   int core_node(const Lattice& at) const;
 
-  // Of a layer, by its nodes: counter-clockwise as seen from outside, 6 n^2.
+  // Of a layer, by its nodes: counter-clockwise as seen from outside.
   std::vector<std::array<int, 4>> quads() const;
   // Those at the surface first, each behind the quad of the same number, with zeta outwards; the core last.
   std::vector<Hexahedron> hexahedra() const;
 
  private:
   int place(const Lattice& at) const {
-    return (at[2] * (divisions_ + 1) + at[1]) * (divisions_ + 1) + at[0];
+    return (at[2] * (divisions_[1] + 1) + at[1]) * (divisions_[0] + 1) + at[0];
   }
 
-  int divisions_, rings_;
+  Lattice divisions_;
+  int rings_;
   std::vector<Lattice> rim_;
   std::vector<int> number_;  // in a layer, [place]; -1: inside
 };

@@ -20,8 +20,8 @@ constexpr Smoothing smoothing{0.5, 200};
 
 // In [-1, 1]^3.
 Vec3 cube_place(const CubedSphere& grid, const Lattice& at) {
-  const auto along = [&](int i) { return 2.0 * i / grid.divisions() - 1; };
-  return {along(at[0]), along(at[1]), along(at[2])};
+  const auto along = [&](int axis) { return 2.0 * entry(at, axis) / grid.divisions(axis) - 1; };
+  return {along(0), along(1), along(2)};
 }
 
 // Equiangular on a ball: its faces are of similar size.
@@ -50,7 +50,9 @@ Vec3 direction_of(const Vec3& on_cube, const StarSurface& surface) {
 class Mesher {
  public:
   Mesher(const MeshSpec& mesh, const StarSurface& surface)
-      : grid_(mesh.divisions, mesh.rings), surface_(surface), hexahedra_(grid_.hexahedra()) {}
+      : grid_({mesh.divisions, mesh.divisions, mesh.axial()}, mesh.rings),
+        surface_(surface),
+        hexahedra_(grid_.hexahedra()) {}
 
   std::vector<Vec3> nodes() {
     start();
@@ -65,12 +67,12 @@ class Mesher {
   // Layers of even thickness about a core between a cube and a ball, which takes its share of all layers.
   void start() {
     const Vec3 half = surface_.half_size();
-    const double n = grid_.divisions(), core = n / (n + 2 * grid_.rings());
+    const Vec3 core = core_size();
     const auto in_core = [&](const Vec3& on_cube) {
       const double out = on_cube.cwiseAbs().maxCoeff();
       if (out == 0) return Vec3(Vec3::Zero());
       const Vec3 round = surface_.point(direction_of(on_cube / out, surface_)) * out;
-      return Vec3(core * (0.5 * round + 0.35 * on_cube.cwiseProduct(half)));
+      return Vec3(core.cwiseProduct(0.5 * round + 0.35 * on_cube.cwiseProduct(half)));
     };
     for (int layer = 0; layer < grid_.rings(); ++layer)
       for (const Lattice& at : grid_.rim()) {
@@ -82,6 +84,16 @@ class Mesher {
     for (int i = grid_.core_node({0, 0, 0}); i < grid_.nodes(); ++i)
       nodes_.push_back(
           in_core(cube_place(grid_, grid_.core_point(i - grid_.core_node({0, 0, 0})))));
+  }
+
+  // Over the size of the shape.
+  Vec3 core_size() const {
+    Vec3 core;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double n = grid_.divisions(axis);
+      core[axis] = n / (n + 2 * grid_.rings());
+    }
+    return core;
   }
 
   void make_surface_true() {

@@ -86,7 +86,9 @@ class CylinderSurface final : public StarSurface {
     return Vec3(side * p.x(), side * p.y(), p.z() < 0 ? -up : up).normalized();
   }
   Vec3 half_size() const override { return {radius_, radius_, half_height_}; }
-  double roundness() const override { return 0.7; }
+  // Less than one leaves the elements an angle where a corner of the cube comes to lie on the rim. What is left over leads
+  // past the rim, farther in a long cylinder.
+  double roundness() const override { return 1 - 0.3 * std::min(1.0, radius_ / half_height_); }
   // Steiner's formula: of the smaller cylinder volume, area, integral of the mean curvature.
   double volume() const override {
     const double r = inner_radius(), h = 2 * inner_height(), w = rounding_;

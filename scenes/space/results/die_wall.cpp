@@ -32,7 +32,7 @@ double normal_force_on_die(const World& world, int die, const DieRoom::Vector& a
     if (pair[2] != die || world.column<ContactTouches<At>>().values()[row] == 0) continue;
     const std::ptrdiff_t face = entry(bodies.slots, pair[0]).first_control + pair[1];
     const double* points = world.column<FacePosition>().values() + face * face_numbers;
-    const double* force = world.column<PointForce<At>>().values() + 3 * face_points * row;
+    const double* force = world.column<PointForce>().values() + 3 * face_points * row;
     for (int half = 0; half < 2; ++half) {
       const VectorLanes from = sampled_points(points, half) - everywhere(centre);
       const RadiusAndHeight at(from, everywhere(axis));

@@ -83,17 +83,6 @@ struct ContactFaces {
   Optional<Read<FaceVelocity>> velocity;  // with friction or damping
 };
 
-// What the narrow phases read and write of a row.
-template <class At>
-struct RowColumns {
-  Read<ContactPair<At>> pair;
-  Write<ContactTouches<At>> touches;
-  Write<Activation<At>> activation;
-  Read<ContactLaw<At>> law;
-  Write<PointForce<At>> force;
-  Optional<Write<ElasticSlip<At>>> slip;  // with friction
-};
-
 struct face_contact {
   ShapedBodies bodies;
   Read<Clock> clock;
@@ -112,12 +101,11 @@ struct face_contact {
   void operator()(SmallTasks) const;
 };
 
-// What the narrow phases leave for those who look at the rows that touch.
-template <class At>
+// What the narrow phase leaves of the rows of tools for those who look at those that touch.
 struct TouchingRows {
-  Read<ContactPair<At>> pair;
-  Read<ContactTouches<At>> touches;
-  Read<PointForce<At>> force;
+  Read<ContactPair<FaceToolContact>> pair;
+  Read<ContactTouches<FaceToolContact>> touches;
+  Read<PointForce> force;
 };
 
 struct contact_force {
@@ -132,7 +120,7 @@ struct contact_force {
     Read<OtherLoads> loads;
   };
   Optional<Pairs> pairs;
-  Optional<TouchingRows<FaceToolContact>> tools;
+  Optional<TouchingRows> tools;
   Write<FaceForce> face_force;
   Write<PointLoad> load;
   Write<NetLoad> net_load;

@@ -102,16 +102,15 @@ struct Looker {
     return kernels::patch_slopes<double>(control, u, v);
   }
 
-  // Adds the points of a row that bear a force; normal_at(g) looks into the sampled particle.
-  template <class At, class NormalAt>
-  void add_points(const TouchingRows<At>& rows, Row<At> row, double side, const NormalAt& normal_at,
-                  Gathered& contact) const {
+  // Adds the points of a face that bear a force: force_at(g), and normal_at(g), which looks into the sampled particle.
+  template <class ForceAt, class NormalAt>
+  void add_points(int slot, int number, double side, const ForceAt& force_at,
+                  const NormalAt& normal_at, Gathered& contact) const {
     for (int g = 0; g < face_points; ++g) {
-      const auto part = [&](int k) { return rows.force(row, face_points * k + g); };
-      const VectorOfPoint force{part(0), part(1), part(2)};
+      const VectorOfPoint force = force_at(g);
       if (force.x == 0 && force.y == 0 && force.z == 0) continue;
       const double u = entry(kernels::gauss_at, g % 4), v = entry(kernels::gauss_at, g / 4);
-      const auto own = surface(rows.pair(row, 0), rows.pair(row, 1), u, v);
+      const auto own = surface(slot, number, u, v);
       const double stretch = length_of(cross(own.u, own.v));
       contact.add(
           {own.x, normal_at(g), force, entry(weight_at, g % 4) * entry(weight_at, g / 4) * stretch},
@@ -119,14 +118,21 @@ struct Looker {
     }
   }
   void add_pair(Row<FaceContact> row, double side, Gathered& contact) const {
+    const auto number_of = [&](int g, int what) {
+      return s.pairs->point(row, ContactPoint::numbers * g + what);
+    };
+    const auto force_at = [&](int g) {
+      return VectorOfPoint{number_of(g, ContactPoint::force), number_of(g, ContactPoint::force + 1),
+                           number_of(g, ContactPoint::force + 2)};
+    };
     const auto normal_at = [&](int g) {
-      const double spot = s.pairs->closest(row, g), v = s.pairs->closest(row, face_points + g);
+      const double spot = number_of(g, ContactPoint::face_u), v = number_of(g, ContactPoint::v);
       const int face = static_cast<int>(spot);
-      const auto other = surface(s.pairs->rows.pair(row, 2), face, spot - face, v);
+      const auto other = surface(s.pairs->pair(row, 2), face, spot - face, v);
       const VectorOfPoint across = cross(other.u, other.v);
       return (1 / length_of(across)) * across;
     };
-    add_points(s.pairs->rows, row, side, normal_at, contact);
+    add_points(s.pairs->pair(row, 0), s.pairs->pair(row, 1), side, force_at, normal_at, contact);
   }
   void add_tool(Row<FaceToolContact> row, Gathered& contact) const {
     const int slot = s.tools->rows.pair(row, 0), face = s.tools->rows.pair(row, 1);
@@ -145,23 +151,29 @@ struct Looker {
       const int lane = g % lane_count;
       return VectorOfPoint{n.x[lane], n.y[lane], n.z[lane]};
     };
-    add_points(s.tools->rows, row, 1, normal_at, contact);
+    const auto force_at = [&](int g) {
+      const auto part = [&](int k) { return s.tools->rows.force(row, face_points * k + g); };
+      return VectorOfPoint{part(0), part(1), part(2)};
+    };
+    add_points(slot, face, 1, force_at, normal_at, contact);
   }
 
   // Each pair belongs to its particle of lower number, whose rows and those against it are looked through.
   void find_pairs(int slot, std::vector<ContactLink>& found) const {
     Partners partners(number(slot));
     for (const Row<FaceContact> row : RowRange<FaceContact>::of(s.index->sampled_begin, slot)) {
-      const int other = number(s.pairs->rows.pair(row, 2));
-      if (s.pairs->rows.touches(row) != 0 && other > number(slot))
+      const int other = number(s.pairs->pair(row, 2));
+      if (s.pairs->touches(row) != 0 && other > number(slot))
         add_pair(row, 1, partners.with(other));
     }
-    for (int k = entry(s.index->other_begin, slot); k < entry(s.index->other_begin, slot + 1);
-         ++k) {
-      const Row<FaceContact> row(entry(s.index->other_rows, k));
-      const int other = number(s.pairs->rows.pair(row, 0));
-      if (s.pairs->rows.touches(row) != 0 && other > number(slot))
-        add_pair(row, -1, partners.with(other));
+    const FacePairs& of = *s.pairs->of;
+    for (int k = entry(of.other_begin, slot); k < entry(of.other_begin, slot + 1); ++k) {
+      for (const Row<FaceContact> row :
+           RowRange<FaceContact>::of(of.begin, entry(of.of_other, k))) {
+        const int other = number(s.pairs->pair(row, 0));
+        if (s.pairs->touches(row) != 0 && other > number(slot))
+          add_pair(row, -1, partners.with(other));
+      }
     }
     partners.move_to(found, 2);
   }

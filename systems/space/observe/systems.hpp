@@ -14,12 +14,14 @@ struct contact_network {
   Read<ContactIndex> index;
   Read<FacePosition> position;
   struct Pairs {
-    TouchingRows<FaceContact> rows;
-    Read<ClosestPoint> closest;
+    Read<ContactPair<FaceContact>> pair;
+    Read<ContactTouches<FaceContact>> touches;
+    Read<ContactPoint> point;
+    Read<FacePairs> of;
   };
   Optional<Pairs> pairs;
   struct Tools {
-    TouchingRows<FaceToolContact> rows;
+    TouchingRows rows;
     ToolSurfaces surfaces;
     Optional<ToolTriangles> triangles;
   };

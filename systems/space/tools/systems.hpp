@@ -19,7 +19,15 @@ struct tool_contact {
   ShapedBodies bodies;
   Read<Clock> clock;
   ContactFaces faces;
-  RowColumns<FaceToolContact> columns;
+  struct Columns {
+    Read<ContactPair<FaceToolContact>> pair;
+    Write<ContactTouches<FaceToolContact>> touches;
+    Write<Activation<FaceToolContact>> activation;
+    Read<ContactLaw<FaceToolContact>> law;
+    Write<PointForce> force;
+    Optional<Write<ElasticSlip>> slip;  // with friction
+  };
+  Columns columns;
   ToolSurfaces tools;
   Read<ToolVelocity> tool_velocity;
   Optional<ToolTriangles> triangles;
@@ -29,7 +37,7 @@ struct tool_contact {
 
 struct tool_reaction {
   Read<Clock> clock;
-  TouchingRows<FaceToolContact> contacts;
+  TouchingRows contacts;
   Read<ToolVelocity> velocity;
   Write<ToolForce> tool_force;
   Write<Totals> totals;
@@ -39,7 +47,7 @@ struct tool_reaction {
 struct tool_servo {
   Servos servos;
   ShapedBodies bodies;
-  TouchingRows<FaceToolContact> rows;
+  TouchingRows rows;
   Read<ContactLaw<FaceToolContact>> law;
   void operator()() const;
 };

@@ -15,7 +15,7 @@ namespace pulvis::space {
 namespace {
 
 // Nothing of what a half's columns hold acts.
-void clear_half(const RowColumns<FaceToolContact>& c, Row<FaceToolContact> row, int half) {
+void clear_half(const tool_contact::Columns& c, Row<FaceToolContact> row, int half) {
   const VectorLanes none{Lane{}, Lane{}, Lane{}};
   store_half(none, &c.force(row), half);
   if (c.slip) store_half(none, &(*c.slip)(row), half);
@@ -30,7 +30,7 @@ struct RowMotion {
 };
 
 // What the halves of a candidate that touch bear: law, columns, books.
-void act(const RowColumns<FaceToolContact>& c, Row<FaceToolContact> row, const Shape::Face& face,
+void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::Face& face,
          const RowMotion& motion, double dt, FaceSums& sums) {
   using Law = ContactLaw<FaceToolContact>;
   const bool new_touch = c.touches(row) == 0;

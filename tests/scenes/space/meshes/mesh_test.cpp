@@ -68,6 +68,33 @@ TEST(SpaceMesh, HasNoFoldedElement) {
   }
 }
 
+// Along z: as many elements as are as long there as across.
+TEST(SpaceMesh, OfALongShapeHasElementsAsLongAsWide) {
+  struct Case {
+    ParticleShape shape;
+    int divisions, rings, axial;
+  };
+  const Case cases[] = {{CylinderShape{6.4e-3, 32.4e-3, 0.1e-3}, 4, 2, 36},
+                        {CylinderShape{12e-3, 4e-3, 0.5e-3}, 6, 2, 2},
+                        {EllipsoidShape{Vec3(1, 1, 5)}, 3, 2, 20},
+                        {SuperquadricShape{Vec3(1, 1, 4), 8, 4}, 2, 1, 7}};
+  for (const auto& [form, n, rings, m] : cases) {
+    SCOPED_TRACE(m);
+    const Shape shape = shape_of(form, n, rings, m), cubic = shape_of(form, n, rings);
+    EXPECT_EQ(shape.elements(), n * n * m + (2 * n * n + 4 * n * m) * rings);
+    EXPECT_EQ(static_cast<int>(shape.faces.size()), 2 * n * n + 4 * n * m);
+    EXPECT_NEAR(shape.volume, star_surface(form)->volume(), 1e-12 * shape.volume);
+    for (int e = 0; e < shape.elements(); ++e)
+      for (int g = 0; g < 27; ++g)
+        EXPECT_GT(jacobian(shape, e, Vec3(g % 3 - 1, g / 3 % 3 - 1, g / 9 - 1)) * 8,
+                  0.02 * entry(shape.element, e).volume);
+    const auto slenderness = [](const Shape& of) {
+      return std::cbrt(of.volume / of.elements()) / thinnest_part(of);
+    };
+    EXPECT_LT(slenderness(shape), 0.8 * slenderness(cubic));
+  }
+}
+
 // The smallest element sets the time step of all.
 TEST(SpaceMesh, OfASphereHasElementsOfSimilarSize) {
   for (const auto& [divisions, rings] : mesh_sizes) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,10 +49,11 @@ inline std::vector<ShapeCase> shape_cases() {
                            0.1}}};
 }
 
-inline Shape shape_of(const ParticleShape& shape, int divisions, int rings) {
+inline Shape shape_of(const ParticleShape& shape, int divisions, int rings,
+                      std::optional<int> axial_divisions = {}) {
   ParticleSpec particle;
   particle.shape = shape;
-  particle.mesh = {divisions, rings};
+  particle.mesh = {divisions, rings, axial_divisions};
   return make_shape(particle);
 }
 
