@@ -84,32 +84,76 @@ class Bench:
         return {title.split(" [")[0]: data[:, i] for i, title in enumerate(rows[0])}
 
 
+def finite_hertz(approach, radius, young, poisson):
+    """Force of a sphere pressed between two planes, `approach` of each and the centre: Hertz's, with what the other contact moves
+    the surface by in a half space (Tatara 1991, eq. 13)."""
+    star = young / (1 - poisson**2)
+    force = 0.0
+    for _ in range(100):
+        a2 = (3 * force * radius / (4 * star)) ** (2 / 3)
+        far = 2 * (1 + poisson) * radius**2 / (a2 + 4 * radius**2) ** 1.5 + (1 - poisson**2) / math.sqrt(a2 + 4 * radius**2)
+        force = 4 / 3 * star * math.sqrt(radius) * (approach + force / (math.pi * young) * far) ** 1.5
+    return force
+
+
+def huber(r, z, a):
+    """-sigma_zz over the greatest pressure below Hertz's contact of radius a (Huber 1904; Johnson 1985, eq. 3.46)."""
+    q = r * r + z * z - a * a
+    u = 0.5 * (q + np.sqrt(q * q + 4 * a * a * z * z))
+    return (z / np.sqrt(u)) ** 3 * a * a * u / (u * u + a * a * z * z)
+
+
+def profile(bench, name, h, radius, star):
+    """Stress of the elements below the top contact, less than 0.6 a deep, against Huber's mean over each: number of elements,
+    root mean square and largest difference over the greatest pressure."""
+    import h5py
+    corner = np.array([[i, j, k] for k in (-1, 1) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    with h5py.File(bench.folder / name / "run.h5") as file:
+        last = file["frames"][sorted(file["frames"])[-1]]
+        x, stress, nodes = last["position"][:], last["stress"][:, 2], file["mesh/hexahedra"][:]
+    top, force = h["tool/top/position_z"][-1], abs(h["tool/top/force_z"][-1])
+    a = (3 * force * radius / (4 * star)) ** (1 / 3)
+    middle = x[nodes].mean(1)
+    near = (np.hypot(middle[:, 0], middle[:, 1]) < a) & (top - middle[:, 2] < 0.6 * a)
+    law = np.zeros(near.sum())
+    for point in corner / math.sqrt(3):
+        at = np.einsum("i,eij->ej", np.prod(1 + corner * point, 1) / 8, x[nodes[near]])
+        law += huber(np.hypot(at[:, 0], at[:, 1]), np.maximum(top - at[:, 2], 1e-12), a) / 8
+    error = -stress[near] / (1.5 * force / (math.pi * a * a)) - law
+    return len(error), math.sqrt(np.mean(error**2)), np.abs(error).max()
+
+
 def hertz(bench):
-    radius, share, duration = 5e-3, 0.02, 2e-4
-    modulus = 200e9 / (1 - 0.09)
-    print("law hertz: force over Hertz's at set approaches d/R of each contact")
-    print(f"{'case':28} {'elements':>9}  " + "  ".join(f"{s:>7}" for s in ("0.005", "0.01", "0.02")))
-    for divisions, rings in ((8, 4), (16, 5), (24, 6)):
-        for two in (False, True):
-            text = head("Hertz", STEEL) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
-            height = 4 * radius if two else 2 * radius
-            if two:
-                text += body(0, 0, 3 * radius)
-            # Between two equal spheres the approach is twice that against a plane, for the same force.
-            contacts = 4 if two else 2
-            text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, height), (0, 0, -1))
-            text += stage(duration, {"top": (0, 0, -contacts * share * radius)})
-            text += contact(stiffness=10, damping=0.1) + OUTPUT
-            h = bench.run(f"hertz-{divisions}-{'two' if two else 'one'}", text)
-            d = (height - h["tool/top/position_z"]) / contacts / radius
-            f = 0.5 * (np.abs(h["tool/top/force_z"]) + np.abs(h["tool/bottom/force_z"]))
-            ratios = []
-            for s in (0.005, 0.01, 0.02):
-                law = 4 / 3 * modulus * radius**2 * s**1.5
-                ratios.append(np.interp(s, d, f) / law)
-            elements = divisions**3 + 6 * divisions**2 * rings
-            print(f"{'two spheres' if two else 'sphere between planes':28} {elements:9d}  " +
-                  "  ".join(f"{r:7.4f}" for r in ratios))
+    radius, share, young, nu = 5e-3, 0.1, 200e9, 0.3
+    star = young / (1 - nu**2)
+    at = (0.01, 0.02, 0.03, 0.05, 0.075, 0.0999)
+    print("law hertz: force over Hertz's at approaches d/R of each contact, and over Tatara's, which knows the other contact;")
+    print("stress below the contact at the end against Huber's: number of elements, rms, largest difference over the greatest")
+    print(f"{'case':40} {'elements':>9}  " + "  ".join(f"{s:>6}" for s in at))
+    for divisions, stiffness, two in ((8, 10, False), (12, 0.5, False), (12, 2, False), (12, 10, False), (12, 40, False), (16, 10, False),
+                                      (12, 10, True)):
+        rings = 2
+        text = head("Hertz", STEEL) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
+        height = 4 * radius if two else 2 * radius
+        if two:
+            text += body(0, 0, 3 * radius)
+        # Between two equal spheres the approach is twice that against a plane, for the same force.
+        contacts = 4 if two else 2
+        text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, height), (0, 0, -1))
+        text += stage(1.5e-4 * contacts / 2, {"top": (0, 0, -contacts * share * radius)}, ramp=0.5)
+        text += contact(stiffness=stiffness, damping=0.3) + OUTPUT
+        name = f"hertz-{divisions}-{stiffness}-{'two' if two else 'one'}"
+        h = bench.run(name, text)
+        d = (height - h["tool/top/position_z"]) / contacts / radius
+        f = 0.5 * (np.abs(h["tool/top/force_z"]) + np.abs(h["tool/bottom/force_z"]))
+        forces = [np.interp(s, d, f) for s in at]
+        what = f"{'two spheres' if two else 'sphere'}, {divisions} divisions, stiffness {stiffness}"
+        hertzian = [4 / 3 * star * radius**2 * s**1.5 for s in at]
+        finite = [finite_hertz(s * radius, radius, young, nu) for s in at]
+        number, rms, largest = profile(bench, name, h, radius, star)
+        print(f"{what:40} {divisions**3 + 6 * divisions**2 * rings:9d}  " + "  ".join(f"{x / y:6.3f}" for x, y in zip(forces, hertzian)))
+        print(f"{'  over that of two contacts':40} {'':9}  " + "  ".join(f"{x / y:6.3f}" for x, y in zip(forces, finite)) +
+              f"   stress: {number}, {100 * rms:.1f}%, {100 * largest:.1f}%", flush=True)
 
 
 def flatten(bench):
@@ -123,18 +167,16 @@ def flatten(bench):
     print("law flatten: force over pi R^2 sigma_y at set approaches of plane and centre over R")
     print(f"{'case':34} {'elements':>9}  " + "  ".join(f"{s:>7}" for s in at))
     print(f"{'axisymmetric':34} {'':9}  " + "  ".join(f"{np.interp(s, rows[:, 0], rows[:, 1]):7.4f}" for s in at))
-    for formulation in ("one-point", "eight-point"):
-        for divisions, rings in ((4, 4), (8, 6), (12, 8)):
-            if formulation == "eight-point" and divisions > 8:
-                continue
+    for formulation, meshes in (("one-point", ((4, 1), (4, 4), (6, 1), (8, 2), (12, 2))), ("eight-point", ((4, 4), (6, 1)))):
+        for divisions, rings in meshes:
             text = head("Flattening", PLASTIC) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
             text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
             text += stage(6e-4, {"top": (0, 0, -0.4 * radius)}) + contact(damping=0.1)
             text += f'\n[element]\nformulation = "{formulation}"\n' + OUTPUT
-            h = bench.run(f"flatten-{formulation}-{divisions}", text)
+            h = bench.run(f"flatten-{formulation}-{divisions}-{rings}", text)
             d = (2 * radius - h["tool/top/position_z"]) / 2 / radius
             f = 0.5 * (np.abs(h["tool/top/force_z"]) + np.abs(h["tool/bottom/force_z"])) / (math.pi * radius**2 * 240e6)
-            print(f"{formulation + f', {divisions} divisions':34} {divisions**3 + 6 * divisions**2 * rings:9d}  " +
+            print(f"{formulation + f', {divisions} divisions, {rings} rings':34} {divisions**3 + 6 * divisions**2 * rings:9d}  " +
                   "  ".join(f"{np.interp(s, d, f):7.4f}" for s in at))
 
 
@@ -185,10 +227,10 @@ def cell(bench):
 
 
 def turns(bench):
-    radius, number = 5e-3, 64
-    print("law turns: 64 spheres, each with its mesh turned at random, between two planes: rms of single forces over their mean")
-    for name, material in (("elastic", STEEL), ("plastic", PLASTIC)):
-        for divisions, rings in ((2, 2), (4, 4), (8, 6)):
+    radius, number = 5e-3, 32
+    print("law turns: 32 spheres (16 of 8 divisions), each with its mesh turned at random, between two planes: rms of single forces over their mean")
+    for name, material in (("plastic", PLASTIC), ("elastic", STEEL)):
+        for divisions, rings in ((4, 1), (4, 4), (6, 1), (8, 2)):
             row = []
             text = head("Turns", material) + ball(2 * radius, divisions, rings, 'phase = "random"\n')
             count = number if divisions < 8 else 16
@@ -199,14 +241,14 @@ def turns(bench):
                 # A punch of its own for each: its force is what is compared.
                 text += (f'\n[[tool]]\nname = "p{i}"\nshape = "punch"\npoint = ["{3 * radius * i} m", "0 m", "{2 * radius} m"]\n'
                          f'normal = [0, 0, -1]\ndiameter = "{2.6 * radius} m"\n')
-            text += stage(3e-4, {f"p{i}": (0, 0, -0.2 * radius) for i in range(count)}) + contact(damping=0.1) + OUTPUT
-            h = bench.run(f"turns-{name}-{divisions}", text)
+            text += stage(1.2e-3, {f"p{i}": (0, 0, -0.2 * radius) for i in range(count)}) + contact(damping=0.1) + OUTPUT
+            h = bench.run(f"turns-{name}-{divisions}-{rings}", text)
             d = (2 * radius - h["tool/p0/position_z"]) / (2 * radius)
-            for s in (0.02, 0.05, 0.095):
+            for s in (0.02, 0.03, 0.05, 0.07, 0.095):
                 f = [np.interp(s, d, np.abs(h[f"tool/p{i}/force_z"])) for i in range(count)]
                 row.append(np.std(f) / np.mean(f))
-            print(f"  {name:8} {divisions} divisions: compressed by 2, 5, 9.5% of the diameter: " +
-                  "  ".join(f"{100 * r:.2f}%" for r in row))
+            print(f"  {name:8} {divisions} divisions, {rings} rings: compressed by 2, 3, 5, 7, 9.5% of the diameter: " +
+                  "  ".join(f"{100 * r:.2f}%" for r in row), flush=True)
 
 
 def taylor(bench):
@@ -240,33 +282,33 @@ hardening_modulus = "100 MPa"
 
 
 def mindlin(bench):
-    radius, mu, d = 5e-3, 0.3, 0.02
-    shear, nu = 200e9 / 2.6, 0.3
-    print("law mindlin: friction work of a cycle of both planes, a sphere pressed between them and held by frictionless walls,")
-    print("over Mindlin & Deresiewicz's for the amplitude Q of the tangential force")
-    for divisions, rings in ((16, 5), (24, 6)):
-        text = head("Mindlin", STEEL) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
+    radius, mu, d, nu = 5e-3, 0.3, 0.05, 0.45
+    shear = 200e9 / 2 / (1 + nu)
+    material = STEEL.replace("0.3", f"{nu}")
+    print("law mindlin: friction work of a cycle over Mindlin & Deresiewicz's for the amplitude Q of the tangential force: a sphere")
+    print("pressed by four planes, of which two move forth and back and the others against them, so that it neither moves nor turns")
+    for divisions, stiffness in ((8, 10), (12, 10)):
+        rings = 2
+        text = head("Mindlin", material) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
         text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
-        text += plane("left", (-radius, 0, 0), (1, 0, 0)) + plane("right", (radius, 0, 0), (-1, 0, 0))
-        for wall in ("left", "right"):
-            text += f'\n[[friction]]\nbetween = ["m", "{wall}"]\ncoefficient = 0\n'
-        press = d * radius
-        text += stage(2e-4, {"top": (0, 0, -press), "bottom": (0, 0, press), "left": (press, 0, 0), "right": (-press, 0, 0)})
-        t = 0.004 * radius
-        for name, share, duration in (("forth", 1, 1e-4), ("back", -2, 2e-4), ("again", 2, 2e-4)):
-            text += stage(duration, {"top": (share * t, 0, 0), "bottom": (share * t, 0, 0)}, "shear", name)
-        text += contact(stiffness=10, friction=mu, damping=0.1) + OUTPUT
-        h = bench.run(f"mindlin-{divisions}", text)
+        text += plane("front", (0, -radius, 0), (0, 1, 0)) + plane("back", (0, radius, 0), (0, -1, 0))
+        press, t = d * radius, 0.013 * radius
+        text += stage(1.5e-4, {"top": (0, 0, -press), "bottom": (0, 0, press), "front": (0, press, 0), "back": (0, -press, 0)}, ramp=0.5)
+        for name, by, duration in (("forth", t, 5e-5), ("against", -2 * t, 1e-4), ("again", 2 * t, 1e-4), ("cycle", -2 * t, 1e-4)):
+            text += stage(duration, {"top": (by, 0, 0), "bottom": (by, 0, 0), "front": (-by, 0, 0), "back": (-by, 0, 0)}, "compact", name, 0.5)
+        text += contact(stiffness=stiffness, friction=mu, damping=0.3) + OUTPUT
+        h = bench.run(f"mindlin-{divisions}-{stiffness}", text)
         time, spent = h["time"], h["energy/friction"]
-        late = time > 2.5e-4
-        normal = np.mean(np.abs(h["tool/top/force_z"][late]))
-        q = (h["tool/top/force_x"][late].max() - h["tool/top/force_x"][late].min()) / 2 / (mu * normal)
-        a = radius * math.sqrt(d)
-        # Johnson (1985), eq. 7.58, one of the bodies rigid; two contacts.
+        late = time > 2e-4
+        sides = [("top", "z", "x"), ("bottom", "z", "x"), ("front", "y", "x"), ("back", "y", "x")]
+        normal = np.mean([np.mean(np.abs(h[f"tool/{s}/force_{n}"][late])) for s, n, _ in sides])
+        q = np.mean([np.ptp(h[f"tool/{s}/force_{t}"][late]) for s, _, t in sides]) / 2 / (mu * normal)
+        a = (3 * normal * radius * (1 - nu**2) / (4 * 200e9)) ** (1 / 3)
+        # Johnson (1985), Sec. 7.4, one of the bodies rigid: the area of the loop of force and displacement.
         k = 9 * (mu * normal) ** 2 / (10 * a) * (2 - nu) / shear
-        law = 2 * k * (1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3)))
-        of_cycle = np.interp(7e-4, time, spent) - np.interp(3e-4, time, spent)
-        print(f"  {divisions} divisions: Q/(mu N) = {q:.3f}, work {of_cycle / law:.4f}")
+        law = 4 * k * (1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3)))
+        of_cycle = np.interp(5e-4, time, spent) - np.interp(3e-4, time, spent)
+        print(f"  {divisions} divisions, stiffness {stiffness}: Q/(mu N) = {q:.3f}, work {of_cycle / law:.4f}", flush=True)
 
 
 LAWS = {f.__name__: f for f in (hertz, flatten, cell, turns, taylor, mindlin)}
