@@ -5,10 +5,11 @@ usage: space_laws.py [--pulvis PROGRAM] [--folder DIR] LAW...
 
 LAW  hertz      an elastic sphere between frictionless planes, and two spheres: F = 4/3 E* sqrt(R) d^(3/2) (Hertz 1882)
      flatten    a plastic sphere between frictionless planes against axisymmetric elements (axisymmetric_sphere.py)
-     cell       a sphere in a cubic box at three meshes: observed order, wall stress against the mean stress of the particle
+     perfect    the same without hardening against a fit to finite elements (Jackson & Green 2005)
+     cell       a sphere in a cubic box at four meshes: observed order, wall stress against the mean stress of the particle
      turns      force of a sphere between planes for random turns of its mesh: rms over the mean
      taylor     copper rod against a rigid wall at 227 m/s: length, radius of the foot
-     mindlin    a sphere pressed and rubbed between planes: friction work of a cycle (Mindlin & Deresiewicz 1953)
+     mindlin    a sphere pressed and rubbed between planes: compliance, friction work of a cycle (Mindlin & Deresiewicz 1953)
 """
 import argparse
 import csv
@@ -180,6 +181,43 @@ def flatten(bench):
                   "  ".join(f"{np.interp(s, d, f):7.4f}" for s in at))
 
 
+def jackson_green(approach, sigma_y, young, poisson):
+    """Force of an elastic, perfectly plastic sphere on a rigid flat over pi R^2 sigma_y, approach over R: fit of their finite elements
+    by Jackson & Green, J. Tribol. 127 (2005) 343, up to a contact radius of 0.41 R. Its hardness falls with the contact's width, as
+    Mesarovic & Fleck, Int. J. Solids Struct. 37 (2000) 7071, found."""
+    star, c = young / (1 - poisson**2), 1.295 * math.exp(0.736 * poisson)
+    critical = (math.pi * c * sigma_y / (2 * star)) ** 2
+    w = approach / critical
+    a = math.sqrt(approach * (w / 1.9) ** (0.14 * math.exp(23 * sigma_y / star)))
+    hardness = 2.84 * (1 - math.exp(-0.82 * a**-0.7))
+    force = math.exp(-0.25 * w ** (5 / 12)) * w**1.5 + 4 * hardness / c * (1 - math.exp(-(w ** (5 / 9)) / 25)) * w
+    return force * 4 / 3 * (math.pi * c * sigma_y / 2) ** 3 / star**2 / (math.pi * sigma_y), a
+
+
+def perfect(bench):
+    radius, sigma_y = 5e-3, 240e6
+    at = (0.01, 0.02, 0.03, 0.04, 0.05)
+    print("law perfect: a perfectly plastic sphere between frictionless planes: force over pi R^2 sigma_y at approaches over R")
+    print(f"{'case':34} " + "  ".join(f"{s:>7}" for s in at))
+    fit = [jackson_green(s, sigma_y, 200e9, 0.3) for s in at]
+    print(f"{'Jackson & Green':34} " + "  ".join(f"{f:7.4f}" for f, _ in fit))
+    print(f"{'  radius of the contact over R':34} " + "  ".join(f"{a:7.4f}" for _, a in fit))
+    reference = bench.folder / "axisymmetric-perfect.csv"
+    if not reference.exists():
+        subprocess.run(["/usr/bin/python3", ROOT / "bench/axisymmetric_sphere.py", "--edges", "12", "--hardening", "0", "--approach", "0.06",
+                        "--csv", reference], check=True, stdout=subprocess.DEVNULL)
+    rows = np.genfromtxt(reference, delimiter=",", skip_header=1)
+    print(f"{'axisymmetric':34} " + "  ".join(f"{np.interp(s, rows[:, 0], rows[:, 1]):7.4f}" for s in at))
+    for divisions, rings in ((6, 1), (8, 2), (12, 2)):
+        text = head("Flattening", STEEL + 'yield_stress = "240 MPa"\n') + ball(2 * radius, divisions, rings) + body(0, 0, radius)
+        text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
+        text += stage(5e-4, {"top": (0, 0, -0.11 * radius)}) + contact(damping=0.1, stiffness=2) + OUTPUT
+        h = bench.run(f"perfect-{divisions}", text)
+        d = (2 * radius - h["tool/top/position_z"]) / 2 / radius
+        f = 0.5 * (h["tool/top/force_z"] - h["tool/bottom/force_z"]) / (math.pi * radius**2 * sigma_y)
+        print(f"{f'{divisions} divisions, {rings} rings':34} " + "  ".join(f"{np.interp(s, d, f):7.4f}" for s in at), flush=True)
+
+
 def cell(bench):
     radius = 5e-3
     move = 0.11 * 2 * radius
@@ -318,7 +356,7 @@ def mindlin(bench):
               f"compliance {found / k:.3f}, work {of_cycle / law:.3f}, {of_cycle / law / (found / k):.3f}", flush=True)
 
 
-LAWS = {f.__name__: f for f in (hertz, flatten, cell, turns, taylor, mindlin)}
+LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin)}
 
 
 def main():
