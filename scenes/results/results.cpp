@@ -166,10 +166,10 @@ double Results::min_jacobian() const {
   return minimum;
 }
 
-// The forces of a step are those at its ends: where surfaces meet within it, the balance is known to no more than
-// its work. Twenty of them bring in enough to judge by.
+// The forces of a step are those at its ends: where surfaces meet within it, the balance is off by up to half of its
+// work. Fifty of them bring in enough for that to be a hundredth.
 double Results::energy_balance_error() const {
-  constexpr double round_off = 1e-12, steps_of_a_touch = 20;
+  constexpr double round_off = 1e-12, steps_of_a_touch = 50;
   const double unresolved = steps_of_a_touch * world_.resource<Totals>().largest_work;
   return worst_balance_ / std::max({largest_energy_, unresolved, round_off * stiffness_energy_});
 }

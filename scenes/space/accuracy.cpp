@@ -13,8 +13,9 @@ struct Counts {
   const char* word;
   std::int64_t divisions, rings;
 };
+// What counts is how finely contacts are resolved; more layers cost and change little (docs/accuracy.md).
 constexpr std::array<Counts, 3> presets_in_space{
-    {{"draft", 3, 2}, {"standard", 4, 4}, {"fine", 6, 5}}};
+    {{"draft", 4, 1}, {"standard", 6, 1}, {"fine", 8, 2}}};
 
 const Counts& counts_of(const Table& root) {
   const std::string* word = document::find_text(root, "accuracy");

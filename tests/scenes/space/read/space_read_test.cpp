@@ -69,8 +69,8 @@ TEST(SpaceScene, AccuracyStandsForMeshes) {
   };
   EXPECT_LT(mesh("draft").divisions, mesh("standard").divisions);
   EXPECT_LT(mesh("standard").divisions, mesh("fine").divisions);
-  EXPECT_EQ(mesh("standard").divisions, 4);
-  EXPECT_EQ(mesh("standard").rings, 4);
+  EXPECT_EQ(mesh("standard").divisions, 6);
+  EXPECT_EQ(mesh("standard").rings, 1);
 }
 
 TEST(SpaceScene, SpheresOfALatticeTouchWithoutASpacing) {
