@@ -164,8 +164,8 @@ class PairPass {
       add_friction(law, m, s_.clock->dt_before, pressure, select(real, spring, no_vector), f);
     }
     keep(eight, p, standing.gap, touching.bits(), f);
+    sums_.add(f);  // of springs that are let go, too
     if (!any(touching)) return;
-    sums_.add(f);
     book_depth(eight, m.gap * law.inv_size);
     act_back(p, m, f, to, touching.bits());
   }
