@@ -1,8 +1,9 @@
-"""bench/nightly.py with two studies of a few steps: one good, one whose expectation is not met; what its log and exit code say,
-and that what is finished is kept.
+"""bench/nightly.py with two studies of a few steps, one good, one whose expectation is not met, and with a scene; what its log and
+exit code say, and that what is finished is kept.
 
 usage: nightly_test.py PROGRAM SOURCE_DIR FOLDER
 """
+import json
 import shutil
 import subprocess
 import sys
@@ -48,4 +49,14 @@ assert "| kept | 1 | 1 of 1 |" in log, log
 assert (folder / "out/kept/one/history.csv").stat().st_mtime_ns == first, "a finished run was run again"
 
 code, log, said = nightly("no-such-study")
-assert code == 2 and "no such study" in said and "wall-friction" in said, said
+assert code == 2 and "no such study" in said and "wall-friction" in said and "brittle/crushed-bed" in said, said
+
+code, log, said = nightly("basic/oblique-impact")
+assert code == 0 and "| basic/oblique-impact | 1 | 2 of 2 |" in log and "- met energy_balance_error" in log, said + log
+summary = folder / "out/scenes/basic/oblique-impact/summary.json"
+written = summary.stat().st_mtime_ns
+nightly("basic/oblique-impact")
+assert summary.stat().st_mtime_ns == written, "a finished scene was run again"
+summary.write_text(json.dumps(json.loads(summary.read_text()) | {"energy_balance_error": 0.5}))
+code, log, said = nightly("basic/oblique-impact")
+assert code == 1 and "| basic/oblique-impact | 1 | 1 of 2 |" in log and "- NOT met energy_balance_error" in log, said + log

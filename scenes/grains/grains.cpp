@@ -82,8 +82,8 @@ class Cutter {
       GrainMap map = tessellate(*curve_, wanted);
       join_short_sides(map, least_side * edge, *curve_);
       divide_sides(map, edge, curve_->length());
-      if (const auto specs = specs_of(map, mean, variant)) {
-        add(*specs);
+      if (auto cuts = cuts_of(map, mean, variant)) {
+        add(*cuts);
         return true;
       }
     }
@@ -91,13 +91,17 @@ class Cutter {
   }
 
  private:
-  std::optional<std::vector<ParticleSpec>> specs_of(const GrainMap& map, double mean,
-                                                    int variant) const {
-    std::vector<ParticleSpec> specs;
+  struct Cut {
+    ParticleSpec spec;
+    Vec2 at;  // m, of the grain's centre, in the particle's frame
+  };
+
+  std::optional<std::vector<Cut>> cuts_of(const GrainMap& map, double mean, int variant) const {
+    std::vector<Cut> cuts;
     for (const auto& grain : map.grains) {
       if (!is_star(map, grain)) return {};
       ParticleSpec spec;
-      spec.name = fmt::format("{}#{}.{}", particle_.name, variant + 1, specs.size() + 1);
+      spec.name = fmt::format("{}#{}.{}", particle_.name, variant + 1, cuts.size() + 1);
       spec.material = particle_.material;
       spec.mark = particle_.mark;
       const GrainOutline outline = outline_of(map, grain, curve_);
@@ -105,20 +109,19 @@ class Cutter {
       for (const auto& face : outline.faces) edges += face.edges;
       spec.outline = outline;
       spec.mesh = StarMesh{edges, 1};
-      if (curve_of(outline).area() < least_share * mean) return {};
+      const OutlineCurve curve = curve_of(outline);
+      if (curve.area() < least_share * mean) return {};
       if (!(min_corner_sine(make_shape(spec)) >= least_sine)) return {};
-      specs.push_back(std::move(spec));
+      cuts.push_back({std::move(spec), outline.faces[0].from - curve.at(0).at});
     }
-    return specs;
+    return cuts;
   }
 
-  void add(const std::vector<ParticleSpec>& specs) {
+  void add(std::vector<Cut>& cuts) {
     auto& places = particle_.tessellations.emplace_back();
-    for (const ParticleSpec& spec : specs) {
-      const auto& outline = std::get<GrainOutline>(spec.outline);
-      const Vec2 at = outline.faces[0].from - curve_of(outline).at(0).at;
-      places.push_back({static_cast<int>(scene_.grains.size()), at});
-      scene_.grains.push_back(spec);
+    for (Cut& cut : cuts) {
+      places.push_back({static_cast<int>(scene_.grains.size()), cut.at});
+      scene_.grains.push_back(std::move(cut.spec));
     }
   }
 

@@ -23,45 +23,78 @@ double turn_between(const Vec2& a, const Vec2& b) { return portable::atan2(cross
 
 }  // namespace
 
+// A piece may be slow to ask, as an arc of another curve is: its points are taken once, for both tables.
+struct OutlineCurve::Taken {
+  Vec2 slope, next_slope;                      // where a sample begins and ends
+  std::array<Point, gauss_at.size()> between;  // at the points of Gauss
+};
+
 OutlineCurve::OutlineCurve(std::vector<Piece> pieces, bool sharp, double scale)
     : pieces_(std::move(pieces)), sharp_(sharp) {
-  tabulate();
-  origin_ = centroid();
+  const std::vector<Taken> taken = take();
+  tabulate(taken);
+  origin_ = centroid(taken);
   scale_ = scale;
-  tabulate();
+  tabulate(taken);
 }
 
-OutlineCurve::Point OutlineCurve::point(std::size_t piece, double t) const {
-  const Point p = pieces_[piece](t);
+OutlineCurve::Point OutlineCurve::placed(const Point& p) const {
   return {scale_ * (p.at - origin_), scale_ * p.slope};
 }
 
-void OutlineCurve::tabulate() {
-  const std::size_t each = std::max(samples_wanted / pieces_.size(), fewest_a_piece);
-  samples_.clear();
-  double s = 0, swept = 0;
-  for (std::size_t piece = 0; piece < pieces_.size(); ++piece)
+OutlineCurve::Point OutlineCurve::point(std::size_t piece, double t) const {
+  return placed(pieces_[piece](t));
+}
+
+std::size_t OutlineCurve::samples_of_a_piece() const {
+  return std::max(samples_wanted / pieces_.size(), fewest_a_piece);
+}
+
+std::vector<OutlineCurve::Taken> OutlineCurve::take() const {
+  const std::size_t each = samples_of_a_piece();
+  std::vector<Taken> all;
+  all.reserve(each * pieces_.size());
+  for (const Piece& piece : pieces_) {
+    Vec2 slope = piece(0).slope;
     for (std::size_t k = 0; k < each; ++k) {
       const double t = static_cast<double>(k) / static_cast<double>(each);
       const double next = static_cast<double>(k + 1) / static_cast<double>(each);
-      const double turn = turn_between(point(piece, t).slope, point(piece, next).slope);
-      samples_.push_back({s, swept, turn, piece, t, next});
-      for (std::size_t g = 0; g < gauss_at.size(); ++g) {
-        const Point p = point(piece, t + gauss_at[g] * (next - t));
-        s += gauss_weight[g] * (next - t) * p.slope.norm();
-        swept += 0.5 * gauss_weight[g] * (next - t) * cross(p.at, p.slope);
-      }
+      Taken& one = all.emplace_back();
+      one.slope = slope;
+      one.next_slope = slope = piece(next).slope;
+      for (std::size_t g = 0; g < gauss_at.size(); ++g)
+        one.between[g] = piece(t + gauss_at[g] * (next - t));
     }
+  }
+  return all;
+}
+
+void OutlineCurve::tabulate(const std::vector<Taken>& taken) {
+  const std::size_t each = samples_of_a_piece();
+  samples_.clear();
+  double s = 0, swept = 0;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    const Taken& one = taken[i];
+    const double t = static_cast<double>(i % each) / static_cast<double>(each);
+    const double next = static_cast<double>(i % each + 1) / static_cast<double>(each);
+    const double turn = turn_between(scale_ * one.slope, scale_ * one.next_slope);
+    samples_.push_back({s, swept, turn, i / each, t, next});
+    for (std::size_t g = 0; g < gauss_at.size(); ++g) {
+      const Point p = placed(one.between[g]);
+      s += gauss_weight[g] * (next - t) * p.slope.norm();
+      swept += 0.5 * gauss_weight[g] * (next - t) * cross(p.at, p.slope);
+    }
+  }
   samples_.push_back({s, swept, 0, pieces_.size() - 1, 1, 1});
 }
 
 // Green: the area's moment is a third of the boundary integral of x (x cross dx).
-Vec2 OutlineCurve::centroid() const {
+Vec2 OutlineCurve::centroid(const std::vector<Taken>& taken) const {
   Vec2 moment = Vec2::Zero();
-  for (const Sample& sample : samples_)
+  for (std::size_t i = 0; i < taken.size(); ++i)
     for (std::size_t g = 0; g < gauss_at.size(); ++g) {
-      const double width = sample.next_t - sample.t;
-      const Point p = point(sample.piece, sample.t + gauss_at[g] * width);
+      const double width = samples_[i].next_t - samples_[i].t;
+      const Point p = placed(taken[i].between[g]);
       moment += gauss_weight[g] * width / 3 * cross(p.at, p.slope) * p.at;
     }
   return moment / area();
@@ -85,7 +118,7 @@ OutlineCurve::Place OutlineCurve::at(double s) const {
   double share = std::clamp((s - from.s) / (after->s - from.s), 0.0, 1.0);
   const double width = from.next_t - from.t;
   double swept = 0;
-  Point p = point(from.piece, from.t + share * width);
+  Point p;
   for (int iteration = 0; iteration < 3; ++iteration) {  // Newton on the arc length
     double length = from.s;
     swept = from.swept;

@@ -45,9 +45,13 @@ class OutlineCurve {
   std::vector<Vec2> polygon(double deviation) const;
 
  private:
+  struct Taken;
   Point point(std::size_t piece, double t) const;
-  void tabulate();
-  Vec2 centroid() const;
+  Point placed(const Point& p) const;
+  std::size_t samples_of_a_piece() const;
+  std::vector<Taken> take() const;
+  void tabulate(const std::vector<Taken>& taken);
+  Vec2 centroid(const std::vector<Taken>& taken) const;
 
   std::vector<Piece> pieces_;
   bool sharp_;

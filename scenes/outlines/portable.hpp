@@ -14,6 +14,7 @@ namespace pulvis::portable {
 
 struct V2 {
   double x = 0, y = 0;
+  bool operator==(const V2&) const = default;
 };
 inline V2 operator+(V2 a, V2 b) { return {a.x + b.x, a.y + b.y}; }
 inline V2 operator-(V2 a, V2 b) { return {a.x - b.x, a.y - b.y}; }

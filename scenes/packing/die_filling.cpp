@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 namespace pulvis {
 namespace {
@@ -26,9 +30,7 @@ std::int64_t sweeps_to_shake(const DieFilling& order) {
   return static_cast<std::int64_t>(order.time_to_shake * static_cast<double>(all));
 }
 
-}  // namespace
-
-FilledDie fill_die(const DieFilling& order) {
+FilledDie pressed(const DieFilling& order) {
   RigidPowder powder(order.shapes, order.shape_of, order.width, margin * smallest_of(order),
                      order.periodic);
   double area = 0;
@@ -39,6 +41,37 @@ FilledDie fill_die(const DieFilling& order) {
   const auto gaps = powder.near_gaps(touching, die.touches);
   for (const auto& own : gaps)
     die.mean_gap += (own[0] + own[1] + own[2]) / (3 * static_cast<double>(gaps.size()));
+  return die;
+}
+
+constexpr std::size_t most_kept = 32;  // some seeds of some powders
+
+// The last fillings and what came of them, the oldest first.
+struct Kept {
+  std::mutex mutex;
+  std::deque<std::pair<DieFilling, FilledDie>> dies;
+
+  std::optional<FilledDie> of(const DieFilling& order) {
+    const std::lock_guard lock(mutex);
+    const auto found = std::ranges::find(dies, order, &std::pair<DieFilling, FilledDie>::first);
+    if (found == dies.end()) return {};
+    return found->second;
+  }
+
+  void keep(const DieFilling& order, const FilledDie& die) {
+    const std::lock_guard lock(mutex);
+    if (dies.size() == most_kept) dies.pop_front();
+    dies.emplace_back(order, die);
+  }
+};
+
+}  // namespace
+
+FilledDie fill_die(const DieFilling& order) {
+  static Kept kept;
+  if (const std::optional<FilledDie> die = kept.of(order)) return *die;
+  const FilledDie die = pressed(order);
+  kept.keep(order, die);
   return die;
 }
 

@@ -19,6 +19,7 @@ struct DieFilling {
   double time_to_shake =
       1;  // on after nothing moves any more: 0 not at all, 1 as long as it may pay
   std::uint64_t seed = 1;
+  bool operator==(const DieFilling&) const = default;
 };
 
 struct FilledDie {
@@ -29,6 +30,7 @@ struct FilledDie {
   int touches = 0;      // pairs with a gap below a thousandth of a diameter
 };
 
+// The runs of a study differ in little, and few of them in their packing: what was asked for last is kept.
 FilledDie fill_die(const DieFilling& order);
 
 }  // namespace pulvis

@@ -16,6 +16,7 @@ struct RigidPiece {
   double radius = 0;
   portable::V2 centre;  // of a circle around the piece
   double reach = 0;     // its radius
+  bool operator==(const RigidPiece&) const = default;
 };
 
 struct RigidShape {
@@ -26,6 +27,7 @@ struct RigidShape {
   double gyration = 0;    // square of the radius of gyration about the centroid
   double diameter = 0;    // of the disc of the same area
   double min_width = 0;   // between two parallel lines
+  bool operator==(const RigidShape&) const = default;
 };
 
 // Of an outline that is no rounded box itself the pieces either contain it, reaching beyond it by at most

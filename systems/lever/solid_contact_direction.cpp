@@ -117,10 +117,11 @@ class ProbeContact {
     MatrixXd& mine = entry(answers, p);
     if (mine.size() > 0) return mine;
     stop_if_asked();
-    MatrixXd unit = MatrixXd::Zero(3 * mesh_.unknowns, 3);
+    SolidFactors<double>::Three unit(3 * mesh_.unknowns, 3);
+    unit.setZero();
     for (const auto& s : mesh_.supports_of(node(p)))
       for (int k = 0; k < 3; ++k) unit(mesh_.first_equation(s.node) + k, k) += s.weight;
-    mine = equations_.solve(unit);
+    mine = equations_.solve_three(unit);
     return mine;
   }
 

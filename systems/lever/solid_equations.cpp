@@ -145,6 +145,35 @@ void SolidFactors<Real>::factorise(const SolidAssembly& assembly, std::span<cons
         stiffness.rows()));
 }
 
+// L D L^T x = P b, then P^T x. Columns of L hold what lies below the diagonal, which is 1.
+template <class Real>
+typename SolidFactors<Real>::Three SolidFactors<Real>::solve_three(const Three& forces) const {
+  Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor> x = factors->permutationP() * forces;
+  const auto l = factors->matrixL();
+  const auto* begin = l.nestedExpression().outerIndexPtr();
+  const auto* row = l.nestedExpression().innerIndexPtr();
+  const Real* value = l.nestedExpression().valuePtr();
+  const Eigen::Matrix<Real, Eigen::Dynamic, 1> d = factors->vectorD();
+  for (Eigen::Index c = 0; c < x.rows(); ++c) {
+    const Real a0 = x(c, 0), a1 = x(c, 1), a2 = x(c, 2);
+    if (a0 == 0 && a1 == 0 && a2 == 0) continue;
+    for (auto i = begin[c]; i < begin[c + 1]; ++i) {
+      Real* at = x.data() + 3 * row[i];
+      at[0] -= a0 * value[i], at[1] -= a1 * value[i], at[2] -= a2 * value[i];
+    }
+  }
+  for (Eigen::Index c = 0; c < x.rows(); ++c) x.row(c) *= 1 / d[c];
+  for (Eigen::Index c = x.rows(); c-- > 0;) {
+    Real a0 = x(c, 0), a1 = x(c, 1), a2 = x(c, 2);
+    for (auto i = begin[c]; i < begin[c + 1]; ++i) {
+      const Real* at = x.data() + 3 * row[i];
+      a0 -= value[i] * at[0], a1 -= value[i] * at[1], a2 -= value[i] * at[2];
+    }
+    x(c, 0) = a0, x(c, 1) = a1, x(c, 2) = a2;
+  }
+  return factors->permutationPinv() * x;
+}
+
 template struct SolidFactors<double>;
 template struct SolidFactors<long double>;
 

@@ -25,6 +25,10 @@ struct SolidFactors {
 
   // Makes the factors, and the pattern at first; throws RunFailure where there are none.
   void factorise(const SolidAssembly& assembly, std::span<const Real> blocks);  // [blocks, 3, 3]
+  // K^-1 of three forces. Solved one after the other, every difference would wait for the one before it; side by side they take
+  // a third of the time, and each has the bits that it has alone.
+  using Three = Eigen::Matrix<Real, Eigen::Dynamic, 3>;
+  Three solve_three(const Three& forces) const;
   // Of a stable solid; round-off can lose it.
   bool positive() const { return factors != nullptr && (factors->vectorD().array() > 0).all(); }
 };
@@ -63,12 +67,15 @@ struct SolidEquations {
 
   bool has_factors() const { return plain.factors != nullptr || extended.factors != nullptr; }
   bool positive() const { return in_extended ? extended.positive() : plain.positive(); }
-  template <class Forces>  // [3 unknowns] or several columns of them; N
-  typename Forces::PlainObject solve(const Forces& forces) const {
+  Eigen::VectorXd solve(const Eigen::VectorXd& forces) const {  // [3 unknowns] N
     if (!in_extended) return plain.factors->solve(forces);
-    using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Forces::ColsAtCompileTime>;
-    const Wide wide = forces.template cast<long double>();
-    return Wide(extended.factors->solve(wide)).template cast<double>();
+    using Wide = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+    const Wide wide = forces.cast<long double>();
+    return Wide(extended.factors->solve(wide)).cast<double>();
+  }
+  SolidFactors<double>::Three solve_three(const SolidFactors<double>::Three& forces) const {
+    if (!in_extended) return plain.solve_three(forces);
+    return extended.solve_three(forces.cast<long double>()).cast<double>();
   }
 
   // Factors may be older than the present stiffness of the solid; what they were made from makes them again,

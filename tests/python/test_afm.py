@@ -5,6 +5,13 @@ import pytest
 import pulvis
 
 
+@pytest.fixture
+def coarse(scenes):
+    """A friction loop on a lever of few elements: as many increments as the shipped one has, in a tenth of the time."""
+    return lambda: pulvis.Scene(scenes / "afm/loop-beam-0.toml", lever__elements_along=8, lever__elements_across=4,
+                                tip__elements=2)
+
+
 def test_a_calibration_is_that_of_the_program(scenes, program, read_summary, tmp_path):
     file = scenes / "afm/calibration-beam.toml"
     done = program("run", file, "-o", tmp_path / "program", "--quiet")
@@ -37,10 +44,9 @@ def test_a_friction_loop_is_that_of_the_program(scenes, program, read_summary, t
         lever.run()
 
 
-def test_an_error_in_a_callback_ends_the_run_with_whole_files_and_it_is_resumed(scenes, read_summary, tmp_path):
-    file = scenes / "afm/loop-beam-0.toml"
-    whole = pulvis.Scene(file).simulation().run()
-    lever = pulvis.Scene(file).simulation(folder=tmp_path / "run")
+def test_an_error_in_a_callback_ends_the_run_with_whole_files_and_it_is_resumed(coarse, read_summary, tmp_path):
+    whole = coarse().simulation().run()
+    lever = coarse().simulation(folder=tmp_path / "run")
 
     @lever.on_sample
     def _(actions, row):
@@ -56,7 +62,7 @@ def test_an_error_in_a_callback_ends_the_run_with_whole_files_and_it_is_resumed(
 
 
 def test_a_force_curve_has_its_pull_off(scenes):
-    lever = pulvis.Scene(scenes / "afm/force-curve.toml").simulation().run()
+    lever = pulvis.Scene(scenes.parent / "tests/keys/scenes/jkr.toml").simulation().run()
     curve = lever.force_curves[-1]
     assert curve["pull_off"] > 0 and curve["work"] > 0
 
@@ -74,11 +80,10 @@ def files_of(folder):
     return (folder / "history.csv").read_text()
 
 
-def test_a_programme_in_parts_keeps_its_bits_and_files(scenes, tmp_path):
+def test_a_programme_in_parts_keeps_its_bits_and_files(coarse, tmp_path):
     """Press, hold, scan: by increments, up to the end of an action, and to the end."""
-    file = scenes / "afm/loop-beam-0.toml"
-    whole = pulvis.Scene(file).simulation(folder=tmp_path / "whole").run()
-    lever = pulvis.Scene(file).simulation(folder=tmp_path / "parts")
+    whole = coarse().simulation(folder=tmp_path / "whole").run()
+    lever = coarse().simulation(folder=tmp_path / "parts")
     seen, frames = [], []
     lever.every(4, lambda one: seen.append(one.increments))
     lever.on_frame(lambda one: frames.append(one.actions))
@@ -95,32 +100,30 @@ def test_a_programme_in_parts_keeps_its_bits_and_files(scenes, tmp_path):
     assert frames[0] == 0 and sorted(frames) == frames
 
 
-def test_steps_beyond_the_end_finish_the_programme(scenes):
-    lever = pulvis.Scene(scenes / "afm/loop-beam-0.toml").simulation()
+def test_steps_beyond_the_end_finish_the_programme(coarse):
+    lever = coarse().simulation()
     assert lever.step(10_000).finished
     with pytest.raises(pulvis.RunError, match="has run"):
         lever.step()
 
 
-def test_a_lever_is_stopped_and_goes_on(scenes):
-    file = scenes / "afm/loop-beam-0.toml"
-    lever = pulvis.Scene(file).simulation()
+def test_a_lever_is_stopped_and_goes_on(coarse):
+    lever = coarse().simulation()
     lever.every(5, lambda one: one.stop() if one.increments == 5 else None)
     assert lever.run().increments == 5
-    assert lever.run().hash == pulvis.Scene(file).simulation().run().hash
+    assert lever.run().hash == coarse().simulation().run().hash
 
 
-def test_a_lever_that_is_closed_is_resumed(scenes, read_summary, tmp_path):
-    file = scenes / "afm/loop-beam-0.toml"
-    with pulvis.Scene(file).simulation(folder=tmp_path / "run") as lever:
+def test_a_lever_that_is_closed_is_resumed(coarse, read_summary, tmp_path):
+    with coarse().simulation(folder=tmp_path / "run") as lever:
         lever.step(6)
     assert read_summary(tmp_path / "run")["outcome"] == "interrupted"
     resumed = pulvis.resume(tmp_path / "run")
-    assert resumed.finished and resumed.hash == pulvis.Scene(file).simulation().run().hash
+    assert resumed.finished and resumed.hash == coarse().simulation().run().hash
 
 
-def test_a_callback_takes_no_increments_of_its_own_lever(scenes):
-    lever = pulvis.Scene(scenes / "afm/loop-beam-0.toml").simulation()
+def test_a_callback_takes_no_increments_of_its_own_lever(coarse):
+    lever = coarse().simulation()
     lever.on_sample(lambda actions, row: lever.step())
     with pytest.raises(pulvis.RunError, match="taking increments"):
         lever.run()

@@ -18,7 +18,8 @@ struct Errors {
   double force = 0, radius = 0, pressure = 0;  // -, over Hertz's
 };
 
-Errors errors_at(const AfmHistory& h, std::size_t i) {
+template <class History>
+Errors errors_at(const History& h, std::size_t i) {
   const double f = h.value(i, "probe/force_z"), approach = h.value(i, "scanner/z");
   const double a = std::cbrt(0.75 * f * ball / modulus);
   return {f / (4.0 / 3 * modulus * std::sqrt(ball) * std::pow(approach, 1.5)) - 1,
@@ -29,12 +30,13 @@ Errors errors_at(const AfmHistory& h, std::size_t i) {
 // The radius of contact is five elements long at last, of the coarser mesh two and a half. The plane's way is the
 // approach: what lever and neck give is 0.2% of it.
 TEST(HertzBall, TakesHertzsForceRadiusAndPressureWhereItsMeshResolvesThem) {
-  const AfmHistory fine = history_of(shipped_afm("hertz-ball.toml"));
+  const FiledHistory fine = run_shipped_afm("hertz-ball");
+  ASSERT_EQ(fine.samples(), 4u);
   const AfmHistory coarse =
       history_of(shipped_afm("hertz-ball.toml", {"tip.contact_edge=0.08 um"}));
-  for (std::size_t i = 1; i < fine.rows.size(); ++i)
+  for (std::size_t i = 1; i < fine.samples(); ++i)
     EXPECT_LT(std::abs(errors_at(fine, i).force), 0.03) << i;
-  const std::size_t end = fine.rows.size() - 1;
+  const std::size_t end = fine.samples() - 1;
   const Errors few = errors_at(coarse, end), many = errors_at(fine, end);
   EXPECT_LT(std::abs(many.radius), 0.03);
   EXPECT_LT(std::abs(many.pressure), 0.03);

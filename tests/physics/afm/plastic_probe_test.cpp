@@ -158,8 +158,8 @@ TEST(PlasticProbe, APillarKeepsThePlasticStrainOfSimpleCompression) {
 // programme calls contact/radius^2, is 5/4 a^2. Unloading is elastic: 2 E* a at first, and the plane is left
 // when 2/pi (of an even pressure) to 3/4 (of Hertz's) of F/(E* a) has sprung back.
 TEST(PlasticProbe, AResolvedBallHasTaborsPressureAndLeavesADentByElasticUnloading) {
-  const AfmHistory h = history_of(shipped_afm("plastic-probe.toml"));
-  ASSERT_EQ(h.rows.size(), 10u);
+  const FiledHistory h = run_shipped_afm("plastic-probe");
+  ASSERT_EQ(h.samples(), 10u);
   const std::size_t top = 3;
   const double f = h.value(top, "probe/force_z"), reduced = young / (1 - 0.35 * 0.35);
   const double a = std::sqrt(0.8) * h.value(top, "contact/radius");
