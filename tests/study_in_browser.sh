@@ -53,7 +53,7 @@ grep -q '<option value="n">nN</option>' "$work/page.html" || fail "no nN among t
 [[ -f $study/friction=0.1,seed=2/report.html ]] || fail "the link leads nowhere"
 body=$(body_of fits "$study/report.html" 1000,2400 fits "$(dirname "$0")/study_driver.js")
 [[ $body == *'data-fits="1"'* ]] || fail "a table leaves the page, or its first column scrolls away: $body"
-picture_of "$study/report.html" 1200,2400 "$study/report.png"
+browse "$study/report.html" 1200,2400 --virtual-time-budget=10000 --screenshot="$study/report.png" >/dev/null 2>&1
 /usr/bin/python3 - "$study/report.png" <<'PYTHON' || fail "a curve or its colour is missing"
 import sys
 from matplotlib.image import imread
