@@ -305,9 +305,10 @@ def main():
         sys.exit(f"slurm_study: there is no {', '.join(missing)}: install Debian's slurm-wlm and munge")
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("slurm_study: ended by SIGTERM"))  # and cleans up
     begin = time.monotonic()
-    with tempfile.TemporaryDirectory(prefix="pulvis-slurm-") as folder:
+    # munge wants every folder above its socket to be open to all: those of TMPDIR need not be.
+    with tempfile.TemporaryDirectory(prefix="pulvis-slurm-", dir="/tmp") as folder:
         place = pathlib.Path(folder)
-        place.chmod(0o755)  # munge wants its socket to be reachable
+        place.chmod(0o755)
         (place / "slurm").mkdir()
         cluster = Cluster(place / "slurm")
         try:
