@@ -5,10 +5,11 @@
 #include <limits>
 
 #include "components/run_state.hpp"
+#include "scenes/results/network_results.hpp"
 #include "scenes/results/observe.hpp"
 #include "scenes/results/results.hpp"
+#include "scenes/tools/die_cell.hpp"
 #include "scenes/tools/die_sides.hpp"
-#include "systems/observe/network_kernel.hpp"
 
 namespace pulvis {
 namespace {
@@ -45,88 +46,33 @@ void append_compact_stress(const World& world, double area, std::vector<double>&
 }
 
 // ---- contacts -----------------------------------------------------------------------------------------
-struct Counts {
-  std::vector<double> pairs, tools;  // [particles]
-};
+constexpr LinkWords link_words{2, "along the normal turned by 90 degrees", "length", "m",
+                               "of the surface that touches; times thickness: area"};
 
-Counts contact_counts(const World& world) {
-  const auto& network = world.resource<ContactNetwork>();
-  const auto particles = static_cast<std::size_t>(world.resource<Bodies>().particles());
-  Counts counts{std::vector<double>(particles), std::vector<double>(particles)};
-  kernels::count_contacts(network.pairs, true, counts.pairs);
-  kernels::count_contacts(network.tools, false, counts.tools);
-  return counts;
-}
-
-double share_of(const std::vector<std::int32_t>& chain) {
-  const auto in_none = std::ranges::count(chain, 0);
-  return 1 - static_cast<double>(in_none) / static_cast<double>(chain.size());
+ContactCounts contact_counts(const World& world) {
+  return {world.resource<ContactNetwork>(), world.resource<Bodies>().particles()};
 }
 
 void append_network(const World& world, std::vector<double>& row) {
   const auto& network = world.resource<ContactNetwork>();
   const auto particles = static_cast<double>(world.resource<Bodies>().particles());
-  const Counts counts = contact_counts(world);
-  double rattlers = 0;
-  for (std::size_t p = 0; p < counts.pairs.size(); ++p)
-    if (counts.pairs[p] + counts.tools[p] < 2) rattlers += 1;
   const kernels::Fabric fabric = kernels::fabric(network.pairs);
   const kernels::ForceSizes sizes = kernels::force_sizes(network.pairs);
-  row.insert(row.end(),
-             {2 * static_cast<double>(network.pairs.size()) / particles,
-              static_cast<double>(network.tools.size()) / particles, rattlers / particles,
-              fabric.xx, fabric.xy, fabric.yy, fabric.anisotropy(), fabric.angle(), sizes.mean,
-              sizes.maximum, share_of(world.resource<ForceChains>().chain)});
-}
-
-std::vector<FieldInfo> contact_fields(const std::string& group, bool pairs) {
-  const auto field = [&](const char* name, const char* unit, const char* meaning, int components,
-                         bool whole = false) {
-    return FieldInfo{group + "/" + name, unit, meaning, FieldPlace::list, components, whole};
-  };
-  return {field("ids", "-",
-                pairs ? "numbers of the two particles"
-                      : "number of the particle, position of the tool in the scene",
-                2, true),
-          field("point", "m", "where it acts: mean of the points, weighted with their forces", 2),
-          field("normal", "-", "unit vector into the first particle", 2),
-          field("force", "N", "on the first particle", 2),
-          field("normal_force", "N", "along the normal; compression > 0", 1),
-          field("tangential_force", "N", "along the normal turned by 90 degrees", 1),
-          field("length", "m", "of the surface that touches; times thickness: area", 1)};
-}
-
-void append_links(const std::vector<ContactLink>& links, Fields& fields) {
-  const auto column = [&](const auto& add) {
-    std::vector<double>& values = fields.emplace_back();
-    for (const ContactLink& link : links) add(link, values);
-  };
-  const auto add_point = [](const Point& p, std::vector<double>& to) {
-    to.insert(to.end(), p.begin(), p.end());
-  };
-  column([](const ContactLink& l, auto& to) {
-    to.insert(to.end(), {static_cast<double>(l.first), static_cast<double>(l.second)});
-  });
-  column([&](const ContactLink& l, auto& to) { add_point(l.point, to); });
-  column([&](const ContactLink& l, auto& to) { add_point(l.normal, to); });
-  column([&](const ContactLink& l, auto& to) { add_point(l.force, to); });
-  column([](const ContactLink& l, auto& to) { to.push_back(l.normal_force()); });
-  column([](const ContactLink& l, auto& to) { to.push_back(l.tangential_force()); });
-  column([](const ContactLink& l, auto& to) { to.push_back(l.length); });
+  row.insert(row.end(), {2 * static_cast<double>(network.pairs.size()) / particles,
+                         static_cast<double>(network.tools.size()) / particles,
+                         contact_counts(world).rattlers(), fabric.xx, fabric.xy, fabric.yy,
+                         fabric.anisotropy(), fabric.angle(), sizes.mean, sizes.maximum,
+                         share_in_chains(world.resource<ForceChains>().chain)});
 }
 
 void append_network_frame(const World& world, Fields& fields) {
   const auto& network = world.resource<ContactNetwork>();
-  append_links(network.pairs, fields);
-  append_links(network.tools, fields);
+  append_links(network.pairs, &ContactLink::length, fields);
+  append_links(network.tools, &ContactLink::length, fields);
   const kernels::Rose rose = kernels::rose(network.pairs);
   fields.emplace_back(rose.number.begin(), rose.number.end());
   fields.emplace_back(rose.force.begin(), rose.force.end());
-  const Counts counts = contact_counts(world);
-  fields.push_back(counts.pairs);
-  fields.push_back(counts.tools);
-  const auto& chain = world.resource<ForceChains>().chain;
-  fields.emplace_back(chain.begin(), chain.end());
+  append_counts(contact_counts(world), world.resource<ForceChains>().chain, fields);
 }
 
 // ---- density ------------------------------------------------------------------------------------------
@@ -240,8 +186,8 @@ std::vector<FieldInfo> observed_fields(const Scene& scene) {
     append({{"particle_stress", "Pa", ParticleStress::info.meaning, FieldPlace::particle, 4},
             {"particle_centre", "m", ParticleCentre::info.meaning, FieldPlace::particle, 2}});
   if (scene.output.contacts) {
-    append(contact_fields("contacts", true));
-    append(contact_fields("tool_contacts", false));
+    append(link_fields("contacts", true, link_words));
+    append(link_fields("tool_contacts", false, link_words));
     append({{"rose/number", "-",
              "share of the contacts between particles whose normal lies in each of 18 sectors, the "
              "first around the x axis",

@@ -8,12 +8,9 @@
 #include <cstdint>
 
 #include "components/space/contact.hpp"
-#include "engine/lane_memory.hpp"
-#include "systems/space/contact/vector.hpp"
+#include "engine/lane.hpp"
 
 namespace pulvis::space {
-
-using VectorLanes = kernels::Vector<Lane>;
 
 // A point while its pair is worked on: rows of eight numbers, which become lanes by transposing.
 struct alignas(64) PairPoint {
