@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "components/run_state.hpp"
-#include "scenes/results/network_results.hpp"
 #include "scenes/results/observe.hpp"
+#include "scenes/results/parts/network_results.hpp"
 #include "scenes/results/results.hpp"
 #include "scenes/tools/die_cell.hpp"
 #include "scenes/tools/die_sides.hpp"

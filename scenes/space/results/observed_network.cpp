@@ -4,7 +4,7 @@
 
 #include "components/observed.hpp"
 #include "components/space/observed.hpp"
-#include "scenes/results/network_results.hpp"
+#include "scenes/results/parts/network_results.hpp"
 #include "systems/space/observe/network_kernel.hpp"
 
 namespace pulvis::space {
