@@ -85,25 +85,33 @@ bool Checkpoints::due(std::int64_t step, double time) const {
   return since >= std::chrono::duration<double>(options_.every) && since >= run_over_cost * cost_;
 }
 
-template <class State>
-void Checkpoints::write(std::int64_t step, double time, const State& world, const StateParts& run) {
+template <class Write>
+void Checkpoints::written(std::int64_t step, double time, const Write& write) {
   const auto begin = Time::now();
   info_.step = step;
   info_.time = time;
-  write_checkpoint(folder_, info_, world, run);
+  write();
   last_step_ = step;
   last_ = Time::now();
   cost_ = last_ - begin;
 }
-template void Checkpoints::write(std::int64_t, double, const World&, const StateParts&);
-template void Checkpoints::write(std::int64_t, double, const StateParts&, const StateParts&);
+
+void Checkpoints::write(std::int64_t step, double time, const StateParts& world,
+                        const StateParts& run) {
+  written(step, time, [&] { write_checkpoint(folder_, info_, world, run); });
+}
+
+void Checkpoints::write(std::int64_t step, double time, const World& world, const StateParts& run,
+                        const ColumnVisit& visit) {
+  written(step, time, [&] { write_checkpoint(folder_, info_, world, run, visit); });
+}
 
 void Checkpoints::keep_state(const std::string& name, std::int64_t step, double time,
-                             const World& world) const {
+                             const World& world, const ColumnVisit& visit) const {
   CheckpointInfo info = info_;
   info.step = step;
   info.time = time;
-  write_state_file(folder_ / fmt::format("state-{}.h5", name), info, world);
+  write_state_file(folder_ / fmt::format("state-{}.h5", name), info, world, visit);
 }
 
 void require_stopped_run(const fs::path& folder) {

@@ -34,16 +34,20 @@ class Checkpoints {
     info_.time = time;
   }
   void of_run(const std::string& id) { info_.run = id; }
-  // `world` is a World or the parts that were kept of one.
-  template <class State>
-  void write(std::int64_t step, double time, const State& world, const StateParts& run);
+  // `world`: the parts that were kept of one, or one that holds a column when `visit` has fetched it.
+  void write(std::int64_t step, double time, const StateParts& world, const StateParts& run);
+  void write(std::int64_t step, double time, const World& world, const StateParts& run,
+             const ColumnVisit& visit = {});
   // As a state that other runs may begin with.
   void keep_state(const std::string& name, std::int64_t step, double time,
-                  const World& world) const;
+                  const World& world, const ColumnVisit& visit) const;
   // Nothing is left to go on with.
   void remove() const { remove_checkpoints(folder_); }
 
  private:
+  template <class Write>
+  void written(std::int64_t step, double time, const Write& write);
+
   using Time = std::chrono::steady_clock;
   CheckpointInfo info_;
   std::filesystem::path folder_;

@@ -3,6 +3,7 @@
 // other particle or tool. Both particles of a pair sample each other: the contact is unbiased.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -158,9 +159,27 @@ struct FrictionCouple : Component<Contact, double, 2 * edge_points> {
 };
 
 // ---- sums over the rows -----------------------------------------------------------------------------
-// Of a block of rows, by the narrow phase while it has the rows at hand. Which rows make a block does not
-// depend on threads, and blocks are added up in order: nor do the bits of a sum.
-inline constexpr int rows_of_a_block = 128;
+// Of a block of rows, by the narrow phase while it has the rows at hand. Which rows make a block depends on their chunk alone:
+// neither on threads nor on what else a process has rows of. Nor do the bits of a sum, which is exact over the blocks.
+template <class At>
+struct RowBlocks {
+  static constexpr const char* resource_name = At::blocks_name;
+  static constexpr int most = At::rows_of_a_block;
+  std::vector<std::int32_t> begin{0};  // [blocks + 1] into rows
+
+  int count() const { return static_cast<int>(begin.size()) - 1; }
+  // `slot_begin`: [slots + 1] into rows.
+  void divide(const std::vector<std::int32_t>& slot_begin) {
+    begin.assign(1, 0);
+    for (std::size_t last = lane_count; last < slot_begin.size(); last += lane_count)
+      while (begin.back() < slot_begin[last])
+        begin.push_back(std::min(begin.back() + most, slot_begin[last]));
+  }
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(begin);
+  }
+};
 
 struct alignas(64) BlockSums {
   double energy = 0;                    // J, stored in the contact springs

@@ -27,12 +27,14 @@ struct ControlPoint {  // of the contact curves, particle after particle
   static constexpr bool laned = false, by_chunk = true;
 };
 struct Contact {  // (edge of one particle, other particle), four Gauss points a row
-  static constexpr const char* name = "contact";
+  static constexpr const char *name = "contact", *blocks_name = "contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
+  static constexpr int rows_of_a_block = 128;
 };
 struct ToolContact {  // (edge of a particle, tool), four Gauss points a row
-  static constexpr const char* name = "tool_contact";
+  static constexpr const char *name = "tool_contact", *blocks_name = "tool_contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
+  static constexpr int rows_of_a_block = 128;
 };
 struct SurfacePoint {  // Bezier points of a particle's surface in three dimensions
   static constexpr const char* name = "surface_point";
@@ -47,8 +49,9 @@ struct FaceContact {  // (face of one particle, other particle), sixteen Gauss p
   static constexpr bool laned = false, by_chunk = false;
 };
 struct FaceToolContact {  // (face of a particle, tool), sixteen Gauss points a row
-  static constexpr const char* name = "face_tool_contact";
+  static constexpr const char *name = "face_tool_contact", *blocks_name = "face_tool_contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
+  static constexpr int rows_of_a_block = 32;
 };
 inline constexpr int tool_axes = 3;  // tools live in space, whatever the dimension of the powder
 struct Tool {

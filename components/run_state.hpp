@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -166,6 +168,17 @@ struct ContactIndex {
       other_begin;  // [slots + 1] into other_rows: particle is sampled against
   std::vector<std::int32_t> other_rows;
   std::vector<std::int32_t> tool_begin;  // [slots + 1] into tool contact rows
+
+  // From the keys of the rows: slot, edge, other of each.
+  void list_others(std::span<const std::int32_t> keys) {
+    other_begin.assign(sampled_begin.size(), 0);
+    for (std::size_t k = 2; k < keys.size(); k += 3) entry(other_begin, keys[k] + 1) += 1;
+    std::partial_sum(other_begin.begin(), other_begin.end(), other_begin.begin());
+    std::vector<std::int32_t> next = other_begin;
+    other_rows.resize(keys.size() / 3);
+    for (std::size_t r = 0; r < other_rows.size(); ++r)
+      entry(other_rows, entry(next, keys[3 * r + 2])++) = static_cast<std::int32_t>(r);
+  }
 
   RowRange<Contact> sampled_by(int slot) const {
     return RowRange<Contact>::of(sampled_begin, slot);

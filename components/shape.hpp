@@ -83,10 +83,14 @@ struct Shape {
 
 // Particles by slot (engine/chunk_lane.hpp). A slot without a particle has number -1; it is computed
 // like the others (at rest, undeformed) and seen by no contact, no energy and no result.
+//
+// A process that is alone holds all of them. One of several ranks (components/ranks.hpp) holds the chunks that it owns, and
+// of the particles of other ranks that are near its own the outlines: its border. All ranks number slots and rows alike; what
+// one does not hold is never touched, and takes no memory.
 struct Bodies {
   static constexpr const char* resource_name = "bodies";
-  static constexpr bool fixed = true;
   static constexpr int empty_slot = -1;
+  enum class Held : std::uint8_t { absent, border, own };
 
   struct Slot {
     int number = empty_slot;  // of the particle in the scene, from 0
@@ -101,11 +105,57 @@ struct Bodies {
   std::vector<Shape> shapes;
   std::vector<Slot> slots;          // [lane_count * chunks]
   std::vector<int> slot_of_number;  // [particles]
+  std::vector<Held> held;           // [slots]; absent where no particle is
+  std::vector<int> own_chunks;      // ascending
+  std::vector<int> own_slots;       // of its particles, in the order of their numbers
+  std::vector<int> present_slots;   // own and border, ascending
+
+  // The chunks that `owns`, and no border.
+  void hold(const std::vector<bool>& owns_chunk) {
+    held.assign(slots.size(), Held::absent);
+    own_chunks.clear();
+    own_slots.clear();
+    for (int c = 0; c < chunks(); ++c)
+      if (owns_chunk[static_cast<std::size_t>(c)]) own_chunks.push_back(c);
+    for (const int slot : slot_of_number) {
+      if (!owns_chunk[static_cast<std::size_t>(slot / lane_count)]) continue;
+      own_slots.push_back(slot);
+      entry(held, slot) = Held::own;
+    }
+    list_present();
+  }
+  void hold_all() { hold(std::vector<bool>(static_cast<std::size_t>(chunks()), true)); }
+  // Instead of the border before; of slots that it does not own.
+  void set_border(const std::vector<int>& border) {
+    for (const int slot : present_slots)
+      if (!owns(slot)) entry(held, slot) = Held::absent;
+    for (const int slot : border) entry(held, slot) = Held::border;
+    list_present();
+  }
+  // Every lane of its chunks, empty ones too.
+  template <class Visit>
+  void for_own_lanes(const Visit& visit) const {
+    for (const int chunk : own_chunks)
+      for (int lane = 0; lane < lane_count; ++lane) visit(chunk * lane_count + lane);
+  }
+  bool owns(int slot) const { return entry(held, slot) == Held::own; }
+  bool is_present(int slot) const { return entry(held, slot) != Held::absent; }
+  bool is_whole() const { return own_slots.size() == slot_of_number.size(); }
+
+  template <class Bytes>
+  void state(Bytes&) {}  // a checkpoint is of all ranks
 
   const Shape& shape_of_chunk(Chunk c) const { return shape_of_slot(ChunkLane(c, 0).slot()); }
   const Shape& shape_of_slot(int slot) const { return entry(shapes, entry(slots, slot).shape); }
   int chunks() const { return static_cast<int>(slots.size()) / lane_count; }
   int particles() const { return static_cast<int>(slot_of_number.size()); }
+
+ private:
+  void list_present() {
+    present_slots.clear();
+    for (int slot = 0; slot < static_cast<int>(slots.size()); ++slot)
+      if (is_present(slot)) present_slots.push_back(slot);
+  }
 };
 
 }  // namespace pulvis

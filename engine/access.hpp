@@ -103,6 +103,7 @@ class Read {
     return {column_->values(), column_->bytes() / sizeof(typename T::value_type)};
   }
   int rows() const { return static_cast<int>(column_->table.rows); }
+  const Table& table() const { return column_->table; }
 
  private:
   Column<T>* column_;
@@ -127,6 +128,7 @@ class Write {
     return {column_->values(), column_->bytes() / sizeof(typename T::value_type)};
   }
   int rows() const { return static_cast<int>(column_->table.rows); }
+  const Table& table() const { return column_->table; }
 
  private:
   Column<T>* column_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <optional>
 
 #include "engine/deal.hpp"
@@ -196,11 +197,12 @@ namespace {
 struct ColumnsAhead {
   std::vector<const ColumnBase*> of_this, of_next;
 
-  LookAhead list(int chunk, int chunks) const {
+  LookAhead list(const std::vector<int>& chunks, int piece) const {
     LookAhead ahead;
-    for (const ColumnBase* column : of_this) ahead.add(column->of_chunk(chunk));
-    if (chunk + 1 < chunks)
-      for (const ColumnBase* column : of_next) ahead.add(column->of_chunk(chunk + 1));
+    const auto i = static_cast<std::size_t>(piece);
+    for (const ColumnBase* column : of_this) ahead.add(column->of_chunk(chunks[i]));
+    if (i + 1 < chunks.size())
+      for (const ColumnBase* column : of_next) ahead.add(column->of_chunk(chunks[i + 1]));
     return ahead;
   }
 };
@@ -250,21 +252,23 @@ struct TaskGraph::Flow {
     times[worker].seconds[system] += std::chrono::duration<double>(Time::now() - began).count();
   }
 
-  void run_chunk(const Stage& stage, int index) {
-    LookAhead list = stage.ahead.list(index, stage.deal.pieces());
+  void run_chunk(const Stage& stage, int piece) {
+    LookAhead list = stage.ahead.list(chunks, piece);
     const int worker = drops ? tbb::this_task_arena::current_thread_index() : -1;
-    const Chunk chunk{index, worker, list.empty() ? nullptr : &list};
+    const Chunk chunk{chunks[static_cast<std::size_t>(piece)], worker,
+                      list.empty() ? nullptr : &list};
     for (const std::size_t system : stage.systems) run(system, chunk);
   }
 
   void run_stage(Stage& stage) {
-    if (stage.by_chunk) return for_pieces(stage.deal, [&](int index) { run_chunk(stage, index); });
+    if (stage.by_chunk) return for_pieces(stage.deal, [&](int piece) { run_chunk(stage, piece); });
     for (Stage* other : stage.first)
-      while (const std::optional<int> index = other->deal.take()) run_chunk(*other, *index);
+      while (const std::optional<int> piece = other->deal.take()) run_chunk(*other, *piece);
     run(stage.systems.front(), Chunk{});
   }
 
   std::vector<System> systems;
+  std::vector<int> chunks;
   bool drops = false;  // transients
   std::vector<std::unique_ptr<Stage>> stages;
   std::int64_t runs = 0;
@@ -274,10 +278,25 @@ struct TaskGraph::Flow {
   std::vector<std::unique_ptr<Node>> nodes;
 };
 
+namespace {
+
+std::vector<int> first_chunks(int count) {
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
 TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Passes passes, Transients transients,
                      const World* world)
+    : TaskGraph(std::move(systems), first_chunks(chunks), passes, transients, world) {}
+
+TaskGraph::TaskGraph(std::vector<System> systems, std::vector<int> chunks, Passes passes,
+                     Transients transients, const World* world)
     : plan_(derive_plan(systems, passes)), flow_(std::make_unique<Flow>()) {
   flow_->systems = std::move(systems);
+  flow_->chunks = std::move(chunks);
   flow_->times.assign(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
                       {std::vector<double>(flow_->systems.size())});
   flow_->drops = transients == Transients::dropped;
@@ -289,7 +308,8 @@ TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Passes passes, Tra
         Flow::Stage{stages[s],
                     plan_.stages[s].by_chunk,
                     columns_ahead(members, world),
-                    Deal(chunks, tbb::this_task_arena::max_concurrency()),
+                    Deal(static_cast<int>(flow_->chunks.size()),
+                         tbb::this_task_arena::max_concurrency()),
                     {}}));
     flow_->nodes.push_back(std::make_unique<Flow::Node>(
         flow_->graph, [flow = flow_.get(), stage = flow_->stages.back().get()](
@@ -311,6 +331,7 @@ TaskGraph::TaskGraph(std::vector<System> systems, int chunks, Passes passes, Tra
 
 TaskGraph::~TaskGraph() = default;
 TaskGraph::TaskGraph(TaskGraph&&) noexcept = default;
+TaskGraph& TaskGraph::operator=(TaskGraph&&) noexcept = default;
 
 void TaskGraph::run() {
   for (const auto& stage : flow_->stages) stage->deal.restart();

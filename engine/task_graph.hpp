@@ -59,13 +59,16 @@ std::vector<TypeKey> droppable_components(const std::vector<System>& systems,
 
 class TaskGraph {
  public:
-  // `systems` in the order of the step list. Must be built and run inside the arena it will use; where
+  // `systems` in the order of the step list, `chunks` those that it computes, or how many, from 0. Must be built and run inside the arena it will use; where
   // transients are dropped, those that the world has room for, a chunk's a worker, use it
   // (World::allocate_transient). `world`: whose columns busy systems look ahead to; null: to none.
+  TaskGraph(std::vector<System> systems, std::vector<int> chunks, Passes passes = Passes::concurrent,
+            Transients transients = Transients::kept, const World* world = nullptr);
   TaskGraph(std::vector<System> systems, int chunks, Passes passes = Passes::concurrent,
             Transients transients = Transients::kept, const World* world = nullptr);
   ~TaskGraph();
   TaskGraph(TaskGraph&&) noexcept;
+  TaskGraph& operator=(TaskGraph&&) noexcept;
 
   // Runs every stage once. An exception of a system ends the run and comes out here.
   void run();

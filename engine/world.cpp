@@ -1,6 +1,7 @@
 #include "engine/world.hpp"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -11,13 +12,28 @@ constexpr std::size_t huge_page = std::size_t{2} << 20, min_in_huge_pages = huge
 
 }  // namespace
 
-Buffer::Buffer(std::size_t bytes) : bytes_(bytes) {
+void FreeBuffer::operator()(std::byte* p) const {
+  if (mapped > 0)
+    ::munmap(p, mapped);
+  else
+    ::operator delete[](p, alignment);
+}
+
+Buffer::Buffer(std::size_t bytes, Kind kind) : bytes_(bytes) {
+  if (kind == Kind::sparse && bytes > 0) {
+    void* pages = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (pages == MAP_FAILED) throw std::bad_alloc();
+    ::madvise(pages, bytes, MADV_NOHUGEPAGE);  // a huge page would hold much that is not written
+    data_ = decltype(data_)(static_cast<std::byte*>(pages), FreeBuffer{{}, bytes});
+    return;
+  }
   // A little more than asked for, so that an empty table still has an address to point at.
   const bool huge = bytes >= min_in_huge_pages;
   const std::size_t unit = huge ? huge_page : 64, rounded = (bytes + unit) / unit * unit;
   const std::align_val_t alignment{unit};
   data_ = decltype(data_)(static_cast<std::byte*>(::operator new[](rounded, alignment)),
-                          AlignedDelete{alignment});
+                          FreeBuffer{alignment});
   // Large columns are walked from end to end: fewer pages, fewer misses. Advice, so failing is no error.
   if (huge) ::madvise(data_.get(), rounded, MADV_HUGEPAGE);
   std::memset(data_.get(), 0, rounded);
@@ -31,6 +47,14 @@ void ColumnBase::rebuild(const std::vector<std::int32_t>& sources) {
     std::copy_n(from, row_bytes, next.data() + row * row_bytes);
   }
   buffer_ = std::move(next);
+}
+
+void ColumnBase::drop(std::size_t first_row, std::size_t rows) {
+  std::byte* first = buffer_.data() + first_row * row_bytes;
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto begin = (reinterpret_cast<std::uintptr_t>(first) + page - 1) / page * page;
+  const auto end = reinterpret_cast<std::uintptr_t>(first + rows * row_bytes) / page * page;
+  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
 }
 
 void ColumnBase::allocate_transient(std::size_t rows_of_worker, int workers) {
@@ -64,7 +88,7 @@ void World::set_column(const ColumnBase& column, std::span<const std::byte> rows
   const bool fixed = !table.chunk_begin.empty();
   if (rows.size() % own.row_bytes != 0 || (fixed && count != table.rows))
     throw BadState("the rows of " + own.entity + "/" + own.info.name + " do not fit the scene");
-  if (own.bytes() != rows.size()) own.allocate(count);
+  if (own.bytes() != rows.size()) own.allocate(count, Buffer::Kind::dense);
   std::ranges::copy(rows, own.data());
   table.rows = count;
 }

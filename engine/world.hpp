@@ -21,24 +21,29 @@
 
 namespace pulvis {
 
-struct AlignedDelete {
+struct FreeBuffer {
   std::align_val_t alignment{64};
-  void operator()(std::byte* p) const { ::operator delete[](p, alignment); }
+  std::size_t mapped = 0;  // bytes; 0: from the heap
+  void operator()(std::byte* p) const;
 };
 
-// Zeroed memory on a cache-line boundary; in huge pages where it is large.
+// Zeroed memory on a cache-line boundary; in huge pages where it is large. `sparse`: address space alone, of which only what
+// is written takes memory.
 class Buffer {
  public:
+  enum class Kind { dense, sparse };
   Buffer() = default;
-  explicit Buffer(std::size_t bytes);
+  explicit Buffer(std::size_t bytes, Kind kind = Kind::dense);
   std::byte* data() { return data_.get(); }
   const std::byte* data() const { return data_.get(); }
   std::size_t bytes() const { return bytes_; }
 
  private:
-  std::unique_ptr<std::byte[], AlignedDelete> data_;
+  std::unique_ptr<std::byte[], FreeBuffer> data_;
   std::size_t bytes_ = 0;
 };
+
+struct Table;
 
 class ColumnBase {
  public:
@@ -53,7 +58,9 @@ class ColumnBase {
   ColumnBase(const ColumnBase&) = delete;
   ColumnBase& operator=(const ColumnBase&) = delete;
 
-  void allocate(std::size_t rows) { buffer_ = Buffer(rows * row_bytes); }
+  void allocate(std::size_t rows, Buffer::Kind kind) { buffer_ = Buffer(rows * row_bytes, kind); }
+  // Of a sparse column: the rows take no memory any more, and are zeros. As far as whole pages go.
+  void drop(std::size_t first_row, std::size_t rows);
   // Transient rows: as many for each worker.
   void allocate_transient(std::size_t rows_of_worker, int workers);
   bool has_transient() const { return bytes_of_worker_ > 0; }
@@ -64,6 +71,7 @@ class ColumnBase {
   void rebuild(const std::vector<std::int32_t>& sources);
 
   std::size_t bytes() const { return buffer_.bytes(); }
+  virtual const Table& owner() const = 0;
   // The rows of a chunk; empty where the kind of entity is not divided by chunks.
   virtual std::span<const std::byte> of_chunk(int chunk) const = 0;
   std::byte* data() { return buffer_.data(); }
@@ -101,6 +109,7 @@ class Column : public ColumnBase {
   explicit Column(const Table& owner)
       : ColumnBase(C::info, C::Entity::name, C::count, bytes_a_row, C::transient), table(owner) {}
 
+  const Table& owner() const override { return table; }
   std::span<const std::byte> of_chunk(int chunk) const override {
     if (table.chunk_begin.empty()) return {};
     const auto c = static_cast<std::size_t>(chunk);
@@ -123,7 +132,8 @@ class Column : public ColumnBase {
 
 class World {
  public:
-  World() = default;
+  // `kind`: of columns that are divided by chunks. Sparse where a process holds some chunks of many.
+  explicit World(Buffer::Kind kind = Buffer::Kind::dense) : kind_(kind) {}
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -199,6 +209,7 @@ class World {
   std::vector<const ColumnBase*> ordered_;
   std::vector<SavedResource> saved_resources_;
   int chunks_ = 0;
+  Buffer::Kind kind_;
 };
 
 template <class Entity>
@@ -220,7 +231,7 @@ void World::add() {
   if (has<C>()) return;
   Table& owner = table<typename C::Entity>();
   auto column = std::make_unique<Column<C>>(owner);
-  column->allocate(owner.rows);
+  column->allocate(owner.rows, owner.chunk_begin.empty() ? Buffer::Kind::dense : kind_);
   owner.columns.push_back(column.get());
   ordered_.push_back(column.get());
   columns_.emplace(type_key<C>(), std::move(column));

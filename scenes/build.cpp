@@ -27,6 +27,7 @@
 #include "scenes/meshes/thinnest.hpp"
 #include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/ranks/share.hpp"
 #include "scenes/results/observe.hpp"
 #include "scenes/space/build.hpp"
 #include "scenes/tools/bond_rules.hpp"
@@ -128,7 +129,24 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
       layout.placed.push_back(there ? &classes[c][i] : nullptr);
     }
   }
+  layout.bodies.hold_all();
   return layout;
+}
+
+// m, of every slot where a particle stands.
+std::vector<std::array<double, 3>> centres(const Layout& layout) {
+  std::vector<std::array<double, 3>> all(layout.placed.size());
+  for (std::size_t slot = 0; slot < all.size(); ++slot)
+    if (const Placed* placed = layout.placed[slot])
+      all[slot] = {placed->body->position.x(), placed->body->position.y(), 0};
+  return all;
+}
+
+std::vector<double> elements_of_chunks(const Bodies& bodies) {
+  std::vector<double> all;
+  for (int c = 0; c < bodies.chunks(); ++c)
+    all.push_back(bodies.shape_of_chunk(Chunk{c}).elements());
+  return all;
 }
 
 template <class Count>
@@ -202,6 +220,7 @@ void add_row_columns(World& world, const Needs& needs) {
     world.add<SlipWeakening<At>>();
   }
   if (needs.adhesion) world.add<AdhesionLaw<At>>();
+  world.emplace<RowBlocks<At>>();
   world.emplace<ContactSums<At>>();
 }
 
@@ -251,7 +270,8 @@ void add_contact_columns(World& world, const Bodies& bodies, const Needs& needs)
 void fill_bodies(World& world, const Layout& layout) {
   auto& x = world.column<Position>();
   auto& v = world.column<Velocity>();
-  for (std::size_t slot = 0; slot < layout.placed.size(); ++slot) {
+  layout.bodies.for_own_lanes([&](int own) {
+    const auto slot = static_cast<std::size_t>(own);
     const Chunk chunk{static_cast<std::int32_t>(slot / lane_count)};
     const int lane = static_cast<int>(slot % lane_count);
     const Placed* placed = layout.placed[slot];
@@ -273,7 +293,7 @@ void fill_bodies(World& world, const Layout& layout) {
       rate[0][lane] = placed->body->velocity.x() - omega * arm.y();
       rate[1][lane] = placed->body->velocity.y() + omega * arm.x();
     }
-  }
+  });
 }
 
 void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
@@ -377,10 +397,8 @@ void add_clock(World& world, const Scene& scene) {
   for (const StageSpec& stage : scene.stages) clock.end += stage.duration;
 }
 
-}  // namespace
-
-std::unique_ptr<World> build_world(const Scene& scene) {
-  if (scene.space) return space::build_world(scene);
+std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
+  if (scene.space) return space::build_world(scene, part);
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);
   check_travel(scene, particles);
@@ -389,7 +407,8 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   const auto classes = by_class(scene, bodies);
   Layout layout = lay_out(scene, classes, bodies.size());
 
-  auto world = std::make_unique<World>();
+  std::unique_ptr<World> world = empty_world(part);
+  hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout.bodies));
   add_body_columns(*world, layout.bodies, needs);
   if (needs.tools || needs.constraints) add_tools(*world, scene, particles, needs);
   if (needs.contact()) {
@@ -435,6 +454,18 @@ std::unique_ptr<World> build_world(const Scene& scene) {
   world->emplace<ParticleClasses>(std::move(layout.classes));
   if (needs.constraints) add_constraints(*world, scene);
   add_observed(*world, scene);
+  return world;
+}
+
+}  // namespace
+
+std::unique_ptr<World> build_world(const Scene& scene, Ranks* ranks) {
+  return build_part(scene, Part{ranks});
+}
+
+std::unique_ptr<World> build_whole_world(const Scene& scene) {
+  std::unique_ptr<World> world = build_part(scene, Part{nullptr, true});
+  world->resource<Bodies>().hold_all();
   return world;
 }
 

@@ -3,12 +3,16 @@
 
 #include <memory>
 
+#include "engine/ranks/ranks.hpp"
 #include "engine/world.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
 
-// Places the particles, checks that they have room (throws SceneError), and fills a world.
-std::unique_ptr<World> build_world(const Scene& scene);
+// Places the particles, checks that they have room (throws SceneError), and fills a world: with all of them, or as one of
+// several ranks with its share.
+std::unique_ptr<World> build_world(const Scene& scene, Ranks* ranks = nullptr);
+// The same with room for all particles and none of them in it: what the root of several ranks fetches results into.
+std::unique_ptr<World> build_whole_world(const Scene& scene);
 
 }  // namespace pulvis

@@ -1,17 +1,25 @@
 #include "scenes/initial_state.hpp"
 
+#include <set>
+
 #include "components/cell.hpp"
+#include "components/ranks.hpp"
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
 #include "engine/files/checkpoint.hpp"
+#include "scenes/ranks/gather.hpp"
 
 namespace pulvis {
 
 void begin_with_state(World& world, const Scene& scene) {
   if (!scene.initial_state) return;
   const double end = world.resource<Clock>().end;
-  Checkpoint(scene.file.parent_path() / *scene.initial_state)
-      .restore(world, {ToolProgram::resource_name, StageEnds::resource_name});
+  const Checkpoint state(scene.file.parent_path() / *scene.initial_state);
+  const std::set<std::string> anew{ToolProgram::resource_name, StageEnds::resource_name};
+  if (world.has<RankLink>())
+    restore_share(state, world, anew);
+  else
+    state.restore(world, anew);
   Clock& clock = world.resource<Clock>();
   clock.step = 0;
   clock.time = 0;

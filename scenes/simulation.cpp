@@ -4,24 +4,33 @@
 #include <limits>
 
 #include "components/servo.hpp"
+#include "engine/run_failure.hpp"
 #include "scenes/build.hpp"
 #include "scenes/checks/bond_checks.hpp"
 #include "scenes/initial_state.hpp"
 
 namespace pulvis {
 
-Simulation::Simulation(const Scene& scene, int threads)
-    : world_(build_world(scene)), workers_(threads) {
+Simulation::Simulation(const Scene& scene, int threads, Ranks* ranks)
+    : world_(build_world(scene, ranks)), workers_(threads) {
+  if (ranks != nullptr)
+    crew_ = std::make_unique<Crew>(
+        *world_, ranks->is_root() ? build_whole_world(scene) : std::unique_ptr<World>(), scene);
   workers_.run([&] {
     step_ = std::make_unique<Step>(*world_);
+    if (crew_ && crew_->leads()) observers_ = std::make_unique<WholeObservers>(crew_->whole());
     step_->start();
   });
-  require_initial_bonds(scene, *world_);
+  if (!crew_) require_initial_bonds(scene, *world_);
   begin_with_state(*world_, scene);
+  if (crew_ && crew_->leads()) tell(crew_->fetch_mesh());
 }
 
 Simulation::~Simulation() {
-  workers_.run([&] { step_.reset(); });
+  workers_.run([&] {
+    step_.reset();
+    observers_.reset();
+  });
 }
 
 double Simulation::end() const {
@@ -30,20 +39,47 @@ double Simulation::end() const {
                                              : std::numeric_limits<double>::infinity());
 }
 
+// Tells the others, and does its own part of what is fetched.
+void Simulation::tell(Order order) {
+  crew_->tell(order);
+  if (order.kind == Order::Kind::fetch) crew_->fetch(order);
+}
+
 void Simulation::run_until(double time, const std::function<bool()>& stop) {
+  if (crew_) {
+    crew_->drop();
+    crew_->tell({Order::Kind::run, time});
+  }
+  do_run(time, stop);
+}
+
+void Simulation::do_run(double time, const std::function<bool()>& stop) {
   workers_.run([&] {
     while (clock().time < std::min(time, end())) {
       step_->run();
-      if (stop && stop()) return;
+      const bool stops = stop && stop();
+      if (crew_ ? !crew_->goes_on(!stops) : stops) return;
     }
   });
 }
 
 void Simulation::observe() {
-  workers_.run([&] { step_->observe(); });
+  if (!crew_) return workers_.run([&] { step_->observe(); });
+  const Order order = crew_->fetch_sample();
+  crew_->tell(order);
+  do_observe(order);
+}
+
+void Simulation::do_observe(const Order& order) {
+  workers_.run([&] {
+    step_->observe();
+    crew_->fetch(order);
+    if (observers_) observers_->run();
+  });
 }
 
 void Simulation::move() {
+  if (crew_) crew_->tell({Order::Kind::move});
   workers_.run([&] { step_->move(); });
 }
 
@@ -51,6 +87,51 @@ void Simulation::run_steps(std::int64_t count) {
   workers_.run([&] {
     for (std::int64_t i = 0; i < count; ++i) step_->run();
   });
+}
+
+void Simulation::fetch_frame() {
+  if (crew_) tell(crew_->fetch_frame());
+}
+void Simulation::fetch_state() {
+  if (crew_) tell(crew_->fetch_state());
+}
+void Simulation::fetch_rows() {
+  if (crew_) tell({Order::Kind::fetch, 0, {}, true});
+}
+void Simulation::leave() {
+  if (crew_) crew_->drop();
+}
+
+ColumnVisit Simulation::visit() {
+  if (!crew_) return {};
+  return {[this](const ColumnBase& column) {
+            if (is_by_chunk(column)) tell({Order::Kind::fetch, 0, {crew_->number_of(column)}});
+          },
+          [this](const ColumnBase& column) { crew_->drop(column); }};
+}
+
+void Simulation::restore(const Checkpoint& checkpoint) {
+  if (!crew_) return checkpoint.restore(*world_);
+  crew_->tell({Order::Kind::restore, 0, {}, false,
+               std::filesystem::absolute(checkpoint.file()).string()});
+  restore_share(checkpoint, *world_);
+}
+
+void Simulation::follow() {
+  while (true) {
+    const Order order = crew_->listen();
+    try {
+      switch (order.kind) {
+        case Order::Kind::run: do_run(order.time, {}); break;
+        case Order::Kind::observe: do_observe(order); break;
+        case Order::Kind::move: workers_.run([&] { step_->move(); }); break;
+        case Order::Kind::fetch: crew_->fetch(order); break;
+        case Order::Kind::restore: restore_share(Checkpoint(order.file), *world_); break;
+        case Order::Kind::leave: return;
+      }
+    } catch (const RunFailure&) {  // the root has the same, and tells it
+    }
+  }
 }
 
 }  // namespace pulvis

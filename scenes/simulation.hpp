@@ -2,12 +2,15 @@
 // tests drive.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 
 #include "components/run_state.hpp"
+#include "engine/ranks/ranks.hpp"
 #include "engine/workers.hpp"
 #include "engine/world.hpp"
+#include "scenes/ranks/crew.hpp"
 #include "scenes/spec/scene.hpp"
 #include "systems/step.hpp"
 
@@ -15,10 +18,14 @@ namespace pulvis {
 
 class Simulation {
  public:
-  explicit Simulation(const Scene& scene, int threads = 1);
+  // `ranks`: this process holds a share of the scene, and all ranks make the same calls.
+  explicit Simulation(const Scene& scene, int threads = 1, Ranks* ranks = nullptr);
   ~Simulation();
 
+  // Of this process: of several ranks its share.
   World& world() { return *world_; }
+  // Where results are taken: the same, or on the root of several ranks what was fetched of the whole scene.
+  World& whole() { return crew_ ? crew_->whole() : *world_; }
   const Clock& clock() const { return world_->resource<Clock>(); }
   const GraphPlan& plan() const { return step_->plan(); }
   std::vector<SystemCost> costs() const { return step_->costs(); }
@@ -34,11 +41,27 @@ class Simulation {
   // The same, `count` times.
   void run_steps(std::int64_t count);
 
+  // ---- of several ranks; the others do nothing
+  // Fetches what a frame, the state of all, or a column of a checkpoint needs; leave() when it is no longer needed.
+  void fetch_frame();
+  void fetch_state();
+  void fetch_rows();
+  ColumnVisit visit();
+  void leave();
+  void restore(const Checkpoint& checkpoint);
+  // Not the root: does what the root does, until that has done.
+  void follow();
+
  private:
   double end() const;  // s, of the run
+  void tell(Order order);
+  void do_run(double time, const std::function<bool()>& stop);
+  void do_observe(const Order& order);
   std::unique_ptr<World> world_;
   Workers workers_;
   std::unique_ptr<Step> step_;
+  std::unique_ptr<Crew> crew_;
+  std::unique_ptr<WholeObservers> observers_;  // of the root
 };
 
 }  // namespace pulvis

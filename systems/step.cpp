@@ -7,23 +7,25 @@
 #include "components/space/shape.hpp"
 #include "engine/system_list.hpp"
 #include "systems/body/systems.hpp"
+#include "engine/run_failure.hpp"
 #include "systems/cell/systems.hpp"
 #include "systems/contact/systems.hpp"
 #include "systems/observe/systems.hpp"
+#include "systems/ranks/failure.hpp"
+#include "systems/ranks/systems.hpp"
 #include "systems/space/step.hpp"
 #include "systems/tools/systems.hpp"
 
 namespace pulvis {
 namespace {
 
-// On sampled steps, when the forces are known.
+// On sampled steps, when the forces are known: of every particle...
 template <class F>
-std::vector<System> observed_of(World& w) {
+void observe_particles(World& w, SystemList& observe) {
   const bool plastic = w.has<PlasticStrain<F::points>>();
   const bool tools = w.has<ContactPair<ToolContact>>();
   const bool touching = tools || w.has<ContactPair<Contact>>();
   const bool constraints = w.has<ConstraintReaction>();
-  SystemList observe(w, When::on_sample);
 
   // clang-format off
   observe.add<lost_bodies>              ("lost_bodies",       tools);
@@ -33,12 +35,23 @@ std::vector<System> observed_of(World& w) {
   observe.add<plastic_work<F>>          ("plastic_work",      plastic);
   observe.add<hourglass_energy>         ("hourglass_energy",  F::stabilised);
   observe.add<particle_stress<F>>       ("particle_stress",   w.has<ParticleStress>());
+  // clang-format on
+}
+// ...and of the powder as a whole.
+void observe_whole(World& w, SystemList& observe) {
+  // clang-format off
   observe.add<contact_network>          ("contact_network",   w.has<ContactNetwork>());
   observe.add<contact_quality>          ("contact_quality",   w.has<ContactQuality>());
   observe.add<force_chains>             ("force_chains",      w.has<ForceChains>());
   observe.add<fragments>                ("fragments",         w.has<Fragments>());
   observe.add<local_density>            ("local_density",     w.has<DensityGrid>());
   // clang-format on
+}
+template <class F>
+std::vector<System> observed_of(World& w) {
+  SystemList observe(w, When::on_sample);
+  observe_particles<F>(w, observe);
+  if (!w.has<RankLink>()) observe_whole(w, observe);
   return observe.taken();
 }
 
@@ -54,15 +67,21 @@ StepList step_list_of(World& w) {
   const bool pair_bonds = w.has<CurveAnchor>(), tool_bonds = w.has<ToolAnchor>();
   const bool constraints = w.has<ConstraintReaction>();
   const bool cell = w.has<PeriodicCell>();
+  const bool ranks = w.has<RankLink>();
   SystemList force(w), move(w);
 
   // clang-format off
   force.add<tool_motion>                ("tool_motion",       tools || constraints);
+  force.add<receive_outlines<Plane>>    ("receive_outlines",  ranks && pairs);
   force.add<skin_check>                 ("skin_check",        touching);
+  force.add<find_border<Plane>>         ("find_border",       ranks && pairs);
   force.add<bin_edges>                  ("bin_edges",         pairs);
   force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
+  force.add<list_border_rows>           ("list_border_rows",  ranks && pairs);
   force.add<edge_contact>               ("edge_contact",      pairs);
+  force.add<send_contacts>              ("send_contacts",     ranks && pairs);
   force.add<tool_contact>               ("tool_contact",      tools);
+  force.add<receive_contacts>           ("receive_contacts",  ranks && pairs);
   force.add<pressed_bonds>              ("pressed_bonds",     w.has<WeldPressure<Contact>>());
   force.add<pressed_tool_bonds>         ("pressed_tool_bonds", w.has<WeldPressure<ToolContact>>());
   force.add<bond_forces>                ("bond_forces",       pair_bonds);
@@ -89,6 +108,7 @@ StepList step_list_of(World& w) {
   move.add<cell_kick>                   ("cell_kick",         cell);
   move.add<integrate>                   ("integrate");
   move.add<contact_curve>               ("contact_curve",     touching);
+  move.add<send_outlines<Plane>>        ("send_outlines",     ranks && pairs);
   move.add<cell_motion>                 ("cell_motion",       cell);
   move.add<element_health>              ("element_health");
   move.add<return_health>               ("return_health",     w.has<ReturnResidual>());
@@ -156,9 +176,13 @@ std::vector<System> whole_step(World& world) {
 // last cache from one step to the next.
 constexpr int chunks_in_cache = 64;
 
-bool from_memory(const World& world) { return world.chunks() > chunks_in_cache; }
+bool from_memory(const World& world) {
+  return static_cast<int>(world.resource<Bodies>().own_chunks.size()) > chunks_in_cache;
+}
+// Of several ranks, a pass of its own over the bodies goes on while messages are under way.
 Passes passes_of(const World& world) {
-  return from_memory(world) ? Passes::fewest : Passes::concurrent;
+  const bool ranks = world.has<RankLink>();
+  return from_memory(world) && !ranks ? Passes::fewest : Passes::concurrent;
 }
 
 // Room for the transient components of every thread that may run the step.
@@ -168,21 +192,74 @@ World& with_transients(World& world) {
   return world;
 }
 
+const std::vector<int>& chunks_of(const World& world) {
+  return world.resource<Bodies>().own_chunks;
+}
+
+// Of several ranks: what breaks on one of them is told to the others at the end of the step, which all complete.
+std::vector<System> watched(std::vector<System> systems, World& world) {
+  if (!world.has<RankLink>()) return systems;
+  RankLink& link = world.resource<RankLink>();
+  for (std::size_t i = 0; i < systems.size(); ++i)
+    systems[i].run = [&link, position = static_cast<int>(i), run = std::move(systems[i].run)](
+                         Chunk chunk) {
+      try {
+        run(chunk);
+      } catch (const RunFailure& failure) {
+        note_failure(link, position, failure.what());
+      }
+    };
+  return systems;
+}
+
 }  // namespace
+
+namespace {
+
+std::vector<System> whole_list(World& world) {
+  if (world.has<space::Shapes>()) return space::observers_of_whole(world);
+  SystemList observe(world, When::on_sample);
+  observe_whole(world, observe);
+  return observe.taken();
+}
+
+}  // namespace
+
+WholeObservers::WholeObservers(World& whole)
+    : observe_(whole_list(whole), whole.resource<Bodies>().own_chunks) {}
+
+void WholeObservers::run() { observe_.run(); }
 
 Step::Step(World& world)
     : world_(with_transients(world)),
-      whole_(whole_step(world), world.chunks(), passes_of(world), Transients::dropped,
-             from_memory(world) ? &world : nullptr),
-      observed_(joined(step_list(world).forces, step_list(world).observe), world.chunks(),
-                passes_of(world)),
-      motion_(step_list(world).motion, world.chunks()) {}
+      whole_(watched(whole_step(world), world), chunks_of(world), passes_of(world),
+             Transients::dropped, from_memory(world) ? &world : nullptr),
+      observed_(watched(joined(step_list(world).forces, step_list(world).observe), world),
+                chunks_of(world), passes_of(world)),
+      motion_(watched(step_list(world).motion, world), chunks_of(world)) {}
 
-void Step::start() { TaskGraph(start_list(world_), world_.chunks()).run(); }
+void Step::start() {
+  TaskGraph(watched(start_list(world_), world_), chunks_of(world_)).run();
+  end_of_step();
+}
+void Step::run() {
+  whole_.run();
+  end_of_step();
+}
+void Step::observe() {
+  observed_.run();
+  if (!world_.has<RankLink>()) return;
+  agree(world_.resource<RankLink>(), {});
+  end_of_step();
+}
+void Step::move() {
+  motion_.run();
+  end_of_step();
+}
 
-void Step::run() { whole_.run(); }
-void Step::observe() { observed_.run(); }
-void Step::move() { motion_.run(); }
+void Step::end_of_step() const {
+  if (world_.has<RankLink>()) throw_failure_of_any(world_.resource<RankLink>());
+}
 
 std::vector<SystemCost> Step::costs() const {
   std::vector<SystemCost> all = whole_.costs();

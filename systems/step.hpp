@@ -20,6 +20,16 @@ StepList step_list(World& world);
 // What has to be known before the first step: contact curves, the stable time step and the one that is taken.
 std::vector<System> start_list(World& world);
 
+// What looks at a powder as a whole, on the root of several ranks: at the world into which the results of all are fetched.
+class WholeObservers {
+ public:
+  explicit WholeObservers(World& whole);
+  void run();
+
+ private:
+  TaskGraph observe_;
+};
+
 // A step as the run loop uses it.
 class Step {
  public:
@@ -32,6 +42,8 @@ class Step {
   std::vector<SystemCost> costs() const;  // of plain and of sampled steps together
 
  private:
+  void end_of_step() const;
+
   World& world_;
   TaskGraph whole_, observed_, motion_;
 };

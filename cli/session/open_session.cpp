@@ -26,7 +26,8 @@ OpenSession open_session(const LoadedScene& loaded, const Session::Options& opti
                          const std::function<void()>& before_writing) {
   if (!options.folder.empty()) require_free_folder(loaded, options.folder);
   require_memory(loaded.scene);
-  auto simulation = std::make_unique<Simulation>(loaded.scene, options.threads);
+  Ranks* ranks = options.ranks != nullptr ? &options.ranks->tell(loaded) : nullptr;
+  auto simulation = std::make_unique<Simulation>(loaded.scene, options.threads, ranks);
   if (before_writing) before_writing();
   OpenSession open;
   if (options.folder.empty()) {

@@ -74,11 +74,11 @@ Session::Session(LoadedScene scene, Options options, std::unique_ptr<Simulation>
     : loaded_(std::move(scene)),
       options_(std::move(options)),
       simulation_(std::move(built)),
-      results_(loaded_.scene, simulation_->world()),
+      results_(loaded_.scene, simulation_->whole()),
       expectations_(loaded_.scene),
       compaction_(loaded_.scene),
       contacts_(loaded_.scene),
-      bond_warnings_(bond_warnings(loaded_.scene, simulation_->world())),
+      bond_warnings_(bond_warnings(loaded_.scene, simulation_->whole())),
       samples_(clock().end, std::max(loaded_.scene.output.samples, loaded_.scene.output.frames)),
       frames_(clock().end, loaded_.scene.output.frames),
       keeps_states_(std::ranges::any_of(loaded_.scene.stages, &StageSpec::keep_state)),
@@ -114,7 +114,7 @@ void Session::go_on_from(const Checkpoint& checkpoint) {
   StateReader reader(bytes);
   state(reader, position, seconds);
   const RunMesh mesh = results_.mesh();
-  checkpoint.restore(simulation_->world());
+  simulation_->restore(checkpoint);
   for (const std::string& what : driven_in(checkpoint)) driven_.insert(what);
   checkpoints_.resumed(clock().step, clock().time);
   recorder_ =
@@ -140,14 +140,16 @@ void Session::write_checkpoint() {
     words(driven);
     parts.emplace("driven", words.bytes());
   }
-  checkpoints_.write(clock().step, clock().time, simulation_->world(), parts);
+  simulation_->fetch_rows();
+  checkpoints_.write(clock().step, clock().time, simulation_->whole(), parts, simulation_->visit());
+  simulation_->leave();
 }
 
 // What broke since: the recorder knows how many rows it has.
 void Session::record_cracks() {
   if (recorder_ == nullptr || results_.tables().empty()) return;
   constexpr std::size_t cracks = 0;  // the only table
-  for (const auto& row : crack_rows(simulation_->world(), recorder_->rows(cracks)))
+  for (const auto& row : crack_rows(simulation_->whole(), recorder_->rows(cracks)))
     recorder_->row(cracks, row);
 }
 
@@ -158,12 +160,13 @@ void Session::record() {
   record_cracks();
   expectations_.sample(clock().time, results_);
   compaction_.sample(results_);
-  contacts_.sample(results_, simulation_->world());
+  contacts_.sample(results_, simulation_->whole());
   samples_.pass(clock().time);
-  check_limits(loaded_.scene, results_, simulation_->world());
+  check_limits(loaded_.scene, results_, simulation_->whole());
   const bool is_frame = frames_.due(clock().time) || simulation_->finished();
   if (is_frame && recorder_) {
     require_saved_scene(options_.folder);
+    simulation_->fetch_frame();
     recorder_->frame(clock().time, clock().step, results_.frame());
   }
   if (is_frame) frames_.pass(clock().time);
@@ -179,8 +182,12 @@ void Session::keep_states() {
   const std::size_t over = world.resource<ToolProgram>().stage_at(clock().time);
   for (; stages_over_ < over; ++stages_over_) {
     const StageSpec& stage = loaded_.scene.stages[stages_over_];
-    if (stage.keep_state && reached_its_end(stages_over_))
-      checkpoints_.keep_state(stage.name, clock().step, clock().time, world);
+    if (stage.keep_state && reached_its_end(stages_over_)) {
+      simulation_->fetch_rows();
+      checkpoints_.keep_state(stage.name, clock().step, clock().time, simulation_->whole(),
+                              simulation_->visit());
+      simulation_->leave();
+    }
   }
 }
 
@@ -272,7 +279,7 @@ void Session::reopen() {
 
 RunQuality Session::quality() const {
   const ContactFindings found = contacts_.findings();
-  RunQuality quality{found, run_quality(loaded_.scene, simulation_->world(), results_, found),
+  RunQuality quality{found, run_quality(loaded_.scene, simulation_->whole(), results_, found),
                      bending_warnings(loaded_.scene)};
   quality.warnings.insert(quality.warnings.end(), bond_warnings_.begin(), bond_warnings_.end());
   if (!driven_.empty())
@@ -291,7 +298,8 @@ void Session::finish(const std::string& outcome) {
   recorder_ = nullptr;
   const std::filesystem::path& folder = options_.folder;
   remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
-  write_summary(folder, loaded_.scene, simulation_->world(), results_, compaction_, quality(),
+  simulation_->fetch_state();
+  write_summary(folder, loaded_.scene, simulation_->whole(), results_, compaction_, quality(),
                 {progress_->seconds(), clock().step, options_.threads,
                  fmt::format("{:016x}", loaded_.hash), outcome, simulation_->costs()},
                 verdicts_);

@@ -17,6 +17,7 @@
 
 #include "cli/checkpoints.hpp"
 #include "cli/progress.hpp"
+#include "cli/session/ranks.hpp"
 #include "cli/session/session_hooks.hpp"
 #include "cli/summary.hpp"
 #include "engine/files/recorder.hpp"
@@ -46,6 +47,7 @@ class Session {
     int threads = 1;
     bool talks = false;
     CheckpointOptions checkpoints{};
+    LedRanks* ranks = nullptr;  // of which this is the root
   };
 
   // `scene` as it is saved; `built` is at its beginning. Neither the folder nor its lock is the session's.

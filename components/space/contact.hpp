@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -107,6 +109,25 @@ struct FacePairs {
   std::vector<std::int32_t> of_other;     // pairs that have a particle as the other one
 
   int count() const { return static_cast<int>(begin.size()) - 1; }
+  // From the keys of the rows: slot, face, other of each; `begins`: slots + 1.
+  void list(std::span<const std::int32_t> keys, std::size_t begins) {
+    std::vector<std::int32_t> other;  // [pairs]
+    begin.assign(1, 0);
+    for (std::size_t k = 0; k < keys.size(); k += 3) {
+      if (k == 0 || keys[k - 3] != keys[k] || keys[k - 1] != keys[k + 2]) {
+        other.push_back(keys[k + 2]);
+        begin.push_back(0);
+      }
+      begin.back() = static_cast<std::int32_t>(k / 3) + 1;
+    }
+    other_begin.assign(begins, 0);
+    for (const std::int32_t slot : other) entry(other_begin, slot + 1) += 1;
+    std::partial_sum(other_begin.begin(), other_begin.end(), other_begin.begin());
+    std::vector<std::int32_t> next = other_begin;
+    of_other.resize(other.size());
+    for (std::size_t p = 0; p < other.size(); ++p)
+      entry(of_other, entry(next, other[p])++) = static_cast<std::int32_t>(p);
+  }
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(begin, other_begin, of_other);
@@ -147,7 +168,7 @@ struct ShapedBodies {
   Read<Shapes> shapes;
 
   int slots() const { return static_cast<int>(bodies->slots.size()); }
-  bool is_empty(int slot) const { return entry(bodies->slots, slot).number == Bodies::empty_slot; }
+  bool is_absent(int slot) const { return !bodies->is_present(slot); }
   const Shape& shape_of(int slot) const {
     return entry(shapes->list, entry(bodies->slots, slot).shape);
   }

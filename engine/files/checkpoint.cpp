@@ -97,22 +97,25 @@ std::string column_name(const ColumnBase& column) {
 
 // Calls take(name, bytes) for all that a world has to keep.
 template <class Take>
-void for_each_part(const World& world, const Take& take) {
-  for (const ColumnBase* column : world.columns())
-    if (!column->declared_transient)
-      take(column_name(*column), std::span<const std::byte>(column->data(), column->bytes()));
+void for_each_part(const World& world, const Take& take, const ColumnVisit& visit = {}) {
+  for (const ColumnBase* column : world.columns()) {
+    if (column->declared_transient) continue;
+    if (visit.fetch) visit.fetch(*column);
+    take(column_name(*column), std::span<const std::byte>(column->data(), column->bytes()));
+    if (visit.leave) visit.leave(*column);
+  }
   for (const World::SavedResource& resource : world.saved_resources())
     take("/resources/" + resource.name, std::span<const std::byte>(resource.state()));
 }
 
 template <class Take>
-void for_each_part(const StateParts& parts, const Take& take) {
+void for_each_part(const StateParts& parts, const Take& take, const ColumnVisit&) {
   for (const auto& [name, bytes] : parts) take(name, std::span<const std::byte>(bytes));
 }
 
 template <class State>
 void write_content(const fs::path& path, const CheckpointInfo& info, const State& world,
-                   const StateParts& run) {
+                   const StateParts& run, const ColumnVisit& visit) {
   hdf5::File file = hdf5::File::create(path, head_bytes);
   write_head(path, "pulvis checkpoint, not finished\n");
   file.set_attribute("/", "version", std::string_view(info.version));
@@ -122,22 +125,23 @@ void write_content(const fs::path& path, const CheckpointInfo& info, const State
   file.set_attribute("/", "run", std::string_view(info.run));
   file.set_attribute("/", "step", info.step);
   file.set_attribute("/", "time", info.time);
-  for_each_part(world, [&](const std::string& name, std::span<const std::byte> bytes) {
-    file.write(name, bytes);
-  });
+  for_each_part(
+      world,
+      [&](const std::string& name, std::span<const std::byte> bytes) { file.write(name, bytes); },
+      visit);
   for (const auto& [name, bytes] : run) file.write("/run/" + name, bytes);
   file.close();
 }
 
 template <class State>
 void write_state(const fs::path& path, const CheckpointInfo& info, const State& world,
-                 const StateParts& run) {
+                 const StateParts& run, const ColumnVisit& visit) {
   const fs::path temporary = path.string() + ".new";
   std::error_code ignored;
   require_own_or_none(path, role::run);
   require_own_or_none(temporary, role::run);
   try {
-    write_content(temporary, info, world, run);
+    write_content(temporary, info, world, run, visit);
     sign(temporary);
     if (rename(temporary.c_str(), path.c_str()) != 0) fail(path, "put the checkpoint in its place");
   } catch (...) {
@@ -149,8 +153,8 @@ void write_state(const fs::path& path, const CheckpointInfo& info, const State& 
 
 template <class State>
 void write_next(const fs::path& folder, const CheckpointInfo& info, const State& world,
-                const StateParts& run) {
-  write_state(folder / fmt::format("checkpoint-{:012}.h5", info.step), info, world, run);
+                const StateParts& run, const ColumnVisit& visit) {
+  write_state(folder / fmt::format("checkpoint-{:012}.h5", info.step), info, world, run, visit);
   const std::vector<fs::path> all = checkpoints_in(folder);
   for (std::size_t i = kept; i < all.size(); ++i) remove_own(all[i], role::run);
 }
@@ -166,17 +170,18 @@ StateParts state_of(const World& world) {
 }
 
 void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const World& world,
-                      const StateParts& run) {
-  write_next(folder, info, world, run);
+                      const StateParts& run, const ColumnVisit& visit) {
+  write_next(folder, info, world, run, visit);
 }
 
 void write_checkpoint(const fs::path& folder, const CheckpointInfo& info, const StateParts& world,
                       const StateParts& run) {
-  write_next(folder, info, world, run);
+  write_next(folder, info, world, run, {});
 }
 
-void write_state_file(const fs::path& file, const CheckpointInfo& info, const World& world) {
-  write_state(file, info, world, {});
+void write_state_file(const fs::path& file, const CheckpointInfo& info, const World& world,
+                      const ColumnVisit& visit) {
+  write_state(file, info, world, {}, visit);
 }
 
 std::vector<fs::path> checkpoints_in(const fs::path& folder, const char* ending) {
@@ -213,22 +218,37 @@ Checkpoint::Checkpoint(const fs::path& file) : file_(verified(file)) {
   }
 }
 
-void Checkpoint::restore(World& world, const std::set<std::string>& left_alone) const {
+void Checkpoint::require_same_parts(const World& world,
+                                    const std::set<std::string>& left_alone) const {
   std::set<std::string> unused;
   for (const std::string group : {"/columns/", "/resources/"})
     if (file_.contains(group.substr(0, group.size() - 1)))
       for (const std::string& name : file_.datasets_below(group))
         if (!left_alone.contains(name)) unused.insert(group + name);
-  const auto take = [&](const std::string& name) {
+  const auto use = [&](const std::string& name) {
     if (unused.erase(name) == 0) throw BadState("it has no " + name);
-    return file_.read_bytes(name);
   };
   for (const ColumnBase* column : world.columns())
-    if (!column->declared_transient) world.set_column(*column, take(column_name(*column)));
+    if (!column->declared_transient) use(column_name(*column));
   for (const World::SavedResource& resource : world.saved_resources())
-    if (!left_alone.contains(resource.name))
-      resource.set_state(take("/resources/" + resource.name));
+    if (!left_alone.contains(resource.name)) use("/resources/" + resource.name);
   if (!unused.empty()) throw BadState("the scene has no " + *unused.begin());
+}
+
+void Checkpoint::restore(World& world, const std::set<std::string>& left_alone) const {
+  require_same_parts(world, left_alone);
+  for (const ColumnBase* column : world.columns())
+    if (!column->declared_transient)
+      world.set_column(*column, file_.read_bytes(column_name(*column)));
+  for (const World::SavedResource& r : world.saved_resources())
+    if (!left_alone.contains(r.name)) r.set_state(resource(r.name));
+}
+
+std::vector<std::byte> Checkpoint::column(const std::string& name) const {
+  return file_.read_bytes("/columns/" + name);
+}
+std::vector<std::byte> Checkpoint::resource(const std::string& name) const {
+  return file_.read_bytes("/resources/" + name);
 }
 
 std::vector<std::byte> Checkpoint::run(const std::string& name) const {

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -38,14 +39,18 @@ using StateParts = std::map<std::string, std::vector<std::byte>>;
 StateParts state_of(const World& world);
 
 // Afterwards the folder holds this checkpoint and the one before, no older ones of this run.
+// `fetch` is called with every column before it is written, and `leave` after it: of a world that holds one at a time.
+struct ColumnVisit {
+  std::function<void(const ColumnBase&)> fetch, leave;
+};
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
-                      const World& world, const StateParts& run);
+                      const World& world, const StateParts& run, const ColumnVisit& visit = {});
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointInfo& info,
                       const StateParts& world, const StateParts& run);
 
 // The same as a state that other runs may begin with; an old one of that name goes.
 void write_state_file(const std::filesystem::path& file, const CheckpointInfo& info,
-                      const World& world);
+                      const World& world, const ColumnVisit& visit = {});
 
 // The newest first.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder,
@@ -71,9 +76,16 @@ class Checkpoint {
   explicit Checkpoint(const std::filesystem::path& file);  // throws DamagedCheckpoint
 
   const CheckpointInfo& info() const { return info_; }
+  const std::filesystem::path& file() const { return file_.path(); }
   // `world` was made from the same scene. Throws BadState where it has other columns or resources; those of `left_alone` stay
   // as they are.
   void restore(World& world, const std::set<std::string>& left_alone = {}) const;
+  // Bytes of one column or resource by its name here: "node/position", "clock".
+  bool has_column(const std::string& name) const { return file_.contains("/columns/" + name); }
+  std::vector<std::byte> column(const std::string& name) const;
+  std::vector<std::byte> resource(const std::string& name) const;
+  // Throws BadState where `world` has other columns or resources, apart from resources of `left_alone`.
+  void require_same_parts(const World& world, const std::set<std::string>& left_alone = {}) const;
   std::vector<std::byte> run(const std::string& name) const;
   bool has_run(const std::string& name) const { return file_.contains("/run/" + name); }
 

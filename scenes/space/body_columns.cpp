@@ -101,7 +101,7 @@ void fill_bodies(World& world, const std::vector<std::optional<Placed>>& placed,
                  const Bodies& bodies, const Shapes& shapes) {
   auto& x = world.column<Position>();
   auto& v = world.column<Velocity>();
-  for (int slot = 0; slot < static_cast<int>(placed.size()); ++slot) {
+  bodies.for_own_lanes([&](int slot) {
     const auto& at = entry(placed, slot);
     const ChunkLane where(slot);
     const Shape& shape = entry(shapes.list, entry(bodies.slots, slot).shape);
@@ -118,7 +118,7 @@ void fill_bodies(World& world, const std::vector<std::optional<Placed>>& placed,
         (node_v++)[0][where.lane] = velocity[k];
       }
     }
-  }
+  });
 }
 
 void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {

@@ -1,6 +1,7 @@
 #include "scenes/space/build.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "components/run_state.hpp"
 #include "scenes/space/contact_columns.hpp"
@@ -34,14 +35,34 @@ void add_run_state(World& world, const Scene& scene) {
   world.emplace<Totals>();
 }
 
+// m, of every slot where a particle stands.
+std::vector<std::array<double, 3>> centres(const Layout& layout) {
+  std::vector<std::array<double, 3>> all(layout.placed.size());
+  for (std::size_t slot = 0; slot < all.size(); ++slot)
+    if (const auto& placed = layout.placed[slot])
+      all[slot] = {placed->body->position.x(), placed->body->position.y(),
+                   placed->body->position.z()};
+  return all;
+}
+
+std::vector<double> elements_of_chunks(const Layout& layout) {
+  std::vector<double> all;
+  for (int chunk = 0; chunk < layout.bodies.chunks(); ++chunk) {
+    const int shape = entry(layout.bodies.slots, chunk * lane_count).shape;
+    all.push_back(static_cast<double>(entry(layout.shapes.list, shape).elements()));
+  }
+  return all;
+}
+
 }  // namespace
 
-std::unique_ptr<World> build_world(const Scene& scene) {
+std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
   check_travel(scene, bodies);
   Layout layout = lay_out(scene, bodies);
-  auto world = std::make_unique<World>();
+  std::unique_ptr<World> world = empty_world(part);
+  hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout));
   add_body_columns(*world, scene, layout.bodies, layout.shapes);
   fill_bodies(*world, layout.placed, layout.bodies, layout.shapes);
   fill_materials(*world, scene, layout.bodies);

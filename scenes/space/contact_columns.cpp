@@ -125,6 +125,7 @@ void add_tools(World& world, const SpaceScene& scene, const Touching& touching) 
   add_rows<FaceToolContact>(world);
   world.add<PointForce>();
   if (touching.friction) world.add<ElasticSlip>();
+  world.emplace<RowBlocks<FaceToolContact>>();
   world.emplace<ContactSums<ToolContact>>();
   const ToolShapes& shapes = world.emplace<ToolShapes>(tool_shapes(scene));
   const bool meshes = std::ranges::any_of(shapes.of_tool, [](const ToolShapes::Shape& shape) {

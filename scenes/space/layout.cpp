@@ -90,6 +90,7 @@ Layout lay_out(const Scene& scene, const std::vector<BodySpec>& bodies) {
     layout.classes.of_shape.push_back(static_cast<int>(c));
     add_class(layout, scene.space->particles[c], classes[c], face);
   }
+  layout.bodies.hold_all();
   return layout;
 }
 

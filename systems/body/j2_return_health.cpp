@@ -4,6 +4,7 @@
 // Active   when a material hardens along a curve or by its rate: the return is iterated then
 #include <fmt/format.h>
 
+#include "engine/entry.hpp"
 #include "engine/run_failure.hpp"
 #include "systems/body/systems.hpp"
 
@@ -11,17 +12,17 @@ namespace pulvis {
 
 void return_health::operator()() const {
   const auto values = residual.values();  // by chunk: eight residuals, eight elements
-  for (std::size_t slot = 0; slot < bodies->slots.size(); ++slot) {
-    const std::size_t at = slot / lane_count * 2 * lane_count + slot % lane_count;
-    if (values[at] == 0) continue;  // NaN is not
+  bodies->for_own_lanes([&](int slot) {
+    const int at = slot / lane_count * 2 * lane_count + slot % lane_count;
+    if (entry(values, at) == 0) return;  // NaN is not
     throw RunFailure(fmt::format(
         "j2_return_map: particle {}, element {}: the stress is beside the flow stress by {:.3g} of "
         "it at "
         "step {}, t = {:.6g} s; allowed 0: the return did not converge (is the law of its material "
         "finite at this strain?)",
-        bodies->slots[slot].number, static_cast<int>(values[at + lane_count]), values[at],
-        clock->step, clock->time));
-  }
+        entry(bodies->slots, slot).number, static_cast<int>(entry(values, at + lane_count)),
+        entry(values, at), clock->step, clock->time));
+  });
 }
 
 }  // namespace pulvis

@@ -15,11 +15,13 @@
 //
 // Runs     after tool_reaction; tool_motion carries it out in the next step
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/entry.hpp"
 #include "systems/cell/mixed_control.hpp"
 #include "systems/cell/systems.hpp"
+#include "systems/tools/servo_motion.hpp"
 #include "systems/tools/servo_touch.hpp"
 
 namespace pulvis {
@@ -28,9 +30,15 @@ namespace {
 using kernels::TouchSums;
 using Parts = std::array<double, MixedControl::parts>;
 
+// Over all rows of all ranks.
 struct BorderSums {
-  Tensor2 force;                // N
-  kernels::TouchSums touching;  // of one vector's length each: N/m, N s/m, times m^2
+  std::array<ExactSum, 5> exact;  // N, of the force's parts; J, of the kicks
+  TouchSum touching;              // of one vector's length each: N/m, N s/m, times m^2
+
+  Tensor2 force() const {
+    return {{exact[0].value(), exact[1].value(), exact[2].value(), exact[3].value()}};
+  }
+  double kick_work() const { return exact[4].value(); }
 };
 
 BorderSums across_borders(const cell_control& s) {
@@ -39,18 +47,19 @@ BorderSums across_borders(const cell_control& s) {
     const Row<Contact> row(r);
     const Image n{s.borders.image(row, 0), s.borders.image(row, 1)};
     if (s.borders.rows.touches(row) == 0 || n == Image{}) continue;
-    const Point way = s.cell->vectors * n;
+    if (!s.bodies->owns(s.borders.rows.pair(row, 0))) continue;  // its owner adds it
+    const Point way = s.control.cell->vectors * n;
     const double square = way[0] * way[0] + way[1] * way[1];
-    for (int g = 0; g < edge_points; ++g)
-      for (int i = 0; i < 2; ++i)
-        for (int k = 0; k < 2; ++k)
-          sums.force.t[static_cast<std::size_t>(2 * i + k)] +=
-              s.borders.rows.force(row, 2 * g + i) * entry(n, k);
-    const kernels::TouchSums one =
-        touching_of(row, s.borders.rows, s.borders.law, s.rules->stiffest_weld());
-    sums.touching.stiffness += square * one.stiffness;
-    sums.touching.damping += square * one.damping;
+    for (int i = 0; i < 2; ++i) {
+      double force = 0;
+      for (int g = 0; g < edge_points; ++g) force += s.borders.rows.force(row, 2 * g + i);
+      for (int k = 0; k < 2; ++k) entry(sums.exact, 2 * i + k).add(force * entry(n, k));
+    }
+    sums.touching.add(touching_of(row, s.borders.rows, s.borders.law, s.rules->stiffest_weld()),
+                      square);
   }
+  for (const int slot : s.bodies->own_slots) sums.exact[4].add(entry(s.kick_work.values(), slot));
+  sum_of_ranks(s.link, sums.exact);
   return sums;
 }
 
@@ -64,17 +73,19 @@ Parts stress_of(const PeriodicCell& cell) {
 }  // namespace
 
 void cell_control::operator()() const {
-  PeriodicCell& now = *cell;
-  const BorderSums sums = across_borders(*this);
-  double work = 0.5 * product(now.border_force + sums.force, now.rate) * clock->dt_before;
-  for (const int slot : bodies->slot_of_number) work += entry(kick_work.values(), slot);
-  totals->external_work += work;
-  totals->largest_work = std::max(totals->largest_work, std::abs(work));
-  now.border_force = sums.force;
+  PeriodicCell& now = *control.cell;
+  BorderSums sums = across_borders(*this);
+  const Tensor2 force = sums.force();
+  const double work =
+      0.5 * product(now.border_force + force, now.rate) * clock->dt_before + sums.kick_work();
+  control.totals->external_work += work;
+  control.totals->largest_work = std::max(control.totals->largest_work, std::abs(work));
+  now.border_force = force;
   now.control.stress = stress_of(now);
 
+  const TouchSums touching = sums.touching.of_ranks(link);
   const Rates rates = rates_of(now.control, *program, *clock, now.area() * now.thickness,
-                               {sums.touching, sums.touching, sums.touching});
+                               {touching, touching, touching});
   const auto& rate = rates.deformation;
   const Tensor2 gradient{{rate[0], rate[2] - rates.spin, rate[2] + rates.spin, rate[1]}};
   now.gradient = gradient;
@@ -99,17 +110,15 @@ namespace {
 
 // Of the contacts of two planes that move apart by half of the strain each, times the squares of their ways.
 TouchSums pressed_by(int low, int high, double size, const wall_control& s) {
-  TouchSums sums;
+  TouchSum sums;
   const double square = 0.25 * size * size;
   for (int r = 0; r < s.contacts.pair.rows(); ++r) {
     const Row<ToolContact> row(r);
     const int tool = s.contacts.pair(row, 2);
     if (s.contacts.touches(row) == 0 || (tool != low && tool != high)) continue;
-    const TouchSums one = touching_of(row, s.contacts, s.law, s.rules->stiffest_weld());
-    sums.stiffness += square * one.stiffness;
-    sums.damping += square * one.damping;
+    sums.add(touching_of(row, s.contacts, s.law, s.rules->stiffest_weld()), square);
   }
-  return sums;
+  return sums.of_ranks(s.drive.link);
 }
 
 }  // namespace

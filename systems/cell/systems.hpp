@@ -4,6 +4,7 @@
 #include "components/bundles.hpp"
 #include "components/cell.hpp"
 #include "components/servo.hpp"
+#include "systems/ranks/reduce.hpp"
 
 namespace pulvis {
 
@@ -18,8 +19,11 @@ struct cell_control {
   } borders;
   Read<KickWork> kick_work;
   Read<ToolProgram> program;
-  Write<PeriodicCell> cell;
-  Write<Totals> totals;
+  struct Control {
+    Write<PeriodicCell> cell;
+    Write<Totals> totals;
+  } control;
+  Link link;
   void operator()() const;
 };
 
@@ -46,6 +50,7 @@ struct wall_control {
   struct Drive {
     Write<DrivenWalls> walls;
     Write<ServoVelocity> velocity;
+    Link link;
   } drive;
   void operator()() const;
 };

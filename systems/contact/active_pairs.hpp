@@ -30,16 +30,18 @@ inline constexpr bool side_by_side = simd::registers == 1;
 namespace detail {
 
 inline constexpr int min_tasks = 64, max_blocks = 16;  // of a task
-inline constexpr std::size_t max_rows_of_a_task = max_blocks * (rows_of_a_block + 1);
+template <class At>
+inline constexpr std::size_t max_rows_of_a_task = max_blocks* (RowBlocks<At>::most + 1);
 
 // The active candidates of a task: of every block an even number.
+template <class At>
 struct ActiveOfTask {
-  std::array<std::int32_t, max_rows_of_a_task> row;
+  std::array<std::int32_t, max_rows_of_a_task<At>> row;
   std::array<std::size_t, max_blocks> end;  // of each block, in row
   std::size_t count = 0;
 
   // No branch: which candidates are active follows no pattern.
-  template <class At, class Phase>
+  template <class Phase>
   void add_block(int block, int first, int last, const Phase& phase) {
     std::size_t n = count;
     for (int r = first; r < last; ++r) {
@@ -58,7 +60,7 @@ struct ActiveOfTask {
 template <class At, class Phase>
 struct ActiveWalk {
   static constexpr std::size_t rows_before = 24, rows_before_other = 12;
-  const ActiveOfTask& list;
+  const ActiveOfTask<At>& list;
   const Phase& phase;
   bool from_memory;
 
@@ -92,20 +94,19 @@ struct ActiveWalk {
 }  // namespace detail
 
 template <class At, class Phase>
-void for_active_pairs(int rows, std::vector<typename Phase::Sums::Block>& sums,
+void for_active_pairs(const RowBlocks<At>& rows, std::vector<typename Phase::Sums::Block>& sums,
                       const Phase& phase) {
-  const int blocks = (rows + rows_of_a_block - 1) / rows_of_a_block;
+  const int blocks = rows.count();
   const int blocks_of_a_task = std::clamp(blocks / detail::min_tasks, 1, detail::max_blocks);
   sums.resize(static_cast<std::size_t>(blocks));
   Deal tasks((blocks + blocks_of_a_task - 1) / blocks_of_a_task,
              tbb::this_task_arena::max_concurrency());
   for_pieces(tasks, [&](int task) {
     const int first = task * blocks_of_a_task, last = std::min(blocks, first + blocks_of_a_task);
-    detail::ActiveOfTask list;
+    detail::ActiveOfTask<At> list;
     for (int block = first; block < last; ++block)
-      list.add_block<At>(block - first, block * rows_of_a_block,
-                         std::min(rows, (block + 1) * rows_of_a_block), phase);
-    const detail::ActiveWalk<At, Phase> walk{list, phase, rows > rows_in_cache};
+      list.add_block(block - first, entry(rows.begin, block), entry(rows.begin, block + 1), phase);
+    const detail::ActiveWalk<At, Phase> walk{list, phase, rows.begin.back() > rows_in_cache};
     walk.begin();
     std::size_t at = 0;
     for (int block = first; block < last; ++block) {

@@ -67,18 +67,6 @@ std::vector<std::int32_t> match(const std::vector<std::int32_t>& before_begin, c
   return source;
 }
 
-// The rows of each slot as the other body.
-void list_other_rows(const BySlot<EdgeCandidate>& rows, ContactIndex& index) {
-  std::vector<std::int32_t>& begin = index.other_begin;
-  begin.assign(rows.begin.size(), 0);
-  for (const EdgeCandidate& c : rows.all) entry(begin, c.other + 1) += 1;
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::int32_t> next = begin;
-  index.other_rows.resize(rows.all.size());
-  for (std::size_t r = 0; r < rows.all.size(); ++r)
-    entry(index.other_rows, entry(next, rows.all[r].other)++) = static_cast<std::int32_t>(r);
-}
-
 struct PairLaw {
   double kappa;  // Pa/m
   const ContactRules::Friction& friction;
@@ -261,8 +249,9 @@ void bin_edges::operator()() const {
       curves.closest(row, g) = CurvePoint{entry(edges, start).first_control, 0.5}.packed();
     }
   });
-  list_other_rows(found, *index);
+  rows.blocks->divide(found.begin);
   index->sampled_begin = std::move(found.begin);
+  index->list_others(rows.pair.values());
   keep_neighbours(neighbours, periodic, *index);
 }
 
@@ -293,7 +282,7 @@ BySlot<ToolCandidate> tool_candidates(const Bodies& bodies, std::span<const doub
   return list_by_slot<ToolCandidate>(
       static_cast<int>(bodies.slots.size()), [&](int slot, std::vector<ToolCandidate>& found) {
         const Bodies::Slot& s = entry(bodies.slots, slot);
-        if (s.number == Bodies::empty_slot) return;
+        if (!bodies.owns(slot)) return;
         const auto& edges = bodies.shape_of_slot(slot).edges;
         for (std::int32_t e = 0; e < static_cast<std::int32_t>(edges.size()); ++e)
           for (int t = 0; t < tools.position.rows(); ++t) {
@@ -339,6 +328,7 @@ void bin_tool_edges::operator()() const {
     (*range)(row, 0) = found.all[r].range.first;
     (*range)(row, 1) = found.all[r].range.last;
   }
+  rows.blocks->divide(found.begin);
   index->tool_begin = std::move(found.begin);
 }
 

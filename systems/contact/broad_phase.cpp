@@ -87,7 +87,7 @@ class Grid {
 
 // Of one outline after the other: boxes of the whole, and of its edges.
 struct Boxes {
-  std::vector<Box> particle;             // [slots]; undefined where is_empty is
+  std::vector<Box> particle;             // [slots]; undefined where is_absent is
   std::vector<std::int32_t> edge_begin;  // [slots] into edge
   std::vector<Box> edge;
 };
@@ -97,7 +97,7 @@ struct Curves {
   std::span<const double> control;
 
   int slots() const { return static_cast<int>(bodies.slots.size()); }
-  bool is_empty(int slot) const { return entry(bodies.slots, slot).number == Bodies::empty_slot; }
+  bool is_absent(int slot) const { return !bodies.is_present(slot); }
   int edges(int slot) const { return static_cast<int>(bodies.shape_of_slot(slot).edges.size()); }
   const double* points(int slot) const {
     return control.data() + 2 * entry(bodies.slots, slot).first_control;
@@ -110,6 +110,7 @@ struct Curves {
   std::vector<Box> particle_boxes() const {
     std::vector<Box> boxes(bodies.slots.size());
     for_slots(slots(), [&](int s) {
+      if (is_absent(s)) return;
       entry(boxes, s) = box_of(points(s), bodies.shape_of_slot(s).control_points());
     });
     return boxes;
@@ -119,10 +120,11 @@ struct Curves {
     std::int32_t count = 0;
     for (int s = 0; s < slots(); ++s) {
       all.edge_begin.push_back(count);
-      count += edges(s);
+      count += is_absent(s) ? 0 : edges(s);
     }
     all.edge.resize(static_cast<std::size_t>(count));
     for_slots(slots(), [&](int s) {
+      if (is_absent(s)) return;
       Box* box = &entry(all.edge, entry(all.edge_begin, s));
       for (int e = 0; e < edges(s); ++e) box[e] = box_of(edge_points(s, e), 4);
     });
@@ -227,6 +229,8 @@ class EdgeSearch {
 
   enum class Of { all, faced };
 
+  const Bodies& bodies() const { return curves_.bodies; }
+
   const Box& edge_box(int slot, int e) const {
     return entry(boxes_.edge, entry(boxes_.edge_begin, slot) + e);
   }
@@ -246,6 +250,7 @@ class EdgeSearch {
                   neighbour.slot == slot && neighbour.image == Image{},
                   {}};
       const Box own = moved(entry(boxes_.particle, slot), {-other.shift[0], -other.shift[1]});
+      if (!bodies().owns(slot) && !bodies().owns(other.slot)) continue;  // of other ranks alone
       if (!near(own, entry(boxes_.particle, other.slot), skin_)) continue;
       for (int e = 0; e < curves_.edges(other.slot); ++e)
         if (near(own, edge_box(other.slot, e), skin_)) other.edges.push_back(e);
@@ -389,9 +394,8 @@ bool before(const Neighbour& a, const Neighbour& b) {
 
 BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const double> control,
                                       const PeriodicCell* cell, double distance) {
-  if (bodies.slot_of_number.empty()) return {{0}, {}};
-  std::vector<int> slots = bodies.slot_of_number;
-  std::ranges::sort(slots);
+  const std::vector<int>& slots = bodies.present_slots;
+  if (slots.empty()) return BySlot<Neighbour>::none(static_cast<int>(bodies.slots.size()));
   const Curves curves{bodies, control};
   const std::vector<Box> own_boxes = curves.particle_boxes();
   const auto images = cell != nullptr
@@ -400,7 +404,7 @@ BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const doub
   const std::vector<Box>& boxes = images ? images->boxes() : own_boxes;
   const Grid grid(boxes, images ? images->ids() : slots, distance);
   return list_by_slot<Neighbour>(curves.slots(), [&](int slot, std::vector<Neighbour>& found) {
-    if (curves.is_empty(slot)) return;
+    if (curves.is_absent(slot)) return;
     const auto first = static_cast<std::ptrdiff_t>(found.size());
     const Box& own = entry(boxes, slot);
     grid.around(own, [&](int other) {
@@ -414,7 +418,6 @@ BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const doub
 BySlot<EdgeCandidate> edge_candidates(const Bodies& bodies, std::span<const double> control,
                                       const PeriodicCell* cell, const BySlot<Neighbour>& neighbours,
                                       double skin) {
-  if (bodies.slot_of_number.empty()) return {{0}, {}};
   const Curves curves{bodies, control};
   const Boxes boxes = curves.boxes();
   return list_by_slot<EdgeCandidate>(curves.slots(),

@@ -19,6 +19,9 @@ struct BySlot {
   std::vector<std::int32_t> begin;  // [slots + 1] into all
   std::vector<T> all;
 
+  static BySlot none(int slots) {
+    return {std::vector<std::int32_t>(static_cast<std::size_t>(slots) + 1), {}};
+  }
   std::span<const T> of(int slot) const {
     return std::span(all).subspan(static_cast<std::size_t>(entry(begin, slot)),
                                   static_cast<std::size_t>(count(slot)));

@@ -80,7 +80,8 @@ void contact_health::operator()() const {
   };
   const BlockSums of_pairs = pairs ? deepest_of(*pairs->sums) : BlockSums{};
   const BlockSums of_tools = tools ? deepest_of(*tools->sums) : BlockSums{};
-  totals->penetration = std::max(std::max(0.0, of_pairs.depth), of_tools.depth);
+  totals->penetration =
+      maximum_of_ranks(link, std::max(std::max(0.0, of_pairs.depth), of_tools.depth));
   // A point that was not found may look deep: that is told first. Where nothing is a number, nothing is found.
   if (pairs && !std::isnan(of_pairs.depth))
     check_projections(*bodies, *clock, rules->unconverged_limit, particle, *pairs, *totals);

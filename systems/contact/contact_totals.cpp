@@ -1,6 +1,7 @@
 // contact_totals: sums of the contact rows.
 //
 // Runs     every step, since dissipation adds up over steps
+#include <array>
 #include <cmath>
 
 #include "components/run_state.hpp"
@@ -11,18 +12,24 @@ namespace pulvis {
 
 namespace {
 
-BlockSums sum_of(const std::vector<BlockSums>& blocks) {
-  BlockSums sum;
-  for (const BlockSums& block : blocks) {
-    sum.touching += block.touching;
-    sum.energy += block.energy;
-    sum.friction_work += block.friction_work;
-    sum.damping_work += block.damping_work;
-    sum.projections += block.projections;
-    sum.unconverged += block.unconverged;
+// Over all blocks of all ranks.
+struct Sums {
+  enum Exact { energy, friction_work, damping_work, exact };
+  enum Count { touching, projections, unconverged, counts };
+  std::array<ExactSum, exact> sum;
+  std::array<std::int64_t, counts> count{};
+
+  void add(const std::vector<BlockSums>& blocks) {
+    for (const BlockSums& block : blocks) {
+      sum[energy].add(block.energy);
+      sum[friction_work].add(block.friction_work);
+      sum[damping_work].add(block.damping_work);
+      count[touching] += block.touching;
+      count[projections] += block.projections;
+      count[unconverged] += block.unconverged;
+    }
   }
-  return sum;
-}
+};
 
 }  // namespace
 
@@ -30,16 +37,18 @@ BlockSums sum_of(const std::vector<BlockSums>& blocks) {
 // so that none is booked before the first touch. The force before times the rate now is, of a linear damper, the
 // geometric mean of both powers.
 void contact_totals::operator()() const {
-  const BlockSums of_pairs = pairs ? sum_of((*pairs)->blocks) : BlockSums{};
-  const BlockSums of_tools = tools ? sum_of((*tools)->blocks) : BlockSums{};
-  totals->touching = of_pairs.touching + of_tools.touching;
-  totals->contact_energy = of_pairs.energy + of_tools.energy;
-  totals->friction_work += of_pairs.friction_work;
-  totals->friction_work += of_tools.friction_work;
-  totals->projections += of_pairs.projections;
-  totals->unconverged += of_pairs.unconverged;
+  Sums of;
+  if (pairs) of.add((*pairs)->blocks);
+  if (tools) of.add((*tools)->blocks);
+  sum_of_ranks(link, std::span(of.sum));
+  sum_of_ranks(link, std::span(of.count));
+  totals->touching = of.count[Sums::touching];
+  totals->contact_energy = of.sum[Sums::energy].value();
+  totals->friction_work += of.sum[Sums::friction_work].value();
+  totals->projections += of.count[Sums::projections];
+  totals->unconverged += of.count[Sums::unconverged];
   const double dt = clock->dt_before;
-  const double power = dt > 0 ? (of_pairs.damping_work + of_tools.damping_work) / dt : 0;
+  const double power = dt > 0 ? of.sum[Sums::damping_work].value() / dt : 0;
   totals->damping_work += 0.5 * (std::sqrt(totals->damping_power * power) + power) * dt;
   totals->damping_power = power;
 }

@@ -25,7 +25,7 @@ Point middle_of(const Bodies& bodies, int slot, const Read<CurvePosition>& curve
 }  // namespace
 
 void lost_bodies::operator()() const {
-  for (const int slot : bodies->slot_of_number) {
+  for (const int slot : bodies->own_slots) {
     const Point middle = middle_of(*bodies, slot, curve);
     for (int t = 0; t < tools.position.rows(); ++t) {
       if (!tools.is(t, ToolShapes::Kind::plane)) continue;

@@ -60,7 +60,7 @@ void weld(const NewBonds<At>& rows, const Write<WeldPressure<At>>& pressure, con
 // Rows among which pressure may weld, of a task each.
 template <class At, class RowWork>
 void for_rows(int rows, const RowWork& work) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, rows, rows_of_a_block), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, rows, RowBlocks<At>::most), [&](const auto& range) {
     for (int r = range.begin(); r < range.end(); ++r) work(Row<At>(r));
   });
 }

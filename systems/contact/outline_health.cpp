@@ -152,7 +152,7 @@ void outline_health::operator()() const {
   const Hollows* holes = hollows ? &**hollows : nullptr;
   const auto faults = list_by_slot<Fault>(
       static_cast<int>(bodies->slots.size()), [&](int slot, std::vector<Fault>& found) {
-        if (entry(bodies->slots, slot).number == Bodies::empty_slot) return;
+        if (!bodies->owns(slot)) return;
         look_at(Boundary(*bodies, slot, position, holes), slot, limit, found);
       });
   if (faults.all.empty()) return;

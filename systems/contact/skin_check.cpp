@@ -13,6 +13,8 @@
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "components/contact.hpp"
 #include "components/surface.hpp"
@@ -20,6 +22,7 @@
 #include "systems/contact/skin_kernel.hpp"
 #include "systems/contact/surface_search.hpp"
 #include "systems/contact/systems.hpp"
+#include "systems/ranks/border.hpp"
 
 namespace pulvis {
 namespace {
@@ -86,27 +89,31 @@ OutlineMotion of_image(const OutlineMotion& m, const ContactIndex& index, const 
 // Particles that were no neighbours: whichever of all moved most against each other.
 double remaining_of_non_neighbours(const ContactIndex& index, const PeriodicCell* cell,
                                    const std::vector<int>& slots,
-                                   const std::vector<OutlineMotion>& motion) {
-  Box all = entry(motion, slots.front()).displacement;
+                                   const std::vector<OutlineMotion>& motion, const Link& link) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::array<double, 4> farthest{none, none, none, none};  // down, left, up, right
   for (const int slot : slots)
-    for (int k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < 2; ++k) {
       const Box& u = entry(motion, slot).displacement;
-      all.low[k] = std::min(all.low[k], u.low[k]);
-      all.high[k] = std::max(all.high[k], u.high[k]);
+      farthest[k] = std::max(farthest[k], -u.low[k]);
+      farthest[2 + k] = std::max(farthest[2 + k], u.high[k]);
     }
+  maximum_of_ranks(link, farthest);
+  const Box all{{-farthest[0], -farthest[1]}, {farthest[2], farthest[3]}};
   return index.neighbourhood - index.reach - kernels::closing(all, all) -
          displacement_of_images(index, cell);
 }
 
-double left_of_neighbours(const ContactIndex& index, const PeriodicCell* cell,
-                          const std::vector<OutlineMotion>& motion, int slot) {
+double left_of_neighbours(const Bodies& bodies, const ContactIndex& index,
+                          const PeriodicCell* cell, const std::vector<OutlineMotion>& motion,
+                          int slot) {
   if (index.neighbour_begin.empty()) return 1e300;
   const OutlineMotion& own = entry(motion, slot);
   double minimum = 1e300;
   for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
        ++k) {
     const int other = entry(index.neighbours, k);
-    if (other < slot) continue;  // seen from there
+    if (other < slot && bodies.owns(other)) continue;  // seen from there
     const OutlineMotion& stored = entry(motion, other);
     const OutlineMotion its = cell == nullptr ? stored : of_image(stored, index, *cell, k);
     const double allowed = std::max(index.skin, kernels::gap(own.before, its.before) - index.reach);
@@ -149,22 +156,25 @@ void skin_check::operator()() const {
   if (index->travel_at_bin >= 0) {
     if (clock->travel + ahead < index->look_at) return;
     std::vector<OutlineMotion> motion(bodies->slots.size());
-    const auto& slots = bodies->slot_of_number;
-    tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
-      const int first = 2 * entry(bodies->slots, slots[i]).first_control;
-      entry(motion, slots[i]) =
+    const auto& slots = bodies->own_slots;
+    const auto& present = bodies->present_slots;
+    tell_border(link, *bodies, control);
+    tbb::parallel_for(std::size_t{0}, present.size(), [&](std::size_t i) {
+      const int first = 2 * entry(bodies->slots, present[i]).first_control;
+      entry(motion, present[i]) =
           motion_of(before.values().data() + first, control.values().data() + first,
-                    bodies->shape_of_slot(slots[i]).control_points());
+                    bodies->shape_of_slot(present[i]).control_points());
     });
     const PeriodicCell* periodic = cell ? &**cell : nullptr;
-    double left = remaining_of_non_neighbours(*index, periodic, slots, motion);
+    double left = remaining_of_non_neighbours(*index, periodic, slots, motion, link);
     left = std::min(left, min_of_slots(slots, [&](int slot) {
-                      return left_of_neighbours(*index, periodic, motion, slot);
+                      return left_of_neighbours(*bodies, *index, periodic, motion, slot);
                     }));
     if (tools)
       left = std::min(left, min_of_slots(slots, [&](int slot) {
                         return left_of_tools(*index, *tools, entry(motion, slot));
                       }));
+    left = minimum_of_ranks(link, left);
     index->look_at = clock->travel + left;
     if (left > std::max(min_left * index->skin, ahead)) return;
   }
@@ -172,7 +182,11 @@ void skin_check::operator()() const {
   index->travel_at_bin = clock->travel;
   index->look_at = clock->travel + index->skin;
   index->bins += 1;
-  std::ranges::copy(control.values(), before.values().begin());
+  for (const int slot : bodies->own_slots) {
+    const auto first = 2 * static_cast<std::size_t>(entry(bodies->slots, slot).first_control);
+    const auto count = 2 * static_cast<std::size_t>(bodies->shape_of_slot(slot).control_points());
+    std::ranges::copy(control.values().subspan(first, count), before.values().begin() + first);
+  }
   index->tools_before.clear();
   for (int t = 0; tools && t < tools->position.rows(); ++t)
     index->tools_before.push_back({tools->position(Row<Tool>(t), 0),

@@ -7,6 +7,7 @@
 #include "components/cell.hpp"
 #include "components/hollow.hpp"
 #include "engine/look_ahead.hpp"
+#include "systems/ranks/reduce.hpp"
 
 namespace pulvis {
 
@@ -14,11 +15,12 @@ namespace pulvis {
 struct skin_check {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Read<CurvePosition> control;
+  Write<CurvePosition> control;  // of the border
   Optional<ToolSurfaces> tools;
   Optional<Read<PeriodicCell>> cell;
   Write<CurveBefore> before;
   Write<ContactIndex> index;
+  Link link;
   void operator()() const;
 };
 
@@ -32,6 +34,7 @@ struct ContactStiffness {
 // What is set when a row is made.
 template <class At>
 struct NewRows {
+  Write<RowBlocks<At>> blocks;
   Write<ContactPair<At>> pair;
   Write<ContactLaw<At>> law;
   Write<ActivationTravel<At>> activation;
@@ -75,6 +78,7 @@ struct bin_tool_edges {
 // What the narrow phases read and write of a row.
 template <class At>
 struct RowColumns {
+  Read<RowBlocks<At>> blocks;
   Read<ContactPair<At>> pair;
   Write<ContactTouches<At>> touches;
   Write<ActivationTravel<At>> activation;
@@ -114,6 +118,7 @@ struct contact_totals {
   Optional<Read<ContactSums<Contact>>> pairs;
   Optional<Read<ContactSums<ToolContact>>> tools;
   Write<Totals> totals;
+  Link link;
   void operator()() const;
 };
 
@@ -226,6 +231,7 @@ struct contact_health {
   Optional<RowsInSum<ToolContact>> tools;
   Optional<Read<ToolProgram>> program;
   Write<Totals> totals;
+  Link link;
   void operator()() const;
 };
 

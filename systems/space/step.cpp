@@ -4,6 +4,7 @@
 #include "components/space/observed.hpp"
 #include "engine/system_list.hpp"
 #include "systems/contact/systems.hpp"
+#include "systems/ranks/systems.hpp"
 #include "systems/space/body/systems.hpp"
 #include "systems/space/contact/systems.hpp"
 #include "systems/space/observe/systems.hpp"
@@ -20,7 +21,15 @@ struct Touches {  // what can touch
   bool any() const { return pairs || tools; }
 };
 
-// On sampled steps, when the forces are known.
+// On sampled steps: of the powder as a whole...
+void observe_whole(World& w, SystemList& observe) {
+  // clang-format off
+  observe.add<contact_network>    ("contact_network",   w.has<ContactNetwork>());
+  observe.add<force_chains>       ("force_chains",      w.has<ForceChains>());
+  observe.add<local_density>      ("local_density",     w.has<DensityGrid>());
+  // clang-format on
+}
+// ...and all, when the forces are known.
 template <class F>
 std::vector<System> observed_in_space(World& w) {
   SystemList observe(w, When::on_sample);
@@ -31,10 +40,8 @@ std::vector<System> observed_in_space(World& w) {
   observe.add<plastic_work<F>>    ("plastic_work",      w.has<PlasticStrain<F::points>>());
   observe.add<hourglass_energy>   ("hourglass_energy",  F::stabilised);
   observe.add<particle_stress<F>> ("particle_stress",   w.has<ParticleStress>());
-  observe.add<contact_network>    ("contact_network",   w.has<ContactNetwork>());
-  observe.add<force_chains>       ("force_chains",      w.has<ForceChains>());
-  observe.add<local_density>      ("local_density",     w.has<DensityGrid>());
   // clang-format on
+  if (!w.has<RankLink>()) observe_whole(w, observe);
   return observe.taken();
 }
 
@@ -44,15 +51,21 @@ template <class F>
 Steps steps_with(World& w) {
   const bool plastic = w.has<PlasticStrain<F::points>>();
   const Touches touches(w);
+  const bool ranks = w.has<RankLink>() && touches.pairs;
   SystemList force(w), move(w);
 
   // clang-format off
   force.add<tool_motion>         ("tool_motion",       touches.tools);
+  force.add<receive_outlines<Space>>("receive_outlines", ranks);
   force.add<skin_check>          ("skin_check",        touches.any());
+  force.add<find_border<Space>>  ("find_border",       ranks);
   force.add<bin_faces>           ("bin_faces",         touches.pairs);
   force.add<bin_tool_faces>      ("bin_tool_faces",    touches.tools);
+  force.add<list_border_pairs>   ("list_border_pairs", ranks);
   force.add<face_contact>        ("face_contact",      touches.pairs);
+  force.add<send_loads>          ("send_loads",        ranks);
   force.add<tool_contact>        ("tool_contact",      touches.tools);
+  force.add<receive_loads>       ("receive_loads",     ranks);
   force.add<contact_totals>      ("contact_totals",    touches.any());
   force.add<contact_health>      ("contact_health",    touches.any());
   force.add<contact_force>       ("contact_force",     touches.any());
@@ -65,6 +78,7 @@ Steps steps_with(World& w) {
 
   move.add<integrate>            ("integrate");
   move.add<contact_surface>      ("contact_surface",   touches.any());
+  move.add<send_outlines<Space>> ("send_outlines",     ranks);
   move.add<element_health>       ("element_health");
   move.add<return_health>        ("return_health",     w.has<ReturnResidual>());
   move.add<advance_clock>        ("advance_clock");
@@ -87,6 +101,12 @@ Formulation formulation_of(const World& w) { return w.resource<Bodies>().formula
 
 Steps steps_of(World& w) {
   return with_hexahedra(formulation_of(w), [&]<class F>(F) { return steps_with<F>(w); });
+}
+
+std::vector<System> observers_of_whole(World& w) {
+  SystemList observe(w, When::on_sample);
+  observe_whole(w, observe);
+  return observe.taken();
 }
 
 std::vector<System> start_of(World& w) {

@@ -14,6 +14,9 @@ struct Steps {
 };
 Steps steps_of(World& world);
 
+// Of sampled steps, of the powder as a whole.
+std::vector<System> observers_of_whole(World& world);
+
 // What has to be known before the first step.
 std::vector<System> start_of(World& world);
 

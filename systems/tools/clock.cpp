@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <span>
 
 #include "components/run_state.hpp"
 #include "components/servo.hpp"
@@ -50,9 +50,8 @@ double farthest_displacement(const ToolProgram& program, const Optional<Read<Ser
 // How far any two surfaces move against each other in a step, at most.
 class Approach {
  public:
-  explicit Approach(const SurfaceSpeeds& speeds) : speeds_(speeds) {
-    if (!speeds.outlines) return;
-    for (const double v : speeds.outlines->values()) fastest_ = std::max(fastest_, v);
+  // `fastest`: m/s, of all outlines.
+  Approach(const SurfaceSpeeds& speeds, double fastest) : speeds_(speeds), fastest_(fastest) {
     if (speeds.cell)
       for (const double v : (*speeds.cell)->rate.t) images_ += std::abs(v);
   }
@@ -67,8 +66,8 @@ class Approach {
 
  private:
   const SurfaceSpeeds& speeds_;
-  double fastest_ = 0;  // m/s
-  double images_ = 0;   // m/s, of the nearest images against their particles
+  double fastest_;
+  double images_ = 0;  // m/s, of the nearest images against their particles
 };
 
 // No surface may be on one side of a part before a step and on its other side after it, or nearer to that.
@@ -81,10 +80,26 @@ double without_passing(const Approach& approach, const Clock& clock, double thin
   return dt;
 }
 
-void choose_time_step(std::span<const double> stable, const Approach& approach,
+// Of all particles of all ranks.
+struct Extremes {
+  double min_step = 1e300, fastest = 0;  // s, m/s
+};
+
+Extremes extremes_of(const Bodies& bodies, const Read<StableTimeStep>& stable,
+                     const SurfaceSpeeds& speeds, const Link& link) {
+  Extremes of;
+  bodies.for_own_lanes([&](int slot) {
+    of.min_step = std::min(of.min_step, entry(stable.values(), slot));
+    if (speeds.outlines) of.fastest = std::max(of.fastest, entry(speeds.outlines->values(), slot));
+  });
+  if (!link) return of;
+  std::array<double, 2> both{of.fastest, -of.min_step};
+  agree(**link, both);
+  return {-both[1], both[0]};
+}
+
+void choose_time_step(double min_step, const Approach& approach,
                       const Optional<Read<ContactRules>>& rules, Clock& clock) {
-  double min_step = 1e300;
-  for (const double dt : stable) min_step = std::min(min_step, dt);
   // Never grow fast: the accelerations that follow from a sudden change belong to the old step.
   const double wanted = clock.safety * min_step;
   clock.dt = clock.dt_before > 0 ? std::min(wanted, 1.02 * clock.dt_before) : wanted;
@@ -113,11 +128,13 @@ void require_in_sight(double displacement, const ContactRules& rules, const Cloc
 }  // namespace
 
 void first_time_step::operator()() const {
-  choose_time_step(stable.values(), Approach(speeds), rules, *clock);
+  const Extremes of = extremes_of(*bodies, stable, speeds, link);
+  choose_time_step(of.min_step, Approach(speeds, of.fastest), rules, *clock);
 }
 
 void advance_clock::operator()() const {
-  const Approach approach(speeds);
+  const Extremes of = extremes_of(*bodies, stable, speeds, link);
+  const Approach approach(speeds, of.fastest);
   const bool looked = clock->step >= clock->next_look;
   std::int64_t interval = max_steps_between_looks;
   if (approach.anything()) {
@@ -139,7 +156,7 @@ void advance_clock::operator()() const {
   clock->time += clock->dt;
   clock->dt_before = clock->dt;
   clock->step += 1;
-  choose_time_step(stable.values(), approach, rules, *clock);
+  choose_time_step(of.min_step, approach, rules, *clock);
 }
 
 }  // namespace pulvis

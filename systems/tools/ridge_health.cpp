@@ -164,7 +164,7 @@ void ridge_health::operator()() const {
                         tools.position, *tools.shapes, *tools.program};
   check_flanks(scenery, rows);
   if (!index->due) return;
-  for (const int slot : bodies->slot_of_number)
+  for (const int slot : bodies->own_slots)
     for (int tool = 0; tool < tools.position.rows(); ++tool)
       if (tools.shapes->is(tool, ToolShapes::Kind::polyline)) check_corners(scenery, slot, tool);
 }

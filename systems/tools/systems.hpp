@@ -53,6 +53,7 @@ struct tool_servo {
   Servos servos;
   TouchingRows<ToolContact> rows;
   Read<ContactLaw<ToolContact>> law;
+  Link link;
   void operator()() const;
 };
 
@@ -145,6 +146,7 @@ struct tool_reaction {
   Read<ToolVelocity> velocity;
   Write<ToolForce> tool_force;
   Write<Totals> totals;
+  Link link;
   void operator()() const;
 };
 
@@ -177,20 +179,24 @@ struct SurfaceSpeeds {
 };
 
 struct first_time_step {  // once, at the start
+  Read<Bodies> bodies;
   Read<StableTimeStep> stable;
   SurfaceSpeeds speeds;
   Optional<Read<ContactRules>> rules;
   Write<Clock> clock;
+  Link link;
   void operator()() const;
 };
 
 struct advance_clock {
+  Read<Bodies> bodies;
   Read<StableTimeStep> stable;
   SurfaceSpeeds speeds;
   Read<Totals> totals;
   Optional<Read<StageEnds>> ends;
   Optional<Read<ContactRules>> rules;
   Write<Clock> clock;
+  Link link;
   void operator()() const;
 };
 

@@ -68,7 +68,7 @@ struct ToolPass {
 }  // namespace
 
 void tool_contact::operator()(SmallTasks) const {
-  for_active_pairs<ToolContact>(columns.pair.rows(), sums->blocks, ToolPass{*this});
+  for_active_pairs(*columns.blocks, sums->blocks, ToolPass{*this});
 }
 
 }  // namespace pulvis

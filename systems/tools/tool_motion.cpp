@@ -43,25 +43,28 @@ void tool_motion::operator()() const {
 
 namespace {
 
-void add_contacts(const TouchingRows<ToolContact>& rows, const Write<ToolForce>& tool_force) {
+using Forces = std::vector<ExactSum>;  // [tools * tool_axes]
+
+void add_contacts(const TouchingRows<ToolContact>& rows, Forces& forces) {
   for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<ToolContact> row(r);
     if (rows.touches(row) == 0) continue;
-    const Row<Tool> tool(rows.pair(row, 2));
-    for (int g = 0; g < edge_points; ++g)
-      for (int k = 0; k < 2; ++k) tool_force(tool, k) -= rows.force(row, 2 * g + k);
+    for (int k = 0; k < 2; ++k) {
+      double sum = 0;
+      for (int g = 0; g < edge_points; ++g) sum -= rows.force(row, 2 * g + k);
+      entry(forces, tool_axes * rows.pair(row, 2) + k).add(sum);
+    }
   }
 }
 
 // A radial constraint moves by x alone and has the sum of the radial forces as x: work is force times displacement
 // for every constraint alike.
-void add_constraints(const tool_reaction::Constraints& constraints,
-                     const Write<ToolForce>& tool_force) {
+void add_constraints(const tool_reaction::Constraints& constraints, Forces& forces) {
   for (int r = 0; r < constraints.target.rows(); ++r) {
     const Row<ConstrainedNode> row(r);
     for (int k = 0; k < 2; ++k)
-      tool_force(Row<Tool>(constraints.target(row, 2)), k) -=
-          constraints.travel(row, k) * constraints.reaction(row);
+      entry(forces, tool_axes * constraints.target(row, 2) + k)
+          .add(-constraints.travel(row, k) * constraints.reaction(row));
   }
 }
 
@@ -78,10 +81,11 @@ void tool_reaction::operator()() const {
     return sum;
   };
   const double power_before = power();
-  for (int t = 0; t < tool_force.rows(); ++t)
-    for (int k = 0; k < tool_axes; ++k) tool_force(Row<Tool>(t), k) = 0;
-  if (contacts) add_contacts(*contacts, tool_force);
-  if (constraints) add_constraints(*constraints, tool_force);
+  Forces forces(tool_force.values().size());
+  if (contacts) add_contacts(*contacts, forces);
+  if (constraints) add_constraints(*constraints, forces);
+  sum_of_ranks(link, forces);
+  std::ranges::transform(forces, tool_force.values().begin(), &ExactSum::value);
   const double work = 0.5 * (power_before + power()) * clock->dt_before;
   totals->external_work += work;
   totals->largest_work = std::max(totals->largest_work, std::abs(work));

@@ -14,23 +14,23 @@ namespace pulvis {
 namespace {
 
 kernels::TouchSums touching(int tool, const TouchingRows<ToolContact>& rows,
-                            const Read<ContactLaw<ToolContact>>& law, double bonds) {
-  kernels::TouchSums sums;
+                            const Read<ContactLaw<ToolContact>>& law, double bonds,
+                            const Link& link) {
+  TouchSum sums;
   for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<ToolContact> row(r);
     if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
-    const kernels::TouchSums one = touching_of(row, rows, law, bonds);
-    sums.stiffness += one.stiffness;
-    sums.damping += one.damping;
+    sums.add(touching_of(row, rows, law, bonds));
   }
-  return sums;
+  return sums.of_ranks(link);
 }
 
 }  // namespace
 
 void tool_servo::operator()() const {
-  drive_tools(servos,
-              [&](int tool) { return touching(tool, rows, law, servos.rules->stiffest_weld()); });
+  drive_tools(servos, [&](int tool) {
+    return touching(tool, rows, law, servos.rules->stiffest_weld(), link);
+  });
 }
 
 }  // namespace pulvis

@@ -7,7 +7,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "systems/space/contact/broad_phase.hpp"
 #include "systems/space/contact/systems.hpp"
@@ -50,27 +49,6 @@ std::vector<std::int32_t> rows_before(const std::vector<std::int32_t>& before_be
     }
   });
   return source;
-}
-
-void list_pairs(const BySlot<FaceCandidate>& rows, FacePairs& pairs) {
-  std::vector<std::int32_t> other;  // [pairs]
-  pairs.begin.assign(1, 0);
-  for (std::size_t r = 0; r < rows.all.size(); ++r) {
-    const FaceCandidate& c = rows.all[r];
-    if (r == 0 || rows.all[r - 1].slot != c.slot || rows.all[r - 1].other != c.other) {
-      other.push_back(c.other);
-      pairs.begin.push_back(0);
-    }
-    pairs.begin.back() = static_cast<std::int32_t>(r) + 1;
-  }
-  std::vector<std::int32_t>& begin = pairs.other_begin;
-  begin.assign(rows.begin.size(), 0);
-  for (const std::int32_t slot : other) entry(begin, slot + 1) += 1;
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::int32_t> next = begin;
-  pairs.of_other.resize(other.size());
-  for (std::size_t p = 0; p < other.size(); ++p)
-    entry(pairs.of_other, entry(next, other[p])++) = static_cast<std::int32_t>(p);
 }
 
 // kappa = k K A/V of the sampled face in series with the other surface's mean, like two springs: a sphere on its mirror
@@ -129,7 +107,7 @@ void bin_faces::operator()() const {
             rules.damping, rows);
     if (source[r] < 0) start_from(found.all[r].start, row, point);
   });
-  list_pairs(found, *pairs);
+  pairs->list(rows.pair.values(), found.begin.size());
   index->sampled_begin = std::move(found.begin);
   index->neighbour_begin = std::move(neighbours.begin);
   index->neighbours = std::move(neighbours.all);
@@ -158,7 +136,7 @@ void bin_tool_faces::operator()() const {
   const ContactRules& rules = *material.rules;
   const FaceLook look{bodies, position.values(), tools, index->skin};
   BySlot<ToolCandidate> found = tool_candidates(look);
-  structure.rebuild(rows_before<FaceToolContact>(index->tool_begin, rows.pair, found));
+  structure.rebuild(rows_before<FaceToolContact>(index->tool_begin, rows.columns.pair, found));
   for (std::size_t r = 0; r < found.all.size(); ++r) {
     const FaceKey key = key_of(found.all[r]);
     const Shape::Face& face = entry(bodies.shape_of(key.slot).faces, key.face);
@@ -167,9 +145,10 @@ void bin_tool_faces::operator()() const {
             entry(material.density.values(), key.slot),
             rules.friction_with_tool(key.other, entry(bodies.bodies->slots, key.slot).material)
                 .coefficient,
-            rules.damping, rows);
+            rules.damping, rows.columns);
   }
   if (triangles) list_triangles(found, look, tools, *triangles);
+  rows.blocks->divide(found.begin);
   index->tool_begin = std::move(found.begin);
 }
 

@@ -14,21 +14,17 @@
 
 namespace pulvis::space {
 
-inline constexpr int candidates_of_a_block = 32;
-
 // A phase says what is done: active(row), fetch(row) (which asks for what it needs before it is needed), and (row, sums of
 // its block).
 template <class At, class Phase>
-void for_active_rows(int rows, std::vector<BlockSums>& sums, const Phase& phase) {
+void for_active_rows(const RowBlocks<At>& rows, std::vector<BlockSums>& sums, const Phase& phase) {
   constexpr std::size_t rows_ahead = 3;
-  const int blocks = (rows + candidates_of_a_block - 1) / candidates_of_a_block;
-  sums.resize(static_cast<std::size_t>(blocks));
-  Deal tasks(blocks, tbb::this_task_arena::max_concurrency());
+  sums.resize(static_cast<std::size_t>(rows.count()));
+  Deal tasks(rows.count(), tbb::this_task_arena::max_concurrency());
   for_pieces(tasks, [&](int block) {
-    std::array<std::int32_t, candidates_of_a_block> active;
+    std::array<std::int32_t, RowBlocks<At>::most> active;
     std::size_t count = 0;
-    const int first = block * candidates_of_a_block;
-    for (int r = first; r < std::min(rows, first + candidates_of_a_block); ++r) {
+    for (int r = entry(rows.begin, block); r < entry(rows.begin, block + 1); ++r) {
       active[count] = r;
       count += phase.active(Row<At>(r)) ? 1 : 0;
     }

@@ -94,6 +94,7 @@ struct FaceSearch {
     std::vector<NearParticle> others;
     const Box& own = entry(boxes.particle, slot);
     for (const std::int32_t neighbour : neighbours.of(slot)) {
+      if (!bodies.bodies->owns(slot) && !bodies.bodies->owns(neighbour)) continue;
       if (!near(own, entry(boxes.particle, neighbour), skin)) continue;
       NearParticle other{neighbour, {}};
       const std::span<const Box> faces = boxes.face.of(neighbour);
@@ -126,7 +127,7 @@ struct FaceSearch {
 SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> faces) {
   SurfaceBoxes boxes{std::vector<Box>(static_cast<std::size_t>(bodies.slots())),
                      list_by_slot<Box>(bodies.slots(), [&](int slot, std::vector<Box>& found) {
-                       if (bodies.is_empty(slot)) return;
+                       if (bodies.is_absent(slot)) return;
                        const double* face =
                            faces.data() + bodies.first_face(slot) * std::ptrdiff_t{face_numbers};
                        for (std::size_t f = 0; f < bodies.shape_of(slot).faces.size(); ++f)
@@ -144,13 +145,12 @@ SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> f
 
 BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
                                          double distance) {
-  std::vector<int> slots = bodies.bodies->slot_of_number;
-  if (slots.empty()) return {{0}, {}};
-  std::ranges::sort(slots);
+  const std::vector<int>& slots = bodies.bodies->present_slots;
+  if (slots.empty()) return BySlot<std::int32_t>::none(bodies.slots());
   const ParticleGrid grid(boxes.particle, slots, distance);
   return list_by_slot<std::int32_t>(
       bodies.slots(), [&](int slot, std::vector<std::int32_t>& found) {
-        if (bodies.is_empty(slot)) return;
+        if (bodies.is_absent(slot)) return;
         const auto first = static_cast<std::ptrdiff_t>(found.size());
         const Box& own = entry(boxes.particle, slot);
         grid.around(own, [&](int other) {
@@ -163,7 +163,6 @@ BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const Surfa
 
 BySlot<FaceCandidate> face_candidates(const ShapedBodies& bodies, const SurfaceBoxes& boxes,
                                       const BySlot<std::int32_t>& neighbours, double skin) {
-  if (bodies.bodies->slot_of_number.empty()) return {{0}, {}};
   return list_by_slot<FaceCandidate>(bodies.slots(), FaceSearch{bodies, boxes, neighbours, skin});
 }
 

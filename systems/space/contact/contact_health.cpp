@@ -78,7 +78,7 @@ void contact_health::operator()() const {
   const Watch watch{bodies, *clock, *rules};
   const Deepest of_pairs = pairs ? deepest_of(pairs->sums->blocks) : Deepest{};
   const Deepest of_tools = tools ? deepest_of(tools->sums->blocks) : Deepest{};
-  totals->penetration = std::max(of_pairs.depth, of_tools.depth);
+  totals->penetration = maximum_of_ranks(link, std::max(of_pairs.depth, of_tools.depth));
   // A point that was not found may look deep: that is told first. Where nothing is a number, nothing is found.
   if (pairs && !std::isnan(of_pairs.depth)) watch.projections(*pairs, *totals);
   if (pairs && watch.too_deep(of_pairs))

@@ -7,9 +7,11 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "systems/contact/by_slot.hpp"
 #include "systems/space/contact/box.hpp"
+#include "systems/ranks/border.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
@@ -43,13 +45,26 @@ SurfaceMotion motion_of(const double* before, const double* now, std::size_t fac
 
 // What is left of the skin.
 struct Remaining {
+  const Bodies& bodies;
   const ContactIndex& index;
   const std::vector<SurfaceMotion>& motion;  // [slots]
 
   // Particles that were no neighbours: whichever of all moved most against each other.
-  double of_non_neighbours(const std::vector<int>& slots) const {
-    Box all = entry(motion, slots.front()).displacement;
-    for (const int slot : slots) all = joined(all, entry(motion, slot).displacement);
+  double of_non_neighbours(const std::vector<int>& slots, const Link& link) const {
+    std::array<double, 6> farthest;
+    farthest.fill(-std::numeric_limits<double>::infinity());
+    for (const int slot : slots)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Box& u = entry(motion, slot).displacement;
+        farthest[k] = std::max(farthest[k], -u.low[k]);
+        farthest[3 + k] = std::max(farthest[3 + k], u.high[k]);
+      }
+    maximum_of_ranks(link, farthest);
+    Box all;
+    for (std::size_t k = 0; k < 3; ++k) {
+      all.low[k] = -farthest[k];
+      all.high[k] = farthest[3 + k];
+    }
     return index.neighbourhood - kernels::closing(all, all);
   }
   double of_neighbours(int slot) const {
@@ -59,7 +74,7 @@ struct Remaining {
     for (int k = entry(index.neighbour_begin, slot); k < entry(index.neighbour_begin, slot + 1);
          ++k) {
       const int other = entry(index.neighbours, k);
-      if (other < slot) continue;  // seen from there
+      if (other < slot && bodies.owns(other)) continue;  // seen from there
       const SurfaceMotion& its = entry(motion, other);
       minimum = std::min(minimum, std::max(index.skin, kernels::gap(own.before, its.before)) -
                                       kernels::closing(own.displacement, its.displacement));
@@ -99,21 +114,24 @@ void skin_check::operator()() const {
   if (index->travel_at_bin >= 0) {
     if (clock->travel + ahead < index->look_at) return;
     std::vector<SurfaceMotion> motion(bodies.bodies->slots.size());
-    const auto& slots = bodies.bodies->slot_of_number;
+    const auto& slots = bodies.bodies->own_slots;
+    const auto& present = bodies.bodies->present_slots;
     std::vector<double> left(slots.size());
-    const Remaining remaining{*index, motion};
-    tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
-      const std::ptrdiff_t first = bodies.first_face(slots[i]) * std::ptrdiff_t{face_numbers};
-      entry(motion, slots[i]) =
+    const Remaining remaining{*bodies.bodies, *index, motion};
+    tell_border(link, *bodies.bodies, position);
+    tbb::parallel_for(std::size_t{0}, present.size(), [&](std::size_t i) {
+      const std::ptrdiff_t first = bodies.first_face(present[i]) * std::ptrdiff_t{face_numbers};
+      entry(motion, present[i]) =
           motion_of(before.values().data() + first, position.values().data() + first,
-                    bodies.shape_of(slots[i]).faces.size());
+                    bodies.shape_of(present[i]).faces.size());
     });
     tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
       left[i] = remaining.of_neighbours(slots[i]);
       if (tools) left[i] = std::min(left[i], remaining.of_tools(*tools, slots[i]));
     });
-    const double minimum =
-        std::min(remaining.of_non_neighbours(slots), *std::ranges::min_element(left));
+    double minimum = remaining.of_non_neighbours(slots, link);
+    for (const double of_slot : left) minimum = std::min(minimum, of_slot);
+    minimum = minimum_of_ranks(link, minimum);
     index->look_at = clock->travel + minimum;
     if (minimum > std::max(min_left * index->skin, ahead)) return;
   }
@@ -121,7 +139,12 @@ void skin_check::operator()() const {
   index->travel_at_bin = clock->travel;
   index->look_at = clock->travel + index->skin;
   index->bins += 1;
-  std::ranges::copy(position.values(), before.values().begin());
+  for (const int slot : bodies.bodies->own_slots) {
+    const auto first = static_cast<std::size_t>(bodies.first_face(slot)) * face_numbers;
+    const std::size_t count = bodies.shape_of(slot).faces.size() * face_numbers;
+    std::ranges::copy(position.values().subspan(first, count),
+                      before.values().begin() + static_cast<std::ptrdiff_t>(first));
+  }
   index->tools_before.clear();
   for (int t = 0; tools && t < tools->position.rows(); ++t)
     index->tools_before.push_back(tool_position(t));

@@ -6,6 +6,7 @@
 #include "components/space/body.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
+#include "systems/ranks/reduce.hpp"
 
 namespace pulvis::space {
 
@@ -28,10 +29,11 @@ struct contact_surface {
 struct skin_check {
   ShapedBodies bodies;
   Read<Clock> clock;
-  Read<FacePosition> position;
+  Write<FacePosition> position;  // of the border
   Optional<ToolSurfaces> tools;
   Write<FaceBefore> before;
   Write<ContactIndex> index;
+  Link link;
   void operator()() const;
 };
 
@@ -68,7 +70,10 @@ struct bin_tool_faces {
   ToolSurfaces tools;
   Write<ContactIndex> index;
   Structural<FaceToolContact> structure;
-  NewRows<FaceToolContact> rows;
+  struct Rows {
+    NewRows<FaceToolContact> columns;
+    Write<RowBlocks<FaceToolContact>> blocks;
+  } rows;
   struct Triangles {
     Write<TriangleRange> range;
     Write<TriangleLists> lists;
@@ -145,6 +150,7 @@ struct contact_health {
   };
   Optional<Tools> tools;
   Write<Totals> totals;
+  Link link;
   void operator()() const;
 };
 

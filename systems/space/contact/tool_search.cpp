@@ -83,7 +83,7 @@ void FaceLook::add_triangles(const ToolCandidate& c, std::vector<std::int32_t>& 
 BySlot<ToolCandidate> tool_candidates(const FaceLook& look) {
   return list_by_slot<ToolCandidate>(
       look.bodies.slots(), [&](int slot, std::vector<ToolCandidate>& found) {
-        if (look.bodies.is_empty(slot)) return;
+        if (!look.bodies.bodies->owns(slot)) return;
         const auto faces = static_cast<std::int32_t>(look.bodies.shape_of(slot).faces.size());
         for (std::int32_t f = 0; f < faces; ++f)
           for (std::int32_t t = 0; t < look.tools.position.rows(); ++t)

@@ -192,7 +192,7 @@ void contact_network::operator()() const {
   const auto found_by = [&](const auto& find) {
     auto links =
         list_by_slot<ContactLink>(bodies.slots(), [&](int slot, std::vector<ContactLink>& found) {
-          if (!bodies.is_empty(slot)) find(slot, found);
+          if (bodies.bodies->owns(slot)) find(slot, found);
         });
     sort_by_numbers(links.all);
     return std::move(links.all);

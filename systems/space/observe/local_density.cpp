@@ -150,7 +150,7 @@ void local_density::operator()() const {
   look.find_room(lines);
   const auto found =
       list_by_slot<VolumeInCell>(bodies.slots(), [&](int slot, std::vector<VolumeInCell>& of_slot) {
-        if (!bodies.is_empty(slot)) look.find_volumes(lines, slot, of_slot);
+        if (bodies.bodies->owns(slot)) look.find_volumes(lines, slot, of_slot);
       });
   for (const int slot : bodies.bodies->slot_of_number)
     for (const VolumeInCell& part : found.of(slot)) grid->filled[part.cell] += part.volume;

@@ -20,6 +20,7 @@ struct tool_contact {
   Read<Clock> clock;
   ContactFaces faces;
   struct Columns {
+    Read<RowBlocks<FaceToolContact>> blocks;
     Read<ContactPair<FaceToolContact>> pair;
     Write<ContactTouches<FaceToolContact>> touches;
     Write<Activation<FaceToolContact>> activation;
@@ -41,6 +42,7 @@ struct tool_reaction {
   Read<ToolVelocity> velocity;
   Write<ToolForce> tool_force;
   Write<Totals> totals;
+  Link link;
   void operator()() const;
 };
 
@@ -49,6 +51,7 @@ struct tool_servo {
   ShapedBodies bodies;
   TouchingRows rows;
   Read<ContactLaw<FaceToolContact>> law;
+  Link link;
   void operator()() const;
 };
 

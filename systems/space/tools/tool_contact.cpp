@@ -120,7 +120,7 @@ struct ToolPass {
 }  // namespace
 
 void tool_contact::operator()(SmallTasks) const {
-  for_active_rows<FaceToolContact>(columns.pair.rows(), sums->blocks, ToolPass{*this});
+  for_active_rows(*columns.blocks, sums->blocks, ToolPass{*this});
 }
 
 }  // namespace pulvis::space

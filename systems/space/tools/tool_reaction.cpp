@@ -18,16 +18,18 @@ void tool_reaction::operator()() const {
     return sum;
   };
   const double power_before = power();
-  for (int t = 0; t < tool_force.rows(); ++t)
-    for (int k = 0; k < 3; ++k) tool_force(Row<Tool>(t), k) = 0;
+  std::vector<ExactSum> forces(tool_force.values().size());
   for (int r = 0; r < contacts.pair.rows(); ++r) {
     const Row<FaceToolContact> row(r);
     if (contacts.touches(row) == 0) continue;
-    const Row<Tool> tool(contacts.pair(row, 2));
-    for (int k = 0; k < 3; ++k)
-      for (int g = 0; g < face_points; ++g)
-        tool_force(tool, k) -= contacts.force(row, face_points * k + g);
+    for (int k = 0; k < 3; ++k) {
+      double sum = 0;
+      for (int g = 0; g < face_points; ++g) sum -= contacts.force(row, face_points * k + g);
+      entry(forces, tool_axes * contacts.pair(row, 2) + k).add(sum);
+    }
   }
+  sum_of_ranks(link, forces);
+  std::ranges::transform(forces, tool_force.values().begin(), &ExactSum::value);
   const double work = 0.5 * (power_before + power()) * clock->dt_before;
   totals->external_work += work;
   totals->largest_work = std::max(totals->largest_work, std::abs(work));

@@ -39,15 +39,13 @@ kernels::TouchSums touching_of_row(const tool_servo& s, Row<FaceToolContact> row
 
 void tool_servo::operator()() const {
   drive_tools(servos, [&](int tool) {
-    kernels::TouchSums sums;
+    TouchSum sums;
     for (int r = 0; r < rows.pair.rows(); ++r) {
       const Row<FaceToolContact> row(r);
       if (rows.touches(row) == 0 || rows.pair(row, 2) != tool) continue;
-      const kernels::TouchSums one = touching_of_row(*this, row);
-      sums.stiffness += one.stiffness;
-      sums.damping += one.damping;
+      sums.add(touching_of_row(*this, row));
     }
-    return sums;
+    return sums.of_ranks(link);
   });
 }
 

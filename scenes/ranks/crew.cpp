@@ -1,0 +1,120 @@
+#include "scenes/ranks/crew.hpp"
+
+#include <algorithm>
+
+#include "components/contact.hpp"
+#include "components/ranks.hpp"
+#include "components/run_state.hpp"
+#include "engine/state_bytes.hpp"
+#include "scenes/language/problem.hpp"
+
+namespace pulvis {
+namespace {
+
+bool looks_at_motion(const Scene& scene) {
+  const bool shears = std::ranges::any_of(
+      scene.stages, [](const StageSpec& stage) { return stage.kind == StageSpec::Kind::shear; });
+  return shears || scene.output.density() || !scene.expects.empty();
+}
+
+}  // namespace
+
+Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene)
+    : share_(share),
+      whole_(std::move(whole)),
+      ranks_(*share.resource<RankLink>().ranks),
+      needs_motion_(looks_at_motion(scene)) {}
+
+Crew::~Crew() {
+  if (leads()) tell({Order::Kind::leave});
+}
+
+void Crew::tell(Order order) {
+  StateWriter writer;
+  order.state(writer);
+  Ranks::Bytes bytes = writer.bytes();
+  ranks_.broadcast(bytes);
+}
+
+Order Crew::listen() {
+  Ranks::Bytes bytes;
+  ranks_.broadcast(bytes);
+  Order order;
+  StateReader reader(bytes);
+  order.state(reader);
+  return order;
+}
+
+bool Crew::goes_on(bool of_root) {
+  Ranks::Bytes bytes(1, std::byte{of_root});
+  ranks_.broadcast(bytes);
+  return bytes.front() != std::byte{0};
+}
+
+void Crew::fetch(const Order& order) {
+  Gathering gathering(share_, whole_.get());
+  for (const std::uint64_t number : order.columns)
+    gathering.column(static_cast<std::size_t>(number));
+  if (order.rows) gathering.rows();
+  gathering.common();
+}
+
+std::vector<std::uint64_t> Crew::numbers_of(const std::vector<std::string>& names) const {
+  std::vector<std::uint64_t> numbers;
+  const auto& columns = share_.columns();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string name = columns[i]->entity + "/" + columns[i]->info.name;
+    const bool asked = std::ranges::any_of(names, [&](const std::string& wanted) {
+      return wanted == name || wanted == columns[i]->entity + "/*";
+    });
+    if (asked && is_by_chunk(*columns[i])) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+Order Crew::fetch_sample() const {
+  std::vector<std::string> names{"particle/*", "curve/position", "surface_face/position"};
+  if (needs_motion_) names.insert(names.end(), {"node/position", "node/velocity"});
+  return {Order::Kind::observe, 0, numbers_of(names), true};
+}
+Order Crew::fetch_frame() const {
+  return {Order::Kind::fetch, 0,
+          numbers_of({"node/position", "node/velocity", "element/deviatoric_stress",
+                      "element/mean_stress", "element/plastic_strain"})};
+}
+Order Crew::fetch_mesh() const { return {Order::Kind::fetch, 0, numbers_of({"node/position"})}; }
+Order Crew::fetch_state() const {
+  return {Order::Kind::fetch, 0,
+          numbers_of({"node/position", "node/velocity", "element/plastic_metric",
+                      "element/plastic_strain", "element/plastic_hourglass"}),
+          true};
+}
+
+void Crew::drop() {
+  for (const ColumnBase* column : whole_->columns()) drop(*column);
+}
+
+void Crew::drop(const ColumnBase& column) {
+  const bool small = column.entity == "particle";
+  if (is_by_chunk(column) && !small)
+    const_cast<ColumnBase&>(column).drop(0, column.owner().rows);
+}
+
+std::size_t Crew::number_of(const ColumnBase& column) const {
+  const auto& columns = whole_->columns();
+  return static_cast<std::size_t>(std::ranges::find(columns, &column) - columns.begin());
+}
+
+void require_ranks_can_run(const Scene& scene) {
+  const auto refuse = [&](const char* key, const char* what) {
+    SceneProblem problem{scene.file.string()};
+    problem.key = key;
+    problem.message =
+        std::string("a run over several ranks has no ") + what + ", allowed: --ranks 1";
+    throw SceneError({problem});
+  };
+  if (scene.afm) refuse("afm", "levers");
+  if (!scene.bonds.empty()) refuse("bond", "bonds");
+}
+
+}  // namespace pulvis

@@ -1,0 +1,80 @@
+// The ranks of a run under its root. The root drives the simulation, and tells the others before every call what is to be
+// done; they follow. Results are the root's alone: it has a second world, of the whole scene, into which what they need is
+// fetched, and which takes memory for no longer than they do.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/files/checkpoint.hpp"
+#include "engine/ranks/ranks.hpp"
+#include "engine/world.hpp"
+#include "scenes/ranks/gather.hpp"
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// What the root tells the others to do.
+struct Order {
+  enum class Kind {
+    run,      // to a time
+    observe,  // and fetch
+    move,
+    fetch,  // columns, rows
+    restore,
+    leave
+  };
+  Kind kind = Kind::leave;
+  double time = 0;                     // s
+  std::vector<std::uint64_t> columns{};  // numbers, of World::columns
+  bool rows = false;
+  std::string file{};  // a checkpoint
+
+  template <class Bytes>
+  void state(Bytes& bytes) {
+    bytes(kind, time, columns, rows, file);
+  }
+};
+
+class Crew {
+ public:
+  // `whole`: on the root, as build_whole_world made it.
+  Crew(World& share, std::unique_ptr<World> whole, const Scene& scene);
+  ~Crew();  // the root's: the others leave
+
+  bool leads() const { return ranks_.is_root(); }
+  // Of the root, to all.
+  void tell(Order order);
+  // Of the others.
+  Order listen();
+  // Whether the root goes on: its answer, on all ranks.
+  bool goes_on(bool of_root);
+
+  // What a rank does for it.
+  void fetch(const Order& order);
+
+  // ---- of the root
+  World& whole() { return *whole_; }
+  Order fetch_sample() const;
+  Order fetch_frame() const;
+  Order fetch_state() const;
+  Order fetch_mesh() const;
+  // What was fetched takes no memory any more, but for small columns.
+  void drop();
+  void drop(const ColumnBase& column);
+  std::size_t number_of(const ColumnBase& column) const;
+
+ private:
+  std::vector<std::uint64_t> numbers_of(const std::vector<std::string>& names) const;
+
+  World& share_;
+  std::unique_ptr<World> whole_;
+  Ranks& ranks_;
+  bool needs_motion_;  // results look at nodes at every sample
+};
+
+// What a run over several ranks cannot do yet. Throws SceneError.
+void require_ranks_can_run(const Scene& scene);
+
+}  // namespace pulvis

@@ -1,0 +1,51 @@
+// How ranks tell each other where the outlines of particles are.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "components/shape.hpp"
+#include "systems/ranks/reduce.hpp"
+
+namespace pulvis {
+
+// A column of outlines: in two dimensions of control points, in three of faces.
+class Outlines {
+ public:
+  template <class C>
+  Outlines(const Write<C>& column)
+      : table_(column.table()), values_(column.values()), numbers_(C::count) {}
+  std::span<double> of(const Bodies& bodies, int slot) const {
+    const auto chunk = static_cast<std::size_t>(slot / lane_count);
+    const auto rows = static_cast<std::size_t>(
+        (table_.chunk_begin[chunk + 1] - table_.chunk_begin[chunk]) / lane_count);
+    const auto first = static_cast<std::size_t>(entry(bodies.slots, slot).first_control);
+    return values_.subspan(first * numbers_, rows * numbers_);
+  }
+
+ private:
+  const Table& table_;
+  std::span<double> values_;
+  std::size_t numbers_;
+};
+
+// What the outlines of `slots` are in all columns, one after the other, and back.
+Ranks::Bytes packed(const Bodies& bodies, std::span<const int> slots,
+                    std::span<const Outlines> columns);
+void unpack(std::span<const std::byte> bytes, const Bodies& bodies, std::span<const int> slots,
+            std::span<const Outlines> columns);
+
+// Slots as a message, and back.
+Ranks::Bytes bytes_of_slots(const std::vector<int>& slots);
+std::vector<int> slots_in(const Ranks::Bytes& bytes);
+
+// All of the border, at once; nothing where the run has one process.
+void tell_border(RankLink& link, const Bodies& bodies, std::span<const Outlines> columns);
+inline void tell_border(RankLink& link, const Bodies& bodies, const Outlines& column) {
+  tell_border(link, bodies, std::span(&column, 1));
+}
+inline void tell_border(const Link& link, const Bodies& bodies, const Outlines& column) {
+  if (link) tell_border(**link, bodies, column);
+}
+
+}  // namespace pulvis

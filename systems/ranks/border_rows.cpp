@@ -1,0 +1,91 @@
+// list_border_rows, list_border_pairs: which rows two ranks share, and whose outlines they need.
+//
+// Law      a row is its sampled particle's owner's, who computes it. The owner of the other particle has it, too, and rests
+//          it. Both know the rows that they share in the same order, so that a row is told by its position among them
+// Runs     after the broad phase, when it has made new rows
+// Active   when the run has several ranks
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "systems/ranks/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// What two ranks share, by the other's number.
+class Shared {
+ public:
+  explicit Shared(const RankLink& link, const Bodies& bodies) : link_(link), bodies_(bodies) {}
+
+  // `number`: of the row or pair. True where another rank computes it.
+  bool take(int number, int sampled, int other) {
+    const bool own = bodies_.owns(sampled), its = bodies_.owns(other);
+    if (own && its) return false;
+    const int far = own ? other : sampled;
+    RankLink::Neighbour& rows = rows_[link_.owner_of(far)];
+    RankLink::Neighbour& outlines = outlines_[link_.owner_of(far)];
+    (own ? rows.send : rows.receive).push_back(number);
+    if (own)
+      outlines.receive.push_back(other);  // the narrow phase looks at it
+    else
+      outlines.send.push_back(other);  // the other's does
+    return !own;
+  }
+  static std::vector<RankLink::Neighbour> listed(std::map<int, RankLink::Neighbour> by_rank,
+                                                 bool slots) {
+    std::vector<RankLink::Neighbour> all;
+    for (auto& [rank, neighbour] : by_rank) {
+      neighbour.rank = rank;
+      for (std::vector<int>* list : {&neighbour.send, &neighbour.receive}) {
+        if (!slots) continue;
+        std::ranges::sort(*list);
+        list->erase(std::unique(list->begin(), list->end()), list->end());
+      }
+      all.push_back(std::move(neighbour));
+    }
+    return all;
+  }
+  std::vector<RankLink::Neighbour> rows() const { return listed(rows_, false); }
+  std::vector<RankLink::Neighbour> outlines() const { return listed(outlines_, true); }
+
+ private:
+  const RankLink& link_;
+  const Bodies& bodies_;
+  std::map<int, RankLink::Neighbour> rows_, outlines_;
+};
+
+}  // namespace
+
+void list_border_rows::operator()() const {
+  if (index->due) list();
+}
+void list_border_rows::list() const {
+  Shared shared(*link, *bodies);
+  for (int r = 0; r < pair.rows(); ++r) {
+    const Row<Contact> row(r);
+    if (shared.take(r, pair(row, 0), pair(row, 2))) activation(row) = never;
+  }
+  link->rows = shared.rows();
+  link->outlines = shared.outlines();
+}
+
+void list_border_pairs::operator()() const {
+  if (index->due) list();
+}
+void list_border_pairs::list() const {
+  Shared shared(*link, *bodies);
+  for (int p = 0; p < pairs->count(); ++p) {
+    const int first = entry(pairs->begin, p), end = entry(pairs->begin, p + 1);
+    const Row<FaceContact> row(first);
+    if (!shared.take(p, pair(row, 0), pair(row, 2))) continue;
+    for (int r = first; r < end; ++r)
+      for (int g = 0; g < space::face_points; ++g) activation(Row<FaceContact>(r), g) = never;
+  }
+  link->rows = shared.rows();
+  link->outlines = shared.outlines();
+}
+
+}  // namespace pulvis

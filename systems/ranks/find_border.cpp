@@ -1,0 +1,143 @@
+// find_border: which particles of other ranks are near those of this one, and where their outlines are.
+//
+// Law      every rank tells all others the box of its own particles, and sends to each what comes near its box. So both
+//          ranks of a pair of particles have both outlines, and find the same candidates
+// Runs     between skin_check, which says when, and the broad phase
+// Active   when the run has several ranks
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "systems/ranks/border.hpp"
+#include "systems/ranks/systems.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+struct Extent {  // a box, z = 0 in two dimensions; of nothing as it begins
+  std::array<double, 3> low{endless, endless, endless}, high{-endless, -endless, -endless};
+
+  void take(std::size_t axis, double x) {
+    low[axis] = std::min(low[axis], x);
+    high[axis] = std::max(high[axis], x);
+  }
+  void take(const Extent& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      take(k, other.low[k]);
+      take(k, other.high[k]);
+    }
+  }
+  bool is_near(const Extent& other, const Point& shift, double distance) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double by = k < 2 ? shift[k] : 0;
+      if (!(low[k] + by <= other.high[k] + distance && other.low[k] <= high[k] + by + distance))
+        return false;
+    }
+    return true;
+  }
+  bool is_empty() const { return low[0] > high[0]; }
+};
+
+Extent extent_of(Plane, std::span<const double> points) {
+  Extent extent;
+  for (std::size_t i = 0; i < points.size(); ++i) extent.take(i % 2, points[i]);
+  extent.take(2, 0);
+  return extent;
+}
+Extent extent_of(Space, std::span<const double> faces) {
+  Extent extent;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    extent.take(i / 16 % 3, faces[i]);  // of a face all x, then y, z
+  return extent;
+}
+
+// Whether an image of `own`, or it itself, comes near `there`.
+bool comes_near(const Extent& own, const Extent& there, const PeriodicCell* cell, double distance) {
+  if (there.is_empty()) return false;
+  if (cell == nullptr) return own.is_near(there, {}, distance);
+  const Tensor2 inverse = cell->vectors.inverse();
+  Point apart{}, half{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    apart[k] = 0.5 * (there.low[k] + there.high[k] - own.low[k] - own.high[k]);
+    half[k] = 0.5 * (there.high[k] - there.low[k] + own.high[k] - own.low[k]) + distance;
+  }
+  const Point middle = inverse * apart;
+  std::array<int, 2> first, last;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double width =
+        std::abs(inverse.t[2 * k]) * half[0] + std::abs(inverse.t[2 * k + 1]) * half[1];
+    first[k] = static_cast<int>(std::floor(middle[k] - width));
+    last[k] = static_cast<int>(std::ceil(middle[k] + width));
+  }
+  for (int i = first[0]; i <= last[0]; ++i)
+    for (int k = first[1]; k <= last[1]; ++k)
+      if (own.is_near(there, cell->vectors * Image{i, k}, distance)) return true;
+  return false;
+}
+
+// Of every rank the box of its particles.
+std::vector<Extent> extents_of_ranks(const RankLink& link, const Extent& own) {
+  const auto count = static_cast<std::size_t>(link.ranks->count());
+  std::vector<double> numbers(6 * count, -endless);
+  double* mine = &numbers[6 * static_cast<std::size_t>(link.ranks->rank())];
+  for (std::size_t k = 0; k < 3; ++k) {
+    mine[k] = -own.low[k];
+    mine[3 + k] = own.high[k];
+  }
+  link.ranks->maximum(numbers);
+  std::vector<Extent> all(count);
+  for (std::size_t r = 0; r < count; ++r)
+    for (std::size_t k = 0; k < 3; ++k) {
+      all[r].low[k] = -numbers[6 * r + k];
+      all[r].high[k] = numbers[6 * r + 3 + k];
+    }
+  return all;
+}
+
+}  // namespace
+
+template <class D>
+void find_border<D>::operator()() const {
+  if (!index->due) return;
+  const PeriodicCell* periodic = cell ? &**cell : nullptr;
+  const Outlines outlines(position);
+  std::vector<Extent> extent;
+  Extent own;
+  for (const int slot : bodies->own_slots) {
+    extent.push_back(extent_of(D{}, outlines.of(*bodies, slot)));
+    own.take(extent.back());
+  }
+  const std::vector<Extent> of_rank = extents_of_ranks(*link, own);
+  std::vector<Ranks::Bytes> to(of_rank.size());
+  std::vector<std::vector<int>> sent(of_rank.size());
+  for (std::size_t r = 0; r < of_rank.size(); ++r) {
+    if (static_cast<int>(r) == link->ranks->rank()) continue;
+    for (std::size_t i = 0; i < extent.size(); ++i)
+      if (comes_near(extent[i], of_rank[r], periodic, index->neighbourhood))
+        sent[r].push_back(bodies->own_slots[i]);
+    std::ranges::sort(sent[r]);
+    to[r] = bytes_of_slots(sent[r]);
+  }
+  const std::vector<Ranks::Bytes> from = link->ranks->all_to_all(std::move(to));
+  std::vector<int> border;
+  link->border.clear();
+  for (std::size_t r = 0; r < of_rank.size(); ++r) {
+    if (sent[r].empty() && from[r].empty()) continue;
+    link->border.push_back({static_cast<int>(r), sent[r], slots_in(from[r])});
+    const auto& received = link->border.back().receive;
+    border.insert(border.end(), received.begin(), received.end());
+  }
+  bodies->set_border(border);
+  tell_border(*link, *bodies, outlines);
+  const Outlines old(before);
+  for (const int slot : border)
+    std::ranges::copy(outlines.of(*bodies, slot), old.of(*bodies, slot).begin());
+}
+
+template struct find_border<Plane>;
+template struct find_border<Space>;
+
+}  // namespace pulvis

@@ -1,0 +1,105 @@
+// Systems of a run of several ranks: borders, and what is told across them. What a system reads and writes is what it
+// declares here, once; systems/step.cpp and systems/space/step.cpp put them in order.
+// D: Plane or Space, the columns of the outlines in two and three dimensions.
+#pragma once
+
+#include "components/bundles.hpp"
+#include "components/space/contact.hpp"
+#include "systems/ranks/reduce.hpp"
+
+namespace pulvis {
+
+struct Plane {
+  using Position = CurvePosition;
+  using Velocity = CurveVelocity;
+  using Before = CurveBefore;
+};
+struct Space {
+  using Position = space::FacePosition;
+  using Velocity = space::FaceVelocity;
+  using Before = space::FaceBefore;
+};
+
+// ---- when the rows are made anew ------------------------------------------------------------------
+template <class D>
+struct find_border {
+  Read<Clock> clock;
+  Read<ContactIndex> index;
+  Optional<Read<PeriodicCell>> cell;
+  Write<Bodies> bodies;
+  Write<typename D::Position> position;
+  Write<typename D::Before> before;
+  Write<RankLink> link;
+  void operator()() const;
+};
+
+struct list_border_rows {
+  Read<Bodies> bodies;
+  Read<ContactIndex> index;
+  Read<ContactPair<Contact>> pair;
+  Write<ActivationTravel<Contact>> activation;
+  Write<RankLink> link;
+  void operator()() const;
+  void list() const;  // whether rows are due or not
+};
+
+struct list_border_pairs {
+  Read<Bodies> bodies;
+  Read<ContactIndex> index;
+  Read<ContactPair<FaceContact>> pair;
+  Read<space::FacePairs> pairs;
+  Write<space::Activation<FaceContact>> activation;
+  Write<RankLink> link;
+  void operator()() const;
+  void list() const;
+};
+
+// ---- in every step ----------------------------------------------------------------------------------
+template <class D>
+struct send_outlines {
+  Read<Bodies> bodies;
+  Write<typename D::Position> position;
+  Optional<Write<typename D::Velocity>> velocity;
+  Write<RankLink> link;
+  void operator()() const;
+};
+
+template <class D>
+struct receive_outlines {
+  Read<Bodies> bodies;
+  Write<typename D::Position> position;
+  Optional<Write<typename D::Velocity>> velocity;
+  Write<RankLink> link;
+  void operator()(SmallTasks) const;
+};
+
+// What a row does to its other particle.
+struct RowsAcross {
+  Write<ContactTouches<Contact>> touches;
+  Write<PointForce<Contact>> force;
+  Write<ClosestPoint> closest;
+  Optional<Write<FrictionCouple>> couple;
+};
+struct send_contacts {
+  RowsAcross rows;
+  Write<RankLink> link;
+  void operator()() const;
+};
+struct receive_contacts {
+  RowsAcross rows;
+  Write<RankLink> link;
+  void operator()(SmallTasks) const;
+};
+
+struct send_loads {
+  Write<space::OtherLoads> loads;
+  Write<RankLink> link;
+  void operator()() const;
+};
+struct receive_loads {
+  Write<space::OtherLoads> loads;
+  Write<RankLink> link;
+  void operator()(SmallTasks) const;
+};
+
+}  // namespace pulvis
