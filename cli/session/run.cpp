@@ -18,11 +18,6 @@
 namespace pulvis {
 namespace {
 
-std::filesystem::path folder_of(const RunOptions& options) {
-  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
-                                : options.folder;
-}
-
 void print_end(const Session& run, const RunOptions& options) {
   if (options.json) print_summary(run.folder());
   if (!options.talks()) return;
@@ -106,6 +101,11 @@ int threads_of(const RunOptions& options) {
 }
 
 }  // namespace
+
+std::filesystem::path folder_of(const RunOptions& options) {
+  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
+                                : options.folder;
+}
 
 ExitCode run_scene(const RunOptions& options) {
   leave_at_interrupts();

@@ -19,6 +19,7 @@ FLOORS = ("engine", "components", "systems", "scenes", "cli")  # each looks at t
 ROOMS = {
     "engine": {
         "files": "/",
+        "ranks": "",
         "": "",
     },
     "components": {
@@ -81,7 +82,9 @@ ROOMS = {
         "kinds": "",
         "python_scripts": "report /",
         "preview": "python_scripts /",
-        "session": "report /",
+        "ranks": "/",
+        "mpi": "ranks /",
+        "session": "ranks report /",
         "python/module": "session report /",
         "": "python_scripts report volts",
     },
