@@ -16,7 +16,7 @@ foreach(count RANGE 2 3)
 endforeach()
 
 # How a rank leaves the others, and the exit code of all.
-foreach(how abort=4 exit=3 throw=4 wrong=4)
+foreach(how abort=4 exit=3 throw=4 wrong=4 killed=137)
   string(REPLACE "=" ";" how ${how})
   list(GET how 0 way)
   list(GET how 1 code)

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <numeric>
 #include <thread>
@@ -225,6 +226,7 @@ int leave(const std::string& how) {
   const bool leaves = own.rank() == own.count() - 1;
   if (leaves && how == "abort") own.abort(4);
   if (leaves && how == "exit") std::exit(3);
+  if (leaves && how == "killed") std::raise(SIGKILL);
   if (leaves && how == "throw") throw std::runtime_error("something went wrong");
   if (leaves && how == "wrong") {  // MPI refuses: there is no such rank
     std::vector<Ranks::Message> messages;
