@@ -18,7 +18,7 @@ foreach(file ${files})
 endforeach()
 string(SHA256 sources "${all}")
 string(SUBSTRING ${sources} 0 12 sources)
-file(WRITE ${OUTPUT} "#include \"cli/summary.hpp\"
+file(WRITE ${OUTPUT} "#include \"cli/identity.hpp\"
 
 namespace pulvis {
 

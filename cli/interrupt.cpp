@@ -24,6 +24,7 @@ void leave(int) {
 void answer_interrupts(void (*handler)(int)) {
   std::signal(SIGINT, handler);
   std::signal(SIGTERM, handler);
+  std::signal(SIGUSR1, handler);  // what mpirun and Slurm hand on without killing soon after
   std::signal(SIGXFSZ, SIG_IGN);  // a full quota is an error, not a death
 }
 

@@ -1,4 +1,4 @@
-// What SIGINT and SIGTERM do, in the two parts of a command's life.
+// What SIGINT, SIGTERM and SIGUSR1 do, in the two parts of a command's life.
 #pragma once
 
 namespace pulvis {

@@ -25,6 +25,8 @@
 #include "cli/preview/preview_options.hpp"
 #include "cli/preview/scene_check.hpp"
 #include "cli/probe/probe_options.hpp"
+#include "cli/ranks/join_ranks.hpp"
+#include "cli/ranks/launch_ranks.hpp"
 #include "cli/report/report.hpp"
 #include "cli/session/run.hpp"
 #include "cli/session/run_afm.hpp"
@@ -51,6 +53,8 @@ namespace pulvis {
 namespace {
 
 struct Options {
+  std::vector<std::string> words;  // of the command line
+  int ranks = 1;
   RunOptions run;
   StudyOptions study;
   ProbeOptions probe;
@@ -185,6 +189,25 @@ const CLI::Validator finite_number(
     },
     "FINITE", "finite_number");
 
+// What is refused here is told once, not by every rank.
+ExitCode in_ranks(const Options& options, const std::filesystem::path& folder) {
+  if (started_as_rank()) {
+    tell(stderr, "pulvis: --ranks: this process was started as one of several ranks itself\n");
+    return ExitCode::usage;
+  }
+  require_mpi();
+  return launch_ranks({own_program(), without_ranks(options.words), options.ranks, folder});
+}
+
+void add_ranks(CLI::App& command, Options& options) {
+  command
+      .add_option("--ranks", options.ranks,
+                  "processes that share the run, by Open MPI; --threads is for each of them "
+                  "(default: the processors shared out)")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+}
+
 void add_course(CLI::App& command, RunOptions& options) {
   command.add_flag("--quiet", options.quiet, "print nothing but what goes wrong");
   command.add_flag("--json", options.json, "the same, and the summary (summary.json) when it ends");
@@ -228,7 +251,15 @@ void add_run(CLI::App& app, Options& options, ExitCode& code) {
   run->add_flag("--overwrite", options.run.overwrite,
                 "replace a run that is already in the folder");
   add_course(*run, options.run);
-  run->callback([&options, &code] { code = run_scene(options.run); });
+  add_ranks(*run, options);
+  run->callback([&options, &code] {
+    if (options.ranks == 1) {
+      code = run_scene(options.run);
+      return;
+    }
+    load_scene(options.run.scene, options.run.overrides);
+    code = in_ranks(options, folder_of(options.run));
+  });
 }
 
 void add_check(CLI::App& app, Options& options, ExitCode& code) {
@@ -253,7 +284,10 @@ void add_resume(CLI::App& app, Options& options, ExitCode& code) {
       "resume", "go on with a run that was stopped or killed, from its last checkpoint");
   resume->add_option("folder", options.run.folder, "results folder of the run")->required();
   add_course(*resume, options.run);
-  resume->callback([&options, &code] { code = resume_run(options.run); });
+  add_ranks(*resume, options);
+  resume->callback([&options, &code] {
+    code = options.ranks == 1 ? resume_run(options.run) : in_ranks(options, options.run.folder);
+  });
 }
 
 // A first word that is no command: `pulvis rnu`.
@@ -287,6 +321,7 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error) {
 
 int parse_and_run(int argc, char** argv) {
   Options options;
+  options.words.assign(argv + 1, argv + argc);
   ExitCode code = ExitCode::done;
   CLI::App app{"Pulvis: combined discrete/finite element method for powders", "pulvis"};
   app.set_version_flag(
@@ -337,7 +372,7 @@ int parse_and_run(int argc, char** argv) {
 }
 
 int fail(const char* what, ExitCode code) {
-  tell(stderr, "{}\n", what);
+  if (*what != '\0') tell(stderr, "{}\n", what);  // of several ranks one speaks
   return static_cast<int>(code);
 }
 
@@ -363,6 +398,10 @@ int main(int argc, char** argv) {
     return fail(error.what(), ExitCode::usage);
   } catch (const CannotResume& error) {
     return fail(error.what(), ExitCode::usage);
+  } catch (const UnlikeRanks& error) {
+    return fail(error.what(), ExitCode::usage);
+  } catch (const NoMpi& error) {
+    return fail(error.what(), ExitCode::machine);
   } catch (const OutputError& error) {
     return fail(error.what(), ExitCode::machine);
   } catch (const std::system_error& error) {

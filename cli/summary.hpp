@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/identity.hpp"
 #include "engine/task_graph.hpp"
 #include "scenes/expectations.hpp"
 #include "scenes/results/compaction_curve.hpp"
@@ -39,9 +40,5 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
 
 // The file as it was written, on the standard output.
 void print_summary(const std::filesystem::path& folder);
-
-// Version and commit of this program, as results carry them.
-std::string program_version();
-std::string program_commit();
 
 }  // namespace pulvis

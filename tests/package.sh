@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The Debian package, unpacked somewhere else, holds a program that runs, and all that its scenes read:
+# The Debian packages, unpacked somewhere else, hold a program that runs, and all that its scenes read:
 # package.sh BUILD_DIR
 set -euo pipefail
 build=$(readlink -f -- "$1")
@@ -7,13 +7,16 @@ place=$(mktemp -d)
 trap 'rm -rf -- "$place"' EXIT
 
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$place" >"$place/log" || { cat "$place/log"; exit 1; }
-dpkg-deb -x "$place"/*.deb "$place/root"
-depends=$(dpkg-deb -f "$place"/*.deb Depends)
+dpkg-deb -x "$place"/pulvis_*.deb "$place/root"
+depends=$(dpkg-deb -f "$place"/pulvis_*.deb Depends)
 for library in libtbb12 libhdf5 libfcl libxxhash; do
   [[ $depends == *$library* ]] || { echo "does not depend on $library"; exit 1; }
 done
 
+[[ $depends != *mpi* ]] || { echo "depends on MPI: $depends"; exit 1; }
+
 usr=$place/root/usr
+[[ ! -e $usr/lib/pulvis/libpulvis_mpi.so ]]
 libraries=$(ldd "$usr/bin/pulvis")
 [[ $libraries == *"libpulvis_core.so => $usr/bin/../lib/pulvis/"* ]] ||
   { echo "takes another core library:"; echo "$libraries"; exit 1; }
@@ -38,4 +41,21 @@ assert hashes[0] == hashes[1], hashes
 PYTHON
 fi
 test -s "$usr/share/doc/pulvis/scene.schema.json"
+if [[ -e $build/lib/libpulvis_mpi.so ]]; then  # in a package of its own, whose library the program finds
+  depends=$(dpkg-deb -f "$place"/pulvis-mpi_*.deb Depends)
+  for package in "pulvis (= " openmpi-bin libopenmpi3; do
+    [[ $depends == *$package* ]] || { echo "pulvis-mpi does not depend on $package: $depends"; exit 1; }
+  done
+  dpkg-deb -x "$place"/pulvis-mpi_*.deb "$place/mpi"
+  [[ $(cd "$place/mpi" && find . -type f) == *./usr/lib/*pulvis/libpulvis_mpi.so ]]
+  printf '#!/bin/sh\nexit 3\n' >mpirun && chmod +x mpirun
+  ranks() {
+    local status=0
+    PATH=$place:$PATH "$usr/bin/pulvis" run "$usr/share/pulvis/scenes/compaction/unit-cell.toml" -o ranks --ranks 2 || status=$?
+    echo "$status"
+  }
+  [[ $(ranks 2>"$place/log") == 4 ]] && grep -q pulvis-mpi "$place/log"
+  cp -r "$place/mpi/usr/." "$usr"
+  [[ $(ranks) == 3 ]]  # mpirun's
+fi
 exit "$failed"

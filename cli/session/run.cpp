@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
 
+#include <memory>
+#include <optional>
+
 #include "cli/interrupt.hpp"
+#include "cli/ranks/join_ranks.hpp"
 #include "cli/session/open_session.hpp"
 #include "cli/session/run_afm.hpp"
 #include "cli/session/session.hpp"
@@ -17,11 +21,6 @@
 
 namespace pulvis {
 namespace {
-
-std::filesystem::path folder_of(const RunOptions& options) {
-  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
-                                : options.folder;
-}
 
 void print_end(const Session& run, const RunOptions& options) {
   if (options.json) print_summary(run.folder());
@@ -101,39 +100,72 @@ ExitCode complete(Session& run, const RunOptions& options) {
   }
 }
 
-int threads_of(const RunOptions& options) {
-  return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+// `ranks`: null where the process is alone.
+int threads_of(const RunOptions& options, Ranks* ranks) {
+  const int own = ranks != nullptr ? threads_of_rank(*ranks) : tbb::info::default_concurrency();
+  return options.threads > 0 ? options.threads : own;
 }
+
+// Where this process is one of several ranks: what it is to them.
+class RankOfRun {
+ public:
+  explicit RankOfRun(const RunOptions& options)
+      : ranks_(join_ranks()), threads_(threads_of(options, ranks_.get())) {
+    if (ranks_ && ranks_->is_root()) led_.emplace(*ranks_);
+  }
+  int threads() const { return threads_; }
+  bool follows() const { return ranks_ && !led_; }
+  ExitCode follow() {
+    take_interrupts();  // the root answers them
+    return follow_root(*ranks_, threads_);
+  }
+  LedRanks* led() { return led_ ? &*led_ : nullptr; }
+
+ private:
+  std::unique_ptr<Ranks> ranks_;
+  int threads_;
+  std::optional<LedRanks> led_;
+};
 
 }  // namespace
 
+std::filesystem::path folder_of(const RunOptions& options) {
+  return options.folder.empty() ? std::filesystem::path("runs") / options.scene.stem()
+                                : options.folder;
+}
+
 ExitCode run_scene(const RunOptions& options) {
   leave_at_interrupts();
+  RankOfRun rank(options);
+  if (rank.follows()) return rank.follow();
   const LoadedScene loaded = load_scene(options.scene, options.overrides);
   const std::filesystem::path folder = folder_of(options);
-  const int threads = threads_of(options);
   if (loaded.scene.afm) {
+    if (rank.led() != nullptr) require_ranks_can_run(loaded.scene);
     require_free_folder(loaded, folder);
-    return run_afm(loaded, options, folder, threads);
+    return run_afm(loaded, options, folder, rank.threads());
   }
-  const OpenSession run =
-      open_session(loaded, {folder, threads, options.talks(), options.checkpoints},
-                   options.overwrite, take_interrupts);
+  const OpenSession run = open_session(
+      loaded, {folder, rank.threads(), options.talks(), options.checkpoints, rank.led()},
+      options.overwrite, take_interrupts);
   return complete(*run.session, options);
 }
 
 ExitCode resume_run(const RunOptions& options) {
   leave_at_interrupts();
+  RankOfRun rank(options);
+  if (rank.follows()) return rank.follow();
   const OpenFolder stopped_run = open_stopped(options.folder, false);
   const Checkpoint& checkpoint = *stopped_run.run.checkpoint;
   const LoadedScene& loaded = stopped_run.run.scene;
   if (options.talks())
     tell("resumed at step {}, t = {:.6g} s\n", checkpoint.info().step, checkpoint.info().time);
-  const int threads = threads_of(options);
+  const int threads = rank.threads();
   if (loaded.scene.afm) return resume_afm(loaded, options, checkpoint, threads);
   require_memory(loaded.scene);
-  Session run(loaded, {options.folder, threads, options.talks(), options.checkpoints},
-              std::make_unique<Simulation>(loaded.scene, threads));
+  Ranks* ranks = rank.led() != nullptr ? &rank.led()->tell(loaded) : nullptr;
+  Session run(loaded, {options.folder, threads, options.talks(), options.checkpoints, rank.led()},
+              std::make_unique<Simulation>(loaded.scene, threads, ranks));
   take_interrupts();
   run.go_on_from(checkpoint);
   return complete(run, options);

@@ -22,6 +22,8 @@ struct RunOptions {
   bool talks() const { return !quiet && !json; }
 };
 
+std::filesystem::path folder_of(const RunOptions& options);  // of the results
+
 ExitCode run_scene(const RunOptions& options);
 
 // pulvis resume: goes on with the run of a folder, from its newest checkpoint.

@@ -93,8 +93,11 @@ double ExactSum::value() const {
       head |= 1;
       break;
     }
+  // So few units are a double's own bits; threads that take the smallest doubles for zero would lose them here.
+  const bool is_own_bits = first == 0 && head < Wide{1} << 53;
   const double size =
-      std::ldexp(static_cast<double>(head), lowest + 32 * static_cast<int>(first));
+      is_own_bits ? std::bit_cast<double>(static_cast<std::uint64_t>(head))
+                  : std::ldexp(static_cast<double>(head), lowest + 32 * static_cast<int>(first));
   return negative ? -size : size;
 }
 

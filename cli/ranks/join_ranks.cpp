@@ -1,0 +1,172 @@
+#include "cli/ranks/join_ranks.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+
+#include "cli/ranks/mpi_plugin.hpp"
+#include "engine/instruction_set.hpp"
+
+namespace pulvis {
+namespace {
+
+constexpr std::size_t most_bytes_at_once = std::size_t{1} << 30;
+
+// A whole number of the environment; 0 where there is none.
+int number_in(const char* variable) {
+  const char* text = std::getenv(variable);
+  int number = 0;
+  if (text != nullptr) std::from_chars(text, text + std::strlen(text), number);
+  return number;
+}
+
+const MpiPlugin& mpi_plugin() {
+  void* library =
+      dlopen(MpiPlugin::library, RTLD_NOW | RTLD_LOCAL);  // stays: MPI cannot be unloaded
+  if (library == nullptr)
+    throw NoMpi(
+        fmt::format("several ranks need MPI: install the package pulvis-mpi, or build with "
+                    "-DPULVIS_MPI=ON ({})",
+                    dlerror()));
+  void* entry = dlsym(library, MpiPlugin::entry);
+  const MpiPlugin* plugin = nullptr;
+  if (entry != nullptr) plugin = reinterpret_cast<const MpiPlugin* (*)()>(entry)();
+  if (plugin == nullptr || plugin->build != build_identity())
+    throw NoMpi(fmt::format("{} is of another build, {}; this program is {}: install both anew",
+                            MpiPlugin::library, plugin == nullptr ? "unknown" : plugin->build,
+                            build_identity()));
+  return *plugin;
+}
+
+Ranks::Bytes bytes_of(std::string_view text) {
+  const auto* first = reinterpret_cast<const std::byte*>(text.data());
+  return {first, first + text.size()};
+}
+
+std::string text_of(const Ranks::Bytes& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+// The kernel's name for this start of the machine: containers of one machine share it.
+std::string machine_name() {
+  std::string name;
+  std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), name);
+  return name.empty() ? host_name() : name;
+}
+
+struct Place {
+  std::string machine;
+  cpu_set_t processors;
+};
+
+Place place_of(const Ranks::Bytes& bytes) {
+  Place place;
+  std::memcpy(&place.processors, bytes.data(), sizeof place.processors);
+  place.machine = text_of({bytes.begin() + sizeof place.processors, bytes.end()});
+  return place;
+}
+
+// Of one rank, among all places.
+int share_of(const Place& own, const std::vector<Place>& places) {
+  double share = 0;
+  for (std::size_t i = 0; i < CPU_SETSIZE; ++i) {
+    if (!CPU_ISSET(i, &own.processors)) continue;
+    const auto sharing = std::ranges::count_if(places, [&](const Place& other) {
+      return other.machine == own.machine && CPU_ISSET(i, &other.processors);
+    });
+    share += 1 / static_cast<double>(sharing);
+  }
+  constexpr double rounding = 1e-9;  // thirds do not add up to one
+  return std::max(1, static_cast<int>(share + rounding));
+}
+
+}  // namespace
+
+// A script that sbatch starts has SLURM_NTASKS and SLURM_PROCID, too; only tasks of a step have what is asked for here.
+bool started_as_rank() {
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr) return number_in("OMPI_COMM_WORLD_SIZE") > 1;
+  const bool has_process_manager =
+      std::getenv("PMIX_RANK") != nullptr || std::getenv("PMI_RANK") != nullptr;
+  return has_process_manager && number_in("SLURM_STEP_NUM_TASKS") > 1;
+}
+
+void require_mpi() { mpi_plugin(); }
+
+void require_alike(Ranks& ranks, const std::string& own) {
+  const auto all = ranks.gather(bytes_of(own + '\n' + host_name()));
+  const auto told = [](const Ranks::Bytes& bytes) {
+    const std::string text = text_of(bytes);
+    const auto end = text.find('\n');
+    return std::array{text.substr(0, end), text.substr(end + 1)};
+  };
+  Ranks::Bytes refusal;
+  for (std::size_t i = 0; i < all.size() && refusal.empty(); ++i) {
+    const auto [first, first_host] = told(all[0]);
+    const auto [other, other_host] = told(all[i]);
+    if (other != first)
+      refusal = bytes_of(
+          fmt::format("ranks of one run must be the same program on processors of one kind: "
+                      "rank 0 on {} is {}, rank {} on {} is {}",
+                      first_host, first, i, other_host, other));
+  }
+  ranks.broadcast(refusal);
+  if (!refusal.empty()) throw UnlikeRanks(ranks.is_root() ? text_of(refusal) : "");
+}
+
+std::unique_ptr<Ranks> join_ranks() {
+  if (!started_as_rank()) return nullptr;
+  std::unique_ptr<Ranks> ranks(mpi_plugin().join(most_bytes_at_once));
+  if (ranks->count() == 1) {
+    ranks.reset();
+    throw NoMpi(
+        "this process was started as one of several ranks, but Open MPI sees it alone: start them "
+        "by "
+        "mpirun, or by srun --mpi=pmix");
+  }
+  try {
+    require_alike(*ranks, build_identity() + " with " + instruction_set());
+  } catch (const UnlikeRanks& refusal) {
+    const std::string what = refusal.what();
+    ranks.reset();
+    throw UnlikeRanks(what);
+  }
+  return ranks;
+}
+
+int threads_of_rank(Ranks& ranks) {
+  cpu_set_t own;
+  CPU_ZERO(&own);
+  if (sched_getaffinity(0, sizeof own, &own) != 0) CPU_SET(0, &own);
+  Ranks::Bytes place(sizeof own);
+  std::memcpy(place.data(), &own, sizeof own);
+  const Ranks::Bytes machine = bytes_of(machine_name());
+  place.insert(place.end(), machine.begin(), machine.end());
+
+  std::vector<Place> places;
+  for (const Ranks::Bytes& bytes : ranks.gather(place)) places.push_back(place_of(bytes));
+  std::vector<int> threads(static_cast<std::size_t>(ranks.count()));
+  if (ranks.is_root())
+    std::ranges::transform(places, threads.begin(),
+                           [&](const Place& one) { return share_of(one, places); });
+  Ranks::Bytes bytes(threads.size() * sizeof(int));
+  std::memcpy(bytes.data(), threads.data(), bytes.size());
+  ranks.broadcast(bytes);
+  std::memcpy(threads.data(), bytes.data(), bytes.size());
+  return threads[static_cast<std::size_t>(ranks.rank())];
+}
+
+}  // namespace pulvis

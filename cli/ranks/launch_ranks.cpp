@@ -1,0 +1,168 @@
+#include "cli/ranks/launch_ranks.hpp"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <sstream>
+#include <string_view>
+
+#include "cli/tell.hpp"
+#include "engine/files/checkpoint.hpp"
+#include "engine/files/output_error.hpp"
+
+namespace pulvis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int wish_to_stop =
+    SIGUSR1;                 // mpirun hands it on; at SIGTERM it kills the ranks a second later
+constexpr int killed = 128;  // mpirun's exit code: this and the signal that killed a rank
+
+fs::path mpirun() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    fs::path file = fs::path(folder.empty() ? "." : folder) / "mpirun";
+    if (access(file.c_str(), X_OK) == 0) return file;
+  }
+  throw OutputError("mpirun", "start it", "it is not on PATH: install the package openmpi-bin");
+}
+
+std::vector<std::string> command_of(const RankLaunch& launch) {
+  // More ranks than cores are the user's choice. Threads of a rank go where there is room: bound to a core, as mpirun
+  // would have it, they had one between them.
+  std::vector<std::string> words{mpirun(),          "-np",       std::to_string(launch.ranks),
+                                 "--oversubscribe", "--bind-to", "none",
+                                 "--stdin",         "none",      "--quiet"};
+  if (geteuid() == 0) words.push_back("--allow-run-as-root");
+  words.push_back(launch.program);
+  words.insert(words.end(), launch.words.begin(), launch.words.end());
+  return words;
+}
+
+// Signals that this process waits for instead of being interrupted by them.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigemptyset(&held_);
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGCHLD}) sigaddset(&held_, signal);
+    sigprocmask(SIG_BLOCK, &held_, &before_);
+  }
+  ~SignalsHeld() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+  int next() const {
+    int signal = 0;
+    sigwait(&held_, &signal);
+    return signal;
+  }
+  const sigset_t& before() const { return before_; }
+
+ private:
+  sigset_t held_{}, before_{};
+};
+
+// After fork() only what is safe in a signal handler. In a group of its own: a terminal's ^C comes to this process alone.
+[[noreturn]] void become(char* const* words, const sigset_t& mask, pid_t parent) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, wish_to_stop);
+  if (getppid() != parent) _exit(1);  // it died in between
+  sigprocmask(SIG_SETMASK, &mask, nullptr);
+  execv(words[0], words);
+  _exit(127);
+}
+
+pid_t start(const std::vector<std::string>& command, const SignalsHeld& signals) {
+  std::vector<char*> words;
+  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) become(words.data(), signals.before(), parent);
+  if (child < 0) throw OutputError(command[0], "start it", std::strerror(errno));
+  return child;
+}
+
+void tell_how_to_go_on(const fs::path& folder) {
+  if (checkpoints_in(folder).empty())
+    tell(
+        stderr,
+        "pulvis: there is no checkpoint yet that could go on; once the cause is gone run it again, "
+        "with --overwrite where {} holds a run.h5\n",
+        folder.string());
+  else
+    tell(stderr, "pulvis: once the cause is gone continue with: pulvis resume {}\n",
+         folder.string());
+}
+
+bool is_own(int code) {
+  constexpr std::array codes{ExitCode::done, ExitCode::usage, ExitCode::run_failed,
+                             ExitCode::machine, ExitCode::interrupted};
+  return std::ranges::find(codes, static_cast<ExitCode>(code)) != codes.end();
+}
+
+ExitCode end_of(int status, bool asked, const fs::path& folder) {
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (code == static_cast<int>(ExitCode::machine)) tell_how_to_go_on(folder);
+  if (is_own(code)) return static_cast<ExitCode>(code);
+  if (asked &&
+      (WIFSIGNALED(status) || code == killed + wish_to_stop)) {  // before they could heed it
+    tell(stderr, "pulvis: interrupted before all ranks had started\n");
+    return ExitCode::interrupted;
+  }
+  if (WIFSIGNALED(status))
+    tell(stderr, "pulvis: mpirun was killed by signal {} ({}), and the ranks with it\n",
+         WTERMSIG(status), strsignal(WTERMSIG(status)));
+  else if (code > killed)
+    tell(stderr, "pulvis: a rank was killed by signal {} ({}), and the others were ended\n",
+         code - killed, strsignal(code - killed));
+  else
+    tell(
+        stderr,
+        "pulvis: the ranks were not started, or not to their end: mpirun ended with exit code {}\n",
+        code);
+  tell_how_to_go_on(folder);
+  return ExitCode::machine;
+}
+
+}  // namespace
+
+ExitCode launch_ranks(const RankLaunch& launch) {
+  const std::vector<std::string> command = command_of(launch);
+  const SignalsHeld signals;
+  const pid_t child = start(command, signals);
+  bool asked = false;
+  for (int status = 0;;) {
+    const int signal = signals.next();
+    if (signal != SIGCHLD) {
+      asked = true;
+      kill(child, wish_to_stop);
+    } else if (waitpid(child, &status, WNOHANG) == child && !WIFSTOPPED(status)) {
+      return end_of(status, asked, launch.folder);
+    }
+  }
+}
+
+std::vector<std::string> without_ranks(const std::vector<std::string>& words) {
+  constexpr std::string_view option = "--ranks";
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == option)
+      ++i;
+    else if (!words[i].starts_with(std::string(option) + '='))
+      others.push_back(words[i]);
+  }
+  return others;
+}
+
+fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
+
+}  // namespace pulvis

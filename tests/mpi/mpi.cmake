@@ -1,0 +1,34 @@
+# Ranks by MPI, each call under mpirun with 1 to 4 processes; what pulvis run --ranks does with its ranks.
+find_program(PULVIS_MPIRUN mpirun REQUIRED)
+set(mpirun ${PULVIS_MPIRUN} --quiet --oversubscribe --bind-to none --allow-run-as-root)
+
+# Over the sources of libpulvis_mpi, for short parts of messages; --joined over the library itself.
+add_executable(test_ranks ${CMAKE_CURRENT_LIST_DIR}/ranks_test.cpp ${CMAKE_SOURCE_DIR}/cli/mpi/mpi_ranks.cpp)
+target_link_libraries(test_ranks PRIVATE pulvis_cli MPI::MPI_C GTest::gmock)
+target_compile_definitions(test_ranks PRIVATE OMPI_SKIP_MPICXX)
+add_dependencies(test_ranks pulvis_mpi)
+optimise(test_ranks 1)
+foreach(count RANGE 1 4)
+  add_test(NAME mpi.ranks_${count} COMMAND ${mpirun} -np ${count} $<TARGET_FILE:test_ranks>)
+endforeach()
+foreach(count RANGE 2 3)
+  add_test(NAME mpi.ranks_joined_${count} COMMAND ${mpirun} -np ${count} $<TARGET_FILE:test_ranks> --joined)
+endforeach()
+
+# How a rank leaves the others, and the exit code of all.
+foreach(how abort=4 exit=3 throw=4 wrong=4 killed=137)
+  string(REPLACE "=" ";" how ${how})
+  list(GET how 0 way)
+  list(GET how 1 code)
+  add_test(NAME mpi.ranks_${way}
+           COMMAND sh -c "\"$@\"; test $? = ${code}" sh ${mpirun} -np 3 $<TARGET_FILE:test_ranks> --leave ${way})
+endforeach()
+
+add_executable(test_launch ${CMAKE_CURRENT_LIST_DIR}/launch_test.cpp)
+target_link_libraries(test_launch PRIVATE pulvis_cli GTest::gmock_main)
+optimise(test_launch 1)
+gtest_discover_tests(test_launch TEST_PREFIX mpi. PROPERTIES TIMEOUT ${PULVIS_TEST_TIMEOUT} LABELS mpi)
+
+get_property(tests DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} PROPERTY TESTS)
+list(FILTER tests INCLUDE REGEX "^mpi\\.ranks_")
+set_tests_properties(${tests} PROPERTIES TIMEOUT 300 LABELS mpi)
