@@ -107,7 +107,8 @@ std::size_t Crew::number_of(const ColumnBase& column) const {
 
 void require_ranks_can_run(const Scene& scene) {
   const auto refuse = [&](const char* key, const char* what) {
-    SceneProblem problem{scene.file.string()};
+    SceneProblem problem;
+    problem.file = scene.file.string();
     problem.key = key;
     problem.message =
         std::string("a run over several ranks has no ") + what + ", allowed: --ranks 1";

@@ -103,7 +103,7 @@ struct PairBonds {
 }  // namespace
 
 void bond_forces::operator()(SmallTasks) const {
-  for_active_pairs(*columns.blocks, sums->blocks, PairBonds{*this});
+  for_active_pairs(*books.blocks, books.sums->blocks, PairBonds{*this});
 }
 
 }  // namespace pulvis

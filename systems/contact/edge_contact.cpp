@@ -160,7 +160,7 @@ struct EdgePass {
 }  // namespace
 
 void edge_contact::operator()(SmallTasks) const {
-  for_active_pairs(*columns.blocks, sums->blocks, EdgePass{*this});
+  for_active_pairs(*books.blocks, books.sums->blocks, EdgePass{*this});
 }
 
 }  // namespace pulvis

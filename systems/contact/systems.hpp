@@ -78,7 +78,6 @@ struct bin_tool_edges {
 // What the narrow phases read and write of a row.
 template <class At>
 struct RowColumns {
-  Read<RowBlocks<At>> blocks;
   Read<ContactPair<At>> pair;
   Write<ContactTouches<At>> touches;
   Write<ActivationTravel<At>> activation;
@@ -98,6 +97,13 @@ struct RowColumns {
   Optional<Read<AdhesionLaw<At>>> adhesion;
 };
 
+// Which rows make a block, and what each adds up to.
+template <class At, class Sums>
+struct BlockBooks {
+  Read<RowBlocks<At>> blocks;
+  Write<Sums> sums;
+};
+
 struct edge_contact {
   Read<Bodies> bodies;
   Read<Clock> clock;
@@ -109,7 +115,7 @@ struct edge_contact {
     Optional<Write<FrictionCouple>> couple;
   } points;
   Optional<CellImages> images;
-  Write<ContactSums<Contact>> sums;
+  BlockBooks<Contact, ContactSums<Contact>> books;
   void operator()(SmallTasks) const;
 };
 
@@ -204,7 +210,7 @@ struct bond_forces {
     Write<FrictionCouple> couple;
     Optional<CellImages> images;
   } at;
-  Write<BondSums<Contact>> sums;
+  BlockBooks<Contact, BondSums<Contact>> books;
   void operator()(SmallTasks) const;
 };
 

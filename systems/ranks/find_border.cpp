@@ -131,7 +131,9 @@ void find_border<D>::operator()() const {
     border.insert(border.end(), received.begin(), received.end());
   }
   bodies->set_border(border);
-  tell_border(*link, *bodies, outlines);
+  std::vector<Outlines> columns{outlines};
+  if (velocity) columns.emplace_back(*velocity);
+  tell_border(*link, *bodies, columns);
   const Outlines old(before);
   for (const int slot : border)
     std::ranges::copy(outlines.of(*bodies, slot), old.of(*bodies, slot).begin());

@@ -23,11 +23,11 @@ struct Space {
 // ---- when the rows are made anew ------------------------------------------------------------------
 template <class D>
 struct find_border {
-  Read<Clock> clock;
   Read<ContactIndex> index;
   Optional<Read<PeriodicCell>> cell;
   Write<Bodies> bodies;
   Write<typename D::Position> position;
+  Optional<Write<typename D::Velocity>> velocity;
   Write<typename D::Before> before;
   Write<RankLink> link;
   void operator()() const;

@@ -85,17 +85,19 @@ struct Extremes {
   double min_step = 1e300, fastest = 0;  // s, m/s
 };
 
+// `min_jacobian`: of this rank so far; then of all.
 Extremes extremes_of(const Bodies& bodies, const Read<StableTimeStep>& stable,
-                     const SurfaceSpeeds& speeds, const Link& link) {
+                     const SurfaceSpeeds& speeds, double& min_jacobian, const Link& link) {
   Extremes of;
   bodies.for_own_lanes([&](int slot) {
     of.min_step = std::min(of.min_step, entry(stable.values(), slot));
     if (speeds.outlines) of.fastest = std::max(of.fastest, entry(speeds.outlines->values(), slot));
   });
   if (!link) return of;
-  std::array<double, 2> both{of.fastest, -of.min_step};
-  agree(**link, both);
-  return {-both[1], both[0]};
+  std::array<double, 3> of_all{of.fastest, -of.min_step, -min_jacobian};
+  agree(**link, of_all);
+  min_jacobian = -of_all[2];
+  return {-of_all[1], of_all[0]};
 }
 
 void choose_time_step(double min_step, const Approach& approach,
@@ -128,12 +130,13 @@ void require_in_sight(double displacement, const ContactRules& rules, const Cloc
 }  // namespace
 
 void first_time_step::operator()() const {
-  const Extremes of = extremes_of(*bodies, stable, speeds, link);
+  double none = 1;
+  const Extremes of = extremes_of(*bodies, stable, speeds, none, link);
   choose_time_step(of.min_step, Approach(speeds, of.fastest), rules, *clock);
 }
 
 void advance_clock::operator()() const {
-  const Extremes of = extremes_of(*bodies, stable, speeds, link);
+  const Extremes of = extremes_of(*bodies, stable, speeds, totals->min_jacobian, link);
   const Approach approach(speeds, of.fastest);
   const bool looked = clock->step >= clock->next_look;
   std::int64_t interval = max_steps_between_looks;

@@ -69,7 +69,7 @@ struct tool_contact {
   ToolSurfaces tools;
   Read<ToolVelocity> tool_velocity;
   Optional<Read<SurfaceRange>> range;
-  Write<ContactSums<ToolContact>> sums;
+  BlockBooks<ToolContact, ContactSums<ToolContact>> books;
   void operator()(SmallTasks) const;
 };
 
@@ -112,7 +112,7 @@ struct tool_bond_forces {
     Read<ToolVelocity> velocity;
     Read<ToolAnchor> anchor;
   } at;
-  Write<BondSums<ToolContact>> sums;
+  BlockBooks<ToolContact, BondSums<ToolContact>> books;
   void operator()(SmallTasks) const;
 };
 
@@ -192,7 +192,7 @@ struct advance_clock {
   Read<Bodies> bodies;
   Read<StableTimeStep> stable;
   SurfaceSpeeds speeds;
-  Read<Totals> totals;
+  Write<Totals> totals;  // of all ranks
   Optional<Read<StageEnds>> ends;
   Optional<Read<ContactRules>> rules;
   Write<Clock> clock;

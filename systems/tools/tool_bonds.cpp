@@ -124,7 +124,7 @@ void pressed_tool_bonds::operator()(SmallTasks) const {
 }
 
 void tool_bond_forces::operator()(SmallTasks) const {
-  for_active_pairs(*columns.blocks, sums->blocks, ToolBonds{*this});
+  for_active_pairs(*books.blocks, books.sums->blocks, ToolBonds{*this});
 }
 
 }  // namespace pulvis

@@ -68,7 +68,7 @@ struct ToolPass {
 }  // namespace
 
 void tool_contact::operator()(SmallTasks) const {
-  for_active_pairs(*columns.blocks, sums->blocks, ToolPass{*this});
+  for_active_pairs(*books.blocks, books.sums->blocks, ToolPass{*this});
 }
 
 }  // namespace pulvis

@@ -19,8 +19,8 @@ FLOORS = ("engine", "components", "systems", "scenes", "cli")  # each looks at t
 ROOMS = {
     "engine": {
         "ranks": "",
-        "files": "ranks /",
-        "": "ranks",
+        "files": "/",
+        "": "",
     },
     "components": {
         "": "",
@@ -44,7 +44,7 @@ ROOMS = {
     },
     "scenes": {
         "language": "",
-        "ranks": "",
+        "ranks": "spec language",
         "spec": "language",
         "keys": "materials spec language",
         "let": "language",
