@@ -357,7 +357,7 @@ TEST_F(CommandLine, UnwritableFolderIsTheMachinesFault) {
 // ---- 130: interrupted ---------------------------------------------------------------------------
 // The spinning disc would take minutes; the first frames are there long before.
 TEST_F(CommandLine, InterruptEndsBetweenTwoStepsWithReadableResults) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) {
     fs::remove_all(run);
     const pid_t child =
         start({"run", scene("basic/spinning-disc.toml"), "-o", run.string(), "--threads", "1",

@@ -31,4 +31,4 @@ gtest_discover_tests(test_launch TEST_PREFIX mpi. PROPERTIES TIMEOUT ${PULVIS_TE
 
 get_property(tests DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} PROPERTY TESTS)
 list(FILTER tests INCLUDE REGEX "^mpi\\.ranks_")
-set_tests_properties(${tests} PROPERTIES TIMEOUT 300 LABELS mpi)
+set_tests_properties(${tests} PROPERTIES TIMEOUT 300 LABELS mpi PROCESSORS 2)  # they wait by asking
