@@ -49,6 +49,7 @@ std::unique_ptr<World> cubes(const Scene& scene, Formulation formulation, int n,
   Bodies bodies;
   bodies.formulation = formulation;
   bodies.slots.resize(static_cast<std::size_t>(chunks * lane_count));
+  bodies.hold_all();
   Shapes shapes;
   shapes.list.push_back(cube(n));
   add_body_columns(*world, scene, bodies, shapes);

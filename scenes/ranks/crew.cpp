@@ -7,6 +7,7 @@
 #include "components/run_state.hpp"
 #include "engine/state_bytes.hpp"
 #include "scenes/language/problem.hpp"
+#include "systems/ranks/restore.hpp"
 
 namespace pulvis {
 namespace {
@@ -27,6 +28,7 @@ Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene)
 
 Crew::~Crew() {
   if (leads()) tell({Order::Kind::leave});
+  await_outlines(share_);
 }
 
 void Crew::tell(Order order) {
@@ -52,7 +54,7 @@ bool Crew::goes_on(bool of_root) {
 }
 
 void Crew::fetch(const Order& order) {
-  Gathering gathering(share_, whole_.get());
+  Gatherer gathering(share_, whole_.get());
   for (const std::uint64_t number : order.columns)
     gathering.column(static_cast<std::size_t>(number));
   if (order.rows) gathering.rows();

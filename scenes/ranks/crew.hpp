@@ -41,7 +41,7 @@ class Crew {
  public:
   // `whole`: on the root, as build_whole_world made it.
   Crew(World& share, std::unique_ptr<World> whole, const Scene& scene);
-  ~Crew();  // the root's: the others leave
+  ~Crew();  // of the root it tells the others to leave; collective
 
   bool leads() const { return ranks_.is_root(); }
   // Of the root, to all.

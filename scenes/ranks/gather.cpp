@@ -59,11 +59,11 @@ bool is_with_tools(const std::string& entity) {
 
 bool is_by_chunk(const ColumnBase& column) { return !column.owner().chunk_begin.empty(); }
 
-Gathering::Gathering(World& share, World* whole)
+Gatherer::Gatherer(World& share, World* whole)
     : share_(share), whole_(whole), ranks_(*share.resource<RankLink>().ranks) {}
 
 // What each chunk has, of all ranks, in the order of the chunks; on the root.
-std::vector<std::byte> Gathering::joined(std::span<const std::byte> own,
+std::vector<std::byte> Gatherer::joined(std::span<const std::byte> own,
                                          const std::vector<std::size_t>& bytes_of_chunk) {
   const std::vector<Ranks::Bytes> all = ranks_.gather(own);
   if (whole_ == nullptr) return {};
@@ -80,7 +80,7 @@ std::vector<std::byte> Gathering::joined(std::span<const std::byte> own,
   return whole;
 }
 
-void Gathering::column(std::size_t number) {
+void Gatherer::column(std::size_t number) {
   const ColumnBase& own = *share_.columns()[number];
   std::vector<std::byte> bytes;
   for (const int chunk : share_.resource<Bodies>().own_chunks) {
@@ -103,7 +103,7 @@ void Gathering::column(std::size_t number) {
 }
 
 // How many rows every slot has: here, and on the root of all.
-void Gathering::slot_rows(const char* entity, std::vector<std::int32_t>& own_begin,
+void Gatherer::slot_rows(const char* entity, std::vector<std::int32_t>& own_begin,
                           std::vector<std::int32_t>& whole_begin) {
   const ContactIndex& index = share_.resource<ContactIndex>();
   const Bodies& bodies = share_.resource<Bodies>();
@@ -122,7 +122,7 @@ void Gathering::slot_rows(const char* entity, std::vector<std::int32_t>& own_beg
   for (const std::int32_t count : of_slot) whole_begin.push_back(whole_begin.back() + count);
 }
 
-void Gathering::rows() {
+void Gatherer::rows() {
   if (!share_.has<ContactIndex>()) return;
   const Bodies& bodies = share_.resource<Bodies>();
   std::vector<std::int32_t> sampled_begin, tool_begin;
@@ -162,7 +162,7 @@ void Gathering::rows() {
 }
 
 // Of all particles, as the broad phase found them.
-void Gathering::neighbours() {
+void Gatherer::neighbours() {
   const ContactIndex& own = share_.resource<ContactIndex>();
   const Bodies& bodies = share_.resource<Bodies>();
   std::vector<std::int32_t> counts, slots;
@@ -205,7 +205,7 @@ void Gathering::neighbours() {
     index.neighbour_begin.push_back(index.neighbour_begin.back() + count);
 }
 
-void Gathering::common() {
+void Gatherer::common() {
   if (whole_ == nullptr) return;
   for (std::size_t i = 0; i < share_.columns().size(); ++i) {
     const ColumnBase& column = *share_.columns()[i];
@@ -270,6 +270,7 @@ void take_rows(const Checkpoint& checkpoint, World& share, const char* entity) {
 }  // namespace
 
 void restore_share(const Checkpoint& checkpoint, World& share, std::set<std::string> left_alone) {
+  await_outlines(share);
   left_alone.insert("rank_link");
   checkpoint.require_same_parts(share, left_alone);
   for (const World::SavedResource& resource : share.saved_resources())

@@ -14,9 +14,9 @@
 namespace pulvis {
 
 // The world of the whole scene on the root, with the same columns as its share; null on other ranks.
-class Gathering {
+class Gatherer {
  public:
-  Gathering(World& share, World* whole);
+  Gatherer(World& share, World* whole);
 
   // What changes of column number `column` (of World::columns), of a kind of entity that is divided by chunks.
   void column(std::size_t column);

@@ -89,7 +89,7 @@ OutlineMotion of_image(const OutlineMotion& m, const ContactIndex& index, const 
 // Particles that were no neighbours: whichever of all moved most against each other.
 double remaining_of_non_neighbours(const ContactIndex& index, const PeriodicCell* cell,
                                    const std::vector<int>& slots,
-                                   const std::vector<OutlineMotion>& motion, const Link& link) {
+                                   const std::vector<OutlineMotion>& motion, const Optional<BorderOutlines<CurvePosition>>& border) {
   constexpr double none = -std::numeric_limits<double>::infinity();
   std::array<double, 4> farthest{none, none, none, none};  // down, left, up, right
   for (const int slot : slots)
@@ -98,7 +98,7 @@ double remaining_of_non_neighbours(const ContactIndex& index, const PeriodicCell
       farthest[k] = std::max(farthest[k], -u.low[k]);
       farthest[2 + k] = std::max(farthest[2 + k], u.high[k]);
     }
-  maximum_of_ranks(link, farthest);
+  maximum_of_ranks(border, farthest);
   const Box all{{-farthest[0], -farthest[1]}, {farthest[2], farthest[3]}};
   return index.neighbourhood - index.reach - kernels::closing(all, all) -
          displacement_of_images(index, cell);
@@ -158,7 +158,7 @@ void skin_check::operator()() const {
     std::vector<OutlineMotion> motion(bodies->slots.size());
     const auto& slots = bodies->own_slots;
     const auto& present = bodies->present_slots;
-    tell_border(link, *bodies, control);
+    tell_border(border, *bodies);
     tbb::parallel_for(std::size_t{0}, present.size(), [&](std::size_t i) {
       const int first = 2 * entry(bodies->slots, present[i]).first_control;
       entry(motion, present[i]) =
@@ -166,7 +166,7 @@ void skin_check::operator()() const {
                     bodies->shape_of_slot(present[i]).control_points());
     });
     const PeriodicCell* periodic = cell ? &**cell : nullptr;
-    double left = remaining_of_non_neighbours(*index, periodic, slots, motion, link);
+    double left = remaining_of_non_neighbours(*index, periodic, slots, motion, border);
     left = std::min(left, min_of_slots(slots, [&](int slot) {
                       return left_of_neighbours(*bodies, *index, periodic, motion, slot);
                     }));
@@ -174,7 +174,7 @@ void skin_check::operator()() const {
       left = std::min(left, min_of_slots(slots, [&](int slot) {
                         return left_of_tools(*index, *tools, entry(motion, slot));
                       }));
-    left = minimum_of_ranks(link, left);
+    left = minimum_of_ranks(border, left);
     index->look_at = clock->travel + left;
     if (left > std::max(min_left * index->skin, ahead)) return;
   }

@@ -15,12 +15,12 @@ namespace pulvis {
 struct skin_check {
   Read<Bodies> bodies;
   Read<Clock> clock;
-  Write<CurvePosition> control;  // of the border
+  Read<CurvePosition> control;
   Optional<ToolSurfaces> tools;
   Optional<Read<PeriodicCell>> cell;
   Write<CurveBefore> before;
   Write<ContactIndex> index;
-  Link link;
+  Optional<BorderOutlines<CurvePosition>> border;
   void operator()() const;
 };
 

@@ -44,8 +44,9 @@ void tell_border(RankLink& link, const Bodies& bodies, std::span<const Outlines>
 inline void tell_border(RankLink& link, const Bodies& bodies, const Outlines& column) {
   tell_border(link, bodies, std::span(&column, 1));
 }
-inline void tell_border(const Link& link, const Bodies& bodies, const Outlines& column) {
-  if (link) tell_border(**link, bodies, column);
+template <class Position>
+void tell_border(const Optional<BorderOutlines<Position>>& border, const Bodies& bodies) {
+  if (border) tell_border(*border->link, bodies, Outlines(border->outlines));
 }
 
 }  // namespace pulvis

@@ -12,15 +12,31 @@
 namespace pulvis {
 
 using Link = Optional<Write<RankLink>>;
+// And where a system looks at the border, too, the outlines of it.
+template <class Position>
+struct BorderOutlines {
+  Write<RankLink> link;
+  Write<Position> outlines;
+};
 
-inline void maximum_of_ranks(const Link& link, std::span<double> numbers) {
-  if (link) (*link)->ranks->maximum(numbers);
+// Null where there is one process.
+inline RankLink* link_of(const Link& link) { return link ? &**link : nullptr; }
+template <class Position>
+RankLink* link_of(const Optional<BorderOutlines<Position>>& border) {
+  return border ? &*border->link : nullptr;
 }
-inline double maximum_of_ranks(const Link& link, double number) {
-  maximum_of_ranks(link, {&number, 1});
+
+template <class L>
+void maximum_of_ranks(const L& link, std::span<double> numbers) {
+  if (RankLink* own = link_of(link)) own->ranks->maximum(numbers);
+}
+template <class L>
+double maximum_of_ranks(const L& link, double number) {
+  maximum_of_ranks(link, std::span(&number, 1));
   return number;
 }
-inline double minimum_of_ranks(const Link& link, double number) {
+template <class L>
+double minimum_of_ranks(const L& link, double number) {
   return -maximum_of_ranks(link, -number);
 }
 
@@ -39,17 +55,18 @@ inline void agree(RankLink& link, std::span<double> numbers) {
 }
 
 inline void sum_of_ranks(const Link& link, std::span<ExactSum> sums) {
-  if (!link) return;
+  RankLink* own = link_of(link);
+  if (own == nullptr) return;
   std::vector<std::int64_t> numbers;
   numbers.reserve(sums.size() * ExactSum::numbers);
   for (ExactSum& sum : sums)
     numbers.insert(numbers.end(), sum.carried().begin(), sum.carried().end());
-  (*link)->ranks->sum(numbers);
+  own->ranks->sum(numbers);
   for (std::size_t i = 0; i < sums.size(); ++i)
     sums[i] = ExactSum::of(std::span(numbers).subspan(i * ExactSum::numbers, ExactSum::numbers));
 }
 inline void sum_of_ranks(const Link& link, std::span<std::int64_t> numbers) {
-  if (link) (*link)->ranks->sum(numbers);
+  if (RankLink* own = link_of(link)) own->ranks->sum(numbers);
 }
 
 }  // namespace pulvis

@@ -68,6 +68,11 @@ void list_rows(World& world) {
                                             index.sampled_begin.size());
 }
 
+void await_outlines(World& share) {
+  if (share.has<ContactPair<Contact>>()) opened<receive_outlines<Plane>>(share)(SmallTasks{});
+  if (share.has<ContactPair<FaceContact>>()) opened<receive_outlines<Space>>(share)(SmallTasks{});
+}
+
 void find_border_again(World& share) {
   const bool plane = share.has<ContactPair<Contact>>();
   if (!plane && !share.has<ContactPair<FaceContact>>()) return;
@@ -88,7 +93,6 @@ void find_border_again(World& share) {
     link.border.push_back({static_cast<int>(r), slots_in(wanted[r]), receive[r]});
   }
   bodies.set_border(border);
-  link.outlines_sent = false;
   if (plane) {
     tell_all<Plane>(share);
     opened<list_border_rows>(share).list();

@@ -9,6 +9,9 @@ namespace pulvis {
 // one.
 void list_rows(World& world);
 
+// Receives what is under way between two steps, so that no rank waits for another to take it. Collective.
+void await_outlines(World& share);
+
 // The border: of the neighbours of its own particles those of other ranks, and the rows that it shares with those ranks.
 // Collective; nothing may be under way.
 void find_border_again(World& share);

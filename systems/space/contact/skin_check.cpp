@@ -50,7 +50,8 @@ struct Remaining {
   const std::vector<SurfaceMotion>& motion;  // [slots]
 
   // Particles that were no neighbours: whichever of all moved most against each other.
-  double of_non_neighbours(const std::vector<int>& slots, const Link& link) const {
+  double of_non_neighbours(const std::vector<int>& slots,
+                           const Optional<BorderOutlines<FacePosition>>& border) const {
     std::array<double, 6> farthest;
     farthest.fill(-std::numeric_limits<double>::infinity());
     for (const int slot : slots)
@@ -59,7 +60,7 @@ struct Remaining {
         farthest[k] = std::max(farthest[k], -u.low[k]);
         farthest[3 + k] = std::max(farthest[3 + k], u.high[k]);
       }
-    maximum_of_ranks(link, farthest);
+    maximum_of_ranks(border, farthest);
     Box all;
     for (std::size_t k = 0; k < 3; ++k) {
       all.low[k] = -farthest[k];
@@ -118,7 +119,7 @@ void skin_check::operator()() const {
     const auto& present = bodies.bodies->present_slots;
     std::vector<double> left(slots.size());
     const Remaining remaining{*bodies.bodies, *index, motion};
-    tell_border(link, *bodies.bodies, position);
+    tell_border(border, *bodies.bodies);
     tbb::parallel_for(std::size_t{0}, present.size(), [&](std::size_t i) {
       const std::ptrdiff_t first = bodies.first_face(present[i]) * std::ptrdiff_t{face_numbers};
       entry(motion, present[i]) =
@@ -129,9 +130,9 @@ void skin_check::operator()() const {
       left[i] = remaining.of_neighbours(slots[i]);
       if (tools) left[i] = std::min(left[i], remaining.of_tools(*tools, slots[i]));
     });
-    double minimum = remaining.of_non_neighbours(slots, link);
+    double minimum = remaining.of_non_neighbours(slots, border);
     for (const double of_slot : left) minimum = std::min(minimum, of_slot);
-    minimum = minimum_of_ranks(link, minimum);
+    minimum = minimum_of_ranks(border, minimum);
     index->look_at = clock->travel + minimum;
     if (minimum > std::max(min_left * index->skin, ahead)) return;
   }

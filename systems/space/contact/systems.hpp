@@ -29,11 +29,11 @@ struct contact_surface {
 struct skin_check {
   ShapedBodies bodies;
   Read<Clock> clock;
-  Write<FacePosition> position;  // of the border
+  Read<FacePosition> position;
   Optional<ToolSurfaces> tools;
   Write<FaceBefore> before;
   Write<ContactIndex> index;
-  Link link;
+  Optional<BorderOutlines<FacePosition>> border;
   void operator()() const;
 };
 

@@ -47,9 +47,11 @@ Walked walk(int rows, int every, int threads) {
   Walked walked{std::vector<int>(static_cast<std::size_t>(rows)),
                 std::vector<std::int32_t>(static_cast<std::size_t>(rows), -1),
                 {}};
+  RowBlocks<Contact> blocks;
+  blocks.divide({0, 0, 0, 0, 0, 0, 0, 0, rows});  // of one chunk
   Workers workers(threads);
   workers.run([&] {
-    for_active_pairs<Contact>(rows, walked.sums.blocks, Noting{every, walked.times, walked.two});
+    for_active_pairs(blocks, walked.sums.blocks, Noting{every, walked.times, walked.two});
   });
   return walked;
 }
@@ -89,8 +91,18 @@ TEST(ActivePairs, StayWithinABlock) {
   const Walked walked = walk(1000, 2, 2);
   for (int r = 0; r < 1000; ++r)
     if (entry(walked.times, r) > 0) {
-      EXPECT_EQ(entry(walked.two, r) / rows_of_a_block, r / rows_of_a_block);
+      EXPECT_EQ(entry(walked.two, r) / RowBlocks<Contact>::most, r / RowBlocks<Contact>::most);
     }
+}
+
+// What a chunk adds up does not depend on the rows of chunks before it.
+TEST(ActivePairs, BeginABlockWithEveryChunk) {
+  RowBlocks<Contact> blocks;
+  std::vector<std::int32_t> begin(3 * lane_count + 1);
+  for (int slot = 0; slot < 3 * lane_count; ++slot)
+    entry(begin, slot + 1) = entry(begin, slot) + (slot < lane_count ? 20 : slot < 2 * lane_count ? 0 : 1);
+  blocks.divide(begin);
+  EXPECT_EQ(blocks.begin, (std::vector<std::int32_t>{0, 128, 160, 168}));
 }
 
 }  // namespace

@@ -66,6 +66,9 @@ Heap random_heap(std::uint64_t seed, int chunks, double width) {
       heap.control.push_back(y + sine * p[0] + cosine * p[1]);
     }
   }
+  while (heap.bodies.slots.size() % lane_count != 0)
+    heap.bodies.slots.push_back({Bodies::empty_slot, 0, 0, 0});
+  heap.bodies.hold_all();
   return heap;
 }
 

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <numeric>
 
 #include "components/run_state.hpp"
 #include "components/space/body.hpp"
@@ -77,6 +78,8 @@ class Body {
     bodies.slots.assign(lane_count, {0, 0, 0, 0, 0});
     for (int l = 0; l < lane_count; ++l) bodies.slots[std::size_t(l)].number = l;
     bodies.slot_of_number.resize(lane_count);
+    std::iota(bodies.slot_of_number.begin(), bodies.slot_of_number.end(), 0);
+    bodies.hold_all();
     Shapes shapes;
     shapes.list.push_back(std::move(shape));
     add_body_columns(world, scene, bodies, shapes);

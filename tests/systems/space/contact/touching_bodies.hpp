@@ -166,6 +166,7 @@ class TouchingBodies {
       nodes.resize(all.slots.size() / lane_count,
                    static_cast<std::int32_t>(shapes[s].nodes.size()));
     }
+    all.hold_all();
     const std::size_t lanes = all.slots.size();
     world.add_table<Node>(nodes);
     world.add<Position>();

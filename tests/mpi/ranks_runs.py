@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+"""Runs over several ranks against the same run in one process: every bit of their results must be the same.
+
+usage: ranks_runs.py PROGRAM ROOT (--case NAME | --list | --kills N)
+
+Case by case: a scene, left after some steps where it is long, on 1, 2, 3 and 4 ranks with 1 and 2 threads each; its state
+hash, its history and every dataset of its frames and its mesh must be those of one process. Then it is stopped at several
+steps and resumed on another number of ranks, one process among them. --kills: a run over three ranks is resumed after a rank
+was killed at a random moment, so many times, until it is done; its results must be the same again.
+"""
+import argparse
+import json
+import os
+import random
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import h5py
+import numpy
+
+# Scene, steps, and what is set in it. Together they have every kind of contact, control and observer there is.
+CASES = {
+    "die": ("scenes/compaction/regular-25.toml", 1500, ["output.contacts=true", "output.density_cells=[4, 4]"]),
+    "friction": ("scenes/compaction/random-100.toml", 1500, ["output.particle_stress=true"]),
+    "damped-servo": ("scenes/compaction/biaxial.toml", 1200, []),
+    "shear": ("scenes/shear/grooves-16.toml", 1200, []),
+    "cell": ("scenes/periodic/cap-isostatic.toml", 1200, ["output.contacts=true"]),
+    "space-die": ("scenes/compaction-3d/random-100-copper.toml", 250, ["output.contacts=true"]),
+    "space-round": ("scenes/compaction-3d/tablet.toml", 250, []),
+    "space-mixture": ("scenes/compaction-3d/mixture.toml", 250, ["output.density_cells=[2, 2, 2]"]),
+}
+RANKS_AND_THREADS = [(1, 2), (2, 1), (2, 2), (3, 1), (4, 1)]
+STATE = re.compile(r'"state_hash": "([0-9a-f]{16})"')
+
+
+class Failed(Exception):
+    pass
+
+
+def run(program, words, code=(0,)):
+    done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, timeout=900)
+    if done.returncode not in code:
+        raise Failed(f"pulvis {' '.join(map(str, words))}: exit {done.returncode}\n{done.stdout}{done.stderr}")
+    return done
+
+
+def state_of(folder):
+    return STATE.search((folder / "summary.json").read_text()).group(1)
+
+
+def differences(one, other):
+    """Of the datasets of two runs, and of their histories."""
+    found = []
+    if (one / "history.csv").read_bytes() != (other / "history.csv").read_bytes():
+        found.append("history.csv")
+    with h5py.File(one / "run.h5") as a, h5py.File(other / "run.h5") as b:
+        names = {}
+        for key, file in (("a", a), ("b", b)):
+            names[key] = []
+            file.visititems(lambda name, item, key=key: names[key].append(name)
+                            if isinstance(item, h5py.Dataset) else None)
+        if sorted(names["a"]) != sorted(names["b"]):
+            found.append("other datasets")
+        for name in names["a"]:
+            if name in b and not numpy.array_equal(a[name][()], b[name][()], equal_nan=a[name].dtype.kind == "f"):
+                found.append(name)
+    return found
+
+
+def require_same(one, other, what):
+    if state_of(one) != state_of(other):
+        raise Failed(f"{what}: the state hash is {state_of(other)}, of one process {state_of(one)}")
+    found = differences(one, other)
+    if found:
+        raise Failed(f"{what}: not the same: {', '.join(found[:8])}")
+
+
+class Case:
+    def __init__(self, program, root, name, scratch):
+        scene, self.steps, self.set = CASES[name]
+        self.program, self.scene, self.name, self.scratch = program, root / scene, name, scratch
+
+    def words(self, folder, *more):
+        sets = [word for override in self.set for word in ("--set", override)]
+        return ["run", self.scene, "-o", folder, "--quiet", "--checkpoint-steps", 10**9, "--stop-after", self.steps,
+                *sets, *more]
+
+    def alone(self):
+        folder = self.scratch / "alone"
+        run(self.program, self.words(folder, "--threads", 1), code=(0, 1, 3, 130))
+        return folder
+
+    def check(self):
+        alone = self.alone()
+        for ranks, threads in RANKS_AND_THREADS:
+            folder = self.scratch / f"{ranks}x{threads}"
+            run(self.program, self.words(folder, "--ranks", ranks, "--threads", threads), code=(0, 1, 3, 130))
+            require_same(alone, folder, f"{self.name}, {ranks} ranks, {threads} threads")
+        for first, then in ((3, 2), (1, 3), (2, 1)):
+            self.check_resumed(alone, first, then)
+
+    def check_resumed(self, alone, first, then):
+        """Stopped in the middle, and once more, on other numbers of ranks."""
+        folder = self.scratch / f"resumed-{first}-{then}"
+        words = self.words(folder, "--ranks", first)
+        words[words.index("--stop-after") + 1] = self.steps // 3
+        run(self.program, words, code=(130,))
+        for stop, ranks in ((2 * self.steps // 3, then), (self.steps, first)):
+            run(self.program, ["resume", folder, "--quiet", "--ranks", ranks, "--stop-after", stop],
+                code=(0, 1, 3, 130))
+        require_same(alone, folder, f"{self.name}, stopped on {first} ranks, resumed on {then}")
+
+
+def ranks_of(launcher):
+    """Process ids of the ranks below a launcher."""
+    children = {}
+    for entry in Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            stat = (entry / "stat").read_text()
+        except OSError:
+            continue
+        parent = int(stat.rsplit(")", 1)[1].split()[1])
+        children.setdefault(parent, []).append((int(entry.name), stat[stat.index("(") + 1:stat.rindex(")")]))
+    found, waiting = [], [launcher]
+    while waiting:
+        for pid, name in children.get(waiting.pop(), []):
+            waiting.append(pid)
+            if name == "pulvis":
+                found.append(pid)
+    return found
+
+
+def check_kills(program, root, kills, scratch, seed):
+    """A rank is killed again and again; what `resume` leaves in the end is what one process leaves."""
+    choose = random.Random(seed)
+    case = Case(program, root, "friction", scratch)
+    alone = case.alone()
+    folder, done, killed = scratch / "killed", False, 0
+    words = case.words(folder, "--ranks", 3)
+    words[words.index("--checkpoint-steps") + 1] = 50
+    while not done:
+        launcher = subprocess.Popen([program, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        if killed < kills:
+            time.sleep(choose.uniform(0.3, 3))
+            ranks = ranks_of(launcher.pid)
+            if ranks and launcher.poll() is None:
+                os.kill(choose.choice(ranks), signal.SIGKILL)
+        _, told = launcher.communicate(timeout=600)
+        if launcher.returncode == 4:
+            if "pulvis" not in told or "killed" not in told:
+                raise Failed(f"a killed rank is not told of: {told}")
+            killed += 1
+        elif launcher.returncode in (0, 1, 3, 130):
+            done = True
+        else:
+            raise Failed(f"exit {launcher.returncode}: {told}")
+        if not list(folder.glob("checkpoint-*.h5")) and not done:
+            words = [word for word in words if word != "--overwrite"] + ["--overwrite"]
+        elif not done:
+            words = ["resume", folder, "--quiet", "--ranks", choose.choice((2, 3, 4)), "--checkpoint-steps", 50,
+                     "--stop-after", case.steps]
+    require_same(alone, folder, f"killed {killed} times")
+    print(f"a rank was killed {killed} times")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("root", type=Path)
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--case", choices=CASES)
+    what.add_argument("--kills", type=int)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="pulvis-ranks-") as scratch:
+        try:
+            if options.case:
+                Case(options.program, options.root, options.case, Path(scratch)).check()
+            else:
+                check_kills(options.program, options.root, options.kills, Path(scratch), options.seed)
+        except Failed as failure:
+            sys.exit(str(failure))
+
+
+if __name__ == "__main__":
+    main()
