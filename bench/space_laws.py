@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs in three dimensions held against laws and independent solutions: a table for each.
+"""Runs in three dimensions held against laws and independent solutions, and what they cost: a table for each.
 
 usage: space_laws.py [--pulvis PROGRAM] [--folder DIR] LAW...
 
@@ -10,12 +10,16 @@ LAW  hertz      an elastic sphere between frictionless planes, and two spheres: 
      turns      force of a sphere between planes for random turns of its mesh: rms over the mean
      taylor     copper rod against a rigid wall at 227 m/s: length, radius of the foot
      mindlin    a sphere pressed and rubbed between planes: compliance, friction work of a cycle (Mindlin & Deresiewicz 1953)
+     cost       time of an element and step, memory of an element: 27 to 1,000 spheres
 """
 import argparse
 import csv
+import json
 import math
 import os
 import pathlib
+import resource
+import statistics
 import subprocess
 import sys
 
@@ -71,11 +75,11 @@ class Bench:
         self.program, self.folder = program, folder
         folder.mkdir(parents=True, exist_ok=True)
 
-    def run(self, name, text):
+    def run(self, name, text, *options):
         """History of the scene as arrays by the names of its series, without their units."""
         scene = self.folder / f"{name}.toml"
         scene.write_text(text, encoding="utf-8")
-        result = subprocess.run([self.program, "run", scene, "-o", self.folder / name, "--overwrite"],
+        result = subprocess.run([self.program, "run", scene, "-o", self.folder / name, "--overwrite", *options],
                                 capture_output=True, text=True)
         if result.returncode not in (0,):
             sys.exit(f"{name}: exit {result.returncode}\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
@@ -168,7 +172,7 @@ def flatten(bench):
     print("law flatten: force over pi R^2 sigma_y at set approaches of plane and centre over R")
     print(f"{'case':34} {'elements':>9}  " + "  ".join(f"{s:>7}" for s in at))
     print(f"{'axisymmetric':34} {'':9}  " + "  ".join(f"{np.interp(s, rows[:, 0], rows[:, 1]):7.4f}" for s in at))
-    for formulation, meshes in (("one-point", ((4, 1), (4, 4), (6, 1), (8, 2), (12, 2))), ("eight-point", ((4, 4), (6, 1)))):
+    for formulation, meshes in (("one-point", ((4, 1), (4, 4), (6, 1), (7, 1), (8, 2), (12, 2))), ("eight-point", ((4, 4), (6, 1)))):
         for divisions, rings in meshes:
             text = head("Flattening", PLASTIC) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
             text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
@@ -208,7 +212,7 @@ def perfect(bench):
                         "--csv", reference], check=True, stdout=subprocess.DEVNULL)
     rows = np.genfromtxt(reference, delimiter=",", skip_header=1)
     print(f"{'axisymmetric':34} " + "  ".join(f"{np.interp(s, rows[:, 0], rows[:, 1]):7.4f}" for s in at))
-    for divisions, rings in ((6, 1), (8, 2), (12, 2)):
+    for divisions, rings in ((6, 1), (7, 1), (8, 2), (12, 2)):
         text = head("Flattening", STEEL + 'yield_stress = "240 MPa"\n') + ball(2 * radius, divisions, rings) + body(0, 0, radius)
         text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
         text += stage(5e-4, {"top": (0, 0, -0.11 * radius)}) + contact(damping=0.1, stiffness=2) + OUTPUT
@@ -227,7 +231,7 @@ def cell(bench):
     found = []
     perfectly = STEEL + 'yield_stress = "240 MPa"\n'
     span = np.linspace(0.55, 0.72, 60)
-    for divisions, rings in ((4, 1), (6, 1), (8, 2), (16, 2)):
+    for divisions, rings in ((4, 1), (6, 1), (7, 1), (8, 2), (16, 2)):
         text = head("Cell", perfectly) + ball(2 * radius, divisions, rings) + body(radius, radius, radius)
         size = 2 * radius
         for axis, low, high in ((0, "left", "right"), (1, "front", "back"), (2, "bottom", "top")):
@@ -270,7 +274,7 @@ def turns(bench):
     radius, number = 5e-3, 32
     print("law turns: 32 spheres (16 of 8 divisions), each with its mesh turned at random, between two planes: rms of single forces over their mean")
     for name, material in (("plastic", PLASTIC), ("elastic", STEEL)):
-        for divisions, rings in ((4, 1), (4, 4), (6, 1), (8, 2)):
+        for divisions, rings in ((4, 1), (4, 4), (6, 1), (7, 1), (8, 2)):
             row = []
             text = head("Turns", material) + ball(2 * radius, divisions, rings, 'phase = "random"\n')
             count = number if divisions < 8 else 16
@@ -284,10 +288,10 @@ def turns(bench):
             text += stage(1.2e-3, {f"p{i}": (0, 0, -0.2 * radius) for i in range(count)}) + contact(damping=0.1) + OUTPUT
             h = bench.run(f"turns-{name}-{divisions}-{rings}", text)
             d = (2 * radius - h["tool/p0/position_z"]) / (2 * radius)
-            for s in (0.02, 0.03, 0.05, 0.07, 0.095):
+            for s in (0.01, 0.02, 0.03, 0.05, 0.07, 0.095):
                 f = [np.interp(s, d, np.abs(h[f"tool/p{i}/force_z"])) for i in range(count)]
                 row.append(np.std(f) / np.mean(f))
-            print(f"  {name:8} {divisions} divisions, {rings} rings: compressed by 2, 3, 5, 7, 9.5% of the diameter: " +
+            print(f"  {name:8} {divisions} divisions, {rings} rings: compressed by 1, 2, 3, 5, 7, 9.5% of the diameter: " +
                   "  ".join(f"{100 * r:.2f}%" for r in row), flush=True)
 
 
@@ -304,25 +308,26 @@ hardening_modulus = "100 MPa"
 """
     print("law taylor: final length and radius of the foot, mm (literature 21.4 to 21.5 and 7.0 to 7.2)")
     import h5py
-    for formulation, divisions, rings, axial in (("one-point", 6, 3, 48), ("one-point", 6, 3, 6), ("one-point", 10, 4, 10),
-                                                 ("eight-point", 6, 3, 6)):
+    for formulation, grid, divisions, rings, axial in (
+            ("one-point", "extruded", 4, 3, 30), ("one-point", "extruded", 6, 4, 48), ("one-point", "extruded", 8, 5, 60),
+            ("eight-point", "extruded", 4, 3, 30), ("one-point", "cube", 6, 3, 48), ("one-point", "cube", 10, 4, 10)):
         text = head("Taylor", copper)
         text += (f'\n[[particle]]\nname = "rod"\nmaterial = "m"\nshape = "cylinder"\ndiameter = "{2 * radius} m"\n'
-                 f'height = "{length} m"\nrounding = "0.1 mm"\n[particle.mesh]\ndivisions = {divisions}\nrings = {rings}\n'
-                 f'axial_divisions = {axial}\n')
+                 f'height = "{length} m"\nrounding = "0.1 mm"\n[particle.mesh]\ngrid = "{grid}"\ndivisions = {divisions}\n'
+                 f'rings = {rings}\naxial_divisions = {axial}\n')
         text += body(0, 0, length / 2, "rod", f'velocity = ["0 m/s", "0 m/s", "-{speed} m/s"]\n')
         text += plane("wall", (0, 0, 0), (0, 0, 1))
         text += '\n[[stage]]\nname = "impact"\nkind = "settle"\nduration = "80 us"\n' + contact()
         text += f'\n[element]\nformulation = "{formulation}"\n' + OUTPUT
-        name = f"taylor-{formulation}-{divisions}-{axial}"
+        name = f"taylor-{formulation}-{grid}-{divisions}-{rings}-{axial}"
         bench.run(name, text)
         with h5py.File(bench.folder / name / "run.h5") as file:
             frame = sorted(file["frames"])[-1]
             x = file[f"frames/{frame}/position"][:]
         across = np.hypot(x[:, 0], x[:, 1])
         axis = x[across < 1e-9 + 1e-6 * radius, 2]
-        print(f"  {name:24} length at the axis {1e3 * np.ptp(axis):.3f}, of all nodes {1e3 * np.ptp(x[:, 2]):.3f}  "
-              f"foot {1e3 * across.max():.3f}")
+        print(f"  {name:36} length at the axis {1e3 * np.ptp(axis):.3f}, of all nodes {1e3 * np.ptp(x[:, 2]):.3f}  "
+              f"foot {1e3 * across.max():.3f}", flush=True)
 
 
 def mindlin(bench):
@@ -360,7 +365,74 @@ def mindlin(bench):
               f"compliance {found / k:.3f}, work {of_cycle / law:.3f}, {of_cycle / law / (found / k):.3f}", flush=True)
 
 
-LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin)}
+def packed(bench, name, count, mesh, side, density):
+    """Scene of that many spheres in a box, packed at random, each with the velocity `rate` times its place from the middle."""
+    rate = 4000.0  # 1/s
+    folder = bench.folder
+    text = head("Cost", PLASTIC) + mesh
+    walls, moves = "", {}
+    for axis, low, high in ((0, "left", "right"), (1, "front", "back"), (2, "bottom", "top")):
+        for wall, at, sign in ((low, 0, 1), (high, side, -1)):
+            unit = np.eye(3)[axis]
+            walls += plane(wall, at * unit, [int(c) for c in sign * unit])
+            moves[wall] = tuple(0.1 * side * sign * unit)
+    packing = (f'\n[[packing]]\nkind = "random"\nwidth = "{side} m"\ndepth = "{side} m"\ndensity = {density}\n'
+               f'[[packing.class]]\nparticle = "ball"\nnumber = {count}\n')
+    (folder / f"{name}-packing.toml").write_text(text + packing + walls + stage(1e-4, {}, kind="settle"), encoding="utf-8")
+    table = folder / f"{name}.csv"
+    table.unlink(missing_ok=True)
+    subprocess.run([bench.program, "pack", folder / f"{name}-packing.toml", "-o", table], check=True,
+                   stdout=subprocess.DEVNULL)
+    with open(table, encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    for row in rows:
+        at = np.array([float(row[f"{c} [m]"]) for c in "xyz"])
+        v = ", ".join(f'"{c} m/s"' for c in -rate * (at - side / 2))
+        text += body(*at, more=f"velocity = [{v}]\n")
+    # The speed of the walls: rate times half the side.
+    return text + walls + stage(0.1 / (rate / 2), moves, ramp=1e-3) + contact(friction=0.1, damping=0.1)
+
+
+def cost(bench):
+    """A box closes on all sides alike, and its spheres move with it from the start: all of the powder deforms at once, however large
+    it is. The cost at a density is the difference between a run to just before and one to just behind it, in processor time."""
+    before, after, start, rounds = 0.62, 0.72, 0.5, 3
+    print(f"law cost: random packings of 316L, plastic, friction and damping 0.1, relative density from {before} to {after}, one thread;")
+    print(f"ns an element and step, least and median of {rounds} rounds in turns; share of the bodies; bytes an element of the program")
+    print(f"{'mesh':>5} {'spheres':>7} {'elements':>9} {'steps':>6} {'least':>7} {'median':>7} {'M updates/s':>12} {'bodies':>7} {'bytes':>7}",
+          flush=True)
+    few = "\n[output]\nframes = 1\nsamples = 10\n[limits]\nenergy_balance = 0.05\n"
+    for divisions, rings in ((4, 4), (7, 1)):
+        mesh = ball(0.01, divisions, rings, 'phase = "random"\n')
+        scenes = {}
+        for count in (27, 125, 1000):
+            side = (count * math.pi / 6 * 1e-6 / start) ** (1 / 3)
+            scenes[count] = packed(bench, f"cost-{count}-{divisions}-{rings}", count, mesh, side, start)
+        seconds, found = {count: [] for count in scenes}, {}
+        for _ in range(rounds):
+            for count, text in scenes.items():
+                spent, summary = [], []
+                for density in (before, after):
+                    name = f"cost-{count}-{divisions}-{rings}-{density}"
+                    cut = text.replace("[[stage.move]]", f"[stage.until]\nrelative_density = {density}\n[[stage.move]]", 1) + few
+                    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+                    bench.run(name, cut, "--threads", "1")
+                    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+                    spent.append(used.ru_utime + used.ru_stime - usage.ru_utime - usage.ru_stime)
+                    summary.append(json.loads((bench.folder / name / "summary.json").read_text(encoding="utf-8")))
+                steps, elements = summary[1]["steps"] - summary[0]["steps"], summary[1]["elements"]
+                seconds[count].append(1e9 * (spent[1] - spent[0]) / steps / elements)
+                costs = [{c["system"]: c["seconds"] for c in s["cost"]} for s in summary]
+                gained = {system: costs[1][system] - costs[0].get(system, 0) for system in costs[1]}
+                found[count] = (elements, steps, gained, summary[1]["peak_memory_bytes"] / elements)
+        for count, (elements, steps, gained, memory) in found.items():
+            least, median, share = min(seconds[count]), statistics.median(seconds[count]), gained["plastic_force"] / sum(gained.values())
+            print(f"{f'{divisions},{rings}':>5} {count:7d} {elements:9d} {steps:6d} {least:7.1f} {median:7.1f} {1e3 / least:12.2f} {share:7.0%} "
+                  f"{memory:7.0f}   " + ", ".join(f"{s} {1e9 * t / steps / elements:.1f}" for s, t in
+                                                sorted(gained.items(), key=lambda x: -x[1])[:7]), flush=True)
+
+
+LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin, cost)}
 
 
 def main():

@@ -15,7 +15,7 @@ struct Counts {
 };
 // What counts is how finely contacts are resolved; more layers cost and change little (docs/accuracy.md).
 constexpr std::array<Counts, 3> presets_in_space{
-    {{"draft", 4, 1}, {"standard", 6, 1}, {"fine", 8, 2}}};
+    {{"draft", 4, 1}, {"standard", 7, 1}, {"fine", 8, 2}}};
 
 const Counts& counts_of(const Table& root) {
   const std::string* word = document::find_text(root, "accuracy");

@@ -93,6 +93,9 @@ class SpaceChecks {
     // Between two corners of the cube there is a node of four faces, or none on all its edges.
     if (of.mesh.axial_divisions && of.mesh.divisions < 2)
       refuse(path + ".mesh.axial_divisions", "needs divisions of at least 2");
+    const auto* cylinder = std::get_if<CylinderShape>(&of.shape);
+    if (cylinder != nullptr && of.mesh.grid == MeshSpec::Grid::extruded)
+      check_extruded(*cylinder, of.mesh, path, refusal());
   }
 
   std::vector<std::string> names_of_tools() const {

@@ -50,4 +50,19 @@ void check_shape(const ParticleShape& shape, const std::string& path, const Refu
   std::visit([&](const auto& one) { check_sizes(one, path, refuse); }, shape);
 }
 
+void check_extruded(const CylinderShape& cylinder, const MeshSpec& mesh, const std::string& path,
+                    const Refuse& refuse) {
+  if (mesh.divisions < 2)
+    refuse(path + ".mesh.grid",
+           "\"extruded\" has no node of four faces between the corners of its square, allowed: "
+           "divisions of at least 2");
+  const double most = 0.5 * std::min(cylinder.diameter / (mesh.divisions + 2 * mesh.rings),
+                                     cylinder.height / mesh.axial());
+  if (cylinder.rounding > most)
+    refuse(path + ".rounding",
+           fmt::format("{:g} m is more than half of an element, whose rim would be folded flat with "
+                       "grid = \"extruded\", allowed: <= {:g} m",
+                       cylinder.rounding, most));
+}
+
 }  // namespace pulvis::space

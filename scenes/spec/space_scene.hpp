@@ -50,20 +50,20 @@ struct StlShape {         // closed surface that its centre of volume sees as a 
 using ParticleShape = std::variant<SphereShape, EllipsoidShape, SuperquadricShape, CylinderShape,
                                    PolyhedronShape, StlShape>;
 
-// O-grid on a cubed sphere: a core of divisions^2 * axial() hexahedra and `rings` layers around it.
 struct MeshSpec {
-  int divisions = 4;                        // >= 1, of the edges of the cube
+  int divisions = 4;                        // >= 1, of the edges of the cube, or of the square
   int rings = 4;                            // >= 1
   std::optional<int> axial_divisions = {};  // >= 2, of those along z; needs divisions >= 2
+  enum class Grid {
+    cube,      // O-grid on a cubed sphere: a core of divisions^2 * axial() and `rings` layers around it
+    extruded,  // of cylinders: the O-grid of a disc in axial() layers; needs divisions >= 2
+  } grid = Grid::cube;
 
   int axial() const { return axial_divisions.value_or(divisions); }
-  std::int64_t faces() const {  // of a layer
-    const std::int64_t n = divisions;
-    return 2 * n * n + 4 * n * axial();
-  }
   std::int64_t hexahedra() const {
-    const std::int64_t n = divisions;
-    return n * n * axial() + faces() * rings;
+    const std::int64_t n = divisions, m = axial();
+    if (grid == Grid::extruded) return (n * n + 4 * n * rings) * m;
+    return n * n * m + (2 * n * n + 4 * n * m) * rings;
   }
 };
 

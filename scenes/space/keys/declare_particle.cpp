@@ -212,6 +212,20 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.axial_divisions = static_cast<int>(value.integer);
            }},
+          {{.name = "grid",
+            .kind = Kind::choice,
+            .choices = {{"cube", "a cube in the middle and layers around it"},
+                        {"extruded",
+                         "a square in the middle of a disc, rings around it, and `axial_divisions` "
+                         "such layers along z, of divisions^2 + 4 divisions rings elements each: "
+                         "for long cylinders and ends that are struck; rims are rounded by less than "
+                         "half an element"}},
+            .fallback = value_of("cube"),
+            .only_for = "cylinder",
+            .doc = "How the elements hang together."},
+           [](ParticleSpec& spec, const Decoded& value) {
+             spec.mesh.grid = static_cast<MeshSpec::Grid>(value.index);
+           }},
           {{.name = "phase",
             .kind = Kind::choice,
             .choices = {{"fixed", "as the particle is turned"},
@@ -234,7 +248,8 @@ const TableDeclaration<ParticleSpec>& particle() {
 const TableDeclaration<ParticleSpec>& mesh() {
   static const TableDeclaration<ParticleSpec> declaration{
       {"particle.mesh", false, "shape",
-       "Finite elements of one particle: an O-grid, a cube in the middle and layers around it."},
+       "Finite elements of one particle: an O-grid, a cube in the middle and layers around it, or a "
+       "disc's drawn along z."},
       mesh_keys()};
   return declaration;
 }

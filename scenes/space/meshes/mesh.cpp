@@ -9,6 +9,7 @@
 #include "engine/portable_math.hpp"
 #include "scenes/space/meshes/cubed_sphere.hpp"
 #include "scenes/space/meshes/element_constants.hpp"
+#include "scenes/space/meshes/extruded_disc.hpp"
 #include "scenes/space/meshes/smooth_hexahedra.hpp"
 #include "scenes/space/meshes/smooth_surface.hpp"
 #include "scenes/space/meshes/true_volume.hpp"
@@ -47,6 +48,14 @@ Vec3 direction_of(const Vec3& on_cube, const StarSurface& surface) {
   return on_box.cwiseProduct(surface.half_size()).normalized();
 }
 
+// Moves the nodes of the surface, the first ones.
+void make_surface_true(std::vector<Vec3>& nodes, int surface_nodes,
+                       const std::vector<std::array<int, 4>>& quads, const StarSurface& surface) {
+  std::vector<Vec3> outer(nodes.begin(), nodes.begin() + surface_nodes);
+  make_volume_true(outer, quads, surface);
+  std::ranges::copy(outer, nodes.begin());
+}
+
 class Mesher {
  public:
   Mesher(const MeshSpec& mesh, const StarSurface& surface)
@@ -56,7 +65,7 @@ class Mesher {
 
   std::vector<Vec3> nodes() {
     start();
-    make_surface_true();
+    make_surface_true(nodes_, grid_.layer_nodes(), grid_.quads(), surface_);
     smooth_hexahedra(nodes_, hexahedra_, grid_.layer_nodes(), smoothing);
     return nodes_;
   }
@@ -96,28 +105,42 @@ class Mesher {
     return core;
   }
 
-  void make_surface_true() {
-    std::vector<Vec3> outer(nodes_.begin(), nodes_.begin() + grid_.layer_nodes());
-    make_volume_true(outer, grid_.quads(), surface_);
-    std::ranges::copy(outer, nodes_.begin());
-  }
-
   CubedSphere grid_;
   const StarSurface& surface_;
   std::vector<Hexahedron> hexahedra_;
   std::vector<Vec3> nodes_;
 };
 
+void set_mesh(Shape& shape, const std::vector<Vec3>& nodes, int surface_nodes,
+              const std::vector<Hexahedron>& hexahedra) {
+  for (const Vec3& p : nodes) shape.nodes.push_back({p.x(), p.y(), p.z()});
+  shape.surface_nodes = surface_nodes;
+  shape.hexahedra = hexahedra;
+}
+
+void mesh_on_cube(const MeshSpec& mesh, const StarSurface& surface, Shape& shape) {
+  Mesher mesher(mesh, surface);
+  set_mesh(shape, mesher.nodes(), mesher.surface_nodes(), mesher.hexahedra());
+}
+
+// Its elements are even from the start.
+void mesh_by_extrusion(const CylinderShape& cylinder, const MeshSpec& mesh,
+                       const StarSurface& surface, Shape& shape) {
+  ExtrudedDisc disc = extruded_disc(cylinder, mesh, surface);
+  make_surface_true(disc.nodes, disc.surface_nodes, disc.quads, surface);
+  set_mesh(shape, disc.nodes, disc.surface_nodes, disc.hexahedra);
+}
+
 }  // namespace
 
 Shape make_shape(const ParticleSpec& particle) {
   const std::unique_ptr<StarSurface> surface = star_surface(particle.shape);
-  Mesher mesher(particle.mesh, *surface);
   Shape shape;
   shape.name = particle.name;
-  for (const Vec3& p : mesher.nodes()) shape.nodes.push_back({p.x(), p.y(), p.z()});
-  shape.surface_nodes = mesher.surface_nodes();
-  shape.hexahedra = mesher.hexahedra();
+  if (particle.mesh.grid == MeshSpec::Grid::extruded)
+    mesh_by_extrusion(std::get<CylinderShape>(particle.shape), particle.mesh, *surface, shape);
+  else
+    mesh_on_cube(particle.mesh, *surface, shape);
   shape.true_volume = surface->volume();
   complete_elements(shape);  // the stiffness of the faces is made of the elements' volumes,
   complete_surface(shape, *surface);

@@ -95,6 +95,35 @@ TEST(SpaceMesh, OfALongShapeHasElementsAsLongAsWide) {
   }
 }
 
+// Layers of a disc of n * n + 4 n rings, as many faces at either end, 4 n around each layer.
+TEST(SpaceMesh, ExtrudedHasTheCountsOfADiscInLayers) {
+  for (const auto& [n, rings, m] : {std::array{4, 3, 30}, {2, 1, 2}, {5, 2, 3}}) {
+    SCOPED_TRACE(m);
+    const Shape shape = extruded({1, 1, 0}, n, rings, m);
+    const int disc = n * n + 4 * n * rings;
+    ParticleSpec particle;
+    particle.mesh = {n, rings, m, MeshSpec::Grid::extruded};
+    EXPECT_EQ(shape.elements(), disc * m);
+    EXPECT_EQ(particle.mesh.hexahedra(), shape.elements());
+    EXPECT_EQ(static_cast<int>(shape.faces.size()), 2 * disc + 4 * n * m);
+    EXPECT_EQ(shape.surface_nodes, static_cast<int>(shape.faces.size()) + 2);  // Euler
+  }
+}
+
+TEST(SpaceMesh, ExtrudedHasTheVolumeOfTheCylinderAndEvenElements) {
+  for (const auto& [name, shape] : extruded_cases()) {
+    SCOPED_TRACE(name);
+    EXPECT_NEAR(mesh_volume(shape), shape.true_volume, 1e-12 * shape.true_volume);
+    const double mean = shape.volume / shape.elements();
+    for (int e = 0; e < shape.elements(); ++e) {
+      EXPECT_GT(entry(shape.element, e).volume, 0.4 * mean);
+      for (int g = 0; g < 27; ++g)
+        EXPECT_GT(jacobian(shape, e, Vec3(g % 3 - 1, g / 3 % 3 - 1, g / 9 - 1)) * 8,
+                  0.2 * entry(shape.element, e).volume);
+    }
+  }
+}
+
 // The smallest element sets the time step of all.
 TEST(SpaceMesh, OfASphereHasElementsOfSimilarSize) {
   for (const auto& [divisions, rings] : mesh_sizes) {

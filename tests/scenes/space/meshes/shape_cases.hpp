@@ -57,6 +57,21 @@ inline Shape shape_of(const ParticleShape& shape, int divisions, int rings,
   return make_shape(particle);
 }
 
+inline Shape extruded(const CylinderShape& shape, int divisions, int rings, int axial_divisions) {
+  ParticleSpec particle;
+  particle.shape = shape;
+  particle.mesh = {divisions, rings, axial_divisions, MeshSpec::Grid::extruded};
+  return make_shape(particle);
+}
+
+// Rods, pellets and tablets in layers, sharp rims and rounded ones.
+inline std::vector<std::pair<std::string, Shape>> extruded_cases() {
+  return {{"rod", extruded({6.4e-3, 32.4e-3, 0.1e-3}, 4, 3, 30)},
+          {"pellet", extruded({1, 1, 0}, 5, 1, 7)},
+          {"tablet", extruded({12e-3, 4e-3, 0.4e-3}, 6, 2, 3)},
+          {"coarse", extruded({1, 1, 0.1}, 2, 1, 2)}};
+}
+
 inline Vec3 node_of(const Shape& shape, int node) {
   const Point& p = entry(shape.nodes, node);
   return {p[0], p[1], p[2]};

@@ -55,6 +55,7 @@ const std::vector<SurfaceCase>& surface_cases() {
     for (const ShapeCase& c : shape_cases())
       for (const int n : divisions_of_cases)
         made.push_back({c.name + ", " + std::to_string(n) + " divisions", shape_of(c.shape, n, 1)});
+    for (const auto& [name, shape] : extruded_cases()) made.push_back({"extruded " + name, shape});
     return made;
   }();
   return cases;

@@ -69,7 +69,7 @@ TEST(SpaceScene, AccuracyStandsForMeshes) {
   };
   EXPECT_LT(mesh("draft").divisions, mesh("standard").divisions);
   EXPECT_LT(mesh("standard").divisions, mesh("fine").divisions);
-  EXPECT_EQ(mesh("standard").divisions, 6);
+  EXPECT_EQ(mesh("standard").divisions, 7);
   EXPECT_EQ(mesh("standard").rings, 1);
 }
 

@@ -1,0 +1,28 @@
+// Mesh of a cylinder: the O-grid of a disc, n * n quads in the middle and rings of 4 n around them (a butterfly), drawn along
+// z in m layers.
+//
+// Its surface hangs together as that of a cubed sphere of n * n * (m + 2 rings): three faces meet at the eight corners of the
+// squares at the ends, four everywhere else, at the rims too.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scenes/space/meshes/cubed_sphere.hpp"
+#include "scenes/space/meshes/star_surface.hpp"
+#include "scenes/spec/space_scene.hpp"
+
+namespace pulvis::space {
+
+struct ExtrudedDisc {
+  std::vector<Vec3> nodes;  // m; those of the surface first
+  int surface_nodes = 0;
+  std::vector<std::array<int, 4>> quads;  // of the surface, counter-clockwise as seen from outside
+  std::vector<Hexahedron> hexahedra;      // layer by layer
+};
+
+// Nodes of the surface lie on `surface`, that of the cylinder; those inside where the disc's mesh in two dimensions has them.
+ExtrudedDisc extruded_disc(const CylinderShape& cylinder, const MeshSpec& mesh,
+                           const StarSurface& surface);
+
+}  // namespace pulvis::space
