@@ -6,9 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numbers>
-#include <random>
 
 #include "components/bond.hpp"
 #include "components/contact.hpp"
@@ -21,9 +18,8 @@
 #include "engine/portable_math.hpp"
 #include "scenes/grains/grains.hpp"
 #include "scenes/highest_mode.hpp"
-#include "scenes/hilbert.hpp"
+#include "scenes/layout.hpp"
 #include "scenes/meshes/hollows.hpp"
-#include "scenes/meshes/mesh.hpp"
 #include "scenes/meshes/thinnest.hpp"
 #include "scenes/needs.hpp"
 #include "scenes/packing/place.hpp"
@@ -45,109 +41,6 @@ namespace {
 // Surfaces move by this many skins against each other before they can have come near who were no
 // neighbours: more than neighbours do, and few enough to keep lists short.
 constexpr double skins_of_neighbourhood = 8;
-
-// Uniform in [0, 1) from the top 53 bits: the same on every machine and standard library.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-// One particle in its lane: which shape, and the turn from the shape's frame to the scene's.
-struct Placed {
-  const BodySpec* body;
-  int number;
-  double turn;  // rad, of the mesh in space: the body's angle and the mesh phase
-};
-
-// In which order particles follow each other in memory: neighbours in space are near each other there, whatever
-// the order of the scene.
-class MemoryOrder {
- public:
-  explicit MemoryOrder(const std::vector<BodySpec>& bodies) {
-    for (const BodySpec& body : bodies) {
-      low_ = low_.cwiseMin(body.position);
-      high_ = high_.cwiseMax(body.position);
-    }
-  }
-  std::uint64_t operator()(const BodySpec& body) const {
-    constexpr int order = 16;  // cells far smaller than particles
-    const double size = std::max((high_ - low_).maxCoeff(), std::numeric_limits<double>::min());
-    const Vec2 share = (body.position - low_) / size;
-    const auto cell = [](double s) { return static_cast<std::uint32_t>(s * ((1 << order) - 1)); };
-    return hilbert_number(order, cell(share.x()), cell(share.y()));
-  }
-
- private:
-  Vec2 low_ = Vec2::Constant(std::numeric_limits<double>::max());
-  Vec2 high_ = Vec2::Constant(std::numeric_limits<double>::lowest());
-};
-
-// Particles of one class after the other, so many to a chunk as it has lanes; a mesh phase turns the mesh, not the shape
-// (a disc's outline does not care), so that all particles of a class share one undeformed mesh.
-std::vector<std::vector<Placed>> by_class(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  std::mt19937_64 random(scene.seed);
-  std::vector<std::vector<Placed>> classes(scene.particles.size() + scene.grains.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const auto which = static_cast<std::size_t>(bodies[i].particle);
-    const ParticleSpec& spec = scene.class_of(bodies[i]);
-    const double phase =
-        spec.random_mesh_phase ? 2 * std::numbers::pi * uniform(random) : spec.mesh_phase;
-    classes[which].push_back({&bodies[i], static_cast<int>(i), bodies[i].angle + phase});
-  }
-  const MemoryOrder order(bodies);
-  for (std::vector<Placed>& placed : classes)
-    std::ranges::stable_sort(placed, {}, [&](const Placed& p) { return order(*p.body); });
-  return classes;
-}
-
-struct Layout {
-  Bodies bodies;
-  ParticleClasses classes;
-  std::vector<const Placed*> placed;  // [slots]; null where nobody stands
-};
-
-Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& classes,
-               std::size_t particles) {
-  Layout layout;
-  layout.bodies.thickness = scene.thickness;
-  layout.bodies.formulation = scene.element.formulation;
-  layout.bodies.slot_of_number.assign(particles, Bodies::empty_slot);
-  int control = 0;
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    if (classes[c].empty()) continue;
-    const int shape = static_cast<int>(layout.bodies.shapes.size());
-    const ParticleSpec& spec = scene.class_of(*classes[c].front().body);
-    layout.bodies.shapes.push_back(make_shape(spec));
-    layout.classes.of_shape.push_back(static_cast<int>(c));
-    const std::size_t lanes = (classes[c].size() + lane_count - 1) / lane_count * lane_count;
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const bool there = i < classes[c].size();
-      Bodies::Slot slot{there ? classes[c][i].number : Bodies::empty_slot, shape, spec.material,
-                        control, there ? classes[c][i].body->parent : Bodies::empty_slot};
-      control += layout.bodies.shapes.back().control_points();
-      if (there)
-        layout.bodies.slot_of_number[static_cast<std::size_t>(slot.number)] =
-            static_cast<int>(layout.bodies.slots.size());
-      layout.bodies.slots.push_back(slot);
-      layout.placed.push_back(there ? &classes[c][i] : nullptr);
-    }
-  }
-  layout.bodies.hold_all();
-  return layout;
-}
-
-// m, of every slot where a particle stands.
-std::vector<std::array<double, 3>> centres(const Layout& layout) {
-  std::vector<std::array<double, 3>> all(layout.placed.size());
-  for (std::size_t slot = 0; slot < all.size(); ++slot)
-    if (const Placed* placed = layout.placed[slot])
-      all[slot] = {placed->body->position.x(), placed->body->position.y(), 0};
-  return all;
-}
-
-std::vector<double> elements_of_chunks(const Bodies& bodies) {
-  std::vector<double> all;
-  for (int c = 0; c < bodies.chunks(); ++c)
-    all.push_back(bodies.shape_of_chunk(Chunk{c}).elements());
-  return all;
-}
 
 template <class Count>
 std::vector<std::int32_t> rows_by_chunk(const Bodies& bodies, const Count& count) {
@@ -404,11 +297,11 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
   check_travel(scene, particles);
   const std::vector<BodySpec> bodies = grains_of(scene, particles);
   const Needs needs = needs_of(scene, bodies.size());
-  const auto classes = by_class(scene, bodies);
+  const auto classes = placed_by_class(scene, bodies);
   Layout layout = lay_out(scene, classes, bodies.size());
 
   std::unique_ptr<World> world = empty_world(part);
-  hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout.bodies));
+  hold_part(*world, part, layout.bodies, centres(layout), elements_of_chunks(layout));
   add_body_columns(*world, layout.bodies, needs);
   if (needs.tools || needs.constraints) add_tools(*world, scene, particles, needs);
   if (needs.contact()) {

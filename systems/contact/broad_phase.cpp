@@ -98,6 +98,7 @@ struct Curves {
 
   int slots() const { return static_cast<int>(bodies.slots.size()); }
   bool is_absent(int slot) const { return !bodies.is_present(slot); }
+  bool is_own(int slot) const { return bodies.owns(slot); }
   int edges(int slot) const { return static_cast<int>(bodies.shape_of_slot(slot).edges.size()); }
   const double* points(int slot) const {
     return control.data() + 2 * entry(bodies.slots, slot).first_control;
@@ -110,8 +111,8 @@ struct Curves {
   std::vector<Box> particle_boxes() const {
     std::vector<Box> boxes(bodies.slots.size());
     for_slots(slots(), [&](int s) {
-      if (is_absent(s)) return;
-      entry(boxes, s) = box_of(points(s), bodies.shape_of_slot(s).control_points());
+      if (!is_absent(s))
+        entry(boxes, s) = box_of(points(s), bodies.shape_of_slot(s).control_points());
     });
     return boxes;
   }
@@ -124,9 +125,8 @@ struct Curves {
     }
     all.edge.resize(static_cast<std::size_t>(count));
     for_slots(slots(), [&](int s) {
-      if (is_absent(s)) return;
-      Box* box = &entry(all.edge, entry(all.edge_begin, s));
-      for (int e = 0; e < edges(s); ++e) box[e] = box_of(edge_points(s, e), 4);
+      for (int e = 0; e < (is_absent(s) ? 0 : edges(s)); ++e)
+        entry(all.edge, entry(all.edge_begin, s) + e) = box_of(edge_points(s, e), 4);
     });
     return all;
   }
@@ -229,8 +229,6 @@ class EdgeSearch {
 
   enum class Of { all, faced };
 
-  const Bodies& bodies() const { return curves_.bodies; }
-
   const Box& edge_box(int slot, int e) const {
     return entry(boxes_.edge, entry(boxes_.edge_begin, slot) + e);
   }
@@ -250,7 +248,7 @@ class EdgeSearch {
                   neighbour.slot == slot && neighbour.image == Image{},
                   {}};
       const Box own = moved(entry(boxes_.particle, slot), {-other.shift[0], -other.shift[1]});
-      if (!bodies().owns(slot) && !bodies().owns(other.slot)) continue;  // of other ranks alone
+      if (!curves_.is_own(slot) && !curves_.is_own(other.slot)) continue;  // of other ranks alone
       if (!near(own, entry(boxes_.particle, other.slot), skin_)) continue;
       for (int e = 0; e < curves_.edges(other.slot); ++e)
         if (near(own, edge_box(other.slot, e), skin_)) other.edges.push_back(e);
@@ -395,8 +393,8 @@ bool before(const Neighbour& a, const Neighbour& b) {
 BySlot<Neighbour> particle_neighbours(const Bodies& bodies, std::span<const double> control,
                                       const PeriodicCell* cell, double distance) {
   const std::vector<int>& slots = bodies.present_slots;
-  if (slots.empty()) return BySlot<Neighbour>::none(static_cast<int>(bodies.slots.size()));
   const Curves curves{bodies, control};
+  if (slots.empty()) return BySlot<Neighbour>::none(curves.slots());
   const std::vector<Box> own_boxes = curves.particle_boxes();
   const auto images = cell != nullptr
                           ? std::optional<Images>(std::in_place, *cell, own_boxes, slots, distance)

@@ -29,6 +29,20 @@ target_link_libraries(test_launch PRIVATE pulvis_cli GTest::gmock_main)
 optimise(test_launch 1)
 gtest_discover_tests(test_launch TEST_PREFIX mpi. PROPERTIES TIMEOUT ${PULVIS_TEST_TIMEOUT} LABELS mpi)
 
+# The same bits on any number of ranks. The long round by hand: tests/mpi/ranks_runs.py PROGRAM . --case NAME, --kills 50
+foreach(case die friction damped-servo shear cell space-die space-round space-mixture)
+  set(quick --quick)
+  if(case STREQUAL die)
+    set(quick)
+  endif()
+  add_test(NAME mpi.ranks_run_${case}
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
+                   --case ${case} ${quick})
+endforeach()
+add_test(NAME mpi.ranks_killed
+         COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
+                 --kills 3)
+
 get_property(tests DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} PROPERTY TESTS)
 list(FILTER tests INCLUDE REGEX "^mpi\\.ranks_")
 set_tests_properties(${tests} PROPERTIES TIMEOUT 300 LABELS mpi PROCESSORS 2)  # they wait by asking

@@ -1,0 +1,105 @@
+#include "scenes/layout.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "scenes/hilbert.hpp"
+#include "scenes/meshes/mesh.hpp"
+
+namespace pulvis {
+
+namespace {
+
+// Uniform in [0, 1) from the top 53 bits: the same on every machine and standard library.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+// In which order particles follow each other in memory: neighbours in space are near each other there, whatever
+// the order of the scene.
+class MemoryOrder {
+ public:
+  explicit MemoryOrder(const std::vector<BodySpec>& bodies) {
+    for (const BodySpec& body : bodies) {
+      low_ = low_.cwiseMin(body.position);
+      high_ = high_.cwiseMax(body.position);
+    }
+  }
+  std::uint64_t operator()(const BodySpec& body) const {
+    constexpr int order = 16;  // cells far smaller than particles
+    const double size = std::max((high_ - low_).maxCoeff(), std::numeric_limits<double>::min());
+    const Vec2 share = (body.position - low_) / size;
+    const auto cell = [](double s) { return static_cast<std::uint32_t>(s * ((1 << order) - 1)); };
+    return hilbert_number(order, cell(share.x()), cell(share.y()));
+  }
+
+ private:
+  Vec2 low_ = Vec2::Constant(std::numeric_limits<double>::max());
+  Vec2 high_ = Vec2::Constant(std::numeric_limits<double>::lowest());
+};
+
+}  // namespace
+
+std::vector<std::vector<Placed>> placed_by_class(const Scene& scene,
+                                                 const std::vector<BodySpec>& bodies) {
+  std::mt19937_64 random(scene.seed);
+  std::vector<std::vector<Placed>> classes(scene.particles.size() + scene.grains.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto which = static_cast<std::size_t>(bodies[i].particle);
+    const ParticleSpec& spec = scene.class_of(bodies[i]);
+    const double phase =
+        spec.random_mesh_phase ? 2 * std::numbers::pi * uniform(random) : spec.mesh_phase;
+    classes[which].push_back({&bodies[i], static_cast<int>(i), bodies[i].angle + phase});
+  }
+  const MemoryOrder order(bodies);
+  for (std::vector<Placed>& placed : classes)
+    std::ranges::stable_sort(placed, {}, [&](const Placed& p) { return order(*p.body); });
+  return classes;
+}
+
+Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& classes,
+               std::size_t particles) {
+  Layout layout;
+  layout.bodies.thickness = scene.thickness;
+  layout.bodies.formulation = scene.element.formulation;
+  layout.bodies.slot_of_number.assign(particles, Bodies::empty_slot);
+  int control = 0;
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    if (classes[c].empty()) continue;
+    const int shape = static_cast<int>(layout.bodies.shapes.size());
+    const ParticleSpec& spec = scene.class_of(*classes[c].front().body);
+    layout.bodies.shapes.push_back(make_shape(spec));
+    layout.classes.of_shape.push_back(static_cast<int>(c));
+    const std::size_t lanes = (classes[c].size() + lane_count - 1) / lane_count * lane_count;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const bool there = i < classes[c].size();
+      Bodies::Slot slot{there ? classes[c][i].number : Bodies::empty_slot, shape, spec.material,
+                        control, there ? classes[c][i].body->parent : Bodies::empty_slot};
+      control += layout.bodies.shapes.back().control_points();
+      if (there)
+        layout.bodies.slot_of_number[static_cast<std::size_t>(slot.number)] =
+            static_cast<int>(layout.bodies.slots.size());
+      layout.bodies.slots.push_back(slot);
+      layout.placed.push_back(there ? &classes[c][i] : nullptr);
+    }
+  }
+  layout.bodies.hold_all();
+  return layout;
+}
+
+std::vector<std::array<double, 3>> centres(const Layout& layout) {
+  std::vector<std::array<double, 3>> all(layout.placed.size());
+  for (std::size_t slot = 0; slot < all.size(); ++slot)
+    if (const Placed* placed = layout.placed[slot])
+      all[slot] = {placed->body->position.x(), placed->body->position.y(), 0};
+  return all;
+}
+
+std::vector<double> elements_of_chunks(const Layout& layout) {
+  std::vector<double> all;
+  for (int c = 0; c < layout.bodies.chunks(); ++c)
+    all.push_back(layout.bodies.shape_of_chunk(Chunk{c}).elements());
+  return all;
+}
+
+}  // namespace pulvis
