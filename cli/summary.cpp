@@ -222,6 +222,10 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"elements", results.elements()},
             {"element_updates_per_second", cost.wall_seconds > 0 ? updates / cost.wall_seconds : 0},
             {"peak_memory_bytes", peak_memory()}};
+  if (!cost.rank_memory.empty())
+    json["ranks"] = {{"count", cost.rank_memory.size()},
+                     {"bytes_a_step", cost.bytes_a_step},
+                     {"peak_memory_bytes", cost.rank_memory}};
   if (scene.space)
     json["dimension"] = 3;
   else

@@ -19,9 +19,11 @@ namespace pulvis {
 struct RunCost {
   double wall_seconds = 0;
   std::int64_t steps = 0;
-  int threads = 1;
+  int threads = 1;  // of each rank
   std::string scene_hash, outcome;
   std::vector<SystemCost> systems;
+  double bytes_a_step = 0;          // that all ranks together told each other
+  std::vector<double> rank_memory;  // bytes, the most that each rank held; empty of one process
 };
 
 // What its user should know of a run's figures.

@@ -54,6 +54,8 @@ void Simulation::run_until(double time, const std::function<bool()>& stop) {
 }
 
 void Simulation::do_run(double time, const std::function<bool()>& stop) {
+  const std::int64_t first = clock().step;
+  const std::uint64_t sent = crew_ ? crew_->bytes_sent() : 0;
   workers_.run([&] {
     while (clock().time < std::min(time, end())) {
       step_->run();
@@ -61,6 +63,7 @@ void Simulation::do_run(double time, const std::function<bool()>& stop) {
       if (crew_ ? !crew_->goes_on(!stops) : stops) return;
     }
   });
+  if (crew_) crew_->ran(clock().step - first, crew_->bytes_sent() - sent);
 }
 
 void Simulation::observe() {

@@ -47,6 +47,10 @@ class Simulation {
   void fetch_state();
   void fetch_rows();
   ColumnVisit visit();
+  std::vector<double> rank_memory() const {
+    return crew_ ? crew_->memory() : std::vector<double>();
+  }
+  double bytes_a_step() const { return crew_ ? crew_->bytes_a_step() : 0; }
   void leave();
   void restore(const Checkpoint& checkpoint);
   // Not the root: does what the root does, until that has done.

@@ -301,7 +301,8 @@ void Session::finish(const std::string& outcome) {
   simulation_->fetch_state();
   write_summary(folder, loaded_.scene, simulation_->whole(), results_, compaction_, quality(),
                 {progress_->seconds(), clock().step, options_.threads,
-                 fmt::format("{:016x}", loaded_.hash), outcome, simulation_->costs()},
+                 fmt::format("{:016x}", loaded_.hash), outcome, simulation_->costs(),
+                 simulation_->bytes_a_step(), simulation_->rank_memory()},
                 verdicts_);
   write_report(folder);
 }

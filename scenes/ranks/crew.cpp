@@ -1,6 +1,9 @@
 #include "scenes/ranks/crew.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <span>
 
 #include "components/contact.hpp"
 #include "components/ranks.hpp"
@@ -11,6 +14,12 @@
 
 namespace pulvis {
 namespace {
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024;
+}
 
 bool looks_at_motion(const Scene& scene) {
   const bool shears = std::ranges::any_of(
@@ -57,7 +66,14 @@ void Crew::fetch(const Order& order) {
   Gatherer gathering(share_, whole_.get());
   for (const std::uint64_t number : order.columns)
     gathering.column(static_cast<std::size_t>(number));
-  if (order.rows) gathering.rows();
+  if (order.rows) {
+    gathering.rows();
+    bytes_of_all_ = bytes_;
+    ranks_.sum(std::span(&bytes_of_all_, 1));
+    memory_.assign(static_cast<std::size_t>(ranks_.count()), 0);
+    memory_[static_cast<std::size_t>(ranks_.rank())] = peak_memory();
+    ranks_.maximum(memory_);
+  }
   gathering.common();
 }
 

@@ -53,6 +53,12 @@ class Crew {
 
   // What a rank does for it.
   void fetch(const Order& order);
+  // Steps that were run through, and what this rank sent in them.
+  std::uint64_t bytes_sent() const { return ranks_.bytes_sent(); }
+  void ran(std::int64_t steps, std::uint64_t bytes) {
+    steps_ += steps;
+    bytes_ += static_cast<std::int64_t>(bytes);
+  }
 
   // ---- of the root
   World& whole() { return *whole_; }
@@ -64,6 +70,11 @@ class Crew {
   void drop();
   void drop(const ColumnBase& column);
   std::size_t number_of(const ColumnBase& column) const;
+  // bytes, the most that each rank has held; known likewise.
+  const std::vector<double>& memory() const { return memory_; }
+  double bytes_a_step() const {  // of all ranks together; known when rows were fetched
+    return steps_ > 0 ? static_cast<double>(bytes_of_all_) / static_cast<double>(steps_) : 0;
+  }
 
  private:
   std::vector<std::uint64_t> numbers_of(const std::vector<std::string>& names) const;
@@ -72,6 +83,8 @@ class Crew {
   std::unique_ptr<World> whole_;
   Ranks& ranks_;
   bool needs_motion_;  // results look at nodes at every sample
+  std::int64_t steps_ = 0, bytes_ = 0, bytes_of_all_ = 0;
+  std::vector<double> memory_;
 };
 
 // What a run over several ranks cannot do yet. Throws SceneError.

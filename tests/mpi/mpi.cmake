@@ -39,7 +39,7 @@ foreach(case die friction damped-servo shear cell space-die space-round space-mi
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
                    --case ${case} ${quick})
 endforeach()
-add_test(NAME mpi.ranks_killed
+add_test(NAME mpi.ranks_run_killed
          COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
                  --kills 3)
 

@@ -1,0 +1,163 @@
+#!/usr/bin/python3
+"""Runs over several ranks: what they cost beside threads, what they tell each other, and a model of many nodes from it.
+
+usage: ranks.py [--pulvis PROGRAM] [--folder DIR] [--repeats N] WHAT...
+
+WHAT  strong   a hexagonal packing on 1 and 2 threads and on 1 and 2 ranks, side by side: wall seconds, least and median
+      weak     N discs on one rank, 2 N on two
+      bytes    what ranks tell each other in a step, by the number of ranks and of discs
+      model    seconds a step on 1 to 1,024 nodes for 10^4 to 10^7 discs, from the cost of a disc and of the bytes that
+               `strong` and `bytes` measure, with the stated latency and bandwidth
+      many     100,000 discs for 500 steps on two ranks: memory of each
+"""
+import argparse
+import json
+import math
+import pathlib
+import statistics
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LATENCY, BANDWIDTH = 2e-6, 10e9  # s, byte/s: a usual interconnect of clusters, stated and not measured
+CORES = 64  # of a node of the model, one rank
+COLLECTIVES = 6  # in a step: contact sums (2), depth, tool forces, time step, whether the root goes on
+
+SCENE = """extends = "{base}"
+title = "{side} x {side} discs, 316L"
+
+packing = [{{ kind = "square", particle = "disc", rows = {side}, columns = {side}, corner = ["0 mm", "0 mm"] }}]
+stage = [{{ name = "press", duration = "{duration} us", move = [{{ tool = "top", displacement = ["0 mm", "-{travel} mm"] }}] }}]
+
+[[tool]]
+name = "right"
+point = ["{width} mm", "0 mm"]
+
+[[tool]]
+name = "top"
+point = ["0 mm", "{width} mm"]
+
+[output]
+frames = 1
+samples = 1
+"""
+
+
+def run(options, name, words):
+    folder = options.folder / name
+    subprocess.run([options.pulvis, "run", *map(str, words), "-o", folder, "--overwrite", "--quiet",
+                    "--checkpoint-steps", str(10**9)], check=False)
+    return json.loads((folder / "summary.json").read_text())
+
+
+def scene_of(options, discs):
+    """The square packing of about so many discs of regular-25.toml, pressed as fast as there."""
+    side = max(2, round(math.sqrt(discs)))
+    options.folder.mkdir(parents=True, exist_ok=True)
+    file = options.folder / f"discs-{side * side}.toml"
+    file.write_text(SCENE.format(base=ROOT / "scenes/compaction/regular-25.toml", side=side, width=10 * side,
+                                 travel=side, duration=560 * side))
+    return file, side * side
+
+
+def side_by_side(options, scene, steps, ways):
+    """Wall seconds of every way, run in turns."""
+    seconds = {name: [] for name in ways}
+    summaries = {}
+    for _ in range(options.repeats):
+        for name, words in ways.items():
+            summaries[name] = run(options, name.replace(" ", "-"), [scene, "--stop-after", steps, *words])
+            seconds[name].append(summaries[name]["wall_seconds"])
+    return seconds, summaries
+
+
+def strong(options):
+    scene, discs = scene_of(options, options.discs)
+    ways = {"1 thread": ["--threads", 1], "1 rank": ["--ranks", 1, "--threads", 1], "2 threads": ["--threads", 2],
+            "2 ranks": ["--ranks", 2, "--threads", 1]}
+    seconds, summaries = side_by_side(options, scene, options.steps, ways)
+    if len({summary["state_hash"] for summary in summaries.values()}) != 1:
+        raise SystemExit("the ways do not end in the same state")
+    base = min(seconds["1 thread"])
+    print(f"strong scaling: {discs} discs, {options.steps} steps, wall seconds of {options.repeats} runs in turns")
+    print("| way | least | median | 1 thread over it, least |\n|---|---|---|---|")
+    for name, times in seconds.items():
+        print(f"| {name} | {min(times):.2f} | {statistics.median(times):.2f} | {base / min(times):.2f} |")
+
+
+def weak(options):
+    one, few = scene_of(options, options.discs)
+    two, many = scene_of(options, 2 * options.discs)
+    seconds, _ = side_by_side(options, one, options.steps, {"1 thread": ["--threads", 1]})
+    twice, _ = side_by_side(options, two, options.steps, {"2 ranks": ["--ranks", 2, "--threads", 1],
+                                                          "2 threads": ["--threads", 2]})
+    print(f"weak scaling: {options.steps} steps, microseconds a step and disc of a core, least and median")
+    print("| way | discs | least | median |\n|---|---|---|---|")
+    for name, discs, times in (("1 thread", few, seconds["1 thread"]), ("2 ranks", many, twice["2 ranks"]),
+                               ("2 threads", many, twice["2 threads"])):
+        cores = int(name[0])
+        each = [t / options.steps / discs * cores * 1e6 for t in times]
+        print(f"| {name} | {discs} | {min(each):.3f} | {statistics.median(each):.3f} |")
+
+
+def told(options, discs, ranks):
+    scene, count = scene_of(options, discs)
+    summary = run(options, f"bytes-{count}-{ranks}",
+                  [scene, "--stop-after", options.steps, "--ranks", ranks, "--threads", 1])
+    return count, summary["ranks"]["bytes_a_step"], summary
+
+
+def bytes_told(options):
+    print(f"bytes that all ranks together tell each other in a step, mean of {options.steps} steps")
+    print("| discs | ranks | bytes a step | a step and disc |\n|---|---|---|---|")
+    for discs in (400, 1600, 6400):
+        for ranks in (2, 3, 4):
+            count, bytes_a_step, _ = told(options, discs, ranks)
+            print(f"| {count} | {ranks} | {bytes_a_step:.0f} | {bytes_a_step / count:.1f} |")
+
+
+def model(options):
+    """t = a N/(64 P) + 4 messages + collectives log2 P, with the bytes of a border as long as a square share's side."""
+    scene, discs = scene_of(options, options.discs)
+    seconds, _ = side_by_side(options, scene, options.steps, {"1 thread": ["--threads", 1]})
+    a_disc = min(seconds["1 thread"]) / options.steps / discs
+    count, bytes_a_step, _ = told(options, 6400, 2)
+    of_border = bytes_a_step / 2 / math.sqrt(count)  # sent by each of two ranks along a side of sqrt(count) discs
+    print(f"measured: {a_disc * 1e6:.2f} us a step and disc on one core, {of_border:.0f} bytes a disc of the border; "
+          f"stated: latency {LATENCY * 1e6:.0f} us, {BANDWIDTH / 1e9:.0f} GB/s, {CORES} cores a node, one rank each")
+    print("| discs | " + " | ".join(f"{nodes} nodes" for nodes in (1, 4, 16, 64, 256, 1024)) + " |")
+    print("|---|" + "---|" * 6)
+    for size in (10**4, 10**5, 10**6, 10**7):
+        cells = []
+        for nodes in (1, 4, 16, 64, 256, 1024):
+            ranks = nodes * CORES
+            bodies = a_disc * max(size / ranks, 8)  # a chunk has eight
+            border = 4 * of_border * math.sqrt(size / ranks) / BANDWIDTH + 2 * 4 * LATENCY
+            cells.append(f"{(bodies + border + COLLECTIVES * math.log2(ranks) * LATENCY) * 1e6:.0f}")
+        print(f"| 10^{round(math.log10(size))} | " + " | ".join(cells) + " |")
+    print("microseconds a step")
+
+
+def many(options):
+    scene, discs = scene_of(options, 100000)
+    steps = 500
+    summary = run(options, "many", [scene, "--stop-after", steps, "--ranks", 2, "--threads", 1])
+    memory = ", ".join(f"{m / 2**20:.0f} MB" for m in summary["ranks"]["peak_memory_bytes"])
+    print(f"{discs} discs, {summary['elements']} elements, {summary['steps']} steps on 2 ranks: "
+          f"{summary['wall_seconds']:.0f} s, at most {memory}, state {summary['state_hash']}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--pulvis", default=ROOT / "build/release/cli/pulvis", type=pathlib.Path)
+    parser.add_argument("--folder", default=pathlib.Path("runs/ranks"), type=pathlib.Path)
+    parser.add_argument("--repeats", default=5, type=int)
+    parser.add_argument("--discs", default=1600, type=int)
+    parser.add_argument("--steps", default=200, type=int)
+    parser.add_argument("what", nargs="+", choices=("strong", "weak", "bytes", "model", "many"))
+    options = parser.parse_args()
+    for what in options.what:
+        {"strong": strong, "weak": weak, "bytes": bytes_told, "model": model, "many": many}[what](options)
+
+
+if __name__ == "__main__":
+    main()
