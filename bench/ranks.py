@@ -20,13 +20,17 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LATENCY, BANDWIDTH = 2e-6, 10e9  # s, byte/s: a usual interconnect of clusters, stated and not measured
 CORES = 64  # of a node of the model, one rank
-COLLECTIVES = 6  # in a step: contact sums (2), depth, tool forces, time step, whether the root goes on
+COLLECTIVES = 5  # in a step: contact sums, depth, tool forces, time step, whether the root goes on
 
 SCENE = """extends = "{base}"
 title = "{side} x {side} discs, 316L"
 
 packing = [{{ kind = "square", particle = "disc", rows = {side}, columns = {side}, corner = ["0 mm", "0 mm"] }}]
 stage = [{{ name = "press", duration = "{duration} us", move = [{{ tool = "top", displacement = ["0 mm", "-{travel} mm"] }}] }}]
+
+[[particle]]
+name = "disc"
+mesh = {{ boundary_edges = {edges}, rings = 1 }}
 
 [[tool]]
 name = "right"
@@ -49,13 +53,13 @@ def run(options, name, words):
     return json.loads((folder / "summary.json").read_text())
 
 
-def scene_of(options, discs):
+def scene_of(options, discs, edges=40):
     """The square packing of about so many discs of regular-25.toml, pressed as fast as there."""
     side = max(2, round(math.sqrt(discs)))
     options.folder.mkdir(parents=True, exist_ok=True)
     file = options.folder / f"discs-{side * side}.toml"
     file.write_text(SCENE.format(base=ROOT / "scenes/compaction/regular-25.toml", side=side, width=10 * side,
-                                 travel=side, duration=560 * side))
+                                 travel=side, duration=560 * side, edges=edges))
     return file, side * side
 
 
@@ -138,7 +142,7 @@ def model(options):
 
 
 def many(options):
-    scene, discs = scene_of(options, 100000)
+    scene, discs = scene_of(options, 100000, edges=16)
     steps = 500
     summary = run(options, "many", [scene, "--stop-after", steps, "--ranks", 2, "--threads", 1])
     memory = ", ".join(f"{m / 2**20:.0f} MB" for m in summary["ranks"]["peak_memory_bytes"])

@@ -29,9 +29,7 @@ struct RankLink {
   // What broke on this rank in this step, and at which position of the step list; told to the others at its end.
   std::string failure;
   int failed_at = 0;
-  // What only one rank knows of and all do at the end of the same step: bits that are joined.
-  std::uint32_t wishes = 0, agreed = 0;
-  bool any_failed = false;
+  bool any_failed = false;  // on any rank
 
   int owner_of(int slot) const { return owner[static_cast<std::size_t>(slot / lane_count)]; }
 

@@ -127,6 +127,7 @@ void require_ranks_can_run(const Scene& scene) {
   const auto refuse = [&](const char* key, const char* what) {
     SceneProblem problem;
     problem.file = scene.file.string();
+    problem.line = problem.column = 1;
     problem.key = key;
     problem.message =
         std::string("a run over several ranks has no ") + what + ", allowed: --ranks 1";
@@ -134,6 +135,9 @@ void require_ranks_can_run(const Scene& scene) {
   };
   if (scene.afm) refuse("afm", "levers");
   if (!scene.bonds.empty()) refuse("bond", "bonds");
+  if (std::ranges::find(scene.tools, ToolSpec::Shape::constraint, &ToolSpec::shape) !=
+      scene.tools.end())
+    refuse("tool", "constraints");
 }
 
 }  // namespace pulvis

@@ -40,8 +40,7 @@ void contact_totals::operator()() const {
   Sums of;
   if (pairs) of.add((*pairs)->blocks);
   if (tools) of.add((*tools)->blocks);
-  sum_of_ranks(link, std::span(of.sum));
-  sum_of_ranks(link, std::span(of.count));
+  sum_of_ranks(link, of.sum, of.count);
   totals->touching = of.count[Sums::touching];
   totals->contact_energy = of.sum[Sums::energy].value();
   totals->friction_work += of.sum[Sums::friction_work].value();

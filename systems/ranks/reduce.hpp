@@ -40,33 +40,30 @@ double minimum_of_ranks(const L& link, double number) {
   return -maximum_of_ranks(link, -number);
 }
 
-// The same at the end of a step, and with it what broke, and what a rank wishes.
+// The same at the end of a step, and with it whether something broke on any rank.
 inline void agree(RankLink& link, std::span<double> numbers) {
-  constexpr int bits = 32;
   std::vector<double> all(numbers.begin(), numbers.end());
-  for (int bit = 0; bit < bits; ++bit) all.push_back(static_cast<double>(link.wishes >> bit & 1U));
   all.push_back(link.failure.empty() ? 0 : 1);
   link.ranks->maximum(all);
   std::copy_n(all.begin(), numbers.size(), numbers.begin());
-  link.agreed = 0;
-  for (std::size_t bit = 0; bit < bits; ++bit)
-    if (all[numbers.size() + bit] > 0) link.agreed |= 1U << bit;
   link.any_failed = all.back() > 0;
 }
 
-inline void sum_of_ranks(const Link& link, std::span<ExactSum> sums) {
+// Exact sums and counts, with one message.
+inline void sum_of_ranks(const Link& link, std::span<ExactSum> sums,
+                         std::span<std::int64_t> counts = {}) {
   RankLink* own = link_of(link);
   if (own == nullptr) return;
-  std::vector<std::int64_t> numbers;
-  numbers.reserve(sums.size() * ExactSum::numbers);
+  std::vector<std::int64_t> numbers(counts.begin(), counts.end());
   for (ExactSum& sum : sums)
     numbers.insert(numbers.end(), sum.carried().begin(), sum.carried().end());
   own->ranks->sum(numbers);
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    sums[i] = ExactSum::of(std::span(numbers).subspan(i * ExactSum::numbers, ExactSum::numbers));
-}
-inline void sum_of_ranks(const Link& link, std::span<std::int64_t> numbers) {
-  if (RankLink* own = link_of(link)) own->ranks->sum(numbers);
+  std::copy_n(numbers.begin(), counts.size(), counts.begin());
+  std::span<const std::int64_t> left = std::span(numbers).subspan(counts.size());
+  for (ExactSum& sum : sums) {
+    sum = ExactSum::of(left.first(ExactSum::numbers));
+    left = left.subspan(ExactSum::numbers);
+  }
 }
 
 }  // namespace pulvis
