@@ -138,37 +138,52 @@ def ranks_of(launcher):
     return found
 
 
+def kill_a_rank(choose, launcher):
+    """At a random moment; whether there was one to kill."""
+    time.sleep(choose.uniform(0.3, 2.5))
+    ranks = ranks_of(launcher.pid)
+    if not ranks or launcher.poll() is not None:
+        return False
+    try:
+        os.kill(choose.choice(ranks), signal.SIGKILL)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def run_with_kills(case, folder, choose, kills):
+    """To its end, over as many kills as come before it; returns how many did."""
+    killed, words = 0, case.words(folder, "--ranks", 3)
+    words[words.index("--checkpoint-steps") + 1] = 50
+    while True:
+        launcher = subprocess.Popen([case.program, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                    text=True)
+        hit = killed < kills and kill_a_rank(choose, launcher)
+        _, told = launcher.communicate(timeout=600)
+        if launcher.returncode in (0, 1, 3, 130):
+            return killed
+        if launcher.returncode != 4 or not hit or "killed" not in told:
+            raise Failed(f"exit {launcher.returncode}, killed: {hit}: {told}")
+        killed += 1
+        if list(folder.glob("checkpoint-*.h5")):
+            words = ["resume", folder, "--quiet", "--ranks", choose.choice((2, 3, 4)), "--checkpoint-steps", 50,
+                     "--stop-after", case.steps]
+        elif "--overwrite" not in words:
+            words.append("--overwrite")
+
+
 def check_kills(program, root, kills, scratch, seed):
     """A rank is killed again and again; what `resume` leaves in the end is what one process leaves."""
     choose = random.Random(seed)
     case = Case(program, root, "friction", scratch)
-    alone = case.alone()
-    folder, done, killed = scratch / "killed", False, 0
-    words = case.words(folder, "--ranks", 3)
-    words[words.index("--checkpoint-steps") + 1] = 50
-    while not done:
-        launcher = subprocess.Popen([program, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if killed < kills:
-            time.sleep(choose.uniform(0.3, 3))
-            ranks = ranks_of(launcher.pid)
-            if ranks and launcher.poll() is None:
-                os.kill(choose.choice(ranks), signal.SIGKILL)
-        _, told = launcher.communicate(timeout=600)
-        if launcher.returncode == 4:
-            if "pulvis" not in told or "killed" not in told:
-                raise Failed(f"a killed rank is not told of: {told}")
-            killed += 1
-        elif launcher.returncode in (0, 1, 3, 130):
-            done = True
-        else:
-            raise Failed(f"exit {launcher.returncode}: {told}")
-        if not list(folder.glob("checkpoint-*.h5")) and not done:
-            words = [word for word in words if word != "--overwrite"] + ["--overwrite"]
-        elif not done:
-            words = ["resume", folder, "--quiet", "--ranks", choose.choice((2, 3, 4)), "--checkpoint-steps", 50,
-                     "--stop-after", case.steps]
-    require_same(alone, folder, f"killed {killed} times")
-    print(f"a rank was killed {killed} times")
+    case.steps = 2000
+    alone, killed, runs = case.alone(), 0, 0
+    while killed < kills:
+        folder = scratch / f"killed-{runs}"
+        killed += run_with_kills(case, folder, choose, kills - killed)
+        runs += 1
+        require_same(alone, folder, f"killed {killed} times")
+    print(f"a rank was killed {killed} times, in {runs} runs")
 
 
 def main():
