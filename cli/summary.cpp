@@ -12,7 +12,6 @@
 #include "engine/files/own_files.hpp"
 #include "engine/instruction_set.hpp"
 #include "scenes/results/bond_results.hpp"
-#include "scenes/results/state_hash.hpp"
 #include "scenes/spec/space_scene.hpp"
 #include "scenes/tools/surface.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -217,7 +216,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"wall_seconds", cost.wall_seconds},
             {"time", world.resource<Clock>().time},
             {"steps", cost.steps},
-            {"state_hash", state_hash_text(world)},
+            {"state_hash", cost.state_hash},
             {"particles", world.resource<Bodies>().particles()},
             {"elements", results.elements()},
             {"element_updates_per_second", cost.wall_seconds > 0 ? updates / cost.wall_seconds : 0},

@@ -24,6 +24,7 @@ struct RunCost {
   std::vector<SystemCost> systems;
   double bytes_a_step = 0;          // that all ranks together told each other
   std::vector<double> rank_memory;  // bytes, the most that each rank held; empty of one process
+  std::string state_hash;
 };
 
 // What its user should know of a run's figures.

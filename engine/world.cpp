@@ -77,20 +77,39 @@ void World::allocate_transient(const std::vector<TypeKey>& components, int worke
   }
 }
 
-void World::set_column(const ColumnBase& column, std::span<const std::byte> rows) {
+std::pair<Table*, ColumnBase*> World::own(const ColumnBase& column) {
   const auto owner = std::ranges::find_if(tables_, [&](const auto& table) {
     return std::ranges::find(table.second->columns, &column) != table.second->columns.end();
   });
   if (owner == tables_.end()) throw std::logic_error("the column is not the world's");
   Table& table = *owner->second;
-  ColumnBase& own = **std::ranges::find(table.columns, &column);
-  const std::size_t count = rows.size() / own.row_bytes;
-  const bool fixed = !table.chunk_begin.empty();
-  if (rows.size() % own.row_bytes != 0 || (fixed && count != table.rows))
-    throw BadState("the rows of " + own.entity + "/" + own.info.name + " do not fit the scene");
-  if (own.bytes() != rows.size()) own.allocate(count, Buffer::Kind::dense);
-  std::ranges::copy(rows, own.data());
-  table.rows = count;
+  return {&table, *std::ranges::find(table.columns, &column)};
+}
+
+std::span<std::byte> World::room_for(const ColumnBase& column, std::size_t rows) {
+  const auto [table, own_column] = own(column);
+  if (!table->chunk_begin.empty() && rows != table->rows)
+    throw BadState("the rows of " + column.entity + "/" + column.info.name +
+                   " do not fit the scene");
+  const std::size_t bytes = rows * column.row_bytes;
+  if (column.bytes() != bytes) own_column->allocate(rows, Buffer::Kind::dense);
+  table->rows = rows;
+  return {own_column->data(), bytes};
+}
+
+void World::set_column(const ColumnBase& column, std::span<const std::byte> rows) {
+  if (rows.size() % column.row_bytes != 0)
+    throw BadState("the rows of " + column.entity + "/" + column.info.name +
+                   " do not fit the scene");
+  std::ranges::copy(rows, room_for(column, rows.size() / column.row_bytes).data());
+}
+
+void World::drop_column(const ColumnBase& column) {
+  const auto [table, own_column] = own(column);
+  if (table->chunk_begin.empty())
+    own_column->allocate(0, Buffer::Kind::dense);
+  else
+    own_column->drop(0, table->rows);
 }
 
 Table& World::insert_table(TypeKey key, Table table) {

@@ -189,6 +189,10 @@ class World {
   // Takes over a checkpoint's rows of a column. A kind of entity that is not divided by chunks gets as many rows;
   // all its columns must follow. Throws BadState where they do not fit.
   void set_column(const ColumnBase& column, std::span<const std::byte> rows);
+  // Room for so many rows of it, to be written; its kind of entity has as many then.
+  std::span<std::byte> room_for(const ColumnBase& column, std::size_t rows);
+  // It takes no memory any more, until it gets new rows. Of a kind of entity that is divided by chunks: while it is sparse.
+  void drop_column(const ColumnBase& column);
   struct SavedResource {
     std::string name;
     std::function<std::vector<std::byte>()> state;
@@ -202,6 +206,7 @@ class World {
 
  private:
   Table& insert_table(TypeKey key, Table table);
+  std::pair<Table*, ColumnBase*> own(const ColumnBase& column);
 
   std::map<TypeKey, std::unique_ptr<Table>> tables_;
   std::map<TypeKey, std::unique_ptr<ColumnBase>> columns_;

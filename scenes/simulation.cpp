@@ -8,14 +8,19 @@
 #include "scenes/build.hpp"
 #include "scenes/checks/bond_checks.hpp"
 #include "scenes/initial_state.hpp"
+#include "scenes/results/state_hash.hpp"
 
 namespace pulvis {
 
 Simulation::Simulation(const Scene& scene, int threads, Ranks* ranks)
     : world_(build_world(scene, ranks)), workers_(threads) {
-  if (ranks != nullptr)
+  if (ranks != nullptr) {
+    std::vector<ParticleValues> values = mesh_values(*world_);
+    values.push_back(state_values());
     crew_ = std::make_unique<Crew>(
-        *world_, ranks->is_root() ? build_whole_world(scene) : std::unique_ptr<World>(), scene);
+        *world_, ranks->is_root() ? build_whole_world(scene) : std::unique_ptr<World>(), scene,
+        std::move(values));
+  }
   workers_.run([&] {
     step_ = std::make_unique<Step>(*world_);
     if (crew_ && crew_->leads()) observers_ = std::make_unique<WholeObservers>(crew_->whole());
@@ -68,7 +73,7 @@ void Simulation::do_run(double time, const std::function<bool()>& stop) {
 
 void Simulation::observe() {
   if (!crew_) return workers_.run([&] { step_->observe(); });
-  const Order order = crew_->fetch_sample();
+  const Order order = crew_->fetch_sample(observers_->looks_at());
   crew_->tell(order);
   do_observe(order);
 }
@@ -92,23 +97,36 @@ void Simulation::run_steps(std::int64_t count) {
   });
 }
 
-void Simulation::fetch_frame() {
-  if (crew_) tell(crew_->fetch_frame());
-}
-void Simulation::fetch_state() {
-  if (crew_) tell(crew_->fetch_state());
-}
 void Simulation::fetch_rows() {
-  if (crew_) tell({Order::Kind::fetch, 0, {}, true});
+  if (crew_) tell(crew_->fetch_rows());
 }
 void Simulation::leave() {
   if (crew_) crew_->drop();
 }
 
+void Simulation::visit_mesh(std::size_t field, const ValueSink& take) {
+  if (!crew_) return visit_all(*world_, mesh_values(*world_).at(field), take);
+  Order order{Order::Kind::particles};
+  order.field = field;
+  crew_->tell(order);
+  crew_->visit_particles(order, take);
+}
+
+std::string Simulation::state_hash() {
+  if (!crew_) return state_hash_text(*world_);
+  tell(crew_->fetch_slips());
+  return state_hash_text(pulvis::state_hash(whole(), [this](const ValueSink& take) {
+    const Order order = crew_->state_of_all();
+    crew_->tell(order);
+    crew_->visit_particles(order, take);
+  }));
+}
+
 ColumnVisit Simulation::visit() {
   if (!crew_) return {};
   return {[this](const ColumnBase& column) {
-            if (is_by_chunk(column)) tell({Order::Kind::fetch, 0, {crew_->number_of(column)}});
+            if (is_by_chunk(column) || is_of_contacts(column))
+              tell({Order::Kind::fetch, 0, {crew_->number_of(column)}});
           },
           [this](const ColumnBase& column) { crew_->drop(column); }};
 }
@@ -129,6 +147,7 @@ void Simulation::follow() {
         case Order::Kind::observe: do_observe(order); break;
         case Order::Kind::move: workers_.run([&] { step_->move(); }); break;
         case Order::Kind::fetch: crew_->fetch(order); break;
+        case Order::Kind::particles: crew_->visit_particles(order); break;
         case Order::Kind::restore: restore_share(Checkpoint(order.file), *world_); break;
         case Order::Kind::leave: return;
       }

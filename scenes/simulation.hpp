@@ -42,9 +42,7 @@ class Simulation {
   void run_steps(std::int64_t count);
 
   // ---- of several ranks; the others do nothing
-  // Fetches what a frame, the state of all, or a column of a checkpoint needs; leave() when it is no longer needed.
-  void fetch_frame();
-  void fetch_state();
+  // Fetches contact rows, or a column of a checkpoint; leave() when they are no longer needed.
   void fetch_rows();
   ColumnVisit visit();
   std::vector<double> rank_memory() const {
@@ -53,6 +51,11 @@ class Simulation {
   double bytes_a_step() const { return crew_ ? crew_->bytes_a_step() : 0; }
   void leave();
   void restore(const Checkpoint& checkpoint);
+
+  // ---- of one process or of several ranks
+  // Values of all particles by number; of a field of mesh_values.
+  void visit_mesh(std::size_t field, const ValueSink& take);
+  std::string state_hash();
   // Not the root: does what the root does, until that has done.
   void follow();
 

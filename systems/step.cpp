@@ -225,8 +225,12 @@ std::vector<System> whole_list(World& world) {
 
 }  // namespace
 
-WholeObservers::WholeObservers(World& whole)
-    : observe_(whole_list(whole), whole.resource<Bodies>().own_chunks) {}
+WholeObservers::WholeObservers(World& whole) : WholeObservers(whole_list(whole), whole) {}
+WholeObservers::WholeObservers(const std::vector<System>& systems, World& whole)
+    : observe_(systems, whole.resource<Bodies>().own_chunks) {
+  for (const System& system : systems)
+    for (const AccessInfo& access : system.accesses) looks_at_.push_back(access.name);
+}
 
 void WholeObservers::run() { observe_.run(); }
 

@@ -1,6 +1,7 @@
 // The step: the one ordered list of systems, and the graphs made from it.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/task_graph.hpp"
@@ -25,8 +26,12 @@ class WholeObservers {
  public:
   explicit WholeObservers(World& whole);
   void run();
+  // What they read and write: "contact/touches".
+  const std::vector<std::string>& looks_at() const { return looks_at_; }
 
  private:
+  WholeObservers(const std::vector<System>& systems, World& whole);
+  std::vector<std::string> looks_at_;
   TaskGraph observe_;
 };
 

@@ -166,8 +166,10 @@ void Session::record() {
   const bool is_frame = frames_.due(clock().time) || simulation_->finished();
   if (is_frame && recorder_) {
     require_saved_scene(options_.folder);
-    simulation_->fetch_frame();
-    recorder_->frame(clock().time, clock().step, results_.frame());
+    recorder_->frame(clock().time, clock().step,
+                     results_.frame_values([this](std::size_t field, const ValueSink& take) {
+                       simulation_->visit_mesh(field, take);
+                     }));
   }
   if (is_frame) frames_.pass(clock().time);
   ended_ = simulation_->finished();
@@ -298,11 +300,11 @@ void Session::finish(const std::string& outcome) {
   recorder_ = nullptr;
   const std::filesystem::path& folder = options_.folder;
   remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
-  simulation_->fetch_state();
+  const std::string hash = simulation_->state_hash();
   write_summary(folder, loaded_.scene, simulation_->whole(), results_, compaction_, quality(),
                 {progress_->seconds(), clock().step, options_.threads,
                  fmt::format("{:016x}", loaded_.hash), outcome, simulation_->costs(),
-                 simulation_->bytes_a_step(), simulation_->rank_memory()},
+                 simulation_->bytes_a_step(), simulation_->rank_memory(), hash},
                 verdicts_);
   write_report(folder);
 }

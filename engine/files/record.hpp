@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct FieldInfo {  // one field of the frames: `components` numbers a place
   int components = 1;
   bool whole = false;  // whole numbers, and stored as such
 };
+
+// The values of a frame's fields, asked for one after the other: the components of a place together.
+using FrameValues = std::function<std::vector<double>(std::size_t field)>;
 
 // A whole number of every particle that does not change: /particles/<name>. Where numbers are positions in a list
 // of names, its attribute `names` has that list, one a line.

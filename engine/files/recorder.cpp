@@ -322,10 +322,15 @@ std::int64_t Recorder::rows(std::size_t table) const {
 
 void Recorder::frame(double time, std::int64_t step,
                      const std::vector<std::vector<double>>& fields) {
-  check_lengths(fields);
+  require(fields.size() == fields_.size(), "a frame holds every field");
+  for (std::size_t i = 0; i < fields.size(); ++i) check_length(fields_[i], fields[i].size());
+  frame(time, step, [&](std::size_t field) { return fields[field]; });
+}
+
+void Recorder::frame(double time, std::int64_t step, const FrameValues& values) {
   is_half_ = true;
   begin_frames();
-  write_frame(time, step, fields);
+  write_frame(time, step, values);
   is_half_ = false;
   xdmf_.add(time, "/frames" + frame_name(frames_));
   ++frames_;
@@ -346,25 +351,24 @@ bool Recorder::is_commit_due() const {
          share_of_commits * (Clock::now() - committed_) >= cost_;
 }
 
-void Recorder::check_lengths(const std::vector<std::vector<double>>& fields) const {
-  require(fields.size() == fields_.size(), "a frame holds every field");
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const auto columns = static_cast<std::size_t>(fields_[i].components);
-    const bool fits =
-        is_of_mesh(fields_[i])
-            ? fields[i].size() == columns * places_[static_cast<std::size_t>(fields_[i].place)]
-            : fields[i].size() % columns == 0;
-    require(fits, "field " + fields_[i].name + " has a wrong length");
-  }
+void Recorder::check_length(const FieldInfo& field, std::size_t values) const {
+  const auto columns = static_cast<std::size_t>(field.components);
+  const bool fits = is_of_mesh(field)
+                        ? values == columns * places_[static_cast<std::size_t>(field.place)]
+                        : values % columns == 0;
+  require(fits, "field " + field.name + " has a wrong length");
 }
 
-void Recorder::write_frame(double time, std::int64_t step,
-                           const std::vector<std::vector<double>>& fields) {
+void Recorder::write_frame(double time, std::int64_t step, const FrameValues& values) {
   const std::string group = "/frames.next" + frame_name(frames_);
   file_.make_group(group);
   file_.set_attribute(group, "time", time);
   file_.set_attribute(group, "step", step);
-  for (std::size_t i = 0; i < fields.size(); ++i) write_field(group, fields_[i], fields[i]);
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const std::vector<double> of_field = values(i);
+    check_length(fields_[i], of_field.size());
+    write_field(group, fields_[i], of_field);
+  }
   file_.set_attribute(group, "complete", std::int64_t{1});
 }
 

@@ -76,7 +76,8 @@ class Recorder {
   // How many the table has.
   std::int64_t rows(std::size_t table) const;
 
-  // One frame: the values of each field, in their order, the components of a place together.
+  // One frame. Of what has a wrong length nothing is kept.
+  void frame(double time, std::int64_t step, const FrameValues& values);
   void frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
 
   // A picture, row by row: [lines, pixels]. Where its pixels have a size, it is kept as pixel_width, pixel_height (m).
@@ -104,8 +105,8 @@ class Recorder {
   enum class Extent { due, whole };  // of what has come since
   void commit(Extent extent);
   bool is_commit_due() const;
-  void check_lengths(const std::vector<std::vector<double>>& fields) const;
-  void write_frame(double time, std::int64_t step, const std::vector<std::vector<double>>& fields);
+  void check_length(const FieldInfo& field, std::size_t values) const;
+  void write_frame(double time, std::int64_t step, const FrameValues& values);
   void write_history(const std::string& group, std::uint64_t kept);
   void renew_history();
   bool has_news() const;

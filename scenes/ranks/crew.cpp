@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "components/bond.hpp"
 #include "components/contact.hpp"
 #include "components/ranks.hpp"
 #include "components/run_state.hpp"
@@ -29,10 +30,12 @@ bool looks_at_motion(const Scene& scene) {
 
 }  // namespace
 
-Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene)
+Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
+           std::vector<ParticleValues> values)
     : share_(share),
       whole_(std::move(whole)),
       ranks_(*share.resource<RankLink>().ranks),
+      values_(std::move(values)),
       needs_motion_(looks_at_motion(scene)) {}
 
 Crew::~Crew() {
@@ -67,7 +70,7 @@ void Crew::fetch(const Order& order) {
   for (const std::uint64_t number : order.columns)
     gathering.column(static_cast<std::size_t>(number));
   if (order.rows) {
-    gathering.rows();
+    gathering.row_index();
     bytes_of_all_ = bytes_;
     ranks_.sum(std::span(&bytes_of_all_, 1));
     memory_.assign(static_cast<std::size_t>(ranks_.count()), 0);
@@ -77,35 +80,46 @@ void Crew::fetch(const Order& order) {
   gathering.common();
 }
 
+void Crew::visit_particles(const Order& order, const ValueSink& take) {
+  Gatherer(share_, whole_.get()).particles(values_.at(order.field), take);
+}
+
 std::vector<std::uint64_t> Crew::numbers_of(const std::vector<std::string>& names) const {
   std::vector<std::uint64_t> numbers;
   const auto& columns = share_.columns();
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::string name = columns[i]->entity + "/" + columns[i]->info.name;
+    const bool contacts = is_of_contacts(*columns[i]);
     const bool asked = std::ranges::any_of(names, [&](const std::string& wanted) {
-      return wanted == name || wanted == columns[i]->entity + "/*";
+      return wanted == name || wanted == columns[i]->entity + "/*" ||
+             (contacts && wanted == columns[i]->info.name);
     });
-    if (asked && is_by_chunk(*columns[i])) numbers.push_back(i);
+    if (asked && (contacts || is_by_chunk(*columns[i]))) numbers.push_back(i);
   }
   return numbers;
 }
 
-Order Crew::fetch_sample() const {
-  std::vector<std::string> names{"particle/*", "curve/position", "surface_face/position"};
+Order Crew::fetch_sample(const std::vector<std::string>& looks) const {
+  std::vector<std::string> names{"particle/*", "curve/position", "surface_face/position",
+                                 "pair",       "touches",        "face_tool_contact/point_force"};
   if (needs_motion_) names.insert(names.end(), {"node/position", "node/velocity"});
+  if (whole_->has<BondTotals>())
+    names.insert(names.end(), {"law", "bond_law", "bonded", "bond_damage"});
+  names.insert(names.end(), looks.begin(), looks.end());
   return {Order::Kind::observe, 0, numbers_of(names), true};
 }
-Order Crew::fetch_frame() const {
+Order Crew::fetch_rows() const { return {Order::Kind::fetch, 0, numbers_of({"pair"}), true}; }
+Order Crew::fetch_slips() const {
   return {Order::Kind::fetch, 0,
-          numbers_of({"node/position", "node/velocity", "element/deviatoric_stress",
-                      "element/mean_stress", "element/plastic_strain"})};
+          numbers_of({"pair", "touches", "elastic_slip", "slip_weakening", "bonded", "bond_damage",
+                      "contact_point"}),
+          true};
 }
 Order Crew::fetch_mesh() const { return {Order::Kind::fetch, 0, numbers_of({"node/position"})}; }
-Order Crew::fetch_state() const {
-  return {Order::Kind::fetch, 0,
-          numbers_of({"node/position", "node/velocity", "element/plastic_metric",
-                      "element/plastic_strain", "element/plastic_hourglass"}),
-          true};
+Order Crew::state_of_all() const {
+  Order order{Order::Kind::particles};
+  order.field = values_.size() - 1;
+  return order;
 }
 
 void Crew::drop() {
@@ -114,8 +128,7 @@ void Crew::drop() {
 
 void Crew::drop(const ColumnBase& column) {
   const bool small = column.entity == "particle";
-  if (is_by_chunk(column) && !small)
-    const_cast<ColumnBase&>(column).drop(0, column.owner().rows);
+  if ((is_by_chunk(column) || is_of_contacts(column)) && !small) whole_->drop_column(column);
 }
 
 std::size_t Crew::number_of(const ColumnBase& column) const {

@@ -21,26 +21,29 @@ struct Order {
     run,      // to a time
     observe,  // and fetch
     move,
-    fetch,  // columns, rows
+    fetch,      // columns, index of rows
+    particles,  // values, of a field of the mesh or of the state
     restore,
     leave
   };
   Kind kind = Kind::leave;
   double time = 0;                     // s
   std::vector<std::uint64_t> columns{};  // numbers, of World::columns
-  bool rows = false;
-  std::string file{};  // a checkpoint
+  bool rows = false;                     // their index
+  std::string file{};       // a checkpoint
+  std::uint64_t field = 0;  // of mesh_values; beyond them the state
 
   template <class Bytes>
   void state(Bytes& bytes) {
-    bytes(kind, time, columns, rows, file);
+    bytes(kind, time, columns, rows, file, field);
   }
 };
 
 class Crew {
  public:
-  // `whole`: on the root, as build_whole_world made it.
-  Crew(World& share, std::unique_ptr<World> whole, const Scene& scene);
+  // `whole`: on the root, as build_whole_world made it. `values`: of the fields of the mesh, and last of the state.
+  Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
+       std::vector<ParticleValues> values);
   ~Crew();  // of the root it tells the others to leave; collective
 
   bool leads() const { return ranks_.is_root(); }
@@ -53,6 +56,7 @@ class Crew {
 
   // What a rank does for it.
   void fetch(const Order& order);
+  void visit_particles(const Order& order, const ValueSink& take = {});
   // Steps that were run through, and what this rank sent in them.
   std::uint64_t bytes_sent() const { return ranks_.bytes_sent(); }
   void ran(std::int64_t steps, std::uint64_t bytes) {
@@ -62,9 +66,11 @@ class Crew {
 
   // ---- of the root
   World& whole() { return *whole_; }
-  Order fetch_sample() const;
-  Order fetch_frame() const;
-  Order fetch_state() const;
+  // `looks`: at what the observers of the whole look.
+  Order fetch_sample(const std::vector<std::string>& looks) const;
+  Order fetch_rows() const;   // index of the rows, for a checkpoint
+  Order fetch_slips() const;  // and what the state's hash takes of those that touch
+  Order state_of_all() const;
   Order fetch_mesh() const;
   // What was fetched takes no memory any more, but for small columns.
   void drop();
@@ -82,6 +88,7 @@ class Crew {
   World& share_;
   std::unique_ptr<World> whole_;
   Ranks& ranks_;
+  std::vector<ParticleValues> values_;  // of fields, and last of the state
   bool needs_motion_;  // results look at nodes at every sample
   std::int64_t steps_ = 0, bytes_ = 0, bytes_of_all_ = 0;
   std::vector<double> memory_;

@@ -58,6 +58,10 @@ bool is_with_tools(const std::string& entity) {
 }  // namespace
 
 bool is_by_chunk(const ColumnBase& column) { return !column.owner().chunk_begin.empty(); }
+bool is_of_contacts(const ColumnBase& column) {
+  return std::ranges::any_of(row_entities,
+                             [&](const char* entity) { return is_of_rows(column, entity); });
+}
 
 Gatherer::Gatherer(World& share, World* whole)
     : share_(share), whole_(whole), ranks_(*share.resource<RankLink>().ranks) {}
@@ -80,21 +84,46 @@ std::vector<std::byte> Gatherer::joined(std::span<const std::byte> own,
   return whole;
 }
 
+namespace {
+
+// What a column holds of a chunk. `begin`: first row of every slot, where it is of contact rows.
+std::span<const std::byte> of_chunk(const ColumnBase& column, int chunk,
+                                    const std::vector<std::int32_t>& begin) {
+  if (is_by_chunk(column)) return column.of_chunk(chunk);
+  return rows_of(column, static_cast<std::size_t>(entry(begin, chunk * lane_count)),
+                 static_cast<std::size_t>(entry(begin, (chunk + 1) * lane_count)));
+}
+
+}  // namespace
+
 void Gatherer::column(std::size_t number) {
   const ColumnBase& own = *share_.columns()[number];
+  const RowBegins begins = is_by_chunk(own) ? RowBegins{} : row_begins(own.entity);
+  if (whole_ != nullptr && !is_by_chunk(own))
+    whole_->room_for(*whole_->columns()[number], static_cast<std::size_t>(begins.whole.back()));
+  // In parts, so that nobody holds a column twice.
+  constexpr int at_once = 32;
+  const int chunks = share_.resource<Bodies>().chunks();
+  for (int first = 0; first < chunks; first += at_once)
+    part_of_column(number, begins, first, std::min(first + at_once, chunks));
+}
+
+void Gatherer::part_of_column(std::size_t number, const RowBegins& begins, int first, int last) {
+  const ColumnBase& own = *share_.columns()[number];
+  const std::vector<int>& owner = share_.resource<RankLink>().owner;
   std::vector<std::byte> bytes;
-  for (const int chunk : share_.resource<Bodies>().own_chunks) {
-    const std::span<const std::byte> rows = own.of_chunk(chunk);
+  for (int chunk = first; chunk < last; ++chunk) {
+    if (entry(owner, chunk) != ranks_.rank()) continue;
+    const std::span<const std::byte> rows = of_chunk(own, chunk, begins.own);
     bytes.insert(bytes.end(), rows.begin(), rows.end());
   }
   const std::vector<Ranks::Bytes> all = ranks_.gather(bytes);
   if (whole_ == nullptr) return;
   ColumnBase& column = same_column(*whole_, number);
-  const std::vector<int>& owner = share_.resource<RankLink>().owner;
   std::vector<std::size_t> at(all.size());
-  for (std::size_t chunk = 0; chunk < owner.size(); ++chunk) {
-    const auto rank = static_cast<std::size_t>(owner[chunk]);
-    const std::span<const std::byte> rows = column.of_chunk(static_cast<int>(chunk));
+  for (int chunk = first; chunk < last; ++chunk) {
+    const auto rank = static_cast<std::size_t>(entry(owner, chunk));
+    const std::span<const std::byte> rows = of_chunk(column, chunk, begins.whole);
     if (rows.empty()) continue;
     std::memcpy(column.data() + (rows.data() - column.data()), all[rank].data() + at[rank],
                 rows.size());
@@ -102,54 +131,66 @@ void Gatherer::column(std::size_t number) {
   }
 }
 
+void Gatherer::particles(const ParticleValues& values, const ValueSink& take) {
+  constexpr std::size_t at_once = 2048;
+  const Bodies& bodies = share_.resource<Bodies>();
+  const RankLink& link = share_.resource<RankLink>();
+  std::span<const int> left = bodies.slot_of_number;
+  while (!left.empty()) {
+    const std::span<const int> slots = left.first(std::min(at_once, left.size()));
+    left = left.subspan(slots.size());
+    std::vector<double> own;
+    std::vector<std::int32_t> counts;
+    for (const int slot : slots) {
+      if (!bodies.owns(slot)) continue;
+      const std::size_t before = own.size();
+      values(share_, slot, own);
+      counts.push_back(static_cast<std::int32_t>(own.size() - before));
+    }
+    std::vector<std::vector<std::int32_t>> counts_of;
+    std::vector<std::vector<double>> values_of;
+    for (const Ranks::Bytes& bytes : ranks_.gather(bytes_of(counts)))
+      counts_of.push_back(list_in<std::int32_t>(bytes));
+    for (const Ranks::Bytes& bytes : ranks_.gather(bytes_of(own)))
+      values_of.push_back(list_in<double>(bytes));
+    if (whole_ == nullptr) continue;
+    std::vector<std::size_t> particle(counts_of.size()), value(counts_of.size());
+    for (const int slot : slots) {
+      const auto rank = static_cast<std::size_t>(link.owner_of(slot));
+      const auto count = static_cast<std::size_t>(counts_of[rank][particle[rank]++]);
+      take(std::span<const double>(values_of[rank]).subspan(value[rank], count));
+      value[rank] += count;
+    }
+  }
+}
+
 // How many rows every slot has: here, and on the root of all.
-void Gatherer::slot_rows(const char* entity, std::vector<std::int32_t>& own_begin,
-                          std::vector<std::int32_t>& whole_begin) {
+Gatherer::RowBegins Gatherer::row_begins(const std::string& entity) {
   const ContactIndex& index = share_.resource<ContactIndex>();
   const Bodies& bodies = share_.resource<Bodies>();
-  own_begin = is_with_tools(entity) ? index.tool_begin : index.sampled_begin;
-  if (own_begin.empty()) own_begin.assign(bodies.slots.size() + 1, 0);
+  RowBegins begins{is_with_tools(entity) ? index.tool_begin : index.sampled_begin, {}};
+  if (begins.own.empty()) begins.own.assign(bodies.slots.size() + 1, 0);
   std::vector<std::int32_t> counts;
   bodies.for_own_lanes(
-      [&](int slot) { counts.push_back(entry(own_begin, slot + 1) - entry(own_begin, slot)); });
+      [&](int slot) { counts.push_back(entry(begins.own, slot + 1) - entry(begins.own, slot)); });
   const std::vector<std::byte> all =
       joined(bytes_of(counts),
              std::vector<std::size_t>(static_cast<std::size_t>(bodies.chunks()),
                                       lane_count * sizeof(std::int32_t)));
-  if (whole_ == nullptr) return;
-  const auto of_slot = list_in<std::int32_t>(all);
-  whole_begin.assign(1, 0);
-  for (const std::int32_t count : of_slot) whole_begin.push_back(whole_begin.back() + count);
+  if (whole_ == nullptr) return begins;
+  begins.whole.assign(1, 0);
+  for (const std::int32_t count : list_in<std::int32_t>(all))
+    begins.whole.push_back(begins.whole.back() + count);
+  return begins;
 }
 
-void Gatherer::rows() {
+void Gatherer::row_index() {
   if (!share_.has<ContactIndex>()) return;
-  const Bodies& bodies = share_.resource<Bodies>();
   std::vector<std::int32_t> sampled_begin, tool_begin;
   for (const char* entity : row_entities) {
     const auto is_one = [&](const ColumnBase* column) { return is_of_rows(*column, entity); };
     if (std::ranges::none_of(share_.columns(), is_one)) continue;
-    std::vector<std::int32_t> own, whole;
-    slot_rows(entity, own, whole);
-    std::vector<std::size_t> rows_of_chunk;
-    for (std::size_t slot = lane_count; slot < whole.size(); slot += lane_count)
-      rows_of_chunk.push_back(static_cast<std::size_t>(whole[slot] - whole[slot - lane_count]));
-    for (std::size_t number = 0; number < share_.columns().size(); ++number) {
-      const ColumnBase& column = *share_.columns()[number];
-      if (!is_one(&column)) continue;
-      std::vector<std::byte> bytes;
-      for (const int chunk : bodies.own_chunks) {
-        const auto rows = rows_of(column, static_cast<std::size_t>(entry(own, chunk * lane_count)),
-                                  static_cast<std::size_t>(entry(own, (chunk + 1) * lane_count)));
-        bytes.insert(bytes.end(), rows.begin(), rows.end());
-      }
-      std::vector<std::size_t> bytes_of_chunk;
-      for (const std::size_t rows : rows_of_chunk)
-        bytes_of_chunk.push_back(rows * column.row_bytes);
-      const std::vector<std::byte> all = joined(bytes, bytes_of_chunk);
-      if (whole_ != nullptr) whole_->set_column(*whole_->columns()[number], all);
-    }
-    if (whole_ != nullptr) (is_with_tools(entity) ? tool_begin : sampled_begin) = whole;
+    (is_with_tools(entity) ? tool_begin : sampled_begin) = row_begins(entity).whole;
   }
   if (whole_ != nullptr) {
     auto& index = whole_->resource<ContactIndex>();
@@ -278,9 +319,7 @@ void restore_share(const Checkpoint& checkpoint, World& share, std::set<std::str
   for (std::size_t i = 0; i < share.columns().size(); ++i) {
     const ColumnBase& column = *share.columns()[i];
     if (column.declared_transient) continue;
-    const bool of_rows = std::ranges::any_of(
-        row_entities, [&](const char* entity) { return is_of_rows(column, entity); });
-    if (of_rows) continue;
+    if (is_of_contacts(column)) continue;
     const std::vector<std::byte> all =
         checkpoint.column(column.entity + "/" + column.info.name);
     if (!is_by_chunk(column)) {

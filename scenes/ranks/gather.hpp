@@ -10,6 +10,7 @@
 #include "engine/files/checkpoint.hpp"
 #include "engine/ranks/ranks.hpp"
 #include "engine/world.hpp"
+#include "scenes/results/parts/particle_values.hpp"
 
 namespace pulvis {
 
@@ -18,16 +19,22 @@ class Gatherer {
  public:
   Gatherer(World& share, World* whole);
 
-  // What changes of column number `column` (of World::columns), of a kind of entity that is divided by chunks.
+  // Column number `column` (of World::columns), of a kind of entity that is divided by chunks or of contact rows: these in the
+  // order that one process has them in.
   void column(std::size_t column);
-  // All contact rows, in the order that one process has them in, with their index.
-  void rows();
+  // Values of all particles by number: to `take`, on the root.
+  void particles(const ParticleValues& values, const ValueSink& take);
+  // The index of all contact rows; their pairs have been gathered.
+  void row_index();
   // What all ranks have alike: tools, and resources that are not of a share. The root's own are taken.
   void common();
 
  private:
-  void slot_rows(const char* entity, std::vector<std::int32_t>& own_begin,
-                 std::vector<std::int32_t>& whole_begin);
+  struct RowBegins {  // first row of every slot: here, and on the root of all
+    std::vector<std::int32_t> own, whole;
+  };
+  RowBegins row_begins(const std::string& entity);
+  void part_of_column(std::size_t column, const RowBegins& begins, int first, int last);
   std::vector<std::byte> joined(std::span<const std::byte> own,
                                 const std::vector<std::size_t>& bytes_of_chunk);
   void neighbours();
@@ -38,6 +45,7 @@ class Gatherer {
 };
 
 bool is_by_chunk(const ColumnBase& column);
+bool is_of_contacts(const ColumnBase& column);
 
 // Takes of the checkpoint what `share` holds, and finds its border. Throws BadState where it does not fit the scene.
 void restore_share(const Checkpoint& checkpoint, World& share,

@@ -13,6 +13,7 @@
 #include "scenes/results/history_series.hpp"
 #include "scenes/results/observed_results.hpp"
 #include "scenes/results/particle_tags.hpp"
+#include "scenes/results/plane_values.hpp"
 #include "scenes/tools/die_relief.hpp"
 #include "systems/tools/relief_kernel.hpp"
 
@@ -40,59 +41,6 @@ std::vector<double> node_values(const World& world) {
   return out;
 }
 
-struct CellStress {
-  double xx = 0, yy = 0, zz = 0, xy = 0, effective = 0, pressure = 0;
-};
-
-// The element columns of whichever formulation the scene has.
-struct ElementColumns {
-  const Lane* deviator;
-  const Lane* mean_stress;
-  const Lane* plastic_strain;  // null: elastic
-  int points, volumes;
-};
-template <class F>
-ElementColumns columns_of(const World& world) {
-  const bool plastic = world.has<PlasticStrain<F::points>>();
-  return {world.column<DeviatoricStress<F::points>>().lanes(),
-          world.column<MeanStress<F::volumes>>().lanes(),
-          plastic ? world.column<PlasticStrain<F::points>>().lanes() : nullptr, F::points,
-          F::volumes};
-}
-ElementColumns element_columns(const World& world) {
-  return with_formulation(world.resource<Bodies>().formulation,
-                          [&]<class F>(F) { return columns_of<F>(world); });
-}
-
-double mean_of(const Lane* values, int count, int lane) {
-  double sum = 0;
-  for (int i = 0; i < count; ++i) sum += values[i][lane];
-  return sum / count;
-}
-
-// Mean over the points of an element; the effective stress is the mean of theirs.
-CellStress cell_stress(const ElementColumns& columns, std::size_t e, int lane) {
-  CellStress c;
-  const int points = columns.points;
-  const Lane* s = columns.deviator + e * static_cast<std::size_t>(3 * points);
-  for (int g = 0; g < points; ++g) {
-    const double xx = s[3 * g][lane], yy = s[3 * g + 1][lane], xy = s[3 * g + 2][lane];
-    const double zz = -(xx + yy);
-    c.xx += xx / points;
-    c.yy += yy / points;
-    c.zz += zz / points;
-    c.xy += xy / points;
-    c.effective += std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * xy * xy)) / points;
-  }
-  const double mean = mean_of(columns.mean_stress + e * static_cast<std::size_t>(columns.volumes),
-                              columns.volumes, lane);
-  c.xx += mean;
-  c.yy += mean;
-  c.zz += mean;
-  c.pressure = -mean;
-  return c;
-}
-
 std::vector<FieldInfo> fields_of(const Scene& scene, const World& world) {
   std::vector<FieldInfo> fields{
       {"position", "m", "of the node", FieldPlace::node, 2},
@@ -100,7 +48,7 @@ std::vector<FieldInfo> fields_of(const Scene& scene, const World& world) {
       {"effective_stress", "Pa", "von Mises, mean of the Gauss points", FieldPlace::cell, 1},
       {"pressure", "Pa", "minus the mean stress; compression > 0", FieldPlace::cell, 1},
       {"stress", "Pa", "Cauchy: xx yy zz xy", FieldPlace::cell, 4}};
-  if (element_columns(world).plastic_strain != nullptr)
+  if (is_plastic_plane(world))
     fields.push_back(
         {"plastic_strain", "-", "accumulated, mean of the Gauss points", FieldPlace::cell, 1});
   if (scene.cell)
@@ -248,21 +196,6 @@ void PlaneParts::append_observed(std::vector<double>& row) const {
 }
 
 void PlaneParts::append_frame(Fields& fields) const {
-  fields = {node_values<Position>(world_), node_values<Velocity>(world_)};
-  const bool plastic = element_columns(world_).plastic_strain != nullptr;
-  fields.resize(plastic ? 6 : 5);
-  for_each_particle<Element>(world_, [&](std::size_t first, int lane, const Shape& shape) {
-    const ElementColumns columns = element_columns(world_);
-    for (std::size_t e = first; e < first + shape.quads.size(); ++e) {
-      const CellStress c = cell_stress(columns, e, lane);
-      fields[2].push_back(c.effective);
-      fields[3].push_back(c.pressure);
-      fields[4].insert(fields[4].end(), {c.xx, c.yy, c.zz, c.xy});
-      if (!plastic) continue;
-      const auto points = static_cast<std::size_t>(columns.points);
-      fields[5].push_back(mean_of(columns.plastic_strain + e * points, columns.points, lane));
-    }
-  });
   if (world_.has<PeriodicCell>()) {
     const auto& cell = world_.resource<PeriodicCell>();
     const Point corner = cell.corner_now();

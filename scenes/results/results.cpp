@@ -37,6 +37,7 @@ Results::Results(const Scene& scene, const World& world)
       series_(history_series(scene)),
       tables_(bond_tables(scene)),
       fields_(parts_->fields()),
+      mesh_values_(mesh_values(world)),
       shear_(scene, world) {
   const double modulus = *std::ranges::max_element(
       world.column<BulkModulus>().values(),
@@ -142,12 +143,37 @@ std::vector<double> Results::sample() {
   return row;
 }
 
-std::vector<std::vector<double>> Results::frame() const {
+std::vector<std::vector<double>> Results::frame_beside_mesh() const {
   std::vector<std::vector<double>> fields;
   parts_->append_frame(fields);
   append_bond_frame(world_, fields);
   shear_.append_frame(fields);
   parts_->append_tool_frame(fields);
+  return fields;
+}
+
+FrameValues Results::frame_values(VisitMesh mesh) const {
+  return [this, mesh = std::move(mesh),
+          beside = std::vector<std::vector<double>>()](std::size_t field) mutable {
+    const std::size_t of_mesh = mesh_values_.size();
+    if (field >= of_mesh) {
+      if (field == of_mesh) beside = frame_beside_mesh();
+      return std::move(beside.at(field - of_mesh));
+    }
+    std::vector<double> values;
+    mesh(field, [&](std::span<const double> of_one) {
+      values.insert(values.end(), of_one.begin(), of_one.end());
+    });
+    return values;
+  };
+}
+
+std::vector<std::vector<double>> Results::frame() const {
+  const FrameValues values = frame_values([this](std::size_t field, const ValueSink& take) {
+    visit_all(world_, mesh_values_[field], take);
+  });
+  std::vector<std::vector<double>> fields;
+  for (std::size_t i = 0; i < fields_.size(); ++i) fields.push_back(values(i));
   return fields;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/files/record.hpp"
 #include "engine/world.hpp"
 #include "scenes/results/history_series.hpp"
+#include "scenes/results/mesh_values.hpp"
 #include "scenes/results/parts/result_parts.hpp"
 #include "scenes/results/shear_results.hpp"
 #include "scenes/spec/scene.hpp"
@@ -39,6 +40,9 @@ class Results {
   std::vector<double> sample();
   // One list a field: particles in the order of their numbers, each with its nodes or elements.
   std::vector<std::vector<double>> frame() const;
+  // The same field by field, asked for in their order. The first ones are those of mesh_values, which `mesh` visits by number.
+  using VisitMesh = std::function<void(std::size_t field, const ValueSink& take)>;
+  FrameValues frame_values(VisitMesh mesh) const;
 
   // Of the last sample.
   double value(const std::string& series) const;
@@ -70,6 +74,7 @@ class Results {
   }
 
  private:
+  std::vector<std::vector<double>> frame_beside_mesh() const;
   void take_energies();
   void take_kinetic_ratio();
   void take_peaks();
@@ -80,6 +85,7 @@ class Results {
   std::vector<SeriesInfo> series_;
   std::vector<TableInfo> tables_;
   std::vector<FieldInfo> fields_;
+  std::vector<ParticleValues> mesh_values_;
   std::map<std::string, std::size_t> position_;
   std::vector<double> last_;
   Energies energies_;

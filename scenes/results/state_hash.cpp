@@ -11,7 +11,6 @@
 #include "components/probe.hpp"
 #include "components/run_state.hpp"
 #include "components/solid.hpp"
-#include "components/space/body.hpp"
 #include "components/space/contact.hpp"
 #include "engine/files/xxh3.hpp"
 
@@ -23,10 +22,10 @@ class StateHash {
   explicit StateHash(const World& world)
       : world_(world), bodies_(world.resource<Bodies>()), clock_(world.resource<Clock>()) {}
 
-  std::uint64_t value() {
+  std::uint64_t value(const VisitState& visit) {
     add(clock_.step);
     for (const double time : {clock_.time, clock_.dt_before, clock_.dt}) add(time);
-    for (const int slot : bodies_.slot_of_number) add_particle(slot);
+    visit([this](std::span<const double> of_one) { hash_.add(std::as_bytes(of_one)); });
     const auto number = [this](int slot) { return number_in(slot); };
     const auto itself = [](int tool) { return tool; };
     add_contacts<Contact>(number, [this](int row) { add_history<Contact>(row); });
@@ -40,35 +39,6 @@ class StateHash {
   template <class T>
   void add(const T& value) {
     hash_.add(std::as_bytes(std::span(&value, 1)));
-  }
-
-  void add_particle(int slot) {
-    add_rows<Position>(slot);
-    add_rows<Velocity>(slot);
-    add_rows<PlasticMetric<1>>(slot);
-    add_rows<PlasticMetric<4>>(slot);
-    add_rows<PlasticStrain<1>>(slot);
-    add_rows<PlasticStrain<4>>(slot);
-    add_rows<PlasticHourglass>(slot);
-    add_rows<space::Position>(slot);
-    add_rows<space::Velocity>(slot);
-    add_rows<space::PlasticMetric<1>>(slot);
-    add_rows<space::PlasticMetric<8>>(slot);
-    add_rows<space::PlasticStrain<1>>(slot);
-    add_rows<space::PlasticStrain<8>>(slot);
-    add_rows<space::PlasticHourglass>(slot);
-  }
-
-  // What a laned column holds of the particle in `slot`, row by row; nothing where the scene has none.
-  template <class C>
-  void add_rows(int slot) {
-    if (!world_.has<C>()) return;
-    const Column<C>& column = world_.column<C>();
-    const int chunk = slot / lane_count, lane = slot % lane_count;
-    const std::int32_t* rows = &column.table.chunk_begin[static_cast<std::size_t>(chunk)];
-    for (std::ptrdiff_t i = std::ptrdiff_t{rows[0]} * C::count;
-         i < std::ptrdiff_t{rows[1]} * C::count; ++i)
-      add(column.values()[i * lane_count + lane]);
   }
 
   int number_in(int slot) const { return bodies_.slots[static_cast<std::size_t>(slot)].number; }
@@ -145,12 +115,16 @@ std::uint64_t solid_hash(const World& world) {
 
 }  // namespace
 
-std::uint64_t state_hash(const World& world) {
-  return world.has<SolidMesh>() ? solid_hash(world) : StateHash(world).value();
+std::uint64_t state_hash(const World& world, const VisitState& visit) {
+  return world.has<SolidMesh>() ? solid_hash(world) : StateHash(world).value(visit);
 }
 
-std::string state_hash_text(const World& world) {
-  return fmt::format("{:016x}", state_hash(world));
+std::uint64_t state_hash(const World& world) {
+  return state_hash(world,
+                    [&](const ValueSink& take) { visit_all(world, state_values(), take); });
 }
+
+std::string state_hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+std::string state_hash_text(const World& world) { return state_hash_text(state_hash(world)); }
 
 }  // namespace pulvis

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "engine/world.hpp"
+#include "scenes/results/mesh_values.hpp"
 
 namespace pulvis {
 
@@ -16,8 +18,12 @@ namespace pulvis {
 // Of a solid (AFM), which has no clock: over the displacements, loads and plastic state that an increment begins
 // with, the forces and memory of the probe's points, and the resources that a checkpoint keeps.
 std::uint64_t state_hash(const World& world);
+// `visit` takes state_values of all particles by number, where `world` does not hold them.
+using VisitState = std::function<void(const ValueSink& take)>;
+std::uint64_t state_hash(const World& world, const VisitState& visit);
 
 // As files write it: 16 hexadecimal digits.
+std::string state_hash_text(std::uint64_t hash);
 std::string state_hash_text(const World& world);
 
 }  // namespace pulvis

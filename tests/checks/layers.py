@@ -44,7 +44,7 @@ ROOMS = {
     },
     "scenes": {
         "language": "",
-        "ranks": "spec language",
+        "ranks": "results/parts spec language",
         "spec": "language",
         "keys": "materials spec language",
         "let": "language",

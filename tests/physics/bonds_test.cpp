@@ -28,7 +28,7 @@ density = "2000 kg/m^3"
 youngs_modulus = "20 GPa"
 poissons_ratio = 0.25
 [material.damping]
-mass_proportional = "20000 1/s"
+mass_proportional = "60000 1/s"
 )";
 
 std::string piece(const char* name, double length, double x) {
@@ -85,14 +85,14 @@ double force_on(bool glued, const Loading& loading) {
 [[stage]]
 name = "load"
 kind = "shear"
-duration = "1 ms"
+duration = "0.3 ms"
 [[stage.move]]
 tool = "load"
 displacement = ["{} um", "{} um"]
 [[stage]]
 name = "rest"
 kind = "hold"
-duration = "0.4 ms"
+duration = "0.15 ms"
 )",
                                      loading.x, loading.y)));
   e.run(20);

@@ -34,6 +34,7 @@ class ResultParts {
   // Those of every run, and at the end those of its tools.
   virtual std::vector<FieldInfo> fields() const = 0;
   virtual std::vector<FieldInfo> tool_fields() const = 0;
+  // Of what is not of the mesh (mesh_values).
   virtual void append_frame(Fields& fields) const = 0;
   virtual void append_tool_frame(Fields& fields) const = 0;
 

@@ -13,12 +13,12 @@
 #include "components/space/shape.hpp"
 #include "engine/access.hpp"
 #include "scenes/space/results/die_wall.hpp"
-#include "scenes/space/results/element_results.hpp"
 #include "scenes/space/results/observed_density.hpp"
 #include "scenes/space/results/observed_network.hpp"
 #include "scenes/space/results/observed_stress.hpp"
 #include "scenes/space/results/space_series.hpp"
 #include "scenes/space/results/space_tags.hpp"
+#include "scenes/space/results/space_values.hpp"
 #include "scenes/space/results/tool_sheets.hpp"
 #include "scenes/space/results/visit_particles.hpp"
 #include "scenes/space/tools/die_room.hpp"
@@ -102,8 +102,6 @@ class SpaceParts : public ResultParts {
   }
 
   void append_frame(Fields& fields) const override {
-    fields = {values_of_nodes<Position>(world_), values_of_nodes<Velocity>(world_)};
-    append_element_fields(world_, fields);
     append_stress_frame(world_, fields);
     append_network_frame(world_, fields);
     append_density_frame(world_, fields);

@@ -1,0 +1,47 @@
+#include "scenes/results/mesh_values.hpp"
+
+#include "components/body.hpp"
+#include "components/shape.hpp"
+#include "components/space/body.hpp"
+#include "scenes/results/plane_values.hpp"
+#include "scenes/space/results/space_values.hpp"
+
+namespace pulvis {
+namespace {
+
+template <class C>
+void append_where_there(const World& world, int slot, std::vector<double>& out) {
+  if (!world.has<C>()) return;
+  const std::int32_t* begin =
+      &world.column<C>().table.chunk_begin[static_cast<std::size_t>(slot / lane_count)];
+  append_rows<C>(world, slot, static_cast<std::size_t>(begin[1] - begin[0]), out);
+}
+
+template <class... Columns>
+void append_all(const World& world, int slot, std::vector<double>& out) {
+  (append_where_there<Columns>(world, slot, out), ...);
+}
+
+}  // namespace
+
+std::vector<ParticleValues> mesh_values(const World& world) {
+  return world.has<space::Position>() ? space::mesh_values(world) : plane_mesh_values(world);
+}
+
+ParticleValues state_values() {
+  return append_all<Position, Velocity, PlasticMetric<1>, PlasticMetric<4>, PlasticStrain<1>,
+                    PlasticStrain<4>, PlasticHourglass, space::Position, space::Velocity,
+                    space::PlasticMetric<1>, space::PlasticMetric<8>, space::PlasticStrain<1>,
+                    space::PlasticStrain<8>, space::PlasticHourglass>;
+}
+
+void visit_all(const World& world, const ParticleValues& values, const ValueSink& take) {
+  std::vector<double> of_one;
+  for (const int slot : world.resource<Bodies>().slot_of_number) {
+    of_one.clear();
+    values(world, slot, of_one);
+    take(of_one);
+  }
+}
+
+}  // namespace pulvis

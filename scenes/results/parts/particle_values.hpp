@@ -1,0 +1,32 @@
+// What the nodes and elements of a particle hold, particle by particle: so the ranks of a run each tell those of their own, and
+// nobody holds the columns of all.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engine/world.hpp"
+
+namespace pulvis {
+
+// Appends the values of the particle in `slot`.
+using ParticleValues = std::function<void(const World& world, int slot, std::vector<double>& out)>;
+using ValueSink = std::function<void(std::span<const double>)>;
+
+// The row of column C that is the first of the particle in `slot`; its values stand `lane_count` apart.
+template <class C>
+const double* first_value(const World& world, int slot) {
+  const Column<C>& column = world.column<C>();
+  const std::int32_t row = column.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)];
+  return column.values() + std::ptrdiff_t{row} * C::count * lane_count + slot % lane_count;
+}
+
+// `rows` of column C.
+template <class C>
+void append_rows(const World& world, int slot, std::size_t rows, std::vector<double>& out) {
+  const double* at = first_value<C>(world, slot);
+  for (std::size_t i = 0; i < rows * C::count; ++i) out.push_back(at[i * lane_count]);
+}
+
+}  // namespace pulvis
