@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "components/bond.hpp"
 #include "components/contact.hpp"
 #include "components/ranks.hpp"
 #include "components/run_state.hpp"
@@ -100,12 +101,19 @@ Order Crew::fetch_frame() const {
           numbers_of({"node/position", "node/velocity", "element/deviatoric_stress",
                       "element/mean_stress", "element/plastic_strain"})};
 }
-Order Crew::fetch_mesh() const { return {Order::Kind::fetch, 0, numbers_of({"node/position"})}; }
+Order Crew::fetch_start() const {
+  return {Order::Kind::fetch, 0, numbers_of({"node/position"}), whole_->has<BondTotals>()};
+}
 Order Crew::fetch_state() const {
   return {Order::Kind::fetch, 0,
           numbers_of({"node/position", "node/velocity", "element/plastic_metric",
                       "element/plastic_strain", "element/plastic_hourglass"}),
           true};
+}
+
+void Crew::restore_findings(const Checkpoint& checkpoint) {
+  for (const World::SavedResource& resource : whole_->saved_resources())
+    resource.set_state(checkpoint.resource(resource.name));
 }
 
 void Crew::drop() {
@@ -124,20 +132,13 @@ std::size_t Crew::number_of(const ColumnBase& column) const {
 }
 
 void require_ranks_can_run(const Scene& scene) {
-  const auto refuse = [&](const char* key, const char* what) {
-    SceneProblem problem;
-    problem.file = scene.file.string();
-    problem.line = problem.column = 1;
-    problem.key = key;
-    problem.message =
-        std::string("a run over several ranks has no ") + what + ", allowed: --ranks 1";
-    throw SceneError({problem});
-  };
-  if (scene.afm) refuse("afm", "levers");
-  if (!scene.bonds.empty()) refuse("bond", "bonds");
-  if (std::ranges::find(scene.tools, ToolSpec::Shape::constraint, &ToolSpec::shape) !=
-      scene.tools.end())
-    refuse("tool", "constraints");
+  if (!scene.afm) return;
+  SceneProblem problem;
+  problem.file = scene.file.string();
+  problem.line = problem.column = 1;
+  problem.key = "afm";
+  problem.message = "ranks share out particles, and a lever is one, allowed: --ranks 1";
+  throw SceneError({problem});
 }
 
 }  // namespace pulvis
