@@ -154,8 +154,10 @@ struct BondTotals {
   struct Gap {
     double width = std::numeric_limits<double>::infinity();  // m
     double share = std::numeric_limits<double>::infinity();  // -, of the boundary edge
-    void take(double gap, double length) {
-      if (gap < share * length) *this = {gap, gap / length};
+    // The same of any order.
+    void take(double gap, double length) { take({gap, gap / length}); }
+    void take(const Gap& other) {
+      if (other.share < share || (other.share == share && other.width < width)) *this = other;
     }
   };
   std::vector<Gap> nearest;   // [laws] surfaces that face each other; found anew at every start

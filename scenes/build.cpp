@@ -15,7 +15,6 @@
 #include "components/servo.hpp"
 #include "components/surface.hpp"
 #include "engine/access.hpp"
-#include "engine/portable_math.hpp"
 #include "scenes/grains/grains.hpp"
 #include "scenes/highest_mode.hpp"
 #include "scenes/layout.hpp"
@@ -171,11 +170,9 @@ void fill_bodies(World& world, const Layout& layout) {
     const Shape& shape = layout.bodies.shape_of_chunk(chunk);
     const auto first =
         static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(chunk.index)]);
-    const double c = placed ? portable::cos(placed->turn) : 1,
-                 s = placed ? portable::sin(placed->turn) : 0;
-    for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
-      const Point p = shape.nodes[n];
-      const Vec2 arm(c * p[0] - s * p[1], s * p[0] + c * p[1]);
+    const std::vector<Vec2> arms = turned_nodes(shape, placed ? placed->turn : 0);
+    for (std::size_t n = 0; n < arms.size(); ++n) {
+      const Vec2& arm = arms[n];
       Lane* at = x.lanes() + 2 * (first + n);
       Lane* rate = v.lanes() + 2 * (first + n);
       const Vec2 where = placed ? Vec2(placed->body->position + arm) : arm;
@@ -187,6 +184,12 @@ void fill_bodies(World& world, const Layout& layout) {
       rate[1][lane] = placed->body->velocity.y() + omega * arm.x();
     }
   });
+}
+
+NodePlaces undeformed_nodes(const World& world, const Layout& layout) {
+  return [&](int slot) {
+    return placed_nodes(world.resource<Bodies>().shape_of_slot(slot), *entry(layout.placed, slot));
+  };
 }
 
 void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
@@ -345,7 +348,7 @@ std::unique_ptr<World> build_part(const Scene& scene, const Part& part) {
   }
   world->emplace<Bodies>(std::move(layout.bodies));
   world->emplace<ParticleClasses>(std::move(layout.classes));
-  if (needs.constraints) add_constraints(*world, scene);
+  if (needs.constraints) add_constraints(*world, scene, undeformed_nodes(*world, layout));
   add_observed(*world, scene);
   return world;
 }

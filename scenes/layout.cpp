@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "engine/portable_math.hpp"
 #include "scenes/hilbert.hpp"
 #include "scenes/meshes/mesh.hpp"
 
@@ -85,6 +86,20 @@ Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& class
   }
   layout.bodies.hold_all();
   return layout;
+}
+
+std::vector<Vec2> turned_nodes(const Shape& shape, double turn) {
+  const double c = portable::cos(turn), s = portable::sin(turn);
+  std::vector<Vec2> nodes;
+  nodes.reserve(shape.nodes.size());
+  for (const Point& p : shape.nodes) nodes.emplace_back(c * p[0] - s * p[1], s * p[0] + c * p[1]);
+  return nodes;
+}
+
+std::vector<Vec2> placed_nodes(const Shape& shape, const Placed& placed) {
+  std::vector<Vec2> nodes = turned_nodes(shape, placed.turn);
+  for (Vec2& node : nodes) node = placed.body->position + node;
+  return nodes;
 }
 
 std::vector<std::array<double, 3>> centres(const Layout& layout) {

@@ -32,6 +32,10 @@ struct Layout {
 Layout lay_out(const Scene& scene, const std::vector<std::vector<Placed>>& classes,
                std::size_t particles);
 
+// m, of every node of a mesh from where its particle stands, which turned it by `turn`.
+std::vector<Vec2> turned_nodes(const Shape& shape, double turn);
+// m, the same where it stands.
+std::vector<Vec2> placed_nodes(const Shape& shape, const Placed& placed);
 // m, of every slot where a particle stands.
 std::vector<std::array<double, 3>> centres(const Layout& layout);
 std::vector<double> elements_of_chunks(const Layout& layout);

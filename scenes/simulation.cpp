@@ -8,6 +8,7 @@
 #include "scenes/build.hpp"
 #include "scenes/checks/bond_checks.hpp"
 #include "scenes/initial_state.hpp"
+#include "scenes/language/problem.hpp"
 #include "scenes/results/state_hash.hpp"
 
 namespace pulvis {
@@ -26,9 +27,14 @@ Simulation::Simulation(const Scene& scene, int threads, Ranks* ranks)
     if (crew_ && crew_->leads()) observers_ = std::make_unique<WholeObservers>(crew_->whole());
     step_->start();
   });
-  if (!crew_) require_initial_bonds(scene, *world_);
+  try {
+    require_initial_bonds(scene, *world_);
+  } catch (const SceneError&) {
+    if (!crew_ || crew_->leads()) throw;
+    return;  // the root has found the same, and tells it
+  }
   begin_with_state(*world_, scene);
-  if (crew_ && crew_->leads()) tell(crew_->fetch_mesh());
+  if (crew_ && crew_->leads()) tell(crew_->fetch_start());
 }
 
 Simulation::~Simulation() {
@@ -136,6 +142,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   crew_->tell({Order::Kind::restore, 0, {}, false,
                std::filesystem::absolute(checkpoint.file()).string()});
   restore_share(checkpoint, *world_);
+  crew_->restore_findings(checkpoint);
 }
 
 void Simulation::follow() {

@@ -79,13 +79,13 @@ StepList step_list_of(World& w) {
   force.add<bin_tool_edges>             ("bin_tool_edges",    tools);
   force.add<list_border_rows>           ("list_border_rows",  ranks && pairs);
   force.add<edge_contact>               ("edge_contact",      pairs);
+  force.add<pressed_bonds>              ("pressed_bonds",     w.has<WeldPressure<Contact>>());
+  force.add<bond_forces>                ("bond_forces",       pair_bonds);
   force.add<send_contacts>              ("send_contacts",     ranks && pairs);
   force.add<tool_contact>               ("tool_contact",      tools);
-  force.add<receive_contacts>           ("receive_contacts",  ranks && pairs);
-  force.add<pressed_bonds>              ("pressed_bonds",     w.has<WeldPressure<Contact>>());
   force.add<pressed_tool_bonds>         ("pressed_tool_bonds", w.has<WeldPressure<ToolContact>>());
-  force.add<bond_forces>                ("bond_forces",       pair_bonds);
   force.add<tool_bond_forces>           ("tool_bond_forces",  tool_bonds);
+  force.add<receive_contacts>           ("receive_contacts",  ranks && pairs);
   force.add<contact_totals>             ("contact_totals",    touching);
   force.add<bond_totals>                ("bond_totals",       bonds);
   force.add<cell_control>               ("cell_control",      cell);
@@ -121,12 +121,17 @@ StepList step_list_of(World& w) {
 void add_first_bonds(World& w, SystemList& start) {
   const bool pairs = w.has<CurveAnchor>(), tools = w.has<ToolAnchor>();
   const bool bonds = pairs || tools;
+  const bool rows = bonds && w.has<ContactPair<Contact>>();
+  const bool ranks = w.has<RankLink>();
   start.add<skin_check>("skin_check", bonds);
-  start.add<bin_edges>("bin_edges", bonds && w.has<ContactPair<Contact>>());
+  start.add<find_border<Plane>>("find_border", rows && ranks);
+  start.add<bin_edges>("bin_edges", rows);
   start.add<bin_tool_edges>("bin_tool_edges", bonds && w.has<ContactPair<ToolContact>>());
+  start.add<list_border_rows>("list_border_rows", rows && ranks);
   start.add<edge_contact>("edge_contact", pairs);
   start.add<initial_bonds>("initial_bonds", pairs);
   start.add<initial_tool_bonds>("initial_tool_bonds", tools);
+  start.add<initial_bond_totals>("initial_bond_totals", bonds && ranks);
 }
 
 template <class F>

@@ -294,13 +294,13 @@ RunQuality Session::quality() const {
 void Session::finish(const std::string& outcome) {
   progress_->finish();
   if (recorder_ == nullptr) return;
+  const std::string hash = simulation_->state_hash();
   record_cracks();  // of the steps since the last sample
   closed_at_ = recorder_->position();
   recorder_->finish(outcome);
   recorder_ = nullptr;
   const std::filesystem::path& folder = options_.folder;
   remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
-  const std::string hash = simulation_->state_hash();
   write_summary(folder, loaded_.scene, simulation_->whole(), results_, compaction_, quality(),
                 {progress_->seconds(), clock().step, options_.threads,
                  fmt::format("{:016x}", loaded_.hash), outcome, simulation_->costs(),

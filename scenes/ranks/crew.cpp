@@ -115,11 +115,19 @@ Order Crew::fetch_slips() const {
                       "contact_point"}),
           true};
 }
-Order Crew::fetch_mesh() const { return {Order::Kind::fetch, 0, numbers_of({"node/position"})}; }
+Order Crew::fetch_start() const {
+  if (!whole_->has<BondTotals>()) return {Order::Kind::fetch, 0, numbers_of({"node/position"})};
+  return {Order::Kind::fetch, 0, numbers_of({"node/position", "pair", "bonded", "bond_law"}), true};
+}
 Order Crew::state_of_all() const {
   Order order{Order::Kind::particles};
   order.field = values_.size() - 1;
   return order;
+}
+
+void Crew::restore_findings(const Checkpoint& checkpoint) {
+  for (const World::SavedResource& resource : whole_->saved_resources())
+    resource.set_state(checkpoint.resource(resource.name));
 }
 
 void Crew::drop() {
@@ -137,20 +145,13 @@ std::size_t Crew::number_of(const ColumnBase& column) const {
 }
 
 void require_ranks_can_run(const Scene& scene) {
-  const auto refuse = [&](const char* key, const char* what) {
-    SceneProblem problem;
-    problem.file = scene.file.string();
-    problem.line = problem.column = 1;
-    problem.key = key;
-    problem.message =
-        std::string("a run over several ranks has no ") + what + ", allowed: --ranks 1";
-    throw SceneError({problem});
-  };
-  if (scene.afm) refuse("afm", "levers");
-  if (!scene.bonds.empty()) refuse("bond", "bonds");
-  if (std::ranges::find(scene.tools, ToolSpec::Shape::constraint, &ToolSpec::shape) !=
-      scene.tools.end())
-    refuse("tool", "constraints");
+  if (!scene.afm) return;
+  SceneProblem problem;
+  problem.file = scene.file.string();
+  problem.line = problem.column = 1;
+  problem.key = "afm";
+  problem.message = "ranks share out particles, and a lever is one, allowed: --ranks 1";
+  throw SceneError({problem});
 }
 
 }  // namespace pulvis

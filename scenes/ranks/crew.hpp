@@ -71,7 +71,9 @@ class Crew {
   Order fetch_rows() const;   // index of the rows, for a checkpoint
   Order fetch_slips() const;  // and what the state's hash takes of those that touch
   Order state_of_all() const;
-  Order fetch_mesh() const;
+  Order fetch_start() const;
+  // What was last found in the whole, for as long as nothing is found anew.
+  void restore_findings(const Checkpoint& checkpoint);
   // What was fetched takes no memory any more, but for small columns.
   void drop();
   void drop(const ColumnBase& column);
@@ -94,7 +96,7 @@ class Crew {
   std::vector<double> memory_;
 };
 
-// What a run over several ranks cannot do yet. Throws SceneError.
+// Throws SceneError where a run over several ranks cannot have what is in the scene.
 void require_ranks_can_run(const Scene& scene);
 
 }  // namespace pulvis

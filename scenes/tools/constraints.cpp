@@ -7,7 +7,6 @@
 #include <limits>
 #include <tuple>
 
-#include "components/body.hpp"
 #include "components/shape.hpp"
 #include "components/surface.hpp"
 #include "scenes/language/problem.hpp"
@@ -30,18 +29,6 @@ struct Held {
   const SourceMark& mark = scene.tools[static_cast<std::size_t>(tool)].mark;
   throw SceneError({{scene.file_of(mark).string(), mark.line, mark.column, "",
                      fmt::format("tool[{}].{}", tool, key), message}});
-}
-
-std::vector<Vec2> places_of(const World& world, int slot) {
-  const auto& x = world.column<Position>();
-  const auto first =
-      static_cast<std::size_t>(x.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
-  const std::size_t count = world.resource<Bodies>().shape_of_slot(slot).nodes.size();
-  std::vector<Vec2> places;
-  for (std::size_t n = first; n < first + count; ++n)
-    places.emplace_back(x.lanes()[2 * n][slot % lane_count],
-                        x.lanes()[2 * n + 1][slot % lane_count]);
-  return places;
 }
 
 double size_of(const std::vector<Vec2>& places) {
@@ -91,9 +78,9 @@ bool holds_place(const ToolSpec& tool, const Vec2& place, double margin) {
                      tool.body, nearest));
 }
 
-std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
+std::vector<Held> held_by(const Scene& scene, const Bodies& bodies, const NodePlaces& places_of,
+                          int number) {
   const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
-  const Bodies& bodies = world.resource<Bodies>();
   int last = 0;  // a particle's grains are all held
   for (const Bodies::Slot& slot : bodies.slots) last = std::max(last, slot.parent);
   if (tool.body > last)
@@ -103,7 +90,7 @@ std::vector<Held> held_by(const Scene& scene, const World& world, int number) {
   std::vector<Held> held;
   for (int slot = 0; slot < static_cast<int>(bodies.slots.size()); ++slot) {
     if (entry(bodies.slots, slot).parent != tool.body) continue;
-    const std::vector<Vec2> places = places_of(world, slot);
+    const std::vector<Vec2> places = places_of(slot);
     const double size = size_of(places);
     for (std::size_t n = 0; n < places.size(); ++n)
       if (holds_place(tool, places[n], round_off * size))
@@ -134,8 +121,10 @@ void check_shared(const Scene& scene, const std::vector<Held>& sorted) {
 }
 
 void fill(World& world, const std::vector<Held>& held) {
+  const Bodies& bodies = world.resource<Bodies>();
   for (std::size_t r = 0; r < held.size(); ++r) {
     const Held& h = held[r];
+    if (!bodies.owns(h.chunk * lane_count + h.lane)) continue;
     std::int32_t* target = world.column<ConstraintTarget>().values() + 3 * r;
     std::tie(target[0], target[1], target[2]) = std::tie(h.node, h.lane, h.tool);
     for (std::size_t k = 0; k < 2; ++k) {
@@ -149,11 +138,12 @@ void fill(World& world, const std::vector<Held>& held) {
 
 }  // namespace
 
-void add_constraints(World& world, const Scene& scene) {
+void add_constraints(World& world, const Scene& scene, const NodePlaces& places_of) {
+  const Bodies& bodies = world.resource<Bodies>();
   std::vector<Held> held;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     if (!is_constraint(scene.tools[t])) continue;
-    const std::vector<Held> own = held_by(scene, world, static_cast<int>(t));
+    const std::vector<Held> own = held_by(scene, bodies, places_of, static_cast<int>(t));
     held.insert(held.end(), own.begin(), own.end());
   }
   std::vector<Held> by_node = held;
@@ -162,7 +152,7 @@ void add_constraints(World& world, const Scene& scene) {
   check_shared(scene, by_node);
   std::ranges::stable_sort(held, {}, &Held::chunk);
 
-  std::vector<std::int32_t> rows(static_cast<std::size_t>(world.resource<Bodies>().chunks()), 0);
+  std::vector<std::int32_t> rows(static_cast<std::size_t>(bodies.chunks()), 0);
   for (const Held& h : held) rows[static_cast<std::size_t>(h.chunk)] += 1;
   world.add_table<ConstrainedNode>(rows);
   world.add<ConstraintTarget>();

@@ -2,39 +2,77 @@
 //
 // Runs     every step, after bond_forces and contact_totals: what is spent adds up over steps
 // Active   when the scene has bonds
+#include <algorithm>
 #include <array>
 
 #include "components/run_state.hpp"
+#include "engine/state_bytes.hpp"
 #include "systems/contact/systems.hpp"
 
 namespace pulvis {
+namespace {
+
+// Over all blocks of this rank.
+struct Sums {
+  enum Exact { energy, contact_energy, fracture, area, friction_work, damping_work, exact };
+  enum Count { rows, cracks, counts };
+  std::array<ExactSum, exact> sum;
+  std::array<std::int64_t, counts> count{};
+  std::vector<Crack> broken;
+
+  void add(const std::vector<BondBlock>& blocks) {
+    for (const BondBlock& block : blocks) {
+      sum[energy].add(block.energy);
+      sum[contact_energy].add(block.contact_energy);
+      sum[fracture].add(block.fracture);
+      sum[area].add(block.area);
+      sum[friction_work].add(block.friction_work);
+      sum[damping_work].add(block.damping_work);
+      count[rows] += block.rows;
+      count[cracks] += std::ssize(block.cracks);
+      broken.insert(broken.end(), block.cracks.begin(), block.cracks.end());
+    }
+  }
+};
+
+// What broke on any rank, in the order of one process: chunk by chunk, of which each is one rank's; with tools last.
+std::vector<Crack> cracks_of_ranks(RankLink& link, std::vector<Crack> own) {
+  StateWriter writer;
+  writer(own);
+  const auto count = static_cast<std::size_t>(link.ranks->count());
+  std::vector<Crack> all;
+  for (const Ranks::Bytes& bytes :
+       link.ranks->all_to_all(std::vector<Ranks::Bytes>(count, writer.bytes()))) {
+    StateReader reader(bytes);
+    std::vector<Crack> cracks;
+    reader(cracks);
+    all.insert(all.end(), cracks.begin(), cracks.end());
+  }
+  std::ranges::stable_sort(all, {}, [](const Crack& crack) {
+    return std::pair(crack.other < 0, crack.slot / lane_count);
+  });
+  return all;
+}
+
+}  // namespace
 
 void bond_totals::operator()() const {
-  enum { energy, contact_energy, fracture, area, friction_work, damping_work, sums };
-  std::array<ExactSum, sums> of;
-  const auto take = [&](const std::vector<BondBlock>& blocks) {
-    for (const BondBlock& block : blocks) {
-      of[energy].add(block.energy);
-      of[contact_energy].add(block.contact_energy);
-      of[fracture].add(block.fracture);
-      of[area].add(block.area);
-      of[friction_work].add(block.friction_work);
-      of[damping_work].add(block.damping_work);
-      totals->touching += block.rows;
-      for (const Crack& crack : block.cracks) {
-        bonds->crack_length += crack.length;
-        bonds->cracks.push_back(crack);
-      }
-    }
-  };
-  if (pairs) take((*pairs)->blocks);
-  if (tools) take((*tools)->blocks);
-  bonds->energy = of[energy].value();
-  bonds->fracture += of[fracture].value();
-  bonds->area = of[area].value();
-  totals->contact_energy += of[contact_energy].value();
-  totals->friction_work += of[friction_work].value();
-  totals->damping_work += of[damping_work].value();
+  Sums of;
+  if (pairs) of.add((*pairs)->blocks);
+  if (tools) of.add((*tools)->blocks);
+  sum_of_ranks(link, of.sum, of.count);
+  if (link && of.count[Sums::cracks] > 0) of.broken = cracks_of_ranks(**link, std::move(of.broken));
+  totals->touching += of.count[Sums::rows];
+  for (const Crack& crack : of.broken) {
+    bonds->crack_length += crack.length;
+    bonds->cracks.push_back(crack);
+  }
+  bonds->energy = of.sum[Sums::energy].value();
+  bonds->fracture += of.sum[Sums::fracture].value();
+  bonds->area = of.sum[Sums::area].value();
+  totals->contact_energy += of.sum[Sums::contact_energy].value();
+  totals->friction_work += of.sum[Sums::friction_work].value();
+  totals->damping_work += of.sum[Sums::damping_work].value();
 }
 
 }  // namespace pulvis

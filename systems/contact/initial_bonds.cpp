@@ -1,11 +1,13 @@
 // initial_bonds: bonds what touches at the start.
+// initial_bond_totals: how much that is over all ranks, with bonds to tools.
 //
 // Law      a point within `reach` of its closest point on a surface that faces it; what gap there is belongs to the bond
 //          and bears nothing
 // Runs     once, at the start, after the first search for contacts
-// Active   when the scene has bonds between particles
+// Active   when the scene has bonds between particles; the totals when the run has several ranks
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/portable_math.hpp"
 #include "systems/contact/contact_outlines.hpp"
@@ -43,6 +45,7 @@ void initial_bonds::operator()() const {
   for (int r = 0; r < rows.pair.rows(); ++r) {
     const Row<Contact> row(r);
     const int slot = rows.pair(row, 0), edge = rows.pair(row, 1), other = rows.pair(row, 2);
+    if (!bodies->owns(slot)) continue;
     if (slot == other && (!at.images || at.images->of(row) == Image{})) continue;
     const Point shift = at.images ? at.images->shift(row) : Point{};
     const auto& a = entry(bodies->slots, slot);
@@ -70,6 +73,24 @@ void initial_bonds::operator()() const {
       make_bond(rows, row, g, number, strength, opening);
       entry(totals->made, number - 1) += 1;
     }
+  }
+}
+
+void initial_bond_totals::operator()() const {
+  std::vector<std::int64_t> made(totals->made.begin(), totals->made.end());
+  link->ranks->sum(made);
+  std::vector<double> share, width;  // negative, so that the largest are of the nearest
+  for (const BondTotals::Gap& gap : totals->nearest) share.push_back(-gap.share);
+  link->ranks->maximum(share);
+  for (std::size_t law = 0; law < share.size(); ++law) {
+    const BondTotals::Gap& own = totals->nearest[law];
+    width.push_back(-own.share == share[law] ? -own.width
+                                             : -std::numeric_limits<double>::infinity());
+  }
+  link->ranks->maximum(width);
+  for (std::size_t law = 0; law < made.size(); ++law) {
+    totals->made[law] = static_cast<std::int32_t>(made[law]);
+    totals->nearest[law] = {-width[law], -share[law]};
   }
 }
 

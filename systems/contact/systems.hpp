@@ -188,6 +188,12 @@ struct initial_bonds {  // once, at the start
   void operator()() const;
 };
 
+struct initial_bond_totals {  // likewise
+  Write<BondTotals> totals;
+  Write<RankLink> link;
+  void operator()() const;
+};
+
 struct pressed_bonds {
   Read<BondRules> rules;
   NewBonds<Contact> rows;
@@ -219,6 +225,7 @@ struct bond_totals {
   Optional<Read<BondSums<ToolContact>>> tools;
   Write<BondTotals> bonds;
   Write<Totals> totals;
+  Link link;
   void operator()() const;
 };
 

@@ -62,11 +62,18 @@ class Shared {
 void list_border_rows::operator()() const {
   if (index->due) list();
 }
+// Nothing of this rank's looks at it: neither the narrow phase, nor bonds.
+void list_border_rows::rest(Row<Contact> row) const {
+  activation(row) = never;
+  if (bonded) (*bonded)(row) = 0;
+  if (weld_pressure)
+    for (int i = 0; i < WeldPressure<Contact>::count; ++i) (*weld_pressure)(row, i) = 0;
+}
 void list_border_rows::list() const {
   Shared shared(*link, *bodies);
   for (int r = 0; r < pair.rows(); ++r) {
     const Row<Contact> row(r);
-    if (shared.take(r, pair(row, 0), pair(row, 2))) activation(row) = never;
+    if (shared.take(r, pair(row, 0), pair(row, 2))) rest(row);
   }
   link->rows = shared.rows();
   link->outlines = shared.outlines();

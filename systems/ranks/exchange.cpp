@@ -3,7 +3,8 @@
 // another rank.
 //
 // Runs     outlines are sent as soon as they have moved, at the end of a step, and awaited when the bodies of the next one
-//          have been taken; contacts are sent after the narrow phase between particles, and awaited after that of tools
+//          have been taken; contacts are sent after the narrow phase and the bonds between particles, and awaited after those
+//          of tools
 // Active   when the run has several ranks
 #include <cstring>
 

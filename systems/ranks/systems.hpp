@@ -3,6 +3,7 @@
 // D: Plane or Space, the columns of the outlines in two and three dimensions.
 #pragma once
 
+#include "components/bond.hpp"
 #include "components/bundles.hpp"
 #include "components/space/contact.hpp"
 #include "systems/ranks/reduce.hpp"
@@ -38,9 +39,14 @@ struct list_border_rows {
   Read<ContactIndex> index;
   Read<ContactPair<Contact>> pair;
   Write<ActivationTravel<Contact>> activation;
+  Optional<Write<BondedPoints<Contact>>> bonded;
+  Optional<Write<WeldPressure<Contact>>> weld_pressure;
   Write<RankLink> link;
   void operator()() const;
   void list() const;  // whether rows are due or not
+
+ private:
+  void rest(Row<Contact> row) const;
 };
 
 struct list_border_pairs {

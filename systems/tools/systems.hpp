@@ -135,9 +135,11 @@ struct apply_constraints {
 };
 
 struct tool_reaction {
+  Read<Bodies> bodies;
   Read<Clock> clock;
   Optional<TouchingRows<ToolContact>> contacts;
   struct Constraints {
+    Read<ConstraintIndex> index;
     Read<ConstraintTarget> target;
     Read<ConstraintTravel> travel;
     Read<ConstraintReaction> reaction;

@@ -59,13 +59,16 @@ void add_contacts(const TouchingRows<ToolContact>& rows, Forces& forces) {
 
 // A radial constraint moves by x alone and has the sum of the radial forces as x: work is force times displacement
 // for every constraint alike.
-void add_constraints(const tool_reaction::Constraints& constraints, Forces& forces) {
-  for (int r = 0; r < constraints.target.rows(); ++r) {
-    const Row<ConstrainedNode> row(r);
-    for (int k = 0; k < 2; ++k)
-      entry(forces, tool_axes * constraints.target(row, 2) + k)
-          .add(-constraints.travel(row, k) * constraints.reaction(row));
-  }
+void add_constraints(const Bodies& bodies, const tool_reaction::Constraints& constraints,
+                     Forces& forces) {
+  const std::vector<std::int32_t>& begin = constraints.index->begin;
+  for (const int chunk : bodies.own_chunks)
+    for (int r = entry(begin, chunk); r < entry(begin, chunk + 1); ++r) {
+      const Row<ConstrainedNode> row(r);
+      for (int k = 0; k < 2; ++k)
+        entry(forces, tool_axes * constraints.target(row, 2) + k)
+            .add(-constraints.travel(row, k) * constraints.reaction(row));
+    }
 }
 
 }  // namespace
@@ -83,7 +86,7 @@ void tool_reaction::operator()() const {
   const double power_before = power();
   Forces forces(tool_force.values().size());
   if (contacts) add_contacts(*contacts, forces);
-  if (constraints) add_constraints(*constraints, forces);
+  if (constraints) add_constraints(*bodies, *constraints, forces);
   sum_of_ranks(link, forces);
   std::ranges::transform(forces, tool_force.values().begin(), &ExactSum::value);
   const double work = 0.5 * (power_before + power()) * clock->dt_before;

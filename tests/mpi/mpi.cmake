@@ -30,7 +30,8 @@ optimise(test_launch 1)
 gtest_discover_tests(test_launch TEST_PREFIX mpi. PROPERTIES TIMEOUT ${PULVIS_TEST_TIMEOUT} LABELS mpi)
 
 # The same bits on any number of ranks. The long round by hand: tests/mpi/ranks_runs.py PROGRAM . --case NAME, --kills 50
-foreach(case die friction damped-servo shear cell space-die space-round space-mixture)
+foreach(case die friction damped-servo shear cell bonds welds tool-bonds constraints bar space-die space-round
+        space-mixture)
   set(quick --quick)
   if(case STREQUAL die)
     set(quick)

@@ -4,16 +4,15 @@
 usage: ranks_runs.py PROGRAM ROOT (--case NAME [--quick] | --kills N [--seed S])
 
 Case by case: a scene, left after some steps, on 1, 2, 3 and 4 ranks with 1 and 2 threads each; its state hash, its history
-and every dataset of its frames and its mesh must be those of one process. Then it is stopped twice and resumed on other
-numbers of ranks, one process among them. --quick: on three ranks alone, and stopped on three and resumed on two. --kills: a
-run over three ranks is resumed after a rank was killed at a random moment, so many times, until it is done; its results must
-be the same again.
+and every dataset of its frames, its mesh and its cracks must be those of one process. Then it is stopped twice and resumed
+on other numbers of ranks, one process among them. --quick: on three ranks alone, and stopped on three and resumed on two.
+--kills: a run over three ranks is resumed after a rank was killed at a random moment, so many times, until it is done; its
+results must be the same again.
 """
 import argparse
 import json
 import os
 import random
-import re
 import signal
 import subprocess
 import sys
@@ -31,12 +30,18 @@ CASES = {
     "damped-servo": ("scenes/compaction/biaxial.toml", 300, []),
     "shear": ("scenes/shear/grooves-16.toml", 300, []),
     "cell": ("scenes/periodic/cap-isostatic.toml", 300, ["output.contacts=true"]),
+    "bonds": ("scenes/bonds/crushed-particle.toml", 115, ['stage[0].duration="2 us"', "particle[0].grains.number=12"]),
+    "welds": ("scenes/bonds/green-strength.toml", 300, ['stage[0].duration="0.15 ms"', "output.contacts=true"]),
+    "tool-bonds": ("tests/keys/scenes/bonds.toml", 400, ['stage[0].duration="1.2 us"', 'stage[1].duration="2 us"']),
+    "constraints": ("scenes/bonds/pulled-blocks.toml", 130, ['stage[0].duration="1 us"']),
+    "bar": ("scenes/basic/tension.toml", 300, []),
     "space-die": ("scenes/compaction-3d/random-100-copper.toml", 60, ["output.contacts=true"]),
     "space-round": ("scenes/compaction-3d/tablet.toml", 60, []),
     "space-mixture": ("scenes/compaction-3d/mixture.toml", 60, ["output.density_cells=[2, 2, 2]"]),
 }
+# Bonds that are made and broken in those steps: points at least.
+BONDS = {"bonds": (400, 20), "welds": (10, 0), "tool-bonds": (50, 10), "constraints": (90, 50)}
 RANKS_AND_THREADS = [(1, 2), (2, 1), (2, 2), (3, 1), (4, 1)]
-STATE = re.compile(r'"state_hash": "([0-9a-f]{16})"')
 
 
 class Failed(Exception):
@@ -50,8 +55,8 @@ def run(program, words, code=(0,)):
     return done
 
 
-def state_of(folder):
-    return STATE.search((folder / "summary.json").read_text()).group(1)
+def summary_of(folder):
+    return json.loads((folder / "summary.json").read_text())
 
 
 def differences(one, other):
@@ -74,9 +79,12 @@ def differences(one, other):
 
 
 def require_same(one, other, what):
-    if state_of(one) != state_of(other):
-        raise Failed(f"{what}: the state hash is {state_of(other)}, of one process {state_of(one)}")
+    alone, ranks = summary_of(one), summary_of(other)
+    if alone["state_hash"] != ranks["state_hash"]:
+        raise Failed(f"{what}: the state hash is {ranks['state_hash']}, of one process {alone['state_hash']}")
     found = differences(one, other)
+    if alone.get("bonds") != ranks.get("bonds"):
+        found.append("bonds of summary.json")
     if found:
         raise Failed(f"{what}: not the same: {', '.join(found[:8])}")
 
@@ -94,6 +102,10 @@ class Case:
     def alone(self):
         folder = self.scratch / "alone"
         run(self.program, self.words(folder, "--threads", 1), code=(0, 1, 3, 130))
+        if self.name in BONDS:
+            bonds = summary_of(folder)["bonds"]
+            if bonds["made"] < BONDS[self.name][0] or bonds["broken"] < BONDS[self.name][1]:
+                raise Failed(f"{self.name}: {bonds['made']} points were bonded and {bonds['broken']} broke")
         return folder
 
     def check(self, quick):
