@@ -135,7 +135,18 @@ ExitCode end_of(int status, bool asked, const fs::path& folder) {
 
 }  // namespace
 
+void require_room_to_start(const fs::path& folder, std::uintmax_t bytes) {
+  std::error_code error;
+  const fs::space_info room = fs::space(folder, error);
+  if (error || room.available >= bytes) return;
+  throw OutputError(folder, "start the ranks",
+                    fmt::format("mpirun needs {} MB there, {} are free: take another folder by TMPDIR",
+                                bytes >> 20, room.available >> 20));
+}
+
 ExitCode launch_ranks(const RankLaunch& launch) {
+  // Three ranks took 4 MB of Open MPI 4.1, and did not start with less.
+  require_room_to_start(fs::temp_directory_path(), std::uintmax_t{32} << 20);
   const std::vector<std::string> command = command_of(launch);
   const SignalsHeld signals;
   const pid_t child = start(command, signals);

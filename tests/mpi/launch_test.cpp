@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "cli/ranks/launch_ranks.hpp"
+#include "engine/files/output_error.hpp"
 
 namespace pulvis {
 namespace {
@@ -172,6 +173,12 @@ TEST(LaunchWords, LessRanks) {
   EXPECT_EQ(without_ranks({"run", "--ranks", "4", "s.toml"}), (Words{"run", "s.toml"}));
   EXPECT_EQ(without_ranks({"run", "s.toml", "--ranks=4", "--quiet"}),
             (Words{"run", "s.toml", "--quiet"}));
+}
+
+TEST(LaunchRoom, IsAskedForBeforeTheRanksStart) {
+  const fs::path here = fs::temp_directory_path();
+  EXPECT_NO_THROW(require_room_to_start(here, 1));
+  EXPECT_THROW(require_room_to_start(here, std::uintmax_t{1} << 62), OutputError);
 }
 
 }  // namespace

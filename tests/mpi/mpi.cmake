@@ -43,6 +43,8 @@ endforeach()
 add_test(NAME mpi.ranks_run_killed
          COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
                  --kills 3)
+add_test(NAME mpi.ranks_run_full
+         COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR} --full)
 
 get_property(tests DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} PROPERTY TESTS)
 list(FILTER tests INCLUDE REGEX "^mpi\\.ranks_")

@@ -1,18 +1,20 @@
 #!/usr/bin/python3
 """Runs over several ranks against the same run in one process: every bit of their results must be the same.
 
-usage: ranks_runs.py PROGRAM ROOT (--case NAME [--quick] | --kills N [--seed S])
+usage: ranks_runs.py PROGRAM ROOT (--case NAME [--quick] | --kills N [--seed S] | --full)
 
 Case by case: a scene, left after some steps, on 1, 2, 3 and 4 ranks with 1 and 2 threads each; its state hash, its history
 and every dataset of its frames, its mesh and its cracks must be those of one process. Then it is stopped twice and resumed
 on other numbers of ranks, one process among them. --quick: on three ranks alone, and stopped on three and resumed on two.
 --kills: a run over three ranks is resumed after a rank was killed at a random moment, so many times, until it is done; its
-results must be the same again.
+results must be the same again. --full: no file may grow beyond some size, as on a disk that is full; the run over ranks ends and says so, and
+goes on from its last checkpoint when there is room again.
 """
 import argparse
 import json
 import os
 import random
+import resource
 import signal
 import subprocess
 import sys
@@ -198,6 +200,25 @@ def check_kills(program, root, kills, scratch, seed):
     print(f"a rank was killed {killed} times, in {runs} runs")
 
 
+def check_full(program, root, scratch):
+    """As much is written as fits; then all ranks end, and nothing that was there is lost."""
+    case = Case(program, root, "friction", scratch)
+    case.steps, most = 400, 8 << 20  # mpirun's own files are as large as half of it
+    case.set = case.set + ["output.frames=5000", "output.samples=5000"]
+    alone, folder = case.alone(), scratch / "full"
+    words = case.words(folder, "--ranks", 3)
+    words[words.index("--checkpoint-steps") + 1] = 100
+    done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, timeout=300,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
+    if done.returncode != 4 or "run.h5: cannot write" not in done.stderr or "pulvis resume" not in done.stderr:
+        raise Failed(f"exit {done.returncode}: {done.stderr}")
+    with h5py.File(folder / "run.h5") as file:
+        frames = len(file["frames"])
+    run(program, ["resume", folder, "--quiet", "--ranks", 2, "--stop-after", case.steps], code=(130,))
+    require_same(alone, folder, "resumed after a full disk")
+    print(f"{frames} frames fitted; resumed, and the same as one process")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
@@ -205,6 +226,7 @@ def main():
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--case", choices=CASES)
     what.add_argument("--kills", type=int)
+    what.add_argument("--full", action="store_true")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
@@ -212,6 +234,8 @@ def main():
         try:
             if options.case:
                 Case(options.program, options.root, options.case, Path(scratch)).check(options.quick)
+            elif options.full:
+                check_full(options.program, options.root, Path(scratch))
             else:
                 check_kills(options.program, options.root, options.kills, Path(scratch), options.seed)
         except Failed as failure:
