@@ -2,7 +2,7 @@
 //
 // Law      systems/contact/bond_points.hpp; the frame is the other curve's at the anchor. Because that frame turns
 //          with the curve, its slope bears a couple, so that forces are the derivative of what is stored
-// Runs     after edge_contact and pressed_bonds, before contact_force
+// Runs     after edge_contact and pressed_bonds, before contact_force, and before other ranks are told
 // Active   when the scene has bonds between particles
 #include "engine/prefetch.hpp"
 #include "systems/contact/active_pairs.hpp"

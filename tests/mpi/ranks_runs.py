@@ -33,7 +33,8 @@ CASES = {
     "shear": ("scenes/shear/grooves-16.toml", 300, []),
     "cell": ("scenes/periodic/cap-isostatic.toml", 300, ["output.contacts=true"]),
     "bonds": ("scenes/bonds/crushed-particle.toml", 115, ['stage[0].duration="2 us"', "particle[0].grains.number=12"]),
-    "welds": ("scenes/bonds/green-strength.toml", 300, ['stage[0].duration="0.15 ms"', "output.contacts=true"]),
+    "welds": ("scenes/bonds/green-strength.toml", 400, ['stage[0].duration="0.1 ms"', 'bond[0].threshold="1 MPa"',
+                                                        "packing[0].density=0.805"]),
     "tool-bonds": ("tests/keys/scenes/bonds.toml", 400, ['stage[0].duration="1.2 us"', 'stage[1].duration="2 us"']),
     "constraints": ("scenes/bonds/pulled-blocks.toml", 130, ['stage[0].duration="1 us"']),
     "bar": ("scenes/basic/tension.toml", 300, []),
@@ -42,7 +43,7 @@ CASES = {
     "space-mixture": ("scenes/compaction-3d/mixture.toml", 60, ["output.density_cells=[2, 2, 2]"]),
 }
 # Bonds that are made and broken in those steps: points at least.
-BONDS = {"bonds": (400, 20), "welds": (10, 0), "tool-bonds": (50, 10), "constraints": (90, 50)}
+BONDS = {"bonds": (400, 20), "welds": (100, 10), "tool-bonds": (50, 10), "constraints": (90, 50)}
 RANKS_AND_THREADS = [(1, 2), (2, 1), (2, 2), (3, 1), (4, 1)]
 
 
