@@ -10,6 +10,7 @@
 #include "engine/files/checkpoint.hpp"
 #include "engine/ranks/ranks.hpp"
 #include "engine/world.hpp"
+#include "scenes/ranks/columns.hpp"
 
 namespace pulvis {
 
@@ -30,14 +31,14 @@ class Gatherer {
                  std::vector<std::int32_t>& whole_begin);
   std::vector<std::byte> joined(std::span<const std::byte> own,
                                 const std::vector<std::size_t>& bytes_of_chunk);
+  void triangles(const std::vector<std::int32_t>& own_begin,
+                 const std::vector<std::int32_t>& whole_begin);
   void neighbours();
 
   World& share_;
   World* whole_;
   Ranks& ranks_;
 };
-
-bool is_by_chunk(const ColumnBase& column);
 
 // Takes of the checkpoint what `share` holds, and finds its border. Throws BadState where it does not fit the scene.
 void restore_share(const Checkpoint& checkpoint, World& share,
