@@ -9,8 +9,8 @@ WHAT  strong   a hexagonal packing on 1 and 2 threads and on 1 and 2 ranks, side
       model    seconds a step on 1 to 1,024 nodes for 10^4 to 10^7 discs, from the cost of a disc and of the bytes that
                `strong` and `bytes` measure, with the stated latency and bandwidth
       many     100,000 discs for 500 steps on two ranks: memory of each
-      balance  a loose powder that a fast punch gathers before itself, on two ranks with and without chunks that change
-               hands (the latter by the tests' rebalanced_run): costs of the ranks, wall seconds
+      balance  a loose powder that a fast punch gathers before itself, on two and four ranks, rebalanced and not (by the
+               tests' rebalanced_run): costs of the ranks, wall seconds
 """
 import argparse
 import json
@@ -52,8 +52,8 @@ samples = 1
 LOOSE = """extends = "{base}"
 title = "{columns} x {rows} loose discs and a fast punch, 316L"
 
-packing = [{{ kind = "square", particle = "disc", rows = {rows}, columns = {columns}, corner = ["0 mm", "0 mm"], spacing = "10.5 mm" }}]
-stage = [{{ name = "press", duration = "{duration} us", move = [{{ tool = "top", displacement = ["0 mm", "-{travel} mm"] }}] }}]
+packing = [{{ kind = "square", particle = "disc", rows = {rows}, columns = {columns}, spacing = "10.5 mm" }}]
+stage = [{{ name = "press", duration = "{duration} us", move = [{{ tool = "top", displacement = ["0 mm", "-{travel} mm"], ramp = 0.005 }}] }}]
 
 [[tool]]
 name = "right"
@@ -185,37 +185,44 @@ def loose_scene(options, columns=16, rows=64, speed=100):
 
 
 def longer(seconds):
-    """Of the slowest rank than the mean."""
+    """By how much the slowest rank takes longer than the mean."""
     return f"{100 * (max(seconds) / statistics.mean(seconds) - 1):.0f}%"
 
 
+def loose_run(options, name, ranks, every):
+    """By the tests' program, whose ranks are never rebalanced where `every` is beyond the run's steps."""
+    folder = options.folder / name
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run(["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--allow-run-as-root", "-np", str(ranks),
+                    options.pulvis.parent.parent / "tests/rebalanced_run", str(every), "run", loose_scene(options), folder,
+                    str(options.steps), "1"], check=False)
+    return json.loads((folder / "summary.json").read_text())
+
+
 def balance(options):
-    scene, steps = loose_scene(options), options.steps
-    seconds = {"rebalanced": [], "as divided at the start": []}
-    told = {}
-    never = 10**9  # steps
-    for _ in range(options.repeats):
-        told["rebalanced"] = run(options, "rebalanced", [scene, "--stop-after", steps, "--ranks", 2, "--threads", 1])
-        folder = options.folder / "divided-once"
-        shutil.rmtree(folder, ignore_errors=True)
-        subprocess.run(["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--allow-run-as-root", "-np", "2",
-                        options.pulvis.parent.parent / "tests/rebalanced_run", str(never), "run", scene, folder,
-                        str(steps), "1"], check=False)
-        told["as divided at the start"] = json.loads((folder / "summary.json").read_text())
+    scene = loose_scene(options)
+    for ranks in (2, 4):
+        seconds = {"rebalanced": [], "as divided at the start": []}
+        told = {}
+        for _ in range(options.repeats):
+            told["rebalanced"] = run(options, f"rebalanced-{ranks}", [scene, "--stop-after", options.steps, "--ranks", ranks,
+                                                                      "--threads", 1])
+            told["as divided at the start"] = loose_run(options, f"divided-{ranks}", ranks, 10**9)
+            for name, times in seconds.items():
+                times.append(told[name]["wall_seconds"])
+        if len({summary["state_hash"] for summary in told.values()}) != 1:
+            raise SystemExit("the two do not end in the same state")
+        print(f"balance: {told['rebalanced']['particles']} discs, {options.steps} steps on {ranks} ranks, "
+              f"{options.repeats} runs in turns")
+        print("| way | wall seconds, least | median | slowest rank of late, over the mean by |\n|---|---|---|---|")
         for name, times in seconds.items():
-            times.append(told[name]["wall_seconds"])
-    if len({summary["state_hash"] for summary in told.values()}) != 1:
-        raise SystemExit("the two do not end in the same state")
-    print(f"balance: {told['rebalanced']['particles']} discs, {steps} steps on 2 ranks, {options.repeats} runs in turns")
-    print("| way | wall seconds, least | median | slowest rank at the end, longer than the mean |\n|---|---|---|---|")
-    for name, times in seconds.items():
-        print(f"| {name} | {min(times):.2f} | {statistics.median(times):.2f} "
-              f"| {longer(told[name]['ranks']['seconds_a_step'])} |")
-    print("| step | chunks that changed hands | ms | slowest rank before, longer than the mean | after |\n|---|---|---|---|---|")
-    for one in told["rebalanced"]["ranks"]["rebalancings"]:
-        after = longer(one["seconds_a_step_after"]) if one["seconds_a_step_after"] else ""
-        print(f"| {one['step']} | {one['chunks']} | {1000 * one['seconds']:.0f} | {longer(one['seconds_a_step_before'])} "
-              f"| {after} |")
+            print(f"| {name} | {min(times):.2f} | {statistics.median(times):.2f} "
+                  f"| {longer(told[name]['ranks']['seconds_a_step'])} |")
+        print("| after step | chunks | ms | slowest rank over the mean by | afterwards |\n|---|---|---|---|---|")
+        for one in told["rebalanced"]["ranks"]["rebalancings"]:
+            after = longer(one["seconds_a_step_after"]) if one["seconds_a_step_after"] else ""
+            print(f"| {one['step']} | {one['chunks']} | {1000 * one['seconds']:.0f} "
+                  f"| {longer(one['seconds_a_step_before'])} | {after} |")
 
 
 def main():
