@@ -9,11 +9,14 @@ WHAT  strong   a hexagonal packing on 1 and 2 threads and on 1 and 2 ranks, side
       model    seconds a step on 1 to 1,024 nodes for 10^4 to 10^7 discs, from the cost of a disc and of the bytes that
                `strong` and `bytes` measure, with the stated latency and bandwidth
       many     100,000 discs for 500 steps on two ranks: memory of each
+      balance  a loose powder that a fast punch gathers before itself, on two and four ranks, rebalanced and not (by the
+               tests' rebalanced_run): costs of the ranks, wall seconds
 """
 import argparse
 import json
 import math
 import pathlib
+import shutil
 import statistics
 import subprocess
 
@@ -39,6 +42,26 @@ point = ["{width} mm", "0 mm"]
 [[tool]]
 name = "top"
 point = ["0 mm", "{width} mm"]
+
+[output]
+frames = 1
+samples = 1
+"""
+
+
+LOOSE = """extends = "{base}"
+title = "{columns} x {rows} loose discs and a fast punch, 316L"
+
+packing = [{{ kind = "square", particle = "disc", rows = {rows}, columns = {columns}, spacing = "10.5 mm" }}]
+stage = [{{ name = "press", duration = "{duration} us", move = [{{ tool = "top", displacement = ["0 mm", "-{travel} mm"], ramp = 0.005 }}] }}]
+
+[[tool]]
+name = "right"
+point = ["{width} mm", "0 mm"]
+
+[[tool]]
+name = "top"
+point = ["0 mm", "{height} mm"]
 
 [output]
 frames = 1
@@ -150,6 +173,58 @@ def many(options):
           f"{summary['wall_seconds']:.0f} s, at most {memory}, state {summary['state_hash']}")
 
 
+def loose_scene(options, columns=16, rows=64, speed=100):
+    options.folder.mkdir(parents=True, exist_ok=True)
+    file = options.folder / "loose.toml"
+    height = 10.5 * rows
+    travel = round(0.4 * height, 1)
+    file.write_text(LOOSE.format(base=ROOT / "scenes/compaction/regular-25.toml", rows=rows, columns=columns,
+                                 width=10.5 * columns, height=height, travel=travel,
+                                 duration=round(travel * 1000 / speed)))
+    return file
+
+
+def longer(seconds):
+    """By how much the slowest rank takes longer than the mean."""
+    return f"{100 * (max(seconds) / statistics.mean(seconds) - 1):.0f}%"
+
+
+def loose_run(options, name, ranks, every):
+    """By the tests' program, whose ranks are never rebalanced where `every` is beyond the run's steps."""
+    folder = options.folder / name
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run(["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "--allow-run-as-root", "-np", str(ranks),
+                    options.pulvis.parent.parent / "tests/rebalanced_run", str(every), "run", loose_scene(options), folder,
+                    str(options.steps), "1"], check=False)
+    return json.loads((folder / "summary.json").read_text())
+
+
+def balance(options):
+    scene = loose_scene(options)
+    for ranks in (2, 4):
+        seconds = {"rebalanced": [], "as divided at the start": []}
+        told = {}
+        for _ in range(options.repeats):
+            told["rebalanced"] = run(options, f"rebalanced-{ranks}", [scene, "--stop-after", options.steps, "--ranks", ranks,
+                                                                      "--threads", 1])
+            told["as divided at the start"] = loose_run(options, f"divided-{ranks}", ranks, 10**9)
+            for name, times in seconds.items():
+                times.append(told[name]["wall_seconds"])
+        if len({summary["state_hash"] for summary in told.values()}) != 1:
+            raise SystemExit("the two do not end in the same state")
+        print(f"balance: {told['rebalanced']['particles']} discs, {options.steps} steps on {ranks} ranks, "
+              f"{options.repeats} runs in turns")
+        print("| way | wall seconds, least | median | slowest rank of late, over the mean by |\n|---|---|---|---|")
+        for name, times in seconds.items():
+            print(f"| {name} | {min(times):.2f} | {statistics.median(times):.2f} "
+                  f"| {longer(told[name]['ranks']['seconds_a_step'])} |")
+        print("| after step | chunks | ms | slowest rank over the mean by | afterwards |\n|---|---|---|---|---|")
+        for one in told["rebalanced"]["ranks"]["rebalancings"]:
+            after = longer(one["seconds_a_step_after"]) if one["seconds_a_step_after"] else ""
+            print(f"| {one['step']} | {one['chunks']} | {1000 * one['seconds']:.0f} "
+                  f"| {longer(one['seconds_a_step_before'])} | {after} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--pulvis", default=ROOT / "build/release/cli/pulvis", type=pathlib.Path)
@@ -157,10 +232,10 @@ def main():
     parser.add_argument("--repeats", default=5, type=int)
     parser.add_argument("--discs", default=1600, type=int)
     parser.add_argument("--steps", default=200, type=int)
-    parser.add_argument("what", nargs="+", choices=("strong", "weak", "bytes", "model", "many"))
+    parser.add_argument("what", nargs="+", choices=("strong", "weak", "bytes", "model", "many", "balance"))
     options = parser.parse_args()
     for what in options.what:
-        {"strong": strong, "weak": weak, "bytes": bytes_told, "model": model, "many": many}[what](options)
+        {"strong": strong, "weak": weak, "bytes": bytes_told, "model": model, "many": many, "balance": balance}[what](options)
 
 
 if __name__ == "__main__":

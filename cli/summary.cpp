@@ -186,6 +186,21 @@ void add_bonds(Json& json, const World& world) {
   json["bonds"] = bonds;
 }
 
+Json ranks_json(const RunCost& cost) {
+  Json rebalancings = Json::array();
+  for (const Rebalancing& one : cost.rebalancings)
+    rebalancings.push_back({{"step", one.step},
+                            {"chunks", one.chunks},
+                            {"seconds", one.seconds},
+                            {"seconds_a_step_before", one.before},
+                            {"seconds_a_step_after", one.after}});
+  return {{"count", cost.rank_memory.size()},
+          {"bytes_a_step", cost.bytes_a_step},
+          {"peak_memory_bytes", cost.rank_memory},
+          {"seconds_a_step", cost.rank_seconds},
+          {"rebalancings", rebalancings}};
+}
+
 }  // namespace
 
 void print_summary(const std::filesystem::path& folder) {
@@ -221,10 +236,7 @@ void write_summary(const std::filesystem::path& folder, const Scene& scene, cons
             {"elements", results.elements()},
             {"element_updates_per_second", cost.wall_seconds > 0 ? updates / cost.wall_seconds : 0},
             {"peak_memory_bytes", peak_memory()}};
-  if (!cost.rank_memory.empty())
-    json["ranks"] = {{"count", cost.rank_memory.size()},
-                     {"bytes_a_step", cost.bytes_a_step},
-                     {"peak_memory_bytes", cost.rank_memory}};
+  if (!cost.rank_memory.empty()) json["ranks"] = ranks_json(cost);
   if (scene.space)
     json["dimension"] = 3;
   else

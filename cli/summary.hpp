@@ -8,6 +8,7 @@
 #include "cli/identity.hpp"
 #include "engine/task_graph.hpp"
 #include "scenes/expectations.hpp"
+#include "scenes/ranks/balance.hpp"
 #include "scenes/results/compaction_curve.hpp"
 #include "scenes/results/contact_findings.hpp"
 #include "scenes/results/results.hpp"
@@ -23,8 +24,10 @@ struct RunCost {
   std::string scene_hash, outcome;
   std::vector<SystemCost> systems;
   double bytes_a_step = 0;          // that all ranks together told each other
-  std::vector<double> rank_memory;  // bytes, the most that each rank held; empty of one process
-  std::string state_hash;
+  std::vector<double> rank_memory{};  // bytes, the most that each rank held; empty of one process
+  std::vector<double> rank_seconds{};  // s, cost of each in a step, by now; empty where not known
+  std::vector<Rebalancing> rebalancings{};
+  std::string state_hash{};
 };
 
 // What its user should know of a run's figures.

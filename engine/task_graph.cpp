@@ -340,6 +340,14 @@ void TaskGraph::run() {
   ++flow_->runs;
 }
 
+std::vector<SystemCost> added(std::vector<SystemCost> one, const std::vector<SystemCost>& other) {
+  for (const SystemCost& cost : other) {
+    const auto same = std::ranges::find(one, cost.system, &SystemCost::system);
+    same == one.end() ? one.push_back(cost) : void(same->seconds += cost.seconds);
+  }
+  return one;
+}
+
 std::vector<SystemCost> TaskGraph::costs() const {
   const std::int64_t every = Flow::timed_every;
   const std::int64_t timed = (flow_->runs + every - 1 - Flow::timed_first) / every;

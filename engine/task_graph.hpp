@@ -30,6 +30,8 @@ struct SystemCost {
   std::string system;
   double seconds = 0;
 };
+// System by system, those of `one` first.
+std::vector<SystemCost> added(std::vector<SystemCost> one, const std::vector<SystemCost>& other);
 
 struct GraphPlan {
   std::vector<StagePlan> stages;

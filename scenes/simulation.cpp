@@ -69,12 +69,26 @@ void Simulation::do_run(double time, const std::function<bool()>& stop) {
   const std::uint64_t sent = crew_ ? crew_->bytes_sent() : 0;
   workers_.run([&] {
     while (clock().time < std::min(time, end())) {
-      step_->run();
-      const bool stops = stop && stop();
-      if (crew_ ? !crew_->goes_on(!stops) : stops) return;
+      crew_ ? crew_->balance().measure([&] { step_->run(); }) : step_->run();
+      if (!goes_on(stop && stop())) return;
     }
   });
   if (crew_) crew_->ran(clock().step - first, crew_->bytes_sent() - sent);
+}
+
+// After a step. `stops`: of several ranks the root's counts.
+bool Simulation::goes_on(bool stops) {
+  if (!crew_) return !stops;
+  const Crew::Next next = crew_->next(stops);
+  if (next == Crew::Next::balance && crew_->balance().divide()) {
+    costs_before_ = costs();
+    step_ = std::make_unique<Step>(*world_);
+  }
+  return next != Crew::Next::stop;
+}
+
+std::vector<SystemCost> Simulation::costs() const {
+  return added(costs_before_, step_->costs());
 }
 
 void Simulation::observe() {

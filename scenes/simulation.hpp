@@ -28,7 +28,7 @@ class Simulation {
   World& whole() { return crew_ ? crew_->whole() : *world_; }
   const Clock& clock() const { return world_->resource<Clock>(); }
   const GraphPlan& plan() const { return step_->plan(); }
-  std::vector<SystemCost> costs() const { return step_->costs(); }
+  std::vector<SystemCost> costs() const;
   bool finished() const { return clock().time >= end(); }
 
   // Runs plain steps while t_n < `time` and the end of the run, which may come early; `stop` is asked after every step and ends it early. Afterwards
@@ -49,6 +49,7 @@ class Simulation {
     return crew_ ? crew_->memory() : std::vector<double>();
   }
   double bytes_a_step() const { return crew_ ? crew_->bytes_a_step() : 0; }
+  Balance* balance() { return crew_ ? &crew_->balance() : nullptr; }  // null of one process
   void leave();
   void restore(const Checkpoint& checkpoint);
 
@@ -63,10 +64,12 @@ class Simulation {
   double end() const;  // s, of the run
   void tell(Order order);
   void do_run(double time, const std::function<bool()>& stop);
+  bool goes_on(bool stops);
   void do_observe(const Order& order);
   std::unique_ptr<World> world_;
   Workers workers_;
   std::unique_ptr<Step> step_;
+  std::vector<SystemCost> costs_before_;  // of graphs that were made anew
   std::unique_ptr<Crew> crew_;
   std::unique_ptr<WholeObservers> observers_;  // of the root
 };

@@ -271,13 +271,7 @@ void Step::end_of_step() const {
 }
 
 std::vector<SystemCost> Step::costs() const {
-  std::vector<SystemCost> all = whole_.costs();
-  for (const TaskGraph* graph : {&observed_, &motion_})
-    for (const SystemCost& cost : graph->costs()) {
-      const auto same = std::ranges::find(all, cost.system, &SystemCost::system);
-      same == all.end() ? all.push_back(cost) : void(same->seconds += cost.seconds);
-    }
-  return all;
+  return added(whole_.costs(), added(observed_.costs(), motion_.costs()));
 }
 
 }  // namespace pulvis

@@ -12,6 +12,7 @@
 
 #include "cli/exit_code.hpp"
 #include "cli/ranks/mpi_plugin.hpp"
+#include "engine/processor_time.hpp"
 
 namespace pulvis {
 namespace {
@@ -61,6 +62,19 @@ double from_order(std::int64_t bits) {
   return std::bit_cast<double>(bits < 0 ? bits ^ std::numeric_limits<std::int64_t>::max() : bits);
 }
 
+// The processor time of a call, which waits by asking.
+class Waiting {
+ public:
+  explicit Waiting(double& seconds) : seconds_(seconds), since_(thread_seconds()) {}
+  ~Waiting() { seconds_ += thread_seconds() - since_; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+ private:
+  double& seconds_;
+  double since_;
+};
+
 }  // namespace
 
 MpiRanks::MpiRanks(std::size_t most_bytes)
@@ -98,6 +112,7 @@ int MpiRanks::count_of(std::size_t numbers) const {
 }
 
 void MpiRanks::maximum(std::span<double> numbers) {
+  const Waiting waiting(seconds_waited_);
   std::vector<std::int64_t> keys(numbers.size());
   std::ranges::transform(numbers, keys.begin(), in_order);
   MPI_Allreduce(MPI_IN_PLACE, keys.data(), count_of(keys.size()), MPI_INT64_T, MPI_MAX, world_);
@@ -106,6 +121,7 @@ void MpiRanks::maximum(std::span<double> numbers) {
 }
 
 void MpiRanks::sum(std::span<std::int64_t> numbers) {
+  const Waiting waiting(seconds_waited_);
   MPI_Allreduce(MPI_IN_PLACE, numbers.data(), count_of(numbers.size()), MPI_INT64_T, MPI_SUM,
                 world_);
   bytes_sent_ += numbers.size_bytes();
@@ -153,6 +169,7 @@ Ranks::Bytes MpiRanks::receive_from(int rank, int tag) const {
 }
 
 std::vector<Ranks::Bytes> MpiRanks::gather(std::span<const std::byte> own) {
+  const Waiting waiting(seconds_waited_);
   const auto size = static_cast<std::int64_t>(own.size());
   std::vector<std::int64_t> sizes(is_root() ? static_cast<std::size_t>(count_) : 0);
   MPI_Gather(&size, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T, root, world_);
@@ -175,6 +192,7 @@ std::vector<Ranks::Bytes> MpiRanks::gather(std::span<const std::byte> own) {
 }
 
 void MpiRanks::broadcast(Bytes& bytes) {
+  const Waiting waiting(seconds_waited_);
   auto size = static_cast<std::int64_t>(bytes.size());
   MPI_Bcast(&size, 1, MPI_INT64_T, root, world_);
   bytes.resize(static_cast<std::size_t>(size));
@@ -187,6 +205,7 @@ void MpiRanks::broadcast(Bytes& bytes) {
 }
 
 std::vector<Ranks::Bytes> MpiRanks::all_to_all(std::vector<Bytes> to) {
+  const Waiting waiting(seconds_waited_);
   if (to.size() != static_cast<std::size_t>(count_))
     end_all("all_to_all: not one message for each rank");
   std::vector<std::int64_t> sizes(to.size()), theirs(to.size());
@@ -229,6 +248,7 @@ void MpiRanks::send(Kind kind, std::vector<Message> messages) {
 }
 
 std::vector<Ranks::Message> MpiRanks::receive(Kind kind, std::span<const int> from) {
+  const Waiting waiting(seconds_waited_);
   std::vector<Message> messages;
   for (const int rank : from)
     messages.push_back({rank, receive_from(rank, static_cast<int>(kind))});

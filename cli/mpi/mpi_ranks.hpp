@@ -28,6 +28,7 @@ class MpiRanks final : public Ranks {
   void send(Kind kind, std::vector<Message> messages) override;
   std::vector<Message> receive(Kind kind, std::span<const int> from) override;
   std::uint64_t bytes_sent() const override { return bytes_sent_; }
+  double seconds_waited() const override { return seconds_waited_; }
   [[noreturn]] void abort(int exit_code) override;
 
  private:
@@ -48,6 +49,7 @@ class MpiRanks final : public Ranks {
   int rank_ = 0, count_ = 1;
   int exceptions_;  // under way when it was made
   std::uint64_t bytes_sent_ = 0;
+  double seconds_waited_ = 0;
   std::list<Sending> sending_;
 };
 

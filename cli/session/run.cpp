@@ -22,7 +22,17 @@
 namespace pulvis {
 namespace {
 
-void print_end(const Session& run, const RunOptions& options) {
+// Of several ranks whose chunks have changed hands.
+void print_balance(Simulation& simulation) {
+  const Balance* balance = simulation.balance();
+  if (balance == nullptr) return;
+  for (const Rebalancing& one : balance->rebalancings())
+    tell("step {}: {} changed hands in {:.2g} s; the slowest rank took {:.0f}% longer than the mean{}\n",
+         one.step, counted(one.chunks, "chunk"), one.seconds, 100 * imbalance_of(one.before),
+         one.after.empty() ? "" : fmt::format(", then {:.0f}%", 100 * imbalance_of(one.after)));
+}
+
+void print_end(Session& run, const RunOptions& options) {
   if (options.json) print_summary(run.folder());
   if (!options.talks()) return;
   const Results& r = run.results();
@@ -31,6 +41,7 @@ void print_end(const Session& run, const RunOptions& options) {
   tell("{} in {:.2f} s, {:.1f} M element updates/s; energy balance error {:.3g}\n",
        counted(steps, "step"), seconds, static_cast<double>(steps * r.elements()) / seconds * 1e-6,
        r.energy_balance_error());
+  print_balance(run.simulation());
   if (r.has("stress_ratio/axial"))
     tell("relative density {:.4f}, axial stress / yield stress {:.4f}{}\n",
          r.value("relative_density"), r.value("stress_ratio/axial"),
@@ -77,6 +88,7 @@ void tell_what_is_left(const std::filesystem::path& folder) {
 // From wherever the run stands to its end.
 ExitCode complete(Session& run, const RunOptions& options) {
   run.hooks.stop = interrupted;
+  if (options.before_steps) options.before_steps(run.simulation());
   try {
     bool done = run.go() == Session::Halt::end;
     if (done) run.judge({}, interrupted);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "cli/exit_code.hpp"
 
 namespace pulvis {
+
+class Simulation;
 
 struct RunOptions {
   std::filesystem::path scene;
@@ -19,6 +22,7 @@ struct RunOptions {
   CheckpointOptions checkpoints;
   bool quiet = false;  // nothing on the terminal but what goes wrong
   bool json = false;   // the same, and summary.json on the standard output
+  std::function<void(Simulation&)> before_steps{};  // called with it where it is there, before its first step
   bool talks() const { return !quiet && !json; }
 };
 

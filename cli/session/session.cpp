@@ -301,10 +301,16 @@ void Session::finish(const std::string& outcome) {
   recorder_ = nullptr;
   const std::filesystem::path& folder = options_.folder;
   remove_own(folder / "report.html", role::run);  // with a summary, there is the report of it
-  write_summary(folder, loaded_.scene, simulation_->whole(), results_, compaction_, quality(),
-                {progress_->seconds(), clock().step, options_.threads,
-                 fmt::format("{:016x}", loaded_.hash), outcome, simulation_->costs(),
-                 simulation_->bytes_a_step(), simulation_->rank_memory(), hash},
+  RunCost cost{progress_->seconds(), clock().step, options_.threads,
+               fmt::format("{:016x}", loaded_.hash), outcome, simulation_->costs()};
+  cost.state_hash = hash;
+  if (const Balance* balance = simulation_->balance()) {
+    cost.bytes_a_step = simulation_->bytes_a_step();
+    cost.rank_memory = simulation_->rank_memory();
+    cost.rank_seconds = balance->seconds();
+    cost.rebalancings = balance->rebalancings();
+  }
+  write_summary(folder, loaded_.scene, simulation_->whole(), results_, compaction_, quality(), cost,
                 verdicts_);
   write_report(folder);
 }

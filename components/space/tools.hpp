@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "components/contact.hpp"
@@ -66,6 +67,20 @@ struct ToolSurfaces {
 struct TriangleLists {
   static constexpr const char* resource_name = "triangle_lists";
   std::vector<std::int32_t> triangles;
+
+  // Those of a row to `list`. `range`: first and end.
+  void append(const std::int32_t* range, std::vector<std::int32_t>& list) const {
+    list.insert(list.end(), triangles.begin() + range[0], triangles.begin() + range[1]);
+  }
+  // The ranges, as long as they are, one after the other: of rows whose triangles were put together in their order.
+  static void stand_together(std::span<std::int32_t> ranges) {
+    std::int32_t end = 0;
+    for (std::size_t k = 0; k < ranges.size(); k += 2) {
+      const std::int32_t count = ranges[k + 1] - ranges[k];
+      ranges[k] = end;
+      ranges[k + 1] = end += count;
+    }
+  }
 
   template <class Bytes>
   void state(Bytes& bytes) {

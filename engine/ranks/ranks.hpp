@@ -51,6 +51,8 @@ class Ranks {
 
   // Bytes that this rank has sent so far.
   virtual std::uint64_t bytes_sent() const = 0;
+  // s, processor time that calls which wait for other ranks have taken so far: all but send().
+  virtual double seconds_waited() const = 0;
 
   // Ends all ranks at once, this one with `exit_code`.
   [[noreturn]] virtual void abort(int exit_code) = 0;

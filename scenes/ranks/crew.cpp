@@ -36,6 +36,7 @@ Crew::Crew(World& share, std::unique_ptr<World> whole, const Scene& scene,
       whole_(std::move(whole)),
       ranks_(*share.resource<RankLink>().ranks),
       values_(std::move(values)),
+      balance_(share),
       needs_motion_(looks_at_motion(scene)) {}
 
 Crew::~Crew() {
@@ -59,10 +60,11 @@ Order Crew::listen() {
   return order;
 }
 
-bool Crew::goes_on(bool of_root) {
-  Ranks::Bytes bytes(1, std::byte{of_root});
+Crew::Next Crew::next(bool root_stops) {
+  const Next of_root = root_stops ? Next::stop : balance_.is_due() ? Next::balance : Next::step;
+  Ranks::Bytes bytes(1, static_cast<std::byte>(of_root));
   ranks_.broadcast(bytes);
-  return bytes.front() != std::byte{0};
+  return static_cast<Next>(bytes.front());
 }
 
 void Crew::fetch(const Order& order) {
@@ -76,6 +78,7 @@ void Crew::fetch(const Order& order) {
     memory_.assign(static_cast<std::size_t>(ranks_.count()), 0);
     memory_[static_cast<std::size_t>(ranks_.rank())] = peak_memory();
     ranks_.maximum(memory_);
+    balance_.tell_costs();
   }
   gathering.common();
 }

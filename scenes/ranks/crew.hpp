@@ -10,6 +10,7 @@
 #include "engine/files/checkpoint.hpp"
 #include "engine/ranks/ranks.hpp"
 #include "engine/world.hpp"
+#include "scenes/ranks/balance.hpp"
 #include "scenes/ranks/gather.hpp"
 #include "scenes/spec/scene.hpp"
 
@@ -51,8 +52,10 @@ class Crew {
   void tell(Order order);
   // Of the others.
   Order listen();
-  // Whether the root goes on: its answer, on all ranks.
-  bool goes_on(bool of_root);
+  // What follows a step: the root's answer, on all ranks.
+  enum class Next : std::uint8_t { step, balance, stop };
+  Next next(bool root_stops);
+  Balance& balance() { return balance_; }
 
   // What a rank does for it.
   void fetch(const Order& order);
@@ -91,6 +94,7 @@ class Crew {
   std::unique_ptr<World> whole_;
   Ranks& ranks_;
   std::vector<ParticleValues> values_;  // of fields, and last of the state
+  Balance balance_;
   bool needs_motion_;  // results look at nodes at every sample
   std::int64_t steps_ = 0, bytes_ = 0, bytes_of_all_ = 0;
   std::vector<double> memory_;

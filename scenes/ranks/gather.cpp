@@ -12,6 +12,7 @@
 #include "components/run_state.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
+#include "scenes/ranks/columns.hpp"
 #include "systems/ranks/border.hpp"
 #include "systems/ranks/restore.hpp"
 
@@ -29,40 +30,7 @@ bool is_of_a_share(const std::string& resource) {
   return own.contains(resource);
 }
 
-bool is_of_rows(const ColumnBase& column, const char* entity) { return column.entity == entity; }
-
-ColumnBase& same_column(World& world, std::size_t number) {
-  return const_cast<ColumnBase&>(*world.columns()[number]);
-}
-
-template <class T>
-std::span<const std::byte> bytes_of(const std::vector<T>& list) {
-  return std::as_bytes(std::span(list));
-}
-template <class T>
-std::vector<T> list_in(std::span<const std::byte> bytes) {
-  std::vector<T> list(bytes.size() / sizeof(T));
-  if (!list.empty()) std::memcpy(list.data(), bytes.data(), list.size() * sizeof(T));
-  return list;
-}
-
-std::span<const std::byte> rows_of(const ColumnBase& column, std::size_t first, std::size_t last) {
-  return {column.data() + first * column.row_bytes, (last - first) * column.row_bytes};
-}
-
-constexpr const char* row_entities[] = {Contact::name, ToolContact::name, FaceContact::name,
-                                        FaceToolContact::name};
-bool is_with_tools(const std::string& entity) {
-  return entity == ToolContact::name || entity == FaceToolContact::name;
-}
-
 }  // namespace
-
-bool is_by_chunk(const ColumnBase& column) { return !column.owner().chunk_begin.empty(); }
-bool is_of_contacts(const ColumnBase& column) {
-  return std::ranges::any_of(row_entities,
-                             [&](const char* entity) { return is_of_rows(column, entity); });
-}
 
 Gatherer::Gatherer(World& share, World* whole)
     : share_(share), whole_(whole), ranks_(*share.resource<RankLink>().ranks) {}
@@ -107,6 +75,12 @@ void Gatherer::column(std::size_t number) {
   const int chunks = share_.resource<Bodies>().chunks();
   for (int first = 0; first < chunks; first += at_once)
     part_of_column(number, begins, first, std::min(first + at_once, chunks));
+  // Those of a rank count from the beginning of its own list.
+  if (whole_ != nullptr && share_.has<space::TriangleLists>() &&
+      &own == &share_.column<space::TriangleRange>())
+    space::TriangleLists::stand_together(
+        {whole_->column<space::TriangleRange>().values(),
+         2 * static_cast<std::size_t>(begins.whole.back())});
 }
 
 void Gatherer::part_of_column(std::size_t number, const RowBegins& begins, int first, int last) {
@@ -191,7 +165,9 @@ void Gatherer::row_index() {
   for (const char* entity : row_entities) {
     const auto is_one = [&](const ColumnBase* column) { return is_of_rows(*column, entity); };
     if (std::ranges::none_of(share_.columns(), is_one)) continue;
-    (is_with_tools(entity) ? tool_begin : sampled_begin) = row_begins(entity).whole;
+    RowBegins begins = row_begins(entity);
+    if (std::string(entity) == FaceToolContact::name) triangles(begins);
+    (is_with_tools(entity) ? tool_begin : sampled_begin) = std::move(begins.whole);
   }
   if (whole_ != nullptr) {
     auto& index = whole_->resource<ContactIndex>();
@@ -201,6 +177,32 @@ void Gatherer::row_index() {
     list_rows(*whole_);
   }
   neighbours();
+}
+
+// What the rows of all ranks can touch of tools that are meshes: every rank has a list of its own rows.
+void Gatherer::triangles(const RowBegins& begins) {
+  if (!share_.has<space::TriangleLists>()) return;
+  const ColumnBase* ranges = &share_.column<space::TriangleRange>();
+  column(static_cast<std::size_t>(std::ranges::find(share_.columns(), ranges) -
+                                  share_.columns().begin()));
+  const auto& lists = share_.resource<space::TriangleLists>();
+  const std::int32_t* own = share_.column<space::TriangleRange>().values();
+  std::vector<std::int32_t> listed;
+  for (const int chunk : share_.resource<Bodies>().own_chunks)
+    for (int r = entry(begins.own, chunk * lane_count);
+         r < entry(begins.own, (chunk + 1) * lane_count); ++r)
+      lists.append(own + 2 * r, listed);
+  std::vector<std::size_t> bytes_of_chunk;
+  const std::int32_t* whole =
+      whole_ != nullptr ? whole_->column<space::TriangleRange>().values() : nullptr;
+  for (std::size_t slot = lane_count; slot < begins.whole.size(); slot += lane_count) {
+    std::size_t triangles = 0;
+    for (int r = begins.whole[slot - lane_count]; r < begins.whole[slot]; ++r)
+      triangles += static_cast<std::size_t>(whole[2 * r + 1] - whole[2 * r]);
+    bytes_of_chunk.push_back(triangles * sizeof(std::int32_t));
+  }
+  const auto all = list_in<std::int32_t>(joined(bytes_of(listed), bytes_of_chunk));
+  if (whole_ != nullptr) whole_->resource<space::TriangleLists>().triangles = all;
 }
 
 // Of all particles, as the broad phase found them.
@@ -275,15 +277,6 @@ std::vector<std::int32_t> rows_to_keep(const Bodies& bodies, std::span<const std
   return rows;
 }
 
-std::vector<std::int32_t> begins_of(const Bodies& bodies, std::span<const std::int32_t> keys,
-                                    const std::vector<std::int32_t>& rows) {
-  std::vector<std::int32_t> begin(bodies.slots.size() + 1);
-  for (const std::int32_t r : rows)
-    entry(begin, keys[3 * static_cast<std::size_t>(r)] + 1) += 1;
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  return begin;
-}
-
 void take_rows(const Checkpoint& checkpoint, World& share, const char* entity) {
   const std::string pair_column = std::string(entity) + "/pair";
   if (!checkpoint.has_column(pair_column)) return;
@@ -306,7 +299,7 @@ void take_rows(const Checkpoint& checkpoint, World& share, const char* entity) {
   ContactIndex& index = share.resource<ContactIndex>();
   std::vector<std::int32_t>& begin =
       is_with_tools(entity) ? index.tool_begin : index.sampled_begin;
-  if (!begin.empty()) begin = begins_of(bodies, keys, kept);
+  if (!begin.empty()) begin = begins_of(keys_of(share, entity), bodies.slots.size());
 }
 
 }  // namespace

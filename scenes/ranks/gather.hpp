@@ -10,6 +10,7 @@
 #include "engine/files/checkpoint.hpp"
 #include "engine/ranks/ranks.hpp"
 #include "engine/world.hpp"
+#include "scenes/ranks/columns.hpp"
 #include "scenes/results/parts/particle_values.hpp"
 
 namespace pulvis {
@@ -37,15 +38,13 @@ class Gatherer {
   void part_of_column(std::size_t column, const RowBegins& begins, int first, int last);
   std::vector<std::byte> joined(std::span<const std::byte> own,
                                 const std::vector<std::size_t>& bytes_of_chunk);
+  void triangles(const RowBegins& begins);
   void neighbours();
 
   World& share_;
   World* whole_;
   Ranks& ranks_;
 };
-
-bool is_by_chunk(const ColumnBase& column);
-bool is_of_contacts(const ColumnBase& column);
 
 // Takes of the checkpoint what `share` holds, and finds its border. Throws BadState where it does not fit the scene.
 void restore_share(const Checkpoint& checkpoint, World& share,

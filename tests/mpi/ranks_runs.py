@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 """Runs over several ranks against the same run in one process: every bit of their results must be the same.
 
-usage: ranks_runs.py PROGRAM ROOT (--case NAME [--quick] | --kills N [--seed S] | --full)
+usage: ranks_runs.py PROGRAM ROOT (--case NAME [--quick] [--rebalanced PROGRAM] | --kills N [--seed S] | --full)
 
 Case by case: a scene, left after some steps, on 1, 2, 3 and 4 ranks with 1 and 2 threads each; its state hash, its history
 and every dataset of its frames, its mesh and its cracks must be those of one process. Then it is stopped twice and resumed
 on other numbers of ranks, one process among them. --quick: on three ranks alone, and stopped on three and resumed on two.
---kills: a run over three ranks is resumed after a rank was killed at a random moment, so many times, until it is done; its
-results must be the same again. --full: no file may grow beyond some size, as on a disk that is full; the run over ranks ends and says so, and
-goes on from its last checkpoint when there is room again.
+--rebalanced: the ranks are those of rebalanced_run, whose chunks change hands every so many steps. --kills: a run over three
+ranks is resumed after a rank was killed at a random moment, so many times, until it is done; its results must be the same
+again. --full: no file may grow beyond some size, as on a disk that is full; the run over ranks ends and says so, and goes on
+from its last checkpoint when there is room again.
 """
 import argparse
 import json
@@ -40,6 +41,7 @@ CASES = {
     "bar": ("scenes/basic/tension.toml", 300, []),
     "space-die": ("scenes/compaction-3d/random-100-copper.toml", 60, ["output.contacts=true"]),
     "space-round": ("scenes/compaction-3d/tablet.toml", 60, []),
+    "space-stl": ("tests/mpi/stl-floor.toml", 60, []),
     "space-mixture": ("scenes/compaction-3d/mixture.toml", 60, ["output.density_cells=[2, 2, 2]"]),
 }
 # Bonds that are made and broken in those steps: points at least.
@@ -93,9 +95,11 @@ def require_same(one, other, what):
 
 
 class Case:
-    def __init__(self, program, root, name, scratch):
+    def __init__(self, program, root, name, scratch, rebalanced=None):
         scene, self.steps, self.set = CASES[name]
         self.program, self.scene, self.name, self.scratch = program, root / scene, name, scratch
+        self.rebalanced = rebalanced  # a program that begins and resumes runs over ranks instead
+        self.changed_hands = 0
 
     def words(self, folder, *more):
         sets = [word for override in self.set for word in ("--set", override)]
@@ -111,24 +115,44 @@ class Case:
                 raise Failed(f"{self.name}: {bonds['made']} points were bonded and {bonds['broken']} broke")
         return folder
 
+    def begin(self, folder, ranks, threads, stop, code):
+        if self.rebalanced:
+            return self.shake(folder, ranks, ["run", self.scene, folder, stop, threads, *self.set], code)
+        words = self.words(folder, "--ranks", ranks, "--threads", threads)
+        words[words.index("--stop-after") + 1] = stop
+        return run(self.program, words, code)
+
+    def resume(self, folder, ranks, stop, code):
+        if self.rebalanced:
+            return self.shake(folder, ranks, ["resume", folder, stop], code)
+        return run(self.program, ["resume", folder, "--quiet", "--ranks", ranks, "--stop-after", stop], code)
+
+    def shake(self, folder, ranks, words, code):
+        every = max(1, self.steps // 12)
+        run("mpirun", ["--quiet", "--oversubscribe", "--bind-to", "none", "--allow-run-as-root", "-np", ranks,
+                       self.rebalanced, every, *words], code)
+        made = json.loads((folder / "summary.json").read_text()).get("ranks", {}).get("rebalancings", [])
+        self.changed_hands += sum(one["chunks"] for one in made)
+
     def check(self, quick):
         alone = self.alone()
         for ranks, threads in [(3, 1)] if quick else RANKS_AND_THREADS:
             folder = self.scratch / f"{ranks}x{threads}"
-            run(self.program, self.words(folder, "--ranks", ranks, "--threads", threads), code=(0, 1, 3, 130))
+            self.begin(folder, ranks, threads, self.steps, code=(0, 1, 3, 130))
             require_same(alone, folder, f"{self.name}, {ranks} ranks, {threads} threads")
         for first, then in ((3, 2),) if quick else ((3, 2), (1, 3), (2, 1)):
             self.check_resumed(alone, first, then)
+        if self.rebalanced:
+            if self.changed_hands == 0:
+                raise Failed(f"{self.name}: no chunk has changed hands")
+            print(f"{self.name}: chunks have changed hands {self.changed_hands} times")
 
     def check_resumed(self, alone, first, then):
         """Stopped in the middle, and once more, on other numbers of ranks."""
         folder = self.scratch / f"resumed-{first}-{then}"
-        words = self.words(folder, "--ranks", first)
-        words[words.index("--stop-after") + 1] = self.steps // 3
-        run(self.program, words, code=(130,))
+        self.begin(folder, first, 1, self.steps // 3, code=(130,))
         for stop, ranks in ((2 * self.steps // 3, then), (self.steps, first)):
-            run(self.program, ["resume", folder, "--quiet", "--ranks", ranks, "--stop-after", stop],
-                code=(0, 1, 3, 130))
+            self.resume(folder, ranks, stop, code=(0, 1, 3, 130))
         require_same(alone, folder, f"{self.name}, stopped on {first} ranks, resumed on {then}")
 
 
@@ -229,12 +253,14 @@ def main():
     what.add_argument("--kills", type=int)
     what.add_argument("--full", action="store_true")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--rebalanced")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="pulvis-ranks-") as scratch:
         try:
             if options.case:
-                Case(options.program, options.root, options.case, Path(scratch)).check(options.quick)
+                case = Case(options.program, options.root, options.case, Path(scratch), options.rebalanced)
+                case.check(options.quick)
             elif options.full:
                 check_full(options.program, options.root, Path(scratch))
             else:

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <limits>
@@ -182,6 +183,19 @@ TEST(Ranks, BytesSentAreCounted) {
   ranks->send(Kind::outlines, std::move(messages));
   ranks->receive(Kind::outlines, std::vector<int>{previous});
   EXPECT_EQ(ranks->bytes_sent(), before + 1000);
+}
+
+// The last rank comes late; the others wait for it by asking, and it for nobody.
+TEST(Ranks, WaitingTakesProcessorTime) {
+  const bool late = ranks->rank() == ranks->count() - 1;
+  std::vector<std::int64_t> numbers{1};
+  ranks->sum(numbers);
+  const double before = ranks->seconds_waited();
+  if (late) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ranks->sum(numbers);
+  const double waited = ranks->seconds_waited() - before;
+  EXPECT_GT(waited, late ? 0 : 1e-3);
+  EXPECT_LT(waited, late ? 0.1 : 1);
 }
 
 // By one thread after another.

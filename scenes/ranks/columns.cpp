@@ -1,0 +1,26 @@
+#include "scenes/ranks/columns.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/entry.hpp"
+
+namespace pulvis {
+
+std::span<const std::int32_t> keys_of(const World& world, const char* entity) {
+  const std::string name = ContactPair<Contact>::info.name;
+  const auto pair = std::ranges::find_if(world.columns(), [&](const ColumnBase* column) {
+    return is_of_rows(*column, entity) && column->info.name == name;
+  });
+  if (pair == world.columns().end()) return {};
+  return {reinterpret_cast<const std::int32_t*>((*pair)->data()), 3 * (*pair)->owner().rows};
+}
+
+std::vector<std::int32_t> begins_of(std::span<const std::int32_t> keys, std::size_t slots) {
+  std::vector<std::int32_t> begin(slots + 1);
+  for (std::size_t k = 0; k < keys.size(); k += 3) entry(begin, keys[k] + 1) += 1;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  return begin;
+}
+
+}  // namespace pulvis
