@@ -208,7 +208,11 @@ void AfmSession::begin(const Checkpoint* from) {
   open_recorder(from);
   std::function<void(World&)> restore;
   if (from != nullptr) restore = [from](World& world) { from->restore(world); };
-  simulation_.begin(restore);
+  try {
+    simulation_.begin(restore);
+  } catch (const Interrupted&) {  // its first factors take long, too
+    end_.given_up = true;
+  }
 }
 
 void AfmSession::open_recorder(const Checkpoint* from) {

@@ -9,6 +9,7 @@
 #include "cli/summary.hpp"
 #include "cli/summary_afm.hpp"
 #include "cli/tell.hpp"
+#include "engine/files/checkpoint.hpp"
 #include "engine/files/run_folder.hpp"
 #include "scenes/checks/lever_warnings.hpp"
 #include "scenes/expectations.hpp"
@@ -50,6 +51,10 @@ ExitCode complete_programme(AfmSession& run, const RunOptions& options, const Ch
   const bool expected = end.failure.empty() || ended_as_expected(run.loaded().scene, end.failure);
   if (!expected) tell(stderr, "pulvis: the run failed: {}\n", end.failure);
   if (!end.done && end.failure.empty()) {
+    if (checkpoints_in(run.folder()).empty()) {
+      tell(stderr, "pulvis: interrupted before the first increment; run it again, with --overwrite\n");
+      return ExitCode::interrupted;
+    }
     tell(stderr, "pulvis: interrupted at increment {}; continue with: pulvis resume {}\n",
          report.increments, run.folder().string());
     return ExitCode::interrupted;

@@ -171,7 +171,7 @@ void HandOver::rows(const char* entity) const {
   if (columns.empty() || begin_of(entity).empty()) return;
   const RowsOfRanks given = rows_of_ranks(entity);
   const std::string keys = ContactPair<Contact>::info.name;
-  std::ranges::partition(columns, [&](const ColumnBase* c) { return c->info.name == keys; });
+  std::partition(columns.begin(), columns.end(), [&](const ColumnBase* c) { return c->info.name == keys; });
   const ColumnBase* ranges = nullptr;  // of triangles
   std::vector<std::int32_t> triangles, order;
   if (share_.has<space::TriangleLists>() && entity == std::string(FaceToolContact::name)) {
