@@ -26,34 +26,14 @@ CORES = 64  # of a node of the model, one rank
 COLLECTIVES = 5  # in a step: contact sums, depth, tool forces, time step, whether the root goes on
 
 SCENE = """extends = "{base}"
-title = "{side} x {side} discs, 316L"
+title = "{title}"
 
-packing = [{{ kind = "square", particle = "disc", rows = {side}, columns = {side}, corner = ["0 mm", "0 mm"] }}]
-stage = [{{ name = "press", duration = "{duration} us", move = [{{ tool = "top", displacement = ["0 mm", "-{travel} mm"] }}] }}]
+packing = [{packing}]
+stage = [{{ name = "press", duration = "{duration} us", move = [{move}] }}]
 
 [[particle]]
 name = "disc"
 mesh = {{ boundary_edges = {edges}, rings = 1 }}
-
-[[tool]]
-name = "right"
-point = ["{width} mm", "0 mm"]
-
-[[tool]]
-name = "top"
-point = ["0 mm", "{width} mm"]
-
-[output]
-frames = 1
-samples = 1
-"""
-
-
-LOOSE = """extends = "{base}"
-title = "{columns} x {rows} loose discs and a fast punch, 316L"
-
-packing = [{{ kind = "square", particle = "disc", rows = {rows}, columns = {columns}, spacing = "10.5 mm" }}]
-stage = [{{ name = "press", duration = "{duration} us", move = [{{ tool = "top", displacement = ["0 mm", "-{travel} mm"], ramp = 0.005 }}] }}]
 
 [[tool]]
 name = "right"
@@ -69,6 +49,15 @@ samples = 1
 """
 
 
+def write_scene(options, name, title, packing, move, width, height, duration, edges=40):
+    """Discs of regular-25.toml in a die of another size; packing and move as inline tables."""
+    options.folder.mkdir(parents=True, exist_ok=True)
+    file = options.folder / f"{name}.toml"
+    file.write_text(SCENE.format(base=ROOT / "scenes/compaction/regular-25.toml", title=title, packing=packing, move=move,
+                                 width=width, height=height, duration=duration, edges=edges))
+    return file
+
+
 def run(options, name, words):
     folder = options.folder / name
     subprocess.run([options.pulvis, "run", *map(str, words), "-o", folder, "--overwrite", "--quiet",
@@ -79,10 +68,10 @@ def run(options, name, words):
 def scene_of(options, discs, edges=40):
     """The square packing of about so many discs of regular-25.toml, pressed as fast as there."""
     side = max(2, round(math.sqrt(discs)))
-    options.folder.mkdir(parents=True, exist_ok=True)
-    file = options.folder / f"discs-{side * side}.toml"
-    file.write_text(SCENE.format(base=ROOT / "scenes/compaction/regular-25.toml", side=side, width=10 * side,
-                                 travel=side, duration=560 * side, edges=edges))
+    file = write_scene(
+        options, f"discs-{side * side}", f"{side} x {side} discs, 316L",
+        f'{{ kind = "square", particle = "disc", rows = {side}, columns = {side}, corner = ["0 mm", "0 mm"] }}',
+        f'{{ tool = "top", displacement = ["0 mm", "-{side} mm"] }}', 10 * side, 10 * side, 560 * side, edges)
     return file, side * side
 
 
@@ -174,14 +163,13 @@ def many(options):
 
 
 def loose_scene(options, columns=16, rows=64, speed=100):
-    options.folder.mkdir(parents=True, exist_ok=True)
-    file = options.folder / "loose.toml"
     height = 10.5 * rows
     travel = round(0.4 * height, 1)
-    file.write_text(LOOSE.format(base=ROOT / "scenes/compaction/regular-25.toml", rows=rows, columns=columns,
-                                 width=10.5 * columns, height=height, travel=travel,
-                                 duration=round(travel * 1000 / speed)))
-    return file
+    return write_scene(
+        options, "loose", f"{columns} x {rows} loose discs and a fast punch, 316L",
+        f'{{ kind = "square", particle = "disc", rows = {rows}, columns = {columns}, spacing = "10.5 mm" }}',
+        f'{{ tool = "top", displacement = ["0 mm", "-{travel} mm"], ramp = 0.005 }}',
+        10.5 * columns, height, round(travel * 1000 / speed))
 
 
 def longer(seconds):

@@ -23,8 +23,8 @@ struct RunCost {
   int threads = 1;  // of each rank
   std::string scene_hash, outcome;
   std::vector<SystemCost> systems;
-  double bytes_a_step = 0;          // that all ranks together told each other
-  std::vector<double> rank_memory{};  // bytes, the most that each rank held; empty of one process
+  double bytes_a_step = 0;             // that all ranks together told each other
+  std::vector<double> rank_memory{};   // bytes, the most that each rank held; empty of one process
   std::vector<double> rank_seconds{};  // s, cost of each in a step, by now; empty where not known
   std::vector<Rebalancing> rebalancings{};
   std::string state_hash{};

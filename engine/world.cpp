@@ -10,6 +10,23 @@ namespace {
 
 constexpr std::size_t huge_page = std::size_t{2} << 20, min_in_huge_pages = huge_page / 4;
 
+std::size_t up_to_huge_page(std::size_t bytes) {
+  return (bytes + huge_page - 1) / huge_page * huge_page;
+}
+
+// Address space that begins with a huge page: what lies before it is given back.
+std::byte* map_huge_pages(std::size_t bytes) {
+  void* pages = ::mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE,
+                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (pages == MAP_FAILED) throw std::bad_alloc();
+  auto* first = static_cast<std::byte*>(pages);
+  const std::size_t before = up_to_huge_page(reinterpret_cast<std::uintptr_t>(first)) -
+                             reinterpret_cast<std::uintptr_t>(first);
+  if (before > 0) ::munmap(first, before);
+  if (before < huge_page) ::munmap(first + before + bytes, huge_page - before);
+  return first + before;
+}
+
 }  // namespace
 
 void FreeBuffer::operator()(std::byte* p) const {
@@ -21,11 +38,10 @@ void FreeBuffer::operator()(std::byte* p) const {
 
 Buffer::Buffer(std::size_t bytes, Kind kind) : bytes_(bytes) {
   if (kind == Kind::sparse && bytes > 0) {
-    void* pages = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
-                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (pages == MAP_FAILED) throw std::bad_alloc();
-    ::madvise(pages, bytes, MADV_NOHUGEPAGE);  // a huge page would hold much that is not written
-    data_ = decltype(data_)(static_cast<std::byte*>(pages), FreeBuffer{{}, bytes});
+    const std::size_t whole = up_to_huge_page(bytes);
+    std::byte* pages = map_huge_pages(whole);
+    ::madvise(pages, whole, MADV_NOHUGEPAGE);  // one would hold much that is not written
+    data_ = decltype(data_)(pages, FreeBuffer{{}, whole});
     return;
   }
   // A little more than asked for, so that an empty table still has an address to point at.
@@ -57,6 +73,15 @@ void ColumnBase::drop(std::size_t first_row, std::size_t rows) {
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
 }
 
+void ColumnBase::expect(const std::vector<std::pair<std::size_t, std::size_t>>& runs) {
+  ::madvise(data(), up_to_huge_page(bytes()), MADV_NOHUGEPAGE);
+  for (const auto& [first, end] : runs) {
+    if ((end - first) * row_bytes < min_in_huge_pages) continue;
+    const std::size_t begin = first * row_bytes / huge_page * huge_page;
+    ::madvise(data() + begin, up_to_huge_page(end * row_bytes) - begin, MADV_HUGEPAGE);
+  }
+}
+
 void ColumnBase::allocate_transient(std::size_t rows_of_worker, int workers) {
   bytes_of_worker_ = (rows_of_worker * row_bytes + 63) / 64 * 64;
   transient_ = Buffer(bytes_of_worker_ * static_cast<std::size_t>(workers));
@@ -75,6 +100,28 @@ void World::allocate_transient(const std::vector<TypeKey>& components, int worke
       column->second->allocate_transient(static_cast<std::size_t>(maximum), workers);
     }
   }
+}
+
+void World::hold(const std::vector<bool>& own_chunks) {
+  own_chunks_ = own_chunks;
+  for (const auto& [key, column] : columns_) expect_own(*column);
+}
+
+// Runs of chunks that stand together: their rows in the column.
+void World::expect_own(ColumnBase& column) const {
+  const std::vector<std::int32_t>& begin = column.owner().chunk_begin;
+  if (kind_ != Buffer::Kind::sparse || begin.empty() || column.bytes() == 0) return;
+  std::vector<std::pair<std::size_t, std::size_t>> runs;
+  for (std::size_t chunk = 0; chunk < own_chunks_.size(); ++chunk) {
+    if (!own_chunks_[chunk]) continue;
+    const auto first = static_cast<std::size_t>(begin[chunk]),
+               end = static_cast<std::size_t>(begin[chunk + 1]);
+    if (chunk > 0 && own_chunks_[chunk - 1])
+      runs.back().second = end;
+    else
+      runs.emplace_back(first, end);
+  }
+  column.expect(runs);
 }
 
 std::pair<Table*, ColumnBase*> World::own(const ColumnBase& column) {

@@ -27,8 +27,8 @@ struct FreeBuffer {
   void operator()(std::byte* p) const;
 };
 
-// Zeroed memory on a cache-line boundary; in huge pages where it is large. `sparse`: address space alone, of which only what
-// is written takes memory.
+// Zeroed memory on a cache-line boundary; in huge pages where it is large. `sparse`: address space alone, of whole huge pages,
+// of which only what is written takes memory.
 class Buffer {
  public:
   enum class Kind { dense, sparse };
@@ -61,6 +61,9 @@ class ColumnBase {
   void allocate(std::size_t rows, Buffer::Kind kind) { buffer_ = Buffer(rows * row_bytes, kind); }
   // Of a sparse column: the rows take no memory any more, and are zeros. As far as whole pages go.
   void drop(std::size_t first_row, std::size_t rows);
+  // Of a sparse column: these rows, from the first to before the last, will be written. In huge pages where they are many; so
+  // what stands beside them may take memory, too.
+  void expect(const std::vector<std::pair<std::size_t, std::size_t>>& runs);
   // Transient rows: as many for each worker.
   void allocate_transient(std::size_t rows_of_worker, int workers);
   bool has_transient() const { return bytes_of_worker_ > 0; }
@@ -147,6 +150,9 @@ class World {
   template <IsResource R, class... Args>
   R& emplace(Args&&... args);
 
+  // Of a sparse world: the chunks of which rows will be written, by the columns to come, too.
+  void hold(const std::vector<bool>& own_chunks);
+
   template <class Entity>
   Table& table();
   template <class Entity>
@@ -207,6 +213,7 @@ class World {
  private:
   Table& insert_table(TypeKey key, Table table);
   std::pair<Table*, ColumnBase*> own(const ColumnBase& column);
+  void expect_own(ColumnBase& column) const;
 
   std::map<TypeKey, std::unique_ptr<Table>> tables_;
   std::map<TypeKey, std::unique_ptr<ColumnBase>> columns_;
@@ -214,6 +221,7 @@ class World {
   std::vector<const ColumnBase*> ordered_;
   std::vector<SavedResource> saved_resources_;
   int chunks_ = 0;
+  std::vector<bool> own_chunks_;
   Buffer::Kind kind_;
 };
 
@@ -237,6 +245,7 @@ void World::add() {
   Table& owner = table<typename C::Entity>();
   auto column = std::make_unique<Column<C>>(owner);
   column->allocate(owner.rows, owner.chunk_begin.empty() ? Buffer::Kind::dense : kind_);
+  expect_own(*column);
   owner.columns.push_back(column.get());
   ordered_.push_back(column.get());
   columns_.emplace(type_key<C>(), std::move(column));

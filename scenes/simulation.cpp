@@ -69,7 +69,10 @@ void Simulation::do_run(double time, const std::function<bool()>& stop) {
   const std::uint64_t sent = crew_ ? crew_->bytes_sent() : 0;
   workers_.run([&] {
     while (clock().time < std::min(time, end())) {
-      crew_ ? crew_->balance().measure([&] { step_->run(); }) : step_->run();
+      if (crew_)
+        crew_->balance().measure([&] { step_->run(); });
+      else
+        step_->run();
       if (!goes_on(stop && stop())) return;
     }
   });
@@ -134,7 +137,7 @@ void Simulation::visit_mesh(std::size_t field, const ValueSink& take) {
 
 std::string Simulation::state_hash() {
   if (!crew_) return state_hash_text(*world_);
-  tell(crew_->fetch_slips());
+  tell(crew_->fetch_history());
   return state_hash_text(pulvis::state_hash(whole(), [this](const ValueSink& take) {
     const Order order = crew_->state_of_all();
     crew_->tell(order);

@@ -52,13 +52,13 @@ class Simulation {
   Balance* balance() { return crew_ ? &crew_->balance() : nullptr; }  // null of one process
   void leave();
   void restore(const Checkpoint& checkpoint);
+  // Not the root: does what the root does, until that has done.
+  void follow();
 
   // ---- of one process or of several ranks
   // Values of all particles by number; of a field of mesh_values.
   void visit_mesh(std::size_t field, const ValueSink& take);
   std::string state_hash();
-  // Not the root: does what the root does, until that has done.
-  void follow();
 
  private:
   double end() const;  // s, of the run

@@ -139,9 +139,10 @@ void require_room_to_start(const fs::path& folder, std::uintmax_t bytes) {
   std::error_code error;
   const fs::space_info room = fs::space(folder, error);
   if (error || room.available >= bytes) return;
-  throw OutputError(folder, "start the ranks",
-                    fmt::format("mpirun needs {} MB there, {} are free: take another folder by TMPDIR",
-                                bytes >> 20, room.available >> 20));
+  throw OutputError(
+      folder, "start the ranks",
+      fmt::format("mpirun needs {} MB there, {} are free: take another folder by TMPDIR",
+                  bytes >> 20, room.available >> 20));
 }
 
 ExitCode launch_ranks(const RankLaunch& launch) {

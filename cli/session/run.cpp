@@ -22,12 +22,12 @@
 namespace pulvis {
 namespace {
 
-// Of several ranks whose chunks have changed hands.
+// Of several ranks whose chunks have migrated.
 void print_balance(Simulation& simulation) {
   const Balance* balance = simulation.balance();
   if (balance == nullptr) return;
   for (const Rebalancing& one : balance->rebalancings())
-    tell("step {}: {} changed hands in {:.2g} s; the slowest rank took {:.0f}% longer than the mean{}\n",
+    tell("step {}: {} migrated in {:.2g} s; the slowest rank took {:.0f}% longer than the mean{}\n",
          one.step, counted(one.chunks, "chunk"), one.seconds, 100 * imbalance_of(one.before),
          one.after.empty() ? "" : fmt::format(", then {:.0f}%", 100 * imbalance_of(one.after)));
 }

@@ -22,7 +22,8 @@ struct RunOptions {
   CheckpointOptions checkpoints;
   bool quiet = false;  // nothing on the terminal but what goes wrong
   bool json = false;   // the same, and summary.json on the standard output
-  std::function<void(Simulation&)> before_steps{};  // called with it where it is there, before its first step
+  // Called before the first step.
+  std::function<void(Simulation&)> before_steps{};
   bool talks() const { return !quiet && !json; }
 };
 

@@ -52,7 +52,8 @@ ExitCode complete_programme(AfmSession& run, const RunOptions& options, const Ch
   if (!expected) tell(stderr, "pulvis: the run failed: {}\n", end.failure);
   if (!end.done && end.failure.empty()) {
     if (checkpoints_in(run.folder()).empty()) {
-      tell(stderr, "pulvis: interrupted before the first increment; run it again, with --overwrite\n");
+      tell(stderr,
+           "pulvis: interrupted before the first increment; run it again, with --overwrite\n");
       return ExitCode::interrupted;
     }
     tell(stderr, "pulvis: interrupted at increment {}; continue with: pulvis resume {}\n",

@@ -73,7 +73,7 @@ struct TriangleLists {
     list.insert(list.end(), triangles.begin() + range[0], triangles.begin() + range[1]);
   }
   // The ranges, as long as they are, one after the other: of rows whose triangles were put together in their order.
-  static void stand_together(std::span<std::int32_t> ranges) {
+  static void make_consecutive(std::span<std::int32_t> ranges) {
     std::int32_t end = 0;
     for (std::size_t k = 0; k < ranges.size(); k += 2) {
       const std::int32_t count = ranges[k + 1] - ranges[k];

@@ -14,7 +14,7 @@
 #include "components/space/contact.hpp"
 #include "scenes/ranks/columns.hpp"
 #include "scenes/ranks/divide.hpp"
-#include "scenes/ranks/hand_over.hpp"
+#include "scenes/ranks/migrate.hpp"
 
 namespace pulvis {
 namespace {
@@ -127,7 +127,7 @@ bool Balance::divide() {
   Rebalancing made{share_.resource<Clock>().step, 0, 0, seconds_, {}};
   for (std::size_t chunk = 0; chunk < owner.size(); ++chunk)
     made.chunks += owner[chunk] != link.owner[chunk] ? 1 : 0;
-  hand_over(share_, owner);
+  migrate(share_, owner);
   made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   rebalancings_.push_back(std::move(made));
   wants_after_ = true;

@@ -1,9 +1,9 @@
 // Load balance: which chunks each rank owns, by what its steps have taken.
 //
 // The cost of a rank is the processor time of its threads in a step, without that in which it waits for others: the median
-// over the steps since the last look. It is dealt out to its chunks by their elements and contact rows. Where the slowest rank is slower than the mean by more than a
-// tenth, chunks are divided anew by these costs and the positions they have by now. Times decide who computes what, and
-// no bit of it.
+// over the steps since the last look. It is dealt out to its chunks by their elements and contact rows. Where the slowest
+// rank is slower than the mean by more than a tenth, chunks are divided anew by these costs and the positions they have by
+// now. Times decide who computes what, and no bit of it.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace pulvis {
 
-// Chunks that have changed hands.
+// A migration: chunks that went to other ranks.
 struct Rebalancing {
   std::int64_t step = 0;  // after it
   int chunks = 0;
   double seconds = 0;  // that it took
-  std::vector<double> before,
-      after;  // s, own work of every rank in a step; `after` empty where not known yet
+  // s, own work of every rank in a step; `after` is empty where it is not known yet.
+  std::vector<double> before, after;
 };
 
 // Of the slowest over the mean.
@@ -42,17 +42,15 @@ class Balance {
     step();
     own_.push_back(own_seconds() - before);
   }
-  // Looks at the costs of all ranks. Collective. True where chunks have changed hands: the step's graphs have to be made
-  // anew.
+  // Looks at the costs of all ranks. Collective. True where chunks have migrated: the step's graphs have to be made anew.
   bool divide();
   // Of the steps since the last look, where they are enough; known on all ranks then. Collective.
   void tell_costs();
 
   // ---- of the root
   bool is_due() const { return static_cast<std::int64_t>(own_.size()) >= every_ * wait_; }
-  const std::vector<double>& seconds() const {
-    return seconds_;
-  }  // s, as `before`; empty: not known
+  // s, own work of every rank in a step; empty where it is not known.
+  const std::vector<double>& seconds() const { return seconds_; }
   const std::vector<Rebalancing>& rebalancings() const { return rebalancings_; }
   // Instead of what steps take, `costs` say it, every so many steps, and no gain is too small.
   void follow(std::int64_t every, Costs costs) {

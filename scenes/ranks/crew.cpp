@@ -112,7 +112,7 @@ Order Crew::fetch_sample(const std::vector<std::string>& looks) const {
   return {Order::Kind::observe, 0, numbers_of(names), true};
 }
 Order Crew::fetch_rows() const { return {Order::Kind::fetch, 0, numbers_of({"pair"}), true}; }
-Order Crew::fetch_slips() const {
+Order Crew::fetch_history() const {
   return {Order::Kind::fetch, 0,
           numbers_of({"pair", "touches", "elastic_slip", "slip_weakening", "bonded", "bond_damage",
                       "contact_point"}),

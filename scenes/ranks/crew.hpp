@@ -28,11 +28,11 @@ struct Order {
     leave
   };
   Kind kind = Kind::leave;
-  double time = 0;                     // s
+  double time = 0;                       // s
   std::vector<std::uint64_t> columns{};  // numbers, of World::columns
   bool rows = false;                     // their index
-  std::string file{};       // a checkpoint
-  std::uint64_t field = 0;  // of mesh_values; beyond them the state
+  std::string file{};                    // a checkpoint
+  std::uint64_t field = 0;               // of mesh_values; beyond them the state
 
   template <class Bytes>
   void state(Bytes& bytes) {
@@ -71,8 +71,8 @@ class Crew {
   World& whole() { return *whole_; }
   // `looks`: at what the observers of the whole look.
   Order fetch_sample(const std::vector<std::string>& looks) const;
-  Order fetch_rows() const;   // index of the rows, for a checkpoint
-  Order fetch_slips() const;  // and what the state's hash takes of those that touch
+  Order fetch_rows() const;     // index of the rows, for a checkpoint
+  Order fetch_history() const;  // and what the state's hash takes of those that touch
   Order state_of_all() const;
   Order fetch_start() const;
   // What was last found in the whole, for as long as nothing is found anew.

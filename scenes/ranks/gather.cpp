@@ -78,7 +78,7 @@ void Gatherer::column(std::size_t number) {
   // Those of a rank count from the beginning of its own list.
   if (whole_ != nullptr && share_.has<space::TriangleLists>() &&
       &own == &share_.column<space::TriangleRange>())
-    space::TriangleLists::stand_together(
+    space::TriangleLists::make_consecutive(
         {whole_->column<space::TriangleRange>().values(),
          2 * static_cast<std::size_t>(begins.whole.back())});
 }

@@ -41,6 +41,7 @@ void hold_part(World& world, const Part& part, Bodies& bodies,
   std::vector<bool> owns;
   for (const int owner : link.owner) owns.push_back(owner == part.ranks->rank());
   bodies.hold(owns);
+  world.hold(owns);
 }
 
 }  // namespace pulvis

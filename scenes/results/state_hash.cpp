@@ -120,8 +120,7 @@ std::uint64_t state_hash(const World& world, const VisitState& visit) {
 }
 
 std::uint64_t state_hash(const World& world) {
-  return state_hash(world,
-                    [&](const ValueSink& take) { visit_all(world, state_values(), take); });
+  return state_hash(world, [&](const ValueSink& take) { visit_all(world, state_values(), take); });
 }
 
 std::string state_hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }

@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
 
 #include "tests/engine/test_places.hpp"
 
@@ -117,6 +121,81 @@ TEST(World, TableAddedTwiceIsRefused) {
   World world;
   world.add_table<Link>(1);
   EXPECT_THAT(refusal_of([&] { world.add_table<Link>(2); }), HasSubstr("link"));
+}
+
+// ---- sparse: of a rank's world, which holds some chunks of many ----------------------------------------
+// Bytes of a column that take memory: from its first page to its last.
+std::size_t resident_bytes(const ColumnBase& column) {
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  std::vector<unsigned char> pages((column.bytes() + page - 1) / page);
+  EXPECT_EQ(::mincore(const_cast<std::byte*>(column.data()), column.bytes(), pages.data()), 0);
+  return page * static_cast<std::size_t>(std::ranges::count_if(
+                    pages, [](unsigned char state) { return (state & 1) != 0; }));
+}
+
+class SparseWorld : public ::testing::Test {
+ protected:
+  // 64 chunks of 1 MB each in a column of weights, which is 8 bytes a row.
+  static constexpr std::int32_t rows = 1 << 17;
+  static constexpr int chunks = 64;
+  static constexpr std::size_t chunk_bytes = std::size_t{rows} * 8;
+  void SetUp() override { world.add_table<Bead>(std::vector<std::int32_t>(chunks, rows)); }
+  static std::vector<bool> some(int first, int end) {
+    std::vector<bool> own(chunks);
+    for (int c = first; c < end; ++c) own[static_cast<std::size_t>(c)] = true;
+    return own;
+  }
+  void write(int first, int end) {
+    const std::int64_t begin = std::int64_t{rows} * first;
+    std::fill_n(world.column<Weight>().values() + begin, std::int64_t{rows} * (end - first), 7.0);
+  }
+  World world{Buffer::Kind::sparse};
+};
+
+TEST_F(SparseWorld, TakesMemoryForWhatIsWrittenAlone) {
+  world.hold(some(8, 16));
+  world.add<Weight>();
+  EXPECT_EQ(resident_bytes(world.column<Weight>()), 0u);
+  write(8, 16);
+  const std::size_t taken = resident_bytes(world.column<Weight>());
+  EXPECT_GE(taken, 8 * chunk_bytes);
+  EXPECT_LE(taken, 12 * chunk_bytes);  // and at both ends what is left of a huge page, 2 MB
+  EXPECT_EQ(world.column<Weight>().values()[0], 0);
+}
+
+TEST_F(SparseWorld, GivesBackWhatIsDropped) {
+  world.hold(some(8, 16));
+  world.add<Weight>();
+  write(8, 16);
+  world.hold(some(32, 40));  // as after a migration
+  write(32, 40);
+  world.column<Weight>().drop(std::size_t{rows} * 8, std::size_t{rows} * 8);
+  const std::size_t taken = resident_bytes(world.column<Weight>());
+  EXPECT_GE(taken, 8 * chunk_bytes);
+  EXPECT_LE(taken, 16 * chunk_bytes);
+  EXPECT_EQ(world.column<Weight>().values()[std::int64_t{rows} * 8], 0);
+  EXPECT_EQ(world.column<Weight>().values()[std::int64_t{rows} * 32], 7);
+}
+
+TEST_F(SparseWorld, ADroppedColumnTakesNothingAndGetsItsRowsAgain) {
+  world.add<Weight>();
+  write(0, chunks);
+  world.drop_column(world.column<Weight>());
+  EXPECT_EQ(resident_bytes(world.column<Weight>()), 0u);
+  EXPECT_EQ(world.column<Weight>().values()[5], 0);
+  EXPECT_EQ(world.room_for(world.column<Weight>(), std::size_t{rows} * chunks).size(),
+            chunks * chunk_bytes);
+  EXPECT_THROW(world.room_for(world.column<Weight>(), 3), BadState);
+}
+
+TEST(World, RoomForRowsMakesAsManyOfTheirKind) {
+  World world;
+  world.add_table<Link>(2);
+  world.add<Force>();
+  EXPECT_EQ(world.room_for(world.column<Force>(), 5).size(), 5 * world.column<Force>().row_bytes);
+  EXPECT_EQ(world.table<Link>().rows, 5u);
+  world.drop_column(world.column<Force>());
+  EXPECT_EQ(world.column<Force>().bytes(), 0u);
 }
 
 }  // namespace

@@ -117,15 +117,19 @@ TEST_F(Launch, OtherExitCodesAreMpiruns) {
   EXPECT_THAT(err, HasSubstr("mpirun ended with exit code 1"));
 }
 
-// SIGTERM kills what mpirun started within a second; the wish to stop must not. They wait for each other at their end, as
-// those of MPI do.
+// Ranks that stop when they are asked to, after some seconds. They wait for each other at their end, as those of MPI do:
+// mpirun kills what is left when the first ends with another code than 0.
+std::string stops_after(int seconds) {
+  return "stop() { sleep " + std::to_string(seconds) +
+         "; touch stopped-$rank\n"
+         "while ! [ -e stopped-0 -a -e stopped-1 -a -e stopped-2 ]; do sleep 0.05; done; exit 130; }\n"
+         "trap stop USR1; touch ready-$rank; while :; do sleep 0.05; done";
+}
+
+// SIGTERM kills what mpirun started within a second; the wish to stop must not.
 TEST_F(Launch, SignalsReachTheRanksAndLeaveThemTime) {
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) {
-    const pid_t child = start(
-        "stop() { sleep 2; touch stopped-$rank\n"
-        "while ! [ -e stopped-0 -a -e stopped-1 -a -e stopped-2 ]; do sleep 0.05; done; exit 130; "
-        "}\n"
-        "trap stop USR1; touch ready-$rank; while :; do sleep 0.05; done");
+    const pid_t child = start(stops_after(2));
     for (const char* rank : {"0", "1", "2"}) wait_for("ready-" + std::string(rank));
     kill(child, signal);
     EXPECT_EQ(end_of(child), 130);
@@ -150,8 +154,7 @@ TEST_F(Launch, RanksThatCannotHeedASignalYetAreInterrupted) {
 
 // Whoever kills the launching process leaves no ranks behind: they stop as at a signal.
 TEST_F(Launch, RanksStopWhenTheirLauncherIsKilled) {
-  const pid_t child = start(
-      "trap 'touch stopped-$rank; exit 130' USR1\ntouch ready-$rank\nwhile :; do sleep 0.05; done");
+  const pid_t child = start(stops_after(0));
   for (const char* rank : {"0", "1", "2"}) wait_for("ready-" + std::string(rank));
   kill(child, SIGKILL);
   EXPECT_EQ(end_of(child), 128 + SIGKILL);

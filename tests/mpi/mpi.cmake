@@ -29,7 +29,7 @@ target_link_libraries(test_launch PRIVATE pulvis_cli GTest::gmock_main)
 optimise(test_launch 1)
 gtest_discover_tests(test_launch TEST_PREFIX mpi. PROPERTIES TIMEOUT ${PULVIS_TEST_TIMEOUT} LABELS mpi)
 
-# The same bits on any number of ranks, some with chunks that change hands. The long round by hand, of every case:
+# The same bits on any number of ranks, some with chunks that migrate. The long round by hand, of every case:
 # tests/mpi/ranks_runs.py PROGRAM . --case NAME, --kills 50
 foreach(case die damped-servo shear bonds tool-bonds constraints space-round space-mixture)
   set(quick --quick)

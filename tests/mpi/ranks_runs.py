@@ -6,7 +6,7 @@ usage: ranks_runs.py PROGRAM ROOT (--case NAME [--quick] [--rebalanced PROGRAM] 
 Case by case: a scene, left after some steps, on 1, 2, 3 and 4 ranks with 1 and 2 threads each; its state hash, its history
 and every dataset of its frames, its mesh and its cracks must be those of one process. Then it is stopped twice and resumed
 on other numbers of ranks, one process among them. --quick: on three ranks alone, and stopped on three and resumed on two.
---rebalanced: the ranks are those of rebalanced_run, whose chunks change hands every so many steps. --kills: a run over three
+--rebalanced: the ranks are those of rebalanced_run, whose chunks migrate every so many steps. --kills: a run over three
 ranks is resumed after a rank was killed at a random moment, so many times, until it is done; its results must be the same
 again. --full: no file may grow beyond some size, as on a disk that is full; the run over ranks ends and says so, and goes on
 from its last checkpoint when there is room again.
@@ -99,7 +99,7 @@ class Case:
         scene, self.steps, self.set = CASES[name]
         self.program, self.scene, self.name, self.scratch = program, root / scene, name, scratch
         self.rebalanced = rebalanced  # a program that begins and resumes runs over ranks instead
-        self.changed_hands = 0
+        self.migrated = 0
 
     def words(self, folder, *more):
         sets = [word for override in self.set for word in ("--set", override)]
@@ -132,7 +132,7 @@ class Case:
         run("mpirun", ["--quiet", "--oversubscribe", "--bind-to", "none", "--allow-run-as-root", "-np", ranks,
                        self.rebalanced, every, *words], code)
         made = json.loads((folder / "summary.json").read_text()).get("ranks", {}).get("rebalancings", [])
-        self.changed_hands += sum(one["chunks"] for one in made)
+        self.migrated += sum(one["chunks"] for one in made)
 
     def check(self, quick):
         alone = self.alone()
@@ -143,9 +143,9 @@ class Case:
         for first, then in ((3, 2),) if quick else ((3, 2), (1, 3), (2, 1)):
             self.check_resumed(alone, first, then)
         if self.rebalanced:
-            if self.changed_hands == 0:
-                raise Failed(f"{self.name}: no chunk has changed hands")
-            print(f"{self.name}: chunks have changed hands {self.changed_hands} times")
+            if self.migrated == 0:
+                raise Failed(f"{self.name}: no chunk has migrated")
+            print(f"{self.name}: chunks have migrated {self.migrated} times")
 
     def check_resumed(self, alone, first, then):
         """Stopped in the middle, and once more, on other numbers of ranks."""

@@ -1,4 +1,4 @@
-// pulvis run and pulvis resume over ranks whose chunks change hands again and again, whatever their steps take:
+// pulvis run and pulvis resume over ranks whose chunks migrate again and again, whatever their steps take:
 //
 //   mpirun -np N rebalanced_run EVERY run SCENE FOLDER STOP THREADS [KEY=VALUE...]
 //   mpirun -np N rebalanced_run EVERY resume FOLDER STOP

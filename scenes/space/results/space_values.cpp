@@ -13,8 +13,7 @@ namespace pulvis::space {
 namespace {
 
 const Shape& shape_in(const World& world, int slot) {
-  return entry(world.resource<Shapes>().list,
-               entry(world.resource<Bodies>().slots, slot).shape);
+  return entry(world.resource<Shapes>().list, entry(world.resource<Bodies>().slots, slot).shape);
 }
 
 struct ElementStresses {
@@ -46,9 +45,9 @@ ParticleValues of_stress(const Append& append) {
     const double* mean = first_value<MeanStress>(world, slot);
     const std::size_t count = shape_in(world, slot).hexahedra.size();
     for (std::size_t e = 0; e < count; ++e)
-      append(stresses_of<F::points>(deviator + e * 5 * F::points * lane_count,
-                                    mean[e * lane_count]),
-             out);
+      append(
+          stresses_of<F::points>(deviator + e * 5 * F::points * lane_count, mean[e * lane_count]),
+          out);
   };
 }
 

@@ -1,4 +1,4 @@
-#include "scenes/ranks/hand_over.hpp"
+#include "scenes/ranks/migrate.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -21,9 +21,9 @@ void append(Ranks::Bytes& bytes, std::span<const std::byte> more) {
   bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-class HandOver {
+class Migration {
  public:
-  HandOver(World& share, const std::vector<int>& owner)
+  Migration(World& share, const std::vector<int>& owner)
       : share_(share),
         link_(share.resource<RankLink>()),
         bodies_(share.resource<Bodies>()),
@@ -57,7 +57,7 @@ class HandOver {
 };
 
 // ---- what is divided by chunks ----------------------------------------------------------------------
-void HandOver::column(ColumnBase& column) const {
+void Migration::column(ColumnBase& column) const {
   std::vector<Ranks::Bytes> to(count());
   for (const int chunk : bodies_.own_chunks)
     if (const int taker = entry(owner_, chunk); taker != ranks_.rank())
@@ -77,7 +77,7 @@ void HandOver::column(ColumnBase& column) const {
 }
 
 // The rows of chunks in a row that are other ranks' take no memory any more. Of a particle itself everybody holds all.
-void HandOver::drop_others(ColumnBase& column) const {
+void Migration::drop_others(ColumnBase& column) const {
   if (column.entity == Particle::name) return;
   const std::vector<std::int32_t>& begin = column.owner().chunk_begin;
   for (std::size_t first = 0; first < owner_.size();) {
@@ -92,7 +92,7 @@ void HandOver::drop_others(ColumnBase& column) const {
 
 // ---- contact rows -----------------------------------------------------------------------------------
 // Those that this rank computes go to who will compute them, and to who will own the other particle.
-HandOver::RowsOfRanks HandOver::rows_of_ranks(const char* entity) const {
+Migration::RowsOfRanks Migration::rows_of_ranks(const char* entity) const {
   const std::vector<std::int32_t>& begin = begin_of(entity);
   const std::span<const std::int32_t> keys = keys_of(share_, entity);
   RowsOfRanks rows(count());
@@ -109,8 +109,8 @@ HandOver::RowsOfRanks HandOver::rows_of_ranks(const char* entity) const {
 }
 
 // What all ranks give to this one, one rank after the other.
-std::vector<std::byte> HandOver::exchanged(const ColumnBase& column,
-                                           const RowsOfRanks& rows) const {
+std::vector<std::byte> Migration::exchanged(const ColumnBase& column,
+                                            const RowsOfRanks& rows) const {
   std::vector<Ranks::Bytes> to(count());
   for (std::size_t rank = 0; rank < rows.size(); ++rank)
     for (const std::int32_t r : rows[rank])
@@ -121,7 +121,7 @@ std::vector<std::byte> HandOver::exchanged(const ColumnBase& column,
   return all;
 }
 
-std::vector<std::int32_t> HandOver::exchanged_triangles(const RowsOfRanks& rows) const {
+std::vector<std::int32_t> Migration::exchanged_triangles(const RowsOfRanks& rows) const {
   const auto& lists = share_.resource<space::TriangleLists>();
   const std::int32_t* range = share_.column<space::TriangleRange>().values();
   std::vector<Ranks::Bytes> to(count());
@@ -157,21 +157,22 @@ std::vector<std::byte> in_order(const std::vector<std::byte>& rows, std::size_t 
 std::vector<std::int32_t> triangles_in_order(std::vector<std::int32_t> range,
                                              std::vector<std::int32_t> triangles,
                                              const std::vector<std::int32_t>& order) {
-  space::TriangleLists::stand_together(range);
+  space::TriangleLists::make_consecutive(range);
   const space::TriangleLists lists{std::move(triangles)};
   std::vector<std::int32_t> sorted;
   for (const std::int32_t r : order) lists.append(&range[2 * static_cast<std::size_t>(r)], sorted);
   return sorted;
 }
 
-void HandOver::rows(const char* entity) const {
+void Migration::rows(const char* entity) const {
   std::vector<const ColumnBase*> columns;
   for (const ColumnBase* column : share_.columns())
     if (is_of_rows(*column, entity) && !column->declared_transient) columns.push_back(column);
   if (columns.empty() || begin_of(entity).empty()) return;
   const RowsOfRanks given = rows_of_ranks(entity);
   const std::string keys = ContactPair<Contact>::info.name;
-  std::partition(columns.begin(), columns.end(), [&](const ColumnBase* c) { return c->info.name == keys; });
+  std::partition(columns.begin(), columns.end(),
+                 [&](const ColumnBase* c) { return c->info.name == keys; });
   const ColumnBase* ranges = nullptr;  // of triangles
   std::vector<std::int32_t> triangles, order;
   if (share_.has<space::TriangleLists>() && entity == std::string(FaceToolContact::name)) {
@@ -190,12 +191,12 @@ void HandOver::rows(const char* entity) const {
       begins_of(keys_of(share_, entity), bodies_.slots.size());
   if (ranges == nullptr) return;
   auto& range = share_.column<space::TriangleRange>();
-  space::TriangleLists::stand_together({range.values(), 2 * range.table.rows});
+  space::TriangleLists::make_consecutive({range.values(), 2 * range.table.rows});
   share_.resource<space::TriangleLists>().triangles = std::move(triangles);
 }
 
 // Of the particles as the broad phase found them: slot, how many, these, in a cell their images.
-void HandOver::neighbours() const {
+void Migration::neighbours() const {
   ContactIndex& index = share_.resource<ContactIndex>();
   if (index.neighbour_begin.empty()) return;
   const bool cell = share_.has<PeriodicCell>();
@@ -233,9 +234,13 @@ void HandOver::neighbours() const {
 
 }  // namespace
 
-void hand_over(World& share, const std::vector<int>& owner) {
+void migrate(World& share, const std::vector<int>& owner) {
   await_outlines(share);
-  const HandOver all(share, owner);
+  RankLink& link = share.resource<RankLink>();
+  std::vector<bool> owns;
+  for (const int rank : owner) owns.push_back(rank == link.ranks->rank());
+  share.hold(owns);
+  const Migration all(share, owner);
   for (std::size_t i = 0; i < share.columns().size(); ++i) {
     ColumnBase& column = same_column(share, i);
     if (!is_by_chunk(column)) continue;
@@ -247,12 +252,8 @@ void hand_over(World& share, const std::vector<int>& owner) {
     for (const char* entity : row_entities) all.rows(entity);
     all.neighbours();
   }
-  RankLink& link = share.resource<RankLink>();
-  Bodies& bodies = share.resource<Bodies>();
   link.owner = owner;
-  std::vector<bool> owns;
-  for (const int rank : owner) owns.push_back(rank == link.ranks->rank());
-  bodies.hold(owns);
+  share.resource<Bodies>().hold(owns);
   if (!touching) return;
   list_rows(share);
   find_border_again(share);
