@@ -3,7 +3,9 @@
 
 usage: ranks.py [--pulvis PROGRAM] [--folder DIR] [--repeats N] WHAT...
 
-WHAT  strong   a hexagonal packing on 1 and 2 threads and on 1 and 2 ranks, side by side: wall seconds, least and median
+WHAT  strong   a square packing on 1 and 2 threads and on 1 and 2 ranks, in turns: wall seconds, least and median; and two
+               processes with half of it each that tell each other nothing, side by side: the least that a division once for
+               all can take on such cores
       weak     N discs on one rank, 2 N on two
       bytes    what ranks tell each other in a step, by the number of ranks and of discs
       model    seconds a step on 1 to 1,024 nodes for 10^4 to 10^7 discs, from the cost of a disc and of the bytes that
@@ -58,39 +60,63 @@ def write_scene(options, name, title, packing, move, width, height, duration, ed
     return file
 
 
+def start(options, name, words):
+    return subprocess.Popen([options.pulvis, "run", *map(str, words), "-o", options.folder / name, "--overwrite", "--quiet",
+                             "--checkpoint-steps", str(10**9)])
+
+
+def summary_of(options, name):
+    return json.loads((options.folder / name / "summary.json").read_text())
+
+
 def run(options, name, words):
-    folder = options.folder / name
-    subprocess.run([options.pulvis, "run", *map(str, words), "-o", folder, "--overwrite", "--quiet",
-                    "--checkpoint-steps", str(10**9)], check=False)
-    return json.loads((folder / "summary.json").read_text())
+    start(options, name, words).wait()
+    return summary_of(options, name)
+
+
+def block(options, columns, rows, edges=40):
+    """Discs of regular-25.toml, pressed as fast as there."""
+    return write_scene(
+        options, f"discs-{columns * rows}", f"{columns} x {rows} discs, 316L",
+        f'{{ kind = "square", particle = "disc", rows = {rows}, columns = {columns}, corner = ["0 mm", "0 mm"] }}',
+        f'{{ tool = "top", displacement = ["0 mm", "-{rows} mm"] }}', 10 * columns, 10 * rows, 560 * rows, edges)
 
 
 def scene_of(options, discs, edges=40):
-    """The square packing of about so many discs of regular-25.toml, pressed as fast as there."""
+    """A square of about so many."""
     side = max(2, round(math.sqrt(discs)))
-    file = write_scene(
-        options, f"discs-{side * side}", f"{side} x {side} discs, 316L",
-        f'{{ kind = "square", particle = "disc", rows = {side}, columns = {side}, corner = ["0 mm", "0 mm"] }}',
-        f'{{ tool = "top", displacement = ["0 mm", "-{side} mm"] }}', 10 * side, 10 * side, 560 * side, edges)
-    return file, side * side
+    return block(options, side, side, edges), side * side
 
 
-def side_by_side(options, scene, steps, ways):
-    """Wall seconds of every way, run in turns."""
+def side_by_side(options, scene, steps, ways, also=dict):
+    """Wall seconds of every way, run in turns; and of what `also` runs then."""
     seconds = {name: [] for name in ways}
     summaries = {}
     for _ in range(options.repeats):
         for name, words in ways.items():
             summaries[name] = run(options, name.replace(" ", "-"), [scene, "--stop-after", steps, *words])
             seconds[name].append(summaries[name]["wall_seconds"])
+        for name, time in also().items():
+            seconds.setdefault(name, []).append(time)
     return seconds, summaries
+
+
+def halves(options, discs):
+    """Two processes with half of the discs each, and no word between them: wall seconds of the slower and of the faster."""
+    side = round(math.sqrt(discs))
+    half = block(options, side, side // 2)
+    names = ("lower", "upper")
+    for process in [start(options, name, [half, "--stop-after", options.steps, "--threads", 1]) for name in names]:
+        process.wait()
+    seconds = [summary_of(options, name)["wall_seconds"] for name in names]
+    return {"two halves alone, the slower": max(seconds), "two halves alone, the faster": min(seconds)}
 
 
 def strong(options):
     scene, discs = scene_of(options, options.discs)
     ways = {"1 thread": ["--threads", 1], "1 rank": ["--ranks", 1, "--threads", 1], "2 threads": ["--threads", 2],
             "2 ranks": ["--ranks", 2, "--threads", 1]}
-    seconds, summaries = side_by_side(options, scene, options.steps, ways)
+    seconds, summaries = side_by_side(options, scene, options.steps, ways, lambda: halves(options, discs))
     if len({summary["state_hash"] for summary in summaries.values()}) != 1:
         raise SystemExit("the ways do not end in the same state")
     base = min(seconds["1 thread"])
