@@ -1,6 +1,6 @@
 // Scenes that say themselves what must hold, run by the program: the extreme ones (docs/stability.md; those with
 // `slow` in their name are left to bench/stability.py) and those of the AFM (docs/afm.md). bench/nightly.py runs all of the
-// AFM's; two are run, their expectations included, where their laws are looked at: tests/physics/afm.
+// AFM's.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,22 +17,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::set<std::string> elsewhere{"plastic-probe", "hertz-ball"};
+// Their laws are looked at in tests/physics/afm; of two the scenes' own expectations, too.
+const std::set<std::string> elsewhere{"plastic-probe", "hertz-ball",      "bump",
+                                      "force-curve",   "jkr-force-curve", "incline-frictionless"};
 // The raster takes minutes; of the others a sibling is run here: another slope, metal or beam under the same systems.
 const std::set<std::string> at_night{"raster",
                                      "loop-v-0",
                                      "loop-v-12.5",
                                      "loop-v+14-kept-height",
+                                     "loop-v-12.5-kept-height",
                                      "loop-beam-0",
                                      "loop-beam-12.5",
-                                     "loop-v-12.5-kept-height",
-                                     "colloid-cu-plastic",
                                      "ogletree-0",
                                      "ogletree-12.5",
-                                     "incline-frictionless",
+                                     "colloid-cu-plastic",
                                      "bump-kept-height"};
 
-// Scenes of a folder below scenes/, without those that take minutes.
+// Scenes of a folder below scenes/, without those that are run elsewhere.
 std::vector<std::string> fast_scenes(const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(paths::source_dir() + "/scenes/" + folder)) {

@@ -32,7 +32,7 @@ constexpr double share_of_a_large_one = 0.004;
 // Updates of elements: the whole scene is run at night (bench/nightly.py).
 constexpr double most_updates = 2e8;
 // Grains have small elements and short steps: of a powder of them only the first cracks are waited for.
-constexpr double most_updates_with_bonds = 1e8;
+constexpr double most_updates_with_bonds = 6e7;
 // Hexahedra cost ten times as much as quads: of a powder of them only the first contacts are made.
 constexpr double most_updates_in_space = 4e7;
 
