@@ -71,8 +71,8 @@ OUTPUT = '\n[output]\nframes = 4\nsamples = 200\n[limits]\nenergy_balance = 0.02
 
 
 class Bench:
-    def __init__(self, program, folder):
-        self.program, self.folder = program, folder
+    def __init__(self, program, folder, rounds):
+        self.program, self.folder, self.rounds = program, folder, rounds
         folder.mkdir(parents=True, exist_ok=True)
 
     def run(self, name, text, *options):
@@ -396,7 +396,7 @@ def packed(bench, name, count, mesh, side, density):
 def cost(bench):
     """A box closes on all sides alike, and its spheres move with it from the start: all of the powder deforms at once, however large
     it is. The cost at a density is the difference between a run to just before and one to just behind it, in processor time."""
-    before, after, start, rounds = 0.62, 0.72, 0.5, 3
+    before, after, start, rounds = 0.62, 0.72, 0.5, bench.rounds
     print(f"law cost: random packings of 316L, plastic, friction and damping 0.1, relative density from {before} to {after}, one thread;")
     print(f"ns an element and step, least and median of {rounds} rounds in turns; share of the bodies; bytes an element of the program")
     print(f"{'mesh':>5} {'spheres':>7} {'elements':>9} {'steps':>6} {'least':>7} {'median':>7} {'M updates/s':>12} {'bodies':>7} {'bytes':>7}",
@@ -439,9 +439,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--pulvis", default=ROOT / "build/release/cli/pulvis")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build/space-laws")
+    parser.add_argument("--rounds", type=int, default=3, help="of `cost`; one takes some minutes")
     parser.add_argument("laws", nargs="+", choices=sorted(LAWS), metavar="LAW")
     options = parser.parse_args()
-    bench = Bench(os.fspath(options.pulvis), options.folder)
+    bench = Bench(os.fspath(options.pulvis), options.folder, options.rounds)
     for law in options.laws:
         LAWS[law](bench)
 
