@@ -7,9 +7,9 @@
 Scenes are run whole, of which the tests run only the beginning where they take long, and of those of the AFM one of each
 kind; each is expected to keep its balance of energy besides what it says itself. What is finished in the output folder is
 kept, as `pulvis study` does, so a night that was broken off goes on where it was: give the same command again. After each the
-log is written anew: OUTPUT/nightly.md has one line a study or scene (runs, expectations met, seconds of its runs, exit code) and below them every expectation, met or not;
-what it said besides is in OUTPUT/NAME.log. Exit code: 0 if all ended with 0, 1 if one did not, 2 for one that does not
-exist, 130 if interrupted.
+log is written anew: OUTPUT/nightly.md has one line a study or scene (runs, expectations met, seconds of its runs, exit code)
+and below them every expectation, met or not; what it said besides is in OUTPUT/NAME.log. Exit code: 0 if all ended with 0, 1
+if one did not, 2 for one that does not exist, 130 if interrupted.
 """
 import argparse
 import csv
@@ -22,7 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT / "scenes"
 STUDIES = SCENES / "studies"
-# Those of tests/cli/shipped_test.cpp; it finds new ones by itself, so does this.
+# All but these, so new ones are found by themselves.
 ELSEWHERE = {"studies", "probes", "lab", "parts", "materials", "extreme"}  # bench/stability.py; the tests run all
 LIMITS = {"energy_balance_error": 0.01, "penetration": 0.1}
 MEANING = {0: "good", 2: "refused", 3: "a run failed, or an expectation is not met", 4: "disk or memory"}

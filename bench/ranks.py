@@ -4,8 +4,7 @@
 usage: ranks.py [--pulvis PROGRAM] [--folder DIR] [--repeats N] WHAT...
 
 WHAT  strong   a square packing on 1 and 2 threads and on 1 and 2 ranks, in turns: wall seconds, least and median; and two
-               processes with half of it each that tell each other nothing, side by side: the least that a division once for
-               all can take on such cores
+               processes with half of it each that tell each other nothing, side by side: how uneven the cores are
       weak     N discs on one rank, 2 N on two
       bytes    what ranks tell each other in a step, by the number of ranks and of discs
       model    seconds a step on 1 to 1,024 nodes for 10^4 to 10^7 discs, from the cost of a disc and of the bytes that

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Their laws are looked at in tests/physics/afm; of two the scenes' own expectations, too.
+// tests/physics/afm holds them to the same laws, more closely.
 const std::set<std::string> elsewhere{"plastic-probe", "hertz-ball",      "bump",
                                       "force-curve",   "jkr-force-curve", "incline-frictionless"};
 // The raster takes minutes; of the others a sibling is run here: another slope, metal or beam under the same systems.
@@ -29,7 +29,6 @@ const std::set<std::string> at_night{"raster",
                                      "loop-beam-0",
                                      "loop-beam-12.5",
                                      "ogletree-0",
-                                     "ogletree-12.5",
                                      "colloid-cu-plastic",
                                      "bump-kept-height"};
 
