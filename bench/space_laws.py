@@ -16,7 +16,6 @@ import argparse
 import csv
 import json
 import math
-import os
 import pathlib
 import resource
 import statistics
@@ -81,7 +80,7 @@ class Bench:
         scene.write_text(text, encoding="utf-8")
         result = subprocess.run([self.program, "run", scene, "-o", self.folder / name, "--overwrite", *options],
                                 capture_output=True, text=True)
-        if result.returncode not in (0,):
+        if result.returncode:
             sys.exit(f"{name}: exit {result.returncode}\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
         with open(self.folder / name / "history.csv", encoding="utf-8") as file:
             rows = list(csv.reader(file))
@@ -442,7 +441,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=3, help="of `cost`; one takes some minutes")
     parser.add_argument("laws", nargs="+", choices=sorted(LAWS), metavar="LAW")
     options = parser.parse_args()
-    bench = Bench(os.fspath(options.pulvis), options.folder, options.rounds)
+    bench = Bench(options.pulvis, options.folder, options.rounds)
     for law in options.laws:
         LAWS[law](bench)
 
