@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -45,6 +46,12 @@ Pair times(Pair a, Pair b) {
 double quotient(Pair a, Pair b) {
   const double q = a.high / b.high;
   return q + ((std::fma(-q, b.high, a.high) + a.low) - q * b.low) / b.high;
+}
+
+// x 2^k, as std::ldexp; a product where the power is a number of full precision.
+double scaled(double x, int k) {
+  if (k < -1022 || k > 1023) return std::ldexp(x, k);
+  return x * std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52U);
 }
 
 // c[0] + z (c[1] + z (c[2] + ...))
@@ -90,25 +97,13 @@ Pair small_cosine(Pair x) {
   return sum_of_larger(s.high, s.low + rest);
 }
 
-struct SineCosine {
-  Pair sine, cosine;
-};
-
-SineCosine sine_cosine(double x) {
-  if (!(std::abs(x) < 0x1p50)) return {{nan, nan}, {nan, nan}};
+// The sine of the angle that is so many quarter turns further on: the cosine is that of one.
+Pair sine_further(double x, std::uint64_t quarters) {
+  if (!(std::abs(x) < 0x1p50)) return {nan, nan};
   const Reduced r = reduced(x);
-  const Pair s = small_sine(r.angle), c = small_cosine(r.angle);
-  const Pair minus_s{-s.high, -s.low}, minus_c{-c.high, -c.low};
-  switch (static_cast<std::uint64_t>(r.quarters) % 4) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, minus_s};
-    case 2:
-      return {minus_s, minus_c};
-    default:
-      return {minus_c, s};
-  }
+  const std::uint64_t q = (static_cast<std::uint64_t>(r.quarters) + quarters) % 4;
+  const Pair value = q % 2 == 0 ? small_sine(r.angle) : small_cosine(r.angle);
+  return q < 2 ? value : Pair{-value.high, -value.low};
 }
 
 // ---- arctangent ----
@@ -159,7 +154,7 @@ double exponential(Pair x) {
   const Pair r = sum_of(x.high - k * ln2_high, x.low - k * ln2_low);
   const Pair s = sum_of_larger(1, r.high);
   const double rest = s.low + (r.low + r.low * r.high + r.high * r.high * series(r.high, c));
-  return std::ldexp(s.high + rest, static_cast<int>(k));
+  return scaled(s.high + rest, static_cast<int>(k));
 }
 
 struct Mantissa {
@@ -200,13 +195,9 @@ Pair logarithm(double x) {
 
 }  // namespace
 
-double sin(double x) { return sine_cosine(x).sine.value(); }
-double cos(double x) { return sine_cosine(x).cosine.value(); }
-
-double tan(double x) {
-  const SineCosine at = sine_cosine(x);
-  return quotient(at.sine, at.cosine);
-}
+double sin(double x) { return sine_further(x, 0).value(); }
+double cos(double x) { return sine_further(x, 1).value(); }
+double tan(double x) { return quotient(sine_further(x, 0), sine_further(x, 1)); }
 
 double acos(double x) { return atan2(std::sqrt((1 - x) * (1 + x)), x); }
 double atan(double x) { return atan2(x, 1); }
@@ -217,7 +208,7 @@ double atan2(double y, double x) {
   if (maximum == 0) return std::copysign(std::signbit(x) ? std::numbers::pi : 0, y);
   int k = 0;
   std::frexp(maximum, &k);
-  const double u = std::ldexp(std::abs(x), -k), v = std::ldexp(std::abs(y), -k);
+  const double u = scaled(std::abs(x), -k), v = scaled(std::abs(y), -k);
   Pair angle = v <= u ? acute_angle(u, v) : difference(half_pi, acute_angle(v, u));
   if (std::signbit(x)) angle = difference({2 * half_pi.high, 2 * half_pi.low}, angle);
   return std::copysign(angle.value(), y);
@@ -250,12 +241,12 @@ double cbrt(double x) {
   int k = 0;
   double m = std::frexp(std::abs(x), &k);
   const int third = k > 0 ? (k + 2) / 3 : k / 3;
-  m = std::ldexp(m, k - 3 * third);
+  m = scaled(m, k - 3 * third);
   double y = 0.4 + 0.64 * m;
   for (int i = 0; i < 6; ++i) y -= (y - m / (y * y)) / 3;
   const Pair square = product_of(y, y), cube = product_of(square.high, y);
   y -= ((cube.high - m) + (cube.low + square.low * y)) / (3 * square.high);
-  return std::copysign(std::ldexp(y, third), x);
+  return std::copysign(scaled(y, third), x);
 }
 
 double hypot(double x, double y) {
@@ -265,13 +256,13 @@ double hypot(double x, double y) {
   int k = 0;
   if (a > 0x1p500 || b < 0x1p-400) {  // squares would be lost
     std::frexp(a, &k);
-    a = std::ldexp(a, -k);
-    b = std::ldexp(b, -k);
+    a = scaled(a, -k);
+    b = scaled(b, -k);
   }
   const Pair a2 = product_of(a, a), b2 = product_of(b, b), sum = sum_of_larger(a2.high, b2.high);
   const double h = std::sqrt(sum.high);
   const double rest = std::fma(-h, h, sum.high) + (sum.low + (a2.low + b2.low));
-  return std::ldexp(h + rest / (2 * h), k);
+  return scaled(h + rest / (2 * h), k);
 }
 
 // Stirling's series, ten steps of Gamma(x + 1) = x Gamma(x) further up.

@@ -72,10 +72,9 @@ Pose pose(const BodySpec& body) {
   return result;
 }
 
-// How far the outline reaches behind the tool's surface.
-double depth_behind(const ToolSpec& tool, const BodySpec& body, const Outline& outline) {
-  return reach_along(outline, body.angle, -tool.normal) -
-         (body.position - tool.point).dot(tool.normal);
+// How far a body reaches behind the tool's surface.
+double depth_behind(const ToolSpec& tool, const BodySpec& body, const OutlineReach& reach) {
+  return reach.along(body.angle, -tool.normal) - (body.position - tool.point).dot(tool.normal);
 }
 
 class OverlapSearch {
@@ -88,8 +87,11 @@ class OverlapSearch {
     std::vector<Geometry> shapes;
     for (const ParticleSpec& particle : scene.particles)
       shapes.push_back(geometry(particle.outline, 16 * reach));
-    for (const ParticleSpec& particle : scene.particles)
+    for (const ParticleSpec& particle : scene.particles) {
       sizes_.push_back(size_of(particle.outline));
+      reaches_.emplace_back(particle.outline);
+      polygons_.push_back(check_polygon(particle.outline));
+    }
     objects_.reserve(bodies.size());
     for (const BodySpec& body : bodies)
       objects_.emplace_back(shapes[static_cast<std::size_t>(body.particle)], pose(body));
@@ -117,13 +119,14 @@ class OverlapSearch {
       const ToolSurface surface = make_surface(points, 0);
       return all_of_bodies([&](std::size_t i) {
         return depth_in_tool(surface, bodies_[i].position - points.front(), bodies_[i].angle,
-                             check_polygon(outline(bodies_[i])));
+                             polygons_[kind(bodies_[i])]);
       });
     }
     ToolSpec turned = tool;
     turned.normal = -tool.normal;
-    return all_of_bodies(
-        [&](std::size_t i) { return depth_behind(turned, bodies_[i], outline(bodies_[i])); });
+    return all_of_bodies([&](std::size_t i) {
+      return depth_behind(turned, bodies_[i], reaches_[kind(bodies_[i])]);
+    });
   }
 
   // The tools are asked one by one: the boxes of oblique planes are infinite, which a tree cannot
@@ -185,7 +188,8 @@ class OverlapSearch {
 
   void behind_tool(const Object& object) {
     const std::size_t i = number(object);
-    const double overlap = depth_behind(scene_.tools[tool_], bodies_[i], outline(bodies_[i]));
+    const double overlap =
+        depth_behind(scene_.tools[tool_], bodies_[i], reaches_[kind(bodies_[i])]);
     if (overlap > allowed(i)) found_.push_back({i, tool_, overlap});
   }
 
@@ -195,9 +199,9 @@ class OverlapSearch {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Vec2 centre = bodies_[i].position - tool.points.front();
       const auto box = rounded_box(outline(bodies_[i]));
-      const double overlap = box ? depth_in_tool(surface, centre, bodies_[i].angle, *box)
-                                 : depth_in_tool(surface, centre, bodies_[i].angle,
-                                                 check_polygon(outline(bodies_[i])));
+      const double overlap =
+          box ? depth_in_tool(surface, centre, bodies_[i].angle, *box)
+              : depth_in_tool(surface, centre, bodies_[i].angle, polygons_[kind(bodies_[i])]);
       if (overlap > allowed(i)) found_.push_back({i, tool_, overlap});
     }
   }
@@ -213,7 +217,9 @@ class OverlapSearch {
   const Scene& scene_;
   const std::vector<BodySpec>& bodies_;
   std::vector<Object> objects_;  // by particle number
-  std::vector<double> sizes_;    // by class
+  std::vector<double> sizes_;    // by class, as what follows
+  std::vector<OutlineReach> reaches_;
+  std::vector<std::vector<Vec2>> polygons_;
   OutlineDepths depths_;
   fcl::DynamicAABBTreeCollisionManager<double> tree_;
   std::vector<Overlap> found_;

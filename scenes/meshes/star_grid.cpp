@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/kept.hpp"
 #include "engine/portable_math.hpp"
 #include "scenes/meshes/smooth_mesh.hpp"
 
@@ -172,13 +173,28 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
   return search.best();
 }
 
-}  // namespace
+struct GridOrder {
+  std::vector<Point> boundary;
+  Point centre;
+  int rings;
+  bool operator==(const GridOrder&) const = default;
+};
 
-StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings) {
+StarGrid made_grid(const GridOrder& order) {
   constexpr int max_iterations = 2000;
+  const auto& [boundary, centre, rings] = order;
   StarGrid grid = grid_of(boundary, centre, rings, best_split(boundary, centre, rings));
   smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary), max_iterations);
   return grid;
+}
+
+}  // namespace
+
+StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings) {
+  // The checks of a scene, its need of memory, its summary and its layout ask for the same grids.
+  static Kept<GridOrder, StarGrid> kept(1'000'000);  // nodes
+  return kept.get({boundary, centre, rings}, made_grid,
+                  [](const StarGrid& grid) { return grid.nodes.size(); });
 }
 
 }  // namespace pulvis

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "scenes/outlines/outline.hpp"
 #include "scenes/spec/rotation.hpp"
 
 namespace pulvis {
@@ -16,12 +15,15 @@ constexpr double fine = 1e-6;  // deviation of the polygon, of a particle's size
 
 }  // namespace
 
-double reach_along(const Outline& outline, double angle, const Vec2& direction) {
+OutlineReach::OutlineReach(const Outline& outline) : box_(rounded_box(outline)) {
+  if (!box_) polygon_ = outline_polygon(outline, fine * std::sqrt(outline_area(outline)));
+}
+
+double OutlineReach::along(double angle, const Vec2& direction) const {
   const Vec2 own = rotation(-angle) * direction;
-  if (const auto box = rounded_box(outline)) return box->radius + own.cwiseAbs().dot(box->half);
+  if (box_) return box_->radius + own.cwiseAbs().dot(box_->half);
   double farthest = std::numeric_limits<double>::lowest();
-  for (const Vec2& p : outline_polygon(outline, fine * std::sqrt(outline_area(outline))))
-    farthest = std::max(farthest, own.dot(p));
+  for (const Vec2& p : polygon_) farthest = std::max(farthest, own.dot(p));
   return farthest;
 }
 

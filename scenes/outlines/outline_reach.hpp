@@ -1,10 +1,22 @@
-// How far a turned outline reaches from its origin along a direction of space (a unit vector).
+// How far an outline reaches from its origin.
 #pragma once
 
-#include "scenes/spec/scene.hpp"
+#include <optional>
+#include <vector>
+
+#include "scenes/outlines/outline.hpp"
 
 namespace pulvis {
 
-double reach_along(const Outline& outline, double angle, const Vec2& direction);  // m
+class OutlineReach {
+ public:
+  explicit OutlineReach(const Outline& outline);
+  // m, of the turned outline (rad) in a direction of space (a unit vector).
+  double along(double angle, const Vec2& direction) const;
+
+ private:
+  std::optional<RoundedBox> box_;
+  std::vector<Vec2> polygon_;  // m, of an outline that is none
+};
 
 }  // namespace pulvis

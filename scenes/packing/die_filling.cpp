@@ -1,14 +1,11 @@
 #include "scenes/packing/die_filling.hpp"
 
+#include "engine/kept.hpp"
 #include "scenes/packing/press.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <mutex>
-#include <optional>
-#include <utility>
 
 namespace pulvis {
 namespace {
@@ -46,33 +43,11 @@ FilledDie pressed(const DieFilling& order) {
 
 constexpr std::size_t most_kept = 32;  // some seeds of some powders
 
-// The last fillings and what came of them, the oldest first.
-struct Kept {
-  std::mutex mutex;
-  std::deque<std::pair<DieFilling, FilledDie>> dies;
-
-  std::optional<FilledDie> of(const DieFilling& order) {
-    const std::lock_guard lock(mutex);
-    const auto found = std::ranges::find(dies, order, &std::pair<DieFilling, FilledDie>::first);
-    if (found == dies.end()) return {};
-    return found->second;
-  }
-
-  void keep(const DieFilling& order, const FilledDie& die) {
-    const std::lock_guard lock(mutex);
-    if (dies.size() == most_kept) dies.pop_front();
-    dies.emplace_back(order, die);
-  }
-};
-
 }  // namespace
 
 FilledDie fill_die(const DieFilling& order) {
-  static Kept kept;
-  if (const std::optional<FilledDie> die = kept.of(order)) return *die;
-  const FilledDie die = pressed(order);
-  kept.keep(order, die);
-  return die;
+  static Kept<DieFilling, FilledDie> kept(32);  // some seeds of some powders
+  return kept.get(order, pressed, [](const FilledDie&) { return 1; });
 }
 
 }  // namespace pulvis

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "scenes/outlines/outline.hpp"
@@ -154,10 +155,11 @@ class RandomPacking {
 
 double highest_point(const Scene& scene, const std::vector<BodySpec>& bodies) {
   double highest = std::numeric_limits<double>::lowest();
+  std::map<int, OutlineReach> reaches;  // of the classes
   for (const BodySpec& body : bodies) {
-    const Outline& outline = scene.particles[static_cast<std::size_t>(body.particle)].outline;
-    highest =
-        std::max(highest, body.position.y() + reach_along(outline, body.angle, Vec2::UnitY()));
+    const OutlineReach& reach =
+        reaches.try_emplace(body.particle, scene.class_of(body).outline).first->second;
+    highest = std::max(highest, body.position.y() + reach.along(body.angle, Vec2::UnitY()));
   }
   return highest;
 }

@@ -118,11 +118,13 @@ TEST_F(Launch, OtherExitCodesAreMpiruns) {
 }
 
 // Ranks that stop when they are asked to, after some seconds. They wait for each other at their end, as those of MPI do:
-// mpirun kills what is left when the first ends with another code than 0.
+// mpirun kills what is left when the first ends with another code than 0. Without their folder they wait for nobody.
 std::string stops_after(int seconds) {
   return "stop() { sleep " + std::to_string(seconds) +
          "; touch stopped-$rank\n"
-         "while ! [ -e stopped-0 -a -e stopped-1 -a -e stopped-2 ]; do sleep 0.05; done; exit 130; }\n"
+         "while [ -e ready-$rank ] && ! [ -e stopped-0 -a -e stopped-1 -a -e stopped-2 ]; do sleep "
+         "0.05; done\n"
+         "exit 130; }\n"
          "trap stop USR1; touch ready-$rank; while :; do sleep 0.05; done";
 }
 

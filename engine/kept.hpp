@@ -1,0 +1,48 @@
+// The last results of long computations, found again by what was asked.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <utility>
+
+namespace pulvis {
+
+// Of any threads. Orders are compared by ==: results are those of the same bits.
+template <class Order, class Result>
+class Kept {
+ public:
+  // All sizes together are at most that; the oldest results go first.
+  explicit Kept(std::size_t most) : most_(most) {}
+
+  // make(order), unless its result is here; two threads may both make it.
+  template <class Make, class Size>
+  Result get(const Order& order, const Make& make, const Size& size_of) {
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = std::ranges::find(results_, order, &Made::order);
+      if (found != results_.end()) return found->result;
+    }
+    Made made{order, make(order), 0};
+    made.size = size_of(made.result);
+    const Result result = made.result;
+    const std::lock_guard lock(mutex_);
+    size_ += made.size;
+    results_.push_back(std::move(made));
+    for (; size_ > most_; results_.pop_front()) size_ -= results_.front().size;
+    return result;
+  }
+
+ private:
+  struct Made {
+    Order order;
+    Result result;
+    std::size_t size;
+  };
+  std::size_t most_, size_ = 0;
+  std::mutex mutex_;
+  std::deque<Made> results_;  // the oldest first
+};
+
+}  // namespace pulvis
