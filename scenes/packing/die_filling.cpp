@@ -41,8 +41,6 @@ FilledDie pressed(const DieFilling& order) {
   return die;
 }
 
-constexpr std::size_t most_kept = 32;  // some seeds of some powders
-
 }  // namespace
 
 FilledDie fill_die(const DieFilling& order) {
