@@ -98,7 +98,7 @@ Pair small_cosine(Pair x) {
 }
 
 // The sine of the angle that is so many quarter turns further on: the cosine is that of one.
-Pair sine_further(double x, std::uint64_t quarters) {
+Pair shifted_sine(double x, std::uint64_t quarters) {
   if (!(std::abs(x) < 0x1p50)) return {nan, nan};
   const Reduced r = reduced(x);
   const std::uint64_t q = (static_cast<std::uint64_t>(r.quarters) + quarters) % 4;
@@ -195,9 +195,9 @@ Pair logarithm(double x) {
 
 }  // namespace
 
-double sin(double x) { return sine_further(x, 0).value(); }
-double cos(double x) { return sine_further(x, 1).value(); }
-double tan(double x) { return quotient(sine_further(x, 0), sine_further(x, 1)); }
+double sin(double x) { return shifted_sine(x, 0).value(); }
+double cos(double x) { return shifted_sine(x, 1).value(); }
+double tan(double x) { return quotient(shifted_sine(x, 0), shifted_sine(x, 1)); }
 
 double acos(double x) { return atan2(std::sqrt((1 - x) * (1 + x)), x); }
 double atan(double x) { return atan2(x, 1); }

@@ -90,7 +90,8 @@ class OverlapSearch {
     for (const ParticleSpec& particle : scene.particles) {
       sizes_.push_back(size_of(particle.outline));
       reaches_.emplace_back(particle.outline);
-      polygons_.push_back(check_polygon(particle.outline));
+      polygons_.push_back(rounded_box(particle.outline) ? std::vector<Vec2>{}
+                                                        : check_polygon(particle.outline));
     }
     objects_.reserve(bodies.size());
     for (const BodySpec& body : bodies)
@@ -119,7 +120,7 @@ class OverlapSearch {
       const ToolSurface surface = make_surface(points, 0);
       return all_of_bodies([&](std::size_t i) {
         return depth_in_tool(surface, bodies_[i].position - points.front(), bodies_[i].angle,
-                             polygons_[kind(bodies_[i])]);
+                             check_polygon(outline(bodies_[i])));
       });
     }
     ToolSpec turned = tool;
@@ -219,7 +220,7 @@ class OverlapSearch {
   std::vector<Object> objects_;  // by particle number
   std::vector<double> sizes_;    // by class, as what follows
   std::vector<OutlineReach> reaches_;
-  std::vector<std::vector<Vec2>> polygons_;
+  std::vector<std::vector<Vec2>> polygons_;  // empty for a rounded box
   OutlineDepths depths_;
   fcl::DynamicAABBTreeCollisionManager<double> tree_;
   std::vector<Overlap> found_;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/kept.hpp"
 #include "engine/portable_math.hpp"
+#include "engine/result_cache.hpp"
 #include "scenes/meshes/smooth_mesh.hpp"
 
 namespace pulvis {
@@ -173,16 +173,16 @@ Split best_split(const std::vector<Point>& boundary, const Point& centre, int ri
   return search.best();
 }
 
-struct GridOrder {
+struct GridKey {
   std::vector<Point> boundary;
   Point centre;
   int rings;
-  bool operator==(const GridOrder&) const = default;
+  bool operator==(const GridKey&) const = default;
 };
 
-StarGrid made_grid(const GridOrder& order) {
+StarGrid smoothed_grid(const GridKey& key) {
   constexpr int max_iterations = 2000;
-  const auto& [boundary, centre, rings] = order;
+  const auto& [boundary, centre, rings] = key;
   StarGrid grid = grid_of(boundary, centre, rings, best_split(boundary, centre, rings));
   smooth_mesh(grid.nodes, grid.quads, boundary.size(), size_share(boundary), max_iterations);
   return grid;
@@ -192,9 +192,9 @@ StarGrid made_grid(const GridOrder& order) {
 
 StarGrid star_grid(const std::vector<Point>& boundary, const Point& centre, int rings) {
   // The checks of a scene, its need of memory, its summary and its layout ask for the same grids.
-  static Kept<GridOrder, StarGrid> kept(1'000'000);  // nodes
-  return kept.get({boundary, centre, rings}, made_grid,
-                  [](const StarGrid& grid) { return grid.nodes.size(); });
+  static ResultCache<GridKey, StarGrid> cache(1'000'000);  // nodes
+  return cache.get({boundary, centre, rings}, smoothed_grid,
+                   [](const StarGrid& grid) { return grid.nodes.size(); });
 }
 
 }  // namespace pulvis

@@ -1,6 +1,6 @@
 #include "scenes/packing/die_filling.hpp"
 
-#include "engine/kept.hpp"
+#include "engine/result_cache.hpp"
 #include "scenes/packing/press.hpp"
 
 #include <algorithm>
@@ -44,8 +44,8 @@ FilledDie pressed(const DieFilling& order) {
 }  // namespace
 
 FilledDie fill_die(const DieFilling& order) {
-  static Kept<DieFilling, FilledDie> kept(32);  // some seeds of some powders
-  return kept.get(order, pressed, [](const FilledDie&) { return 1; });
+  static ResultCache<DieFilling, FilledDie> cache(32);  // some seeds of some powders
+  return cache.get(order, pressed, [](const FilledDie&) { return 1; });
 }
 
 }  // namespace pulvis

@@ -1,4 +1,4 @@
-#include "engine/kept.hpp"
+#include "engine/result_cache.hpp"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@ namespace {
 using ::testing::ElementsAre;
 
 struct Asked {
-  Kept<int, std::string> kept{6};
+  ResultCache<int, std::string> cache{6};
   std::vector<int> made;
 
   std::string of(int order) {
@@ -20,11 +20,11 @@ struct Asked {
       made.push_back(i);
       return std::string(static_cast<std::size_t>(i), 'x');
     };
-    return kept.get(order, make, [](const std::string& text) { return text.size(); });
+    return cache.get(order, make, [](const std::string& text) { return text.size(); });
   }
 };
 
-TEST(Kept, MakesNothingTwice) {
+TEST(ResultCache, MakesNothingTwice) {
   Asked asked;
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(asked.of(2), "xx");
@@ -33,7 +33,7 @@ TEST(Kept, MakesNothingTwice) {
   EXPECT_THAT(asked.made, ElementsAre(2, 3));
 }
 
-TEST(Kept, TheOldestGoFirstWhereThereIsNoRoom) {
+TEST(ResultCache, TheOldestGoFirstWhereThereIsNoRoom) {
   Asked asked;
   for (const int order : {1, 2, 3, 4, 3, 2}) asked.of(order);
   EXPECT_THAT(asked.made, ElementsAre(1, 2, 3, 4, 3, 2)) << "four leave no room for another three";
@@ -42,14 +42,14 @@ TEST(Kept, TheOldestGoFirstWhereThereIsNoRoom) {
   EXPECT_EQ(asked.made.size(), 8U);
 }
 
-TEST(Kept, SharesBetweenThreads) {
-  Kept<int, int> kept(100);
+TEST(ResultCache, SharesBetweenThreads) {
+  ResultCache<int, int> cache(100);
   std::vector<std::thread> threads;
   std::vector<int> sums(4);
   for (std::size_t t = 0; t < sums.size(); ++t)
     threads.emplace_back([&, t] {
       for (int i = 0; i < 1000; ++i)
-        sums[t] += kept.get(
+        sums[t] += cache.get(
             i % 50, [](int order) { return 2 * order; }, [](int) { return 1; });
     });
   for (std::thread& thread : threads) thread.join();

@@ -9,22 +9,22 @@
 
 namespace pulvis {
 
-// Of any threads. Orders are compared by ==: results are those of the same bits.
-template <class Order, class Result>
-class Kept {
+// Thread-safe. Keys are compared by ==: results are those of the same bits.
+template <class Key, class Result>
+class ResultCache {
  public:
   // All sizes together are at most that; the oldest results go first.
-  explicit Kept(std::size_t most) : most_(most) {}
+  explicit ResultCache(std::size_t most) : most_(most) {}
 
-  // make(order), unless its result is here; two threads may both make it.
+  // make(key), unless its result is here; two threads may both make it.
   template <class Make, class Size>
-  Result get(const Order& order, const Make& make, const Size& size_of) {
+  Result get(const Key& key, const Make& make, const Size& size_of) {
     {
       const std::lock_guard lock(mutex_);
-      const auto found = std::ranges::find(results_, order, &Made::order);
+      const auto found = std::ranges::find(results_, key, &Made::key);
       if (found != results_.end()) return found->result;
     }
-    Made made{order, make(order), 0};
+    Made made{key, make(key), 0};
     made.size = size_of(made.result);
     const Result result = made.result;
     const std::lock_guard lock(mutex_);
@@ -36,7 +36,7 @@ class Kept {
 
  private:
   struct Made {
-    Order order;
+    Key key;
     Result result;
     std::size_t size;
   };
