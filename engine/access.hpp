@@ -57,12 +57,12 @@ std::int32_t first_row(const Column<C>& column, Chunk chunk) {
   return column.table.chunk_begin[static_cast<std::size_t>(chunk.index)];
 }
 
-// Where the rows of a chunk begin; of a transient column the worker's, if the graph drops them.
+// Where the rows of a chunk begin: the worker's of scratch, and of a transient column where the graph drops it.
 template <class C>
 auto* rows_of(Column<C>& column, Chunk chunk) {
   using Number = std::conditional_t<C::Entity::laned, Lane, typename C::value_type>;
-  if constexpr (C::transient)
-    if (chunk.worker >= 0 && column.has_transient())
+  if constexpr (C::transient || C::scratch)
+    if (C::scratch || (chunk.drops && column.has_transient()))
       return reinterpret_cast<Number*>(column.transient(chunk.worker));
   return reinterpret_cast<Number*>(column.data()) +
          static_cast<std::size_t>(first_row(column, chunk)) * C::count;
@@ -76,7 +76,7 @@ AccessInfo access_info(AccessMode mode) {
             std::string(T::Entity::name) + "/" + T::info.name,
             mode,
             T::Entity::by_chunk,
-            T::transient};
+            T::transient || T::scratch};
   else
     return {type_key<T>(), nullptr, T::resource_name, mode, false};
 }

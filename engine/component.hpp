@@ -41,6 +41,9 @@ struct Component {
   // A declaration may set this: what one system of a pass over the chunks leaves for the next ones, and
   // nobody needs later. A graph may then keep it for one chunk a worker only, in cache; see TaskGraph.
   static constexpr bool transient = false;
+  // Or this: what one system writes and reads again while it works on a chunk, and nobody else looks at. Every worker has
+  // room for a chunk of it; the world has no such column.
+  static constexpr bool scratch = false;
 };
 
 template <class C>
@@ -63,8 +66,9 @@ class World;
 // One chunk of laned rows: the eight particles that a chunk system works on.
 struct Chunk {
   std::int32_t index = 0;
-  std::int32_t worker = -1;    // whose transient rows are used; -1: the chunk's own
+  std::int32_t worker = 0;     // that works on it
   LookAhead* ahead = nullptr;  // for busy systems; see BusyChunk
+  bool drops = false;          // transient rows are the worker's, where it has room for them
 };
 
 // Of a system that divides the whole world into tasks far smaller than a chunk. It begins when the chunks that can

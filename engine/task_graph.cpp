@@ -254,9 +254,9 @@ struct TaskGraph::Flow {
 
   void run_chunk(const Stage& stage, int piece) {
     LookAhead list = stage.ahead.list(chunks, piece);
-    const int worker = drops ? tbb::this_task_arena::current_thread_index() : -1;
-    const Chunk chunk{chunks[static_cast<std::size_t>(piece)], worker,
-                      list.empty() ? nullptr : &list};
+    const Chunk chunk{chunks[static_cast<std::size_t>(piece)],
+                      tbb::this_task_arena::current_thread_index(), list.empty() ? nullptr : &list,
+                      drops};
     for (const std::size_t system : stage.systems) run(system, chunk);
   }
 
@@ -304,13 +304,12 @@ TaskGraph::TaskGraph(std::vector<System> systems, std::vector<int> chunks, Passe
   for (std::size_t s = 0; s < stages.size(); ++s) {
     std::vector<const System*> members;
     for (const std::size_t i : stages[s]) members.push_back(&flow_->systems[i]);
-    flow_->stages.push_back(std::make_unique<Flow::Stage>(
-        Flow::Stage{stages[s],
-                    plan_.stages[s].by_chunk,
-                    columns_ahead(members, world),
-                    Deal(static_cast<int>(flow_->chunks.size()),
-                         tbb::this_task_arena::max_concurrency()),
-                    {}}));
+    flow_->stages.push_back(std::make_unique<Flow::Stage>(Flow::Stage{
+        stages[s],
+        plan_.stages[s].by_chunk,
+        columns_ahead(members, world),
+        Deal(static_cast<int>(flow_->chunks.size()), tbb::this_task_arena::max_concurrency()),
+        {}}));
     flow_->nodes.push_back(std::make_unique<Flow::Node>(
         flow_->graph, [flow = flow_.get(), stage = flow_->stages.back().get()](
                           tbb::flow::continue_msg) { flow->run_stage(*stage); }));

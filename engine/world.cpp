@@ -4,10 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "engine/entry.hpp"
 
 namespace pulvis {
 namespace {
 
+constexpr std::align_val_t cache_line{64};
 constexpr std::size_t huge_page = std::size_t{2} << 20, min_in_huge_pages = huge_page / 4;
 
 std::size_t up_to_huge_page(std::size_t bytes) {
@@ -15,9 +19,9 @@ std::size_t up_to_huge_page(std::size_t bytes) {
 }
 
 // Address space that begins with a huge page: what lies before it is given back.
-std::byte* map_huge_pages(std::size_t bytes) {
+std::byte* map_huge_pages(std::size_t bytes, int flags) {
   void* pages = ::mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE,
-                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+                       MAP_PRIVATE | MAP_ANONYMOUS | flags, -1, 0);
   if (pages == MAP_FAILED) throw std::bad_alloc();
   auto* first = static_cast<std::byte*>(pages);
   const std::size_t before = up_to_huge_page(reinterpret_cast<std::uintptr_t>(first)) -
@@ -33,36 +37,69 @@ void FreeBuffer::operator()(std::byte* p) const {
   if (mapped > 0)
     ::munmap(p, mapped);
   else
-    ::operator delete[](p, alignment);
+    ::operator delete[](p, cache_line);
 }
 
+// A little more than asked for, so that an empty table still has an address to point at.
 Buffer::Buffer(std::size_t bytes, Kind kind) : bytes_(bytes) {
-  if (kind == Kind::sparse && bytes > 0) {
-    const std::size_t whole = up_to_huge_page(bytes);
-    std::byte* pages = map_huge_pages(whole);
-    ::madvise(pages, whole, MADV_NOHUGEPAGE);  // one would hold much that is not written
-    data_ = decltype(data_)(pages, FreeBuffer{{}, whole});
+  const bool sparse = kind == Kind::sparse && bytes > 0;
+  if (sparse || bytes >= min_in_huge_pages) {
+    const std::size_t whole = up_to_huge_page(bytes + 1);
+    std::byte* pages = map_huge_pages(whole, sparse ? MAP_NORESERVE : 0);
+    // Large columns are walked from end to end: fewer pages, fewer misses. Advice, so failing is no error.
+    ::madvise(pages, whole, sparse ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);
+    data_ = decltype(data_)(pages, FreeBuffer{whole});
     return;
   }
-  // A little more than asked for, so that an empty table still has an address to point at.
-  const bool huge = bytes >= min_in_huge_pages;
-  const std::size_t unit = huge ? huge_page : 64, rounded = (bytes + unit) / unit * unit;
-  const std::align_val_t alignment{unit};
-  data_ = decltype(data_)(static_cast<std::byte*>(::operator new[](rounded, alignment)),
-                          FreeBuffer{alignment});
-  // Large columns are walked from end to end: fewer pages, fewer misses. Advice, so failing is no error.
-  if (huge) ::madvise(data_.get(), rounded, MADV_HUGEPAGE);
+  const auto line = static_cast<std::size_t>(cache_line);
+  const std::size_t rounded = (bytes + line) / line * line;
+  data_ =
+      decltype(data_)(static_cast<std::byte*>(::operator new[](rounded, cache_line)), FreeBuffer{});
   std::memset(data_.get(), 0, rounded);
 }
 
-void ColumnBase::rebuild(const std::vector<std::int32_t>& sources) {
-  Buffer next(sources.size() * row_bytes);
-  for (std::size_t row = 0; row < sources.size(); ++row) {
-    if (sources[row] < 0) continue;
-    const std::byte* from = buffer_.data() + static_cast<std::size_t>(sources[row]) * row_bytes;
-    std::copy_n(from, row_bytes, next.data() + row * row_bytes);
+void Buffer::resize(std::size_t bytes) {
+  const std::size_t mapped = data_.get_deleter().mapped, whole = up_to_huge_page(bytes + 1);
+  if (mapped == 0 || bytes < min_in_huge_pages) {
+    Buffer next(bytes);
+    std::copy_n(data(), std::min(bytes, bytes_), next.data());
+    *this = std::move(next);
+    return;
   }
-  buffer_ = std::move(next);
+  std::byte* pages = data();
+  if (whole < mapped) ::munmap(pages + whole, mapped - whole);
+  if (whole > mapped) {  // its pages move to where there is room for all
+    std::byte* room = map_huge_pages(whole, 0);
+    if (::mremap(pages, mapped, whole, MREMAP_MAYMOVE | MREMAP_FIXED, room) == MAP_FAILED) {
+      ::munmap(room, whole);
+      throw std::bad_alloc();
+    }
+    pages = room;
+  }
+  data_.release();
+  data_ = decltype(data_)(pages, FreeBuffer{whole});
+  bytes_ = bytes;
+}
+
+// Rows keep their order: those that come nearer to the front move from the front on, the others from the back on, and none
+// falls on one that has yet to move.
+void ColumnBase::rebuild(const std::vector<std::int32_t>& sources) {
+  const std::size_t bytes = sources.size() * row_bytes;
+  const auto at = [this](std::int64_t row) {
+    return buffer_.data() + static_cast<std::size_t>(row) * row_bytes;
+  };
+  if (bytes > buffer_.bytes()) buffer_.resize(bytes);
+  const auto count = static_cast<std::int64_t>(sources.size());
+  for (std::int64_t row = 0; row < count; ++row)
+    if (entry(sources, row) > row) std::copy_n(at(entry(sources, row)), row_bytes, at(row));
+  for (std::int64_t row = count - 1; row >= 0; --row) {
+    const std::int32_t source = entry(sources, row);
+    if (source < 0)
+      std::fill_n(at(row), row_bytes, std::byte{});
+    else if (source < row)
+      std::copy_n(at(source), row_bytes, at(row));
+  }
+  if (bytes < buffer_.bytes()) buffer_.resize(bytes);
 }
 
 void ColumnBase::drop(std::size_t first_row, std::size_t rows) {
@@ -87,18 +124,26 @@ void ColumnBase::allocate_transient(std::size_t rows_of_worker, int workers) {
   transient_ = Buffer(bytes_of_worker_ * static_cast<std::size_t>(workers));
 }
 
+std::size_t Table::rows_of_largest_chunk() const {
+  std::int32_t most = 0;
+  for (std::size_t c = 0; c + 1 < chunk_begin.size(); ++c)
+    most = std::max(most, chunk_begin[c + 1] - chunk_begin[c]);
+  return static_cast<std::size_t>(most);
+}
+
 void World::allocate_transient(const std::vector<TypeKey>& components, int workers) {
-  for (const auto& [entity, table] : tables_) {
-    std::int32_t maximum = 0;
-    for (std::size_t c = 0; c + 1 < table->chunk_begin.size(); ++c)
-      maximum = std::max(maximum, table->chunk_begin[c + 1] - table->chunk_begin[c]);
-    for (const TypeKey key : components) {
-      const auto column = columns_.find(key);
-      if (column == columns_.end() ||
-          std::ranges::find(table->columns, column->second.get()) == table->columns.end())
-        continue;
-      column->second->allocate_transient(static_cast<std::size_t>(maximum), workers);
-    }
+  for (const auto& [key, column] : columns_)
+    if (column->scratch || std::ranges::find(components, key) != components.end())
+      column->allocate_transient(column->owner().rows_of_largest_chunk(), workers);
+}
+
+void World::require_increasing(const std::vector<std::int32_t>& sources) {
+  std::int32_t last = -1;
+  for (const std::int32_t source : sources) {
+    if (source < 0) continue;
+    if (source <= last)
+      throw std::logic_error("rows must keep their order when they are made anew");
+    last = source;
   }
 }
 

@@ -22,18 +22,19 @@
 namespace pulvis {
 
 struct FreeBuffer {
-  std::align_val_t alignment{64};
   std::size_t mapped = 0;  // bytes; 0: from the heap
   void operator()(std::byte* p) const;
 };
 
-// Zeroed memory on a cache-line boundary; in huge pages where it is large. `sparse`: address space alone, of whole huge pages,
-// of which only what is written takes memory.
+// Zeroed memory on a cache-line boundary. Where it is large: of whole huge pages, of which only those that are written take
+// memory. `sparse`: of small pages, so that little is taken beside what is written, and however small it is.
 class Buffer {
  public:
   enum class Kind { dense, sparse };
   Buffer() = default;
   explicit Buffer(std::size_t bytes, Kind kind = Kind::dense);
+  // Of a dense one. Keeps what fits, without a copy of it where it is large. What is new is anything.
+  void resize(std::size_t bytes);
   std::byte* data() { return data_.get(); }
   const std::byte* data() const { return data_.get(); }
   std::size_t bytes() const { return bytes_; }
@@ -48,12 +49,13 @@ struct Table;
 class ColumnBase {
  public:
   ColumnBase(ComponentInfo declared, std::string at, int numbers, std::size_t bytes_of_row,
-             bool is_transient)
+             bool is_transient, bool is_scratch)
       : info(declared),
         entity(std::move(at)),
         count(numbers),
         row_bytes(bytes_of_row),
-        declared_transient(is_transient) {}
+        declared_transient(is_transient),
+        scratch(is_scratch) {}
   virtual ~ColumnBase() = default;
   ColumnBase(const ColumnBase&) = delete;
   ColumnBase& operator=(const ColumnBase&) = delete;
@@ -70,7 +72,8 @@ class ColumnBase {
   std::byte* transient(int worker) {
     return transient_.data() + static_cast<std::size_t>(worker) * bytes_of_worker_;
   }
-  // New row r takes what old row sources[r] held; a negative source gives zeros.
+  // New row r takes what old row sources[r] held; a negative source gives zeros. In place: the sources that are not negative
+  // increase.
   void rebuild(const std::vector<std::int32_t>& sources);
 
   std::size_t bytes() const { return buffer_.bytes(); }
@@ -85,6 +88,7 @@ class ColumnBase {
   const int count;                // numbers in a row (in a lane of a slot)
   const std::size_t row_bytes;    // of a row, or of a slot with its lanes
   const bool declared_transient;  // nobody needs it after its step
+  const bool scratch;
 
  private:
   Buffer buffer_, transient_;
@@ -99,6 +103,8 @@ struct Table {
   std::size_t rows = 0;
   std::vector<std::int32_t> chunk_begin;
   std::vector<ColumnBase*> columns;
+
+  std::size_t rows_of_largest_chunk() const;
 };
 
 template <IsComponent C>
@@ -110,7 +116,8 @@ class Column : public ColumnBase {
       sizeof(value_type) * C::count * (laned ? lane_count : 1);
 
   explicit Column(const Table& owner)
-      : ColumnBase(C::info, C::Entity::name, C::count, bytes_a_row, C::transient), table(owner) {}
+      : ColumnBase(C::info, C::Entity::name, C::count, bytes_a_row, C::transient, C::scratch),
+        table(owner) {}
 
   const Table& owner() const override { return table; }
   std::span<const std::byte> of_chunk(int chunk) const override {
@@ -186,11 +193,12 @@ class World {
     return found == columns_.end() ? nullptr : found->second.get();
   }
 
-  // Gives every column of the kind of entity new rows; see ColumnBase::rebuild.
+  // Gives every column of the kind of entity new rows; see ColumnBase::rebuild. Throws logic_error where rows would change
+  // places.
   template <class Entity>
   void rebuild(const std::vector<std::int32_t>& sources);
 
-  // In the order in which they were added.
+  // In the order in which they were added, without scratch.
   const std::vector<const ColumnBase*>& columns() const { return ordered_; }
   // Takes over a checkpoint's rows of a column. A kind of entity that is not divided by chunks gets as many rows;
   // all its columns must follow. Throws BadState where they do not fit.
@@ -207,13 +215,14 @@ class World {
   // Those that are not fixed, in the order in which they were added.
   const std::vector<SavedResource>& saved_resources() const { return saved_resources_; }
   int chunks() const { return chunks_; }
-  // Room for what these transient columns hold of a chunk, for every worker.
+  // Room for what these transient columns, and scratch, hold of a chunk, for every worker.
   void allocate_transient(const std::vector<TypeKey>& components, int workers);
 
  private:
   Table& insert_table(TypeKey key, Table table);
   std::pair<Table*, ColumnBase*> own(const ColumnBase& column);
   void expect_own(ColumnBase& column) const;
+  static void require_increasing(const std::vector<std::int32_t>& sources);
 
   std::map<TypeKey, std::unique_ptr<Table>> tables_;
   std::map<TypeKey, std::unique_ptr<ColumnBase>> columns_;
@@ -244,6 +253,11 @@ void World::add() {
   if (has<C>()) return;
   Table& owner = table<typename C::Entity>();
   auto column = std::make_unique<Column<C>>(owner);
+  if constexpr (C::scratch) {
+    column->allocate_transient(owner.rows_of_largest_chunk(), 1);
+    columns_.emplace(type_key<C>(), std::move(column));
+    return;
+  }
   column->allocate(owner.rows, owner.chunk_begin.empty() ? Buffer::Kind::dense : kind_);
   expect_own(*column);
   owner.columns.push_back(column.get());
@@ -296,6 +310,7 @@ R& World::resource() {
 template <class Entity>
 void World::rebuild(const std::vector<std::int32_t>& sources) {
   Table& owner = table<Entity>();
+  require_increasing(sources);
   for (ColumnBase* column : owner.columns) column->rebuild(sources);
   owner.rows = sources.size();
 }

@@ -35,26 +35,26 @@ struct FaceBefore : Component<SurfaceFace, double, face_numbers> {
 };
 struct FaceForce : Component<SurfaceFace, double, face_numbers> {
   static constexpr ComponentInfo info{"force", "N", "of all contacts, on a face's Bezier points"};
-  static constexpr bool transient = true;
+  static constexpr bool scratch = true;
 };
 // Between the nodes and the faces, either way: the net, a point of it for each node, and what the faces that meet in a Bezier
 // point share.
 struct NetPosition : Component<BoundaryNode, double, 3> {
   static constexpr ComponentInfo info{"net_position", "m", "of a point of the control net"};
-  static constexpr bool transient = true;
+  static constexpr bool scratch = true;
 };
 struct NetLoad : Component<BoundaryNode, double, 3> {
   static constexpr ComponentInfo info{"net_load", "N",
                                       "of all contacts, on a point of the control net"};
-  static constexpr bool transient = true;
+  static constexpr bool scratch = true;
 };
 struct PointPosition : Component<SurfacePoint, double, 3> {
   static constexpr ComponentInfo info{"position", "m", "of a Bezier point"};
-  static constexpr bool transient = true;
+  static constexpr bool scratch = true;
 };
 struct PointLoad : Component<SurfacePoint, double, 3> {
   static constexpr ComponentInfo info{"load", "N", "of all contacts, on a Bezier point"};
-  static constexpr bool transient = true;
+  static constexpr bool scratch = true;
 };
 
 // ---- candidates -----------------------------------------------------------------------------------

@@ -16,8 +16,8 @@ namespace {
 
 // Of a compacted powder: rows for all that is nearer than the skin, from both sides.
 constexpr double rows_of_a_face = 2;
-constexpr std::uint64_t copies_in_flight =
-    3;  // of a frame: gathered, into the file, in the journal
+// Of a frame: gathered; and of its largest fields what is packed for the file and the journal.
+constexpr std::uint64_t copies_in_flight = 2;
 
 // Volumes of particles while they are summed, as they are kept, the room, and a frame's copies.
 constexpr std::uint64_t density_bytes_a_cell = 100;
@@ -61,7 +61,7 @@ SpaceMemory memory_of(const Scene& scene) {
                                     ? bytes_of_element<EightPoint>(plastic)
                                     : bytes_of_element<OnePoint>(plastic);
   const std::uint64_t node = size_of_columns<Position, Velocity, InternalForce>();
-  const std::uint64_t face = size_of_columns<FacePosition, FaceBefore, FaceForce>() +
+  const std::uint64_t face = size_of_columns<FacePosition, FaceBefore>() +
                              (friction ? size_of_columns<FaceVelocity>() : 0);
   SpaceMemory need;
   const auto [x, y, z] = scene.output.density_cells3;

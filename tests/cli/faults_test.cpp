@@ -172,7 +172,8 @@ TEST_F(Faults, ASceneThatVanishesIsNamedAndTheRunGoesOnOnceItIsBack) {
 // What is promised before is what the world then takes.
 TEST(MemoryNeed, ColumnsAreThoseOfTheWorld) {
   for (const char* name : {"compaction/regular-100.toml", "basic/oblique-impact.toml",
-                           "shear/grooves-16.toml", "basic/traced-grain.toml"}) {
+                           "shear/grooves-16.toml", "basic/traced-grain.toml",
+                           "compaction-3d/one-sphere.toml", "compaction-3d/random-100-316L.toml"}) {
     Experiment e(name);
     double fixed = 0, rows = 0;
     for (const ColumnBase* column : e.simulation.world().columns())

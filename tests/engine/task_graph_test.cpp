@@ -349,6 +349,35 @@ TEST(Transients, ReachTheNextSystemOfThePassAndLeaveTheColumnAlone) {
   for (int c = 0; c < chunks; ++c) EXPECT_EQ(kept(c), c + 1.0);
 }
 
+// ---- scratch ------------------------------------------------------------------------------------
+void work_in_scratch(Chunk chunk, Write<Workspace> workspace, Write<Heat> heat) {
+  const auto own = workspace.chunk(chunk);
+  const Row<Cell> first(0);
+  own(first, 1) = Lane(chunk.index + 1.0);
+  heat.chunk(chunk)(first, 0) = own(first, 1);
+}
+
+TEST(Scratch, IsOfEveryWorkerAndNoColumnOfTheWorld) {
+  World world;
+  world.add_table<Cell>(std::vector<std::int32_t>(chunks, 1));
+  world.add<Workspace>();
+  world.add<Heat>();
+  EXPECT_EQ(world.columns().size(), 1u);
+  EXPECT_TRUE(world.has<Workspace>());
+  EXPECT_EQ(world.column<Workspace>().bytes(), 0u);
+  const System works = make_system(world, "works", work_in_scratch);
+  works.run(Chunk{3});  // by itself: one worker
+  EXPECT_EQ(Read<Heat>(world).chunk(Chunk{3})(Row<Cell>(0), 0)[5], 4);
+  Workers workers(3);
+  workers.run([&] {
+    world.allocate_transient({}, 3);
+    TaskGraph graph({works}, chunks);
+    for (int i = 0; i < 20; ++i) graph.run();
+  });
+  for (int c = 0; c < chunks; ++c)
+    EXPECT_EQ(Read<Heat>(world).chunk(Chunk{c})(Row<Cell>(0), 0)[5], c + 1.0);
+}
+
 // ---- looking ahead ------------------------------------------------------------------------------
 TEST_F(TaskGraphTest, BusySystemLooksAheadToWhatOthersOfItsPassTouch) {
   System busy = make_system(

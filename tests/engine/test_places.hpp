@@ -42,6 +42,10 @@ struct Passing : Component<Cell, double, 1> {
   static constexpr ComponentInfo info{"passing", "J", "left by one system for the next"};
   static constexpr bool transient = true;
 };
+struct Workspace : Component<Cell, double, 2> {
+  static constexpr ComponentInfo info{"workspace", "J", "of one system, while it works on a chunk"};
+  static constexpr bool scratch = true;
+};
 struct Weight : Component<Bead, double, 1> {
   static constexpr ComponentInfo info{"weight", "N", "of a bead"};
 };

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <random>
 
 #include "tests/engine/test_places.hpp"
 
@@ -58,22 +59,62 @@ TEST(World, AddingAColumnAgainKeepsItsValues) {
   EXPECT_EQ(world.columns().size(), 1u);
 }
 
+// Every row of `sources` against what rows held before: ten more than their number.
+void expect_rebuilt(World& world, const std::vector<std::int32_t>& sources) {
+  for (std::size_t r = 0; r < world.table<Link>().rows; ++r) {
+    world.column<Force>().values()[r] = 10 + static_cast<double>(r);
+    for (std::size_t k = 0; k < 2; ++k)
+      world.column<Ends>().values()[2 * r + k] = static_cast<std::int32_t>(7 * r + k);
+  }
+  world.rebuild<Link>(sources);
+  ASSERT_EQ(world.table<Link>().rows, sources.size());
+  ASSERT_EQ(world.column<Force>().bytes(), sources.size() * sizeof(double));
+  for (std::size_t r = 0; r < sources.size(); ++r) {
+    const bool is_new = sources[r] < 0;
+    ASSERT_EQ(world.column<Force>().values()[r], is_new ? 0 : 10 + sources[r]) << r;
+    for (std::size_t k = 0; k < 2; ++k)
+      ASSERT_EQ(world.column<Ends>().values()[2 * r + k],
+                is_new ? 0 : 7 * sources[r] + static_cast<std::int32_t>(k))
+          << r;
+  }
+}
+
 TEST(World, RebuildCarriesRowsBySourceAndZerosNewOnes) {
   World world;
-  world.add_table<Link>(3);
+  world.add_table<Link>(5);
   world.add<Force>();
   world.add<Ends>();
-  for (int r = 0; r < 3; ++r) {
-    world.column<Force>().values()[r] = 10 + r;
-    world.column<Ends>().values()[2 * r] = r;
-    world.column<Ends>().values()[2 * r + 1] = -r;
+  expect_rebuilt(world, {-1, 0, 1, 4, -1, -1, -1});   // to the back and to the front
+  expect_rebuilt(world, {-1, -1, 0, 1, 2, 3, 4, 6});  // to the back, and more
+  expect_rebuilt(world, {3, 4, 7});
+  expect_rebuilt(world, {0, 1, 2});
+}
+
+// Up and down through sizes that come from the heap, or in pages of their own.
+TEST(World, RebuildCarriesManyRows) {
+  World world;
+  world.add_table<Link>(std::size_t{0});
+  world.add<Force>();
+  world.add<Ends>();
+  std::minstd_rand random(7);
+  for (const std::size_t rows : {100, 900'000, 1'000'000, 300'000, 310'000, 60'000, 700'000, 10}) {
+    const std::size_t before = world.table<Link>().rows;
+    std::vector<std::int32_t> sources;
+    for (std::size_t r = 0, source = 0; r < rows; ++r) {
+      source += random() % 3;
+      sources.push_back(random() % 2 == 0 && source < before ? static_cast<std::int32_t>(source)
+                                                             : -1);
+      source += 1;
+    }
+    expect_rebuilt(world, sources);
   }
-  world.rebuild<Link>({2, -1, 0, 2});
-  ASSERT_EQ(world.table<Link>().rows, 4u);
-  const double force[4] = {12, 0, 10, 12};
-  const std::int32_t ends[8] = {2, -2, 0, 0, 0, 0, 2, -2};
-  for (int r = 0; r < 4; ++r) EXPECT_EQ(world.column<Force>().values()[r], force[r]) << r;
-  for (int i = 0; i < 8; ++i) EXPECT_EQ(world.column<Ends>().values()[i], ends[i]) << i;
+}
+
+TEST(World, RebuildRefusesRowsThatChangePlaces) {
+  World world;
+  world.add_table<Link>(3);
+  EXPECT_THROW(world.rebuild<Link>({2, -1, 0}), std::logic_error);
+  EXPECT_THROW(world.rebuild<Link>({0, 0, 1}), std::logic_error);
 }
 
 TEST(World, RebuildFromNothingAndToNothing) {

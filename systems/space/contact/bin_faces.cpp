@@ -74,6 +74,11 @@ void set_row(Row<At> row, const FaceKey& key, const Shape::Face& face, double ka
   // c = 2 xi sqrt(kappa rho h): the mass per area of the element behind on the contact spring.
   rows.law(row, Law::damping) = 2 * share_of_critical * std::sqrt(kappa * rho / face.stiffness);
   rows.law(row, Law::inv_size) = 1 / face.size;
+}
+
+// Nothing is known of the row: all of its points are looked at.
+template <class At>
+void activate(Row<At> row, const NewRows<At>& rows) {
   for (int i = 0; i < Activation<At>::count; ++i) rows.activation(row, i) = 0;
 }
 
@@ -105,7 +110,9 @@ void bin_faces::operator()() const {
                      entry(material.density.values(), key.other)),
             rules.friction_between(material_of(key.slot), material_of(key.other)).coefficient,
             rules.damping, rows);
-    if (source[r] < 0) start_from(found.all[r].start, row, point);
+    if (source[r] >= 0) return;
+    activate(row, rows);
+    start_from(found.all[r].start, row, point);
   });
   pairs->list(rows.pair.values(), found.begin.size());
   index->sampled_begin = std::move(found.begin);
@@ -146,6 +153,7 @@ void bin_tool_faces::operator()() const {
             rules.friction_with_tool(key.other, entry(bodies.bodies->slots, key.slot).material)
                 .coefficient,
             rules.damping, rows.columns);
+    activate(Row<FaceToolContact>(static_cast<std::int64_t>(r)), rows.columns);
   }
   if (triangles) list_triangles(found, look, tools, *triangles);
   rows.blocks->divide(found.begin);

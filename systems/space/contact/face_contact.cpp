@@ -67,8 +67,11 @@ class PairPass {
         entry(active, i) = active_points(Row<FaceContact>(from + i));
         fetch(Row<FaceContact>(from + i), entry(active, i));
       }
-      for (int i = 0; i < rows; ++i) {
-        if (entry(active, i) == 0) continue;
+      int next = next_active(active, 0, rows);
+      while (next < rows) {
+        const int i = next;
+        next = next_active(active, i + 1, rows);
+        if (next < rows) fetch_face(own_face_, s_.columns.pair(Row<FaceContact>(from + next), 1));
         if (points_.is_full()) work();
         take(Row<FaceContact>(from + i), entry(active, i));
       }
@@ -94,6 +97,19 @@ class PairPass {
       prefetch(&s_.columns.point(row, ContactPoint::numbers * std::countr_zero(left)));
   }
 
+  static int next_active(const std::array<unsigned, rows_at_once>& active, int from, int rows) {
+    while (from < rows && entry(active, from) == 0) ++from;
+    return from;
+  }
+  // `first`: number of the particle's first face.
+  void fetch_face(std::ptrdiff_t first, int face) const {
+    const std::ptrdiff_t begin = first + std::ptrdiff_t{face} * face_numbers;
+    for (std::ptrdiff_t i = begin; i < begin + face_numbers; i += 8) {
+      prefetch(positions_ + i);
+      if (rates_ != nullptr) prefetch(rates_ + i);
+    }
+  }
+
   void take(Row<FaceContact> row, unsigned active) {
     using Law = ContactLaw<FaceContact>;
     const int number = s_.columns.pair(row, 1);
@@ -112,7 +128,10 @@ class PairPass {
     for (unsigned left = active; left != 0; left &= left - 1) {
       const auto g = static_cast<std::size_t>(std::countr_zero(left));
       double* kept = &s_.columns.point(row, ContactPoint::numbers * static_cast<int>(g));
-      PairPoint& p = points_.add(static_cast<int>(kept[ContactPoint::face_u]));
+      const int its = static_cast<int>(kept[ContactPoint::face_u]);
+      if (its != fetched_) fetch_face(its_face_, its);
+      fetched_ = its;
+      PairPoint& p = points_.add(its);
       p.motion = {x[g],
                   x[face_points + g],
                   x[2 * face_points + g],
@@ -236,6 +255,7 @@ class PairPass {
   std::int32_t first_, end_;
   const Shape *own_, *its_;
   std::ptrdiff_t own_face_, its_face_;
+  int fetched_ = -1;  // face of the other particle
 };
 
 }  // namespace
