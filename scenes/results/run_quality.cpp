@@ -32,7 +32,10 @@ std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); 
 
 std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
   if (contacts.stiffness_to_do() <= scene.contact.stiffness)
-    return "take shorter boundary edges (boundary_edges): contacts are as stiff as they may be";
+    return scene.space ? "take smaller faces (particle.mesh.divisions): contacts are as stiff as "
+                         "they may be"
+                       : "take shorter boundary edges (boundary_edges): contacts are as stiff as "
+                         "they may be";
   return fmt::format("contact.stiffness = {:g} would do", contacts.stiffness_to_do());
 }
 
@@ -62,9 +65,17 @@ class Figures {
   std::vector<QualityFigure> all;
 };
 
+void add_lost_force(Figures& figures, const Scene& scene, const ContactFindings& contacts) {
+  if (!contacts.force_error) return;
+  figures.add("Force lost to penetration",
+              "by how much the largest force is too low because surfaces sink into each other",
+              std::max(0.0, -*contacts.force_error), ContactFindings::max_force_error,
+              stiffer(scene, contacts));
+}
+
 // What three dimensions know of their contacts.
 void add_contacts_in_space(Figures& figures, const Scene& scene, const Totals& totals,
-                           double penetration) {
+                           double penetration, const ContactFindings& contacts) {
   figures.add("Penetration", "deepest overlap of two surfaces, of the size of a face", penetration,
               scene.limits.penetration,
               "take stiffer contacts (contact.stiffness), or smaller faces "
@@ -73,14 +84,11 @@ void add_contacts_in_space(Figures& figures, const Scene& scene, const Totals& t
               "share of the closest points of contacting surfaces that were not found",
               totals.unconverged_share(), scene.limits.unconverged_projections,
               of_projections_in_space);
+  add_lost_force(figures, scene, contacts);
 }
 
 void add_contacts(Figures& figures, const Scene& scene, const ContactFindings& contacts) {
-  if (contacts.force_error)
-    figures.add("Force lost to penetration",
-                "by how much the largest force is too low because surfaces sink into each other",
-                std::max(0.0, -*contacts.force_error), ContactFindings::max_force_error,
-                stiffer(scene, contacts));
+  add_lost_force(figures, scene, contacts);
   figures.add("Narrow contacts",
               "share of the largest contact force on contacts narrower than two boundary edges",
               contacts.narrow_share, ContactFindings::most_narrow, finer(contacts));
@@ -114,7 +122,7 @@ std::vector<QualityFigure> run_quality(const Scene& scene, const World& world,
                 peaks.hourglass / internal, most_hourglass,
                 scene.space ? of_hourglass_in_space : of_hourglass);
   if (scene.space && world.has<ContactRules>())
-    add_contacts_in_space(figures, scene, totals, peaks.penetration);
+    add_contacts_in_space(figures, scene, totals, peaks.penetration, contacts);
   if (!world.has<ContactQuality>()) return figures.all;
   figures.add("Penetration", "deepest overlap of two surfaces, of the length of a boundary edge",
               peaks.penetration, limits.penetration, stiffer(scene, contacts));
