@@ -218,6 +218,7 @@ Table complete_tree(const std::string& text, const std::filesystem::path& file,
   if (!in_space) fill_die(root, problems);
   problems.throw_if_any();
   in_space ? space::fill_meshes(root, problems) : fill_meshes(root, problems);
+  if (in_space) space::fill_contact_stiffness(root);
   schema::fill_defaults(root, language_of(root));
   return root;
 }

@@ -196,7 +196,7 @@ const TableDeclaration<ContactSpec>& contact() {
     TableDeclaration<ContactSpec> table = schema::contact();
     key_of(table, "stiffness").info.doc =
         "Contact stiffness over bulk modulus times area of a face over volume of the element "
-        "behind it. Elastic contacts want 10 or more: a run tells what force it misses.";
+        "behind it. 10 by default where no material yields; a run tells what force it misses.";
     key_of(table, "skin").info.doc =
         "Share of the smallest face that surfaces may approach each other before the search for "
         "contacts is done anew. Costs time only, changes no result.";

@@ -50,6 +50,29 @@ TEST(SpaceScene, TurnsBodiesAboutTheirAxis) {
   EXPECT_NEAR((about_x * space::Vec3::UnitY()).z(), 0.5, 1e-15);
 }
 
+TEST(SpaceScene, ContactsAreStiffWhereNoMaterialYields) {
+  std::string elastic = R"(
+family = "compaction"
+dimension = 3
+material = [{ name = "steel", density = "7990 kg/m^3", youngs_modulus = "200 GPa", poissons_ratio = 0.3 }]
+particle = [{ name = "ball", material = "steel", shape = "sphere", diameter = "10 mm" }]
+body = [{ particle = "ball", position = ["0 mm", "0 mm", "5 mm"] }]
+tool = [{ name = "bottom", shape = "plane", point = ["0 mm", "0 mm", "0 mm"], normal = [0, 0, 1] }]
+stage = [{ name = "rest", kind = "hold", duration = "1 ms" }]
+)";
+  const auto stiffness = [&](const std::vector<std::string>& overrides) {
+    const LoadedScene given = load_scene_text(elastic, "elastic.toml", overrides);
+    EXPECT_EQ(load_scene_text(given.text, "elastic.toml").text, given.text);
+    return given.scene.contact.stiffness;
+  };
+  EXPECT_EQ(stiffness({}), 10);
+  EXPECT_EQ(stiffness({"contact.friction=0.2"}), 10);
+  EXPECT_EQ(stiffness({"contact.stiffness=2"}), 2);
+  EXPECT_EQ(stiffness({"material.steel.yield_stress=300 MPa"}), 0.5);
+  elastic = "family = \"compaction\"\ndimension = 3\ncontact = 3\n";
+  EXPECT_ANY_THROW(stiffness({}));
+}
+
 TEST(SpaceScene, SavedItIsTheSame) {
   const LoadedScene given = loaded();
   const LoadedScene again = load_scene_text(given.text, "right.toml");
