@@ -89,10 +89,10 @@ void ColumnBase::rebuild(const std::vector<std::int32_t>& sources) {
     return buffer_.data() + static_cast<std::size_t>(row) * row_bytes;
   };
   if (bytes > buffer_.bytes()) buffer_.resize(bytes);
-  const auto count = static_cast<std::int64_t>(sources.size());
-  for (std::int64_t row = 0; row < count; ++row)
+  const auto rows = static_cast<std::int64_t>(sources.size());
+  for (std::int64_t row = 0; row < rows; ++row)
     if (entry(sources, row) > row) std::copy_n(at(entry(sources, row)), row_bytes, at(row));
-  for (std::int64_t row = count - 1; row >= 0; --row) {
+  for (std::int64_t row = rows - 1; row >= 0; --row) {
     const std::int32_t source = entry(sources, row);
     if (source < 0)
       std::fill_n(at(row), row_bytes, std::byte{});
