@@ -33,7 +33,7 @@ class Buffer {
   enum class Kind { dense, sparse };
   Buffer() = default;
   explicit Buffer(std::size_t bytes, Kind kind = Kind::dense);
-  // Of a dense one. Keeps what fits, without a copy of it where it is large. What is new is anything.
+  // Of a dense one. Keeps what fits, without a copy of it where it is large. New bytes are indeterminate.
   void resize(std::size_t bytes);
   std::byte* data() { return data_.get(); }
   const std::byte* data() const { return data_.get(); }
@@ -88,7 +88,7 @@ class ColumnBase {
   const int count;                // numbers in a row (in a lane of a slot)
   const std::size_t row_bytes;    // of a row, or of a slot with its lanes
   const bool declared_transient;  // nobody needs it after its step
-  const bool scratch;
+  const bool scratch;             // of a worker, a chunk of it
 
  private:
   Buffer buffer_, transient_;

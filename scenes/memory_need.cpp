@@ -23,8 +23,8 @@ namespace {
 constexpr std::uint64_t program_bytes = 64U << 20U;
 // Of a compacted powder: rows for all that is nearer than the skin, from both sides.
 constexpr double rows_of_an_edge = 3;
-// Gathered; and of its largest fields what is packed for the file and the journal.
-constexpr std::uint64_t copies_of_a_frame = 2;
+constexpr std::uint64_t copies_of_a_frame =
+    3;  // gathered, on its way into the file, in the journal
 
 // Areas of particles and tools while they are summed, as they are kept, and a frame's copies: measured are 90.
 constexpr std::uint64_t density_bytes_a_cell = 120;

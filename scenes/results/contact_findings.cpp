@@ -32,8 +32,7 @@ double value_at(const std::vector<double>& xs, const std::vector<double>& ys, do
 
 }  // namespace
 
-ContactLoading::ContactLoading(const Scene& scene)
-    : stiffness_(scene.contact.stiffness), in_space_(scene.space != nullptr) {
+ContactLoading::ContactLoading(const Scene& scene) : stiffness_(scene.contact.stiffness) {
   using Kind = StageSpec::Kind;
   bool loads = true;
   for (const StageSpec& stage : scene.stages) {
@@ -44,27 +43,25 @@ ContactLoading::ContactLoading(const Scene& scene)
 
 bool ContactLoading::loads(const World& world) const {
   if (!world.has<ToolForce>() || !world.has<ContactRules>()) return false;
-  if (!in_space_ && !world.has<ContactQuality>()) return false;
   const std::size_t stage = world.resource<ToolProgram>().stage_at(world.resource<Clock>().time);
   return stage < loads_.size() ? loads_[stage] : loads_.back();
 }
 
-double ContactLoading::penetration_work(const Results& results, const World& world) const {
-  return in_space_ ? 2 * results.energies().contact
-                   : world.resource<ContactQuality>().penetration_work;
-}
-
 void ContactLoading::sample(const Results& results, const World& world) {
   if (!loads(world)) return;
-  if (!in_space_ && world.resource<ContactQuality>().force > heaviest_.force)
-    heaviest_ = world.resource<ContactQuality>();
+  double penetration_work = 2 * results.energies().contact;
+  if (world.has<ContactQuality>()) {  // in two dimensions
+    const ContactQuality& now = world.resource<ContactQuality>();
+    if (now.force > heaviest_.force) heaviest_ = now;
+    penetration_work = now.penetration_work;
+  }
   const double work = results.energies().external - work_, force = largest_tool_force(world);
   work_ = results.energies().external;
   const double mean = force_.empty() ? force : 0.5 * (force + force_.back());
   const double before = approach_.empty() ? 0 : approach_.back();
   approach_.push_back(before + (mean > 0 ? std::max(work, 0.0) / mean : 0));
   force_.push_back(force);
-  sunk_.push_back(force > 0 ? penetration_work(results, world) / force : 0);
+  sunk_.push_back(force > 0 ? penetration_work / force : 0);
 }
 
 std::optional<double> ContactLoading::force_error() const {

@@ -2,9 +2,10 @@
 //
 // Penetration  Surfaces that sink into each other cost the tools displacement. By virtual work that is
 //              u = sum(f g)/F, normal forces f and penetrations g of all contact points, F the force of the
-//              tool that bears most. In three dimensions sum(f g) is twice the energy of the contact springs. Hard contacts would have given F at the approach a - u, with
-//              a = integral of dW/F, W the work of the tools. So what the run shows at a - u is too little
-//              by the share 1 - F(a - u)/F(a): all from the run's own curve
+//              tool that bears most. In three dimensions sum(f g) is taken as twice the energy of the contact
+//              springs. Hard contacts would have given F at the approach a - u, with a = integral of dW/F, W
+//              the work of the tools. So what the run shows at a - u is too little by the share
+//              1 - F(a - u)/F(a): all from the run's own curve
 // Narrow       A contact narrower than two boundary edges is not resolved (docs/accuracy.md)
 // Range        up to the largest force before anything is sheared or unloaded
 #pragma once
@@ -50,12 +51,10 @@ class ContactLoading {
 
  private:
   bool loads(const World& world) const;
-  double penetration_work(const Results& results, const World& world) const;
   std::optional<double> force_error() const;
 
   std::vector<bool> loads_;  // [stages]
   double stiffness_ = 0;
-  bool in_space_ = false;
   std::vector<double> approach_, force_, sunk_;  // m, N, m: of every sample
   double work_ = 0;                              // J, of the tools so far
   ContactQuality heaviest_;                      // when the contacts bore most

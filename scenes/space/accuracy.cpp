@@ -46,12 +46,18 @@ bool fill_counts(Value& element, const Counts& counts) {
 constexpr double stiffness_of_elastic_contacts = 10;
 constexpr document::Origin of_no_file{{1, 1}, -1};
 
+// By its yield stress, or by a table of hardening that begins with it.
+bool yields(const Table& material) {
+  return document::find(material, "yield_stress") != nullptr ||
+         document::find(material, "hardening") != nullptr;
+}
+
 bool any_material_yields(const Table& root) {
   const Entry* materials = document::find(root, "material");
   if (materials == nullptr || !document::is_array_of_tables(materials->value)) return false;
   return std::ranges::any_of(materials->value.get<document::Array>(), [](const Value& element) {
     const Table* material = element.as<Table>();
-    return material != nullptr && document::find(*material, "yield_stress") != nullptr;
+    return material != nullptr && yields(*material);
   });
 }
 

@@ -69,6 +69,12 @@ stage = [{ name = "rest", kind = "hold", duration = "1 ms" }]
   EXPECT_EQ(stiffness({"contact.friction=0.2"}), 10);
   EXPECT_EQ(stiffness({"contact.stiffness=2"}), 2);
   EXPECT_EQ(stiffness({"material.steel.yield_stress=300 MPa"}), 0.5);
+  const std::string table = paths::source_dir() + "/scenes/basic/flow-laws.csv";
+  EXPECT_EQ(load_scene_text(
+                elastic, "elastic.toml",
+                {"material.steel.hardening.law=table", "material.steel.hardening.file=" + table})
+                .scene.contact.stiffness,
+            0.5);
   elastic = "family = \"compaction\"\ndimension = 3\ncontact = 3\n";
   EXPECT_ANY_THROW(stiffness({}));
 }
