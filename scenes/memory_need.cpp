@@ -116,12 +116,14 @@ MemoryNeed memory_need(const Scene& scene) {
   return need;
 }
 
-void require_memory(const Scene& scene) {
-  const std::uint64_t need = memory_need(scene).total(), there = available_memory();
-  if (need > there)
+MemoryNeed require_memory(const Scene& scene) {
+  const MemoryNeed need = memory_need(scene);
+  const std::uint64_t there = available_memory();
+  if (need.total() > there)
     throw OutputError(scene.file, "run it",
-                      fmt::format("it needs about {} of memory, {} are available", bytes_text(need),
-                                  bytes_text(there)));
+                      fmt::format("it needs about {} of memory, {} are available",
+                                  bytes_text(need.total()), bytes_text(there)));
+  return need;
 }
 
 }  // namespace pulvis

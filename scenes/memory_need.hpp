@@ -18,7 +18,7 @@ struct MemoryNeed {
 // Of the scenes of particles; their packings are filled.
 MemoryNeed memory_need(const Scene& scene);
 
-// Throws OutputError where this machine has not got it now.
-void require_memory(const Scene& scene);
+// The same. Throws OutputError where this machine has not got it now.
+MemoryNeed require_memory(const Scene& scene);
 
 }  // namespace pulvis

@@ -38,20 +38,20 @@ json of_lever(const Scene& scene, SceneFindings& findings) {
 json of_powder(const Scene& scene, SceneFindings& findings) {
   const std::vector<BodySpec> particles = place_bodies(scene);
   check_overlaps(scene, particles);
-  require_memory(scene);
+  const MemoryNeed need = require_memory(scene);
   Simulation simulation(scene);
   json setup = powder_setup(scene, particles, simulation.world());
-  findings = findings_of(scene, particles, &simulation);
+  findings = findings_of(scene, particles, need, &simulation);
   return setup;
 }
 
 json of_space(const Scene& scene, SceneFindings& findings) {
   const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
   space::check_overlaps(scene, bodies);
-  require_memory(scene);
+  const MemoryNeed need = require_memory(scene);
   Simulation simulation(scene);
   json setup = space_setup(scene, bodies, simulation.world());
-  findings = findings_of(scene, bodies, &simulation);
+  findings = findings_of(scene, bodies, need, &simulation);
   return setup;
 }
 

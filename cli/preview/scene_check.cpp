@@ -21,7 +21,6 @@
 #include "scenes/language/counted.hpp"
 #include "scenes/language/units.hpp"
 #include "scenes/lever/afm_size.hpp"
-#include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/space/packing/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
@@ -62,8 +61,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const std::vector<BodyS
 }
 
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
-                          Simulation* simulation) {
-  const MemoryNeed need = memory_need(scene);
+                          const MemoryNeed& need, Simulation* simulation) {
   SceneFindings findings;
   findings.sizes = packing_summary(scene) + mesh_summary(scene);
   findings.warnings = warnings_of(scene, bodies, simulation);
@@ -76,11 +74,11 @@ SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodie
 }
 
 SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>& bodies,
-                          Simulation* simulation) {
+                          const MemoryNeed& need, Simulation* simulation) {
   SceneFindings findings;
   findings.sizes = space::packing_summary(scene) + space::mesh_summary(scene);
   findings.warnings = space::setup_warnings(scene, bodies);
-  findings.memory = memory_line(memory_need(scene));
+  findings.memory = memory_line(need);
   findings.run = estimate_line(simulation);
   findings.verdict = fmt::format(
       "{}: good: {}, {}, {}", scene.file.string(), counted(bodies.size(), "particle"),
@@ -93,9 +91,10 @@ namespace {
 void check_in_space(const Scene& scene) {
   const std::vector<space::BodySpec> bodies = space::place_bodies(scene);
   space::check_overlaps(scene, bodies);
+  const MemoryNeed need = memory_need(scene);
   std::optional<Simulation> simulation;
-  if (memory_need(scene).total() <= available_memory()) simulation.emplace(scene);
-  tell_findings(findings_of(scene, bodies, simulation ? &*simulation : nullptr));
+  if (need.total() <= available_memory()) simulation.emplace(scene);
+  tell_findings(findings_of(scene, bodies, need, simulation ? &*simulation : nullptr));
 }
 
 }  // namespace
@@ -139,9 +138,10 @@ ExitCode check_scene(const Scene& scene) {
   }
   const std::vector<BodySpec> bodies = place_bodies(scene);
   check_overlaps(scene, bodies);
+  const MemoryNeed need = memory_need(scene);
   std::optional<Simulation> simulation;
-  if (memory_need(scene).total() <= available_memory()) simulation.emplace(scene);
-  tell_findings(findings_of(scene, bodies, simulation ? &*simulation : nullptr));
+  if (need.total() <= available_memory()) simulation.emplace(scene);
+  tell_findings(findings_of(scene, bodies, need, simulation ? &*simulation : nullptr));
   return ExitCode::done;
 }
 

@@ -6,6 +6,7 @@
 
 #include "cli/exit_code.hpp"
 #include "scenes/lever/afm_build.hpp"
+#include "scenes/memory_need.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/spec/scene.hpp"
 #include "scenes/spec/space_scene.hpp"
@@ -25,9 +26,9 @@ struct SceneFindings {
 };
 // Moves the simulation on.
 SceneFindings findings_of(const Scene& scene, const std::vector<BodySpec>& bodies,
-                          Simulation* simulation);
+                          const MemoryNeed& need, Simulation* simulation);
 SceneFindings findings_of(const Scene& scene, const std::vector<space::BodySpec>& bodies,
-                          Simulation* simulation);
+                          const MemoryNeed& need, Simulation* simulation);
 SceneFindings findings_of(const Scene& scene, const AfmModel& model);
 void tell_findings(const SceneFindings& findings);
 

@@ -1,6 +1,7 @@
 #include "scenes/space/packing/rigid_shape.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <tuple>
@@ -113,17 +114,18 @@ std::vector<Vec3> directions_of_corners(const StlShape& s) {
   return corners;
 }
 
-// At one place of each cell of a cube about the centre: shares of the cell's edges.
-std::vector<Vec3> even_directions(double right, double up) {
+// On a side of a cube of directions, i and k from 0 to `samples`.
+Vec3 direction_of_cell(int side, double i, double k) {
+  const double u = 2 * i / samples - 1, v = 2 * k / samples - 1, w = side % 2 == 0 ? 1 : -1;
+  const Vec3 d = side < 2 ? Vec3(w, u, v) : side < 4 ? Vec3(v, w, u) : Vec3(u, v, w);
+  return d / d.norm();
+}
+
+std::vector<Vec3> even_directions() {
   std::vector<Vec3> all;
   for (int side = 0; side < 6; ++side)
     for (int i = 0; i <= samples; ++i)
-      for (int k = 0; k <= samples; ++k) {
-        const double u = 2 * (i + right) / samples - 1, v = 2 * (k + up) / samples - 1;
-        const double w = side % 2 == 0 ? 1 : -1;
-        const Vec3 d = side < 2 ? Vec3(w, u, v) : side < 4 ? Vec3(v, w, u) : Vec3(u, v, w);
-        all.push_back(d / d.norm());
-      }
+      for (int k = 0; k <= samples; ++k) all.push_back(direction_of_cell(side, i, k));
   return all;
 }
 
@@ -134,20 +136,60 @@ std::vector<V3> points_along(const StarSurface& surface, const std::vector<Vec3>
   return points;
 }
 
-// How far the surface lies outside of the hull at most, at nine places of each cell; a quarter more, since it is looked at in
-// places. A ball of this radius about each of the hull's points covers it.
-double bulge_of(const StarSurface& surface, const RigidShape& hull, double unit) {
-  const RigidShape point;
-  double most = 0;
-  for (const double right : {0.0, 1.0 / 3, 2.0 / 3})
-    for (const double up : {0.0, 1.0 / 3, 2.0 / 3})
-      for (const Vec3& d : even_directions(right, up)) {
-        const RigidPose here, there{vector_of(surface.point(d) / unit), {}};
-        const RigidPair pair(hull, here, point, there);
-        V3 normal = vector_of(d);
-        const auto touch = pair.touch(std::numeric_limits<double>::max(), normal, 1e-9);
-        if (touch) most = std::max(most, pair.distance(touch->normal));
+struct OutsidePoint {
+  Vec3 point, direction;
+  double at_most;  // distance from the hull
+};
+
+// A point of the surface over a cell, unless it is inside of the hull, which holds the triangle that is seen behind it.
+std::optional<OutsidePoint> outside(const Vec3& point, const Vec3& direction,
+                                    const Triangle& triangle) {
+  const Vec3 normal = area_vector(triangle);
+  if (point.norm() * normal.dot(direction) <= normal.dot(triangle[0])) return {};
+  return OutsidePoint{point, direction, (point - closest_point(triangle, point)).norm()};
+}
+
+// Of those at nine places of each cell of the cube.
+std::vector<OutsidePoint> points_outside(const StarSurface& surface) {
+  std::vector<OutsidePoint> found;
+  const auto grid = even_directions();
+  std::vector<Vec3> corners;
+  for (const Vec3& d : grid) corners.push_back(surface.point(d));
+  const auto corner = [&](int side, int i, int k) {
+    return corners[static_cast<std::size_t>((side * (samples + 1) + i) * (samples + 1) + k)];
+  };
+  for (int side = 0; side < 6; ++side)
+    for (int i = 0; i < samples; ++i)
+      for (int k = 0; k < samples; ++k) {
+        const Vec3 low = corner(side, i + 1, k), high = corner(side, i, k + 1);
+        for (int place = 0; place < 9; ++place) {
+          const double right = place % 3 / 3.0, up = place / 3 / 3.0;
+          const Vec3 d = direction_of_cell(side, i + right, k + up);
+          Triangle triangle = right + up <= 1 ? Triangle{corner(side, i, k), low, high}
+                                              : Triangle{corner(side, i + 1, k + 1), high, low};
+          if (side % 2 != 0) std::swap(triangle[1], triangle[2]);  // seen from outside
+          if (auto point = outside(surface.point(d), d, triangle)) found.push_back(*point);
+        }
       }
+  return found;
+}
+
+// How far the surface lies outside of the hull at most; a quarter more, since it is looked at in places. A ball of this
+// radius about each of the hull's points covers it. The distance from a hull of many points takes long, so it is only
+// asked for where it may be the largest.
+double bulge_of(const StarSurface& surface, const RigidShape& hull, double unit) {
+  std::vector<OutsidePoint> points = points_outside(surface);
+  std::ranges::sort(points, std::greater(), &OutsidePoint::at_most);
+  const RigidShape ball;
+  double most = 0;
+  for (const OutsidePoint& p : points) {
+    if (p.at_most / unit <= most) break;
+    const RigidPose here, there{vector_of(p.point / unit), {}};
+    const RigidPair pair(hull, here, ball, there);
+    V3 normal = vector_of(p.direction);
+    const auto touch = pair.touch(std::numeric_limits<double>::max(), normal, 1e-9);
+    if (touch) most = std::max(most, pair.distance(touch->normal));
+  }
   return 1.25 * most;
 }
 
@@ -159,7 +201,7 @@ void set_core(const StlShape& s, double unit, RigidShape& rigid) {
   const bool few = directions.size() <= most_corners;
   if (s.smoothing == 0 && few)
     return set_points(points_along(*surface, directions, unit), 0, rigid);
-  const std::vector<Vec3> even = even_directions(0, 0);
+  const std::vector<Vec3> even = even_directions();
   if (!few) directions.clear();
   directions.insert(directions.end(), even.begin(), even.end());
   std::vector<V3> points = points_along(*surface, directions, unit);
