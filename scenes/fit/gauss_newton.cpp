@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/solve/least_squares.hpp"
+
 namespace pulvis {
 
 GaussNewton::GaussNewton(std::vector<FreeParameter> parameters, double tolerance, int max_rounds,
@@ -60,7 +62,7 @@ void GaussNewton::move() {
   const Eigen::MatrixXd normal = jacobian_.transpose() * jacobian_;
   const Eigen::MatrixXd damped = normal + Eigen::MatrixXd(lambda_ * normal.diagonal().asDiagonal());
   const Eigen::VectorXd change =
-      -damped.completeOrthogonalDecomposition().solve(jacobian_.transpose() * residuals_);
+      -shortest_least_squares(damped, jacobian_.transpose() * residuals_);
   Point next = best_;
   constexpr int max_halvings = 20;
   double share = 1;

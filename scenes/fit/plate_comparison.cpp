@@ -10,6 +10,7 @@
 #include "scenes/lever/lab_fit.hpp"
 #include "scenes/outlines/outline.hpp"
 #include "scenes/packing/place.hpp"
+#include "scenes/solve/least_squares.hpp"
 
 namespace pulvis {
 namespace {
@@ -149,8 +150,7 @@ std::vector<lab::Measured> PlateComparison::parameters(const std::vector<double>
                                                        const Eigen::VectorXd& residuals,
                                                        const Eigen::MatrixXd& jacobian) const {
   const PlateMeasured& m = fit_.spec.measured;
-  const Eigen::MatrixXd inverse =
-      (jacobian.transpose() * jacobian).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudo_inverse(jacobian.transpose() * jacobian);
   double variance = 1, freedom = certain;
   const char* source = "stated";
   if (has_record()) {

@@ -6,10 +6,9 @@
 #include <functional>
 #include <numbers>
 #include <stdexcept>
-#include <unsupported/Eigen/LevenbergMarquardt>
-#include <unsupported/Eigen/NumericalDiff>
 
 #include "engine/portable_math.hpp"
+#include "scenes/solve/least_squares.hpp"
 
 namespace pulvis {
 namespace {
@@ -149,20 +148,15 @@ double radius(const Model& model, const Values& x, double centre, double cosine,
 }
 
 // Residuals over the logarithms of the parameters, which keeps them above 0: of the points, then of the prior.
-struct Misfit : Eigen::DenseFunctor<double> {
+struct Misfit {
   const Model& model;
   const std::vector<Plane>& points;
   double centre, scale;
   Values start;
   Misfit(const Model& m, const std::vector<Plane>& all, double p_max, Values from)
-      : DenseFunctor(static_cast<int>(from.size()),
-                     static_cast<int>(all.size()) + static_cast<int>(from.size())),
-        model(m),
-        points(all),
-        centre(0.5 * p_max),
-        scale(p_max),
-        start(std::move(from)) {}
-  int operator()(const Values& logarithms, Values& residuals) const {
+      : model(m), points(all), centre(0.5 * p_max), scale(p_max), start(std::move(from)) {}
+  Eigen::Index values() const { return static_cast<Eigen::Index>(points.size()) + start.size(); }
+  void operator()(const Values& logarithms, Values& residuals) const {
     const Values x = exp_of(logarithms);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double dp = points[i].p - centre, q = points[i].q, away = portable::hypot(dp, q);
@@ -170,7 +164,6 @@ struct Misfit : Eigen::DenseFunctor<double> {
           (radius(model, x, centre, dp / away, q / away) - away) / scale;
     }
     residuals.tail(start.size()) = prior * (logarithms - start);
-    return 0;
   }
 };
 
@@ -183,10 +176,8 @@ Fit fit_from(const Model& model, const std::vector<Plane>& points, double p_max,
              const Values& start) {
   Values x = log_of(start);
   const Misfit misfit(model, points, p_max, x);
-  Eigen::NumericalDiff<Misfit> differences(misfit, 1e-10);
-  Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Misfit>> search(differences);
-  search.setMaxfev(2000);
-  search.minimize(x);
+  levenberg_marquardt(misfit, misfit.values(),
+                      {.evaluations = 2000, .tolerance = 1.5e-8, .difference = 1e-10}, x);
   Values residuals(misfit.values());
   misfit(x, residuals);
   double squares = 0, n = 0;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/solve/least_squares.hpp"
+
 namespace pulvis::lab {
 namespace {
 
@@ -43,7 +45,7 @@ double unexplained(const Hold& hold, const LoggerRecord& logger, const Sliding& 
         interpolated(logger.time, sliding.distance, on_logger) / travel;
     effect[row] = hold.displacement[i] - hold.displacement.front();
   }
-  const Eigen::VectorXd fitted = causes * causes.colPivHouseholderQr().solve(effect);
+  const Eigen::VectorXd fitted = causes * least_squares(causes, effect);
   return (effect - fitted).squaredNorm();
 }
 

@@ -10,6 +10,8 @@
 #include <map>
 #include <set>
 
+#include "scenes/solve/least_squares.hpp"
+
 namespace pulvis::lab {
 namespace {
 
@@ -97,7 +99,7 @@ Design design_of(const std::vector<Factor>& factors, std::size_t runs) {
 
 double residual_of(const Eigen::MatrixXd& design, const Eigen::VectorXd& y) {
   if (design.cols() == 0) return y.squaredNorm();
-  const Eigen::VectorXd fit = design * design.colPivHouseholderQr().solve(y);
+  const Eigen::VectorXd fit = design * least_squares(design, y);
   return (y - fit).squaredNorm();
 }
 
@@ -138,7 +140,7 @@ class EffectsFinder {
   Effects found() {
     const Eigen::MatrixXd& x = design_.matrix;
     if (design_.factors.empty()) return refused("all runs have the same condition");
-    if (x.colPivHouseholderQr().rank() < x.cols())
+    if (rank_of(x) < x.cols())
       return refused(
           "levels of different factors always change together: their effects cannot be "
           "told apart");
@@ -149,7 +151,7 @@ class EffectsFinder {
     const double squares = result_.is_pure_error ? pure_.squares : residual_;
     if (result_.freedom > 0) result_.deviation = std::sqrt(squares / result_.freedom);
     covariance_ = (x.transpose() * x).inverse();
-    const Eigen::VectorXd b = x.colPivHouseholderQr().solve(y_);
+    const Eigen::VectorXd b = least_squares(x, y_);
     result_.mean = b[0];
     result_.mean_half_width = half_width(covariance_(0, 0));
     for (std::size_t f = 0; f < design_.factors.size(); ++f) add_factor(f, b);

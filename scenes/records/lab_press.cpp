@@ -1,6 +1,7 @@
 #include "scenes/records/lab_press.hpp"
 
 #include "scenes/lever/lab_fit.hpp"
+#include "scenes/solve/least_squares.hpp"
 
 #include <fmt/format.h>
 
@@ -73,7 +74,7 @@ Compliance compliance_of(const PressRecord& empty, const CompressionSpec& spec) 
     for (Eigen::Index k = 1; k < terms; ++k)
       powers(i, k) = powers(i, k - 1) * empty.force[at] / scale;
   }
-  const Eigen::VectorXd c = powers.colPivHouseholderQr().solve(u);
+  const Eigen::VectorXd c = least_squares(powers, u);
   Compliance found;
   found.meeting = c[0];
   double unit = 1;

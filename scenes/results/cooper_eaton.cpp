@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
-#include <unsupported/Eigen/NonLinearOptimization>
-#include <unsupported/Eigen/NumericalDiff>
+
+#include "scenes/solve/least_squares.hpp"
 
 namespace pulvis {
 namespace {
@@ -37,23 +37,15 @@ std::array<double, 2> best_shares(const Vector& first, const Vector& second, con
                                                : std::array{0.0, alone_second};
 }
 
-// What is left for log k1, log k2 once the best a1, a2 are put in; Eigen asks for these members.
+// What is left for log k1, log k2 once the best a1, a2 are put in.
 struct Remainder {
-  using Scalar = double;
-  using InputType = Vector;
-  using ValueType = Vector;
-  using JacobianType = Eigen::MatrixXd;
-  enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
   const Vector& p;
   const Vector& y;
 
-  int inputs() const { return 2; }
-  int values() const { return static_cast<int>(p.size()); }
-  int operator()(const Vector& log_k, Vector& remainder) const {
+  void operator()(const Vector& log_k, Vector& remainder) const {
     const Vector first = shape_of(p, k_of(log_k[0])), second = shape_of(p, k_of(log_k[1]));
     const auto [a, b] = best_shares(first, second, y);
     remainder = a * first + b * second - y;
-    return 0;
   }
 };
 
@@ -81,12 +73,9 @@ std::vector<Candidate> grid(const Remainder& remainder) {
 }
 
 void refine(const Remainder& remainder, Candidate& candidate) {
-  Eigen::NumericalDiff<Remainder> with_slopes(remainder);
-  Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Remainder>> search(with_slopes);
-  search.parameters.maxfev = 400;
-  search.parameters.xtol = search.parameters.ftol = 1e-14;
   Vector log_k = candidate.log_k, left;
-  search.minimize(log_k);
+  levenberg_marquardt(remainder, remainder.p.size(), {.evaluations = 400, .tolerance = 1e-14},
+                      log_k);
   if (!log_k.allFinite()) return;
   remainder(log_k, left);
   if (left.squaredNorm() <= candidate.error) candidate = {log_k, left.squaredNorm()};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/solve/least_squares.hpp"
+
 namespace pulvis {
 namespace {
 
@@ -73,8 +75,7 @@ FitErrors fit_errors(const DensityFit& fit, const FitRange& range) {
         law.measured(range.density[i], range.first_density, range.pressure[i]) -
         law.ordinate(q, range.pressure[i]);
   const Eigen::MatrixXd j = derivatives(law, q, range);
-  const Eigen::MatrixXd inverse =
-      (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudo_inverse(j.transpose() * j);
   const Eigen::MatrixXd weighted = e.asDiagonal() * j;
   const double r = neighbour_correlation(e), samples = static_cast<double>(n);
   const auto count = static_cast<double>(q.size());

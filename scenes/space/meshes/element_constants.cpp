@@ -191,10 +191,11 @@ void set_hourglass_bounds(Shape::Element& element, const Corners& x, const Integ
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> light(gamma.transpose() * gamma);
   const Matrix3d half_edges = x * shape_functions(Vector3d::Zero()).by_xi;
   element.hourglass_spread = light.eigenvalues().maxCoeff() * plate_spread(half_edges);
-  const Functions3 q = Eigen::HouseholderQR<Functions3>(b).householderQ() * Functions3::Identity();
-  const Functions4 r =
-      Eigen::HouseholderQR<Functions4>(gamma).householderQ() * Functions4::Identity();
-  const Eigen::Matrix<double, 3, 4> cosines = q.transpose() * r;
+  // Between b and gamma, each made orthonormal by its Cholesky factor.
+  const Eigen::Matrix<double, 4, 3> one_side =
+      (gamma.transpose() * gamma).llt().matrixL().solve(gamma.transpose() * b);
+  const Eigen::Matrix<double, 3, 4> cosines =
+      (b.transpose() * b).llt().matrixL().solve(one_side.transpose());
   const Eigen::SelfAdjointEigenSolver<Matrix3d> overlap(cosines * cosines.transpose());
   element.overlap = std::max(0.0, overlap.eigenvalues().maxCoeff());
 }
