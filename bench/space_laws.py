@@ -10,82 +10,18 @@ LAW  hertz      an elastic sphere between frictionless planes, and two spheres: 
      turns      force of a sphere between planes for random turns of its mesh: rms over the mean
      taylor     copper rod against a rigid wall at 227 m/s: length, radius of the foot
      mindlin    a sphere pressed and rubbed between planes: compliance, friction work of a cycle (Mindlin & Deresiewicz 1953)
+     dense      27 plastic spheres pressed to a relative density of 0.94: meshes and contact stiffnesses
      cost       time of an element and step, memory of an element: 27 to 1,000 spheres
 """
 import argparse
-import csv
-import json
 import math
 import pathlib
-import resource
-import statistics
 import subprocess
-import sys
 
 import numpy as np
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-
-STEEL = """
-[[material]]
-name = "m"
-density = "7990 kg/m^3"
-youngs_modulus = "200 GPa"
-poissons_ratio = 0.3
-"""
-PLASTIC = STEEL + 'yield_stress = "240 MPa"\nhardening_modulus = "440 MPa"\n'
-
-
-def head(title, material):
-    return f'family = "compaction"\ndimension = 3\ntitle = "{title}"\n{material}'
-
-
-def ball(diameter, divisions, rings, phase=""):
-    return (f'\n[[particle]]\nname = "ball"\nmaterial = "m"\nshape = "sphere"\ndiameter = "{diameter} m"\n'
-            f'[particle.mesh]\ndivisions = {divisions}\nrings = {rings}\n{phase}')
-
-
-def body(x, y, z, particle="ball", more=""):
-    return f'\n[[body]]\nparticle = "{particle}"\nposition = ["{x} m", "{y} m", "{z} m"]\n{more}'
-
-
-def plane(name, point, normal):
-    p = ", ".join(f'"{c} m"' for c in point)
-    return f'\n[[tool]]\nname = "{name}"\nshape = "plane"\npoint = [{p}]\nnormal = {list(normal)}\n'
-
-
-def stage(duration, moves, kind="compact", name="press", ramp=0.3):
-    text = f'\n[[stage]]\nname = "{name}"\nkind = "{kind}"\nduration = "{duration} s"\n'
-    for tool, d in moves.items():
-        p = ", ".join(f'"{c} m"' for c in d)
-        text += f'[[stage.move]]\ntool = "{tool}"\ndisplacement = [{p}]\nramp = {ramp}\n'
-    return text
-
-
-def contact(**keys):
-    return "\n[contact]\n" + "".join(f"{k} = {v}\n" for k, v in keys.items())
-
-
-OUTPUT = '\n[output]\nframes = 4\nsamples = 200\n[limits]\nenergy_balance = 0.02\n'
-
-
-class Bench:
-    def __init__(self, program, folder, rounds):
-        self.program, self.folder, self.rounds = program, folder, rounds
-        folder.mkdir(parents=True, exist_ok=True)
-
-    def run(self, name, text, *options):
-        """History of the scene as arrays by the names of its series, without their units."""
-        scene = self.folder / f"{name}.toml"
-        scene.write_text(text, encoding="utf-8")
-        result = subprocess.run([self.program, "run", scene, "-o", self.folder / name, "--overwrite", *options],
-                                capture_output=True, text=True)
-        if result.returncode:
-            sys.exit(f"{name}: exit {result.returncode}\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
-        with open(self.folder / name / "history.csv", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-        data = np.array([[float(v) if v else math.nan for v in row] for row in rows[1:]])
-        return {title.split(" [")[0]: data[:, i] for i, title in enumerate(rows[0])}
+from space_powders import cost, dense
+from space_scenes import OUTPUT, PLASTIC, ROOT, STEEL, Bench, ball, body, contact, head, plane, stage
 
 
 def finite_hertz(approach, radius, young, poisson):
@@ -364,74 +300,7 @@ def mindlin(bench):
               f"compliance {found / k:.3f}, work {of_cycle / law:.3f}, {of_cycle / law / (found / k):.3f}", flush=True)
 
 
-def packed(bench, name, count, mesh, side, density):
-    """Scene of that many spheres in a box, packed at random, each with the velocity `rate` times its place from the middle."""
-    rate = 4000.0  # 1/s
-    folder = bench.folder
-    text = head("Cost", PLASTIC) + mesh
-    walls, moves = "", {}
-    for axis, low, high in ((0, "left", "right"), (1, "front", "back"), (2, "bottom", "top")):
-        for wall, at, sign in ((low, 0, 1), (high, side, -1)):
-            unit = np.eye(3)[axis]
-            walls += plane(wall, at * unit, [int(c) for c in sign * unit])
-            moves[wall] = tuple(0.1 * side * sign * unit)
-    packing = (f'\n[[packing]]\nkind = "random"\nwidth = "{side} m"\ndepth = "{side} m"\ndensity = {density}\n'
-               f'[[packing.class]]\nparticle = "ball"\nnumber = {count}\n')
-    (folder / f"{name}-packing.toml").write_text(text + packing + walls + stage(1e-4, {}, kind="settle"), encoding="utf-8")
-    table = folder / f"{name}.csv"
-    table.unlink(missing_ok=True)
-    subprocess.run([bench.program, "pack", folder / f"{name}-packing.toml", "-o", table], check=True,
-                   stdout=subprocess.DEVNULL)
-    with open(table, encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    for row in rows:
-        at = np.array([float(row[f"{c} [m]"]) for c in "xyz"])
-        v = ", ".join(f'"{c} m/s"' for c in -rate * (at - side / 2))
-        text += body(*at, more=f"velocity = [{v}]\n")
-    # The speed of the walls: rate times half the side.
-    return text + walls + stage(0.1 / (rate / 2), moves, ramp=1e-3) + contact(friction=0.1, damping=0.1)
-
-
-def cost(bench):
-    """A box closes on all sides alike, and its spheres move with it from the start: all of the powder deforms at once, however large
-    it is. The cost at a density is the difference between a run to just before and one to just behind it, in processor time."""
-    before, after, start, rounds = 0.62, 0.72, 0.5, bench.rounds
-    print(f"law cost: random packings of 316L, plastic, friction and damping 0.1, relative density from {before} to {after}, one thread;")
-    print(f"ns an element and step, least and median of {rounds} rounds in turns; share of the bodies; bytes an element of the program")
-    print(f"{'mesh':>5} {'spheres':>7} {'elements':>9} {'steps':>6} {'least':>7} {'median':>7} {'M updates/s':>12} {'bodies':>7} {'bytes':>7}",
-          flush=True)
-    few = "\n[output]\nframes = 1\nsamples = 10\n[limits]\nenergy_balance = 0.05\n"
-    for divisions, rings in ((4, 4), (7, 1)):
-        mesh = ball(0.01, divisions, rings, 'phase = "random"\n')
-        scenes = {}
-        for count in (27, 125, 1000):
-            side = (count * math.pi / 6 * 1e-6 / start) ** (1 / 3)
-            scenes[count] = packed(bench, f"cost-{count}-{divisions}-{rings}", count, mesh, side, start)
-        seconds, found = {count: [] for count in scenes}, {}
-        for _ in range(rounds):
-            for count, text in scenes.items():
-                spent, summary = [], []
-                for density in (before, after):
-                    name = f"cost-{count}-{divisions}-{rings}-{density}"
-                    cut = text.replace("[[stage.move]]", f"[stage.until]\nrelative_density = {density}\n[[stage.move]]", 1) + few
-                    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-                    bench.run(name, cut, "--threads", "1")
-                    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-                    spent.append(used.ru_utime + used.ru_stime - usage.ru_utime - usage.ru_stime)
-                    summary.append(json.loads((bench.folder / name / "summary.json").read_text(encoding="utf-8")))
-                steps, elements = summary[1]["steps"] - summary[0]["steps"], summary[1]["elements"]
-                seconds[count].append(1e9 * (spent[1] - spent[0]) / steps / elements)
-                costs = [{c["system"]: c["seconds"] for c in s["cost"]} for s in summary]
-                gained = {system: costs[1][system] - costs[0].get(system, 0) for system in costs[1]}
-                found[count] = (elements, steps, gained, summary[1]["peak_memory_bytes"] / elements)
-        for count, (elements, steps, gained, memory) in found.items():
-            least, median, share = min(seconds[count]), statistics.median(seconds[count]), gained["plastic_force"] / sum(gained.values())
-            print(f"{f'{divisions},{rings}':>5} {count:7d} {elements:9d} {steps:6d} {least:7.1f} {median:7.1f} {1e3 / least:12.2f} {share:7.0%} "
-                  f"{memory:7.0f}   " + ", ".join(f"{s} {1e9 * t / steps / elements:.1f}" for s, t in
-                                                sorted(gained.items(), key=lambda x: -x[1])[:7]), flush=True)
-
-
-LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin, cost)}
+LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin, dense, cost)}
 
 
 def main():

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenes/outlines/outline.hpp"
+#include "scenes/spec/yield.hpp"
 #include "scenes/tools/bond_rules.hpp"
 #include "scenes/tools/contact_rules.hpp"
 #include "systems/laws/flow_law.hpp"
@@ -26,8 +27,7 @@ bool any_outline(const Scene& scene, const Is& is) {
 
 Needs needs_of(const Scene& scene, std::size_t particles) {
   Needs needs;
-  needs.plastic = std::ranges::any_of(
-      scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
+  needs.plastic = any_material_yields(scene);
   for (const MaterialSpec& m : scene.materials) {
     needs.flow_laws = needs.flow_laws || m.flow;
     needs.rate = needs.rate || (m.flow && m.flow->rate.index() != 0);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/files/record.hpp"
-#include "scenes/spec/common_yield.hpp"
+#include "scenes/spec/yield.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "components/contact.hpp"
+#include "scenes/spec/yield.hpp"
 
 namespace pulvis {
 namespace {
@@ -36,7 +37,11 @@ std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
                          "they may be"
                        : "take shorter boundary edges (boundary_edges): contacts are as stiff as "
                          "they may be";
-  return fmt::format("contact.stiffness = {:g} would do", contacts.stiffness_to_do());
+  // Of powders: springs that give way offset what coarse faces add to the force (docs/accuracy.md).
+  return fmt::format("contact.stiffness = {:g} would do{}", contacts.stiffness_to_do(),
+                     scene.space && any_material_yields(scene)
+                         ? ", with a finer mesh (accuracy = \"fine\"): a coarse one bears too much"
+                         : "");
 }
 
 // Two digits, without a power of ten.

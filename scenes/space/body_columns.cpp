@@ -9,6 +9,7 @@
 #include "components/space/formulation.hpp"
 #include "engine/entry.hpp"
 #include "engine/portable_math.hpp"
+#include "scenes/spec/yield.hpp"
 #include "systems/laws/flow_law.hpp"
 
 namespace pulvis::space {
@@ -21,8 +22,8 @@ struct Plasticity {
 
 Plasticity plasticity_of(const Scene& scene) {
   Plasticity needs;
+  needs.plastic = any_material_yields(scene);
   for (const MaterialSpec& m : scene.materials) {
-    needs.plastic = needs.plastic || m.yield_stress;
     needs.curved = needs.curved || m.flow;
     needs.rated = needs.rated || (m.flow && m.flow->rate.index() != 0);
   }

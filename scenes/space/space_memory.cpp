@@ -10,6 +10,7 @@
 #include "engine/chunk_lane.hpp"
 #include "scenes/space/meshes/mesh.hpp"
 #include "scenes/space/packing/place.hpp"
+#include "scenes/spec/yield.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -55,8 +56,7 @@ SpaceMemory memory_of(const Scene& scene) {
   for (const BodySpec& body : place_bodies(scene))
     particles[static_cast<std::size_t>(body.particle)] += 1;
   const bool friction = any_friction_in(scene);
-  const bool plastic = std::ranges::any_of(
-      scene.materials, [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
+  const bool plastic = any_material_yields(scene);
   const std::uint64_t element = scene.space->full_integration
                                     ? bytes_of_element<EightPoint>(plastic)
                                     : bytes_of_element<OnePoint>(plastic);

@@ -23,7 +23,7 @@
 #include "scenes/space/results/visit_particles.hpp"
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
-#include "scenes/spec/common_yield.hpp"
+#include "scenes/spec/yield.hpp"
 #include "scenes/spec/space_scene.hpp"
 
 namespace pulvis::space {

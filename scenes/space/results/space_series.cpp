@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scenes/space/tools/die_room.hpp"
-#include "scenes/spec/common_yield.hpp"
+#include "scenes/spec/yield.hpp"
 #include "scenes/spec/space_scene.hpp"
 
 namespace pulvis::space {

@@ -1,6 +1,13 @@
-#include "scenes/spec/common_yield.hpp"
+#include "scenes/spec/yield.hpp"
+
+#include <algorithm>
 
 namespace pulvis {
+
+bool any_material_yields(const Scene& scene) {
+  return std::ranges::any_of(scene.materials,
+                             [](const MaterialSpec& m) { return m.yield_stress.has_value(); });
+}
 
 // Every material of a scene is one of its particles: the reader refuses others.
 std::optional<double> common_yield_stress(const Scene& scene) {

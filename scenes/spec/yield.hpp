@@ -1,0 +1,16 @@
+// The yield stresses of a scene's materials.
+#pragma once
+
+#include <optional>
+
+#include "scenes/spec/scene.hpp"
+
+namespace pulvis {
+
+// Whether any of them has one.
+bool any_material_yields(const Scene& scene);
+
+// Pa, the one that all share; none where materials differ in it, or one has none.
+std::optional<double> common_yield_stress(const Scene& scene);
+
+}  // namespace pulvis
