@@ -301,7 +301,7 @@ class Checks {
       const StageSpec& stage = scene_.stages[i];
       const std::string path = fmt::format("stage[{}]", i);
       check_stage_kind(stage, stage.moves.size(), stage.servos.size() + (stage.cell ? 1U : 0U),
-                       path, refusal());
+                       "[[stage.move]] or [[stage.servo]], a [stage.cell]", path, refusal());
       moves(stage, path);
     }
   }

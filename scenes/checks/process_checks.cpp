@@ -8,13 +8,14 @@
 namespace pulvis {
 
 void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t drives,
-                      const std::string& path, const Refuse& refuse) {
+                      const std::string& movers, const std::string& path, const Refuse& refuse) {
   const bool needs_moves =
       stage.kind != StageSpec::Kind::settle && stage.kind != StageSpec::Kind::hold;
   if (needs_moves && moves == 0 && drives == 0)
     refuse(path + ".kind",
-           "no tool moves in this stage, allowed: at least one [[stage.move]] or "
-           "[[stage.servo]], a [stage.cell], or kind = \"settle\" or \"hold\"");
+           fmt::format("no tool moves in this stage, allowed: at least one {}, or kind = "
+                       "\"settle\" or \"hold\"",
+                       movers));
   if (!needs_moves && moves > 0)
     refuse(path + ".move[0]",
            "tools stand still in a stage of this kind, allowed: moves in kind = \"compact\", "

@@ -9,9 +9,10 @@
 
 namespace pulvis {
 
-// `moves`, `drives`: how many prescribed moves, and what else (servos, driven cells) moves tools in the stage.
+// `moves`, `drives`: how many prescribed moves, and what else (servos, driven cells) moves tools in the stage. `movers`: the
+// tables that can, for a refusal.
 void check_stage_kind(const StageSpec& stage, std::size_t moves, std::size_t drives,
-                      const std::string& path, const Refuse& refuse);
+                      const std::string& movers, const std::string& path, const Refuse& refuse);
 
 void check_frictions(const Scene& scene, const std::vector<std::string>& tools,
                      const Refuse& refuse);

@@ -176,7 +176,7 @@ class SpaceChecks {
   void stages() {
     for (std::size_t s = 0; s < scene_.stages.size(); ++s)
       check_stage_kind(scene_.stages[s], space_.moves[s].size(), space_.servos[s].size(),
-                       fmt::format("stage[{}]", s), refusal());
+                       "[[stage.move]] or [[stage.servo]]", fmt::format("stage[{}]", s), refusal());
   }
 
   void everything_is_used() {

@@ -5,31 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/helpers/elastic_ball.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {
 namespace {
 
 constexpr double ball_radius = 5e-3, ball_modulus = 200e9, ball_poisson = 0.3;
-
-const char* const pressed_ball = R"(
-family = "compaction"
-dimension = 3
-material = [{ name = "steel", density = "7990 kg/m^3", youngs_modulus = "200 GPa", poissons_ratio = 0.3 }]
-particle = [{ name = "ball", material = "steel", shape = "sphere", diameter = "10 mm", mesh = { divisions = 8, rings = 1 } }]
-body = [{ particle = "ball", position = ["0 mm", "0 mm", "5 mm"] }]
-tool = [
-  { name = "bottom", shape = "plane", point = ["0 mm", "0 mm", "0 mm"], normal = [0, 0, 1] },
-  { name = "top", shape = "plane", point = ["0 mm", "0 mm", "10 mm"], normal = [0, 0, -1] },
-]
-contact = { stiffness = 10, damping = 0.3 }
-
-[[stage]]
-name = "press"
-kind = "compact"
-duration = "50 us"
-move = [{ tool = "top", displacement = ["0 mm", "0 mm", "-1 mm"], ramp = 0.5 }]
-)";
 
 double force_of_law(double approach) {
   constexpr double star = ball_modulus / (1 - ball_poisson * ball_poisson);
@@ -46,7 +28,8 @@ double force_of_law(double approach) {
 }
 
 TEST(SphereBetweenPlates, BearsTheForceOfHertz) {
-  Experiment e(own_scene(pressed_ball));
+  Experiment e(
+      own_scene(elastic_ball("divisions = 8, rings = 1", "stiffness = 10, damping = 0.3", "1 mm")));
   e.run(50);
   const double approach = (2 * ball_radius - e.value("tool/top/position_z")) / 2;
   const double force = (e.value("tool/top/force_z") - e.value("tool/bottom/force_z")) / 2;

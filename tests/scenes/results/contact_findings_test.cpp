@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "scenes/results/contact_findings.hpp"
+#include "tests/helpers/elastic_ball.hpp"
 #include "tests/helpers/experiment.hpp"
 
 namespace pulvis {
@@ -111,32 +112,15 @@ Pressed press_ball(const Scene& scene) {
   return {loading.findings(), 0.5 * (e.value("tool/top/force_z") - e.value("tool/bottom/force_z"))};
 }
 
-Scene elastic_ball(const std::string& way, double stiffness) {
-  return own_scene(R"(
-family = "compaction"
-dimension = 3
-material = [{ name = "steel", density = "7990 kg/m^3", youngs_modulus = "200 GPa", poissons_ratio = 0.3 }]
-particle = [{ name = "ball", material = "steel", shape = "sphere", diameter = "10 mm", mesh = { divisions = 4 } }]
-body = [{ particle = "ball", position = ["0 mm", "0 mm", "5 mm"] }]
-tool = [
-  { name = "bottom", shape = "plane", point = ["0 mm", "0 mm", "0 mm"], normal = [0, 0, 1] },
-  { name = "top", shape = "plane", point = ["0 mm", "0 mm", "10 mm"], normal = [0, 0, -1] },
-]
-
-[[stage]]
-name = "press"
-kind = "compact"
-duration = "50 us"
-move = [{ tool = "top", displacement = ["0 mm", "0 mm", "-)" +
-                   way + " mm\"], ramp = 0.5 }]\n[contact]\ndamping = 0.3\nstiffness = " +
-                   std::to_string(stiffness) + "\n");
+Pressed press_ball(const std::string& way, double stiffness) {
+  return press_ball(own_scene(elastic_ball(
+      "divisions = 4", "damping = 0.3, stiffness = " + std::to_string(stiffness), way)));
 }
 
 // From an approach of each plane by 0.02 of the radius to 0.06.
 TEST(ContactFindings, TellHowMuchForceAnElasticBallMisses) {
-  for (const char* way : {"0.2", "0.6"}) {
-    const Pressed soft = press_ball(elastic_ball(way, 0.5)),
-                  hard = press_ball(elastic_ball(way, 100));
+  for (const char* way : {"0.2 mm", "0.6 mm"}) {
+    const Pressed soft = press_ball(way, 0.5), hard = press_ball(way, 100);
     ASSERT_TRUE(soft.findings.force_error);
     EXPECT_NEAR(1 + *soft.findings.force_error, soft.force / hard.force, 0.08) << way;
     EXPECT_TRUE(soft.findings.too_soft());

@@ -6,6 +6,7 @@
 #include "scenes/space/keys/tables.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/space_scene.hpp"
+#include "tests/helpers/elastic_ball.hpp"
 #include "tests/helpers/paths.hpp"
 #include "tests/helpers/right_scene.hpp"
 #include "tests/helpers/right_space_scene.hpp"
@@ -51,15 +52,7 @@ TEST(SpaceScene, TurnsBodiesAboutTheirAxis) {
 }
 
 TEST(SpaceScene, ContactsAreStiffWhereNoMaterialYields) {
-  std::string elastic = R"(
-family = "compaction"
-dimension = 3
-material = [{ name = "steel", density = "7990 kg/m^3", youngs_modulus = "200 GPa", poissons_ratio = 0.3 }]
-particle = [{ name = "ball", material = "steel", shape = "sphere", diameter = "10 mm" }]
-body = [{ particle = "ball", position = ["0 mm", "0 mm", "5 mm"] }]
-tool = [{ name = "bottom", shape = "plane", point = ["0 mm", "0 mm", "0 mm"], normal = [0, 0, 1] }]
-stage = [{ name = "rest", kind = "hold", duration = "1 ms" }]
-)";
+  std::string elastic = elastic_ball("divisions = 4", "damping = 0.3", "1 mm");
   const auto stiffness = [&](const std::vector<std::string>& overrides) {
     const LoadedScene given = load_scene_text(elastic, "elastic.toml", overrides);
     EXPECT_EQ(load_scene_text(given.text, "elastic.toml").text, given.text);
