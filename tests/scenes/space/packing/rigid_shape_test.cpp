@@ -5,6 +5,7 @@
 
 #include "scenes/outlines/portable.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
+#include "scenes/space/meshes/triangle.hpp"
 #include "scenes/space/packing/rigid_contact.hpp"
 
 namespace pulvis::space {
@@ -45,6 +46,35 @@ INSTANTIATE_TEST_SUITE_P(Shapes, RigidShapes,
                                          ParticleShape(SuperquadricShape{{2, 1, 1.5}, 2, 3}),
                                          ParticleShape(CylinderShape{2, 0.8, 0.15}),
                                          ParticleShape(wedge())));
+
+// An octahedron whose edges are smoothed: of the points of its surface none lies outside, some do without the ball about
+// the hull's points, and its radius is no larger than it must be.
+TEST(RigidBodies, OfASmoothedStlShapeHoldItsSurfaceTightly) {
+  StlShape octahedron;
+  octahedron.diameter = 2.0;
+  octahedron.smoothing = 0.2;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vec3 sign(octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1);
+    const Vec3 x(sign.x(), 0, 0), y(0, sign.y(), 0), z(0, 0, sign.z());
+    octahedron.triangles.push_back(sign.prod() > 0 ? Triangle{x, y, z} : Triangle{y, x, z});
+  }
+  const RigidShape rigid = rigid_shape(octahedron, 1);
+  RigidShape hull = rigid;
+  hull.radius = 0;
+  const auto surface = star_surface(octahedron);
+  portable::Random random(3);
+  double outside = 0, outside_hull = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec3 d = random_direction(random), p = surface->point(d), n = surface->normal(d);
+    const V3 along = vector_of(n);
+    outside = std::max(outside, p.dot(n) - dot(rigid.support(along), along));
+    outside_hull = std::max(outside_hull, p.dot(n) - dot(hull.support(along), along));
+  }
+  EXPECT_LE(outside, 0);
+  EXPECT_GT(outside_hull, 0.5 * rigid.radius);
+  EXPECT_GT(rigid.radius, 0);
+  EXPECT_LT(rigid.radius, 0.01);
+}
 
 // A ball beside an ellipsoid in any position: the distance by points of the ellipsoid's surface, which it is at most, and
 // at least less what the points leave between them (their spacing squared over a diameter of curvature).
