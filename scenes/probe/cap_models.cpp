@@ -176,8 +176,7 @@ Fit fit_from(const Model& model, const std::vector<Plane>& points, double p_max,
              const Values& start) {
   Values x = log_of(start);
   const Misfit misfit(model, points, p_max, x);
-  levenberg_marquardt(misfit, misfit.values(),
-                      {.evaluations = 2000, .tolerance = 1.5e-8, .difference = 1e-10}, x);
+  levenberg_marquardt(misfit, misfit.values(), {.evaluations = 2000, .difference = 1e-10}, x);
   Values residuals(misfit.values());
   misfit(x, residuals);
   double squares = 0, n = 0;

@@ -38,10 +38,11 @@ std::string stiffer(const Scene& scene, const ContactFindings& contacts) {
                        : "take shorter boundary edges (boundary_edges): contacts are as stiff as "
                          "they may be";
   // Of powders: springs that give way offset what coarse faces add to the force (docs/accuracy.md).
-  return fmt::format("contact.stiffness = {:g} would do{}", contacts.stiffness_to_do(),
-                     scene.space && any_material_yields(scene)
-                         ? ", with a finer mesh (accuracy = \"fine\"): a coarse one bears too much"
-                         : "");
+  return fmt::format(
+      "contact.stiffness = {:g} would do{}", contacts.stiffness_to_do(),
+      scene.space && any_material_yields(scene)
+          ? ", with smaller faces (particle.mesh.divisions): coarse ones bear too much"
+          : "");
 }
 
 // Two digits, without a power of ten.

@@ -19,9 +19,9 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 using Residuals = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& residuals)>;
 
 struct SearchLimits {
-  int evaluations;        // of the residuals, at most
-  double tolerance;       // relative, of x and of the sum of squares
-  double difference = 0;  // relative error of the residuals, for the steps of the slopes
+  int evaluations;            // of the residuals, at most
+  double tolerance = 1.5e-8;  // relative, of x and of the sum of squares; the root of rounding
+  double difference = 0;      // relative error of the residuals, for the steps of the slopes
 };
 
 // Takes x to a least sum of squares of `count` residuals near it, with slopes by differences (Levenberg-Marquardt; More 1978).

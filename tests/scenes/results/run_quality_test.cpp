@@ -63,6 +63,13 @@ TEST(RunQuality, IsContentWithStiffContactsAFineMeshAndFourPoints) {
     EXPECT_FALSE(one.beyond()) << one.line();
 }
 
+// Of a powder in three dimensions stiffness alone is no help: coarse faces bear too much.
+TEST(RunQuality, AsksForSmallerFacesWithStifferContactsOfAPowder) {
+  const auto figures = judged("extreme/space-box-rd-97.toml", {});
+  EXPECT_THAT(figure(figures, "Force lost to penetration").advice,
+              StartsWith("contact.stiffness = 10 would do, with smaller faces "));
+}
+
 // Kinetic energy is judged where the scene asks for it.
 TEST(RunQuality, HasTheLimitsOfTheScene) {
   auto changes = soft();
