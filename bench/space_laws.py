@@ -11,6 +11,8 @@ LAW  hertz      an elastic sphere between frictionless planes, and two spheres: 
      taylor     copper rod against a rigid wall at 227 m/s: length, radius of the foot
      mindlin    a sphere pressed and rubbed between planes: compliance, friction work of a cycle (Mindlin & Deresiewicz 1953)
      dense      27 plastic spheres pressed to a relative density of 0.94: meshes and contact stiffnesses
+     shapes     how far the smooth surfaces of coarse meshes are off their shapes
+     sharp      how far sharp grains are pressed before a run stops itself
      cost       time of an element and step, memory of an element: 27 to 1,000 spheres
 """
 import argparse
@@ -22,6 +24,7 @@ import numpy as np
 
 from space_powders import cost, dense
 from space_scenes import OUTPUT, PLASTIC, ROOT, STEEL, Bench, ball, body, contact, head, plane, stage
+from space_shapes import shapes, sharp
 
 
 def finite_hertz(approach, radius, young, poisson):
@@ -300,7 +303,7 @@ def mindlin(bench):
               f"compliance {found / k:.3f}, work {of_cycle / law:.3f}, {of_cycle / law / (found / k):.3f}", flush=True)
 
 
-LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin, dense, cost)}
+LAWS = {f.__name__: f for f in (hertz, flatten, perfect, cell, turns, taylor, mindlin, dense, cost, shapes, sharp)}
 
 
 def main():

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "engine/chunk_lane.hpp"
-#include "scenes/space/meshes/mesh.hpp"
+#include "scenes/space/class_shape.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -58,15 +58,15 @@ std::vector<std::vector<Numbered>> by_classes(const Scene& scene,
   return classes;
 }
 
-void add_class(Layout& layout, const ParticleSpec& spec, const std::vector<Numbered>& particles,
-               int& face) {
+void add_class(Layout& layout, const Scene& scene, std::size_t particle,
+               const std::vector<Numbered>& particles, int& face) {
   const int shape = static_cast<int>(layout.shapes.list.size());
-  layout.shapes.list.push_back(make_shape(spec));
+  layout.shapes.list.push_back(class_shape(scene, particle));
   const std::size_t lanes = (particles.size() + lane_count - 1) / lane_count * lane_count;
   for (std::size_t i = 0; i < lanes; ++i) {
     const bool there = i < particles.size();
-    const Bodies::Slot slot{there ? particles[i].number : Bodies::empty_slot, shape, spec.material,
-                            face, Bodies::empty_slot};
+    const Bodies::Slot slot{there ? particles[i].number : Bodies::empty_slot, shape,
+                            scene.space->particles[particle].material, face, Bodies::empty_slot};
     face += static_cast<int>(layout.shapes.list.back().faces.size());
     if (there)
       layout.bodies.slot_of_number[static_cast<std::size_t>(slot.number)] =
@@ -88,7 +88,7 @@ Layout lay_out(const Scene& scene, const std::vector<BodySpec>& bodies) {
   for (std::size_t c = 0; c < classes.size(); ++c) {
     if (classes[c].empty()) continue;
     layout.classes.of_shape.push_back(static_cast<int>(c));
-    add_class(layout, scene.space->particles[c], classes[c], face);
+    add_class(layout, scene, c, classes[c], face);
   }
   layout.bodies.hold_all();
   return layout;

@@ -8,7 +8,6 @@
 #include "components/space/contact.hpp"
 #include "components/space/formulation.hpp"
 #include "engine/chunk_lane.hpp"
-#include "scenes/space/meshes/mesh.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/yield.hpp"
 
@@ -69,11 +68,12 @@ SpaceMemory memory_of(const Scene& scene) {
                  static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(z);
   for (std::size_t c = 0; c < particles.size(); ++c) {
     if (particles[c] == 0) continue;
-    const Shape shape = make_shape(scene.space->particles[c]);
+    const MeshSpec& mesh = scene.space->particles[c].mesh;
     const std::uint64_t lanes = (particles[c] + lane_count - 1) / lane_count * lane_count;
-    const std::uint64_t nodes = shape.nodes.size(), elements = shape.hexahedra.size(),
-                        faces = shape.faces.size(),
-                        surface = static_cast<std::uint64_t>(shape.surface_nodes);
+    const auto nodes = static_cast<std::uint64_t>(mesh.nodes()),
+               elements = static_cast<std::uint64_t>(mesh.hexahedra()),
+               faces = static_cast<std::uint64_t>(mesh.faces()),
+               surface = static_cast<std::uint64_t>(mesh.surface_nodes());
     need.columns += lanes * (nodes * node + elements * element + faces * face +
                              surface * size_of_columns<ContactForce>());
     need.results += particles[c] * copies_in_flight * sizeof(double) * (6 * nodes + 9 * elements);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "scenes/language/counted.hpp"
-#include "scenes/space/meshes/mesh.hpp"
+#include "scenes/space/class_shape.hpp"
 
 namespace pulvis::space {
 
@@ -27,13 +27,14 @@ std::string packing_summary(const Scene& scene) {
 
 std::string mesh_summary(const Scene& scene) {
   std::string text;
-  for (const ParticleSpec& particle : scene.space->particles) {
-    const Shape shape = make_shape(particle);
+  for (std::size_t i = 0; i < scene.space->particles.size(); ++i) {
+    const Shape shape = class_shape(scene, i);
     double smallest = std::numeric_limits<double>::infinity();
     for (const Shape::Face& face : shape.faces) smallest = std::min(smallest, face.size);
-    text += fmt::format("{}: {}, {}, smallest face {:.4g} m wide\n", particle.name,
-                        counted(shape.hexahedra.size(), "element"),
-                        counted(shape.faces.size(), "face"), smallest);
+    text += fmt::format(
+        "{}: {}, {}, smallest face {:.4g} m wide, surface within {:.2g}% of its mean radius\n",
+        shape.name, counted(shape.hexahedra.size(), "element"), counted(shape.faces.size(), "face"),
+        smallest, 100 * surface_error_share(shape));
   }
   return text;
 }

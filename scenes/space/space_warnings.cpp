@@ -1,6 +1,7 @@
 #include "scenes/space/space_warnings.hpp"
 
 #include "scenes/checks/setup_warnings.hpp"
+#include "scenes/space/class_shape.hpp"
 #include "scenes/space/tools/powder.hpp"
 #include "scenes/space/travel.hpp"
 
@@ -24,7 +25,8 @@ FastTool fastest_in_space(const Scene& scene) {
 }  // namespace
 
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
-  std::vector<std::string> lines = travel_warnings(scene, bodies);
+  std::vector<std::string> lines = coarse_surface_warnings(scene);
+  for (std::string& line : travel_warnings(scene, bodies)) lines.push_back(std::move(line));
   const FastTool fast = fastest_in_space(scene);
   if (!(fast.speed > 0)) return lines;
   const std::string& name = scene.space->tools[static_cast<std::size_t>(fast.tool)].name;

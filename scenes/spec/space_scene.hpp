@@ -65,6 +65,17 @@ struct MeshSpec {
     if (grid == Grid::extruded) return (n * n + 4 * n * rings) * m;
     return n * n * m + (2 * n * n + 4 * n * m) * rings;
   }
+  std::int64_t faces() const {
+    const std::int64_t n = divisions, m = axial();
+    if (grid == Grid::extruded) return 2 * (n * n + 4 * n * rings) + 4 * n * m;
+    return 2 * n * n + 4 * n * m;
+  }
+  std::int64_t surface_nodes() const { return faces() + 2; }  // Euler, of four-sided faces
+  std::int64_t nodes() const {
+    const std::int64_t n = divisions, m = axial(), core = (n + 1) * (n + 1);
+    if (grid == Grid::extruded) return (core + 4 * n * rings) * (m + 1);
+    return core * (m + 1) + surface_nodes() * rings;
+  }
 };
 
 struct ParticleSpec {  // a class of equal particles

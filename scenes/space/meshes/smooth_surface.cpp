@@ -3,7 +3,10 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "scenes/space/meshes/bezier_patch.hpp"
 #include "scenes/space/meshes/surface_points.hpp"
@@ -17,8 +20,14 @@ constexpr double usual_c = 1.0 / 12;
 constexpr double least_c = 0, most_c = 0.25;
 // How much c and the lines at irregular nodes stay as usual, against the surface passing where it should.
 constexpr double stay = 1e-3, stay_turned = 1e-4;
-constexpr int volume_fits = 24;  // halvings
-constexpr int fits = 3;          // as the place to pass moves a little along the surface
+constexpr double flat =
+    1e-8;  // U^2 over its largest, below which the springs do not weaken: where U is 0 they hold all
+// The largest changes of a, which is 1 as a rule, and of b (smooth_surface.hpp): larger ones, which sharp shapes with few faces
+// ask for, turn tangents round and fold the surface.
+constexpr std::array most_change{0.75, 0.2};
+constexpr std::array shares_of_change{1.0, 0.75, 0.5, 0.25, 0.0};  // tried in turn
+constexpr int volume_fits = 24;                                    // halvings
+constexpr int fits = 3;  // as the place to pass moves a little along the surface
 
 Vec3 vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
 
@@ -36,6 +45,39 @@ Vec3 value_of(const Combination& combination, const std::vector<Vec3>& of) {
   return sum;
 }
 
+// Where faces are looked at, along both sides: folds begin at their corners.
+constexpr std::array looked_at{0.0, 0.03, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 1.0};
+
+// How well a smooth surface stands for the true one.
+struct Likeness {
+  double distance = 0;  // m, from the true surface at most, as the centre of volume sees it
+  double cosine = 1;    // between both normals at least; <= 0: the surface is folded
+  double evenness = 1;  // least area that (u, v) stands for, over the mean of the face
+
+  // >= 1: good enough. Where hardly any area is left, closest points are not found.
+  double quality() const { return std::min(cosine / 0.5, evenness / 0.05); }
+};
+Likeness likeness(const SurfaceNet& net, const std::vector<Vec3>& points,
+                  const StarSurface& surface) {
+  Likeness worst;
+  for (int f = 0; f < net.faces(); ++f) {
+    double least = std::numeric_limits<double>::infinity(), sum = 0;
+    for (const double u : looked_at)
+      for (const double v : looked_at) {
+        const PatchPoint patch = patch_at(points_of(net, f), points, u, v);
+        const Vec3 direction = patch.at.normalized();
+        worst.distance = std::max(worst.distance, (patch.at - surface.point(direction)).norm());
+        const double area = patch.area().norm(),
+                     along = patch.area().dot(surface.normal(direction));
+        worst.cosine = std::min(worst.cosine, along > 0 ? along / area : -1.0);
+        least = std::min(least, area);
+        sum += area;
+      }
+    worst.evenness = std::min(worst.evenness, least * looked_at.size() * looked_at.size() / sum);
+  }
+  return worst;
+}
+
 // Makes the undeformed surface lie on the true one.
 class Fit {
  public:
@@ -43,13 +85,15 @@ class Fit {
       : net_(net), surface_(surface), frames_(spline_frames(net)), c_(count(), usual_c) {
     for (int i = 0; i < net.nodes(); ++i) nodes_.push_back(vector_of(entry(shape.nodes, i)));
     for (int i = 0; i < net.nodes(); ++i) u_.push_back(value_of(umbrella(net, i), nodes_));
+    for (const Vec3& u : u_) least_u2_ = std::max(least_u2_, flat * u.squaredNorm());
     for (int i = 0; i < fits; ++i) improve_smoothing();
-    match_volume();
+    turn_as_far_as_good();
   }
 
   const std::vector<double>& smoothing() const { return c_; }
   // Over the nodes of the net.
   std::vector<Combination> points() const { return bezier_points(net_, turned_frames()); }
+  const Likeness& reached() const { return reached_; }
 
  private:
   std::size_t count() const { return static_cast<std::size_t>(net_.nodes()); }
@@ -78,16 +122,21 @@ class Fit {
     solve(by_c, off);
   }
 
+  double held_by(const Vec3& u) const { return std::max(u.squaredNorm(), least_u2_); }
+
   // Least squares of the distances, with each c held where it is usual by a weak spring.
   void solve(const Sparse& by_c, const Eigen::VectorXd& off) {
     Sparse normal = by_c.transpose() * by_c;
     Eigen::VectorXd right = by_c.transpose() * off;
     for (int i = 0; i < net_.nodes(); ++i) {
-      const double spring = stay * entry(u_, i).squaredNorm();
+      const double spring = stay * held_by(entry(u_, i));
       normal.coeffRef(i, i) += spring;
       right[i] += spring * (usual_c - entry(c_, i));
     }
-    const Eigen::VectorXd change = Eigen::SimplicialLDLT<Sparse>(normal).solve(right);
+    const Eigen::SimplicialLDLT<Sparse> factors(normal);
+    if (factors.info() != Eigen::Success)
+      throw std::logic_error("the smoothing of a surface has no solution");
+    const Eigen::VectorXd change = factors.solve(right);
     for (int i = 0; i < net_.nodes(); ++i)
       entry(c_, i) = std::clamp(entry(c_, i) + change[i], least_c, most_c);
   }
@@ -101,12 +150,38 @@ class Fit {
     return frames;
   }
 
-  // m^3, of the smooth surface when every c is larger by `more`, as far as it may be.
-  double volume_with(const std::vector<double>& c, double more) {
-    for (std::size_t i = 0; i < count(); ++i) c_[i] = std::clamp(c[i] + more, least_c, most_c);
+  // The first share of the changes that is good enough; where there is none, the best.
+  void turn_as_far_as_good() {
+    const std::vector<double> c = c_;
+    double best_share = 0;
+    std::vector<double> best_c;
+    for (const double share : shares_of_change) {
+      share_ = share;
+      c_ = c;
+      match_volume();
+      const Likeness now = likeness(net_, places(), surface_);
+      if (!best_c.empty() && !(now.quality() > reached_.quality())) continue;
+      reached_ = now;
+      best_share = share;
+      best_c = c_;
+      if (now.quality() >= 1) break;
+    }
+    share_ = best_share;
+    c_ = best_c;
+  }
+
+  // m, of the Bezier points.
+  std::vector<Vec3> places() const {
     const std::vector<Vec3> control = net_places();
     std::vector<Vec3> at;
     for (const Combination& point : points()) at.push_back(value_of(point, control));
+    return at;
+  }
+
+  // m^3, of the smooth surface when every c is larger by `more`, as far as it may be.
+  double volume_with(const std::vector<double>& c, double more) {
+    for (std::size_t i = 0; i < count(); ++i) c_[i] = std::clamp(c[i] + more, least_c, most_c);
+    const std::vector<Vec3> at = places();
     double volume = 0;
     for (int f = 0; f < net_.faces(); ++f) volume += volume_under(points_of(net_, f), at);
     return volume;
@@ -120,6 +195,25 @@ class Fit {
       const double more = (low + high) / 2;
       (volume_with(c, more) < surface_.volume() ? low : high) = more;
     }
+  }
+
+  // The least squares of square * change = right. Where a change goes beyond its bound it stays there, and the other one is the
+  // best that goes with it.
+  Eigen::Vector2d bounded_change(const Eigen::Matrix2d& square,
+                                 const Eigen::Vector2d& right) const {
+    const auto bounded = [&](int i, double change) {
+      const double most = share_ * entry(most_change, i);
+      return std::clamp(change, -most, most);
+    };
+    Eigen::Vector2d change = square.ldlt().solve(right);
+    for (int i = 0; i < 2; ++i) {
+      const double here = bounded(i, change[i]);
+      if (here == change[i]) continue;
+      change[i] = here;
+      const int other = 1 - i;
+      change[other] = bounded(other, (right[other] - square(0, 1) * here) / square(other, other));
+    }
+    return change;
   }
 
   // Where a line leads to an irregular node, whose place follows from the derivative D along it at the regular node w:
@@ -145,8 +239,8 @@ class Fit {
     }
     if (!irregular) return;
     demand(surface_.normal(at.normalized()), 1, 0);
-    square.diagonal().array() += stay_turned * u.squaredNorm();
-    const Eigen::Vector2d change = square.ldlt().solve(right);
+    square.diagonal().array() += stay_turned * held_by(u);
+    const Eigen::Vector2d change = bounded_change(square, right);
     Combination turned;
     add(turned, frame.along[line], 1 + change[0]);
     add(turned, umbrella(net_, w), change[1]);
@@ -157,7 +251,10 @@ class Fit {
   const StarSurface& surface_;
   std::vector<NodeFrame> frames_;
   std::vector<double> c_;
+  double share_ = 1;  // of most_change
+  Likeness reached_;
   std::vector<Vec3> nodes_, u_;
+  double least_u2_ = std::numeric_limits<double>::min();  // m^2
 };
 
 void store(const Combination& combination, Shape::Terms& terms) {
@@ -218,6 +315,8 @@ void complete_surface(Shape& shape, const StarSurface& surface) {
   const Fit fit(shape, net, surface);
   store_points(shape, net, fit.points(), fit.smoothing());
   store_faces(shape, net);
+  shape.surface_error = fit.reached().distance;
+  if (!(fit.reached().cosine > 0)) throw std::invalid_argument("its smooth surface is folded");
   measure(shape);
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "engine/run_failure.hpp"
-#include "systems/space/contact/projection.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
@@ -61,14 +60,14 @@ struct Watch {
         pairs.sums->blocks, [](const BlockSums& block) { return block.unconverged > 0; });
     if (found == pairs.sums->blocks.end()) return;
     const Row<FaceContact> row(found->first_unconverged);
-    throw RunFailure(fmt::format(
-        "face_contact: {}particle {}: the closest point was not found in {} steps of Newton's "
-        "method, at step {}, t = {:.6g} s, as for {} of {} points so far, a share of {:.3g}; "
-        "allowed {:.3g} (limits.unconverged_projections; a finer mesh may help)",
-        sampled_face(bodies, pairs.pair, row.value),
-        entry(bodies.bodies->slots, pairs.pair(row, 2)).number, Projection::max_steps, clock.step,
-        clock.time, totals.unconverged, totals.projections, totals.unconverged_share(),
-        rules.unconverged_limit));
+    throw RunFailure(
+        fmt::format("face_contact: {}particle {}: Newton's method did not find the closest point, "
+                    "at step {}, t = {:.6g} s, as for {} of {} points so far, a share of {:.3g}; "
+                    "allowed {:.3g} (limits.unconverged_projections; a finer mesh may help)",
+                    sampled_face(bodies, pairs.pair, row.value),
+                    entry(bodies.bodies->slots, pairs.pair(row, 2)).number, clock.step, clock.time,
+                    totals.unconverged, totals.projections, totals.unconverged_share(),
+                    rules.unconverged_limit));
   }
 };
 

@@ -82,6 +82,7 @@ class PairPass {
 
  private:
   static constexpr double share = 0.5;  // of the stiffness: the other particle samples back
+  static constexpr double doubtful_depth = 0.25;  // of the size of a face
   static constexpr std::int32_t rows_at_once = 32;
 
   unsigned active_points(Row<FaceContact> row) const {
@@ -156,15 +157,23 @@ class PairPass {
   void act(const PointLanes& eight) {
     const auto motion = numbers_of(eight, [](const PairPoint& p) { return p.motion.data(); });
     const auto kept = numbers_of(eight, [](const PairPoint& p) { return p.kept; });
-    Projection p(*its_, positions_ + its_face_);
-    p.point = {motion[0], motion[1], motion[2]};
-    p.face = eight.face;
-    p.u = kept[ContactPoint::face_u] - whole(kept[ContactPoint::face_u]);
-    p.v = kept[ContactPoint::v];
-    p.find();
-    book(eight, p.unconverged());
-    const Standing standing = p.standing();
+    const VectorLanes points{motion[0], motion[1], motion[2]};
+    const ProjectionStart start{eight.face,
+                                kept[ContactPoint::face_u] - whole(kept[ContactPoint::face_u]),
+                                kept[ContactPoint::v]};
+    Projection p = projection(points, start);
+    Standing standing = p.standing();
     const LaneMask real = LaneMask::of(eight.real);
+    const LaneMask deep = standing.gap * motion[7] > doubtful_depth;
+    if (const unsigned doubtful = (deep.bits() | p.unconverged()) & eight.real; doubtful != 0) {
+      p = projection(points, better_start(p, start, doubtful));
+      standing = p.standing();
+      p.done &= ~in_folds(p, standing, doubtful);
+    }
+    book(eight, p.unconverged());
+    // What is not found is not felt.
+    standing.gap =
+        select(LaneMask::of(p.unconverged()) & (standing.gap > 0.0), Lane{}, standing.gap);
     // What is no number is not apart.
     const LaneMask touching = ~(standing.gap <= 0.0) & real;
     PointMotion m{select(touching, standing.gap, Lane{}), standing.normal};
@@ -198,6 +207,54 @@ class PairPass {
           {u, v, f.force, m.normal, m.gap * dot(f.friction, to.u), m.gap * dot(f.friction, to.v)});
     else
       faces_.subtract<false>(p.face, touching, {u, v, f.force, m.normal, Lane{}, Lane{}});
+  }
+
+  Projection projection(const VectorLanes& points, const ProjectionStart& start) const {
+    Projection p(*its_, positions_ + its_face_, points, start);
+    p.find();
+    return p;
+  }
+
+  // Of the doubtful points, those that ended in the fold of a face that was crushed, where the normal leads astray.
+  [[gnu::noinline]] unsigned in_folds(const Projection& p, const Standing& standing,
+                                      unsigned doubtful) const {
+    constexpr double least_cosine = 0.3;
+    unsigned folds = 0;
+    for (unsigned left = doubtful; left != 0; left &= left - 1) {
+      const int l = std::countr_zero(left);
+      if (!(standing.gap[l] > 0)) continue;
+      const double* face = positions_ + its_face_ + std::ptrdiff_t{entry(p.face, l)} * face_numbers;
+      const VectorLanes& n = standing.normal;
+      if (along_face(face, {n.x[l], n.y[l], n.z[l]}) < least_cosine) folds |= 1U << l;
+    }
+    return folds;
+  }
+
+  // Newton's method may end on the far side of a flat particle, as if the point had gone through it. From the nearest of a few
+  // spots of every face it ends elsewhere then: those of the doubtful points for which that is nearer begin there.
+  [[gnu::noinline]] ProjectionStart better_start(const Projection& found,
+                                                 const ProjectionStart& start,
+                                                 unsigned doubtful) const {
+    ProjectionStart nearest = start;
+    for (unsigned left = doubtful; left != 0; left &= left - 1) {
+      const int l = std::countr_zero(left);
+      const SurfaceSpot spot =
+          nearest_spot(positions_ + its_face_, static_cast<int>(its_->faces.size()),
+                       {found.point.x[l], found.point.y[l], found.point.z[l]});
+      entry(nearest.face, l) = spot.face;
+      nearest.u[l] = spot.u;
+      nearest.v[l] = spot.v;
+    }
+    const Projection again = projection(found.point, nearest);
+    const LaneMask nearer = dot(again.offset, again.offset) < dot(found.offset, found.offset);
+    const LaneMask better = LaneMask::of(again.done & (found.unconverged() | nearer.bits()));
+    ProjectionStart best{start.face, select(better, nearest.u, start.u),
+                         select(better, nearest.v, start.v)};
+    for (unsigned left = better.bits(); left != 0; left &= left - 1) {
+      const int l = std::countr_zero(left);
+      entry(best.face, l) = entry(nearest.face, l);
+    }
+    return best;
   }
 
   template <class First>

@@ -1,8 +1,9 @@
 // Projection: where eight points stand against the smooth surface of another particle.
 //
 // Method   Newton's (patch_kernel.hpp) from where a point was closest before; a step goes over one face at most, on to
-//          the next one. A point that is sent to and fro over a side is closest to the side itself, or to its end, where
-//          surfaces have a crease: it moves along it then
+//          the next one. Steps are quartered each time they lead back over a side that they came over, since curvatures jump
+//          there; they double again. A point that even small ones send to and fro is closest to the side itself, or to its
+//          end, where surfaces have a crease: it moves along it then
 // Lanes    every point stops by itself, so that none depends on the others
 #pragma once
 
@@ -42,19 +43,28 @@ struct Standing {
   VectorLanes normal;  // outward, of the other surface
 };
 
+// Where the search for the closest points begins.
+struct ProjectionStart {
+  std::array<std::int32_t, 8> face;
+  Lane u, v;
+};
+
 struct Projection {
   static constexpr int max_steps = 40;
-  static constexpr int crossings_of_crease = 3;  // over one side, to and fro
-  static constexpr int most_crossings = 16;      // round and round the end of a crease
+  static constexpr double least_sine2 = 0.05 * 0.05;  // between both slopes of a face, squared
+  static constexpr int crossings_of_crease = 7;       // over one side, to and fro
+  static constexpr int most_crossings = 16;           // round and round the end of a crease
 
-  const Shape& shape;   // of the other particle
+  const Shape* shape;   // of the other particle
   const double* first;  // its first face's Bezier points
   VectorLanes point;    // m
   std::array<std::int32_t, 8> face;
   Lane u, v;  // closest so far; when found, on its face
   unsigned done = 0;
 
-  Projection(const Shape& other, const double* first_face) : shape(other), first(first_face) {}
+  Projection(const Shape& other, const double* first_face, const VectorLanes& points,
+             const ProjectionStart& start)
+      : shape(&other), first(first_face), point(points), face(start.face), u(start.u), v(start.v) {}
 
   unsigned unconverged() const { return ~done & 0xffU; }
 
@@ -77,10 +87,9 @@ struct Projection {
   }
 
   Standing standing() const {
-    const VectorLanes across = cross(slopes.u, slopes.v);
-    const Lane inv_area = 1.0 / sqrt(dot(across, across));
+    const Lane inv_area = 1.0 / sqrt(dot(across_, across_));
     Standing s;
-    s.normal = inv_area * across;
+    s.normal = inv_area * across_;
     s.gap = -dot(offset, s.normal);
     if ((held_u_ | held_v_) != 0) look_to_crease(s);
     return s;
@@ -164,8 +173,9 @@ struct Projection {
   [[gnu::noinline]] void move() {
     const LaneMask fixed = LaneMask::of(done);
     const Lane zero{};
-    u += select(fixed, zero, min(max(du_, -1.0), 1.0));
-    v += select(fixed, zero, min(max(dv_, -1.0), 1.0));
+    u += select(fixed, zero, min(max(du_, -longest_), longest_));
+    v += select(fixed, zero, min(max(dv_, -longest_), longest_));
+    longest_ = min(2.0 * longest_, 1.0);
     const unsigned inside = ((u >= zero) & (u <= 1.0) & (v >= zero) & (v <= 1.0)).bits();
     if (inside == 0xffU) return;
     for (int l = 0; l < lane_count; ++l)
@@ -180,9 +190,10 @@ struct Projection {
     }
     const int side = side_left(u[l], v[l]);
     const SurfaceSpot from{face[lane], u[l], v[l]};
-    const SurfaceSpot to = across(shape, from, side);
+    const SurfaceSpot to = across(*shape, from, side);
     const bool back = to.face == came_from_[lane] || to.face == from.face;
     crossings_[lane] = back ? crossings_[lane] + 1 : 1;
+    if (back) longest_[l] *= 0.125;  // of what it has become
     came_from_[lane] = from.face;
     face[lane] = to.face;
     u[l] = to.u;
@@ -202,20 +213,32 @@ struct Projection {
   }
   // The last, small step, and its own correction.
   [[gnu::always_inline]] void settle() {
+    // Where a point was not found the next step may lead anywhere.
+    if (done != 0xffU) keep_steps(done, du_, dv_);
     slopes = kernels::taylor(at_, du_, dv_);
     offset = point - slopes.x;
-    if ((held_u_ | held_v_) == 0) {
-      const Lane along_u = dot(offset, slopes.u), along_v = dot(offset, slopes.v);
-      const Lane more_u = newton_.step_u(along_u, along_v),
-                 more_v = newton_.step_v(along_u, along_v);
-      offset = offset - (more_u * slopes.u + more_v * slopes.v);
-      slopes.u = fma(more_u, at_.uu, fma(more_v, at_.uv, slopes.u));
-      slopes.v = fma(more_u, at_.uv, fma(more_v, at_.vv, slopes.v));
-      du_ += more_u;
-      dv_ += more_v;
-    }
+    const Lane along_u = dot(offset, slopes.u), along_v = dot(offset, slopes.v);
+    Lane more_u = newton_.step_u(along_u, along_v), more_v = newton_.step_v(along_u, along_v);
+    const unsigned free = done & ~(held_u_ | held_v_);
+    if (free != 0xffU) keep_steps(free, more_u, more_v);
+    offset = offset - (more_u * slopes.u + more_v * slopes.v);
+    slopes.u = fma(more_u, at_.uu, fma(more_v, at_.uv, slopes.u));
+    slopes.v = fma(more_u, at_.uv, fma(more_v, at_.vv, slopes.v));
+    du_ += more_u;
+    dv_ += more_v;
     u += du_;
     v += dv_;
+    across_ = cross(slopes.u, slopes.v);
+    // A point is not found where the surface has no normal, as in the fold of a face that was crushed.
+    done &=
+        ~(dot(across_, across_) < least_sine2 * (dot(slopes.u, slopes.u) * dot(slopes.v, slopes.v)))
+             .bits();
+  }
+  // Those of the lanes' bits alone.
+  [[gnu::noinline]] static void keep_steps(unsigned lanes, Lane& along_u, Lane& along_v) {
+    const LaneMask kept = LaneMask::of(lanes);
+    along_u = select(kept, along_u, Lane{});
+    along_v = select(kept, along_v, Lane{});
   }
   // From a crease the way out leads to the point itself.
   [[gnu::noinline]] void look_to_crease(Standing& s) const {
@@ -231,8 +254,8 @@ struct Projection {
   LaneMask on_second_;
   kernels::PatchPoint<Lane> at_;
   kernels::Newton<Lane> newton_;
-  VectorLanes r_;
-  Lane du_, dv_;
+  VectorLanes r_, across_;
+  Lane du_, dv_, longest_{1.0};  // steps, and how long they may be
   unsigned held_u_ = 0, held_v_ = 0;
   std::array<std::int32_t, 8> came_from_{-1, -1, -1, -1, -1, -1, -1, -1};
   std::array<std::int32_t, 8> crossings_{}, all_crossings_{};

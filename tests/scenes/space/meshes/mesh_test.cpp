@@ -105,6 +105,9 @@ TEST(SpaceMesh, ExtrudedHasTheCountsOfADiscInLayers) {
     particle.mesh = {n, rings, m, MeshSpec::Grid::extruded};
     EXPECT_EQ(shape.elements(), disc * m);
     EXPECT_EQ(particle.mesh.hexahedra(), shape.elements());
+    EXPECT_EQ(particle.mesh.faces(), static_cast<std::int64_t>(shape.faces.size()));
+    EXPECT_EQ(particle.mesh.surface_nodes(), shape.surface_nodes);
+    EXPECT_EQ(particle.mesh.nodes(), static_cast<std::int64_t>(shape.nodes.size()));
     EXPECT_EQ(static_cast<int>(shape.faces.size()), 2 * disc + 4 * n * m);
     EXPECT_EQ(shape.surface_nodes, static_cast<int>(shape.faces.size()) + 2);  // Euler
   }

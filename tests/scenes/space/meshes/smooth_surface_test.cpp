@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "tests/scenes/space/meshes/shape_cases.hpp"
@@ -153,6 +154,72 @@ TEST(SmoothSurface, HoldsTheVolumeOfTheTrueShape) {
     EXPECT_NEAR(smooth_volume(shape, surface_points_of(shape, shape.nodes)), shape.true_volume,
                 1e-5 * shape.true_volume);
   }
+}
+
+// Sharp and flat shapes, from meshes that hardly resolve them.
+std::vector<SurfaceCase> sharp_cases() {
+  const std::vector<ShapeCase> shapes{
+      {"cube", box_shape({1, 1, 1}, 0.05)},
+      {"octahedron",
+       PolyhedronShape{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                       0.05}},
+      {"tablet", CylinderShape{1, 0.2, 0.02}},
+      {"plate", SuperquadricShape{Vec3(1, 1, 0.3), 20, 20}}};
+  std::vector<SurfaceCase> cases;
+  for (const ShapeCase& c : shapes)
+    for (const int n : {2, 3, 4, 6})
+      cases.push_back({c.name + ", " + std::to_string(n) + " divisions", shape_of(c.shape, n, 1)});
+  return cases;
+}
+
+// Its normals look outwards, in the corners of its faces, too.
+TEST(SmoothSurface, IsNowhereFolded) {
+  constexpr int steps = 40;
+  for (const auto& [name, shape] : sharp_cases()) {
+    SCOPED_TRACE(name);
+    const std::vector<Vec3> points = surface_points_of(shape, shape.nodes);
+    double least = 1;
+    for (const Shape::Face& face : shape.faces)
+      for (int i = 0; i <= steps; ++i)
+        for (int j = 0; j <= steps; ++j) {
+          const PatchPoint at = patch_at(face, points, static_cast<double>(i) / steps,
+                                         static_cast<double>(j) / steps);
+          least = std::min(least, at.area().normalized().dot(at.at.normalized()));
+        }
+    EXPECT_GT(least, 0.1);
+  }
+}
+
+// Flat faces leave it to no noise how their nodes are smoothed: the same bits each time, whatever was in memory before.
+TEST(SmoothSurface, IsTheSameEachTime) {
+  const auto weights = [](const Shape& shape) {
+    std::vector<double> all;
+    for (const Shape::Terms* terms : {&shape.net, &shape.points})
+      for (const Shape::Term& term : terms->all) all.push_back(term.weight);
+    return all;
+  };
+  for (const double rounding : {0.05, 0.1})
+    for (const int n : {3, 4, 6}) {
+      SCOPED_TRACE(n);
+      const PolyhedronShape octahedron{
+          {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, rounding};
+      const std::vector<double> first = weights(shape_of(octahedron, n, 1));
+      for (int time = 0; time < 3; ++time) EXPECT_EQ(weights(shape_of(octahedron, n, 1)), first);
+    }
+}
+
+// How far it is off its shape is what a coarse mesh is warned of.
+TEST(SmoothSurface, TellsHowFarItIsOffItsShape) {
+  const Shape ball = shape_of(SphereShape{2}, 4, 1);
+  EXPECT_GT(ball.surface_error, 1e-4);
+  EXPECT_LT(ball.surface_error, 1e-3);
+  double before = std::numeric_limits<double>::infinity();
+  for (const int n : {2, 4, 8}) {
+    const double error = shape_of(box_shape({1, 1, 1}, 0.05), n, 1).surface_error;
+    EXPECT_LT(error, 0.6 * before);
+    before = error;
+  }
+  EXPECT_GT(before, 5e-3);  // an edge of a tenth of the faces' width is not resolved
 }
 
 // Forces of a pressure 1 on the nodes, by the Gauss points of the faces.

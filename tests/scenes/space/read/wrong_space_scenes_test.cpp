@@ -105,6 +105,14 @@ const std::vector<WrongSpaceScene> wrong_in_space{
       "mm\"], [\"0 mm\", \"9 mm\", \"0 mm\"], [\"9 mm\", \"9 mm\", \"0 mm\"]]\n"},
      "particle[1].corners",
      {"one plane"}},
+    // Three faces of the cube end in each of its corners: two divisions leave nothing of them.
+    {"FoldedSurface",
+     {"particle.pill.mesh.divisions=2", "particle.pill.rounding=0.3 mm"},
+     {pill_sizes,
+      "shape = \"polyhedron\"\ncorners = [[\"0 mm\", \"0 mm\", \"0 mm\"], [\"9 mm\", \"0 mm\", \"0 "
+      "mm\"], [\"0 mm\", \"9 mm\", \"0 mm\"], [\"0 mm\", \"0 mm\", \"9 mm\"]]\n"},
+     "particle[1].mesh",
+     {"folded", "too coarse", "more divisions"}},
     {"NoContainer",
      {},
      {lattice, "kind = \"random\"\ndensity = 0.5\n[[packing.class]]\nparticle = \"ball\"\n"},

@@ -64,12 +64,10 @@ struct Surface : TouchingBodies {
     return nearest;
   }
   Projection project(const std::array<Vec3, 8>& points, const std::array<int, 8>& start) {
-    Projection p(shape(), first());
-    p.point = {Lane::from([&](int l) { return entry(points, l).x(); }),
-               Lane::from([&](int l) { return entry(points, l).y(); }),
-               Lane::from([&](int l) { return entry(points, l).z(); })};
-    for (std::size_t l = 0; l < 8; ++l) p.face[l] = start[l];
-    p.u = p.v = Lane(0.5);
+    const VectorLanes at{Lane::from([&](int l) { return entry(points, l).x(); }),
+                         Lane::from([&](int l) { return entry(points, l).y(); }),
+                         Lane::from([&](int l) { return entry(points, l).z(); })};
+    Projection p(shape(), first(), at, {start, Lane(0.5), Lane(0.5)});
     p.find();
     return p;
   }
@@ -121,6 +119,22 @@ TEST(SpaceProjection, FindsTheClosestPointAboutNodesWhereThreeFacesMeet) {
           return Vec3(axis(), axis(), axis()).normalized();
         },
         1e-3);
+}
+
+// Another search begins at the nearest of its spots, which no corner or middle of a face beats.
+TEST(SpaceProjection, BeginsAnewAtTheNearestOfAFewSpots) {
+  Surface surface;
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 p = 6e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
+    const SurfaceSpot spot = nearest_spot(surface.first(), surface.faces(), {p.x(), p.y(), p.z()});
+    const double distance = (surface.at(spot.face, spot.u, spot.v) - p).norm();
+    for (int f = 0; f < surface.faces(); ++f)
+      for (const auto& [u, v] :
+           {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}, {0.5, 0.5}})
+        EXPECT_LE(distance, (surface.at(f, u, v) - p).norm());
+  }
 }
 
 // From two faces away it walks there, over sides and corners.

@@ -1,0 +1,49 @@
+#include "scenes/space/class_shape.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/portable_math.hpp"
+#include "scenes/language/problem.hpp"
+#include "scenes/space/meshes/mesh.hpp"
+
+namespace pulvis::space {
+
+Shape class_shape(const Scene& scene, std::size_t particle) {
+  const ParticleSpec& spec = scene.space->particles.at(particle);
+  try {
+    return make_shape(spec);
+  } catch (const std::invalid_argument& error) {
+    const std::size_t declared =
+        spec.class_of < 0 ? particle : static_cast<std::size_t>(spec.class_of);
+    throw SceneError(
+        {{scene.file_of(spec.mark).string(), spec.mark.line, spec.mark.column, "",
+          fmt::format("particle[{}].mesh", declared),
+          fmt::format("{}: the mesh is too coarse for this shape, allowed: more divisions, or a "
+                      "rounder shape",
+                      error.what())}});
+  }
+}
+
+double surface_error_share(const Shape& shape) {
+  return shape.surface_error / portable::cbrt(0.75 / std::numbers::pi * shape.true_volume);
+}
+
+std::vector<std::string> coarse_surface_warnings(const Scene& scene) {
+  constexpr double far = 0.05;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < scene.space->particles.size(); ++i) {
+    if (scene.space->particles[i].class_of >= 0) continue;  // of another size only
+    const Shape shape = class_shape(scene, i);
+    if (surface_error_share(shape) <= far) continue;
+    lines.push_back(fmt::format(
+        "the surface of '{}' that contacts see stands up to {:.3g} m off its shape, {:.0f}% of "
+        "its mean radius: corners are cut off; take more divisions, or round them more",
+        shape.name, shape.surface_error, 100 * surface_error_share(shape)));
+  }
+  return lines;
+}
+
+}  // namespace pulvis::space
