@@ -40,7 +40,7 @@ std::vector<std::string> coarse_surface_warnings(const Scene& scene) {
     if (surface_error_share(shape) <= far) continue;
     lines.push_back(fmt::format(
         "the surface of '{}' that contacts see stands up to {:.3g} m off its shape, {:.0f}% of "
-        "its mean radius: corners are cut off; take more divisions, or round them more",
+        "its mean radius: sharp bends are rounded off; take more divisions, or a rounder shape",
         shape.name, shape.surface_error, 100 * surface_error_share(shape)));
   }
   return lines;

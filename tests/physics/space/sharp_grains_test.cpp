@@ -106,12 +106,12 @@ INSTANTIATE_TEST_SUITE_P(All, SharpGrainsInABox,
                                          SharpGrains{"Octahedra", octahedron, 4, "0.3"}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(SharpGrainsWarnings, TellThatCornersAreCutOff) {
+TEST(SharpGrainsWarnings, TellThatBendsAreRoundedOff) {
   const Scene coarse = sharp_grains(octahedron, 3, "0.1");
   const std::vector<std::string> lines = space::setup_warnings(coarse, space::place_bodies(coarse));
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines[0].find("'grain'"), std::string::npos);
-  EXPECT_NE(lines[0].find("corners are cut off"), std::string::npos);
+  EXPECT_NE(lines[0].find("sharp bends are rounded off"), std::string::npos);
   const Scene fine = sharp_grains(cube, 8, "0.1");
   EXPECT_TRUE(space::setup_warnings(fine, space::place_bodies(fine)).empty());
 }
