@@ -55,7 +55,7 @@ struct Likeness {
   double evenness = 1;  // least area that (u, v) stands for, over the mean of the face
 
   // >= 1: good enough. Where hardly any area is left, closest points are not found.
-  double quality() const { return std::min(cosine / 0.5, evenness / 0.05); }
+  double quality() const { return std::min(cosine / 0.5, evenness / 0.2); }
 };
 Likeness likeness(const SurfaceNet& net, const std::vector<Vec3>& points,
                   const StarSurface& surface) {
