@@ -13,7 +13,7 @@ namespace pulvis {
 template <class Key, class Result>
 class ResultCache {
  public:
-  // All sizes together are at most that; the oldest results go first.
+  // All sizes together are at most that; the oldest results go first. One that is larger is not kept.
   explicit ResultCache(std::size_t most) : most_(most) {}
 
   // make(key), unless its result is here; two threads may both make it.
@@ -27,6 +27,7 @@ class ResultCache {
     Made made{key, make(key), 0};
     made.size = size_of(made.result);
     const Result result = made.result;
+    if (made.size > most_) return result;
     const std::lock_guard lock(mutex_);
     size_ += made.size;
     results_.push_back(std::move(made));

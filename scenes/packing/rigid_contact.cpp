@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace pulvis {
 namespace {
@@ -41,16 +42,29 @@ std::size_t deepest_behind(V2 n, V2 from, const std::vector<V2>& corners, std::s
   return at;
 }
 
-// The side of `piece` that the other one lies farthest in front of. From side to side the deepest corner moves on by few.
+// The side of `piece` that the other one lies farthest in front of, the first of several. From side to side the deepest
+// corner moves on by few. The other one's centre tells how far in front of a side it can lie at most: the side that promises
+// most is asked first, and those that promise less than it holds are not asked.
 Widest widest_gap(const RigidPiece& piece, const RigidPiece& other, double enough) {
+  const std::size_t sides = piece.normals.size();
+  const auto promised = [&](std::size_t s) {
+    return dot(piece.normals[s], other.centre - piece.corners[s]) - other.inside;
+  };
+  std::size_t first = 0;
+  double most = none;
+  for (std::size_t s = 0; s < sides; ++s)
+    if (const double gap = promised(s); gap > most) first = s, most = gap;
   Widest best;
   std::size_t deepest = 0;
-  for (std::size_t s = 0; s < piece.normals.size() && best.gap <= enough; ++s) {
+  const auto ask = [&](std::size_t s) {
     const V2 n = piece.normals[s], from = piece.corners[s];
     deepest = deepest_behind(n, from, other.corners, deepest);
     const double gap = dot(n, other.corners[deepest] - from);
-    if (gap > best.gap) best = {gap, s, deepest};
-  }
+    if (gap > best.gap || (gap == best.gap && s < best.side)) best = {gap, s, deepest};
+  };
+  if (sides > 0) ask(first);
+  for (std::size_t s = 0; s < sides && best.gap <= enough; ++s)
+    if (s != first && promised(s) + hair >= best.gap) ask(s);
   return best;
 }
 
@@ -70,6 +84,7 @@ void put(const RigidPiece& from, Turn turn, V2 by, RigidPiece& to) {
   to.radius = from.radius;
   to.centre = by + turn * from.centre;
   to.reach = from.reach;
+  to.inside = from.inside;
 }
 
 }  // namespace
@@ -82,11 +97,14 @@ const std::vector<RigidTouch>& RigidContacts::between(const RigidShape& a, const
   const Turn turn{at_a.turn.c * at_b.turn.c + at_a.turn.s * at_b.turn.s,
                   at_a.turn.c * at_b.turn.s - at_a.turn.s * at_b.turn.c};
   for (const RigidPiece& q : b.pieces) {
-    put(q, turn, by, other_);
+    const V2 centre = by + turn * q.centre;
+    bool is_put = false;
     for (const RigidPiece& p : a.pieces) {
       const double reach = p.reach + q.reach + range;
-      const V2 apart = other_.centre - p.centre;
-      if (dot(apart, apart) < reach * reach) pieces(p, other_, range);
+      const V2 apart = centre - p.centre;
+      if (!(dot(apart, apart) < reach * reach)) continue;
+      if (!std::exchange(is_put, true)) put(q, turn, by, other_);
+      pieces(p, other_, range);
     }
   }
   for (RigidTouch& touch : found_) {

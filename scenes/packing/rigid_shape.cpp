@@ -57,6 +57,10 @@ RigidPiece piece_of(std::vector<V2> corners, double radius) {
     piece.normals.push_back((1 / portable::length(side)) * V2{side.y, -side.x});
   }
   enclose(piece);
+  piece.inside = piece.normals.empty() ? 0 : std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < piece.normals.size(); ++i)
+    piece.inside =
+        std::min(piece.inside, portable::dot(piece.normals[i], piece.corners[i] - piece.centre));
   return piece;
 }
 

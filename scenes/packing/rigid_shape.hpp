@@ -16,6 +16,7 @@ struct RigidPiece {
   double radius = 0;
   portable::V2 centre;  // of a circle around the piece
   double reach = 0;     // its radius
+  double inside = 0;    // radius of a circle about the centre that no side cuts
   bool operator==(const RigidPiece&) const = default;
 };
 

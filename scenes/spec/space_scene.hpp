@@ -20,25 +20,30 @@ using Rotation = Rotation3;
 // ---- shapes, each in its own frame; size: extent along x, y, z, m ---------------------------------
 struct SphereShape {
   double diameter = 0;  // m
+  bool operator==(const SphereShape&) const = default;
 };
 struct EllipsoidShape {
   Vec3 size = Vec3::Zero();
+  bool operator==(const EllipsoidShape&) const = default;
 };
 // |2x/a|^e + |2y/b|^e)^(f/e) + |2z/c|^f = 1 (Barr 1981), e: exponent_xy, f: exponent_z; 2 and 2: an ellipsoid.
 struct SuperquadricShape {
   Vec3 size = Vec3::Zero();
   double exponent_xy = 2;  // -, >= 2
   double exponent_z = 2;   // -, >= 2
+  bool operator==(const SuperquadricShape&) const = default;
 };
 struct CylinderShape {  // along z: tablets, pellets
   double diameter = 0;  // m
   double height = 0;    // m
   double rounding = 0;  // m, radius of the rims
+  bool operator==(const CylinderShape&) const = default;
 };
 struct
     PolyhedronShape {  // convex hull of its corners, edges and corners rounded: hull of the inset polyhedron plus a ball
   std::vector<Vec3> corners = {};  // m
   double rounding = 0;             // m, radius of edges and corners
+  bool operator==(const PolyhedronShape&) const = default;
 };
 struct StlShape {         // closed surface that its centre of volume sees as a whole (star-shaped)
   std::string file = {};  // relative to the scene
@@ -46,9 +51,14 @@ struct StlShape {         // closed surface that its centre of volume sees as a 
   std::optional<double> diameter = {};  // m, of the ball of the same volume, to which it is scaled
   double smoothing = 0;                 // -, share of the mean radius over which it is smoothed
   std::vector<std::array<Vec3, 3>> triangles = {};  // m, when it has been read
+  bool operator==(const StlShape&) const = default;
 };
 using ParticleShape = std::variant<SphereShape, EllipsoidShape, SuperquadricShape, CylinderShape,
                                    PolyhedronShape, StlShape>;
+inline std::size_t stl_bytes(const ParticleShape& shape) {  // of its triangles; 0 where it has none
+  const auto* stl = std::get_if<StlShape>(&shape);
+  return stl == nullptr ? 0 : stl->triangles.size() * sizeof(stl->triangles[0]);
+}
 
 struct MeshSpec {
   int divisions = 4;                        // >= 1, of the edges of the cube, or of the square
@@ -58,6 +68,7 @@ struct MeshSpec {
     cube,      // O-grid on a cubed sphere: a core of divisions^2 * axial() and `rings` layers around it
     extruded,  // of cylinders: the O-grid of a disc in axial() layers; needs divisions >= 2
   } grid = Grid::cube;
+  bool operator==(const MeshSpec&) const = default;
 
   int axial() const { return axial_divisions.value_or(divisions); }
   std::int64_t hexahedra() const {

@@ -37,9 +37,11 @@ TEST(ResultCache, TheOldestGoFirstWhereThereIsNoRoom) {
   Asked asked;
   for (const int order : {1, 2, 3, 4, 3, 2}) asked.of(order);
   EXPECT_THAT(asked.made, ElementsAre(1, 2, 3, 4, 3, 2)) << "four leave no room for another three";
-  EXPECT_EQ(asked.of(7), "xxxxxxx") << "larger than all room, and forgotten at once";
+  EXPECT_EQ(asked.of(7), "xxxxxxx") << "larger than all room, and not kept";
   asked.of(7);
   EXPECT_EQ(asked.made.size(), 8U);
+  asked.of(2);
+  EXPECT_EQ(asked.made.size(), 8U) << "others stay";
 }
 
 TEST(ResultCache, SharesBetweenThreads) {

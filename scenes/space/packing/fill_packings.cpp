@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "engine/portable_math.hpp"
@@ -160,9 +161,14 @@ class RandomPacking {
 
 double highest_point(const SpaceScene& scene, const std::vector<BodySpec>& bodies) {
   double highest = std::numeric_limits<double>::lowest();
+  std::map<int, RigidShape> shapes;  // of the classes
   for (const BodySpec& body : bodies) {
-    const RigidShape shape =
-        rigid_shape(scene.particles[static_cast<std::size_t>(body.particle)].shape, 1);
+    const ParticleSpec& particle = scene.particles[static_cast<std::size_t>(body.particle)];
+    const auto found = shapes.find(body.particle);
+    const RigidShape& shape =
+        found != shapes.end()
+            ? found->second
+            : shapes.emplace(body.particle, rigid_shape(particle.shape, 1)).first->second;
     const V3 up = turned_back(turn_of(body.rotation), {0, 0, 1});
     highest = std::max(highest, body.position.z() + dot(shape.support(up), up));
   }

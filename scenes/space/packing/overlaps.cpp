@@ -38,8 +38,7 @@ class BodyOverlaps {
   BodyOverlaps(const Scene& scene, const std::vector<BodySpec>& bodies)
       : scene_(*scene.space), bodies_(bodies) {
     double sum = 0;
-    for (const ParticleSpec& particle : scene_.particles)
-      sum += rigid_shape(particle.shape, 1).diameter;
+    for (const ParticleSpec& particle : scene_.particles) sum += diameter_of(particle.shape);
     unit_ = sum / static_cast<double>(scene_.particles.size());
     for (const ParticleSpec& particle : scene_.particles)
       shapes_.push_back(rigid_shape(particle.shape, unit_));

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/portable_math.hpp"
+#include "engine/result_cache.hpp"
 #include "scenes/space/meshes/convex_hull.hpp"
 #include "scenes/space/meshes/rounded_polyhedron.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
@@ -236,19 +237,39 @@ void scale_shape(StlShape& s, double k) {
     for (Vec3& corner : triangle) corner *= k;
 }
 
-}  // namespace
+// Its diameter.
+double ball_of(double volume) { return portable::cbrt(6 / std::numbers::pi * volume); }
 
-RigidShape rigid_shape(const ParticleShape& shape, double unit) {
+struct RigidKey {
+  ParticleShape shape;
+  double unit;
+  bool operator==(const RigidKey&) const = default;
+};
+
+RigidShape make_rigid(const RigidKey& key) {
+  const auto& [shape, unit] = key;
   RigidShape rigid;
-  std::visit([&](const auto& s) { set_core(s, unit, rigid); }, shape);
+  std::visit([&rigid, length = unit](const auto& s) { set_core(s, length, rigid); }, shape);
   const V3 half = 0.5 * extent_of(rigid);
   rigid.volume = volume_of(shape) / (unit * unit * unit);
   rigid.gyration = 2.0 / 15 * dot(half, half);  // of an ellipsoid, the mean over its axes
-  rigid.diameter = portable::cbrt(6 / std::numbers::pi * rigid.volume);
+  rigid.diameter = ball_of(rigid.volume);
   return rigid;
 }
 
+}  // namespace
+
+RigidShape rigid_shape(const ParticleShape& shape, double unit) {
+  // Those of STL shapes take a while, and a check and the run ask for the same ones.
+  static ResultCache<RigidKey, RigidShape> cache(16 << 20);  // bytes, about
+  const auto size = [&](const RigidShape& made) {
+    return sizeof(RigidKey) + stl_bytes(shape) + made.table.bytes();
+  };
+  return cache.get({shape, unit}, make_rigid, size);
+}
+
 double volume_of(const ParticleShape& shape) { return star_surface(shape)->volume(); }
+double diameter_of(const ParticleShape& shape) { return ball_of(volume_of(shape)); }
 Vec3 extent_of(const ParticleShape& shape) {
   const V3 extent = extent_of(rigid_shape(shape, 1));
   return {extent.x, extent.y, extent.z};

@@ -2,6 +2,7 @@
 // which keeps the few points that are extreme along one of its directions.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,9 @@ class SupportTable {
   explicit SupportTable(std::vector<V3> points);
   const V3& extreme(const V3& direction) const;  // of any length but 0
   const std::vector<V3>& points() const { return points_; }
+  std::size_t bytes() const {
+    return (points_.size() + candidates_.size()) * sizeof(V3) + begin_.size() * sizeof(begin_[0]);
+  }
 
  private:
   std::vector<V3> points_;
