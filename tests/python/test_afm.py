@@ -4,12 +4,14 @@ import pytest
 
 import pulvis
 
+COARSE = {"lever.elements_along": 8, "lever.elements_across": 4, "tip.elements": 2}
+
 
 @pytest.fixture
 def coarse(scenes):
     """A friction loop on a lever of few elements: as many increments as the shipped one has, in a tenth of the time."""
-    return lambda: pulvis.Scene(scenes / "afm/loop-beam-0.toml", lever__elements_along=8, lever__elements_across=4,
-                                tip__elements=2)
+    return lambda: pulvis.Scene(scenes / "afm/loop-beam-0.toml",
+                                **{key.replace(".", "__"): value for key, value in COARSE.items()})
 
 
 def test_a_calibration_is_that_of_the_program(scenes, program, read_summary, tmp_path):
@@ -25,11 +27,11 @@ def test_a_calibration_is_that_of_the_program(scenes, program, read_summary, tmp
     assert ours["normal_stiffness"] > 0 and ours["lateral_stiffness"] > ours["normal_stiffness"]
 
 
-def test_a_friction_loop_is_that_of_the_program(scenes, program, read_summary, tmp_path):
-    file = scenes / "afm/loop-beam-0.toml"
-    done = program("run", file, "-o", tmp_path / "program", "--quiet")
+def test_a_friction_loop_is_that_of_the_program(coarse, scenes, program, read_summary, tmp_path):
+    sets = [word for key, value in COARSE.items() for word in ("--set", f"{key}={value}")]
+    done = program("run", scenes / "afm/loop-beam-0.toml", *sets, "-o", tmp_path / "program", "--quiet")
     assert done.returncode == 0, done.stderr
-    lever = pulvis.Scene(file).simulation(folder=tmp_path / "python")
+    lever = coarse().simulation(folder=tmp_path / "python")
     told = []
     lever.on_sample(lambda actions, row: told.append((actions, len(row))))
     lever.run()
