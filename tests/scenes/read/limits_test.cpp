@@ -96,8 +96,9 @@ TEST_F(Limits, ALeversRunGivenUpHalfWayGoesOnToTheSameBits) {
     return nlohmann::json::parse(text_of(place / folder / "summary.json"))["state_hash"];
   };
   const Words programme{
-      "run",   scene("afm/force-curve.toml"), "--set",     "action[2].increments=12",
-      "--set", "action[5].increments=9",      "--threads", "1",
+      "run",   scene("afm/loop-beam-0.toml"), "--set",     "lever.elements_along=8",
+      "--set", "lever.elements_across=4",     "--set",     "tip.elements=2",
+      "--set", "action[1].increments=60",     "--threads", "1",
       "-o"};
   Words words = programme;
   words.push_back("whole");
