@@ -9,7 +9,7 @@
 #include "scenes/language/problem.hpp"
 #include "scenes/packing/packing_file.hpp"
 #include "scenes/packing/place.hpp"
-#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/packing_file.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/space/space_summary.hpp"

@@ -17,7 +17,7 @@
 #include "scenes/memory_need.hpp"
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
-#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/afm_scene.hpp"
 

@@ -22,7 +22,7 @@
 #include "scenes/language/units.hpp"
 #include "scenes/lever/afm_size.hpp"
 #include "scenes/packing/place.hpp"
-#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/space/space_summary.hpp"
 #include "scenes/space/space_warnings.hpp"

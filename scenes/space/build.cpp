@@ -6,7 +6,7 @@
 #include "components/run_state.hpp"
 #include "scenes/space/contact_columns.hpp"
 #include "scenes/space/layout.hpp"
-#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/space/results/observed_density.hpp"
 #include "scenes/space/results/observed_network.hpp"

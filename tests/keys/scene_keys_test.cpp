@@ -20,7 +20,7 @@
 #include "scenes/read.hpp"
 #include "scenes/simulation.hpp"
 #include "scenes/space/keys/tables.hpp"
-#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/afm_scene.hpp"
 #include "scenes/study/declare_study.hpp"

@@ -12,7 +12,7 @@
 #include "scenes/packing/place.hpp"
 #include "scenes/read.hpp"
 #include "scenes/space/meshes/mesh.hpp"
-#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/overlaps.hpp"
 #include "scenes/space/packing/packing_file.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/space_scene.hpp"

@@ -28,7 +28,8 @@ std::vector<Key<ToolSpec>> keys_of_place() {
         .range = within(-largest_size, largest_size),
         .dimensions = 3,
         .choices = {{"packing top",
-                     "the height at which a punch rests on the packing; of several the highest"}},
+                     "the height at which a punch rests on the packing, with the foremost place "
+                     "of its face; of several packings the highest"}},
         .required = true,
         .doc = "A point of a plane's surface, of the axis of a die, the middle of a punch's "
                "face, or where the origin of an STL file lies."},

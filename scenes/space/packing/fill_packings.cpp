@@ -189,6 +189,13 @@ void read_file(Scene& scene, PackingSpec& packing) {
   packing.top = filed.top ? *filed.top : highest_point(space, packing.placed);
 }
 
+// m, of the face of a punch that looks down, over its point: it is this place that rests on the packing.
+double foremost_place(const ToolSpec& tool) {
+  if (tool.shape != ToolSpec::Shape::punch || tool.profile.empty() || !(tool.normal.z() < 0))
+    return 0;
+  return std::ranges::max(tool.profile, {}, [](const Vec2& place) { return place.y(); }).y();
+}
+
 void put_tools_on(SpaceScene& scene, const schema::Origins& origins, Problems& problems) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     if (!scene.tools[t].on_packing) continue;
@@ -198,7 +205,8 @@ void put_tools_on(SpaceScene& scene, const schema::Origins& origins, Problems& p
                    "there is no packing to rest on, allowed: a [[packing]], or a quantity in m");
       continue;
     }
-    scene.tools[t].point.z() = top_of_packings(scene);
+    ToolSpec& tool = scene.tools[t];
+    tool.point.z() = top_of_packings(scene) + foremost_place(tool);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "scenes/space/packing/overlaps.hpp"
+#include "scenes/space/overlaps.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,13 @@
 #include <optional>
 
 #include "scenes/language/problem.hpp"
+#include "scenes/space/meshes/directions.hpp"
+#include "scenes/space/meshes/star_surface.hpp"
 #include "scenes/space/packing/container.hpp"
 #include "scenes/space/packing/near_pairs.hpp"
 #include "scenes/space/packing/place.hpp"
+#include "scenes/space/tools/tool_depth.hpp"
+#include "scenes/space/tools/tool_shapes.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -36,7 +40,10 @@ Turn turn_to_z(const Vec3& axis) {
 class BodyOverlaps {
  public:
   BodyOverlaps(const Scene& scene, const std::vector<BodySpec>& bodies)
-      : scene_(*scene.space), bodies_(bodies) {
+      : scene_(*scene.space),
+        bodies_(bodies),
+        tools_(tool_shapes(scene_)),
+        points_(scene_.particles.size()) {
     double sum = 0;
     for (const ParticleSpec& particle : scene_.particles) sum += diameter_of(particle.shape);
     unit_ = sum / static_cast<double>(scene_.particles.size());
@@ -62,14 +69,21 @@ class BodyOverlaps {
   }
   std::size_t pairs() const { return pairs_; }
 
-  std::vector<Overlap> with_tool(std::size_t number) const {
+  std::vector<Overlap> with_tool(std::size_t number) {
     std::vector<Overlap> found;
     const ToolSpec& tool = scene_.tools[number];
+    const bool solid = is_solid(tool);
+    ToolDepth in_tool(tool, tools_.of_tool[number]);
     for (std::size_t i = 0; i < poses_.size(); ++i) {
-      const double depth = depth_behind(tool, tool.normal, i);
+      const double depth =
+          solid ? depth_in(in_tool, i) / unit_ : depth_behind(tool, tool.normal, i);
       if (depth > tolerance(i)) found.push_back({i, number, depth * unit_});
     }
     return found;
+  }
+
+  static bool is_solid(const ToolSpec& tool) {
+    return tool.shape == ToolSpec::Shape::punch || tool.shape == ToolSpec::Shape::stl;
   }
 
   // Turned round, the plane has every particle in front of it.
@@ -108,8 +122,41 @@ class BodyOverlaps {
     return touch ? -touch->gap : 0;
   }
 
+  // m, of a ball exactly, of other shapes at places all over their surface and at the one that lies farthest along the way
+  // into the tool.
+  double depth_in(ToolDepth& tool, std::size_t i) {
+    const BodySpec& body = bodies_[i];
+    const double reach = shape(i).reach * unit_;
+    tool.look_about(body.position, reach);
+    const ToolDepth::Place centre = tool.at(body.position);
+    if (shape(i).is_ball() || centre.depth < -reach) return centre.depth + reach;
+    const Turn& turn = poses_[i].turn;
+    const V3 foremost = turn * shape(i).support(turned_back(turn, vector_of(-centre.out)));
+    const auto depth_at = [&](const Vec3& from_centre) {
+      return tool.at(body.position + from_centre).depth;
+    };
+    double depth = depth_at(unit_ * Vec3(foremost.x, foremost.y, foremost.z));
+    const Eigen::Matrix3d rotation = body.rotation.toRotationMatrix();
+    for (const Vec3& point : surface_points(body.particle))
+      depth = std::max(depth, depth_at(rotation * point));
+    return depth;
+  }
+
+  const std::vector<Vec3>& surface_points(int particle) {
+    constexpr int cells = 7;  // along the edge of a cube of directions
+    std::vector<Vec3>& points = points_[static_cast<std::size_t>(particle)];
+    if (points.empty()) {
+      const auto surface = star_surface(scene_.particles[static_cast<std::size_t>(particle)].shape);
+      for (const Direction& d : directions(cells)) points.push_back(surface->point(d.unit));
+    }
+    return points;
+  }
+
   const SpaceScene& scene_;
   const std::vector<BodySpec>& bodies_;
+  ToolShapes tools_;
+  std::vector<std::vector<Vec3>>
+      points_;       // m, of the classes' surfaces, empty until they are needed
   double unit_ = 1;  // m
   std::vector<RigidShape> shapes_;
   std::vector<RigidPose> poses_;
@@ -132,6 +179,12 @@ class OverlapReport {
                     "particles in front of every tool",
                     described(overlap.particle), overlap.depth,
                     scene_.space->tools[overlap.other].name));
+  }
+  void inside(const Overlap& overlap) {
+    add(overlap, fmt::format("{} reaches {:.6g} m into tool '{}', allowed: particles outside of "
+                             "every tool",
+                             described(overlap.particle), overlap.depth,
+                             scene_.space->tools[overlap.other].name));
   }
   void turned_away(std::size_t number) {
     const ToolSpec& tool = scene_.space->tools[number];
@@ -190,10 +243,13 @@ std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodi
   OverlapReport report(scene, bodies);
   for (std::size_t t = 0; t < scene.space->tools.size(); ++t) {
     const std::vector<Overlap> found = search.with_tool(t);
-    if (!found.empty() && search.is_reversed(scene.space->tools[t]))
+    const ToolSpec& tool = scene.space->tools[t];
+    if (!found.empty() && search.is_reversed(tool)) {
       report.turned_away(t);
-    else
-      for (const Overlap& overlap : found) report.outside(overlap);
+      continue;
+    }
+    for (const Overlap& overlap : found)
+      BodyOverlaps::is_solid(tool) ? report.inside(overlap) : report.outside(overlap);
   }
   for (const Overlap& overlap : search.between_particles()) report.particles(overlap);
   report.throw_if_any();

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenes/space/packing/overlaps.hpp"
+#include <numbers>
+
+#include "scenes/space/overlaps.hpp"
 #include "tests/scenes/space/packing/packed_scene.hpp"
 
 namespace pulvis::space {
@@ -127,6 +129,81 @@ TEST(OverlapsInSpace, OfATabletInADieAreThoseOfItsRim) {
   EXPECT_TRUE(problems_of(scene).empty());
   scene.space->tools[0].diameter = 19.8 * mm;
   EXPECT_THAT(problems_of(scene).at(0).message, HasSubstr("reaches 0.0001 m behind"));
+}
+
+ToolSpec punch_down(double height, std::vector<Vec2> profile) {
+  ToolSpec punch = plane_at({0, 0, height}, {0, 0, -1});
+  punch.shape = ToolSpec::Shape::punch;
+  punch.diameter = 60 * mm;
+  for (const Vec2& place : profile) punch.profile.emplace_back(mm * place);
+  return punch;
+}
+
+// Under a cone of 45 degrees whose tip is 6 mm above the balls' centres: 6/sqrt(2) mm from it.
+TEST(OverlapsInSpace, OfBallsInAPunchHaveTheDepthOfItsFace) {
+  Scene scene = placed({SphereShape{10 * mm}}, {{0, {0, 0, 0}}, {0, {15, 0, 0}}});
+  scene.space->tools = {punch_down(6, {{0, 0}, {30, 30}})};  // forward towards the rim
+  const auto problems = problems_of(scene);
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_THAT(problems[0].message, HasSubstr("particle 0"));
+  EXPECT_THAT(problems[0].message, HasSubstr("reaches 0.000757359 m into tool 'wall', allowed: "
+                                             "particles outside of every tool"));
+  EXPECT_THAT(problems[1].message, HasSubstr("particle 1"));
+  // Its tip forward, 5.1 mm above the first ball: both have room.
+  scene.space->tools = {punch_down(5.1, {{0, 0}, {30, -30}})};
+  EXPECT_TRUE(problems_of(scene).empty());
+  scene.space->tools = {punch_down(4.9, {{0, 0}, {30, -30}})};
+  EXPECT_THAT(problems_of(scene).at(0).message, HasSubstr("reaches 0.0001 m into"));
+}
+
+// A tablet on its edge under a flat punch: the highest place of its rim.
+TEST(OverlapsInSpace, OfATabletInAPunchAreThoseOfItsRim) {
+  const Rotation tilted(std::cos(0.3), std::sin(0.3), 0, 0);  // by 0.6 rad about x
+  Scene scene = placed({CylinderShape{12 * mm, 4 * mm, 0}}, {{0, {0, 0, 0}, tilted}});
+  const double top = 6 * std::sin(0.6) + 2 * std::cos(0.6);  // mm
+  scene.space->tools = {punch_down(top + 0.01, {})};
+  EXPECT_TRUE(problems_of(scene).empty());
+  scene.space->tools = {punch_down(top - 0.1, {})};
+  EXPECT_THAT(problems_of(scene).at(0).message, HasSubstr("reaches 0.0001 m into"));
+}
+
+ToolSpec tetrahedron_tool(double size) {
+  ToolSpec tool = plane_at({0, 0, 0}, {0, 0, 1});
+  tool.shape = ToolSpec::Shape::stl;
+  const Vec3 o = Vec3::Zero(), x = size * mm * Vec3::UnitX(), y = size * mm * Vec3::UnitY(),
+             z = size * mm * Vec3::UnitZ();
+  tool.triangles = {{o, y, x}, {o, x, z}, {o, z, y}, {x, y, z}};
+  return tool;
+}
+
+// Beside a corner of a cube: at its edge, in front of its face, and wholly inside, away from all of its triangles.
+TEST(OverlapsInSpace, OfBallsInAnStlTool) {
+  Scene scene =
+      placed({SphereShape{2 * mm}},
+             {{0, {50, -0.9, 20}}, {0, {40, -1.1, 10}}, {0, {20, 20, 20}}, {0, {50, 50, 50}}});
+  scene.space->tools = {tetrahedron_tool(100)};
+  const auto problems = problems_of(scene);
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_THAT(problems[0].message, HasSubstr("particle 0"));
+  EXPECT_THAT(problems[0].message, HasSubstr("reaches 0.0001 m into tool 'wall'"));
+  EXPECT_THAT(problems[1].message, HasSubstr("particle 2"));
+  EXPECT_THAT(problems[1].message, HasSubstr("reaches 0.021 m into tool 'wall'"));
+}
+
+// An edge of the tool 0.1 mm deep in the middle of a box's face: no corner of either is in the other.
+TEST(OverlapsInSpace, OfAFaceOnAnEdgeOfAnStlTool) {
+  const Rotation turned(std::cos(std::numbers::pi / 8), std::sin(std::numbers::pi / 8), 0, 0);
+  const auto at = [&](double depth) {
+    const double off = -(5 - depth) / std::numbers::sqrt2;
+    Scene scene =
+        placed({SuperquadricShape{Vec3(10, 10, 10) * mm, 8, 8}}, {{0, {50, off, off}, turned}});
+    scene.space->tools = {tetrahedron_tool(100)};
+    return problems_of(scene);
+  };
+  EXPECT_TRUE(at(-0.01).empty());
+  const auto problems = at(0.1);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].message, HasSubstr("reaches 7.07107e-05 m into tool 'wall'"));
 }
 
 TEST(OverlapsInSpace, AreListedTwentyAtMost) {

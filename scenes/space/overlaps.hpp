@@ -1,4 +1,4 @@
-// Particles that overlap each other, or reach into planes and round dies.
+// Particles that overlap each other, or reach into tools.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 namespace pulvis::space {
 
 // Throws SceneError: each overlap with both particles, or particle and tool, and its depth; twenty at most. Particles are
-// looked at as the convex bodies that packings are made of (rigid_shape.hpp). Punches with a profile and STL tools are not
-// looked at. Returns the number of pairs whose bounding balls meet.
+// looked at as the convex bodies that packings are made of (rigid_shape.hpp); against punches and STL tools by places on their
+// true surface. Returns the number of pairs whose bounding balls meet.
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis::space
