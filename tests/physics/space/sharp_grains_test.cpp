@@ -24,7 +24,7 @@ rounding = "0.02 mm"
 // Twelve in the die of the shipped powder, a fiftieth of its size.
 Scene sharp_grains(const char* shape, int divisions, const char* density) {
   return own_scene(fmt::format(R"(extends = "compaction-3d/random-100-316L.toml"
-remove = ["particle.ball"]
+remove = ["particle.ball", "stage.press.until"]
 [let]
 W = "1 mm"
 [[particle]]
