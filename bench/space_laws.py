@@ -9,7 +9,8 @@ LAW  hertz      an elastic sphere between frictionless planes, and two spheres: 
      cell       a sphere in a cubic box at four meshes: observed order, wall stress against the mean stress of the particle
      turns      force of a sphere between planes for random turns of its mesh: rms over the mean
      taylor     copper rod against a rigid wall at 227 m/s: length, radius of the foot
-     mindlin    a sphere pressed and rubbed between planes: compliance, friction work of a cycle (Mindlin & Deresiewicz 1953)
+     mindlin    a sphere pressed and rubbed between planes: compliance, friction work of a cycle (Mindlin & Deresiewicz 1953);
+               the last mesh takes some 40 minutes
      dense      27 plastic spheres pressed to a relative density of 0.94: meshes and contact stiffnesses
      shapes     how far the smooth surfaces of coarse meshes are off their shapes
      sharp      how far sharp grains are pressed before a run stops itself
@@ -275,7 +276,7 @@ def mindlin(bench):
     print("law mindlin: a sphere pressed by four planes, of which two move forth and back and the others against them, so that it")
     print("neither moves nor turns. Compliance: of the first slip, fitted by k (1 - (1 - q)^(2/3)) + L q, k over Mindlin's; work: that of")
     print("friction in a cycle over Mindlin & Deresiewicz's, and the same with the fitted k; q: amplitude of Q/(mu N)")
-    for divisions, stiffness, d in ((8, 10, 0.05), (12, 10, 0.05), (12, 40, 0.05), (12, 10, 0.02)):
+    for divisions, stiffness, d in ((8, 10, 0.05), (12, 10, 0.05), (12, 40, 0.05), (12, 10, 0.02), (24, 10, 0.02)):
         rings = 2
         text = head("Mindlin", material) + ball(2 * radius, divisions, rings) + body(0, 0, radius)
         text += plane("bottom", (0, 0, 0), (0, 0, 1)) + plane("top", (0, 0, 2 * radius), (0, 0, -1))
