@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "systems/space/contact/tool_search.hpp"
 #include "systems/space/tools/triangle_kernel.hpp"
@@ -15,21 +14,23 @@ constexpr double far = std::numeric_limits<double>::max();
 
 }  // namespace
 
-// A point of the ball that is inside of the tool, while the centre is not, is no farther from the surface than from the
-// centre: its nearest triangle is within twice the reach. Where none is, the whole ball is inside, or outside.
+// Triangles are kept in a tree of boxes. What is nearest to the centre, at a distance d, is looked for farther and farther
+// away; what is nearest to another point of the ball is within d + 2 reach of the centre.
 void ToolDepth::look_about(const Vec3& centre, double reach) {
-  if (shape_.kind != ToolShapes::Kind::mesh) return;
+  if (shape_.kind != ToolShapes::Kind::mesh || shape_.mesh.triangles.empty()) return;
   const Vec3 from = centre - tool_.point;
   Box box{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double at = from[static_cast<Eigen::Index>(k)];
     box.low[k] = at - reach, box.high[k] = at + reach;
   }
-  triangles_.clear();
-  triangles_near(shape_.mesh, box, reach, triangles_);
-  if (!triangles_.empty()) return;
-  triangles_.resize(shape_.mesh.triangles.size());
-  std::iota(triangles_.begin(), triangles_.end(), 0);
+  const auto look = [&](double margin) {
+    triangles_.clear();
+    triangles_near(shape_.mesh, box, margin, triangles_);
+  };
+  double margin = reach;
+  for (look(margin); triangles_.empty(); look(margin)) margin *= 2;
+  look(std::abs(in_mesh(from).depth) + reach);
 }
 
 ToolDepth::Place ToolDepth::at(const Vec3& point) const {
