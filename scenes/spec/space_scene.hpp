@@ -154,7 +154,8 @@ struct ToolSpec {
   std::vector<Vec2> profile =
       {};  // m, of a punch: radius, height along the normal; from the axis outward
   std::string file = {}, unit = {};
-  std::vector<std::array<Vec3, 3>> triangles = {};  // m, of an STL tool when it has been read
+  // m, from `point`, of an STL tool when it has been read.
+  std::vector<std::array<Vec3, 3>> triangles = {};
   SourceMark mark;
 };
 

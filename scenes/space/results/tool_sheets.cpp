@@ -177,9 +177,7 @@ void ToolSheets::add_punch(const ToolSpec& punch) {
 }
 
 void ToolSheets::add_triangles(const ToolSpec& tool) {
-  for (const auto& triangle : tool.triangles)
-    add_piece(std::array{Vec3(triangle[0] - tool.point), Vec3(triangle[1] - tool.point),
-                         Vec3(triangle[2] - tool.point)});
+  for (const auto& triangle : tool.triangles) add_piece(triangle);
 }
 
 std::vector<double> ToolSheets::points(std::span<const double> places) const {

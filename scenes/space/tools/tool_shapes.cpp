@@ -71,7 +71,7 @@ ToolShapes tool_shapes(const SpaceScene& scene) {
     shape.kind = kind_of(tool);
     if (shape.kind == Kind::die) shape.radius = tool.diameter / 2;
     if (shape.kind == Kind::punch) shape.meridian = punch_meridian(tool, fills_a_die(tool, scene));
-    if (shape.kind == Kind::mesh) shape.mesh = triangle_mesh(tool.triangles, tool.point);
+    if (shape.kind == Kind::mesh) shape.mesh = triangle_mesh(tool.triangles);
   }
   return shapes;
 }

@@ -86,14 +86,14 @@ void add_node(TriangleMesh& mesh, std::int32_t first, std::int32_t last) {
 
 }  // namespace
 
-TriangleMesh triangle_mesh(const std::vector<std::array<Vec3, 3>>& triangles, const Vec3& origin) {
+TriangleMesh triangle_mesh(const std::vector<std::array<Vec3, 3>>& triangles) {
   TriangleMesh mesh;
   SharedNormals shared;
   for (const std::array<Vec3, 3>& corners : triangles) {
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     if (!(normal.norm() > 0)) continue;
     Triangle t{};
-    for (std::size_t k = 0; k < 3; ++k) t.corner[k] = point_of(corners[k] - origin);
+    for (std::size_t k = 0; k < 3; ++k) t.corner[k] = point_of(corners[k]);
     t.normal = point_of(normal.normalized());
     shared.add(t);
     mesh.triangles.push_back(t);

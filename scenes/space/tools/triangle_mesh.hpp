@@ -9,7 +9,7 @@
 
 namespace pulvis::space {
 
-// Corners that coincide exactly are one. Relative to `origin`. Triangles without area are left out.
-TriangleMesh triangle_mesh(const std::vector<std::array<Vec3, 3>>& triangles, const Vec3& origin);
+// Corners that coincide exactly are one. Triangles without area are left out.
+TriangleMesh triangle_mesh(const std::vector<std::array<Vec3, 3>>& triangles);
 
 }  // namespace pulvis::space

@@ -110,16 +110,14 @@ double outside_cube(const Vec3& p, double half) {
 
 TEST(SpaceTools, AMeshIsTheSignedDistanceToItsTriangles) {
   RandomPoints points;
-  const Vec3 origin(0.3, -0.2, 0.1);
-  const TriangleMesh mesh = triangle_mesh(cube(1), origin);
+  const TriangleMesh mesh = triangle_mesh(cube(1));
   ASSERT_EQ(mesh.triangles.size(), 12U);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 p = points(1.8), q = p + Vec3::Constant(1e-6);
     std::vector<std::int32_t> near;
-    const Vec3 from = p - origin;
-    const Point at{from.x(), from.y(), from.z()};
+    const Point at{p.x(), p.y(), p.z()};
     triangles_near(mesh, Box{at, at}, 4, near);
-    const Standing s = on_mesh(mesh, near, everywhere_at(from), 4);
+    const Standing s = on_mesh(mesh, near, everywhere_at(p), 4);
     EXPECT_NEAR(s.gap[0], -outside_cube(p, 1), 1e-12);
     // The normal is the slope of the distance.
     const double moved = outside_cube(q, 1) - outside_cube(p, 1);
@@ -134,7 +132,7 @@ TEST(SpaceTools, TrianglesNearABoxAreAllThatAre) {
     const Vec3 middle = points(10);
     triangles.push_back({middle, middle + points(1), middle + points(1)});
   }
-  const TriangleMesh mesh = triangle_mesh(triangles, Vec3::Zero());
+  const TriangleMesh mesh = triangle_mesh(triangles);
   for (int i = 0; i < 100; ++i) {
     const Vec3 p = points(10);
     const Box box{{p.x(), p.y(), p.z()}, {p.x() + 1, p.y() + 2, p.z() + 0.5}};
@@ -155,12 +153,15 @@ TEST(SpaceTools, TrianglesNearABoxAreAllThatAre) {
 // A ball that is pressed on a mesh whose surface is a plane, on a flat punch and on a plane bears the same.
 TEST(SpaceTools, ToolsWithTheSameSurfaceBearTheSame) {
   constexpr double diameter = 10e-3;
+  const Vec3 point(4e-3, -2e-3, 0.3);
   const Shape ball = make_shape(sphere_of(diameter));
   std::vector<double> forces;
   for (const auto shape : {ToolSpec::Shape::plane, ToolSpec::Shape::punch, ToolSpec::Shape::stl}) {
-    TouchingBodies w({ball}, {body_at(Vec3(0, 0, diameter / 2 - 100e-6))}, [shape](Scene& s) {
+    const Vec3 on_top = point + Vec3(0, 0, diameter / 2 - 100e-6);
+    TouchingBodies w({ball}, {body_at(on_top)}, [&](Scene& s) {
       ToolSpec tool;
       tool.name = "tool";
+      tool.point = point;
       tool.shape = shape;
       tool.diameter = 1;
       for (auto& triangle : cube(0.05)) {
