@@ -109,13 +109,13 @@ class BodyOverlaps {
     return touch ? -pair.distance(touch->normal) : 0;
   }
 
+  // Of a plane or a die; diameters.
   double depth_behind(const ToolSpec& tool, const Vec3& along, std::size_t i) const {
     const V3 normal = vector_of(along), at = poses_[i].at - vector_of(tool.point / unit_);
     if (tool.shape == ToolSpec::Shape::plane) {
       const V3 deepest = poses_[i].turn * shape(i).support(turned_back(poses_[i].turn, -normal));
       return -dot(normal, at + deepest);
     }
-    if (tool.shape != ToolSpec::Shape::die) return 0;
     const Turn turn = turn_to_z(along);
     const auto touch = round_wall_touch(tool.diameter / 2 / unit_, shape(i),
                                         {turn * at, turn * poses_[i].turn}, 0);
