@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <iterator>
@@ -178,16 +179,18 @@ void add_scene(CLI::App& command, Options& options, bool required = true) {
   add_overrides(command, options.run.overrides, "this run");
 }
 
-// CLI11's own checks let "nan" and "inf" pass.
-const CLI::Validator finite_number(
-    [](const std::string& text) {
-      double value = 0;
-      const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-      const bool good =
-          read.ec == std::errc() && read.ptr == text.data() + text.size() && std::isfinite(value);
-      return good ? std::string() : "'" + text + "' is no finite number";
-    },
-    "FINITE", "finite_number");
+// CLI11's own check lets "nan" and "inf" pass, and its message has a bound of 309 digits.
+template <class Number>
+CLI::Validator positive(const char* what) {
+  return {[what](const std::string& text) {
+            Number value{};
+            const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool good = read.ec == std::errc() && read.ptr == text.data() + text.size() &&
+                              value > 0 && std::isfinite(static_cast<double>(value));
+            return good ? std::string() : fmt::format("'{}', allowed: {} > 0", text, what);
+          },
+          "POSITIVE", "positive"};
+}
 
 // What is refused here is told once, not by every rank.
 ExitCode in_ranks(const Options& options, const std::filesystem::path& folder) {
@@ -217,8 +220,7 @@ void add_course(CLI::App& command, RunOptions& options) {
       .add_option("--checkpoint-every", options.checkpoints.every,
                   "seconds between checkpoints, as the clock on the wall has them")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->check(finite_number);
+      ->check(positive<double>("seconds"));
   command
       .add_option_function<std::string>(
           "--checkpoint-time",
@@ -236,11 +238,11 @@ void add_course(CLI::App& command, RunOptions& options) {
   command
       .add_option("--checkpoint-steps", options.checkpoints.steps,
                   "a checkpoint every so many steps, too (of an AFM scene: increments)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive<std::int64_t>("a whole number"));
   command
       .add_option("--stop-after", options.checkpoints.stop_after,
                   "stop at this step with a checkpoint, as an interrupt would (exit code 130)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive<std::int64_t>("a whole number"));
 }
 
 void add_run(CLI::App& app, Options& options, ExitCode& code) {

@@ -228,6 +228,9 @@ TEST_F(CommandLine, BadUsageIsRefused) {
                                                {"run", good, "--colour"},
                                                {"run", good, "--threads", "0"},
                                                {"run", good, "--threads", "two"},
+                                               {"run", good, "--stop-after", "0"},
+                                               {"run", good, "--stop-after", "3s"},
+                                               {"run", good, "--checkpoint-every", "nan"},
                                                {"run", good, "-o"},
                                                {"check"},
                                                {"check", "--reference", "poem"},
@@ -238,6 +241,7 @@ TEST_F(CommandLine, BadUsageIsRefused) {
     const Outcome end = pulvis(wrong);
     EXPECT_EQ(end.code, 2) << ::testing::PrintToString(wrong);
     EXPECT_THAT(end.err, HasSubstr("--help")) << ::testing::PrintToString(wrong);
+    EXPECT_LT(end.err.size(), 200U) << end.err;
   }
   EXPECT_FALSE(fs::exists(place / "runs"));
 }
