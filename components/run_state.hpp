@@ -104,6 +104,7 @@ struct ContactRules {
     double strength = std::numeric_limits<double>::infinity();  // Pa, shear stress at most
     double rate = 0;                                            // -, of ln(1 + v inv_speed)
     double inv_speed = 0;                                       // s/m
+    bool acts() const { return coefficient > 0 || drop > 0 || rate > 0; }
     bool only_coulomb() const { return drop == 0 && rate == 0 && std::isinf(strength); }
   };
   std::vector<Friction> friction;       // [materials * materials]

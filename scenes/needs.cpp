@@ -43,9 +43,7 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
                 (needs.constraints && any_outline(scene, has_notch));
   using Friction = ContactRules::Friction;
   const ContactRules rules = contact_rules(scene);
-  needs.friction = any_friction(rules, needs, [](const Friction& f) {
-    return f.coefficient > 0 || f.drop > 0 || f.rate > 0;
-  });
+  needs.friction = any_friction(rules, needs, [](const Friction& f) { return f.acts(); });
   needs.weakening = needs.friction &&
                     any_friction(rules, needs, [](const Friction& f) { return !f.only_coulomb(); });
   if (!scene.bonds.empty()) {

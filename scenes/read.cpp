@@ -88,16 +88,6 @@ class SceneReader : public SceneTables {
     afm.actions = read_all(schema::action());
   }
 
-  std::vector<MaterialSpec> read_materials() {
-    std::vector<MaterialSpec> materials = SceneTables::read_materials();
-    const Array& elements = array_at("material");
-    for (std::size_t i = 0; i < materials.size(); ++i)
-      if (const document::Entry* entry = document::find(elements[i].get<Table>(), "damping"))
-        tables_.read(schema::material_damping(), entry->value, numbered("material", i) + ".damping",
-                     family_, materials[i]);
-    return materials;
-  }
-
   std::vector<ParticleSpec> read_particles() {
     std::vector<ParticleSpec> particles = read_all(schema::particle());
     const Array& elements = array_at("particle");

@@ -132,11 +132,13 @@ json stages_in_space(const Scene& scene) {
   for (std::size_t s = 0; s < stages.size(); ++s) {
     const double duration = scene.stages[s].duration;
     if (s < space.moves.size())
-      for (const space::MoveSpec& move : space.moves[s])
-        stages[s]["moves"].push_back(
-            {{"tool", space.tools[static_cast<std::size_t>(move.tool)].name},
-             {"displacement", triple(move.displacement)},
-             {"speed", move.displacement.norm() / (duration * (1 - move.ramp))}});
+      for (const space::MoveSpec& move : space.moves[s]) {
+        json out{{"tool", space.tools[static_cast<std::size_t>(move.tool)].name},
+                 {"displacement", triple(move.displacement)},
+                 {"speed", move.displacement.norm() / (duration * (1 - move.ramp))}};
+        if (move.stiffness) out["stiffness"] = *move.stiffness;
+        stages[s]["moves"].push_back(std::move(out));
+      }
     if (s < space.servos.size())
       for (const space::ServoSpec& servo : space.servos[s])
         stages[s]["servos"].push_back(

@@ -25,6 +25,12 @@ struct ContactForce : Component<BoundaryNode, double, 3> {
                                       "of other particles and tools, on the node"};
 };
 
+// ---- only where a material has bulk damping ------------------------------------------------------
+struct DampingForce : Component<Node, double, 3> {
+  static constexpr ComponentInfo info{"damping_force", "N",
+                                      "of bulk damping, on the node; part of the internal force"};
+};
+
 // ---- elements -------------------------------------------------------------------------------
 template <int Points>
 struct DeviatoricStress : Component<Element, double, 5 * Points> {

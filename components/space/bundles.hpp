@@ -17,6 +17,10 @@ struct Meshes {
   }
   const Shape& of_chunk(Chunk chunk) const { return of_slot(ChunkLane(chunk, 0).slot()); }
 };
+struct Motion {  // of the nodes
+  Read<Position> position;
+  Read<Velocity> velocity;
+};
 // Forces on the nodes. Those of contact are apart, and only where anything can touch.
 template <template <class> class Mode>
 struct NodalForces {

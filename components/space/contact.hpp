@@ -100,6 +100,13 @@ struct ElasticSlip : Component<FaceToolContact, double, 3 * face_points> {
   static constexpr ComponentInfo info{"elastic_slip", "m",
                                       "stretch of the tangential springs, x of all, y, z: history"};
 };
+// ---- only where a pair's friction is more than Coulomb's coefficient ------------------------------
+template <class At>
+struct SlipWeakening : Component<At, double, face_points> {
+  static constexpr ComponentInfo info{"slip_weakening", "-",
+                                      "share of the static friction lost in sliding: history"};
+};
+
 // ---- pairs of particles ------------------------------------------------------------------------------
 // The rows of one particle against one other. Made with the rows, which stand in this order: (particle, other, face).
 struct FacePairs {

@@ -22,8 +22,14 @@ std::string SceneTables::numbered(const std::string& name, std::size_t i) {
 std::vector<MaterialSpec> SceneTables::read_materials() {
   std::vector<MaterialSpec> materials = read_all(schema::material());
   const Array& elements = array_at("material");
-  for (std::size_t i = 0; i < materials.size(); ++i)
-    materials[i].flow = read_flow_law(elements[i].get<document::Table>(), numbered("material", i));
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const document::Table& table = elements[i].get<document::Table>();
+    const std::string path = numbered("material", i);
+    materials[i].flow = read_flow_law(table, path);
+    if (const Entry* damping = document::find(table, "damping"))
+      tables_.read(schema::material_damping(), damping->value, path + ".damping", family_,
+                   materials[i]);
+  }
   return materials;
 }
 

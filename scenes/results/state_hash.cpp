@@ -74,17 +74,17 @@ class StateHash {
     const double* first = world_.column<Point>().values() + std::ptrdiff_t{row} * Point::count;
     for (int g = 0; g < space::face_points; ++g)
       for (int k = Point::spring; k < Point::force; ++k) add(first[g * Point::numbers + k]);
+    add_points<space::SlipWeakening<FaceContact>>(row);
   }
   void add_slip(int row) {
-    using Slip = space::ElasticSlip;
-    if (!world_.has<Slip>()) return;
-    for (int i = 0; i < Slip::count; ++i)
-      add(world_.column<Slip>().values()[std::ptrdiff_t{row} * Slip::count + i]);
+    add_points<space::ElasticSlip>(row);
+    add_points<space::SlipWeakening<FaceToolContact>>(row);
   }
   template <class C>
   void add_points(int row) {
     if (!world_.has<C>()) return;
-    for (int g = 0; g < edge_points; ++g) add(world_.column<C>().values()[edge_points * row + g]);
+    for (int i = 0; i < C::count; ++i)
+      add(world_.column<C>().values()[std::ptrdiff_t{row} * C::count + i]);
   }
 
   const World& world_;

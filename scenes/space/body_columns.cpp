@@ -16,16 +16,17 @@ namespace pulvis::space {
 namespace {
 
 // What the materials ask for.
-struct Plasticity {
-  bool plastic = false, curved = false, rated = false;
+struct MaterialNeeds {
+  bool plastic = false, curved = false, rated = false, damped = false;
 };
 
-Plasticity plasticity_of(const Scene& scene) {
-  Plasticity needs;
+MaterialNeeds needs_of(const Scene& scene) {
+  MaterialNeeds needs;
   needs.plastic = any_material_yields(scene);
   for (const MaterialSpec& m : scene.materials) {
     needs.curved = needs.curved || m.flow;
     needs.rated = needs.rated || (m.flow && m.flow->rate.index() != 0);
+    needs.damped = needs.damped || m.damped();
   }
   return needs;
 }
@@ -41,7 +42,7 @@ std::vector<std::int32_t> rows_by_chunk(const Bodies& bodies, const Shapes& shap
 }
 
 template <class F>
-void add_element_columns(World& world, const Plasticity& needs) {
+void add_element_columns(World& world, const MaterialNeeds& needs) {
   world.add<DeviatoricStress<F::points>>();
   world.add<MeanStress>();
   if (F::stabilised) world.add<HourglassEnergy>();
@@ -54,7 +55,7 @@ void add_element_columns(World& world, const Plasticity& needs) {
   }
 }
 
-void add_particle_columns(World& world, const Plasticity& needs) {
+void add_particle_columns(World& world, const MaterialNeeds& needs) {
   world.add<ShearModulus>();
   world.add<BulkModulus>();
   world.add<Density>();
@@ -63,6 +64,12 @@ void add_particle_columns(World& world, const Plasticity& needs) {
   world.add<StableTimeStep>();
   world.add<KineticEnergy>();
   world.add<ElasticEnergy>();
+  if (needs.damped) {
+    world.add<DampingForce>();
+    world.add<MassDamping>();
+    world.add<StiffnessDamping>();
+    world.add<DampingWork>();
+  }
   if (!needs.plastic) return;
   world.add<YieldStress>();
   world.add<HardeningModulus>();
@@ -85,7 +92,7 @@ Rotation random_rotation(std::mt19937_64& random) {
 
 void add_body_columns(World& world, const Scene& scene, const Bodies& bodies,
                       const Shapes& shapes) {
-  const Plasticity needs = plasticity_of(scene);
+  const MaterialNeeds needs = needs_of(scene);
   world.add_table<Node>(
       rows_by_chunk(bodies, shapes, [](const Shape& s) { return s.nodes.size(); }));
   world.add_table<Element>(
@@ -129,6 +136,10 @@ void fill_materials(World& world, const Scene& scene, const Bodies& bodies) {
     world.column<BulkModulus>().values()[slot] =
         m.youngs_modulus / (3 * (1 - 2 * m.poissons_ratio));
     world.column<Density>().values()[slot] = m.density;
+    if (world.has<MassDamping>()) {
+      world.column<MassDamping>().values()[slot] = m.mass_damping;
+      world.column<StiffnessDamping>().values()[slot] = m.stiffness_damping;
+    }
     if (!world.has<YieldStress>()) continue;
     world.column<YieldStress>().values()[slot] =
         m.yield_stress.value_or(std::numeric_limits<double>::infinity());

@@ -9,6 +9,7 @@
 #include "components/space/body.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
+#include "scenes/space/tools/drives.hpp"
 #include "scenes/space/tools/tool_shapes.hpp"
 #include "scenes/tools/contact_rules.hpp"
 
@@ -24,8 +25,7 @@ ContactRules rules_of(const Scene& scene) {
     for (const MaterialSpec& material : scene.materials)
       rules.tool_friction.push_back(friction_of(scene, tool.name, material.name));
   rules.tool_thickness.assign(scene.space->tools.size(), std::numeric_limits<double>::infinity());
-  rules.servos = std::ranges::any_of(scene.space->servos,
-                                     [](const auto& of_stage) { return !of_stage.empty(); });
+  rules.servos = has_servos(*scene.space);
   return rules;
 }
 
@@ -53,14 +53,17 @@ void find_smallest(const Shapes& shapes, ContactRules& rules) {
 }
 
 struct Touching {  // what can touch, and how
-  bool pairs, tools, friction, damping;
+  bool pairs, tools, friction, weakening, damping;
 
   Touching(const Scene& scene, const ContactRules& rules, std::size_t bodies) {
-    const auto rubs = [](const ContactRules::Friction& f) { return f.coefficient > 0; };
     pairs = bodies > 1;
     tools = !scene.space->tools.empty();
-    friction = (pairs && std::ranges::any_of(rules.friction, rubs)) ||
-               (tools && std::ranges::any_of(rules.tool_friction, rubs));
+    const auto any = [&](const auto& is) {
+      return (pairs && std::ranges::any_of(rules.friction, is)) ||
+             (tools && std::ranges::any_of(rules.tool_friction, is));
+    };
+    friction = any([](const ContactRules::Friction& f) { return f.acts(); });
+    weakening = friction && any([](const ContactRules::Friction& f) { return !f.only_coulomb(); });
     damping = rules.damping > 0;
   }
 };
@@ -113,9 +116,10 @@ void add_rows(World& world) {
   world.add<ContactLaw<At>>();
 }
 
-void add_pairs(World& world) {
+void add_pairs(World& world, const Touching& touching) {
   add_rows<FaceContact>(world);
   world.add<ContactPoint>();
+  if (touching.weakening) world.add<SlipWeakening<FaceContact>>();
   world.emplace<FacePairs>();
   world.emplace<OtherLoads>();
   world.emplace<ContactSums<Contact>>();
@@ -125,6 +129,7 @@ void add_tools(World& world, const SpaceScene& scene, const Touching& touching) 
   add_rows<FaceToolContact>(world);
   world.add<PointForce>();
   if (touching.friction) world.add<ElasticSlip>();
+  if (touching.weakening) world.add<SlipWeakening<FaceToolContact>>();
   world.emplace<RowBlocks<FaceToolContact>>();
   world.emplace<ContactSums<ToolContact>>();
   const ToolShapes& shapes = world.emplace<ToolShapes>(tool_shapes(scene));
@@ -144,7 +149,7 @@ void add_contact(World& world, const Scene& scene, const std::vector<BodySpec>& 
   if (!touching.pairs && !touching.tools) return;
   find_smallest(world.resource<Shapes>(), rules);
   add_surfaces(world, touching);
-  if (touching.pairs) add_pairs(world);
+  if (touching.pairs) add_pairs(world, touching);
   if (touching.tools) add_tools(world, *scene.space, touching);
   ContactIndex& index = world.emplace<ContactIndex>();
   index.skin = scene.contact.skin * rules.shortest_edge;

@@ -30,7 +30,7 @@ class SpaceReader : public SceneTables {
     space.packings = read_packings();
     space.tools = read_all(language::tool());
     scene.stages = read_stages(space);
-    scene.frictions = read_all(language::friction());
+    scene.frictions = read_all(schema::friction());
     read_one(language::contact(), scene.contact);
     read_one(language::element(), space);
     read_one(language::time(), scene.time);

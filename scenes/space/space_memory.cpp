@@ -10,6 +10,7 @@
 #include "engine/chunk_lane.hpp"
 #include "scenes/space/packing/place.hpp"
 #include "scenes/spec/yield.hpp"
+#include "scenes/tools/contact_rules.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -35,17 +36,18 @@ std::uint64_t bytes_of_element(bool plastic) {
   return bytes;
 }
 
-std::uint64_t bytes_of_row() {
+std::uint64_t bytes_of_row(bool weakening) {
   using At = FaceContact;
   return size_of_columns<ContactPair<At>, ContactTouches<At>, Activation<At>, ContactLaw<At>,
                          ContactPoint>() +
-         sizeof(OtherLoads::Load);
+         sizeof(OtherLoads::Load) + (weakening ? size_of_columns<SlipWeakening<At>>() : 0);
 }
 
-bool any_friction_in(const Scene& scene) {
-  return scene.contact.friction > 0 ||
-         std::ranges::any_of(scene.frictions,
-                             [](const FrictionSpec& f) { return f.coefficient > 0; });
+template <class Is>
+bool any_friction(const Scene& scene, const Is& is) {
+  return std::ranges::any_of(scene.frictions, [&](const FrictionSpec& f) {
+    return is(friction_of(scene, f.first, f.second));
+  });
 }
 
 }  // namespace
@@ -54,12 +56,17 @@ SpaceMemory memory_of(const Scene& scene) {
   std::vector<std::uint64_t> particles(scene.space->particles.size());
   for (const BodySpec& body : place_bodies(scene))
     particles[static_cast<std::size_t>(body.particle)] += 1;
-  const bool friction = any_friction_in(scene);
-  const bool plastic = any_material_yields(scene);
+  using Friction = ContactRules::Friction;
+  const bool friction =
+      scene.contact.friction > 0 || any_friction(scene, [](const Friction& f) { return f.acts(); });
+  const bool weakening = any_friction(scene, [](const Friction& f) { return !f.only_coulomb(); });
+  const bool plastic = any_material_yields(scene),
+             damped = std::ranges::any_of(scene.materials, &MaterialSpec::damped);
   const std::uint64_t element = scene.space->full_integration
                                     ? bytes_of_element<EightPoint>(plastic)
                                     : bytes_of_element<OnePoint>(plastic);
-  const std::uint64_t node = size_of_columns<Position, Velocity, InternalForce>();
+  const std::uint64_t node = size_of_columns<Position, Velocity, InternalForce>() +
+                             (damped ? size_of_columns<DampingForce>() : 0);
   const std::uint64_t face = size_of_columns<FacePosition, FaceBefore>() +
                              (friction ? size_of_columns<FaceVelocity>() : 0);
   SpaceMemory need;
@@ -78,7 +85,7 @@ SpaceMemory memory_of(const Scene& scene) {
                              surface * size_of_columns<ContactForce>());
     need.results += particles[c] * copies_in_flight * sizeof(double) * (6 * nodes + 9 * elements);
     need.contacts += static_cast<std::uint64_t>(
-        rows_of_a_face * static_cast<double>(particles[c] * faces * bytes_of_row()));
+        rows_of_a_face * static_cast<double>(particles[c] * faces * bytes_of_row(weakening)));
   }
   return need;
 }

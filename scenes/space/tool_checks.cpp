@@ -24,6 +24,7 @@ class ToolsInSpace {
     for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
       const std::string path = fmt::format("stage[{}]", s);
       moves(space_.moves[s], path);
+      elastic_moves(s, path);
       servos(s, path);
       if (scene_.stages[s].until) until(*scene_.stages[s].until, path + ".until");
     }
@@ -67,6 +68,18 @@ class ToolsInSpace {
       if (moves[i].displacement.isZero(0))
         refuse_(path + ".displacement",
                 "a move by nothing has no effect, allowed: a displacement that is not 0");
+    }
+  }
+
+  // Of moves whose drive gives.
+  void elastic_moves(std::size_t stage, const std::string& stage_path) {
+    for (std::size_t i = 0; i < space_.moves[stage].size(); ++i) {
+      const MoveSpec& move = space_.moves[stage][i];
+      if (move.stiffness &&
+          std::ranges::count(space_.servos[stage], move.tool, &ServoSpec::tool) > 0)
+        refuse_(fmt::format("{}.move[{}].stiffness", stage_path, i),
+                fmt::format("'{}' has a servo in the same stage, allowed: one of the two",
+                            name_of(move.tool)));
     }
   }
 

@@ -106,7 +106,9 @@ std::optional<FullDensity> full_density(const Scene& scene, const std::vector<Bo
   Places places = start_of_tools(*scene.space);
   for (std::size_t s = 0; s < scene.stages.size(); ++s) {
     const std::vector<MoveSpec>& moves = scene.space->moves[s];
-    if (!scene.space->servos[s].empty() || scene.stages[s].until) return std::nullopt;
+    const bool gives = std::ranges::any_of(
+        moves, [](const MoveSpec& move) { return move.stiffness.has_value(); });
+    if (gives || !scene.space->servos[s].empty() || scene.stages[s].until) return std::nullopt;
     const Places end = moved(places, moves, 1);
     const double left = room_left(*room, end);
     if (left < volume && left < room_left(*room, places))

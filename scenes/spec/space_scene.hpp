@@ -163,6 +163,8 @@ struct MoveSpec {
   int tool = 0;
   Vec3 displacement = Vec3::Zero();  // m, travelled over the stage
   double ramp = 0.1;
+  std::optional<double> stiffness, mass;  // N/m, kg: a drive that gives, moved at its far end
+  double damping = 0;                     // -, of the critical one of both
   SourceMark mark;
 };
 

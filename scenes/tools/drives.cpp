@@ -13,6 +13,7 @@
 #include "scenes/outlines/outline.hpp"
 #include "scenes/tools/cell.hpp"
 #include "scenes/tools/die_cell.hpp"
+#include "scenes/tools/elastic_drive.hpp"
 #include "scenes/tools/powder.hpp"
 #include "scenes/tools/servo_checks.hpp"
 #include "systems/tools/servo_kernel.hpp"
@@ -64,12 +65,7 @@ void add_elastic_drives(const Scene& scene, ToolServos& servos) {
       if (!move.stiffness) continue;
       const Vec2 direction = move.displacement.normalized();
       servos.servos.push_back(
-          {.tool = move.tool,
-           .stage = static_cast<int>(s),
-           .direction = {direction.x(), direction.y(), 0},
-           .mass = *move.mass,
-           .damping = 2 * move.damping * std::sqrt(*move.stiffness * *move.mass),
-           .stiffness = *move.stiffness});
+          elastic_drive(move, static_cast<int>(s), {direction.x(), direction.y(), 0}));
     }
 }
 

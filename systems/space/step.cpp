@@ -71,6 +71,7 @@ Steps steps_with(World& w) {
   force.add<contact_force>       ("contact_force",     touches.any());
   force.add<elastic_force<F>>    ("elastic_force",     !plastic);
   force.add<plastic_force<F>>    ("plastic_force",     plastic);
+  force.add<damping_force<F>>    ("damping_force",     w.has<DampingForce>());
   force.add<stable_time_step<F>> ("stable_time_step");
   force.add<tool_reaction>       ("tool_reaction",     touches.tools);
   force.add<stage_control>       ("stage_control",     w.has<StageEnds>());

@@ -75,7 +75,24 @@ TableDeclaration<BodySpec> declared_body() {
   return table;
 }
 
+// As in two dimensions, but that the setters are those of another plain value.
+template <class Spec>
+schema::KeyInfo as_in_the_plane(const TableDeclaration<Spec>& table, const char* name) {
+  for (const Key<Spec>& key : table.keys)
+    if (key.info.name == name) return key.info;
+  return {.name = name};
+}
+template <class Set>
+Key<MoveSpec> move_key(const char* name, Set set) {
+  return {as_in_the_plane(schema::move(), name), set};
+}
+
 std::vector<Key<MoveSpec>> move_keys() {
+  Key<MoveSpec> drive = move_key("stiffness", to(&MoveSpec::stiffness));
+  drive.info.doc =
+      "Of a drive that gives, along the displacement, which is then that of its far end: the tool "
+      "follows as a mass on a spring. In the stage after it the tool stands where it was left, "
+      "unless that drives it so, too.";
   return {{{.name = "tool",
             .kind = Kind::reference,
             .refers_to = "tool",
@@ -96,15 +113,15 @@ std::vector<Key<MoveSpec>> move_keys() {
             .fallback = value_of(0.1),
             .doc = "Share of the stage in which the speed rises smoothly, and falls again at its "
                    "end."},
-           to(&MoveSpec::ramp)}};
+           to(&MoveSpec::ramp)},
+          drive,
+          move_key("mass", to(&MoveSpec::mass)),
+          move_key("damping", to(&MoveSpec::damping))};
 }
 
-// As in two dimensions, but that the setters are those of another plain value.
 template <class Set>
 Key<ServoSpec> servo_key(const char* name, Set set) {
-  for (const Key<pulvis::ServoSpec>& key : schema::servo().keys)
-    if (key.info.name == name) return {key.info, set};
-  return {{.name = name}, set};
+  return {as_in_the_plane(schema::servo(), name), set};
 }
 
 std::vector<Key<ServoSpec>> servo_keys() {
@@ -180,14 +197,6 @@ const TableDeclaration<UntilSpec>& until() {
         "Of the powder between six planes, or in a round die between two planes or punches.";
     return table;
   }();
-  return declaration;
-}
-
-// Coulomb's coefficient alone.
-const TableDeclaration<FrictionSpec>& friction() {
-  static const TableDeclaration<FrictionSpec> declaration =
-      without(schema::friction(),
-              {"static_coefficient", "decay_length", "shear_strength", "rate", "reference_speed"});
   return declaration;
 }
 

@@ -23,8 +23,8 @@
 #include "scenes/space/results/visit_particles.hpp"
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
-#include "scenes/spec/yield.hpp"
 #include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/yield.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -72,7 +72,8 @@ class SpaceParts : public ResultParts {
         sheets_(*scene.space, box_of_nodes(world)) {
     if (room_) room_->particle_volume = volume_;
     for (std::size_t t = 0; t < scene.space->tools.size(); ++t)
-      has_servo_.push_back(is_servo_driven(scene, static_cast<int>(t)));
+      has_servo_.push_back(is_servo_driven(scene, static_cast<int>(t)) ||
+                           is_driven_through_a_spring(scene, static_cast<int>(t)));
     visit_particles<Node>(
         world, [&](std::size_t, int, const Shape& shape) { elements_ += shape.elements(); });
   }

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "scenes/space/tools/die_room.hpp"
-#include "scenes/spec/yield.hpp"
 #include "scenes/spec/space_scene.hpp"
+#include "scenes/spec/yield.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -23,6 +23,9 @@ void add_tool_series(const Scene& scene, int number, std::vector<SeriesInfo>& al
   if (is_servo_driven(scene, number))
     all.push_back(
         {name + "force_asked", "N", "that its servo is to hold now, in the direction it pushes"});
+  else if (is_driven_through_a_spring(scene, number))
+    all.push_back(
+        {name + "drive_force", "N", "of its drive's spring and dashpot on it, along its move"});
 }
 
 void add_room_series(const Scene& scene, const DieRoom& room, std::vector<SeriesInfo>& all) {
@@ -53,6 +56,13 @@ void add_room_series(const Scene& scene, const DieRoom& room, std::vector<Series
 bool is_servo_driven(const Scene& scene, int tool) {
   return std::ranges::any_of(scene.space->servos, [&](const std::vector<ServoSpec>& servos) {
     return std::ranges::find(servos, tool, &ServoSpec::tool) != servos.end();
+  });
+}
+
+bool is_driven_through_a_spring(const Scene& scene, int tool) {
+  return std::ranges::any_of(scene.space->moves, [&](const std::vector<MoveSpec>& moves) {
+    return std::ranges::any_of(
+        moves, [&](const MoveSpec& move) { return move.tool == tool && move.stiffness; });
   });
 }
 

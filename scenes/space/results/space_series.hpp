@@ -12,5 +12,6 @@ std::vector<SeriesInfo> tool_series(const Scene& scene);  // of tools, and of th
 std::vector<SeriesInfo> contact_series();
 std::vector<SeriesInfo> momentum_series();
 bool is_servo_driven(const Scene& scene, int tool);
+bool is_driven_through_a_spring(const Scene& scene, int tool);
 
 }  // namespace pulvis::space

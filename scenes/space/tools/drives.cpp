@@ -13,6 +13,7 @@
 #include "engine/access.hpp"
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
+#include "scenes/tools/elastic_drive.hpp"
 #include "systems/tools/servo_kernel.hpp"
 
 namespace pulvis::space {
@@ -38,6 +39,14 @@ ToolProgram programme_of(const Scene& scene) {
   return program;
 }
 
+void add_elastic_drives(const SpaceScene& scene, ToolServos& servos) {
+  for (std::size_t s = 0; s < scene.moves.size(); ++s)
+    for (const MoveSpec& move : scene.moves[s])
+      if (move.stiffness)
+        servos.servos.push_back(
+            elastic_drive(move, static_cast<int>(s), values_of(move.displacement.normalized())));
+}
+
 // `response`: the tool's mass and the one it drags, over the powder's. A solid block of the powder's mass, stiffness and
 // cross-section would be damped critically by the latter and the dashpot in series.
 ToolServos servos_of(const World& world, const Scene& scene) {
@@ -59,6 +68,7 @@ ToolServos servos_of(const World& world, const Scene& scene) {
                                .max_speed = spec.max_speed,
                                .tolerance = spec.tolerance});
     }
+  add_elastic_drives(*scene.space, servos);
   return servos;
 }
 
@@ -109,12 +119,19 @@ Vec3 direction_of(const ServoSpec& servo, const SpaceScene& scene) {
   return has_face(tool) ? tool.normal : Vec3::Zero();
 }
 
+bool has_servos(const SpaceScene& scene) {
+  const auto gives = [](const MoveSpec& move) { return move.stiffness.has_value(); };
+  return std::ranges::any_of(scene.servos, [](const auto& servos) { return !servos.empty(); }) ||
+         std::ranges::any_of(scene.moves,
+                             [&](const auto& moves) { return std::ranges::any_of(moves, gives); });
+}
+
 void add_tools(World& world, const Scene& scene) {
   const SpaceScene& space = *scene.space;
   if (space.tools.empty()) return;
   add_columns_of_tools(world, space);
   world.emplace<ToolProgram>(programme_of(scene));
-  if (std::ranges::any_of(space.servos, [](const auto& servos) { return !servos.empty(); })) {
+  if (has_servos(space)) {
     world.add<ServoTravel>();
     world.add<ServoVelocity>();
     world.add<ServoMass>();

@@ -62,14 +62,14 @@ inline kernels::Vector3<Packet> pulled_back(const kernels::Matrix3<Packet>& adj,
 }
 
 // ---- one point -----------------------------------------------------------------------------------------
-inline void add_one_point_forces(const ForceViews<OnePoint>& v, const PointAt& at,
-                                 const Hexahedron& nodes, const kernels::Matrix3<Packet>& stress,
-                                 const kernels::HourglassForce<Packet>& y,
-                                 const kernels::Matrix3<Packet>& moment,
-                                 const kernels::Gradient& g) {
+template <class Force>
+void add_one_point_forces(const Force& of_nodes, const PointAt& at, const Hexahedron& nodes,
+                          const kernels::Matrix3<Packet>& stress,
+                          const kernels::HourglassForce<Packet>& y,
+                          const kernels::Matrix3<Packet>& moment, const kernels::Gradient& g) {
   const auto row = [&](int k, Packet sx, Packet sy, Packet sz, kernels::Modes<Packet> force) {
     kernels::add_gradient_force(force, pulled_back(at.adj, sx, sy, sz), g);
-    add_force(v.force, nodes, k, force);
+    add_force(of_nodes, nodes, k, force);
   };
   const Packet zero{};
   const auto less = [&](Packet s, Packet m) { return fma(-at.inv_j, m, s); };
@@ -114,7 +114,8 @@ Packet element_force(const ForceViews<OnePoint>& v, Material& material, const Sh
   store(v.deviator, e, 0, s);
   v.mean(e) = mean;
   const auto y = kernels::hourglass_force(bending, to, element);
-  add_one_point_forces(v, at, nodes, weighted_stress(s, element.volume, element.volume * mean), y,
+  add_one_point_forces(v.force, at, nodes,
+                       weighted_stress(s, element.volume, element.volume * mean), y,
                        kernels::hourglass_moment(y, modes), element.gradient);
   const Packet::Mask may_close = ~(closing < 1.0);
   if (!any(may_close)) return at.j;
@@ -146,6 +147,18 @@ inline EightPoints eight_points(const kernels::ElementModes<Packet>& modes,
   return p;
 }
 
+// `stress`: times volume and det F.
+inline void add_point_stress(kernels::ElementModes<Packet>& force, const PointAt& at,
+                             const kernels::Matrix3<Packet>& stress, const Tensor& inverse) {
+  const auto row = [&](kernels::Modes<Packet>& of_force, Packet x, Packet y, Packet z) {
+    kernels::add_point_force(of_force, pulled_back(at.adj, x, y, z), inverse,
+                             kernels::gauss_coordinates(at.g));
+  };
+  row(force.x, stress.xx, stress.xy, stress.xz);
+  row(force.y, stress.yx, stress.yy, stress.yz);
+  row(force.z, stress.zx, stress.zy, stress.zz);
+}
+
 template <class Material>
 Packet element_force(const ForceViews<EightPoint>& v, Material& material, const Shape& shape,
                      Row<Element> e) {
@@ -166,14 +179,7 @@ Packet element_force(const ForceViews<EightPoint>& v, Material& material, const 
     material.flow(at, s);
     store(v.deviator, e, g, s);
     const auto stress = weighted_stress(s, p.theta * inv_j * at.volume, mean * at.volume);
-    const auto& inverse = entry(points, g).inverse_jacobian;
-    const auto xi = kernels::gauss_coordinates(g);
-    const auto row = [&](kernels::Modes<Packet>& modes_of_force, Packet x, Packet y, Packet z) {
-      kernels::add_point_force(modes_of_force, pulled_back(at.adj, x, y, z), inverse, xi);
-    };
-    row(force.x, stress.xx, stress.xy, stress.xz);
-    row(force.y, stress.yx, stress.yy, stress.yz);
-    row(force.z, stress.zx, stress.zy, stress.zz);
+    add_point_stress(force, at, stress, entry(points, g).inverse_jacobian);
   }
   add_force(v.force, nodes, 0, force.x);
   add_force(v.force, nodes, 1, force.y);

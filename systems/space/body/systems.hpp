@@ -52,6 +52,19 @@ struct plastic_force {
   void operator()(BusyChunk chunk) const;
 };
 
+template <class F>
+struct damping_force {
+  Meshes meshes;
+  Read<Clock> clock;
+  Motion motion;
+  Material material;
+  BulkDamping constants;
+  Write<DampingForce> damping;
+  Write<DampingWork> work;
+  Write<InternalForce> internal;
+  void operator()(Chunk chunk) const;
+};
+
 // ---- motion, and the steps that it can take -----------------------------------------------------
 struct integrate {
   Meshes meshes;
@@ -71,6 +84,7 @@ struct stable_time_step {
   Material material;
   Read<DeviatoricStress<F::points>> deviator;
   Optional<Read<ContactRules>> rules;
+  Optional<BulkDamping> damping;
   Write<StableTimeStep> stable;
   void operator()(Chunk chunk) const;
 };

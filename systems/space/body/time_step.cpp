@@ -108,9 +108,9 @@ template <class F>
       late = max(late, late_bound(contact, element, k, solid, (*rules)->stiffness));
   }
   Lane& step = stable.chunk(chunk)(particle);
-  step = 2.0 * sqrt(rho / highest);
+  step = stable_step(chunk, rho, highest, damping);
   if (!(contact.dashpots > 0)) return;
-  const Lane longest = 2.0 * sqrt(rho / late);
+  const Lane longest = stable_step(chunk, rho, late, damping);
   // A servo's tool lives on the whole of what `safety` leaves; without one, what is known to be too strict in the bound
   // need not be paid for.
   step = (*rules)->servos ? min(longest, step)

@@ -9,6 +9,7 @@
 // Sign     force on the sampled face: pressure along n, friction in the plane across n
 #pragma once
 
+#include "components/run_state.hpp"
 #include "components/space/contact.hpp"
 #include "systems/laws/friction.hpp"
 #include "systems/laws/normal_contact.hpp"
@@ -71,17 +72,39 @@ inline VectorLanes turned(const VectorLanes& spring, const PointMotion& m, doubl
       normal.spring_energy * law.weight,         Lane{}, normal.damping_power * law.weight * dt};
 }
 
-inline void add_friction(const PointLaw& law, const PointMotion& m, double dt, const Lane& pressure,
-                         const VectorLanes& before, PointForces& f) {
-  pulvis::kernels::Coulomb<Lane> coulomb{law.friction};
+// `sliding`: the law of friction (systems/laws/friction.hpp). `before`: the springs.
+template <class Sliding>
+void add_friction(const PointLaw& law, const PointMotion& m, double dt, const Lane& pressure,
+                  const VectorLanes& before, Sliding& sliding, PointForces& f) {
   const auto friction = pulvis::kernels::friction_return_in_plane(
-      turned(before, m, dt), Lane(dt) * m.slip, pressure, coulomb, law.kappa, 1.0 / law.kappa);
+      turned(before, m, dt), Lane(dt) * m.slip, pressure, sliding, law.kappa, 1.0 / law.kappa);
   f.elastic_slip = friction.elastic_slip;
   f.friction = law.weight * friction.traction;
   f.force = f.force + f.friction;
   f.friction_work = friction.work * law.weight;
   f.energy = fma(0.5 * law.kappa * law.weight, dot(friction.elastic_slip, friction.elastic_slip),
                  f.energy);
+}
+
+// Friction of a pair that is more than Coulomb's coefficient. `share` of the stiffness: one half where the other particle
+// samples back, and bears as much again. Returns what is lost of the static part: nothing where the surfaces are apart.
+[[gnu::noinline]] inline Lane add_weakening_friction(const ContactRules::Friction& of_pair,
+                                                     double share, const Lane& lost,
+                                                     const PointLaw& law, const PointMotion& m,
+                                                     double dt, const Lane& pressure,
+                                                     const VectorLanes& before, PointForces& f) {
+  const Lane by_speed =
+      of_pair.rate == 0 ? Lane{}
+                        : pulvis::kernels::rate_effect(sqrt(dot(m.slip, m.slip)),
+                                                       Lane(of_pair.rate), Lane(of_pair.inv_speed));
+  pulvis::kernels::Weakening<Lane> sliding{Lane(of_pair.coefficient),
+                                           Lane(of_pair.drop),
+                                           Lane(of_pair.inv_decay),
+                                           Lane(share * of_pair.strength),
+                                           lost,
+                                           by_speed};
+  add_friction(law, m, dt, pressure, before, sliding, f);
+  return select(m.gap > 0.0, sliding.lost, Lane{});
 }
 
 // ---- books ----------------------------------------------------------------------------------------------

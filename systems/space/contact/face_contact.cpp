@@ -53,6 +53,7 @@ class PairPass {
     const int slot = s_.columns.pair(row, 0), other = s_.columns.pair(row, 2);
     friction_ = s_.columns.law(row, ContactLaw<FaceContact>::friction);
     rubs_ = s_.columns.law(row, ContactLaw<FaceContact>::friction) > 0;
+    if (s_.columns.history) find_weakening(slot, other);
     own_ = &s_.bodies.shape_of(slot);
     its_ = &s_.bodies.shape_of(other);
     own_face_ = s_.bodies.first_face(slot) * std::ptrdiff_t{face_numbers};
@@ -81,6 +82,14 @@ class PairPass {
   }
 
  private:
+  void find_weakening(int slot, int other) {
+    const auto material_of = [&](int of) { return entry(s_.bodies.bodies->slots, of).material; };
+    const ContactRules::Friction& friction =
+        s_.columns.history->rules->friction_between(material_of(slot), material_of(other));
+    rubs_ = friction.acts();
+    if (rubs_ && !friction.only_coulomb()) weakening_ = &friction;
+  }
+
   static constexpr double share = 0.5;  // of the stiffness: the other particle samples back
   static constexpr double doubtful_depth = 0.25;  // of the size of a face
   static constexpr std::int32_t rows_at_once = 32;
@@ -145,6 +154,8 @@ class PairPass {
       p.damping = damping;
       p.kept = kept;
       p.activation = &s_.columns.activation(row, static_cast<int>(g));
+      p.lost =
+          weakening_ != nullptr ? &s_.columns.history->lost(row, static_cast<int>(g)) : nullptr;
       p.row = static_cast<std::int32_t>(row.value);
     }
     s_.columns.touches(row) = 0;
@@ -188,8 +199,14 @@ class PairPass {
     Lane pressure;
     PointForces f = normal_forces(law, m, s_.clock->dt_before, pressure);
     if (rubs_) {
-      const VectorLanes spring{kept[2], kept[3], kept[4]};
-      add_friction(law, m, s_.clock->dt_before, pressure, select(real, spring, no_vector), f);
+      const VectorLanes spring = select(real, {kept[2], kept[3], kept[4]}, no_vector);
+      if (weakening_ == nullptr) {
+        pulvis::kernels::Coulomb<Lane> coulomb{friction_};
+        add_friction(law, m, s_.clock->dt_before, pressure, spring, coulomb, f);
+      } else {
+        keep_lost(eight, add_weakening_friction(*weakening_, share, lost_of(eight), law, m,
+                                                s_.clock->dt_before, pressure, spring, f));
+      }
     }
     keep(eight, p, standing.gap, touching.bits(), f);
     sums_.add(f);  // of springs that are let go, too
@@ -286,6 +303,13 @@ class PairPass {
       touches = 1;
     }
   }
+  static Lane lost_of(const PointLanes& eight) {
+    return Lane::from([&](int l) { return *entry(eight.point, l)->lost; });
+  }
+  static void keep_lost(const PointLanes& eight, const Lane& lost) {
+    for (int l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l)
+      *entry(eight.point, l)->lost = lost[l];
+  }
   void book(const PointLanes& eight, unsigned unconverged) const {
     BlockSums& block = sums_.block;
     block.projections += std::popcount(eight.real);
@@ -307,6 +331,7 @@ class PairPass {
   FaceSums& sums_;
   Lane friction_;
   bool rubs_;
+  const ContactRules::Friction* weakening_ = nullptr;  // where friction is more than a coefficient
   OtherFaces faces_;
   PairPoints points_;
   std::int32_t first_, end_;

@@ -17,6 +17,7 @@ struct alignas(64) PairPoint {
   std::array<double, 8> motion;  // position, velocity, weight, 1/size of the face
   double kappa, damping;         // of contact_law.hpp
   double *kept, *activation;     // in the columns: ContactPoint's numbers, when it is active again
+  double* lost;                  // there: SlipWeakening, or null
   std::int32_t row;              // of FaceContact
 };
 

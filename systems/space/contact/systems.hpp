@@ -4,6 +4,7 @@
 
 #include "components/body.hpp"
 #include "components/space/body.hpp"
+#include "components/space/bundles.hpp"
 #include "components/space/contact.hpp"
 #include "components/space/tools.hpp"
 #include "systems/ranks/reduce.hpp"
@@ -13,10 +14,7 @@ namespace pulvis::space {
 // ---- surfaces -----------------------------------------------------------------------------------
 struct contact_surface {
   ShapedBodies bodies;
-  struct Motion {
-    Read<Position> position;
-    Read<Velocity> velocity;
-  } motion;
+  Motion motion;
   Write<NetPosition> net;
   Write<PointPosition> points;
   Write<FacePosition> position;
@@ -88,6 +86,13 @@ struct ContactFaces {
   Optional<Read<FaceVelocity>> velocity;  // with friction or damping
 };
 
+// Where some friction is more than Coulomb's coefficient.
+template <class At>
+struct FrictionHistory {
+  Write<SlipWeakening<At>> lost;
+  Read<ContactRules> rules;
+};
+
 struct face_contact {
   ShapedBodies bodies;
   Read<Clock> clock;
@@ -98,6 +103,7 @@ struct face_contact {
     Write<Activation<FaceContact>> activation;
     Read<ContactLaw<FaceContact>> law;
     Write<ContactPoint> point;
+    Optional<FrictionHistory<FaceContact>> history;
   };
   Columns columns;
   Read<FacePairs> pairs;

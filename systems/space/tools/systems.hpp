@@ -27,6 +27,7 @@ struct tool_contact {
     Read<ContactLaw<FaceToolContact>> law;
     Write<PointForce> force;
     Optional<Write<ElasticSlip>> slip;  // with friction
+    Optional<FrictionHistory<FaceToolContact>> history;
   };
   Columns columns;
   ToolSurfaces tools;

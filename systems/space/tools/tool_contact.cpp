@@ -19,6 +19,7 @@ void clear_half(const tool_contact::Columns& c, Row<FaceToolContact> row, int ha
   const VectorLanes none{Lane{}, Lane{}, Lane{}};
   store_half(none, &c.force(row), half);
   if (c.slip) store_half(none, &(*c.slip)(row), half);
+  if (c.history) Lane{}.store(&c.history->lost(row) + lane_count * half);
 }
 
 // How the halves of a candidate stand that touch (bit 0, bit 1); the others are apart.
@@ -29,9 +30,19 @@ struct RowMotion {
   bool touches(int h) const { return (touching >> h & 1) != 0; }
 };
 
+// Where friction is more than a coefficient, else null.
+const ContactRules::Friction* weakening_of(const tool_contact& s, Row<FaceToolContact> row) {
+  if (!s.columns.history) return nullptr;
+  const auto& slots = s.bodies.bodies->slots;
+  const ContactRules::Friction& friction = s.columns.history->rules->friction_with_tool(
+      s.columns.pair(row, 2), entry(slots, s.columns.pair(row, 0)).material);
+  return friction.only_coulomb() ? nullptr : &friction;
+}
+
 // What the halves of a candidate that touch bear: law, columns, books.
 void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::Face& face,
-         const RowMotion& motion, double dt, FaceSums& sums) {
+         const RowMotion& motion, const ContactRules::Friction* weakening, double dt,
+         FaceSums& sums) {
   using Law = ContactLaw<FaceToolContact>;
   const bool new_touch = c.touches(row) == 0;
   c.touches(row) = 1;
@@ -50,7 +61,16 @@ void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::
     PointForces f = normal_forces(law, m, dt, pressure);
     if (c.slip) {
       double* spring = &(*c.slip)(row);
-      add_friction(law, m, dt, pressure, new_touch ? VectorLanes{} : load_half(spring, half), f);
+      const VectorLanes before = new_touch ? VectorLanes{} : load_half(spring, half);
+      if (weakening == nullptr) {
+        pulvis::kernels::Coulomb<Lane> coulomb{law.friction};
+        add_friction(law, m, dt, pressure, before, coulomb, f);
+      } else {
+        double* lost = &c.history->lost(row) + lane_count * half;
+        add_weakening_friction(*weakening, 1, new_touch ? Lane{} : Lane::load(lost), law, m, dt,
+                               pressure, before, f)
+            .store(lost);
+      }
       store_half(f.elastic_slip, spring, half);
     }
     store_half(f.force, &c.force(row), half);
@@ -84,7 +104,7 @@ struct ToolPass {
       for (int half = 0; half < 2; ++half)
         if (motion.touches(half))
           set_rates(row, sampled_points(rates + own, half), entry(motion.half, half));
-    act(s.columns, row, face, motion, s.clock->dt_before, sums);
+    act(s.columns, row, face, motion, weakening_of(s, row), s.clock->dt_before, sums);
   }
 
  private:

@@ -2,7 +2,7 @@
 //
 // Source   systems/tools/servo_motion.hpp
 // Runs     after tool_reaction; tool_motion adds the displacement in the next step
-// Active   when a stage of the scene has a servo
+// Active   when a stage of the scene has a servo, or a drive that gives
 // Watches  that the force is held when its stage ends
 #include <cmath>
 

@@ -149,7 +149,7 @@ class TouchingBodies {
   template <class At>
   void wake_rows() {
     auto& column = world.column<Activation<At>>();
-    std::fill_n(column.values(), 2 * column.table.rows, 0.0);
+    std::fill_n(column.values(), Activation<At>::count * column.table.rows, 0.0);
   }
   void lay_out(const std::vector<Shape>& shapes) {
     Bodies& all = world.emplace<Bodies>();

@@ -1,0 +1,141 @@
+// damping_force: bulk damping of the particles, proportional to mass and to stiffness:
+//   f = -alpha M v - beta K v
+//
+// Source   systems/space/body/damping_kernel.hpp; force, velocities and work as in two dimensions
+//          (systems/body/damping_force.cpp)
+// Runs     after the forces of the stresses, before integrate
+// Active   when a material of the scene has [material.damping]
+#include "components/run_state.hpp"
+#include "engine/access.hpp"
+#include "engine/entry.hpp"
+#include "systems/space/body/damping_kernel.hpp"
+#include "systems/space/body/element_force.hpp"
+
+namespace pulvis::space {
+namespace {
+
+using ViscosityOfPart = kernels::Viscosity<Packet>;
+
+// An element's modes now, half a step back, and their rates.
+struct MovingModes {
+  kernels::ElementModes<Packet> now, middle, rate;
+};
+
+// One point, and the hourglass modes that it does not see.
+template <class Force>
+void add_viscous_force(OnePoint, const Force& force, const MovingModes& m,
+                       const ViscosityOfPart& viscosity, const Shape& shape, Row<Element> e) {
+  const Shape::Element& element = entry(shape.element, e);
+  const auto f = kernels::deformation_gradient(m.middle, element.gradient);
+  const auto adj = kernels::adjugate(f);
+  const Packet inv_j = 1.0 / kernels::determinant(f, adj);
+  const auto l = kernels::velocity_gradient(kernels::deformation_gradient(m.rate, element.gradient),
+                                            adj, inv_j);
+  const auto d = kernels::symmetric_part(l);
+  const PointAt at =
+      point_at(e, 0, element.volume, kernels::deformation_gradient(m.now, element.gradient));
+  const auto s = kernels::scaled_deviator(d, viscosity.shear * at.inv_j);
+  const Packet mean =
+      kernels::viscous_mean_stress(viscosity.bulk, at.j, at.inv_j, kernels::trace(d));
+  const auto strain = kernels::hourglass_strain(
+      kernels::hourglass_rates(m.middle, m.rate, l, kernels::to_fibres(element.fibre, adj, inv_j)),
+      element);
+  const auto y =
+      kernels::hourglass_force(kernels::hourglass_stress(strain, viscosity.moduli),
+                               kernels::to_fibres(element.fibre, at.adj, at.inv_j), element);
+  add_one_point_forces(force, at, entry(shape.hexahedra, e),
+                       weighted_stress(s, element.volume, element.volume * mean), y,
+                       kernels::hourglass_moment(y, m.now), element.gradient);
+}
+
+// Eight points with a mean dilatation.
+template <class Force>
+void add_viscous_force(EightPoint, const Force& force, const MovingModes& m,
+                       const ViscosityOfPart& viscosity, const Shape& shape, Row<Element> e) {
+  const auto& points = entry(shape.gauss, e);
+  const EightPoints now = eight_points(m.now, points, e);
+  kernels::Symmetric3<Packet> d[8];
+  Packet growth{}, volume{};  // of the element half a step back
+  for (int g = 0; g < 8; ++g) {
+    const Shape::GaussPoint& point = entry(points, g);
+    const auto xi = kernels::gauss_coordinates(g);
+    const auto f = kernels::point_gradient(m.middle, point.inverse_jacobian, xi);
+    const auto adj = kernels::adjugate(f);
+    const Packet j = kernels::determinant(f, adj);
+    d[g] = kernels::symmetric_part(kernels::velocity_gradient(
+        kernels::point_gradient(m.rate, point.inverse_jacobian, xi), adj, 1.0 / j));
+    volume = fma(j, point.volume, volume);
+    growth = fma(j * kernels::trace(d[g]), point.volume, growth);
+  }
+  const Packet inv_theta = 1.0 / now.theta;
+  const Packet mean =
+      kernels::viscous_mean_stress(viscosity.bulk, now.theta, inv_theta, growth / volume);
+  kernels::ElementModes<Packet> sum{};
+  for (int g = 0; g < 8; ++g) {
+    const PointAt& at = now.at[g];
+    const auto s = kernels::scaled_deviator(d[g], viscosity.shear * inv_theta);
+    add_point_stress(sum, at,
+                     weighted_stress(s, now.theta * at.inv_j * at.volume, mean * at.volume),
+                     entry(points, g).inverse_jacobian);
+  }
+  add_force(force, entry(shape.hexahedra, e), 0, sum.x);
+  add_force(force, entry(shape.hexahedra, e), 1, sum.y);
+  add_force(force, entry(shape.hexahedra, e), 2, sum.z);
+}
+
+// Power of a force on nodes that move with v.
+template <class Forces, class Velocities>
+Packet power(const Shape& shape, const Forces& force, const Velocities& v) {
+  Packet sum{};
+  for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
+    for (int k = 0; k < 3; ++k) sum += force(Row<Node>(i), k) * v(Row<Node>(i), k);
+  return sum;
+}
+
+}  // namespace
+
+template <class F>
+[[gnu::flatten]] void damping_force<F>::operator()(Chunk chunk) const {
+  const Row<Particle> particle;
+  const Shape& shape = meshes.of_chunk(chunk);
+  // The first force acts for half a step (systems/space/body/integrate.cpp).
+  const double start = clock->step == 1 ? 0.5 : 1.0;
+  for (int part = 0; part < parts_of_a_lane; ++part) {
+    const auto of_part = [&](const auto& column) { return part_of(column.chunk(chunk), part); };
+    const auto x = of_part(motion.position);
+    const auto v = of_part(motion.velocity);
+    const auto force = of_part(damping);
+    const Packet before = start * power(shape, force, v);
+
+    const Packet drag = of_part(constants.mass)(particle) * of_part(material.density)(particle);
+    for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
+      for (int k = 0; k < 3; ++k)
+        force(Row<Node>(i), k) = -(entry(shape.nodal_volume, i) * drag) * v(Row<Node>(i), k);
+
+    const Packet viscous = of_part(constants.stiffness)(particle);
+    if (any(viscous > 0.0)) {
+      const Packet mu = of_part(material.elastic.shear)(particle),
+                   k = of_part(material.elastic.bulk)(particle);
+      const auto moduli = kernels::hourglass_moduli(mu, k);
+      const ViscosityOfPart viscosity{
+          2.0 * viscous * mu,
+          viscous * k,
+          {viscous * moduli.plate, viscous * moduli.shear, viscous * moduli.last}};
+      for (int i = 0; i < shape.elements(); ++i) {
+        const Hexahedron& nodes = entry(shape.hexahedra, i);
+        MovingModes m{element_modes(x, nodes), {}, element_modes(v, nodes)};
+        m.middle = kernels::halfway_back(m.now, m.rate, 0.5 * clock->dt_before);
+        add_viscous_force(F{}, force, m, viscosity, shape, Row<Element>(i));
+      }
+    }
+
+    of_part(work)(particle) -= 0.5 * clock->dt_before * (before + power(shape, force, v));
+    const auto f = of_part(internal);
+    for (int i = 0; i < static_cast<int>(shape.nodes.size()); ++i)
+      for (int k = 0; k < 3; ++k) f(Row<Node>(i), k) += force(Row<Node>(i), k);
+  }
+}
+template struct damping_force<OnePoint>;
+template struct damping_force<EightPoint>;
+
+}  // namespace pulvis::space
