@@ -86,23 +86,27 @@ void add_friction(const PointLaw& law, const PointMotion& m, double dt, const La
                  f.energy);
 }
 
-// Friction of a pair that is more than Coulomb's coefficient. `share` of the stiffness: one half where the other particle
-// samples back, and bears as much again. Returns what is lost of the static part: nothing where the surfaces are apart.
-[[gnu::noinline]] inline Lane add_weakening_friction(const ContactRules::Friction& of_pair,
-                                                     double share, const Lane& lost,
-                                                     const PointLaw& law, const PointMotion& m,
-                                                     double dt, const Lane& pressure,
+// Friction of a pair that is more than Coulomb's coefficient.
+struct WeakeningPass {
+  const ContactRules::Friction& of_pair;
+  double
+      share;  // of the stiffness: one half where the other particle samples back, and bears as much again
+  Lane lost;  // of the static part
+};
+
+// Returns what is lost of the static part: nothing where the surfaces are apart.
+[[gnu::noinline]] inline Lane add_weakening_friction(const WeakeningPass& pass, const PointLaw& law,
+                                                     const PointMotion& m, double dt,
+                                                     const Lane& pressure,
                                                      const VectorLanes& before, PointForces& f) {
-  const Lane by_speed =
-      of_pair.rate == 0 ? Lane{}
-                        : pulvis::kernels::rate_effect(sqrt(dot(m.slip, m.slip)),
-                                                       Lane(of_pair.rate), Lane(of_pair.inv_speed));
-  pulvis::kernels::Weakening<Lane> sliding{Lane(of_pair.coefficient),
-                                           Lane(of_pair.drop),
-                                           Lane(of_pair.inv_decay),
-                                           Lane(share * of_pair.strength),
-                                           lost,
-                                           by_speed};
+  const ContactRules::Friction& friction = pass.of_pair;
+  const Lane by_speed = friction.rate == 0 ? Lane{}
+                                           : pulvis::kernels::rate_effect(sqrt(dot(m.slip, m.slip)),
+                                                                          Lane(friction.rate),
+                                                                          Lane(friction.inv_speed));
+  pulvis::kernels::Weakening<Lane> sliding{
+      Lane(friction.coefficient),           Lane(friction.drop), Lane(friction.inv_decay),
+      Lane(pass.share * friction.strength), pass.lost,           by_speed};
   add_friction(law, m, dt, pressure, before, sliding, f);
   return select(m.gap > 0.0, sliding.lost, Lane{});
 }

@@ -204,7 +204,7 @@ class PairPass {
         pulvis::kernels::Coulomb<Lane> coulomb{friction_};
         add_friction(law, m, s_.clock->dt_before, pressure, spring, coulomb, f);
       } else {
-        keep_lost(eight, add_weakening_friction(*weakening_, share, lost_of(eight), law, m,
+        keep_lost(eight, add_weakening_friction({*weakening_, share, lost_of(eight)}, law, m,
                                                 s_.clock->dt_before, pressure, spring, f));
       }
     }

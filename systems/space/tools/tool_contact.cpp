@@ -67,7 +67,7 @@ void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::
         add_friction(law, m, dt, pressure, before, coulomb, f);
       } else {
         double* lost = &c.history->lost(row) + lane_count * half;
-        add_weakening_friction(*weakening, 1, new_touch ? Lane{} : Lane::load(lost), law, m, dt,
+        add_weakening_friction({*weakening, 1, new_touch ? Lane{} : Lane::load(lost)}, law, m, dt,
                                pressure, before, f)
             .store(lost);
       }
