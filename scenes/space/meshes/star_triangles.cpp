@@ -19,12 +19,12 @@ using std::numbers::pi;
 // Triangles by the cells of a cube about the centre through which they are seen.
 class TriangleFan {
  public:
-  explicit TriangleFan(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+  explicit TriangleFan(const std::vector<Triangle>& triangles) {
     cells_ =
-        std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles_.size()) / 6)), 1, 40);
+        std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles.size()) / 6)), 1, 40);
     in_cell_.resize(static_cast<std::size_t>(6 * cells_ * cells_));
     const std::vector<Vec3> middles = cell_middles();
-    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) add(t, middles);
+    for (const Triangle& t : triangles) add(t, middles);
   }
 
   struct Hit {
@@ -36,24 +36,33 @@ class TriangleFan {
     double best = -std::numeric_limits<double>::max();
     Hit hit{};
     for (const int t : entry(in_cell_, cell_of(d))) {
-      const Triangle& triangle = entry(triangles_, t);
-      const Vec3 normal = area_vector(triangle);
-      if (normal.dot(d) <= 0) continue;
-      const double inside = least_share(triangle, normal, d);
+      const Seen& triangle = entry(seen_, t);
+      const double all = triangle.normal.dot(d);
+      if (all <= 0) continue;
+      const double inside = triangle.least_share(d) / all;
       if (inside <= best) continue;
       best = inside;
-      hit = {normal.dot(triangle[0]) / normal.dot(d), normal};
+      hit = {triangle.plane / all, triangle.normal};
     }
     return hit;
   }
 
  private:
-  // The least of the three shares of the corners at the point that the ray meets.
-  static double least_share(const Triangle& t, const Vec3& normal, const Vec3& d) {
-    const double all = normal.dot(d);
-    return std::min({t[0].cross(t[1]).dot(d), t[1].cross(t[2]).dot(d), t[2].cross(t[0]).dot(d)}) /
-           all;
-  }
+  // A triangle, as what rays from the centre ask of it.
+  struct Seen {
+    Vec3 normal;                // area_vector
+    std::array<Vec3, 3> sides;  // normals of the planes through the centre and each side
+    double plane;               // normal . x on the triangle
+
+    explicit Seen(const Triangle& t)
+        : normal(area_vector(t)),
+          sides{t[0].cross(t[1]), t[1].cross(t[2]), t[2].cross(t[0])},
+          plane(normal.dot(t[0])) {}
+    // The least of the three shares of the corners at the point that the ray meets, times normal . d.
+    double least_share(const Vec3& d) const {
+      return std::min({sides[0].dot(d), sides[1].dot(d), sides[2].dot(d)});
+    }
+  };
 
   int cell_of(const Vec3& d) const {
     Eigen::Index axis = 0;
@@ -67,8 +76,9 @@ class TriangleFan {
   }
 
   // To all cells whose cap about their middle meets the triangle's.
-  void add(int t, const std::vector<Vec3>& middles) {
-    const Triangle& triangle = entry(triangles_, t);
+  void add(const Triangle& triangle, const std::vector<Vec3>& middles) {
+    const int number = static_cast<int>(seen_.size());
+    seen_.emplace_back(triangle);
     const Vec3 middle =
         (triangle[0].normalized() + triangle[1].normalized() + triangle[2].normalized())
             .normalized();
@@ -79,7 +89,7 @@ class TriangleFan {
     reach = std::min(reach + far, pi);
     const double least = portable::cos(reach);
     for (std::size_t c = 0; c < middles.size(); ++c)
-      if (middle.dot(middles[c]) >= least) in_cell_[c].push_back(t);
+      if (middle.dot(middles[c]) >= least) in_cell_[c].push_back(number);
   }
 
   std::vector<Vec3> cell_middles() const {
@@ -96,10 +106,28 @@ class TriangleFan {
     return middles;
   }
 
-  std::vector<Triangle> triangles_;
+  std::vector<Seen> seen_;
   int cells_ = 1;
   std::vector<std::vector<int>> in_cell_;
 };
+
+// Rays in rings about a direction: how far out in the two directions across it, and with what weights of a bell.
+struct RingRay {
+  double out, weight, cosine, sine;
+};
+std::vector<RingRay> rays_in_rings() {
+  constexpr int rings = 3, rays = 8;
+  std::vector<RingRay> all;
+  for (int ring = 1; ring <= rings; ++ring) {
+    const double out = static_cast<double>(ring) / rings,
+                 weight = ring * (1 - out * out + 0.05) / rays;
+    for (int k = 0; k < rays; ++k) {
+      const double turn = 2 * pi * (k + 0.5 * (ring % 2)) / rays;
+      all.push_back({out, weight, portable::cos(turn), portable::sin(turn)});
+    }
+  }
+  return all;
+}
 
 // Two unit vectors across a unit vector.
 std::array<Vec3, 2> across(const Vec3& d) {
@@ -131,21 +159,16 @@ class TriangleSurface final : public StarSurface {
     half_size_ *= factor;
   }
 
-  // Smoothed: the mean over rays in rings about the direction, with the weights of a bell.
+  // Smoothed: the mean over rays about the direction.
   double radius(const Vec3& d) const override {
     if (smoothing_ == 0) return scale_ * fan_.along(d).distance;
-    constexpr int rings = 3, rays = 8;
+    static const std::vector<RingRay> rays = rays_in_rings();
     const std::array<Vec3, 2> side = across(d);
     double sum = fan_.along(d).distance / 2, weights = 0.5;
-    for (int ring = 1; ring <= rings; ++ring) {
-      const double out = static_cast<double>(ring) / rings,
-                   weight = ring * (1 - out * out + 0.05) / rays;
-      for (int k = 0; k < rays; ++k) {
-        const double turn = 2 * pi * (k + 0.5 * (ring % 2)) / rays;
-        const Vec3 off = portable::cos(turn) * side[0] + portable::sin(turn) * side[1];
-        sum += weight * fan_.along((d + smoothing_ * out * off).normalized()).distance;
-        weights += weight;
-      }
+    for (const RingRay& ray : rays) {
+      const Vec3 off = ray.cosine * side[0] + ray.sine * side[1];
+      sum += ray.weight * fan_.along((d + smoothing_ * ray.out * off).normalized()).distance;
+      weights += ray.weight;
     }
     return scale_ * sum / weights;
   }
