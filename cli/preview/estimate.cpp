@@ -46,8 +46,10 @@ RunEstimate estimate_run(Simulation& simulation) {
 }
 
 std::string estimate_text(const RunEstimate& estimate) {
-  return fmt::format("run: about {} steps of {:.2g} s; {} on one thread of this machine",
-                     rounded(estimate.steps), estimate.dt, duration_text(estimate.seconds));
+  return fmt::format(
+      "run: about {} steps of {:.2g} s; {} on one thread of this machine (by its first steps: "
+      "powder that is pressed takes shorter and dearer ones)",
+      rounded(estimate.steps), estimate.dt, duration_text(estimate.seconds));
 }
 
 }  // namespace pulvis

@@ -17,8 +17,8 @@ struct RunEstimate {
 // Moves the simulation on for a few hundredths of a second. Throws RunFailure.
 RunEstimate estimate_run(Simulation& simulation);
 
-// "run: about 120,000 steps of 1.5e-08 s; about 3 min on one thread of this machine". A rough guess: powder in contact
-// costs more a step than powder at rest, and the time step falls where elements are squeezed.
+// "run: about 120,000 steps of 1.5e-08 s; about 3 min on one thread of this machine (...)". A rough guess, and says so: powder
+// in contact costs more a step than powder at rest, and the time step falls where elements are squeezed.
 std::string estimate_text(const RunEstimate& estimate);
 
 }  // namespace pulvis
