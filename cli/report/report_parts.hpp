@@ -2,38 +2,40 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
 namespace pulvis {
 
-// each(volume, low, high) of every part: its volume, m^3, by the Jacobian at its middle (trilinear shape functions,
-// Hughes 1987, ch. 3), and between which z it lies. Corners in the order of VTK.
+// each(volume, low, high) of the eight parts of a hexahedron: a part's volume, m^3, by the Jacobian at its middle (trilinear
+// shape functions, Hughes 1987, ch. 3), and between which z it lies. Corners in the order of VTK.
 template <class Each>
 void for_parts(std::span<const double> xyz, std::span<const std::int32_t> corners, Each each) {
   using Vec3 = Eigen::Vector3d;
-  const auto corner = [&](int i, int j, int k) {
-    static constexpr int order[2][2] = {{0, 3}, {1, 2}};
-    const auto node =
-        static_cast<std::size_t>(corners[static_cast<std::size_t>(order[i][j] + 4 * k)]);
-    return Vec3(Vec3::Map(&xyz[3 * node]));
-  };
-  // At (a, b, c) quarters from the corner (0, 0, 0).
-  const auto at = [&](int a, int b, int c) {
-    Vec3 point = Vec3::Zero();
-    for (int n = 0; n < 8; ++n) {
-      const int i = n & 1, j = n >> 1 & 1, k = n >> 2;
-      point += (i ? a : 4 - a) * (j ? b : 4 - b) * (k ? c : 4 - c) / 64.0 * corner(i, j, k);
-    }
-    return point;
-  };
+  // x = sum of modes times 1, xi, eta, xi eta, zeta, zeta xi, eta zeta, xi eta zeta: bits of the number say which.
+  std::array<Vec3, 8> mode;
+  static constexpr std::array<std::size_t, 8> vtk{0, 1, 3, 2, 4, 5, 7, 6};  // by bits, too
+  for (std::size_t n = 0; n < 8; ++n)
+    mode[n] = Vec3::Map(&xyz[3 * static_cast<std::size_t>(corners[vtk[n]])]) / 8;
+  for (const std::size_t bit : {1U, 2U, 4U})
+    for (std::size_t n = 0; n < 8; ++n)
+      if ((n & bit) == 0) {
+        const Vec3 low = mode[n], high = mode[n | bit];
+        mode[n] = high + low;
+        mode[n | bit] = high - low;
+      }
   for (int part = 0; part < 8; ++part) {
-    const int a = 1 + 2 * (part & 1), b = 1 + 2 * (part >> 1 & 1), c = 1 + 2 * (part >> 2);
-    const Vec3 x = at(a + 1, b, c) - at(a - 1, b, c), y = at(a, b + 1, c) - at(a, b - 1, c),
-               z = at(a, b, c + 1) - at(a, b, c - 1);
+    const double xi = part & 1 ? 0.5 : -0.5, eta = part & 2 ? 0.5 : -0.5,
+                 zeta = part & 4 ? 0.5 : -0.5;
+    // As long as the part.
+    const Vec3 x = mode[1] + eta * mode[3] + zeta * (mode[5] + eta * mode[7]),
+               y = mode[2] + xi * mode[3] + zeta * (mode[6] + xi * mode[7]),
+               z = mode[4] + xi * mode[5] + eta * (mode[6] + xi * mode[7]);
+    const double middle =
+        mode[0].z() + xi * x.z() + eta * (mode[2].z() + zeta * mode[6].z()) + zeta * mode[4].z();
     const double half = (std::abs(x.z()) + std::abs(y.z()) + std::abs(z.z())) / 2;
-    const double middle = at(a, b, c).z();
     each(x.cross(y).dot(z), middle - half, middle + half);
   }
 }
