@@ -41,7 +41,7 @@ CASES = {
     "bar": ("scenes/basic/tension.toml", 300, []),
     "space-die": ("scenes/compaction-3d/random-100-copper.toml", 60, ["output.contacts=true"]),
     "space-round": ("scenes/compaction-3d/tablet.toml", 60, []),
-    "space-stl": ("tests/mpi/stl-floor.toml", 60, []),
+    "space-stl": ("tests/mpi/stl-floor.toml", 240, []),
     "space-mixture": ("scenes/compaction-3d/mixture.toml", 60, ["output.density_cells=[2, 2, 2]"]),
 }
 # Bonds that are made and broken in those steps: points at least.
