@@ -116,8 +116,8 @@ void end_early(const End& end, double time, MixedControl* control, ToolProgram& 
       fmt::format("stage_control: {} {:.6g}{} when the time of stage '{}' is over, step {}, t = "
                   "{:.6g} s; it was "
                   "to end at {:.6g}{} (stage.until)",
-                  what, value + 0.0, unit, entry(program.stages, end.stage).name, clock.step, clock.time,
-                  end.value, unit));
+                  what, value + 0.0 /* not -0 */, unit, entry(program.stages, end.stage).name,
+                  clock.step, clock.time, end.value, unit));
 }
 
 }  // namespace

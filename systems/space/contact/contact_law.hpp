@@ -89,9 +89,8 @@ void add_friction(const PointLaw& law, const PointMotion& m, double dt, const La
 // Friction of a pair that is more than Coulomb's coefficient.
 struct WeakeningPass {
   const ContactRules::Friction& of_pair;
-  double
-      share;  // of the stiffness: one half where the other particle samples back, and bears as much again
-  Lane lost;  // of the static part
+  double share;  // of the shear strength: one half where the other particle samples back
+  Lane lost;     // of the static part
 };
 
 // Returns what is lost of the static part: nothing where the surfaces are apart.
