@@ -67,6 +67,23 @@ TEST(ElasticDriveInSpace, BearsAtRestWhatTheBallDoes) {
   EXPECT_LT(e.results.energy_balance_error(), 5e-3);
 }
 
+// In a stage without it the spring bears nothing; until then, and at the end of a run, it does.
+TEST(ElasticDriveInSpace, BearsNothingInAStageWithoutIt) {
+  Experiment e(
+      driven_ball({"stage.press.move.top.stiffness=5e7 N/m", "stage.press.move.top.mass=2 g"},
+                  "[[stage]]\nname = \"hold\"\nkind = \"hold\"\nduration = \"5 us\"\n"));
+  bool bore = false;
+  e.run(100, [&] {
+    const double time = e.simulation.clock().time;
+    bore = bore || e.value("tool/top/drive_force") > 500;
+    if (time > 51e-6) {
+      EXPECT_EQ(e.value("tool/top/drive_force"), 0) << time;
+    }
+  });
+  EXPECT_TRUE(bore);
+  EXPECT_GT(e.value("tool/top/force_z"), 500);
+}
+
 TEST(ElasticDriveInSpace, IsRefusedBesideAServo) {
   const std::string message = message_of([] {
     driven_ball({"stage.press.move.top.stiffness=5e7 N/m", "stage.press.move.top.mass=20 g"},
