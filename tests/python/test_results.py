@@ -100,6 +100,36 @@ def test_a_run_that_is_still_being_written_can_be_read(tmp_path):
     assert pulvis.open(folder).outcome in ("interrupted", "running")
 
 
+# A reader that never waits: whatever it is between two frames or within one, what it sees is the run so far.
+def test_what_is_read_while_it_is_written_is_the_beginning_of_the_end(tmp_path):
+    folder = tmp_path / "run"
+    words = ["--set", "output.frames=40", "--set", "output.samples=4000"]
+    process = subprocess.Popen([PROGRAM, "run", SCENE, "-o", folder, "--threads", "1", "--quiet", *words])
+    looks, run = [], None
+    try:
+        while process.poll() is None:
+            if not (folder / "run.h5").exists():
+                continue
+            if run is None:
+                try:
+                    run = pulvis.open(folder)
+                except pulvis.RunError as early:
+                    assert "run.h5" in str(early)  # not written yet
+                    continue
+            before = len(run.frames)
+            run.refresh()
+            assert len(run.frames) >= before
+            looks.append((len(run.frames), {name: run.series(name) for name in run.names}))
+    finally:
+        process.kill()
+        process.wait(timeout=60)
+    end = pulvis.open(folder)
+    assert end.outcome == "done" and len({frames for frames, _ in looks}) > 5
+    for _, series in looks:
+        for name, values in series.items():
+            np.testing.assert_array_equal(values, end.series(name)[:len(values)], err_msg=name)
+
+
 def test_what_is_no_run_is_refused_by_name(compact, study, tmp_path):
     for folder, says in ((tmp_path, "there is no run.h5"), (tmp_path / "none", "no such folder"),
                          (study, "pulvis.open_study")):

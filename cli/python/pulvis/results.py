@@ -11,6 +11,7 @@ Reading needs numpy and h5py; pandas only where a DataFrame is asked for, matplo
 from __future__ import annotations
 
 import json
+import time
 from collections import namedtuple
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -35,6 +36,10 @@ before the first step, and the particle that each cell and each node belongs to.
 Densities = namedtuple("Densities", "values lines")
 Densities.__doc__ = """Relative densities of the cells of a grid: `values` [along x, y (, z)] and `lines`, the places between the
 cells along each axis, m."""
+
+
+_TICK = 0.01  # s; what the time of a file's last change is exact to
+_PATIENCE = 10.0  # s, for a file that changes while it is read
 
 
 def open(folder: str | os.PathLike[str]) -> Run:  # noqa: A001  (pulvis.open)
@@ -168,6 +173,35 @@ class Run:
 
     def refresh(self) -> Run:
         """Opens the files anew: of a run that is still being written there is more."""
+        # HDF5 follows addresses that the writer may give to something else meanwhile: what was read counts only if
+        # nothing was written before it had all been read.
+        deadline = time.monotonic() + _PATIENCE
+        while True:
+            before, error = self._last_change(), None
+            is_settled = before is None or not 0 <= time.time() - before[0] / 1e9 < _TICK
+            try:
+                self._read()
+            except (RunError, OSError, RuntimeError, KeyError, ValueError) as one:
+                error = one
+            if is_settled and self._last_change() == before:
+                break
+            if time.monotonic() > deadline:
+                error = error or RunError(f"{self.folder}: is written faster than it can be read", self.folder)
+                break
+            time.sleep(_TICK / 5)
+        if error:
+            self._close()
+            raise error
+        return self
+
+    def _last_change(self):
+        try:
+            status = (self.folder / "run.h5").stat()
+        except OSError:
+            return None
+        return status.st_mtime_ns, status.st_size, status.st_ino
+
+    def _read(self):
         self._close()
         self.file = self._opened()
         self.summary = self._summary()
@@ -178,10 +212,11 @@ class Run:
                  if self.file["frames"][name].attrs.get("complete", 0) == 1]
         self.frames = [Frame(self, name, number) for number, name in enumerate(whole)]
         self._series: dict[str, h5py.Dataset] = {}
+        self._units: dict[str, str] = {}
+        self._values: dict[str, np.ndarray] = {}  # of a run that goes on: its history moves within the file
         self._mesh: Mesh | None = None
         if "history" in self.file:
             self.file["history"].visititems(self._keep_series)
-        return self
 
     def _close(self):
         if getattr(self, "file", None):
@@ -219,6 +254,9 @@ class Run:
     def _keep_series(self, name, item):
         if isinstance(item, h5py.Dataset):
             self._series[name] = item
+            self._units[name] = item.attrs["unit"]
+            if self.outcome == "running":
+                self._values[name] = item[()]
 
     @property
     def family(self) -> str:
@@ -272,7 +310,7 @@ class Run:
     @property
     def units(self) -> dict[str, str]:
         """Unit of each series."""
-        return {name: data.attrs["unit"] for name, data in self._series.items()}
+        return dict(self._units)
 
     def has(self, name: str) -> bool:
         """Whether there is a series of that name."""
@@ -286,12 +324,14 @@ class Run:
 
     def series(self, name: str) -> np.ndarray:
         """Values of a series of the history, SI: [samples]."""
-        samples = self._series["time"].shape[0] if "time" in self._series else 0
-        return self.dataset(name)[()][:samples]
+        values = self._values[name] if name in self._values else self.dataset(name)[()]
+        times = self._values.get("time", self._series.get("time", []))
+        return values[:len(times)]
 
     def unit(self, name: str) -> str:
         """Unit of a series."""
-        return self.dataset(name).attrs["unit"]
+        self.dataset(name)  # refuses what is not there
+        return self._units[name]
 
     @property
     def history(self) -> DataFrame:
