@@ -130,14 +130,34 @@ inline double min_of_half(const Lane& a, int half) {
 }
 inline double greatest_of_half(const Lane& a, int half) { return -min_of_half(-a, half); }
 
+// Bit i: sixteen[i] <= limit.
+inline unsigned at_most(const float* sixteen, float limit) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask(_mm512_loadu_ps(sixteen), _mm512_set1_ps(limit), _CMP_LE_OQ);
+#elif defined(__AVX2__)
+  const __m256 all = _mm256_set1_ps(limit);
+  const auto half = [&](const float* eight) {
+    return static_cast<unsigned>(
+        _mm256_movemask_ps(_mm256_cmp_ps(_mm256_loadu_ps(eight), all, _CMP_LE_OQ)));
+  };
+  return half(sixteen) | half(sixteen + 8) << 8;
+#else
+  unsigned bits = 0;
+  for (unsigned i = 0; i < 16; ++i) bits |= (sixteen[i] <= limit ? 1U : 0U) << i;
+  return bits;
+#endif
+}
+
 namespace simd {
 #if defined(__AVX512F__)
 // Loads put rows i and i + 4 into the halves of a register; then a 4 x 4 transpose in both halves at once.
-inline std::array<Lane, 8> columns_of(const std::array<const double*, 8>& row) {
+template <std::size_t Count>
+[[gnu::always_inline]] inline std::array<Lane, Count> columns_of(
+    const std::array<const double*, 8>& row) {
   const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
   const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
-  std::array<Lane, 8> column;
-  for (std::size_t k = 0; k < 8; k += 4) {
+  std::array<Lane, Count> column;
+  for (std::size_t k = 0; k < Count; k += 4) {
     __m512d r[4];
     for (std::size_t i = 0; i < 4; ++i)
       r[i] = _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(row[i] + k)), 0xf0,
@@ -152,10 +172,12 @@ inline std::array<Lane, 8> columns_of(const std::array<const double*, 8>& row) {
   return column;
 }
 #elif defined(__AVX2__) && defined(__FMA__)
-inline std::array<Lane, 8> columns_of(const std::array<const double*, 8>& row) {
-  std::array<Lane, 8> column;
-  for (std::size_t i = 0; i < 2; ++i)      // rows 4 i ... + 3
-    for (std::size_t k = 0; k < 2; ++k) {  // columns 4 k ... + 3
+template <std::size_t Count>
+[[gnu::always_inline]] inline std::array<Lane, Count> columns_of(
+    const std::array<const double*, 8>& row) {
+  std::array<Lane, Count> column;
+  for (std::size_t i = 0; i < 2; ++i)              // rows 4 i ... + 3
+    for (std::size_t k = 0; k < Count / 4; ++k) {  // columns 4 k ... + 3
       __m256d r[4];
       for (std::size_t l = 0; l < 4; ++l) r[l] = _mm256_loadu_pd(row[4 * i + l] + 4 * k);
       const __m256d a = _mm256_unpacklo_pd(r[0], r[1]), b = _mm256_unpackhi_pd(r[0], r[1]);
@@ -168,18 +190,23 @@ inline std::array<Lane, 8> columns_of(const std::array<const double*, 8>& row) {
   return column;
 }
 #else
-inline std::array<Lane, 8> columns_of(const std::array<const double*, 8>& row) {
-  std::array<Lane, 8> column;
-  for (std::size_t k = 0; k < 8; ++k)
+template <std::size_t Count>
+[[gnu::always_inline]] inline std::array<Lane, Count> columns_of(
+    const std::array<const double*, 8>& row) {
+  std::array<Lane, Count> column;
+  for (std::size_t k = 0; k < Count; ++k)
     column[k] = Lane::from([&](int l) { return row[static_cast<std::size_t>(l)][k]; });
   return column;
 }
 #endif
 }  // namespace simd
 
-// Lane l of column k is row[l][k]: eight rows of eight doubles, transposed.
-inline std::array<Lane, 8> columns_of(const std::array<const double*, 8>& row) {
-  return simd::columns_of(row);
+// Lane l of column k is row[l][k]: eight rows of eight doubles, or of four, transposed.
+template <std::size_t Count = 8>
+[[gnu::always_inline]] inline std::array<Lane, Count> columns_of(
+    const std::array<const double*, 8>& row) {
+  static_assert(Count == 4 || Count == 8);
+  return simd::columns_of<Count>(row);
 }
 
 }  // namespace pulvis

@@ -6,6 +6,7 @@
 // and the index of rows (components/run_state.hpp). Bodies::Slot::first_control is a particle's first face.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <numeric>
@@ -70,29 +71,34 @@ struct ContactLaw : Component<At, double, 4> {
   };
 };
 // What rests by itself: a point against another particle, of which a few touch as a rule; a half of the points against a
-// tool.
-template <class At>
-struct Activation : Component<At, double, std::is_same_v<At, FaceContact> ? face_points : 2> {
+// tool. Those of points are floats, never above the travel that is meant: all of a row are one line of memory.
+template <class At, bool Points = std::is_same_v<At, FaceContact>>
+struct Activation
+    : Component<At, std::conditional_t<Points, float, double>, Points ? face_points : 2> {
   static constexpr ComponentInfo info{
-      "activation", "m", "travel of the surfaces from which on what rests is active again"};
+      "activation", "m",
+      "travel of the surfaces from which on what rests is active again; 0 of a point that touches"};
 };
 struct PointForce : Component<FaceToolContact, double, 3 * face_points> {
   static constexpr ComponentInfo info{"point_force", "N",
                                       "on the sampled face: x of every point, y, z"};
 };
-// Of each point of a row against another particle, side by side: a point that touches is one line of memory.
-struct ContactPoint : Component<FaceContact, double, 8 * face_points> {
+// Of each point of a row against another particle, side by side: a point that touches is a line of memory or two.
+struct ContactPoint : Component<FaceContact, double, 5 * face_points> {
   static constexpr ComponentInfo info{"contact_point", "SI",
                                       "of each point: face of the other particle + u, v of the "
-                                      "closest point; tangential spring x y z (history); force on "
-                                      "the sampled face x y z"};
+                                      "closest point; tangential spring x y z (history)"};
   enum Number {
     face_u,      // -, face + u, 0 <= u < 1
     v,           // -
     spring,      // m, its x
-    force = 5,   // N, its x
-    numbers = 8  // of a point
+    numbers = 5  // of a point
   };
+};
+// Only where somebody looks at contacts one by one.
+struct ContactPointForce : Component<FaceContact, double, 3 * face_points> {
+  static constexpr ComponentInfo info{"contact_point_force", "N",
+                                      "on the sampled face: x y z of each point"};
 };
 
 // ---- only where the scene has friction -----------------------------------------------------------
@@ -116,6 +122,10 @@ struct FacePairs {
   std::vector<std::int32_t> of_other;     // pairs that have a particle as the other one
 
   int count() const { return static_cast<int>(begin.size()) - 1; }
+  // The first pair whose rows begin there or later.
+  int from_row(std::int32_t row) const {
+    return static_cast<int>(std::ranges::lower_bound(begin, row) - begin.begin());
+  }
   // From the keys of the rows: slot, face, other of each; `begins`: slots + 1.
   void list(std::span<const std::int32_t> keys, std::size_t begins) {
     std::vector<std::int32_t> other;  // [pairs]
@@ -141,18 +151,21 @@ struct FacePairs {
   }
 };
 
-// What the points of each pair do to the other particle's faces: made anew in every step.
-struct OtherLoads {
-  static constexpr const char* resource_name = "other_loads";
+// What the points of each pair do to the faces of both particles: made anew in every step.
+struct PairLoads {
+  static constexpr const char* resource_name = "pair_loads";
   struct alignas(64) Load {
     std::array<double, face_numbers> force;  // N, on the face's Bezier points: all x, y, z
     Load() {}                                // set when the face has borne its last point
   };
   struct Pair {
-    std::vector<std::int32_t> face;
-    std::vector<Load> load;  // [face]
+    std::vector<std::array<double, 3>>
+        own;  // N, on the sampled faces: of each point that touches, row after row
+    std::vector<std::int32_t> face;  // of the other particle: those that bear something
+    std::vector<Load> load;          // [face]
 
     void clear() {
+      own.clear();
       face.clear();
       load.clear();
     }

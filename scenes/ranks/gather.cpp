@@ -25,7 +25,7 @@ bool is_of_a_share(const std::string& resource) {
       "bodies",        "rank_link",          "contact_index",      "contact_quality",
       "contact_network", "density_grid",     "force_chains",       "fragments",
       "contact_sums",  "tool_contact_sums",  "contact_blocks",     "tool_contact_blocks",
-      "face_pairs",    "face_tool_contact_blocks", "other_loads",  "triangle_lists",
+      "face_pairs",    "face_tool_contact_blocks", "pair_loads",  "triangle_lists",
       "bond_sums",     "tool_bond_sums"};
   return own.contains(resource);
 }

@@ -73,7 +73,7 @@ class StateHash {
     using Point = space::ContactPoint;
     const double* first = world_.column<Point>().values() + std::ptrdiff_t{row} * Point::count;
     for (int g = 0; g < space::face_points; ++g)
-      for (int k = Point::spring; k < Point::force; ++k) add(first[g * Point::numbers + k]);
+      for (int k = Point::spring; k < Point::numbers; ++k) add(first[g * Point::numbers + k]);
     add_points<space::SlipWeakening<FaceContact>>(row);
   }
   void add_slip(int row) {

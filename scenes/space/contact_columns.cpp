@@ -121,7 +121,7 @@ void add_pairs(World& world, const Touching& touching) {
   world.add<ContactPoint>();
   if (touching.weakening) world.add<SlipWeakening<FaceContact>>();
   world.emplace<FacePairs>();
-  world.emplace<OtherLoads>();
+  world.emplace<PairLoads>();
   world.emplace<ContactSums<Contact>>();
 }
 

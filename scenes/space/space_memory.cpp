@@ -36,11 +36,12 @@ std::uint64_t bytes_of_element(bool plastic) {
   return bytes;
 }
 
-std::uint64_t bytes_of_row(bool weakening) {
+std::uint64_t bytes_of_row(bool weakening, bool looked_at) {
   using At = FaceContact;
   return size_of_columns<ContactPair<At>, ContactTouches<At>, Activation<At>, ContactLaw<At>,
                          ContactPoint>() +
-         sizeof(OtherLoads::Load) + (weakening ? size_of_columns<SlipWeakening<At>>() : 0);
+         sizeof(PairLoads::Load) + (weakening ? size_of_columns<SlipWeakening<At>>() : 0) +
+         (looked_at ? size_of_columns<ContactPointForce>() : 0);
 }
 
 template <class Is>
@@ -69,6 +70,7 @@ SpaceMemory memory_of(const Scene& scene) {
                              (damped ? size_of_columns<DampingForce>() : 0);
   const std::uint64_t face = size_of_columns<FacePosition, FaceBefore>() +
                              (friction ? size_of_columns<FaceVelocity>() : 0);
+  const std::uint64_t row = bytes_of_row(weakening, scene.output.contacts);
   SpaceMemory need;
   const auto [x, y, z] = scene.output.density_cells3;
   need.results = density_bytes_a_cell * static_cast<std::uint64_t>(x) *
@@ -84,8 +86,8 @@ SpaceMemory memory_of(const Scene& scene) {
     need.columns += lanes * (nodes * node + elements * element + faces * face +
                              surface * size_of_columns<ContactForce>());
     need.results += particles[c] * copies_in_flight * sizeof(double) * (6 * nodes + 9 * elements);
-    need.contacts += static_cast<std::uint64_t>(
-        rows_of_a_face * static_cast<double>(particles[c] * faces * bytes_of_row(weakening)));
+    need.contacts += static_cast<std::uint64_t>(rows_of_a_face *
+                                                static_cast<double>(particles[c] * faces * row));
   }
   return need;
 }

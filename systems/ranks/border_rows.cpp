@@ -89,7 +89,8 @@ void list_border_pairs::list() const {
     const Row<FaceContact> row(first);
     if (!shared.take(p, pair(row, 0), pair(row, 2))) continue;
     for (int r = first; r < end; ++r)
-      for (int g = 0; g < space::face_points; ++g) activation(Row<FaceContact>(r), g) = never;
+      for (int g = 0; g < space::face_points; ++g)
+        activation(Row<FaceContact>(r), g) = std::numeric_limits<float>::infinity();
   }
   link->rows = shared.rows();
   link->outlines = shared.outlines();

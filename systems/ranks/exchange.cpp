@@ -134,13 +134,13 @@ void send_loads::operator()() const {
     if (near.send.empty()) continue;
     Writer writer;
     for (std::size_t i = 0; i < near.send.size(); ++i) {
-      const space::OtherLoads::Pair& pair = entry(loads->pairs, near.send[i]);
+      const space::PairLoads::Pair& pair = entry(loads->pairs, near.send[i]);
       if (pair.face.empty()) continue;
       const std::array<std::int32_t, 2> head{static_cast<std::int32_t>(i),
                                              static_cast<std::int32_t>(pair.face.size())};
       writer.put(head.data(), head.size());
       writer.put(pair.face.data(), pair.face.size());
-      for (const space::OtherLoads::Load& load : pair.load)
+      for (const space::PairLoads::Load& load : pair.load)
         writer.put(load.force.data(), load.force.size());
     }
     messages.push_back({near.rank, writer.taken()});
@@ -158,11 +158,11 @@ void receive_loads::operator()(SmallTasks) const {
     for (Reader reader((message++)->bytes); !reader.at_end();) {
       std::array<std::int32_t, 2> head{};
       reader.take(head.data(), head.size());
-      space::OtherLoads::Pair& pair = entry(loads->pairs, entry(near.receive, head[0]));
+      space::PairLoads::Pair& pair = entry(loads->pairs, entry(near.receive, head[0]));
       pair.face.resize(static_cast<std::size_t>(head[1]));
       pair.load.resize(pair.face.size());
       reader.take(pair.face.data(), pair.face.size());
-      for (space::OtherLoads::Load& load : pair.load)
+      for (space::PairLoads::Load& load : pair.load)
         reader.take(load.force.data(), load.force.size());
     }
   }

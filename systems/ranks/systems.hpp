@@ -98,12 +98,12 @@ struct receive_contacts {
 };
 
 struct send_loads {
-  Write<space::OtherLoads> loads;
+  Write<space::PairLoads> loads;
   Write<RankLink> link;
   void operator()() const;
 };
 struct receive_loads {
-  Write<space::OtherLoads> loads;
+  Write<space::PairLoads> loads;
   Write<RankLink> link;
   void operator()(SmallTasks) const;
 };

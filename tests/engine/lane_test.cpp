@@ -201,9 +201,26 @@ TEST(LaneMemory, ColumnsOfEightRowsAreTheTransposed) {
   std::array<const double*, lane_count> rows;
   for (std::size_t l = 0; l < 8; ++l) rows[l] = matrix.data() + 8 * (7 - l);  // in any order
   const auto columns = columns_of(rows);
+  const auto first_four = columns_of<4>(rows);
   for (std::size_t k = 0; k < 8; ++k)
-    for (int l = 0; l < lane_count; ++l)
+    for (int l = 0; l < lane_count; ++l) {
       EXPECT_EQ(columns[k][l], rows[static_cast<std::size_t>(l)][k]) << k << " " << l;
+      if (k < 4) {
+        EXPECT_EQ(first_four[k][l], columns[k][l]);
+      }
+    }
+}
+
+TEST(LaneMemory, SixteenFloatsAreComparedAtOnce) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), tiny = 1e-45F;
+  constexpr float far = std::numeric_limits<float>::infinity();
+  const std::array<float, 16> all{0,    tiny, -1,   1, 2, far, nan, 1,
+                                  1.5F, 1,    -far, 0, 3, nan, 1,   1.0000001F};
+  for (const float limit : {0.0F, 1.0F, 2.5F, far}) {
+    unsigned expected = 0;
+    for (unsigned i = 0; i < all.size(); ++i) expected |= (all[i] <= limit ? 1U : 0U) << i;
+    EXPECT_EQ(at_most(all.data(), limit), expected) << limit;
+  }
 }
 
 }  // namespace

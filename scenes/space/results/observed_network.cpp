@@ -3,6 +3,7 @@
 #include <string>
 
 #include "components/observed.hpp"
+#include "components/space/contact.hpp"
 #include "components/space/observed.hpp"
 #include "scenes/results/parts/network_results.hpp"
 #include "systems/space/observe/network_kernel.hpp"
@@ -23,6 +24,7 @@ void add_observed_network(World& world, const Scene& scene) {
   if (!scene.output.contacts) return;
   world.emplace<ContactNetwork>();
   world.emplace<ForceChains>();
+  if (world.has<ContactPoint>()) world.add<ContactPointForce>();
 }
 
 std::vector<SeriesInfo> network_series(const Scene& scene) {

@@ -45,20 +45,14 @@ struct FaceForces {
 }
 
 // Bit g: point g touches, and never rests then.
-inline unsigned touching_points(const double* activation) {
-  const Lane low = Lane::load(activation), high = Lane::load(activation + lane_count);
-  return (low == 0.0).bits() | (high == 0.0).bits() << lane_count;
-}
+inline unsigned touching_points(const float* activation) { return at_most(activation, 0); }
 
-// Forces of the points that touch on the face that they sample: a few as a rule.
-inline void add_touching(const double* points, unsigned touching, double* face) {
+// Forces of the points that touch, one after the other from `force` on, on the face that they sample: a few as a rule.
+inline void add_touching(const std::array<double, 3>* force, unsigned touching, double* face) {
   FaceLoad load;
   load.fetch(face);
-  for (unsigned left = touching; left != 0; left &= left - 1) {
-    const int g = std::countr_zero(left);
-    const double* f = points + ContactPoint::numbers * g + ContactPoint::force;
-    load.add(share_of_point(g), {f[0], f[1], f[2]});
-  }
+  for (unsigned left = touching; left != 0; left &= left - 1)
+    load.add(share_of_point(std::countr_zero(left)), *force++);
   load.store(face);
 }
 
@@ -72,7 +66,7 @@ inline void add_sampled(const double* force, double* face) {
 }
 
 // Adds what a pair does to a face of its other particle.
-inline void add_load(const OtherLoads::Load& load, double* face) {
+inline void add_load(const PairLoads::Load& load, double* face) {
   for (int i = 0; i < face_numbers; i += lane_count)
     (Lane::load(face + i) + Lane::load(load.force.data() + i)).store(face + i);
 }

@@ -4,40 +4,33 @@
 // Source   systems/space/contact/assembly.hpp
 // Runs     after the narrow phase, before integrate
 // Order    a particle sums its own candidates in their order, then its pairs as other body: the same bits for any number of threads
+#include <bit>
+
 #include "engine/chunk_lane.hpp"
-#include "engine/prefetch.hpp"
 #include "systems/space/contact/assembly.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
 namespace {
 
-// The points that touch stand scattered among many: their lines are asked for a few rows before they are needed.
-void fetch_points(const contact_force::Pairs& pairs, Row<FaceContact> row) {
-  if (pairs.touches(row) == 0) return;
-  for (unsigned left = touching_points(&pairs.activation(row)); left != 0; left &= left - 1)
-    prefetch(&pairs.point(row, ContactPoint::numbers * std::countr_zero(left)));
-}
-
-void add_own_rows(const contact_force::Pairs& pairs, const RowRange<FaceContact>& rows,
-                  const FaceForces& own) {
-  constexpr int rows_ahead = 8;
-  const std::int64_t end = (*rows.end()).value;
-  for (const Row<FaceContact> row : rows) {
-    const std::int64_t ahead = row.value + rows_ahead;
-    if (ahead < end) fetch_points(pairs, Row<FaceContact>(ahead));
+void add_own_rows(const contact_force::Pairs& pairs, int pair, const FaceForces& own) {
+  const std::array<double, 3>* force = entry(pairs.loads->pairs, pair).own.data();
+  for (const Row<FaceContact> row : RowRange<FaceContact>::of(pairs.of->begin, pair)) {
     if (pairs.touches(row) == 0) continue;
-    add_touching(&pairs.point(row), touching_points(&pairs.activation(row)),
-                 own.on(pairs.pair(row, 1)));
+    const unsigned touching = touching_points(&pairs.activation(row));
+    add_touching(force, touching, own.on(pairs.pair(row, 1)));
+    force += std::popcount(touching);
   }
 }
 
 void add_pairs(const contact_force::Pairs& pairs, const ContactIndex& index, int slot,
                const FaceForces& own) {
-  add_own_rows(pairs, RowRange<FaceContact>::of(index.sampled_begin, slot), own);
   const FacePairs& of = *pairs.of;
+  const std::int32_t end = entry(index.sampled_begin, slot + 1);
+  for (int p = of.from_row(entry(index.sampled_begin, slot)); entry(of.begin, p) < end; ++p)
+    add_own_rows(pairs, p, own);
   for (int k = entry(of.other_begin, slot); k < entry(of.other_begin, slot + 1); ++k) {
-    const OtherLoads::Pair& loads = entry(pairs.loads->pairs, entry(of.of_other, k));
+    const PairLoads::Pair& loads = entry(pairs.loads->pairs, entry(of.of_other, k));
     for (std::size_t i = 0; i < loads.face.size(); ++i)
       add_load(loads.load[i], own.on(loads.face[i]));
   }

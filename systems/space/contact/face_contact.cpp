@@ -4,8 +4,10 @@
 // Stages   pair_points.hpp -> projection.hpp -> contact_law.hpp -> other_loads.hpp, eight points at a time
 // Runs     after bin_faces, before contact_force
 // Active   when the scene has more than one particle
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "engine/deal.hpp"
 #include "engine/prefetch.hpp"
@@ -45,7 +47,7 @@ void set_rates(const VectorLanes& velocity, const kernels::PatchSlopes<Lane>& ot
 class PairPass {
  public:
   PairPass(const face_contact& system, int pair, FaceSums& sums)
-      : s_(system), sums_(sums), faces_(entry(system.loads->pairs, pair)) {
+      : s_(system), sums_(sums), loads_(fetched(entry(system.loads->pairs, pair))), faces_(loads_) {
     const FacePairs& pairs = *s_.pairs;
     first_ = entry(pairs.begin, pair);
     end_ = entry(pairs.begin, pair + 1);
@@ -82,6 +84,12 @@ class PairPass {
   }
 
  private:
+  // As many forces as there were in the step before: asked for before they are written.
+  static PairLoads::Pair& fetched(PairLoads::Pair& loads) {
+    constexpr std::size_t in_a_line = 2;
+    for (std::size_t i = 0; i < loads.own.size(); i += in_a_line) prefetch(&loads.own[i]);
+    return loads;
+  }
   void find_weakening(int slot, int other) {
     const auto material_of = [&](int of) { return entry(s_.bodies.bodies->slots, of).material; };
     const ContactRules::Friction& friction =
@@ -95,10 +103,7 @@ class PairPass {
   static constexpr std::int32_t rows_at_once = 32;
 
   unsigned active_points(Row<FaceContact> row) const {
-    const Lane travel(s_.clock->travel);
-    const double* activation = &s_.columns.activation(row);
-    return (Lane::load(activation) <= travel).bits() |
-           (Lane::load(activation + lane_count) <= travel).bits() << lane_count;
+    return at_most(&s_.columns.activation(row), travel_);
   }
 
   // The points that touch stand scattered among many: their lines are asked for before they are needed.
@@ -137,7 +142,8 @@ class PairPass {
                  inv_size = s_.columns.law(row, Law::inv_size);
     for (unsigned left = active; left != 0; left &= left - 1) {
       const auto g = static_cast<std::size_t>(std::countr_zero(left));
-      double* kept = &s_.columns.point(row, ContactPoint::numbers * static_cast<int>(g));
+      const int place = static_cast<int>(g);
+      double* kept = &s_.columns.point(row, ContactPoint::numbers * place);
       const int its = static_cast<int>(kept[ContactPoint::face_u]);
       if (its != fetched_) fetch_face(its_face_, its);
       fetched_ = its;
@@ -153,9 +159,9 @@ class PairPass {
       p.kappa = kappa;
       p.damping = damping;
       p.kept = kept;
-      p.activation = &s_.columns.activation(row, static_cast<int>(g));
-      p.lost =
-          weakening_ != nullptr ? &s_.columns.history->lost(row, static_cast<int>(g)) : nullptr;
+      p.activation = &s_.columns.activation(row, place);
+      p.lost = weakening_ != nullptr ? &s_.columns.history->lost(row, place) : nullptr;
+      p.force = s_.columns.force ? &(*s_.columns.force)(row, 3 * place) : nullptr;
       p.row = static_cast<std::int32_t>(row.value);
     }
     s_.columns.touches(row) = 0;
@@ -163,11 +169,14 @@ class PairPass {
 
   void work() {
     points_.for_eights([this](PointLanes& eight) { act(eight); });
+    points_.take_out([this](const PairPoint& point) {
+      if (point.touches) book_touch(point);
+    });
   }
 
   void act(const PointLanes& eight) {
-    const auto motion = numbers_of(eight, [](const PairPoint& p) { return p.motion.data(); });
-    const auto kept = numbers_of(eight, [](const PairPoint& p) { return p.kept; });
+    const auto motion = numbers_of<8>(eight, [](const PairPoint& p) { return p.motion.data(); });
+    const auto kept = numbers_of<4>(eight, [](const PairPoint& p) { return p.kept; });
     const VectorLanes points{motion[0], motion[1], motion[2]};
     const ProjectionStart start{eight.face,
                                 kept[ContactPoint::face_u] - whole(kept[ContactPoint::face_u]),
@@ -199,7 +208,8 @@ class PairPass {
     Lane pressure;
     PointForces f = normal_forces(law, m, s_.clock->dt_before, pressure);
     if (rubs_) {
-      const VectorLanes spring = select(real, {kept[2], kept[3], kept[4]}, no_vector);
+      const Lane spring_z = Lane::from([&](int l) { return entry(eight.point, l)->kept[4]; });
+      const VectorLanes spring = select(real, {kept[2], kept[3], spring_z}, no_vector);
       if (weakening_ == nullptr) {
         pulvis::kernels::Coulomb<Lane> coulomb{friction_};
         add_friction(law, m, s_.clock->dt_before, pressure, spring, coulomb, f);
@@ -274,11 +284,11 @@ class PairPass {
     return best;
   }
 
-  template <class First>
-  static std::array<Lane, 8> numbers_of(const PointLanes& eight, const First& first) {
+  template <std::size_t Count, class First>
+  static std::array<Lane, Count> numbers_of(const PointLanes& eight, const First& first) {
     std::array<const double*, lane_count> row;
     for (int l = 0; l < lane_count; ++l) entry(row, l) = first(*entry(eight.point, l));
-    return columns_of(row);
+    return columns_of<Count>(row);
   }
 
   // ---- columns and books -------------------------------------------------------------------------------
@@ -290,18 +300,27 @@ class PairPass {
     by_point({faces + min(max(p.u, Lane{}), last), min(max(p.v, Lane{}), 1.0), f.elastic_slip.x,
               f.elastic_slip.y, f.elastic_slip.z, f.force.x, f.force.y, f.force.z},
              kept);
-    // A point that is apart rests until it can touch.
+    // A point that is apart rests until it can touch; zero is what touches.
     alignas(64) std::array<double, lane_count> activation;
-    select(LaneMask::of(touching), Lane{}, s_.clock->travel - gap).store(activation.data());
+    constexpr double never_zero = std::numeric_limits<float>::min(), early = 1 - 0x1p-22;
+    select(LaneMask::of(touching), Lane{}, max(early * (s_.clock->travel - gap), never_zero))
+        .store(activation.data());
     for (std::size_t l = 0; l < lane_count && (eight.real >> l & 1) != 0; ++l) {
-      const PairPoint& point = *eight.point[l];
-      Lane::load(kept[l].data()).store(point.kept);
-      *point.activation = activation[l];
-      if ((touching >> l & 1) == 0) continue;
-      std::uint8_t& touches = s_.columns.touches(Row<FaceContact>(point.row));
-      sums_.block.touching += touches == 0 ? 1 : 0;
-      touches = 1;
+      PairPoint& point = *eight.point[l];
+      const double *numbers = kept[l].data(), *force = numbers + ContactPoint::numbers;
+      std::copy_n(numbers, ContactPoint::numbers, point.kept);
+      *point.activation = static_cast<float>(activation[l]);
+      if (point.force != nullptr) std::copy_n(force, 3, point.force);
+      std::copy_n(force, 3, point.motion.begin());
+      point.touches = (touching >> l & 1) != 0;
     }
+  }
+  void book_touch(const PairPoint& point) {
+    make_room(loads_.own);
+    loads_.own.push_back({point.motion[0], point.motion[1], point.motion[2]});
+    std::uint8_t& touches = s_.columns.touches(Row<FaceContact>(point.row));
+    sums_.block.touching += touches == 0 ? 1 : 0;
+    touches = 1;
   }
   static Lane lost_of(const PointLanes& eight) {
     return Lane::from([&](int l) { return *entry(eight.point, l)->lost; });
@@ -332,8 +351,10 @@ class PairPass {
   Lane friction_;
   bool rubs_;
   const ContactRules::Friction* weakening_ = nullptr;  // where friction is more than a coefficient
-  OtherFaces faces_;
+  PairLoads::Pair& loads_;
+  OtherFaces faces_;  // of loads_
   PairPoints points_;
+  float travel_ = static_cast<float>(s_.clock->travel);
   std::int32_t first_, end_;
   const Shape *own_, *its_;
   std::ptrdiff_t own_face_, its_face_;
@@ -345,7 +366,9 @@ class PairPass {
 void face_contact::operator()(SmallTasks) const {
   const int count = pairs->count();
   sums->blocks.resize(static_cast<std::size_t>(count));
-  loads->pairs.resize(static_cast<std::size_t>(count));
+  // Room that was made for other pairs is given back.
+  if (std::ssize(loads->pairs) != count)
+    loads->pairs = std::vector<PairLoads::Pair>(static_cast<std::size_t>(count));
   Deal tasks(count, tbb::this_task_arena::max_concurrency());
   for_pieces(tasks, [&](int pair) {
     FaceSums of_pair;

@@ -31,9 +31,16 @@ using ByPoint = std::array<std::array<double, 8>, 8>;
   for (std::size_t i = 0; i < 8; ++i) column[i].store(out[i].data());
 }
 
+// For one more, and a few: there are many lists, and they hardly grow from step to step.
+template <class T>
+void make_room(std::vector<T>& list) {
+  constexpr std::size_t few = 4;
+  if (list.size() == list.capacity()) list.reserve(list.size() + few);
+}
+
 class OtherFaces {
  public:
-  explicit OtherFaces(OtherLoads::Pair& loads) : loads_(loads) { loads_.clear(); }
+  explicit OtherFaces(PairLoads::Pair& loads) : loads_(loads) { loads_.clear(); }
 
   // Those of the points whose bit is set in `bearing`. face[l]: of the other particle.
   template <bool Friction>
@@ -77,11 +84,12 @@ class OtherFaces {
     if (at_ >= 0) return load_.fetch(loads_.load[static_cast<std::size_t>(at_)].force.data());
     at_ = static_cast<int>(loads_.face.size());
     loads_.face.push_back(face);
+    make_room(loads_.load);
     loads_.load.emplace_back();
     load_.clear();
   }
 
-  OtherLoads::Pair& loads_;
+  PairLoads::Pair& loads_;
   FaceLoad load_;
   int at_ = -1;  // in the list of faces
 };

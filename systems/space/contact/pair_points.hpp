@@ -16,14 +16,17 @@ namespace pulvis::space {
 struct alignas(64) PairPoint {
   std::array<double, 8> motion;  // position, velocity, weight, 1/size of the face
   double kappa, damping;         // of contact_law.hpp
-  double *kept, *activation;     // in the columns: ContactPoint's numbers, when it is active again
+  double* kept;                  // in the columns: ContactPoint's numbers
+  float* activation;             // there: when it is active again
   double* lost;                  // there: SlipWeakening, or null
+  double* force;                 // there: ContactPointForce, or null
   std::int32_t row;              // of FaceContact
+  bool touches;                  // once it was worked on: `motion` begins with the force then
 };
 
 // Eight of them; the last one stands in the lanes that are left over.
 struct PointLanes {
-  std::array<const PairPoint*, lane_count> point;
+  std::array<PairPoint*, lane_count> point;
   std::array<std::int32_t, lane_count> face;  // of the other particle, which has the closest point
   unsigned real = 0;                          // bit l: lane l is a point of its own
 };
@@ -53,6 +56,11 @@ class PairPoints {
       eight.real = 0xffU >> std::max(first + lane_count - count_, 0);
       visit(eight);
     }
+  }
+  // visit(each of them), in the order in which they were added; then there are none.
+  template <class Visit>
+  void take_out(const Visit& visit) {
+    for (int i = 0; i < count_; ++i) visit(entry(points_, i));
     count_ = 0;
   }
 

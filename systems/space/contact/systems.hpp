@@ -103,11 +103,12 @@ struct face_contact {
     Write<Activation<FaceContact>> activation;
     Read<ContactLaw<FaceContact>> law;
     Write<ContactPoint> point;
+    Optional<Write<ContactPointForce>> force;
     Optional<FrictionHistory<FaceContact>> history;
   };
   Columns columns;
   Read<FacePairs> pairs;
-  Write<OtherLoads> loads;
+  Write<PairLoads> loads;
   Write<ContactSums<Contact>> sums;
   void operator()(SmallTasks) const;
 };
@@ -126,9 +127,8 @@ struct contact_force {
     Read<ContactPair<FaceContact>> pair;
     Read<ContactTouches<FaceContact>> touches;
     Read<Activation<FaceContact>> activation;
-    Read<ContactPoint> point;
     Read<FacePairs> of;
-    Read<OtherLoads> loads;
+    Read<PairLoads> loads;
   };
   Optional<Pairs> pairs;
   Optional<TouchingRows> tools;

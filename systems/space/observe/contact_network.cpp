@@ -122,8 +122,8 @@ struct Looker {
       return s.pairs->point(row, ContactPoint::numbers * g + what);
     };
     const auto force_at = [&](int g) {
-      return VectorOfPoint{number_of(g, ContactPoint::force), number_of(g, ContactPoint::force + 1),
-                           number_of(g, ContactPoint::force + 2)};
+      const auto part = [&](int k) { return s.pairs->force(row, 3 * g + k); };
+      return VectorOfPoint{part(0), part(1), part(2)};
     };
     const auto normal_at = [&](int g) {
       const double spot = number_of(g, ContactPoint::face_u), v = number_of(g, ContactPoint::v);

@@ -17,6 +17,7 @@ struct contact_network {
     Read<ContactPair<FaceContact>> pair;
     Read<ContactTouches<FaceContact>> touches;
     Read<ContactPoint> point;
+    Read<ContactPointForce> force;
     Read<FacePairs> of;
   };
   Optional<Pairs> pairs;
