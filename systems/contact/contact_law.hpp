@@ -91,7 +91,7 @@ template <class At>
 }
 
 struct Slip {
-  Lane distance, rate;  // m of the step, m/s
+  Lane distance, rate, gap;  // m of the step, m/s, m
 };
 struct TangentSpring {
   Lane kappa, inv_kappa;  // Pa/m, of the pass, and its inverse
@@ -132,9 +132,11 @@ kernels::Friction<Lane> friction_of(const RowColumns<At>& c, const TwoCandidates
                                speed_effect(c, two, slip.rate)};
   const auto friction = kernels::friction_return(before, slip.distance, pressure, law, spring.kappa,
                                                  spring.inv_kappa);
+  // A point that is apart has its static friction again.
+  const Lane lost = select(slip.gap > 0.0, law.lost, Lane{});
   for (int half = 0; half < 2; ++half)
     if ((touching >> half & 1) != 0)
-      store_points(free_points(c, entry(two, half)), law.lost, half,
+      store_points(free_points(c, entry(two, half)), lost, half,
                    &(*sliding.lost)(entry(two, half)));
   return friction;
 }
@@ -166,14 +168,14 @@ template <class At>
   const PointLaw law{at_points(c.law, two, Law::weight), halves(stiffness[0], stiffness[1]),
                      share * at_candidates(c.law, two, Law::damping),
                      at_candidates(c.law, two, Law::inv_length)};
-  PointForces f = c.sliding
-                      ? forces_of(law, m, dt,
-                                  [&](const Lane& slip, const Lane& pressure) {
-                                    return friction_of(
-                                        c, two, touching, share, Slip{slip, m.slip_rate}, pressure,
-                                        {law.kappa, halves(1 / stiffness[0], 1 / stiffness[1])});
-                                  })
-                      : forces_of(law, m, dt, Frictionless{});
+  PointForces f =
+      c.sliding ? forces_of(law, m, dt,
+                            [&](const Lane& slip, const Lane& pressure) {
+                              return friction_of(
+                                  c, two, touching, share, Slip{slip, m.slip_rate, m.gap}, pressure,
+                                  {law.kappa, halves(1 / stiffness[0], 1 / stiffness[1])});
+                            })
+                : forces_of(law, m, dt, Frictionless{});
   if (c.adhesion) attract(c, two, m, share * law.weight, f);
   return f;
 }

@@ -196,6 +196,26 @@ TEST(Shear, StaticFrictionIsThatOfTheLaw) {
   EXPECT_NEAR(figures->static_friction, 0.2, 1e-4);
 }
 
+// Points of an edge come and go one by one as a disc is pressed and slid.
+TEST(Shear, APointThatIsApartHasItsStaticFrictionAgain) {
+  Experiment e = sliding("0.02 mm");
+  int faded = 0, apart = 0;
+  e.run(200, [&] {
+    const auto& lost = e.column<SlipWeakening<ToolContact>>();
+    const double* force = e.column<PointForce<ToolContact>>().values();
+    const auto* touches = e.column<ContactTouches<ToolContact>>().values();
+    for (std::size_t i = 0; i < edge_points * lost.table.rows; ++i) {
+      const bool bears = std::hypot(force[2 * i], force[2 * i + 1]) > 0;
+      if (bears) faded += lost.values()[i] > 0.5 ? 1 : 0;
+      if (bears) continue;
+      apart += touches[i / edge_points] != 0 ? 1 : 0;
+      EXPECT_EQ(lost.values()[i], 0);
+    }
+  });
+  EXPECT_GT(faded, 100);
+  EXPECT_GT(apart, 100);
+}
+
 // As e^(-distance / decay length), from wherever one begins to look. As the force falls the disc springs back by some
 // micrometres, which are slid, too.
 TEST(Shear, StaticFrictionFadesAsTheLawSays) {
