@@ -71,7 +71,7 @@ std::unique_ptr<World> build_world(const Scene& scene, const Part& part) {
   world->emplace<Bodies>(std::move(layout.bodies));
   world->emplace<Shapes>(std::move(layout.shapes));
   world->emplace<ParticleClasses>(std::move(layout.classes));
-  add_tools(*world, scene);
+  add_tools(*world, scene, bodies);
   add_contact(*world, scene, bodies);
   add_observed_stress(*world, scene);
   add_observed_network(*world, scene);

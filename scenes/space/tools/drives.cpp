@@ -49,13 +49,13 @@ void add_elastic_drives(const SpaceScene& scene, ToolServos& servos) {
 
 // `response`: the tool's mass and the one it drags, over the powder's. A solid block of the powder's mass, stiffness and
 // cross-section would be damped critically by the latter and the dashpot in series.
-ToolServos servos_of(const World& world, const Scene& scene) {
+ToolServos servos_of(const World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   const Powder powder = powder_of(world, scene);
   ToolServos servos;
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (const ServoSpec& spec : scene.space->servos[s]) {
       const Vec3 direction = direction_of(spec, *scene.space);
-      const double wave = powder.impedance * section_across(world, direction);
+      const double wave = powder.impedance * section_across(world, bodies, direction);
       const double tool = spec.response / (1 + kernels::dragged_mass);
       servos.servos.push_back({.tool = spec.tool,
                                .stage = static_cast<int>(s),
@@ -126,7 +126,7 @@ bool has_servos(const SpaceScene& scene) {
                              [&](const auto& moves) { return std::ranges::any_of(moves, gives); });
 }
 
-void add_tools(World& world, const Scene& scene) {
+void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   const SpaceScene& space = *scene.space;
   if (space.tools.empty()) return;
   add_columns_of_tools(world, space);
@@ -137,7 +137,7 @@ void add_tools(World& world, const Scene& scene) {
     world.add<ServoMass>();
     world.add<ServoDragged>();
     world.add<ServoForce>();
-    world.emplace<ToolServos>(servos_of(world, scene));
+    world.emplace<ToolServos>(servos_of(world, scene, bodies));
   }
   if (std::ranges::any_of(scene.stages, [](const StageSpec& s) { return s.until.has_value(); }))
     world.emplace<StageEnds>(ends_of(world, scene));

@@ -13,6 +13,6 @@ Vec3 direction_of(const ServoSpec& servo, const SpaceScene& scene);
 bool has_servos(const SpaceScene& scene);
 
 // The world has its bodies with their shapes.
-void add_tools(World& world, const Scene& scene);
+void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bodies);
 
 }  // namespace pulvis::space

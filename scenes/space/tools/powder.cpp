@@ -17,20 +17,6 @@ const Shape& shape_in(const World& world, int slot) {
   return entry(world.resource<Shapes>().list, entry(bodies.slots, slot).shape);
 }
 
-// m, mean of its nodes.
-Vec3 middle_of(const World& world, int slot) {
-  const auto& position = world.column<Position>();
-  const auto first = static_cast<std::size_t>(
-      position.table.chunk_begin[static_cast<std::size_t>(slot / lane_count)]);
-  const std::size_t nodes = shape_in(world, slot).nodes.size();
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t n = 0; n < nodes; ++n) {
-    const Lane* at = position.lanes() + 3 * (first + n);
-    sum += Vec3(at[0][slot % lane_count], at[1][slot % lane_count], at[2][slot % lane_count]);
-  }
-  return sum / static_cast<double>(nodes);
-}
-
 }  // namespace
 
 bool has_face(const ToolSpec& tool) {
@@ -52,14 +38,16 @@ Powder powder_of(const World& world, const Scene& scene) {
   return powder;
 }
 
-double section_across(const World& world, const Vec3& direction) {
+double section_across(const World& world, const std::vector<BodySpec>& bodies,
+                      const Vec3& direction) {
   const Vec3 first = direction.unitOrthogonal(), second = direction.cross(first);
   constexpr double far = std::numeric_limits<double>::infinity();
   Vec2 low(far, far), high(-far, -far);
-  for (const int slot : world.resource<Bodies>().slot_of_number) {
-    const Vec3 middle = middle_of(world, slot);
+  const std::vector<int>& slot_of = world.resource<Bodies>().slot_of_number;
+  for (std::size_t number = 0; number < bodies.size(); ++number) {
+    const Vec3& middle = bodies[number].position;
     const Vec2 at(middle.dot(first), middle.dot(second));
-    const Vec2 reach = Vec2::Constant(shape_in(world, slot).radius);
+    const Vec2 reach = Vec2::Constant(shape_in(world, slot_of[number]).radius);
     low = low.cwiseMin(at - reach);
     high = high.cwiseMax(at + reach);
   }

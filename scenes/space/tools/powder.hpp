@@ -1,5 +1,8 @@
-// What the powder of a scene is as a whole, from a world that has its bodies with their shapes.
+// What the powder of a scene is as a whole, from a world that has its bodies with their shapes. Its columns are not looked at:
+// of several ranks each has those of its own bodies only.
 #pragma once
+
+#include <vector>
 
 #include "engine/world.hpp"
 #include "scenes/spec/space_scene.hpp"
@@ -17,6 +20,7 @@ struct Powder {
 Powder powder_of(const World& world, const Scene& scene);
 
 // m^2, of the box around the particles, across a direction; particles count as the balls that hold them.
-double section_across(const World& world, const Vec3& direction);
+double section_across(const World& world, const std::vector<BodySpec>& bodies,
+                      const Vec3& direction);
 
 }  // namespace pulvis::space
