@@ -49,6 +49,8 @@ foreach(case friction cell welds space-die space-stl)
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
                    --case ${case} --quick --rebalanced $<TARGET_FILE:rebalanced_run>)
 endforeach()
+add_test(NAME mpi.ranks_run_keys
+         COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR} --keys)
 add_test(NAME mpi.ranks_run_killed
          COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/ranks_runs.py $<TARGET_FILE:pulvis> ${CMAKE_SOURCE_DIR}
                  --kills 3)

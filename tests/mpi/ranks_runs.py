@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs over several ranks against the same run in one process: every bit of their results must be the same.
 
-usage: ranks_runs.py PROGRAM ROOT (--case NAME [--quick] [--rebalanced PROGRAM] | --kills N [--seed S] | --full)
+usage: ranks_runs.py PROGRAM ROOT (--case NAME [--quick] [--rebalanced PROGRAM] | --kills N [--seed S] | --full | --keys)
 
 Case by case: a scene, left after some steps, on 1, 2, 3 and 4 ranks with 1 and 2 threads each; its state hash, its history
 and every dataset of its frames, its mesh and its cracks must be those of one process. Then it is stopped twice and resumed
@@ -9,7 +9,8 @@ on other numbers of ranks, one process among them. --quick: on three ranks alone
 --rebalanced: the ranks are those of rebalanced_run, whose chunks migrate every so many steps. --kills: a run over three
 ranks is resumed after a rank was killed at a random moment, so many times, until it is done; its results must be the same
 again. --full: no file may grow beyond some size, as on a disk that is full; the run over ranks ends and says so, and goes on
-from its last checkpoint when there is room again.
+from its last checkpoint when there is room again. --keys: every scene of tests/keys on two ranks to its end: a key that is
+new there is tried here by itself.
 """
 import argparse
 import json
@@ -244,6 +245,27 @@ def check_full(program, root, scratch):
     print(f"{frames} frames fitted; resumed, and the same as one process")
 
 
+def check_keys(program, root, scratch):
+    """Every scene of tests/keys that ranks can share, to its end: whatever key there is, two ranks leave the same bits."""
+    compared = 0
+    for number, scene in enumerate(sorted((root / "tests/keys").glob("scenes*/*.toml"))):
+        alone, folder = scratch / f"alone-{number}", scratch / f"ranks-{number}"
+        done = subprocess.run([program, "run", scene, "-o", folder, "--quiet", "--ranks", "2"], capture_output=True,
+                              text=True, timeout=300)
+        if done.returncode == 2:  # of a lever, or a part of another scene
+            continue
+        if done.returncode not in (0, 1, 3):
+            raise Failed(f"{scene}: exit {done.returncode}: {done.stderr}")
+        if summary_of(folder)["particles"] == 1:  # nothing to share out
+            continue
+        run(program, ["run", scene, "-o", alone, "--quiet", "--threads", 2], code=(0, 1, 3))
+        require_same(alone, folder, f"{scene} on 2 ranks")
+        compared += 1
+    if compared < 20:
+        raise Failed(f"only {compared} scenes were compared")
+    print(f"{compared} scenes of keys: the same bits on ranks")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
@@ -252,6 +274,7 @@ def main():
     what.add_argument("--case", choices=CASES)
     what.add_argument("--kills", type=int)
     what.add_argument("--full", action="store_true")
+    what.add_argument("--keys", action="store_true")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--rebalanced")
     parser.add_argument("--seed", type=int, default=1)
@@ -261,6 +284,8 @@ def main():
             if options.case:
                 case = Case(options.program, options.root, options.case, Path(scratch), options.rebalanced)
                 case.check(options.quick)
+            elif options.keys:
+                check_keys(options.program, options.root, Path(scratch))
             elif options.full:
                 check_full(options.program, options.root, Path(scratch))
             else:
