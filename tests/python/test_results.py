@@ -130,6 +130,28 @@ def test_what_is_read_while_it_is_written_is_the_beginning_of_the_end(tmp_path):
             np.testing.assert_array_equal(values, end.series(name)[:len(values)], err_msg=name)
 
 
+def test_each_look_at_a_run_that_goes_on_is_of_its_own(tmp_path):
+    folder = tmp_path / "run"
+    process = subprocess.Popen([PROGRAM, "run", SCENE, "-o", folder, "--threads", "1", "--quiet"])
+    try:
+        deadline, kept = time.monotonic() + 120, []
+        while process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.1)
+            if (folder / "run.h5").exists():
+                kept.append(pulvis.open(folder))
+        assert process.wait(timeout=60) == 0
+    finally:
+        process.kill()
+    counts = [len(run.frames) for run in kept]
+    assert counts == sorted(counts) and len(set(counts)) > 3
+    end = pulvis.open(folder)
+    assert end.outcome == "done" and len(end.frames) == 51
+    for run, count in zip(kept, counts):
+        assert len(run.frames) == count and (run.hash is None or count == 51)
+        np.testing.assert_array_equal(run.frame(-1).nodes, end.frame(count - 1).nodes)
+    assert len(kept[0].refresh().frames) == 51 and kept[0].hash == end.hash
+
+
 def test_what_is_no_run_is_refused_by_name(compact, study, tmp_path):
     for folder, says in ((tmp_path, "there is no run.h5"), (tmp_path / "none", "no such folder"),
                          (study, "pulvis.open_study")):

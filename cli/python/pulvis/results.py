@@ -203,8 +203,8 @@ class Run:
 
     def _read(self):
         self._close()
-        self.file = self._opened()
         self.summary = self._summary()
+        self.file = self._opened()
         self.in_space = "mesh/hexahedra" in self.file and "particles" in self.file  # particles in three dimensions
         self.is_solid = "mesh/hexahedra" in self.file and not self.in_space  # a lever
         self.title = self.summary.get("title") or self.file.attrs.get("title") or self.folder.name
@@ -219,9 +219,10 @@ class Run:
             self.file["history"].visititems(self._keep_series)
 
     def _close(self):
-        if getattr(self, "file", None):
-            self.file.close()
-        self.file = None
+        for one in (getattr(self, "file", None), getattr(self, "_stream", None)):
+            if one:
+                one.close()
+        self.file = self._stream = None
 
     def _opened(self):
         path = self.folder / "run.h5"
@@ -234,7 +235,11 @@ class Run:
         if not path.is_file():
             raise RunError(f"{path}: no regular file", path)  # a named pipe would wait for a writer
         try:
-            file = h5py.File(path, "r")
+            if not self.summary.get("outcome"):
+                # HDF5 shares what it remembers of a file among all in a process who have it open by its name: of a run
+                # that goes on each has his own view.
+                self._stream = path.open("rb", buffering=0)
+            file = h5py.File(self._stream or path, "r")
         except OSError as error:
             raise RunError(f"{path}: {error}", path) from error
         if "mesh" not in file:
