@@ -95,7 +95,7 @@ struct ContactPoint : Component<FaceContact, double, 5 * face_points> {
     numbers = 5  // of a point
   };
 };
-// Only where somebody looks at contacts one by one.
+// Only in scenes with output.contacts.
 struct ContactPointForce : Component<FaceContact, double, 3 * face_points> {
   static constexpr ComponentInfo info{"contact_point_force", "N",
                                       "on the sampled face: x y z of each point"};
@@ -159,10 +159,9 @@ struct PairLoads {
     Load() {}                                // set when the face has borne its last point
   };
   struct Pair {
-    std::vector<std::array<double, 3>>
-        own;  // N, on the sampled faces: of each point that touches, row after row
-    std::vector<std::int32_t> face;  // of the other particle: those that bear something
-    std::vector<Load> load;          // [face]
+    std::vector<std::array<double, 3>> own;  // N, on the points that touch, row after row
+    std::vector<std::int32_t> face;          // of the other particle: those that bear something
+    std::vector<Load> load;                  // [face]
 
     void clear() {
       own.clear();

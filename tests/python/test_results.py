@@ -77,18 +77,26 @@ def test_what_a_run_was_and_came_to(compact):
     assert run.calibration is None and not run.loops and not run.images
 
 
+def begun(folder):
+    """The run, or None as long as it has no frame."""
+    try:
+        run = pulvis.open(folder) if (folder / "run.h5").exists() else None
+    except pulvis.RunError as early:
+        assert "run.h5" in str(early)
+        return None
+    return run if run and run.frames else None
+
+
 def test_a_run_that_is_still_being_written_can_be_read(tmp_path):
     folder = tmp_path / "run"
     process = subprocess.Popen([PROGRAM, "run", SCENE, "-o", folder, "--threads", "1", "--quiet"])
     try:
         deadline = time.monotonic() + 120
-        first = None
+        run = None
         while time.monotonic() < deadline:
-            if (folder / "run.h5").exists():
-                run = first or pulvis.open(folder).refresh() if first is None else first.refresh()
-                first = first or run
-                if len(run.frames) >= 3:
-                    break
+            run = run.refresh() if run else begun(folder)
+            if run and len(run.frames) >= 3:
+                break
             time.sleep(0.05)
         assert process.poll() is None, "the run was over too soon to say anything"
         assert len(run.frames) >= 3 and run.outcome == "running" and run.hash is None
@@ -108,14 +116,9 @@ def test_what_is_read_while_it_is_written_is_the_beginning_of_the_end(tmp_path):
     looks, run = [], None
     try:
         while process.poll() is None:
-            if not (folder / "run.h5").exists():
-                continue
+            run = run or begun(folder)
             if run is None:
-                try:
-                    run = pulvis.open(folder)
-                except pulvis.RunError as early:
-                    assert "run.h5" in str(early)  # not written yet
-                    continue
+                continue
             before = len(run.frames)
             run.refresh()
             assert len(run.frames) >= before
@@ -137,8 +140,8 @@ def test_each_look_at_a_run_that_goes_on_is_of_its_own(tmp_path):
         deadline, kept = time.monotonic() + 120, []
         while process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.1)
-            if (folder / "run.h5").exists():
-                kept.append(pulvis.open(folder))
+            if run := begun(folder):
+                kept.append(run)
         assert process.wait(timeout=60) == 0
     finally:
         process.kill()
