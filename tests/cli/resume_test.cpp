@@ -284,18 +284,25 @@ TEST_F(KilledRun, ASecondRunInTheFolderIsRefusedWhileTheFirstWrites) {
   EXPECT_EQ(end_of(first).code, 130);
 }
 
-// h5py, as users have it, with the file locks that it takes by default.
+// h5py, as users have it, with the file locks that it takes by default. The run is halted for each look,
+// so that none spans a commit however slow the reader is.
 TEST_F(KilledRun, ResultsCanBeReadWhileTheRunWrites) {
-  const pid_t child =
-      start(with(run_words(course, "watched"),
-                 {"--threads", "1", "--set", "output.frames=200", "--set", "output.samples=200"}));
+  const pid_t child = start(with(run_words(course, "watched"),
+                                 {"--threads", "1", "--set", "stage.press.duration=400 us", "--set",
+                                  "output.frames=1000", "--set", "output.samples=1000"}));
   const fs::path script = place / "look.py";
-  // A look that falls into the moment of a commit may fail; the next one does not.
-  std::ofstream(script) << R"(import h5py, os, sys, time
-seen, failed = set(), 0
-for i in range(600):
+  // It may have been halted in the middle of a commit: such a look fails, and one of the next does not.
+  std::ofstream(script) << R"(import h5py, os, signal, sys, time
+writer = int(sys.argv[1])
+def halted():
+    return open('/proc/%d/stat' % writer).read().rpartition(')')[2].split()[0] in 'TZ'
+seen, failed = set(), []
+for tries in range(6000):
+    if len(seen) > 15 or len(failed) > 99: break
     time.sleep(0.01)
     if not os.path.exists('watched/run.h5'): continue
+    os.kill(writer, signal.SIGSTOP)
+    while not halted(): time.sleep(0.001)
     try:
         with h5py.File('watched/run.h5', 'r') as f:
             for name, frame in f['frames'].items():
@@ -303,13 +310,16 @@ for i in range(600):
                 assert frame.attrs['complete'] == 1, name
                 assert frame['position'][...].shape[1] == 2, name
             seen.add(len(f['frames']))
-    except (OSError, RuntimeError, KeyError):
-        failed += 1
-    if len(seen) > 15: break
-sys.exit(0 if len(seen) > 15 and failed < 5 else 'saw %s, failed %d' % (sorted(seen), failed))
+        failed = []
+    except (OSError, RuntimeError, KeyError) as error:
+        failed.append(repr(error))
+    os.kill(writer, signal.SIGCONT)
+sys.exit(0 if len(seen) > 15 else 'saw %s frames, then failed with %s' % (sorted(seen), failed))
 )";
-  const std::string command = "cd '" + place.string() + "' && /usr/bin/python3 look.py 2>&1";
+  const std::string command =
+      "cd '" + place.string() + "' && /usr/bin/python3 look.py " + std::to_string(child) + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
+  kill(child, SIGCONT);
   kill(child, SIGTERM);
   EXPECT_THAT(end_of(child).code, ::testing::AnyOf(0, 130));
 }
