@@ -190,8 +190,10 @@ const TableDeclaration<MixtureClass>& mixture_class() {
     law.doc =
         "Law of the sizes: by number of particles, \"sieve\" by their volume. The size of a "
         "particle "
-        "is its smallest width, which a sieve lets through: of a sphere its diameter. The shape of "
-        "the class is scaled to it.";
+        "is what a sieve lets through: its least width across the direction in which it is "
+        "thinnest; "
+        "of a sphere the diameter, of an ellipsoid the middle one of three, of a flat tablet its "
+        "diameter, too. The shape of the class is scaled to it.";
     key_of(table, "file").info.doc =
         "Path from the scene's folder. Columns size (unit in the header, `size [mm]`) and passing: "
         "the share of the volume that is smaller, rising from 0 to 1, straight in between.";

@@ -14,6 +14,7 @@
 #include "scenes/space/packing/die_filling.hpp"
 #include "scenes/space/packing/packing_file.hpp"
 #include "scenes/space/packing/place.hpp"
+#include "scenes/space/packing/widths.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -24,11 +25,8 @@ int sized_class(SpaceScene& scene, int particle, double scale) {
   });
 }
 
-// What passes a sieve is the middle one of a particle's three extents.
 ParticleMeasure measure_of(const ParticleShape& shape) {
-  Vec3 extent = extent_of(shape);
-  std::sort(extent.begin(), extent.end());
-  return {extent[1], volume_of(shape)};
+  return {widths_of(shape).middle, volume_of(shape)};
 }
 
 Rotation rotation_of(const Turn& q) { return Rotation(q.w, q.x, q.y, q.z); }
@@ -109,7 +107,7 @@ class RandomPacking {
     const double width = round ? in.diameter : std::min(in.width, in.depth);
     for (const int particle : classes_) {
       const ParticleSpec& spec = scene_.particles[static_cast<std::size_t>(particle)];
-      const double least = extent_of(spec.shape).minCoeff();
+      const double least = widths_of(spec.shape).least;
       const bool wide = least >= width;
       if (!wide && (!packing_.height || least < *packing_.height)) continue;
       const std::string key = !wide                  ? ".height"

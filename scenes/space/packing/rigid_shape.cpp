@@ -270,10 +270,6 @@ RigidShape rigid_shape(const ParticleShape& shape, double unit) {
 
 double volume_of(const ParticleShape& shape) { return star_surface(shape)->volume(); }
 double diameter_of(const ParticleShape& shape) { return ball_of(volume_of(shape)); }
-Vec3 extent_of(const ParticleShape& shape) {
-  const V3 extent = extent_of(rigid_shape(shape, 1));
-  return {extent.x, extent.y, extent.z};
-}
 
 ParticleShape scaled(const ParticleShape& shape, double factor) {
   ParticleShape larger = shape;

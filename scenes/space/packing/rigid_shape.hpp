@@ -32,8 +32,6 @@ RigidShape rigid_shape(const ParticleShape& shape, double unit);
 inline V3 vector_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 inline Turn turn_of(const Rotation& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
-// Extent along its own x, y, z, m.
-Vec3 extent_of(const ParticleShape& shape);
 double volume_of(const ParticleShape& shape);    // m^3
 double diameter_of(const ParticleShape& shape);  // m, of the ball of the same volume
 ParticleShape scaled(const ParticleShape& shape, double factor);
