@@ -50,6 +50,12 @@ auto integer_to(int Spec::*member) {
   };
 }
 template <class Spec>
+auto integer_to(std::optional<int> Spec::*member) {
+  return [member](Spec& spec, const Decoded& value) {
+    spec.*member = static_cast<int>(value.integer);
+  };
+}
+template <class Spec>
 auto flag_to(bool Spec::*member) {
   return [member](Spec& spec, const Decoded& value) { spec.*member = value.flag; };
 }

@@ -1,5 +1,6 @@
 // Declarations of packings: lattices, random packings of mixtures in a die, positions from a file.
 #include "scenes/keys/declare.hpp"
+#include "scenes/keys/packing_keys.hpp"
 
 namespace pulvis::schema {
 namespace {
@@ -7,13 +8,7 @@ namespace {
 const Words lattices{"square", "hexagonal"};
 
 std::vector<Key<PackingSpec>> lattice_keys() {
-  return {{{.name = "particle",
-            .kind = Kind::reference,
-            .refers_to = "particle",
-            .required = true,
-            .only_for = lattices,
-            .doc = "Their class."},
-           index_to(&PackingSpec::particle)},
+  return {class_of_lattice_key<PackingSpec>(lattices),
           {{.name = "rows",
             .kind = Kind::integer,
             .range = within(1, 1e6),
@@ -66,28 +61,6 @@ Key<PackingSpec> kind_key() {
           }};
 }
 
-Key<PackingSpec> density_key() {
-  return {{.name = "density",
-           .kind = Kind::number,
-           .range = within(0.05, 0.999),
-           .choices = {{"touching", "until nothing moves any more"},
-                       {"densest",
-                        "then shaken on and pressed again, as long as that pays; equal discs "
-                        "order themselves meanwhile"}},
-           .only_for = "random",
-           .doc = "Relative density of the die up to its top: area of the particles over that of "
-                  "the die. Discs and the like come to rest at 0.76 to 0.84 by themselves; from "
-                  "there on to the densest it takes longer, and beyond that it is refused.",
-           .fallback_doc = "what follows from count and height"},
-          [](PackingSpec& packing, const Decoded& value) {
-            if (value.is_word)
-              packing.dense =
-                  value.index == 0 ? PackingSpec::Dense::touching : PackingSpec::Dense::densest;
-            else
-              packing.density = value.number;
-          }};
-}
-
 std::vector<Key<PackingSpec>> die_keys() {
   return {
       {{.name = "corner",
@@ -106,35 +79,22 @@ std::vector<Key<PackingSpec>> die_keys() {
         .doc = "Between the die's walls.",
         .fallback_doc = "that of `[die]`; required without one"},
        to(&PackingSpec::width)},
-      {{.name = "height",
-        .kind = Kind::quantity,
-        .unit = "m",
-        .range = within(smallest_size, largest_size),
-        .only_for = "random",
-        .doc = "From the die's floor to its top. Two of count, density and height are given.",
-        .fallback_doc = "what follows from count and density"},
-       [](PackingSpec& packing, const Decoded& value) { packing.height = value.number; }},
-      {{.name = "count",
-        .kind = Kind::integer,
-        .range = within(1, 1e5),
-        .only_for = "random",
-        .doc = "Particles of all classes, where those give fractions.",
-        .fallback_doc = "the sum of the classes' numbers, or what follows from density and height"},
-       [](PackingSpec& packing, const Decoded& value) {
-         packing.count = static_cast<int>(value.integer);
-       }}};
+      height_key<PackingSpec>(
+          "From the die's floor to its top. Two of count, density and height are given."),
+      count_key<PackingSpec>(),
+      density_key<PackingSpec>(
+          "then shaken on and pressed again, as long as that pays; equal discs order themselves "
+          "meanwhile",
+          "Relative density of the die up to its top: area of the particles over that of the die. "
+          "Discs and the like come to rest at 0.76 to 0.84 by themselves; from there on to the "
+          "densest it takes longer, and beyond that it is refused.")};
 }
 
 Key<PackingSpec> file_key() {
-  return {{.name = "file",
-           .kind = Kind::file,
-           .required = true,
-           .only_for = "csv",
-           .doc = "Path from the scene's folder. Columns class, x, y, angle, and scale where "
-                  "outlines are not as the class says; units in the header, `x [mm]`. Lines with # "
-                  "are comments; one `# top: 0.1 m` says where a punch rests, otherwise it rests "
-                  "on the highest particle."},
-          to(&PackingSpec::file)};
+  return file_of_packing_key<PackingSpec>(
+      "Path from the scene's folder. Columns class, x, y, angle, and scale where outlines are not "
+      "as the class says; units in the header, `x [mm]`. Lines with # are comments; one "
+      "`# top: 0.1 m` says where a punch rests, otherwise it rests on the highest particle.");
 }
 
 TableDeclaration<PackingSpec> declared_packing() {
@@ -149,7 +109,6 @@ TableDeclaration<PackingSpec> declared_packing() {
   table.keys.push_back(kind_key());
   for (auto& key : lattice_keys()) table.keys.push_back(std::move(key));
   for (auto& key : die_keys()) table.keys.push_back(std::move(key));
-  table.keys.push_back(density_key());
   table.keys.push_back(file_key());
   return table;
 }

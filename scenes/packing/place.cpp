@@ -7,25 +7,10 @@
 
 #include "engine/portable_math.hpp"
 #include "scenes/outlines/portable.hpp"
+#include "scenes/packing/in_file_order.hpp"
 
 namespace pulvis {
 namespace {
-
-struct Source {  // one [[body]] or [[packing]]
-  SourceMark mark;
-  const BodySpec* body;
-  const PackingSpec* packing;
-};
-
-std::vector<Source> sources_in_file_order(const Scene& scene) {
-  std::vector<Source> sources;
-  for (const BodySpec& body : scene.bodies) sources.push_back({body.mark, &body, nullptr});
-  for (const PackingSpec& packing : scene.packings)
-    sources.push_back({packing.mark, nullptr, &packing});
-  std::stable_sort(sources.begin(), sources.end(),
-                   [](const Source& a, const Source& b) { return written_before(a.mark, b.mark); });
-  return sources;
-}
 
 // Evenly over a circle of radius 1.
 Vec2 in_circle(portable::Random& random) {
@@ -89,9 +74,9 @@ std::int64_t particle_count(const PackingSpec& packing) {
 
 std::vector<BodySpec> place_bodies(const Scene& scene) {
   std::vector<BodySpec> bodies;
-  for (const Source& source : sources_in_file_order(scene)) {
-    if (source.body != nullptr) bodies.push_back(*source.body);
-    if (source.packing != nullptr) add_packing(*source.packing, scene.seed, bodies);
+  for (const auto& placing : in_file_order(scene.bodies, scene.packings)) {
+    if (placing.body != nullptr) bodies.push_back(*placing.body);
+    if (placing.packing != nullptr) add_packing(*placing.packing, scene.seed, bodies);
   }
   return bodies;
 }

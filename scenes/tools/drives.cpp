@@ -13,10 +13,9 @@
 #include "scenes/outlines/outline.hpp"
 #include "scenes/tools/cell.hpp"
 #include "scenes/tools/die_cell.hpp"
-#include "scenes/tools/elastic_drive.hpp"
 #include "scenes/tools/powder.hpp"
 #include "scenes/tools/servo_checks.hpp"
-#include "systems/tools/servo_kernel.hpp"
+#include "scenes/tools/tool_drive.hpp"
 
 namespace pulvis {
 namespace {
@@ -75,46 +74,22 @@ ToolServos tool_servos(const Scene& scene, const std::vector<BodySpec>& bodies) 
   for (std::size_t s = 0; s < scene.stages.size(); ++s)
     for (const ServoSpec& spec : scene.stages[s].servos) {
       const Vec2 direction = direction_of(spec, scene);
-      // `response`: the tool's mass and the one it drags, over the powder's. A solid block of the powder's
-      // mass, stiffness and width would be damped critically by the latter and the dashpot in series.
       const double wave = powder.impedance * width_of(scene, bodies, direction) * scene.thickness;
-      const double tool = spec.response / (1 + kernels::dragged_mass);
-      servos.servos.push_back({.tool = spec.tool,
-                               .stage = static_cast<int>(s),
-                               .direction = {direction.x(), direction.y(), 0},
-                               .force = spec.force,
-                               .rise = spec.rise * scene.stages[s].duration,
-                               .rate = spec.rate.value_or(0),
-                               .mass = tool * powder.mass,
-                               .damping = 0.5 * std::sqrt(kernels::dragged_mass * tool) * wave,
-                               .max_speed = spec.max_speed,
-                               .tolerance = spec.tolerance});
+      servos.servos.push_back(force_servo(spec, static_cast<int>(s), scene.stages[s].duration,
+                                          {direction.x(), direction.y(), 0}, {powder.mass, wave}));
     }
   add_elastic_drives(scene, servos);
   return servos;
 }
 
 // ---- ends -----------------------------------------------------------------------------------------
-StageEnds::End end_of(const Scene& scene, int stage, const UntilSpec& until) {
-  StageEnds::End end{.stage = stage};
-  if (until.relative_density) {
-    end.kind = StageEnds::Kind::density;
-    end.value = *until.relative_density;
-    return end;
-  }
-  end.tool = *until.tool;
-  end.kind = until.force ? StageEnds::Kind::force : StageEnds::Kind::displacement;
-  end.value = until.force ? *until.force : *until.displacement;
-  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(end.tool)];
-  if (tool.shape == ToolSpec::Shape::plane) end.direction = {tool.normal.x(), tool.normal.y(), 0};
-  return end;
-}
-
 StageEnds stage_ends(const World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   StageEnds ends;
-  for (std::size_t s = 0; s < scene.stages.size(); ++s)
-    if (scene.stages[s].until)
-      ends.ends.push_back(end_of(scene, static_cast<int>(s), *scene.stages[s].until));
+  ends.ends = early_ends(scene.stages, [&](int number) -> Point3 {
+    const ToolSpec& tool = scene.tools[static_cast<std::size_t>(number)];
+    if (tool.shape != ToolSpec::Shape::plane) return {};
+    return {tool.normal.x(), tool.normal.y(), 0};
+  });
   ends.cell.particle_area = powder_of(scene, bodies).area;
   if (const auto cell = die_cell(scene))
     ends.cell = {cell->left,
@@ -133,9 +108,6 @@ bool has_servos(const Scene& scene) {
     });
   });
 }
-bool has_early_ends(const Scene& scene) {
-  return std::ranges::any_of(scene.stages, [](const StageSpec& s) { return s.until.has_value(); });
-}
 
 }  // namespace
 
@@ -150,7 +122,7 @@ void add_drives(World& world, const Scene& scene, const std::vector<BodySpec>& b
     world.emplace<ToolServos>(tool_servos(scene, bodies));
   }
   add_driven_walls(world, scene, bodies);
-  if (has_early_ends(scene)) world.emplace<StageEnds>(stage_ends(world, scene, bodies));
+  if (has_early_ends(scene.stages)) world.emplace<StageEnds>(stage_ends(world, scene, bodies));
 }
 
 }  // namespace pulvis

@@ -1,4 +1,5 @@
 // Declarations of packings: lattices, random packings of mixtures in a box or cylinder, places from a file.
+#include "scenes/keys/packing_keys.hpp"
 #include "scenes/space/keys/declare.hpp"
 
 namespace pulvis::space::language {
@@ -33,13 +34,7 @@ Key<PackingSpec> kind_of_packing() {
 
 std::vector<Key<PackingSpec>> keys_of_lattices() {
   return {
-      {{.name = "particle",
-        .kind = Kind::reference,
-        .refers_to = "particle",
-        .required = true,
-        .only_for = space_lattices,
-        .doc = "Their class."},
-       schema::index_to(&PackingSpec::particle)},
+      schema::class_of_lattice_key<PackingSpec>(space_lattices),
       {{.name = "cells",
         .kind = Kind::counts,
         .range = within(1, 1000),
@@ -102,57 +97,23 @@ std::vector<Key<PackingSpec>> container_keys() {
           diameter};
 }
 
-std::vector<Key<PackingSpec>> extent_keys() {
-  return {
-      {{.name = "height",
-        .kind = Kind::quantity,
-        .unit = "m",
-        .range = within(smallest_size, largest_size),
-        .only_for = "random",
-        .doc = "From the floor to the top. Two of count, density and height are given.",
-        .fallback_doc = "what follows from count and density"},
-       to(&PackingSpec::height)},
-      {{.name = "count",
-        .kind = Kind::integer,
-        .range = within(1, 1e5),
-        .only_for = "random",
-        .doc = "Particles of all classes, where those give fractions.",
-        .fallback_doc = "the sum of the classes' numbers, or what follows from density and height"},
-       [](PackingSpec& packing, const Decoded& value) {
-         packing.count = static_cast<int>(value.integer);
-       }}};
-}
-
-Key<PackingSpec> density_of_packing() {
-  return {{.name = "density",
-           .kind = Kind::number,
-           .range = within(0.05, 0.999),
-           .choices = {{"touching", "until nothing moves any more"},
-                       {"densest", "then shaken on and pressed again, as long as that pays"}},
-           .only_for = "random",
-           .doc = "Relative density up to the top: volume of the particles over that of the box or "
-                  "cylinder. Spheres come to rest at 0.55 to 0.64 by themselves, less in a narrow "
-                  "box; denser ones are refused.",
-           .fallback_doc = "what follows from count and height"},
-          [](PackingSpec& packing, const Decoded& value) {
-            if (value.is_word)
-              packing.dense =
-                  value.index == 0 ? PackingSpec::Dense::touching : PackingSpec::Dense::densest;
-            else
-              packing.density = value.number;
-          }};
+std::vector<Key<PackingSpec>> keys_of_random() {
+  return {schema::height_key<PackingSpec>(
+              "From the floor to the top. Two of count, density and height are given."),
+          schema::count_key<PackingSpec>(),
+          schema::density_key<PackingSpec>(
+              "then shaken on and pressed again, as long as that pays",
+              "Relative density up to the top: volume of the particles over that of the box or "
+              "cylinder. Spheres come to rest at 0.55 to 0.64 by themselves, less in a narrow box; "
+              "denser ones are refused.")};
 }
 
 Key<PackingSpec> packing_file() {
-  return {{.name = "file",
-           .kind = Kind::file,
-           .required = true,
-           .only_for = "csv",
-           .doc = "Path from the scene's folder. Columns class, x, y, z, the rotation as a "
-                  "quaternion qw, qx, qy, qz, and scale where shapes are not as the class says; "
-                  "units in the header, `x [mm]`. Lines with # are comments; one `# top: 0.1 m` "
-                  "says where a punch rests, otherwise it rests on the highest particle."},
-          to(&PackingSpec::file)};
+  return schema::file_of_packing_key<PackingSpec>(
+      "Path from the scene's folder. Columns class, x, y, z, the rotation as a quaternion qw, qx, "
+      "qy, qz, and scale where shapes are not as the class says; units in the header, `x [mm]`. "
+      "Lines with # are comments; one `# top: 0.1 m` says where a punch rests, otherwise it rests "
+      "on the highest particle.");
 }
 
 TableDeclaration<PackingSpec> declared_packing_in_space() {
@@ -164,9 +125,8 @@ TableDeclaration<PackingSpec> declared_packing_in_space() {
       "Many particles at once. Those of a lattice are numbered along x, then y, then z, those of a "
       "random packing class by class.";
   table.keys.push_back(kind_of_packing());
-  for (const auto& keys : {keys_of_lattices(), container_keys(), extent_keys()})
+  for (const auto& keys : {keys_of_lattices(), container_keys(), keys_of_random()})
     table.keys.insert(table.keys.end(), keys.begin(), keys.end());
-  table.keys.push_back(density_of_packing());
   table.keys.push_back(packing_file());
   return table;
 }

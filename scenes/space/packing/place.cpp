@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scenes/packing/in_file_order.hpp"
 namespace pulvis::space {
 namespace {
 
@@ -53,22 +54,6 @@ void add_lattice(const PackingSpec& packing, std::vector<BodySpec>& bodies) {
         }
 }
 
-struct Source {  // one [[body]] or [[packing]]
-  SourceMark mark;
-  const BodySpec* body;
-  const PackingSpec* packing;
-};
-
-std::vector<Source> in_file_order(const SpaceScene& scene) {
-  std::vector<Source> sources;
-  for (const BodySpec& body : scene.bodies) sources.push_back({body.mark, &body, nullptr});
-  for (const PackingSpec& packing : scene.packings)
-    sources.push_back({packing.mark, nullptr, &packing});
-  std::stable_sort(sources.begin(), sources.end(),
-                   [](const Source& a, const Source& b) { return written_before(a.mark, b.mark); });
-  return sources;
-}
-
 }  // namespace
 
 bool is_lattice(const PackingSpec& packing) {
@@ -97,10 +82,10 @@ double top_of_packings(const SpaceScene& scene) {
 
 std::vector<BodySpec> place_bodies(const Scene& scene) {
   std::vector<BodySpec> bodies;
-  for (const Source& source : in_file_order(*scene.space)) {
-    if (source.body != nullptr) bodies.push_back(*source.body);
-    if (source.packing == nullptr) continue;
-    const PackingSpec& packing = *source.packing;
+  for (const auto& placing : in_file_order(scene.space->bodies, scene.space->packings)) {
+    if (placing.body != nullptr) bodies.push_back(*placing.body);
+    if (placing.packing == nullptr) continue;
+    const PackingSpec& packing = *placing.packing;
     if (is_lattice(packing))
       add_lattice(packing, bodies);
     else

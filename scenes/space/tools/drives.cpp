@@ -13,8 +13,7 @@
 #include "engine/access.hpp"
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/powder.hpp"
-#include "scenes/tools/elastic_drive.hpp"
-#include "systems/tools/servo_kernel.hpp"
+#include "scenes/tools/tool_drive.hpp"
 
 namespace pulvis::space {
 namespace {
@@ -47,8 +46,6 @@ void add_elastic_drives(const SpaceScene& scene, ToolServos& servos) {
             elastic_drive(move, static_cast<int>(s), values_of(move.displacement.normalized())));
 }
 
-// `response`: the tool's mass and the one it drags, over the powder's. A solid block of the powder's mass, stiffness and
-// cross-section would be damped critically by the latter and the dashpot in series.
 ToolServos servos_of(const World& world, const Scene& scene, const std::vector<BodySpec>& bodies) {
   const Powder powder = powder_of(world, scene);
   ToolServos servos;
@@ -56,42 +53,19 @@ ToolServos servos_of(const World& world, const Scene& scene, const std::vector<B
     for (const ServoSpec& spec : scene.space->servos[s]) {
       const Vec3 direction = direction_of(spec, *scene.space);
       const double wave = powder.impedance * section_across(world, bodies, direction);
-      const double tool = spec.response / (1 + kernels::dragged_mass);
-      servos.servos.push_back({.tool = spec.tool,
-                               .stage = static_cast<int>(s),
-                               .direction = values_of(direction),
-                               .force = spec.force,
-                               .rise = spec.rise * scene.stages[s].duration,
-                               .rate = spec.rate.value_or(0),
-                               .mass = tool * powder.mass,
-                               .damping = 0.5 * std::sqrt(kernels::dragged_mass * tool) * wave,
-                               .max_speed = spec.max_speed,
-                               .tolerance = spec.tolerance});
+      servos.servos.push_back(force_servo(spec, static_cast<int>(s), scene.stages[s].duration,
+                                          values_of(direction), {powder.mass, wave}));
     }
   add_elastic_drives(*scene.space, servos);
   return servos;
 }
 
-StageEnds::End end_of_stage(const Scene& scene, int stage, const UntilSpec& until) {
-  StageEnds::End end{.stage = stage};
-  if (until.relative_density) {
-    end.kind = StageEnds::Kind::density;
-    end.value = *until.relative_density;
-    return end;
-  }
-  end.tool = *until.tool;
-  end.kind = until.force ? StageEnds::Kind::force : StageEnds::Kind::displacement;
-  end.value = until.force ? *until.force : *until.displacement;
-  const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(end.tool)];
-  if (has_face(tool)) end.direction = values_of(tool.normal);
-  return end;
-}
-
 StageEnds ends_of(const World& world, const Scene& scene) {
   StageEnds ends;
-  for (std::size_t s = 0; s < scene.stages.size(); ++s)
-    if (scene.stages[s].until)
-      ends.ends.push_back(end_of_stage(scene, static_cast<int>(s), *scene.stages[s].until));
+  ends.ends = early_ends(scene.stages, [&](int number) -> Point3 {
+    const ToolSpec& tool = scene.space->tools[static_cast<std::size_t>(number)];
+    return has_face(tool) ? values_of(tool.normal) : Point3{};
+  });
   ends.room = die_room(scene);
   if (ends.room) ends.room->particle_volume = powder_of(world, scene).volume;
   return ends;
@@ -139,8 +113,7 @@ void add_tools(World& world, const Scene& scene, const std::vector<BodySpec>& bo
     world.add<ServoForce>();
     world.emplace<ToolServos>(servos_of(world, scene, bodies));
   }
-  if (std::ranges::any_of(scene.stages, [](const StageSpec& s) { return s.until.has_value(); }))
-    world.emplace<StageEnds>(ends_of(world, scene));
+  if (has_early_ends(scene.stages)) world.emplace<StageEnds>(ends_of(world, scene));
 }
 
 }  // namespace pulvis::space

@@ -1,0 +1,78 @@
+// What drives the tools of two and three dimensions alike: servos, moves whose drive gives, and what ends a stage early.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "components/servo.hpp"
+#include "components/shape.hpp"
+#include "scenes/spec/scene.hpp"
+#include "systems/tools/servo_kernel.hpp"
+
+namespace pulvis {
+
+// A move whose drive gives: the tool follows its far end as a mass on a spring. `move`: has a stiffness. `direction`: unit
+// vector of its displacement.
+template <class Move>
+ToolServos::Servo elastic_drive(const Move& move, int stage, const Point3& direction) {
+  return {.tool = move.tool,
+          .stage = stage,
+          .direction = direction,
+          .mass = *move.mass,
+          .damping = 2 * move.damping * std::sqrt(*move.stiffness * *move.mass),
+          .stiffness = *move.stiffness};
+}
+
+// What a servo pushes against. `wave`: force that a wave through the powder takes from a tool, over the tool's speed.
+struct ServoLoad {
+  double mass, wave;  // kg, N s/m
+};
+
+// Spec: ServoSpec of two or three dimensions. `duration`: of the stage, s. `response`: the tool's mass and the one it drags, over
+// the powder's. A solid block of the powder's mass, stiffness and cross-section would be damped critically by the latter and the
+// dashpot in series.
+template <class Spec>
+ToolServos::Servo force_servo(const Spec& spec, int stage, double duration, const Point3& direction,
+                              const ServoLoad& powder) {
+  const double tool = spec.response / (1 + kernels::dragged_mass);
+  return {.tool = spec.tool,
+          .stage = stage,
+          .direction = direction,
+          .force = spec.force,
+          .rise = spec.rise * duration,
+          .rate = spec.rate.value_or(0),
+          .mass = tool * powder.mass,
+          .damping = 0.5 * std::sqrt(kernels::dragged_mass * tool) * powder.wave,
+          .max_speed = spec.max_speed,
+          .tolerance = spec.tolerance};
+}
+
+// `direction_of(tool)`: direction from a tool into the powder, zero where its force may point anywhere.
+template <class DirectionOf>
+std::vector<StageEnds::End> early_ends(const std::vector<StageSpec>& stages,
+                                       const DirectionOf& direction_of) {
+  std::vector<StageEnds::End> ends;
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    if (!stages[s].until) continue;
+    const UntilSpec& until = *stages[s].until;
+    StageEnds::End end{.stage = static_cast<int>(s)};
+    if (until.relative_density) {
+      end.kind = StageEnds::Kind::density;
+      end.value = *until.relative_density;
+    } else {
+      end.tool = *until.tool;
+      end.kind = until.force ? StageEnds::Kind::force : StageEnds::Kind::displacement;
+      end.value = until.force ? *until.force : *until.displacement;
+      end.direction = direction_of(end.tool);
+    }
+    ends.push_back(end);
+  }
+  return ends;
+}
+
+inline bool has_early_ends(const std::vector<StageSpec>& stages) {
+  return std::ranges::any_of(stages, [](const StageSpec& s) { return s.until.has_value(); });
+}
+
+}  // namespace pulvis
