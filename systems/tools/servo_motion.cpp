@@ -101,9 +101,8 @@ void drive_tools(const Servos& s, const Touching& touching) {
       check_held(*last, *program, *clock, borne(*last, force));
     if (servo == nullptr) {
       set_along(drive.velocity, tool, {}, 0), set_along(drive.dragged, tool, {}, 0);
-      // Without its spring nothing bears; at the very end of the run it still does.
-      const bool let_go = last != nullptr && !last->holds_force();
-      if (let_go && stage < program->stages.size()) drive.asked(tool, 0) = 0;
+      // It asks for nothing any more; at the very end of the run it still does.
+      if (last != nullptr && stage < program->stages.size()) drive.asked(tool, 0) = 0;
       continue;
     }
     const double bears = borne(*servo, force);

@@ -4,13 +4,17 @@ import pytest
 import pulvis
 
 
-@pytest.fixture
-def held(scenes):
+def scene_with(scenes, *after):
     """One plastic disc in a die under a servo: 500 N, asked for in full after a fifth of the stage, 80 us."""
     return pulvis.Scene({
         "extends": str(scenes / "compaction/unit-cell.toml"), "remove": ["stage"], "output": {"samples": 60, "frames": 4},
         "stage": [{"name": "press", "kind": "compact", "duration": "0.4 ms",
-                   "servo": [{"tool": "top", "force": "500 N", "tolerance": 0.5}]}]})
+                   "servo": [{"tool": "top", "force": "500 N", "tolerance": 0.5}]}, *after]})
+
+
+@pytest.fixture
+def held(scenes):
+    return scene_with(scenes)
 
 
 def test_a_servo_tells_what_it_asks_for(held):
@@ -24,6 +28,13 @@ def test_a_servo_tells_what_it_asks_for(held):
     assert list(asked) == list(sim.history["tool/top/force_asked"])
     assert list(bears) == list(sim.history["tool/top/force_y"])
     assert asked[-1] == 500 and sim.driven == set()
+
+
+def test_it_asks_for_nothing_once_its_stage_is_over(scenes):
+    sim = scene_with(scenes, {"name": "rest", "kind": "hold", "duration": "0.1 ms"}).simulation().run()
+    time, asked = sim.history["time"], sim.history["tool/top/force_asked"]
+    assert set(asked[time > 0.401e-3]) == {0} and asked[time < 0.399e-3][-1] == 500
+    assert sim.servos["top"].asked == 0 and not sim.servos["top"].holds
 
 
 def test_the_force_is_what_it_is_driven_to(held):

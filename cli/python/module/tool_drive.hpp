@@ -18,7 +18,7 @@ void drive_tool(Simulation& simulation, const std::string& name, const Point3& v
 // Tools that hold a force in some stage.
 std::vector<std::string> servo_names(Simulation& simulation);
 struct ServoView {
-  double asked = 0;    // N, when it held last: series force_asked
+  double asked = 0;    // N, 0 in stages without it: series force_asked
   Point3 direction{};  // in which it pushes: of the present stage, else of its first one
   bool holds = false;  // in the present stage
 };

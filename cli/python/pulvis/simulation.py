@@ -281,7 +281,7 @@ class Servo:
 
     @property
     def asked(self) -> float:
-        """Force in N that it asked for when it held last: its ramp, or what it was driven to."""
+        """Force in N that it asks for now: its ramp, or what it was driven to; 0 in stages that do not have it."""
         return self._run.servo(self.tool)[0]
 
     @property
