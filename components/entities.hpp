@@ -40,6 +40,10 @@ struct SurfacePoint {  // Bezier points of a particle's surface in three dimensi
   static constexpr const char* name = "surface_point";
   static constexpr bool laned = true, by_chunk = true;
 };
+struct ParticleSurface {  // the same points, particle after particle
+  static constexpr const char* name = "particle_surface";
+  static constexpr bool laned = false, by_chunk = true;
+};
 struct SurfaceFace {  // four-sided patches of these surfaces, particle after particle
   static constexpr const char* name = "surface_face";
   static constexpr bool laned = false, by_chunk = true;
@@ -49,7 +53,8 @@ struct FaceContact {  // (face of one particle, other particle), sixteen Gauss p
   static constexpr bool laned = false, by_chunk = false;
 };
 struct FaceToolContact {  // (face of a particle, tool), sixteen Gauss points a row
-  static constexpr const char *name = "face_tool_contact", *blocks_name = "face_tool_contact_blocks";
+  static constexpr const char *name = "face_tool_contact",
+                              *blocks_name = "face_tool_contact_blocks";
   static constexpr bool laned = false, by_chunk = false;
   static constexpr int rows_of_a_block = 32;
 };

@@ -3,7 +3,7 @@
 // sample each other: the contact is unbiased.
 //
 // Pairs, touches and the sums of blocks are those of two dimensions (components/contact.hpp), as are the rules
-// and the index of rows (components/run_state.hpp). Bodies::Slot::first_control is a particle's first face.
+// and the index of rows (components/run_state.hpp). Bodies::Slot::first_control is a particle's first Bezier point.
 #pragma once
 
 #include <algorithm>
@@ -22,24 +22,32 @@
 namespace pulvis::space {
 
 inline constexpr int face_points = Shape::gauss_points;  // two lanes
-inline constexpr int face_numbers = 3 * 16;              // x of a face's Bezier points, y, z
+inline constexpr int patch_points = 16;
+inline constexpr int face_numbers = 3 * patch_points;  // x of a face's Bezier points, y, z
 
 // ---- surfaces -----------------------------------------------------------------------------------
-struct FacePosition : Component<SurfaceFace, double, face_numbers> {
-  static constexpr ComponentInfo info{"position", "m", "of a face's Bezier points: all x, y, z"};
+// Faces share the points on their sides: Shape::Face::point has their numbers.
+struct SurfacePosition : Component<ParticleSurface, double, 3> {
+  static constexpr ComponentInfo info{"position", "m", "of a Bezier point"};
 };
-struct FaceVelocity : Component<SurfaceFace, double, face_numbers> {
-  static constexpr ComponentInfo info{"velocity", "m/s", "of a face's Bezier points"};
+struct SurfaceVelocity : Component<ParticleSurface, double, 3> {
+  static constexpr ComponentInfo info{"velocity", "m/s", "of a Bezier point"};
 };
-struct FaceBefore : Component<SurfaceFace, double, face_numbers> {
+struct SurfaceBefore : Component<ParticleSurface, double, 3> {
   static constexpr ComponentInfo info{"before", "m", "where it was when the candidates were made"};
 };
 struct FaceForce : Component<SurfaceFace, double, face_numbers> {
-  static constexpr ComponentInfo info{"force", "N", "of all contacts, on a face's Bezier points"};
+  static constexpr ComponentInfo info{"force", "N",
+                                      "of all contacts, on a face's Bezier points: all x, y, z"};
   static constexpr bool scratch = true;
 };
-// Between the nodes and the faces, either way: the net, a point of it for each node, and what the faces that meet in a Bezier
-// point share.
+// The numbers of a face's sixteen Bezier points in one of these columns.
+struct PatchNumbers {
+  const double* first;         // of the particle's first point
+  const std::int32_t* number;  // Shape::Face::number
+  double operator()(int k, int p) const { return first[number[p] + k]; }
+};
+// Between the nodes and these points, either way, eight particles at a time: the net, a point of it for each node, and the points.
 struct NetPosition : Component<BoundaryNode, double, 3> {
   static constexpr ComponentInfo info{"net_position", "m", "of a point of the control net"};
   static constexpr bool scratch = true;
@@ -192,7 +200,13 @@ struct ShapedBodies {
     return entry(shapes->list, entry(bodies->slots, slot).shape);
   }
   const Shape& shape_of(Chunk chunk) const { return shape_of(ChunkLane(chunk, 0).slot()); }
-  int first_face(int slot) const { return entry(bodies->slots, slot).first_control; }
+  // Of the particle's first point in the columns of ParticleSurface: of its first number.
+  std::ptrdiff_t surface(int slot) const {
+    return 3 * std::ptrdiff_t{entry(bodies->slots, slot).first_control};
+  }
+  PatchNumbers patch(std::span<const double> column, int slot, int face) const {
+    return {column.data() + surface(slot), entry(shape_of(slot).faces, face).number.data()};
+  }
 };
 
 }  // namespace pulvis::space

@@ -85,7 +85,9 @@ struct Shape {
     int side = 0;  // of that face, where one comes in
   };
   struct Face {
-    std::array<int, 16> point{};                // Bezier points, counted in the particle
+    std::array<std::int32_t, 16> point{};  // Bezier points, counted in the particle
+    std::array<std::int32_t, 16>
+        number{};  // 3 * point: where each one's x stands (complete_points)
     std::array<Row<BoundaryNode>, 4> corner{};  // nodes at (u, v) = (0,0) (1,0) (1,1) (0,1)
     std::array<Neighbour, 4> neighbour{};
     int element = 0;       // behind it
@@ -103,8 +105,9 @@ struct Shape {
   std::vector<std::array<GaussPoint, 8>> gauss;  // [elements]
   std::vector<double> nodal_volume;              // m^3, lumped: times density, a node's mass
   std::vector<Face> faces;
-  Terms net;                       // [surface nodes], of surface nodes
-  Terms points;                    // [Bezier points], of the net
+  Terms net;  // [surface nodes], of surface nodes
+  Terms
+      points;  // [Bezier points], of the net; in the order of the faces, filled up to eights (complete_points)
   double mean_face_stiffness = 0;  // 1/m: of its faces, weighted with their area
   double volume = 0;               // m^3, of the mesh
   double true_volume = 0;          // m^3, of the shape that it stands for
@@ -122,6 +125,18 @@ struct Shape {
   }
   int elements() const { return static_cast<int>(hexahedra.size()); }
   int surface_points() const { return points.points(); }
+  // When all faces and points are known. Fills the points up to eights, with copies of the last one: kernels take eight at a
+  // time, and may read one number more.
+  void complete_points() {
+    for (Face& face : faces)
+      for (std::size_t p = 0; p < face.point.size(); ++p) face.number[p] = 3 * face.point[p];
+    const std::vector<Term> last(points.of(surface_points() - 1).begin(),
+                                 points.of(surface_points() - 1).end());
+    do {
+      points.all.insert(points.all.end(), last.begin(), last.end());
+      points.close();
+    } while (surface_points() % lane_count != 0);
+  }
 };
 
 // Shapes by the number that Bodies::Slot::shape has. Bodies::shapes, those of two dimensions, are empty then.

@@ -68,7 +68,7 @@ struct Touching {  // what can touch, and how
   }
 };
 
-// Where each particle's faces stand, and how many rows a chunk has of what `count` counts in a particle.
+// Where each particle's Bezier points stand, and how many rows a chunk has of what `count` counts in a particle.
 template <class Count>
 std::vector<std::int32_t> of_chunks(const World& world, const Count& count) {
   const Bodies& bodies = world.resource<Bodies>();
@@ -79,12 +79,12 @@ std::vector<std::int32_t> of_chunks(const World& world, const Count& count) {
         static_cast<std::int32_t>(count(entry(shapes.list, entry(bodies.slots, slot).shape))));
   return rows;
 }
-void number_faces(World& world) {
+void number_surfaces(World& world) {
   const Shapes& shapes = world.resource<Shapes>();
   int first = 0;
   for (Bodies::Slot& slot : world.resource<Bodies>().slots) {
     slot.first_control = first;
-    first += static_cast<int>(entry(shapes.list, slot.shape).faces.size());
+    first += entry(shapes.list, slot.shape).surface_points();
   }
 }
 
@@ -92,19 +92,21 @@ void add_surfaces(World& world, const Touching& touching) {
   world.add_table<BoundaryNode>(of_chunks(world, [](const Shape& s) { return s.surface_nodes; }));
   world.add_table<SurfacePoint>(
       of_chunks(world, [](const Shape& s) { return s.surface_points(); }));
+  world.add_table<ParticleSurface>(
+      of_chunks(world, [](const Shape& s) { return lane_count * s.surface_points(); }));
   world.add_table<SurfaceFace>(of_chunks(
       world, [](const Shape& s) { return lane_count * static_cast<int>(s.faces.size()); }));
-  number_faces(world);
+  number_surfaces(world);
   world.add<ContactForce>();
   world.add<NetPosition>();
   world.add<NetLoad>();
   world.add<PointPosition>();
   world.add<PointLoad>();
-  world.add<FacePosition>();
-  world.add<FaceBefore>();
+  world.add<SurfacePosition>();
+  world.add<SurfaceBefore>();
   world.add<FaceForce>();
   world.add<MaximumSpeed>();
-  if (touching.friction || touching.damping) world.add<FaceVelocity>();
+  if (touching.friction || touching.damping) world.add<SurfaceVelocity>();
 }
 
 template <class At>

@@ -68,8 +68,8 @@ SpaceMemory memory_of(const Scene& scene) {
                                     : bytes_of_element<OnePoint>(plastic);
   const std::uint64_t node = size_of_columns<Position, Velocity, InternalForce>() +
                              (damped ? size_of_columns<DampingForce>() : 0);
-  const std::uint64_t face = size_of_columns<FacePosition, FaceBefore>() +
-                             (friction ? size_of_columns<FaceVelocity>() : 0);
+  const std::uint64_t point = size_of_columns<SurfacePosition, SurfaceBefore>() +
+                              (friction ? size_of_columns<SurfaceVelocity>() : 0);
   const std::uint64_t row = bytes_of_row(weakening, scene.output.contacts);
   SpaceMemory need;
   const auto [x, y, z] = scene.output.density_cells3;
@@ -83,7 +83,8 @@ SpaceMemory memory_of(const Scene& scene) {
                elements = static_cast<std::uint64_t>(mesh.hexahedra()),
                faces = static_cast<std::uint64_t>(mesh.faces()),
                surface = static_cast<std::uint64_t>(mesh.surface_nodes());
-    need.columns += lanes * (nodes * node + elements * element + faces * face +
+    need.columns += lanes * (nodes * node + elements * element +
+                             static_cast<std::uint64_t>(mesh.surface_points()) * point +
                              surface * size_of_columns<ContactForce>());
     need.results += particles[c] * copies_in_flight * sizeof(double) * (6 * nodes + 9 * elements);
     need.contacts += static_cast<std::uint64_t>(rows_of_a_face *

@@ -65,7 +65,7 @@ struct MeshSpec {
   int rings = 4;                            // >= 1
   std::optional<int> axial_divisions = {};  // >= 2, of those along z; needs divisions >= 2
   enum class Grid {
-    cube,      // O-grid on a cubed sphere: a core of divisions^2 * axial() and `rings` layers around it
+    cube,  // O-grid on a cubed sphere: a core of divisions^2 * axial() and `rings` layers around it
     extruded,  // of cylinders: the O-grid of a disc in axial() layers; needs divisions >= 2
   } grid = Grid::cube;
   bool operator==(const MeshSpec&) const = default;
@@ -82,6 +82,9 @@ struct MeshSpec {
     return 2 * n * n + 4 * n * m;
   }
   std::int64_t surface_nodes() const { return faces() + 2; }  // Euler, of four-sided faces
+  std::int64_t surface_points() const {  // of Bezier patches, about: at nodes, on sides and inside
+    return surface_nodes() + 8 * faces();
+  }
   std::int64_t nodes() const {
     const std::int64_t n = divisions, m = axial(), core = (n + 1) * (n + 1);
     if (grid == Grid::extruded) return (core + 4 * n * rings) * (m + 1);

@@ -9,7 +9,7 @@
 
 namespace pulvis {
 
-// A column of outlines: in two dimensions of control points, in three of faces.
+// A column of outlines: in two dimensions of control points, in three of Bezier points.
 class Outlines {
  public:
   template <class C>

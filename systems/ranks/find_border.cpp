@@ -47,10 +47,9 @@ Extent extent_of(Plane, std::span<const double> points) {
   extent.take(2, 0);
   return extent;
 }
-Extent extent_of(Space, std::span<const double> faces) {
+Extent extent_of(Space, std::span<const double> points) {
   Extent extent;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    extent.take(i / 16 % 3, faces[i]);  // of a face all x, then y, z
+  for (std::size_t i = 0; i < points.size(); ++i) extent.take(i % 3, points[i]);
   return extent;
 }
 

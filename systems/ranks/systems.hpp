@@ -16,9 +16,9 @@ struct Plane {
   using Before = CurveBefore;
 };
 struct Space {
-  using Position = space::FacePosition;
-  using Velocity = space::FaceVelocity;
-  using Before = space::FaceBefore;
+  using Position = space::SurfacePosition;
+  using Velocity = space::SurfaceVelocity;
+  using Before = space::SurfaceBefore;
 };
 
 // ---- when the rows are made anew ------------------------------------------------------------------

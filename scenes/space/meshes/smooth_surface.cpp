@@ -264,6 +264,7 @@ void store(const Combination& combination, Shape::Terms& terms) {
   terms.close();
 }
 
+// Face after face: what a face needs lies together.
 void store_points(Shape& shape, const SurfaceNet& net, const std::vector<Combination>& points,
                   const std::vector<double>& c) {
   shape.net = shape.points = {};
@@ -272,7 +273,16 @@ void store_points(Shape& shape, const SurfaceNet& net, const std::vector<Combina
     add(y, umbrella(net, i), -entry(c, i));
     store(y, shape.net);
   }
-  for (const Combination& point : points) store(point, shape.points);
+  std::vector<int> taken(points.size(), -1);
+  for (Shape::Face& face : shape.faces)
+    for (int& p : face.point) {
+      if (entry(taken, p) < 0) {
+        entry(taken, p) = shape.surface_points();
+        store(entry(points, p), shape.points);
+      }
+      p = entry(taken, p);
+    }
+  shape.complete_points();
 }
 
 void store_faces(Shape& shape, const SurfaceNet& net) {
@@ -313,8 +323,8 @@ void measure(Shape& shape) {
 void complete_surface(Shape& shape, const StarSurface& surface) {
   const SurfaceNet net = surface_net(shape);
   const Fit fit(shape, net, surface);
-  store_points(shape, net, fit.points(), fit.smoothing());
   store_faces(shape, net);
+  store_points(shape, net, fit.points(), fit.smoothing());
   shape.surface_error = fit.reached().distance;
   if (!(fit.reached().cosine > 0)) throw std::invalid_argument("its smooth surface is folded");
   measure(shape);

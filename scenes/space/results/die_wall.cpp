@@ -30,8 +30,10 @@ double normal_force_on_die(const World& world, int die, const DieRoom::Vector& a
   for (std::size_t row = 0; row < static_cast<std::size_t>(pairs.table.rows); ++row) {
     const std::int32_t* pair = pairs.values() + 3 * row;
     if (pair[2] != die || world.column<ContactTouches<At>>().values()[row] == 0) continue;
-    const std::ptrdiff_t face = entry(bodies.slots, pair[0]).first_control + pair[1];
-    const double* points = world.column<FacePosition>().values() + face * face_numbers;
+    const Bodies::Slot& slot = entry(bodies.slots, pair[0]);
+    const PatchNumbers points{
+        world.column<SurfacePosition>().values() + 3 * std::ptrdiff_t{slot.first_control},
+        entry(entry(world.resource<Shapes>().list, slot.shape).faces, pair[1]).number.data()};
     const double* force = world.column<PointForce>().values() + 3 * face_points * row;
     for (int half = 0; half < 2; ++half) {
       const VectorLanes from = sampled_points(points, half) - everywhere(centre);

@@ -28,12 +28,15 @@ inline Box joined(const Box& a, const Box& b) {
 }
 
 // Of the Bezier points of a face, whose hull holds the face (convex hull property).
-inline Box face_box(const double* face) {
+inline Box face_box(const PatchNumbers& face) {
   Box box{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [low, high] = std::minmax_element(face + 16 * k, face + 16 * (k + 1));
-    box.low[k] = *low;
-    box.high[k] = *high;
+  for (int k = 0; k < 3; ++k) {
+    double &low = entry(box.low, k), &high = entry(box.high, k);
+    low = high = face(k, 0);
+    for (int p = 1; p < patch_points; ++p) {
+      low = std::min(low, face(k, p));
+      high = std::max(high, face(k, p));
+    }
   }
   return box;
 }

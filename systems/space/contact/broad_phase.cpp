@@ -124,14 +124,13 @@ struct FaceSearch {
 
 }  // namespace
 
-SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> faces) {
+SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> positions) {
   SurfaceBoxes boxes{std::vector<Box>(static_cast<std::size_t>(bodies.slots())),
                      list_by_slot<Box>(bodies.slots(), [&](int slot, std::vector<Box>& found) {
                        if (bodies.is_absent(slot)) return;
-                       const double* face =
-                           faces.data() + bodies.first_face(slot) * std::ptrdiff_t{face_numbers};
-                       for (std::size_t f = 0; f < bodies.shape_of(slot).faces.size(); ++f)
-                         found.push_back(face_box(face + f * face_numbers));
+                       const auto faces = static_cast<int>(bodies.shape_of(slot).faces.size());
+                       for (int f = 0; f < faces; ++f)
+                         found.push_back(face_box(bodies.patch(positions, slot, f)));
                      })};
   for (int slot = 0; slot < bodies.slots(); ++slot) {
     const std::span<const Box> own = boxes.face.of(slot);

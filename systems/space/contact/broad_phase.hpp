@@ -21,7 +21,7 @@ struct SurfaceBoxes {
   std::vector<Box> particle;  // [slots]; undefined where a slot is empty
   BySlot<Box> face;
 };
-SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> faces);
+SurfaceBoxes surface_boxes(const ShapedBodies& bodies, std::span<const double> positions);
 
 // Of every slot the other particles within `distance` (of boxes), ascending.
 BySlot<std::int32_t> particle_neighbours(const ShapedBodies& bodies, const SurfaceBoxes& boxes,

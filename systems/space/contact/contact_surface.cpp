@@ -28,7 +28,7 @@ void combine(const Shape::Terms& terms, const From& from, const To& to) {
   }
 }
 
-// All Bezier points of what the nodes carry. Those of the surface come first among the nodes.
+// All Bezier points of what the nodes carry. Nodes of the surface come first.
 template <class Nodes, class Net, class Points>
 void set_points(const Shape& shape, const Nodes& nodes, const Net& net, const Points& points) {
   combine(
@@ -38,24 +38,17 @@ void set_points(const Shape& shape, const Nodes& nodes, const Net& net, const Po
           [&](int p, int k) -> Lane& { return points(Row<SurfacePoint>(p), k); });
 }
 
-// From lanes to the plain list of faces, particle after particle.
-template <class Points, class Faces>
-void set_faces(const Shape& shape, const Points& points, const Faces& faces) {
-  const auto count = static_cast<std::ptrdiff_t>(shape.faces.size());
-  double* first = &faces(Row<SurfaceFace>(0));
-  for (std::ptrdiff_t f = 0; f < count; ++f) {
-    const Shape::Face& face = entry(shape.faces, f);
-    for (int k = 0; k < 3; ++k)
-      for (int half = 0; half < 2; ++half) {
-        std::array<const double*, lane_count> rows;
-        for (int i = 0; i < lane_count; ++i)
-          entry(rows, i) = reinterpret_cast<const double*>(
-              &points(Row<SurfacePoint>(entry(face.point, lane_count * half + i)), k));
-        const std::array<Lane, lane_count> of_particle = columns_of(rows);
-        for (int l = 0; l < lane_count; ++l)
-          entry(of_particle, l)
-              .store(first + (l * count + f) * face_numbers + 16 * k + lane_count * half);
-      }
+// From lanes to the plain list, particle after particle. The points are eights (Shape::complete_points).
+template <class Points, class Surface>
+void set_surfaces(const Shape& shape, const Points& points, const Surface& surface) {
+  const std::ptrdiff_t numbers = 3 * std::ptrdiff_t{shape.surface_points()};
+  const double* lanes = reinterpret_cast<const double*>(&points(Row<SurfacePoint>(0), 0));
+  double* first = &surface(Row<ParticleSurface>(0));
+  for (std::ptrdiff_t n = 0; n < numbers; n += lane_count, lanes += lane_count * lane_count) {
+    std::array<const double*, lane_count> rows;
+    for (int i = 0; i < lane_count; ++i) entry(rows, i) = lanes + lane_count * i;
+    const std::array<Lane, lane_count> of_particle = columns_of(rows);
+    for (int l = 0; l < lane_count; ++l) entry(of_particle, l).store(first + l * numbers + n);
   }
 }
 
@@ -78,9 +71,9 @@ Lane fastest(const Shape& shape, const Points& velocity) {
   const auto of_net = net.chunk(chunk);
   set_points(shape, motion.velocity.chunk(chunk), of_net, scratch);
   speed.chunk(chunk)(Row<Particle>()) = fastest(shape, scratch);
-  if (velocity) set_faces(shape, scratch, velocity->chunk(chunk));
+  if (velocity) set_surfaces(shape, scratch, velocity->chunk(chunk));
   set_points(shape, motion.position.chunk(chunk), of_net, scratch);
-  set_faces(shape, scratch, position.chunk(chunk));
+  set_surfaces(shape, scratch, position.chunk(chunk));
 }
 
 }  // namespace pulvis::space

@@ -58,8 +58,8 @@ class PairPass {
     if (s_.columns.history) find_weakening(slot, other);
     own_ = &s_.bodies.shape_of(slot);
     its_ = &s_.bodies.shape_of(other);
-    own_face_ = s_.bodies.first_face(slot) * std::ptrdiff_t{face_numbers};
-    its_face_ = s_.bodies.first_face(other) * std::ptrdiff_t{face_numbers};
+    own_surface_ = s_.bodies.surface(slot);
+    its_surface_ = s_.bodies.surface(other);
   }
 
   void run() {
@@ -74,7 +74,8 @@ class PairPass {
       while (next < rows) {
         const int i = next;
         next = next_active(active, i + 1, rows);
-        if (next < rows) fetch_face(own_face_, s_.columns.pair(Row<FaceContact>(from + next), 1));
+        if (next < rows)
+          fetch_face(*own_, own_surface_, s_.columns.pair(Row<FaceContact>(from + next), 1));
         if (points_.is_full()) work();
         take(Row<FaceContact>(from + i), entry(active, i));
       }
@@ -116,27 +117,40 @@ class PairPass {
     while (from < rows && entry(active, from) == 0) ++from;
     return from;
   }
-  // `first`: number of the particle's first face.
-  void fetch_face(std::ptrdiff_t first, int face) const {
-    const std::ptrdiff_t begin = first + std::ptrdiff_t{face} * face_numbers;
-    for (std::ptrdiff_t i = begin; i < begin + face_numbers; i += 8) {
-      prefetch(positions_ + i);
-      if (rates_ != nullptr) prefetch(rates_ + i);
+  void fetch_face(const Shape& shape, std::ptrdiff_t surface, int face) const {
+    const Shape::Face& of = entry(shape.faces, face);
+    for (const std::size_t p : {0, 2, 5, 7, 8, 10, 13, 15}) {  // the others lie beside them
+      const std::ptrdiff_t at = surface + of.number[p];
+      prefetch(positions_ + at);
+      if (rates_ != nullptr) prefetch(rates_ + at);
+    }
+  }
+
+  // At the points of the halves that are active.
+  [[gnu::always_inline]] void sample(const double* column, const Shape::Face& face, unsigned active,
+                                     double* out) const {
+    const PatchNumbers own{column + own_surface_, face.number.data()};
+    const bool first = (active & 0xffU) != 0, second = (active >> lane_count) != 0;
+    if (first && second) {
+      const auto both = sampled_points(own);
+      store_half(both[0], out, 0);
+      store_half(both[1], out, 1);
+    } else {
+      const int half = second ? 1 : 0;
+      store_half(sampled_points(own, half), out, half);
     }
   }
 
   void take(Row<FaceContact> row, unsigned active) {
     using Law = ContactLaw<FaceContact>;
     const int number = s_.columns.pair(row, 1);
-    const std::ptrdiff_t own = own_face_ + std::ptrdiff_t{number} * face_numbers;
     const Shape::Face& face = entry(own_->faces, number);
     alignas(64) std::array<double, 3 * face_points> x, velocity;
-    for (int half = 0; half < 2; ++half) {
-      if ((active >> lane_count * half & 0xffU) == 0) continue;
-      store_half(sampled_points(positions_ + own, half), x.data(), half);
-      store_half(rates_ != nullptr ? sampled_points(rates_ + own, half) : no_vector,
-                 velocity.data(), half);
-    }
+    sample(positions_, face, active, x.data());
+    if (rates_ != nullptr)
+      sample(rates_, face, active, velocity.data());
+    else
+      velocity.fill(0);
     const double kappa = share * s_.columns.law(row, Law::stiffness),
                  damping = share * s_.columns.law(row, Law::damping),
                  inv_size = s_.columns.law(row, Law::inv_size);
@@ -145,7 +159,7 @@ class PairPass {
       const int place = static_cast<int>(g);
       double* kept = &s_.columns.point(row, ContactPoint::numbers * place);
       const int its = static_cast<int>(kept[ContactPoint::face_u]);
-      if (its != fetched_) fetch_face(its_face_, its);
+      if (its != fetched_) fetch_face(*its_, its_surface_, its);
       fetched_ = its;
       PairPoint& p = points_.add(its);
       p.motion = {x[g],
@@ -200,7 +214,7 @@ class PairPass {
     Reciprocal to;
     if (rates_ != nullptr) {
       to = Reciprocal::of(p.slopes);
-      set_rates({motion[3], motion[4], motion[5]}, p.carried(rates_ + its_face_), to, m);
+      set_rates({motion[3], motion[4], motion[5]}, p.carried(rates_ + its_surface_), to, m);
     }
     const PointLaw law{Lane::from([&](int l) { return entry(eight.point, l)->kappa; }), friction_,
                        Lane::from([&](int l) { return entry(eight.point, l)->damping; }), motion[7],
@@ -237,7 +251,7 @@ class PairPass {
   }
 
   Projection projection(const VectorLanes& points, const ProjectionStart& start) const {
-    Projection p(*its_, positions_ + its_face_, points, start);
+    Projection p(*its_, positions_ + its_surface_, points, start);
     p.find();
     return p;
   }
@@ -250,7 +264,8 @@ class PairPass {
     for (unsigned left = doubtful; left != 0; left &= left - 1) {
       const int l = std::countr_zero(left);
       if (!(standing.gap[l] > 0)) continue;
-      const double* face = positions_ + its_face_ + std::ptrdiff_t{entry(p.face, l)} * face_numbers;
+      const PatchNumbers face{positions_ + its_surface_,
+                              entry(its_->faces, entry(p.face, l)).number.data()};
       const VectorLanes& n = standing.normal;
       if (along_face(face, {n.x[l], n.y[l], n.z[l]}) < least_cosine) folds |= 1U << l;
     }
@@ -265,9 +280,8 @@ class PairPass {
     ProjectionStart nearest = start;
     for (unsigned left = doubtful; left != 0; left &= left - 1) {
       const int l = std::countr_zero(left);
-      const SurfaceSpot spot =
-          nearest_spot(positions_ + its_face_, static_cast<int>(its_->faces.size()),
-                       {found.point.x[l], found.point.y[l], found.point.z[l]});
+      const SurfaceSpot spot = nearest_spot(*its_, positions_ + its_surface_,
+                                            {found.point.x[l], found.point.y[l], found.point.z[l]});
       entry(nearest.face, l) = spot.face;
       nearest.u[l] = spot.u;
       nearest.v[l] = spot.v;
@@ -357,7 +371,7 @@ class PairPass {
   float travel_ = static_cast<float>(s_.clock->travel);
   std::int32_t first_, end_;
   const Shape *own_, *its_;
-  std::ptrdiff_t own_face_, its_face_;
+  std::ptrdiff_t own_surface_, its_surface_;
   int fetched_ = -1;  // face of the other particle
 };
 

@@ -17,12 +17,27 @@ inline constexpr auto basis_at_points = [] {
   return n;
 }();
 
-[[gnu::always_inline]] inline kernels::Vector<Lane> sampled_points(const double* face, int half) {
+[[gnu::always_inline]] inline kernels::Vector<Lane> sampled_points(const PatchNumbers& face,
+                                                                   int half) {
   kernels::Vector<Lane> x{Lane{}, Lane{}, Lane{}};
-  for (std::size_t p = 0; p < 16; ++p) {
-    const Lane n = Lane::load(basis_at_points[static_cast<std::size_t>(half)][p].data());
-    x = {fma(n, Lane(face[p]), x.x), fma(n, Lane(face[16 + p]), x.y),
-         fma(n, Lane(face[32 + p]), x.z)};
+  for (int p = 0; p < patch_points; ++p) {
+    const Lane n = Lane::load(entry(entry(basis_at_points, half), p).data());
+    x = {fma(n, Lane(face(0, p)), x.x), fma(n, Lane(face(1, p)), x.y),
+         fma(n, Lane(face(2, p)), x.z)};
+  }
+  return x;
+}
+// Both halves at once: numbers of the face are read once.
+[[gnu::always_inline]] inline std::array<kernels::Vector<Lane>, 2> sampled_points(
+    const PatchNumbers& face) {
+  std::array<kernels::Vector<Lane>, 2> x{};
+  for (int p = 0; p < patch_points; ++p) {
+    const Lane at_x(face(0, p)), at_y(face(1, p)), at_z(face(2, p));
+    for (int half = 0; half < 2; ++half) {
+      const Lane n = Lane::load(entry(entry(basis_at_points, half), p).data());
+      kernels::Vector<Lane>& sum = entry(x, half);
+      sum = {fma(n, at_x, sum.x), fma(n, at_y, sum.y), fma(n, at_z, sum.z)};
+    }
   }
   return x;
 }

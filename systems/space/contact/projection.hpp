@@ -25,14 +25,17 @@ struct PatchLanes {
   std::array<Lane, face_numbers> all;
   const Lane& operator()(int k, int p) const { return all[static_cast<std::size_t>(16 * k + p)]; }
 
-  // `first`: of the particle's first face.
-  [[gnu::always_inline]] void gather(const double* first, const std::array<std::int32_t, 8>& face) {
-    std::array<const double*, lane_count> row;
-    for (std::size_t block = 0; block < face_numbers; block += 8) {
-      for (std::size_t l = 0; l < lane_count; ++l)
-        row[l] = first + static_cast<std::ptrdiff_t>(face[l]) * face_numbers + block;
-      const auto columns = columns_of(row);
-      for (std::size_t i = 0; i < 8; ++i) all[block + i] = columns[i];
+  // `first`: the particle's Bezier points.
+  [[gnu::always_inline]] void gather(const Shape& shape, const double* first,
+                                     const std::array<std::int32_t, 8>& face) {
+    std::array<const std::int32_t*, lane_count> number;
+    for (std::size_t l = 0; l < lane_count; ++l)
+      number[l] = entry(shape.faces, face[l]).number.data();
+    for (std::size_t p = 0; p < patch_points; ++p) {
+      std::array<const double*, lane_count> row;
+      for (std::size_t l = 0; l < lane_count; ++l) row[l] = first + number[l][p];
+      const auto columns = columns_of<4>(row);  // and the first number of the point after
+      for (std::size_t k = 0; k < 3; ++k) all[16 * k + p] = columns[k];
     }
   }
 };
@@ -56,15 +59,20 @@ struct Projection {
   static constexpr int most_crossings = 16;           // round and round the end of a crease
 
   const Shape* shape;   // of the other particle
-  const double* first;  // its first face's Bezier points
+  const double* first;  // its Bezier points
   VectorLanes point;    // m
   std::array<std::int32_t, 8> face;
   Lane u, v;  // closest so far; when found, on its face
   unsigned done = 0;
 
-  Projection(const Shape& other, const double* first_face, const VectorLanes& points,
+  Projection(const Shape& other, const double* first_point, const VectorLanes& points,
              const ProjectionStart& start)
-      : shape(&other), first(first_face), point(points), face(start.face), u(start.u), v(start.v) {}
+      : shape(&other),
+        first(first_point),
+        point(points),
+        face(start.face),
+        u(start.u),
+        v(start.v) {}
 
   unsigned unconverged() const { return ~done & 0xffU; }
 
@@ -95,12 +103,12 @@ struct Projection {
     return s;
   }
 
-  // What the faces carry, `from` those of the particle, at the closest points.
+  // What the faces carry, `from` the numbers of the particle's Bezier points, at the closest points.
   kernels::PatchSlopes<Lane> carried(const double* from) {
     const TwoPatches two = two_patches(from);
-    if (faces_ == 1) return kernels::patch_slopes<Lane>(OnePatch{two.numbers}, u, v);
+    if (faces_ == 1) return kernels::patch_slopes<Lane>(OnePatch{two.first}, u, v);
     if (faces_ == 2) return kernels::patch_slopes<Lane>(two, u, v);
-    patch.gather(from, face);
+    patch.gather(*shape, from, face);
     return kernels::patch_slopes<Lane>(patch, u, v);
   }
 
@@ -127,26 +135,27 @@ struct Projection {
         faces_ = 3;
     }
     on_second_ = LaneMask::of(of_second);
-    if (faces_ == 3) patch.gather(first, face);
+    if (faces_ == 3) patch.gather(*shape, first, face);
   }
   struct OnePatch {
-    const double* numbers;
-    Lane operator()(int k, int p) const { return {numbers[16 * k + p]}; }
+    PatchNumbers face;
+    Lane operator()(int k, int p) const { return {face(k, p)}; }
   };
   struct TwoPatches {
-    const double *numbers, *of_second;
+    PatchNumbers first, second;
     LaneMask on_second;
     Lane operator()(int k, int p) const {
-      return select(on_second, Lane(of_second[16 * k + p]), Lane(numbers[16 * k + p]));
+      return select(on_second, Lane(second(k, p)), Lane(first(k, p)));
     }
   };
   TwoPatches two_patches(const double* from) const {
-    return {from + std::ptrdiff_t{face[0]} * face_numbers,
-            from + std::ptrdiff_t{second_} * face_numbers, on_second_};
+    return {{from, entry(shape->faces, face[0]).number.data()},
+            {from, entry(shape->faces, second_).number.data()},
+            on_second_};
   }
   [[gnu::noinline]] void evaluate() {
     const TwoPatches two = two_patches(first);
-    at_ = faces_ == 1   ? kernels::patch_point<Lane>(OnePatch{two.numbers}, u, v)
+    at_ = faces_ == 1   ? kernels::patch_point<Lane>(OnePatch{two.first}, u, v)
           : faces_ == 2 ? kernels::patch_point<Lane>(two, u, v)
                         : kernels::patch_point<Lane>(patch, u, v);
   }

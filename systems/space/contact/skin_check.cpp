@@ -10,8 +10,8 @@
 #include <limits>
 
 #include "systems/contact/by_slot.hpp"
-#include "systems/space/contact/box.hpp"
 #include "systems/ranks/border.hpp"
+#include "systems/space/contact/box.hpp"
 #include "systems/space/contact/systems.hpp"
 
 namespace pulvis::space {
@@ -29,16 +29,15 @@ struct SurfaceMotion {  // of a particle since the rows were made
   Box before, displacement;
 };
 
-SurfaceMotion motion_of(const double* before, const double* now, std::size_t faces) {
+// Of its Bezier points, whose hull holds the surface.
+SurfaceMotion motion_of(const double* before, const double* now, int points) {
+  const auto at = [](const double* x) { return Box{{x[0], x[1], x[2]}, {x[0], x[1], x[2]}}; };
   SurfaceMotion motion{};
-  for (std::size_t f = 0; f < faces; ++f) {
-    std::array<double, face_numbers> u;
-    for (std::size_t i = 0; i < face_numbers; ++i)
-      u[i] = now[f * face_numbers + i] - before[f * face_numbers + i];
-    const SurfaceMotion of_face{face_box(before + f * face_numbers), face_box(u.data())};
-    motion = f == 0 ? of_face
-                    : SurfaceMotion{joined(motion.before, of_face.before),
-                                    joined(motion.displacement, of_face.displacement)};
+  for (int p = 0; p < points; ++p, before += 3, now += 3) {
+    const std::array<double, 3> u{now[0] - before[0], now[1] - before[1], now[2] - before[2]};
+    motion = p == 0 ? SurfaceMotion{at(before), at(u.data())}
+                    : SurfaceMotion{joined(motion.before, at(before)),
+                                    joined(motion.displacement, at(u.data()))};
   }
   return motion;
 }
@@ -51,7 +50,7 @@ struct Remaining {
 
   // Particles that were no neighbours: whichever of all moved most against each other.
   double of_non_neighbours(const std::vector<int>& slots,
-                           const Optional<BorderOutlines<FacePosition>>& border) const {
+                           const Optional<BorderOutlines<SurfacePosition>>& border) const {
     std::array<double, 6> farthest;
     farthest.fill(-std::numeric_limits<double>::infinity());
     for (const int slot : slots)
@@ -121,10 +120,10 @@ void skin_check::operator()() const {
     const Remaining remaining{*bodies.bodies, *index, motion};
     tell_border(border, *bodies.bodies);
     tbb::parallel_for(std::size_t{0}, present.size(), [&](std::size_t i) {
-      const std::ptrdiff_t first = bodies.first_face(present[i]) * std::ptrdiff_t{face_numbers};
+      const std::ptrdiff_t first = bodies.surface(present[i]);
       entry(motion, present[i]) =
           motion_of(before.values().data() + first, position.values().data() + first,
-                    bodies.shape_of(present[i]).faces.size());
+                    bodies.shape_of(present[i]).surface_points());
     });
     tbb::parallel_for(std::size_t{0}, slots.size(), [&](std::size_t i) {
       left[i] = remaining.of_neighbours(slots[i]);
@@ -141,8 +140,8 @@ void skin_check::operator()() const {
   index->look_at = clock->travel + index->skin;
   index->bins += 1;
   for (const int slot : bodies.bodies->own_slots) {
-    const auto first = static_cast<std::size_t>(bodies.first_face(slot)) * face_numbers;
-    const std::size_t count = bodies.shape_of(slot).faces.size() * face_numbers;
+    const auto first = static_cast<std::size_t>(bodies.surface(slot));
+    const auto count = 3 * static_cast<std::size_t>(bodies.shape_of(slot).surface_points());
     std::ranges::copy(position.values().subspan(first, count),
                       before.values().begin() + static_cast<std::ptrdiff_t>(first));
   }

@@ -66,14 +66,13 @@ inline SurfaceSpot across(const Shape& shape, const SurfaceSpot& spot, int side)
   return inside(next.face, next.side, 1 - along, std::clamp(at.beyond, 0.0, 1.0));
 }
 
-// Of all corners and middles of a particle's faces, the one nearest to a point. `first`: its first face's Bezier points.
-inline SurfaceSpot nearest_spot(const double* first, int faces, const Point& point) {
+// Of all corners and middles of a particle's faces, the one nearest to a point. `first`: the particle's Bezier points.
+inline SurfaceSpot nearest_spot(const Shape& shape, const double* first, const Point& point) {
   constexpr double spots[5][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 0.5}};
   SurfaceSpot nearest{0, 0.5, 0.5};
   double least = std::numeric_limits<double>::infinity();
-  for (int f = 0; f < faces; ++f) {
-    const double* numbers = first + std::ptrdiff_t{f} * face_numbers;
-    const auto control = [&](int k, int p) { return numbers[16 * k + p]; };
+  for (int f = 0; f < static_cast<int>(shape.faces.size()); ++f) {
+    const PatchNumbers control{first, entry(shape.faces, f).number.data()};
     for (const auto& [u, v] : spots) {
       const kernels::Vector<double> x = kernels::patch_slopes<double>(control, u, v).x;
       const kernels::Vector<double> r{point[0] - x.x, point[1] - x.y, point[2] - x.z};
@@ -85,11 +84,10 @@ inline SurfaceSpot nearest_spot(const double* first, int faces, const Point& poi
   return nearest;
 }
 
-// Cosine of the angle between a normal found on a face and that of the face as a whole, which its diagonals span. `numbers`: the
-// face's Bezier points.
-inline double along_face(const double* numbers, const kernels::Vector<double>& normal) {
+// Cosine of the angle between a normal found on a face and that of the face as a whole, which its diagonals span.
+inline double along_face(const PatchNumbers& face, const kernels::Vector<double>& normal) {
   const auto corner = [&](int p) {
-    return kernels::Vector<double>{numbers[p], numbers[16 + p], numbers[32 + p]};
+    return kernels::Vector<double>{face(0, p), face(1, p), face(2, p)};
   };
   const kernels::Vector<double> whole = cross(corner(15) - corner(0), corner(12) - corner(3));
   return dot(whole, normal) / std::sqrt(dot(whole, whole));

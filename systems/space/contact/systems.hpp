@@ -17,8 +17,8 @@ struct contact_surface {
   Motion motion;
   Write<NetPosition> net;
   Write<PointPosition> points;
-  Write<FacePosition> position;
-  Optional<Write<FaceVelocity>> velocity;
+  Write<SurfacePosition> position;
+  Optional<Write<SurfaceVelocity>> velocity;
   Write<MaximumSpeed> speed;
   void operator()(Chunk chunk) const;
 };
@@ -27,11 +27,11 @@ struct contact_surface {
 struct skin_check {
   ShapedBodies bodies;
   Read<Clock> clock;
-  Read<FacePosition> position;
+  Read<SurfacePosition> position;
   Optional<ToolSurfaces> tools;
-  Write<FaceBefore> before;
+  Write<SurfaceBefore> before;
   Write<ContactIndex> index;
-  Optional<BorderOutlines<FacePosition>> border;
+  Optional<BorderOutlines<SurfacePosition>> border;
   void operator()() const;
 };
 
@@ -52,7 +52,7 @@ struct NewRows {
 struct bin_faces {
   ShapedBodies bodies;
   ContactStiffness material;
-  Read<FacePosition> position;
+  Read<SurfacePosition> position;
   Write<ContactIndex> index;
   Structural<FaceContact> structure;
   NewRows<FaceContact> rows;
@@ -64,7 +64,7 @@ struct bin_faces {
 struct bin_tool_faces {
   ShapedBodies bodies;
   ContactStiffness material;
-  Read<FacePosition> position;
+  Read<SurfacePosition> position;
   ToolSurfaces tools;
   Write<ContactIndex> index;
   Structural<FaceToolContact> structure;
@@ -82,8 +82,8 @@ struct bin_tool_faces {
 
 // ---- what they do ---------------------------------------------------------------------------------
 struct ContactFaces {
-  Read<FacePosition> position;
-  Optional<Read<FaceVelocity>> velocity;  // with friction or damping
+  Read<SurfacePosition> position;
+  Optional<Read<SurfaceVelocity>> velocity;  // with friction or damping
 };
 
 // Where some friction is more than Coulomb's coefficient.

@@ -7,7 +7,7 @@
 namespace pulvis::space {
 namespace {
 
-Point point_of(const double* face, int p) { return {face[p], face[16 + p], face[32 + p]}; }
+Point point_of(const PatchNumbers& face, int p) { return {face(0, p), face(1, p), face(2, p)}; }
 
 Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double product(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -22,7 +22,7 @@ struct AboutAxis {
 };
 
 // Of a convex set, both the most and, seen from the middle, bounds of the radius are found at its Bezier points.
-bool near_meridian(const ToolSurface& meridian, const double* face, const Point& at,
+bool near_meridian(const ToolSurface& meridian, const PatchNumbers& face, const Point& at,
                    const Point& axis, double reach) {
   const Point middle = difference(face_box(face).middle(), at);
   const AboutAxis centre(middle, axis);
@@ -40,15 +40,14 @@ bool near_meridian(const ToolSurface& meridian, const double* face, const Point&
   return !pieces_near(meridian, box, reach).empty();
 }
 
-Box around_origin(const double* face, const Point& at) {
+Box around_origin(const PatchNumbers& face, const Point& at) {
   return moved(face_box(face), {-at[0], -at[1], -at[2]});
 }
 
 }  // namespace
 
 bool FaceLook::can_touch(int slot, int face, int tool) const {
-  const double* points =
-      faces.data() + (bodies.first_face(slot) + face) * std::ptrdiff_t{face_numbers};
+  const PatchNumbers points = bodies.patch(positions, slot, face);
   const ToolShapes::Shape& shape = tools.shape(tool);
   const Point at = tools.position_of(tool), normal = tools.normal_of(tool);
   const double reach = skin + entry(bodies.shape_of(slot).faces, face).size;
@@ -73,8 +72,7 @@ bool FaceLook::can_touch(int slot, int face, int tool) const {
 }
 
 void FaceLook::add_triangles(const ToolCandidate& c, std::vector<std::int32_t>& list) const {
-  const double* points =
-      faces.data() + (bodies.first_face(c.slot) + c.face) * std::ptrdiff_t{face_numbers};
+  const PatchNumbers points = bodies.patch(positions, c.slot, c.face);
   const double reach = skin + entry(bodies.shape_of(c.slot).faces, c.face).size;
   triangles_near(tools.shape(c.tool).mesh, around_origin(points, tools.position_of(c.tool)), reach,
                  list);

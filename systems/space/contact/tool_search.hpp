@@ -17,7 +17,7 @@ struct ToolCandidate {
 
 struct FaceLook {
   const ShapedBodies& bodies;
-  std::span<const double> faces;  // all Bezier points
+  std::span<const double> positions;  // of all Bezier points
   const ToolSurfaces& tools;
   double skin;
 

@@ -95,11 +95,7 @@ struct Looker {
   int number(int slot) const { return entry(s.bodies.bodies->slots, slot).number; }
   // Point and slopes of a particle's surface.
   kernels::PatchSlopes<double> surface(int slot, int face, double u, double v) const {
-    const double* numbers =
-        s.position.values().data() +
-        (s.bodies.first_face(slot) + std::ptrdiff_t{face}) * std::ptrdiff_t{face_numbers};
-    const auto control = [&](int k, int p) { return numbers[16 * k + p]; };
-    return kernels::patch_slopes<double>(control, u, v);
+    return kernels::patch_slopes<double>(s.bodies.patch(s.position.values(), slot, face), u, v);
   }
 
   // Adds the points of a face that bear a force: force_at(g), and normal_at(g), which looks into the sampled particle.
@@ -136,9 +132,7 @@ struct Looker {
   }
   void add_tool(Row<FaceToolContact> row, Gathered& contact) const {
     const int slot = s.tools->rows.pair(row, 0), face = s.tools->rows.pair(row, 1);
-    const double* points =
-        s.position.values().data() +
-        (s.bodies.first_face(slot) + std::ptrdiff_t{face}) * std::ptrdiff_t{face_numbers};
+    const PatchNumbers points = s.bodies.patch(s.position.values(), slot, face);
     const double size = entry(s.bodies.shape_of(slot).faces, face).size;
     std::array<VectorLanes, 2> normal;
     for (int half = 0; half < 2; ++half)

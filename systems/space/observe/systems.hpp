@@ -12,7 +12,7 @@ namespace pulvis::space {
 struct contact_network {
   ShapedBodies bodies;
   Read<ContactIndex> index;
-  Read<FacePosition> position;
+  Read<SurfacePosition> position;
   struct Pairs {
     Read<ContactPair<FaceContact>> pair;
     Read<ContactTouches<FaceContact>> touches;

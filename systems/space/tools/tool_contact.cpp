@@ -82,8 +82,9 @@ void act(const tool_contact::Columns& c, Row<FaceToolContact> row, const Shape::
 
 struct ToolPass {
   const tool_contact& s;
-  const double* points = s.faces.position.values().data();
-  const double* rates = s.faces.velocity ? s.faces.velocity->values().data() : nullptr;
+  std::span<const double> points = s.faces.position.values();
+  std::span<const double> rates =
+      s.faces.velocity ? s.faces.velocity->values() : std::span<const double>{};
 
   bool active(Row<FaceToolContact> row) const {
     return s.clock->travel >= std::min(s.columns.activation(row, 0), s.columns.activation(row, 1));
@@ -92,24 +93,24 @@ struct ToolPass {
   void operator()(Row<FaceToolContact> row, FaceSums& sums) const {
     const int slot = s.columns.pair(row, 0);
     const Shape::Face& face = entry(s.bodies.shape_of(slot).faces, s.columns.pair(row, 1));
-    const std::ptrdiff_t own =
-        (s.bodies.first_face(slot) + s.columns.pair(row, 1)) * std::ptrdiff_t{face_numbers};
+    const PatchNumbers own{points.data() + s.bodies.surface(slot), face.number.data()};
     RowMotion motion;
-    for (int half = 0; half < 2; ++half) stand(row, half, points + own, face.size, motion);
+    for (int half = 0; half < 2; ++half) stand(row, half, own, face.size, motion);
     if (motion.touching == 0) {
       s.columns.touches(row) = 0;
       return;
     }
-    if (rates != nullptr)
+    if (!rates.empty())
       for (int half = 0; half < 2; ++half)
         if (motion.touches(half))
-          set_rates(row, sampled_points(rates + own, half), entry(motion.half, half));
+          set_rates(row, sampled_points({rates.data() + s.bodies.surface(slot), own.number}, half),
+                    entry(motion.half, half));
     act(s.columns, row, face, motion, weakening_of(s, row), s.clock->dt_before, sums);
   }
 
  private:
   // A half that is apart rests until it can touch.
-  void stand(Row<FaceToolContact> row, int half, const double* face, double size,
+  void stand(Row<FaceToolContact> row, int half, const PatchNumbers& face, double size,
              RowMotion& motion) const {
     double& activation = s.columns.activation(row, half);
     if (s.clock->travel < activation) return;

@@ -158,6 +158,7 @@ Shape flat_square(int n, double width, double thickness) {
         face.weight[g] = size * size * weight[g % 4] * weight[g / 4];
       shape.faces.push_back(face);
     }
+  shape.complete_points();
   shape.mean_face_stiffness = 1 / thickness;
   return shape;
 }
@@ -219,10 +220,10 @@ TEST(SpaceContact, BroadPhaseAgainstAllPairs) {
   w.update();
   const double skin = w.world.resource<ContactIndex>().skin;
   const Bodies& all = w.world.resource<Bodies>();
-  const double* faces = w.world.column<FacePosition>().values();
+  const double* points = w.world.column<SurfacePosition>().values();
   const auto box = [&](int slot, int face) {
-    return face_box(faces + face_numbers *
-                                (all.slots[static_cast<std::size_t>(slot)].first_control + face));
+    return face_box({points + 3 * entry(all.slots, slot).first_control,
+                     entry(w.shape().faces, face).number.data()});
   };
   std::set<std::array<int, 3>> expected, found;
   const int count = static_cast<int>(w.shape().faces.size());

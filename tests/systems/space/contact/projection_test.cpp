@@ -25,13 +25,13 @@ struct Surface : TouchingBodies {
     });
     run<contact_surface>("contact_surface");
   }
-  const double* first() { return world.column<FacePosition>().values(); }
+  const double* first() { return world.column<SurfacePosition>().values(); }
   Vec3 at(int face, double u, double v) {
-    const double* numbers = first() + face * face_numbers;
+    const PatchNumbers numbers{first(), entry(shape().faces, face).number.data()};
     const auto bu = kernels::bernstein(u), bv = kernels::bernstein(v);
     Vec3 x = Vec3::Zero();
     for (int p = 0; p < 16; ++p)
-      for (int k = 0; k < 3; ++k) x[k] += entry(bu, p % 4) * entry(bv, p / 4) * numbers[16 * k + p];
+      for (int k = 0; k < 3; ++k) x[k] += entry(bu, p % 4) * entry(bv, p / 4) * numbers(k, p);
     return x;
   }
   int faces() const { return static_cast<int>(shape().faces.size()); }
@@ -128,7 +128,7 @@ TEST(SpaceProjection, BeginsAnewAtTheNearestOfAFewSpots) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 50; ++i) {
     const Vec3 p = 6e-3 * Vec3(normal(random), normal(random), normal(random)).normalized();
-    const SurfaceSpot spot = nearest_spot(surface.first(), surface.faces(), {p.x(), p.y(), p.z()});
+    const SurfaceSpot spot = nearest_spot(surface.shape(), surface.first(), {p.x(), p.y(), p.z()});
     const double distance = (surface.at(spot.face, spot.u, spot.v) - p).norm();
     for (int f = 0; f < surface.faces(); ++f)
       for (const auto& [u, v] :
