@@ -155,12 +155,15 @@ void add_stages(Json& json, const World& world) {
 void add_shear(Json& json, const Results& results) {
   const auto figures = results.shear().figures();
   if (!figures) return;
+  const auto of = [](const std::optional<double>& figure) {
+    return figure ? Json(*figure) : Json();
+  };
   json["shear"] = {{"distance", figures->distance},
-                   {"static_friction", figures->static_friction},
-                   {"dynamic_friction", figures->dynamic_friction},
-                   {"dynamic_deviation", figures->dynamic_deviation},
-                   {"normal_stress", figures->normal_stress},
-                   {"dilation", figures->dilation}};
+                   {"static_friction", of(figures->static_friction)},
+                   {"dynamic_friction", of(figures->dynamic_friction)},
+                   {"dynamic_deviation", of(figures->dynamic_deviation)},
+                   {"normal_stress", of(figures->normal_stress)},
+                   {"dilation", of(figures->dilation)}};
 }
 
 Json diameters_json(const std::vector<FragmentSize>& fragments, SizeDistribution::Weight weight) {

@@ -48,10 +48,14 @@ void print_end(Session& run, const RunOptions& options) {
          r.has("stress_ratio/lateral")
              ? fmt::format(", lateral {:.4f}", r.value("stress_ratio/lateral"))
              : "");
-  if (const auto shear = r.shear().figures())
-    tell("friction static {:.4f}, dynamic {:.4f}; target moved {:.4g} mm, dilation {:.4g} mm\n",
-         shear->static_friction, shear->dynamic_friction, shear->distance * 1e3,
-         shear->dilation * 1e3);
+  if (const auto shear = r.shear().figures()) {
+    const auto told = [](const std::optional<double>& friction) {
+      return friction ? fmt::format("{:.4f}", *friction) : "none";
+    };
+    tell("friction static {}, dynamic {}; target moved {:.4g} mm{}\n", told(shear->static_friction),
+         told(shear->dynamic_friction), shear->distance * 1e3,
+         shear->dilation ? fmt::format(", dilation {:.4g} mm", *shear->dilation * 1e3) : "");
+  }
   for (const std::string& line : run.quality().lines()) tell("warning: {}\n", line);
   if (!run.verdicts().empty()) tell("expectations\n");
   for (const Verdict& verdict : run.verdicts()) tell("  {}\n", verdict.text());

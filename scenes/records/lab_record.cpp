@@ -122,6 +122,17 @@ void take_press(const csv::Table& table, std::size_t force, std::size_t displace
   turn(record.displacement, record.displacement[at] - record.displacement.front());
 }
 
+// The walls bear a part of what the top punch, which is the moved one, presses with.
+void refuse_exchanged(const csv::Table& table, std::size_t bottom, const DieRecord& record) {
+  constexpr double error = 0.05;  // more than gauges differ
+  const double from_top = largest_size(record.force), below = largest_size(record.bottom);
+  if (below > (1 + error) * from_top)
+    csv::refuse(table, table.columns[bottom].name,
+                fmt::format("bears up to {:.6g} N, more than the {:.6g} N of the top punch, "
+                            "allowed: less, the columns may be exchanged",
+                            below, from_top));
+}
+
 }  // namespace
 
 Instrument instrument_of(const std::filesystem::path& file, const Settings& settings) {
@@ -166,6 +177,7 @@ DieRecord read_die(const std::filesystem::path& file, const Settings& settings) 
   refuse_beyond({table, bottom, record.bottom}, settings.press.capacity, "N", "press.capacity");
   record.radial = csv::numbers(table, csv::column_at(table, spec.radial), "Pa");
   turn(record.bottom, largest_size(record.bottom));
+  refuse_exchanged(table, bottom, record);
   turn(record.radial, largest_size(record.radial));
   return record;
 }

@@ -7,6 +7,7 @@
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
 #include "engine/access.hpp"
+#include "engine/entry.hpp"
 #include "scenes/tools/die_sides.hpp"
 #include "systems/tools/systems.hpp"
 
@@ -117,9 +118,13 @@ ShearResults::ShearResults(const Scene& scene, const World& world)
   if (setup_) slip_.resize(static_cast<std::size_t>(world.resource<Bodies>().particles()));
 }
 
+const ToolProgram::Stage& ShearResults::stage() const {
+  return entry(world_.resource<ToolProgram>().stages, setup_->stage);
+}
+
 double ShearResults::distance_now() const {
   const ToolProgram& program = world_.resource<ToolProgram>();
-  const double begin = program.stages[static_cast<std::size_t>(setup_->stage)].begin;
+  const double begin = stage().begin;
   const double time = world_.resource<Clock>().time;
   if (time <= begin) return 0;
   const Point3 now = tool_position_at(program, setup_->target, time);
@@ -147,7 +152,7 @@ int ShearResults::take_touching(bool sliding) {
     const auto number =
         static_cast<std::size_t>(bodies.slots[static_cast<std::size_t>(slot)].number);
     if (sliding) slip_[number] += lag * (clock.time - time_before_);
-    if (speed > 0 && std::abs(lag) < goes_along * speed) locked += 1;
+    if (std::abs(lag) < goes_along * std::abs(speed)) locked += 1;
   }
   return locked;
 }
@@ -162,32 +167,36 @@ void ShearResults::append_sample(double plastic, std::vector<double>& row) {
   const double face = setup_->width * world_.resource<Bodies>().thickness;
   const double friction = normal > 0 ? lateral / normal : nothing;
   work_ += 0.5 * (lateral + lateral_before_) * (distance - distance_before_);
-  pressed_ += 0.5 * (normal + normal_before_) * (distance - distance_before_);
-  if (distance <= 0) plastic_at_begin_ = plastic;
+  pressed_ += 0.5 * (normal + normal_before_) * std::abs(distance - distance_before_);
+  if (distance > 0 && !punch_at_begin_) punch_at_begin_ = punch_before_;
+  const bool begun = punch_at_begin_.has_value();
+  if (!begun) plastic_at_begin_ = plastic;
   const double flow = plastic - plastic_at_begin_;
-  row.insert(row.end(),
-             {distance, friction, work_, static_cast<double>(take_touching(distance > 0)), flow,
-              pressed_ > 0 ? flow / pressed_ : nothing});
+  row.insert(row.end(), {distance, friction, work_, static_cast<double>(take_touching(begun)), flow,
+                         pressed_ > 0 ? flow / pressed_ : nothing});
   if (setup_->width > 0) {
     row.insert(row.end(), {normal / face, lateral / face});
     if (setup_->punch >= 0)
       row.push_back(vector_of(forces, setup_->punch).dot(setup_->along) / face);
   }
+  double dilation = 0;
   if (setup_->punch >= 0) {
     const double at = vector_of(positions, setup_->punch).dot(setup_->up);
-    if (distance > 0 && !punch_at_begin_) punch_at_begin_ = punch_before_;
-    dilation_ = punch_at_begin_ ? at - *punch_at_begin_ : 0;
+    dilation = begun ? at - *punch_at_begin_ : 0;
     punch_before_ = at;
-    row.push_back(dilation_);
+    row.push_back(dilation);
   }
   if (setup_->wall >= 0)
     row.push_back(lateral > 0 ? vector_of(forces, setup_->wall).dot(setup_->along) / lateral
                               : nothing);
-  if (distance > 0) samples_.push_back({distance, friction, face > 0 ? normal / face : 0});
+  const Clock& clock = world_.resource<Clock>();
+  const bool goes_on = distance > (samples_.empty() ? 0 : samples_.back().distance);
+  if (goes_on && clock.time <= stage().end + clock.dt_before)
+    samples_.push_back({distance, friction, face > 0 ? normal / face : 0, dilation});
   lateral_before_ = lateral;
   normal_before_ = normal;
   distance_before_ = distance;
-  time_before_ = world_.resource<Clock>().time;
+  time_before_ = clock.time;
 }
 
 void ShearResults::append_frame(std::vector<std::vector<double>>& fields) const {
@@ -199,13 +208,13 @@ std::optional<ShearFigures> ShearResults::figures() const {
   if (samples_.empty()) return std::nullopt;
   ShearFigures f;
   f.distance = samples_.back().distance;
-  f.dilation = dilation_;
+  if (setup_->punch >= 0) f.dilation = samples_.back().dilation;
   double distance = 0, sum = 0, square = 0, stress = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& s = samples_[i];
     if (std::isnan(s.friction)) continue;
     if (s.distance <= static_share * f.distance)
-      f.static_friction = std::max(f.static_friction, s.friction);
+      f.static_friction = std::max(f.static_friction.value_or(s.friction), s.friction);
     if (i == 0 || s.distance < (1 - dynamic_share) * f.distance) continue;
     const double step = s.distance - samples_[i - 1].distance;
     distance += step;
@@ -214,10 +223,10 @@ std::optional<ShearFigures> ShearResults::figures() const {
     stress += step * s.normal_stress;
   }
   if (distance > 0) {
-    f.dynamic_friction = sum / distance;
-    f.dynamic_deviation =
-        std::sqrt(std::max(square / distance - f.dynamic_friction * f.dynamic_friction, 0.0));
-    f.normal_stress = stress / distance;
+    const double mean = sum / distance;
+    f.dynamic_friction = mean;
+    f.dynamic_deviation = std::sqrt(std::max(square / distance - mean * mean, 0.0));
+    if (setup_->width > 0) f.normal_stress = stress / distance;
   }
   return f;
 }

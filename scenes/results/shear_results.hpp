@@ -22,14 +22,15 @@ struct ShearSetup {
 };
 std::optional<ShearSetup> shear_setup(const Scene& scene);
 
-// Static and dynamic friction of the whole stage, and how much went into them.
+// Static and dynamic friction of the shear stage, which later ones do not change, and how much went into them. None where
+// the target bore nothing there, where there is no width, or no punch.
 struct ShearFigures {
-  double static_friction = 0;    // largest in the first quarter of the distance
-  double dynamic_friction = 0;   // mean over the second half of the distance
-  double dynamic_deviation = 0;  // its standard deviation there
-  double normal_stress = 0;      // Pa, mean over the second half; 0 where there is no width
-  double distance = 0;           // m
-  double dilation = 0;           // m, at the end
+  double distance = 0;                      // m
+  std::optional<double> static_friction;    // largest in the first quarter of the distance
+  std::optional<double> dynamic_friction;   // mean over the second half of the distance
+  std::optional<double> dynamic_deviation;  // its standard deviation there
+  std::optional<double> normal_stress;      // Pa, mean over the second half
+  std::optional<double> dilation;           // m, at the end of the stage
 };
 
 class ShearResults {
@@ -51,17 +52,18 @@ class ShearResults {
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(punch_at_begin_, punch_before_, time_before_, work_, lateral_before_, distance_before_,
-          slip_, samples_, dilation_, plastic_at_begin_, pressed_, normal_before_);
+          slip_, samples_, plastic_at_begin_, pressed_, normal_before_);
   }
 
  private:
   struct Sample {
-    double distance, friction, normal_stress;
+    double distance, friction, normal_stress, dilation;
     template <class Bytes>
     void state(Bytes& bytes) {
-      bytes(distance, friction, normal_stress);
+      bytes(distance, friction, normal_stress, dilation);
     }
   };
+  const ToolProgram::Stage& stage() const;
   double distance_now() const;
   int take_touching(bool sliding);  // sums up slip while sliding; returns how many go along
 
@@ -70,9 +72,8 @@ class ShearResults {
   std::optional<double> punch_at_begin_;  // m, along `up`
   double punch_before_ = 0;
   double time_before_ = 0, work_ = 0, lateral_before_ = 0, distance_before_ = 0;
-  std::vector<double> slip_;  // m, [particles]
-  std::vector<Sample> samples_;
-  double dilation_ = 0;
+  std::vector<double> slip_;                // m, [particles]
+  std::vector<Sample> samples_;             // of the shear stage, as long as the target goes on
   double plastic_at_begin_ = 0;             // J
   double pressed_ = 0, normal_before_ = 0;  // N m, the normal force over the distance; N
 };

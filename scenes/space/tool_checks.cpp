@@ -5,8 +5,10 @@
 #include <cmath>
 #include <set>
 
+#include "scenes/checks/process_checks.hpp"
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/drives.hpp"
+#include "scenes/space/tools/powder.hpp"
 #include "scenes/spec/space_scene.hpp"
 
 namespace pulvis::space {
@@ -26,7 +28,10 @@ class ToolsInSpace {
       moves(space_.moves[s], path);
       elastic_moves(s, path);
       servos(s, path);
-      if (scene_.stages[s].until) until(*scene_.stages[s].until, path + ".until");
+      if (!scene_.stages[s].until) continue;
+      until(*scene_.stages[s].until, path + ".until");
+      check_travel(*scene_.stages[s].until, space_.moves[s], space_.servos[s], path + ".until",
+                   refuse_);
     }
   }
 
@@ -99,6 +104,12 @@ class ToolsInSpace {
         refuse_(path + ".direction",
                 "required key is missing: only planes and punches have a normal, allowed: three "
                 "numbers, not all 0");
+      const ToolSpec& tool = space_.tools[static_cast<std::size_t>(servo.tool)];
+      if (has_face(tool) && direction.dot(tool.normal) < -1e-9)
+        refuse_(path + ".direction",
+                fmt::format("points away from the powder, which nothing holds to '{}', allowed: "
+                            "along its normal, or across it",
+                            tool.name));
       for (const MoveSpec& move : space_.moves[stage])
         if (move.tool == servo.tool &&
             std::abs(move.displacement.dot(direction)) > 1e-9 * move.displacement.norm())

@@ -6,6 +6,7 @@
 
 #include "scenes/checks/expect_checks.hpp"
 #include "scenes/results/results.hpp"
+#include "scenes/spec/space_scene.hpp"
 #include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
@@ -28,6 +29,14 @@ std::optional<Face> face_of(const DieCell& cell, int tool) {
   return std::nullopt;
 }
 
+std::vector<std::string> tool_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const ToolSpec& tool : scene.tools) names.push_back(tool.name);
+  if (scene.space)
+    for (const space::ToolSpec& tool : scene.space->tools) names.push_back(tool.name);
+  return names;
+}
+
 std::string tool_series(const Scene& scene, int tool, const std::string& what) {
   return "tool/" + scene.tools[static_cast<std::size_t>(tool)].name + "/" + what;
 }
@@ -37,12 +46,16 @@ int tool_called(const Scene& scene, const std::string& name) {
   return static_cast<int>(found - scene.tools.begin());
 }
 
-std::vector<double> travel(const Scene& scene, int tool, const History& history) {
-  std::vector<double> x = history(tool_series(scene, tool, "position_x"));
-  const std::vector<double> y = history(tool_series(scene, tool, "position_y"));
-  const double x0 = x.empty() ? 0 : x.front(), y0 = y.empty() ? 0 : y.front();
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::hypot(x[i] - x0, y[i] - y0);
-  return x;
+std::vector<double> travel(const Scene& scene, const std::string& tool, const History& history) {
+  std::vector<double> distance;
+  for (const char* axis : {"x", "y", "z"}) {
+    if (!scene.space && *axis == 'z') continue;
+    const std::vector<double> at = history("tool/" + tool + "/position_" + axis);
+    distance.resize(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i)
+      distance[i] = std::hypot(distance[i], at[i] - at.front());
+  }
+  return distance;
 }
 
 std::vector<double> pressure(const Scene& scene, int tool, const History& history) {
@@ -77,8 +90,8 @@ std::vector<SeriesInfo> study_series(const Scene& scene) {
   }
   std::vector<SeriesInfo> all{{"time", "s", "of the sample"}};
   for (const SeriesInfo& series : history_series(scene)) all.push_back(series);
-  for (const ToolSpec& tool : scene.tools)
-    all.push_back({"travel/" + tool.name, "m", "displacement since the first sample"});
+  for (const std::string& tool : tool_names(scene))
+    all.push_back({"travel/" + tool, "m", "displacement since the first sample"});
   const std::optional<DieCell> cell = die_cell(scene);
   if (!cell) return all;
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
@@ -98,8 +111,7 @@ std::vector<double> study_values(const Scene& scene, const std::string& name,
   const auto after = [&](const char* prefix) {
     return name.starts_with(prefix) ? name.substr(std::string(prefix).size()) : std::string();
   };
-  if (const std::string tool = after("travel/"); !tool.empty())
-    return travel(scene, tool_called(scene, tool), history);
+  if (const std::string tool = after("travel/"); !tool.empty()) return travel(scene, tool, history);
   if (const std::string tool = after("pressure/"); !tool.empty())
     return pressure(scene, tool_called(scene, tool), history);
   if (name == "transmission") return share_below(scene, history);

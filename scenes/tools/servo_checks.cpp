@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scenes/checks/process_checks.hpp"
 #include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {
@@ -33,7 +34,12 @@ class ServoChecks {
     }
     for (std::size_t i = 0; i < stage_.moves.size(); ++i)
       if (stage_.moves[i].stiffness) elastic(i, fmt::format("{}.move[{}]", path_, i));
-    if (stage_.until) until(*stage_.until);
+    if (!stage_.until) return;
+    until(*stage_.until);
+    check_travel(*stage_.until, stage_.moves, stage_.servos, path_ + ".until",
+                 [&](const std::string& at, const std::string& message) {
+                   problems_.add(origins_.at(at), at, message);
+                 });
   }
 
  private:

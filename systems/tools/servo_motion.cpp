@@ -43,8 +43,9 @@ void check_held(const Servo& servo, const ToolProgram& program, const Clock& clo
       "tool_servo: '{}' bears {:.6g} N at the end of stage '{}', step {}, t = {:.6g} s; asked for "
       "{:.6g} N, allowed: within {:g} of it (stage.servo.tolerance); a longer stage, a higher "
       "max_speed or a powder that bears more would reach it",
-      entry(program.names, servo.tool), force, entry(program.stages, servo.stage).name, clock.step,
-      clock.time, servo.force, servo.tolerance));
+      entry(program.names, servo.tool), force + 0.0 /* not -0 */,
+      entry(program.stages, servo.stage).name, clock.step, clock.time, servo.force,
+      servo.tolerance));
 }
 
 // Asked for now: smoothly from what the tool bore when the stage began.

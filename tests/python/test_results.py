@@ -108,6 +108,20 @@ def test_a_run_that_is_still_being_written_can_be_read(tmp_path):
     assert pulvis.open(folder).outcome in ("interrupted", "running")
 
 
+# What is looked at is not in the way of the run that goes on from there, whose file it is.
+def test_an_interrupted_run_that_is_open_is_resumed(tmp_path):
+    folder = tmp_path / "run"
+    with pulvis.Scene(SCENE, {"output.frames": 40}).simulation(folder=folder) as sim:
+        sim.step(2000)
+    run = pulvis.open(folder)
+    assert run.outcome == "interrupted" and len(run.frames) > 0
+    before = [run.frame(k).field("effective_stress") for k in range(len(run.frames))]
+    whole = pulvis.resume(folder).run()
+    assert len(run.refresh().frames) > len(before) and run.outcome == "done" and run.hash == whole.hash
+    for k, stress in enumerate(before):
+        np.testing.assert_array_equal(run.frame(k).field("effective_stress"), stress)
+
+
 # A reader that never waits: whatever it is between two frames or within one, what it sees is the run so far.
 def test_what_is_read_while_it_is_written_is_the_beginning_of_the_end(tmp_path):
     folder = tmp_path / "run"

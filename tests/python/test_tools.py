@@ -25,6 +25,12 @@ def test_a_driven_tool_moves_as_it_is_told(cell):
     assert any("driven from Python (tool top)" in line for line in sim.warnings)
 
 
+@pytest.mark.parametrize("velocity", [(0, float("nan")), (float("nan"), 0), (0, float("inf"))])
+def test_a_velocity_that_is_no_number_is_refused(cell, velocity):
+    with pytest.raises(pulvis.PulvisError, match="not finite"):
+        cell.simulation().step(1).tools["top"].drive(velocity)
+
+
 def test_driven_as_the_scene_drives_it_the_forces_are_the_scene_s(cell):
     """The programme in small parts: of what the scene's own tool does, step by step, the mean of ten."""
     own, heights = cell.simulation(), {}

@@ -31,7 +31,9 @@ void require_free(const World& world, int tool, const std::string& name) {
 
 void require_seen(const World& world, const std::string& name, const Point3& velocity) {
   const double speed = std::hypot(velocity[0], velocity[1], velocity[2]);
-  if (!std::isfinite(speed)) throw NotNow(fmt::format("tool {}: the velocity is not finite", name));
+  // hypot may pass over what is no number.
+  if (!std::ranges::all_of(velocity, [](double v) { return std::isfinite(v); }))
+    throw NotNow(fmt::format("tool {}: the velocity is not finite", name));
   if (!world.has<ContactRules>()) return;
   const double fastest =
       seen_in_a_step * world.resource<ContactRules>().thinnest / world.resource<Clock>().dt;

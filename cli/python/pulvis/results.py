@@ -235,9 +235,9 @@ class Run:
         if not path.is_file():
             raise RunError(f"{path}: no regular file", path)  # a named pipe would wait for a writer
         try:
-            if not self.summary.get("outcome"):
+            if self.summary.get("outcome") != "done":
                 # HDF5 shares what it remembers of a file among all in a process who have it open by its name: of a run
-                # that goes on each has his own view.
+                # that goes on, or may be resumed, each has his own view.
                 self._stream = path.open("rb", buffering=0)
             file = h5py.File(self._stream or path, "r")
         except OSError as error:

@@ -34,11 +34,15 @@ class Scene:
     """
 
     def __init__(self, source: Any, overrides: dict[str, Any] | None = None, **keys: Any) -> None:
+        if overrides is not None and not isinstance(overrides, dict):
+            raise TypeError(f"overrides: a {type(overrides).__name__}, allowed: a dict of paths and values")
         given = dict(overrides or {})
         given.update({key.replace("__", "."): value for key, value in keys.items()})
         words = [f"{path}={toml_value(value)}" for path, value in given.items()]
         if isinstance(source, (str, os.PathLike)):
             self._core = _core.load_scene(os.fspath(source), words)
+        elif not isinstance(source, dict) and not dataclasses.is_dataclass(source):
+            raise TypeError(f"scene: a {type(source).__name__}, allowed: a path, a dict or a dataclass")
         else:
             self._core = _core.load_scene_text(toml_text(as_tables(source)), NO_FILE, words)
         self._source, self._given = source, given

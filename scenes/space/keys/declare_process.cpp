@@ -30,8 +30,8 @@ std::vector<Key<BodySpec>> turn_keys() {
             .kind = Kind::quantity,
             .unit = "rad",
             .range = within(-1000, 1000),
-            .fallback = value_of("0 deg"),
-            .doc = "Turn about `axis`, counter-clockwise where that looks at one."},
+            .doc = "Turn about `axis`, counter-clockwise where that looks at one.",
+            .fallback_doc = "`\"0 deg\"`"},
            [](BodySpec& spec, const Decoded& value) {
              const double half = value.number / 2;
              spec.rotation = Rotation(portable::cos(half), 0, 0, portable::sin(half));
@@ -248,6 +248,21 @@ const TableDeclaration<OutputSpec>& output() {
     key_of(table, "contacts").info.doc =
         "The network of contacts: forces, normals and areas of every pair that touches and force "
         "chains in every frame; coordination, fabric and mean forces over time.";
+    return table;
+  }();
+  return declaration;
+}
+
+// As in two dimensions, of the series that there are here.
+const TableDeclaration<ExpectSpec>& expect() {
+  static const TableDeclaration<ExpectSpec> declaration = [] {
+    TableDeclaration<ExpectSpec> table = schema::expect();
+    key_of(table, "series").info.doc =
+        "A series of `history.csv`; `momentum/x`, `momentum/y`, `momentum/z`, "
+        "`momentum/angular_x`, "
+        "`momentum/angular_y` or `momentum/angular_z` "
+        "(about the origin) of the whole powder; or a value of the whole run: "
+        "`energy_balance_error`, `kinetic_ratio`.";
     return table;
   }();
   return declaration;

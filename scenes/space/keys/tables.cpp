@@ -36,7 +36,7 @@ const schema::Language& scene_language() {
                                        view_of(time()),
                                        view_of(output()),
                                        view_of(schema::limits()),
-                                       view_of(schema::expect())};
+                                       view_of(expect())};
   return tables;
 }
 

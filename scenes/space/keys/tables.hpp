@@ -25,6 +25,7 @@ const schema::TableDeclaration<ContactSpec>& contact();
 const schema::TableDeclaration<SpaceScene>& element();
 const schema::TableDeclaration<TimeSpec>& time();
 const schema::TableDeclaration<OutputSpec>& output();
+const schema::TableDeclaration<ExpectSpec>& expect();
 
 }  // namespace language
 

@@ -121,6 +121,15 @@ TEST_F(StudyRead, CurvesAreThoseOfACompactionWhereNoneIsGiven) {
   EXPECT_EQ(study.spec.curves[1].x, "travel/top");
 }
 
+TEST_F(StudyRead, CurvesInSpaceAreThoseOfThePunchAlongZ) {
+  const Study study =
+      read("scene = \"" + paths::source_dir() + "/scenes/compaction-3d/unit-cell-sc.toml\"\n");
+  ASSERT_EQ(study.spec.curves.size(), 3U);
+  EXPECT_EQ(study.spec.curves[1].y, "tool/top/force_z");
+  EXPECT_EQ(study.spec.curves[1].x, "travel/top");
+  EXPECT_EQ(study.spec.curves[2].y, "stress/transmission");
+}
+
 TEST_F(StudyRead, BoundsAreConvertedToTheUnitOfTheSeries) {
   const Study study = read(matrix + R"([[expect]]
 series = "pressure/top"

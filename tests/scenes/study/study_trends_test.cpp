@@ -163,6 +163,18 @@ TEST_F(StudyVerdict, ARunThatFailedMeetsNothing) {
   EXPECT_THAT(verdict(expect).measured, HasSubstr("does not get there"));
 }
 
+TEST(StudySeries, TravelInSpaceIsAlongAllThreeAxes) {
+  const Scene scene = read_scene(paths::source_dir() + "/scenes/compaction-3d/one-sphere.toml");
+  const History history = [](const std::string& name) -> Values {
+    if (name == "tool/top/position_x") return {1, 1, 4};
+    if (name == "tool/top/position_z") return {7, 5, 3};
+    return {0, 0, 0};
+  };
+  EXPECT_EQ(study_values(scene, "travel/top", history), (Values{0, 2, 5}));
+  const auto is_travel = [](const SeriesInfo& series) { return series.name == "travel/top"; };
+  EXPECT_TRUE(std::ranges::any_of(study_series(scene), is_travel));
+}
+
 // Derived series, from a history that was made up.
 TEST(StudySeries, AreMadeOfTheHistory) {
   const Scene scene = read_scene(paths::source_dir() + "/scenes/compaction/regular-25.toml");

@@ -172,6 +172,10 @@ def arguments(words=None):
     asked = parser.parse_args(words)
     if asked.against and not asked.series:
         parser.error("--against says over what --series is drawn")
+    if asked.frame is not None and asked.frame < 0:
+        parser.error(f"--frame {asked.frame}: allowed: from 0")
+    if asked.output and asked.output.suffix not in ("", *FORMATS) and (asked.field or asked.series) and not asked.output.is_dir():
+        parser.error(f"-o {asked.output}: allowed: {', '.join(sorted(FORMATS))}, or a folder for all figures")
     asked.to = asked.output or asked.folder / "pictures"
     return asked
 
