@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "scenes/checks/process_checks.hpp"
 #include "scenes/space/tools/die_room.hpp"
 #include "scenes/space/tools/drives.hpp"
 #include "scenes/space/tools/powder.hpp"
 #include "scenes/spec/space_scene.hpp"
+#include "scenes/tools/servo_checks.hpp"
 
 namespace pulvis::space {
 namespace {

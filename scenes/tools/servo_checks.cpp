@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "scenes/checks/process_checks.hpp"
 #include "scenes/tools/die_cell.hpp"
 
 namespace pulvis {

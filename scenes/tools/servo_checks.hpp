@@ -1,10 +1,15 @@
 // Checks of what a stage says of forces and early ends, across its keys.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "scenes/language/problem.hpp"
 #include "scenes/language/table_reader.hpp"
+#include "scenes/spec/material_checks.hpp"
 #include "scenes/spec/scene.hpp"
 
 namespace pulvis {
@@ -14,5 +19,23 @@ Vec2 direction_of(const ServoSpec& servo, const Scene& scene);
 
 void check_servos(const Scene& scene, const StageSpec& stage, const std::string& path,
                   const schema::Origins& origins, Problems& problems);
+
+// Whether a displacement that ends a stage is reached by the moves of the stage, of two or three dimensions. Servos and drives
+// that give may reach any.
+template <class Move, class Servo>
+void check_travel(const UntilSpec& until, const std::vector<Move>& moves,
+                  const std::vector<Servo>& servos, const std::string& path, const Refuse& refuse) {
+  if (!until.displacement || !until.tool) return;
+  if (std::ranges::find(servos, *until.tool, &Servo::tool) != servos.end()) return;
+  const auto move = std::ranges::find(moves, *until.tool, &Move::tool);
+  if (move != moves.end() && move->stiffness) return;
+  const double moved = move == moves.end() ? 0 : move->displacement.norm();
+  if (*until.displacement > moved)
+    refuse(
+        path + ".displacement",
+        fmt::format("{:g} m is not reached: the stage moves the tool by {:g} m, allowed: at most "
+                    "that",
+                    *until.displacement, moved));
+}
 
 }  // namespace pulvis
