@@ -1,5 +1,6 @@
 #include "scenes/ranks/crew.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "components/contact.hpp"
 #include "components/ranks.hpp"
 #include "components/run_state.hpp"
+#include "components/space/contact.hpp"
 #include "engine/state_bytes.hpp"
 #include "scenes/language/problem.hpp"
 #include "systems/ranks/restore.hpp"
@@ -20,6 +22,12 @@ double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) * 1024;
+}
+
+// Of a column, as Crew::numbers_of takes it.
+template <class C>
+std::string name_of() {
+  return fmt::format("{}/{}", C::Entity::name, C::info.name);
 }
 
 bool looks_at_motion(const Scene& scene) {
@@ -103,8 +111,12 @@ std::vector<std::uint64_t> Crew::numbers_of(const std::vector<std::string>& name
 }
 
 Order Crew::fetch_sample(const std::vector<std::string>& looks) const {
-  std::vector<std::string> names{"particle/*", "curve/position", "surface_face/position",
-                                 "pair",       "touches",        "face_tool_contact/point_force"};
+  std::vector<std::string> names{"particle/*",
+                                 name_of<CurvePosition>(),
+                                 name_of<space::SurfacePosition>(),
+                                 name_of<space::PointForce>(),
+                                 "pair",
+                                 "touches"};
   if (needs_motion_) names.insert(names.end(), {"node/position", "node/velocity"});
   if (whole_->has<BondTotals>())
     names.insert(names.end(), {"law", "bond_law", "bonded", "bond_damage"});

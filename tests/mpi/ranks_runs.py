@@ -27,7 +27,8 @@ from pathlib import Path
 import h5py
 import numpy
 
-# Scene, steps, and what is set in it. Together they have every kind of contact, control and observer there is.
+# Scene, steps, and what is set in it. Together they have every kind of contact, control and observer there is. In the round die
+# the powder bears on the wall from step 630 on.
 CASES = {
     "die": ("scenes/compaction/regular-25.toml", 300, ["output.contacts=true", "output.density_cells=[4, 4]"]),
     "friction": ("scenes/compaction/random-100.toml", 300, ["output.particle_stress=true"]),
@@ -41,7 +42,7 @@ CASES = {
     "constraints": ("scenes/bonds/pulled-blocks.toml", 130, ['stage[0].duration="1 us"']),
     "bar": ("scenes/basic/tension.toml", 300, []),
     "space-die": ("scenes/compaction-3d/random-100-copper.toml", 60, ["output.contacts=true"]),
-    "space-round": ("scenes/compaction-3d/tablet.toml", 60, []),
+    "space-round": ("scenes/compaction-3d/tablet.toml", 720, []),
     "space-stl": ("tests/mpi/stl-floor.toml", 240, []),
     "space-mixture": ("scenes/compaction-3d/mixture.toml", 60, ["output.density_cells=[2, 2, 2]"]),
 }
