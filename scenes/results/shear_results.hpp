@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/run_state.hpp"
 #include "engine/files/record.hpp"
 #include "engine/world.hpp"
 #include "scenes/spec/scene.hpp"
