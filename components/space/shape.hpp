@@ -85,9 +85,8 @@ struct Shape {
     int side = 0;  // of that face, where one comes in
   };
   struct Face {
-    std::array<std::int32_t, 16> point{};  // Bezier points, counted in the particle
-    std::array<std::int32_t, 16>
-        number{};  // 3 * point: where each one's x stands (complete_points)
+    std::array<std::int32_t, 16> point{};       // Bezier points, counted in the particle
+    std::array<std::int32_t, 16> number{};      // 3 * point, by complete_points()
     std::array<Row<BoundaryNode>, 4> corner{};  // nodes at (u, v) = (0,0) (1,0) (1,1) (0,1)
     std::array<Neighbour, 4> neighbour{};
     int element = 0;       // behind it
@@ -106,8 +105,8 @@ struct Shape {
   std::vector<double> nodal_volume;              // m^3, lumped: times density, a node's mass
   std::vector<Face> faces;
   Terms net;  // [surface nodes], of surface nodes
-  Terms
-      points;  // [Bezier points], of the net; in the order of the faces, filled up to eights (complete_points)
+  // [Bezier points], of the net; in the order of the faces, filled up to eights by complete_points().
+  Terms points;
   double mean_face_stiffness = 0;  // 1/m: of its faces, weighted with their area
   double volume = 0;               // m^3, of the mesh
   double true_volume = 0;          // m^3, of the shape that it stands for

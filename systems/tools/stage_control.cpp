@@ -70,6 +70,13 @@ double value_now(const End& end, const stage_control& s) {
                      borne[2] * end.direction[2]);
 }
 
+// A displacement may be the whole of a move, which ends there but for rounding.
+bool is_reached(const End& end, double value) {
+  constexpr double rounding = 1e-12;
+  const bool moved = end.kind == StageEnds::Kind::displacement;
+  return value >= (moved ? (1 - rounding) * end.value : end.value);
+}
+
 // How long its tools, or strains, take to come to rest; 0 where none is on its way.
 double time_to_rest(const ToolProgram& program, const MixedControl* control, int stage) {
   double longest = 0;
@@ -128,7 +135,8 @@ void stage_control::operator()() const {
   if (new_stage)
     for (End& end : ends->ends)
       if (static_cast<std::size_t>(end.stage) == ends->stage && !end.reached)
-        stop(end, *program, *clock, value_now(end, *this));
+        if (const double value = value_now(end, *this); !is_reached(end, value))
+          stop(end, *program, *clock, value);
   if (new_stage && tools) {
     ends->tools_at_begin.resize(static_cast<std::size_t>(tools->position.rows()));
     for (int t = 0; t < tools->position.rows(); ++t)
@@ -139,7 +147,7 @@ void stage_control::operator()() const {
   MixedControl* control = cell ? &(*cell)->control : walls ? &(*walls)->control : nullptr;
   for (End& end : ends->ends) {
     if (static_cast<std::size_t>(end.stage) != stage || end.reached) continue;
-    end.reached = value_now(end, *this) >= end.value;
+    end.reached = is_reached(end, value_now(end, *this));
     if (end.reached) end_early(end, clock->time, control, *program, ends->run_end);
   }
 }

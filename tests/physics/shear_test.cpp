@@ -287,6 +287,20 @@ TEST(Servo, IsNotThereWhereNoStageAsks) {
   EXPECT_FALSE(e.simulation.world().has<StageEnds>());
 }
 
+// A displacement that is the whole of the move is reached, however it rounds: the run goes to its end.
+TEST(StageControl, AStageMayEndWithTheWholeOfItsMove) {
+  for (const char* way : {"0.03 mm", "0.07 mm", "0.1 mm", "0.3 mm"}) {
+    const std::string length = way;
+    Experiment e(
+        "compaction/regular-25.toml",
+        joined(one_disc,
+               {"stage.press.duration=60 us",
+                "stage.press.move[0].displacement=[\"0 mm\", \"-" + length + "\"]",
+                "stage.press.until.tool=top", "stage.press.until.displacement=" + length}));
+    EXPECT_NO_THROW(e.run(2)) << length;
+  }
+}
+
 // ---- target surfaces --------------------------------------------------------------------------------
 // Mean distance from the mean line of a chain of points, by the trapezoidal rule on many stations.
 double roughness(const ProfileSpec& relief) {
