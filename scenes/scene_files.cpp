@@ -108,7 +108,12 @@ std::uint64_t file_hash(const fs::path& file) {
 }
 
 std::uint64_t hash_with_inputs(const std::vector<InputFile>& inputs, std::uint64_t hash) {
-  for (const InputFile& input : inputs) hash = xxh3(std::as_bytes(std::span(&input.hash, 1)), hash);
+  // A saved scene names its files in another order than the one that it was written from.
+  std::vector<std::uint64_t> hashes;
+  for (const InputFile& input : inputs) hashes.push_back(input.hash);
+  std::ranges::sort(hashes);
+  for (const std::uint64_t& of_file : hashes)
+    hash = xxh3(std::as_bytes(std::span(&of_file, 1)), hash);
   return hash;
 }
 

@@ -129,11 +129,13 @@ class Probing {
     if (!went(loader, "loading")) return ExitCode::interrupted;
     const std::vector<StudyResult>& loaded = loader.read();
     std::size_t bad = loader.tell_bad();
+    std::vector<std::string> passed;
     for (std::size_t i = 0; i < loaded.size(); ++i)
-      for (ProbeState& state : states_of(probe_.loadings[i], probe_.spec, loaded[i])) {
+      for (ProbeState& state : states_of(probe_.loadings[i], probe_.spec, loaded[i], passed)) {
         parts_.push_back(add_probes(folder_, probe_, probe_.loadings[i], state, probes_));
         states_.push_back(std::move(state));
       }
+    for (const std::string& line : passed) tell(stderr, "pulvis: {}\n", line);
     StudyRunner prober(how, probes_, folder_);
     if (!went(prober, "probes")) return ExitCode::interrupted;
     const std::vector<StudyResult>& probed = prober.read();

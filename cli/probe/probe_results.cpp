@@ -1,5 +1,7 @@
 #include "cli/probe/probe_results.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,7 +67,7 @@ ProbeCurve curve_of(const StudyResult& result, const ProbeSpec& spec) {
 }  // namespace
 
 std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& spec,
-                                  const StudyResult& result) {
+                                  const StudyResult& result, std::vector<std::string>& passed) {
   std::vector<ProbeState> states;
   for (const double density : spec.densities) {
     const std::string name = density_name(density);
@@ -76,6 +78,14 @@ std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& 
       return at_time(result.series("time"), result.series(series), *end);
     };
     state.density = value("relative_density");
+    constexpr double overshoot =
+        0.005;  // of a stage that ends at the first step that reaches its density
+    if (state.density > (1 + overshoot) * density) {
+      passed.push_back(fmt::format(
+          "{}: the powder has a relative density of {:.4f} before it is pressed to {:g}",
+          loading.name, state.density, density));
+      continue;
+    }
     state.stress = {value("cell/stress_xx"), value("cell/stress_yy"), value("cell/stress_xy"),
                     value("stress/zz")};
     state.pressure = -(state.stress[0] + state.stress[1] + state.stress[3]) / 3;

@@ -24,8 +24,9 @@ struct ProbeState {
 };
 
 // Of all states that the loading run has reached.
+// `passed`: one line is added for each density that the powder is beyond before it is pressed to it, which is no state.
 std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& spec,
-                                  const StudyResult& result);
+                                  const StudyResult& result, std::vector<std::string>& passed);
 
 struct ProbeSurface {
   const ProbeState* state = nullptr;

@@ -111,6 +111,7 @@ struct Shape {
   double volume = 0;               // m^3, of the mesh
   double true_volume = 0;          // m^3, of the shape that it stands for
   double surface_error = 0;        // m, greatest distance of the smooth surface from the true one
+  double surface_bulge = 0;        // m, the greatest where it stands out
   double area = 0;                 // m^2, of the surface
   double radius = 0;               // m, of the ball about the origin that holds it
 

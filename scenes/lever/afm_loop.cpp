@@ -24,9 +24,10 @@ double downhill(double load, double adhesion, double mu, double slope) {
   return (load * (s - mu * c) - mu * adhesion) / (c + mu * s);
 }
 
-std::optional<double> friction(double half_width, double offset, double slope) {
+std::optional<double> friction(double half_width, double offset, double slope,
+                               double adhesion_by_load) {
   if (half_width == 0 || slope == 0) return {};
-  return friction_of_ratio(offset / half_width, 1, 0, slope);
+  return friction_of_ratio(offset / half_width, 1, adhesion_by_load, slope);
 }
 
 }  // namespace wedge
@@ -121,12 +122,15 @@ std::vector<FrictionLoop> friction_loops(const Scene& scene, const AfmHistory& h
     loop.volts_offset = 0.5 * (trace.volts + retrace.volts);
     judge(loop, plateau_of(scene, history, a, false), plateau_of(scene, history, a, true));
     const TargetSpec& target = *scene.afm->target;
-    if (loop.full() && on_incline(target, action)) {
-      loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline);
+    if (loop.full() && loop.load > 0 && on_incline(target, action)) {
+      const double adhesion = pull_off_force(scene);
+      loop.friction = wedge::friction(loop.volts_half_width, loop.volts_offset, target.incline,
+                                      adhesion / loop.load);
       if (loop.friction) {
         const double s = portable::sin(target.incline), c = portable::cos(target.incline);
         const double mu = *loop.friction;
-        loop.sensitivity = mu * loop.load / (c * c - mu * mu * s * s) / loop.volts_half_width;
+        loop.sensitivity =
+            mu * (loop.load + adhesion * c) / (c * c - mu * mu * s * s) / loop.volts_half_width;
       }
     }
     loops.push_back(loop);

@@ -4,8 +4,8 @@
 //          the load L vertical, adhesion A along the normal, slope theta uphill on the trace:
 //            T_u = [L (sin + mu cos) + mu A]/(cos - mu sin),  T_d = [L (sin - mu cos) - mu A]/(cos + mu sin)
 //            W = (T_u - T_d)/2 = mu (L + A cos)/(cos^2 - mu^2 sin^2),  Delta = (T_u + T_d)/2
-//          Without adhesion mu + 1/mu = 2 (Delta/W)/sin 2 theta, whatever the unit of W and Delta: friction
-//          follows from volts, and the lateral sensitivity from mu.
+//          With a = A/L, mu^2 (1 + a/cos) - mu (Delta/W) (1 + a cos)/(sin cos) + 1 = 0, whatever the unit of W and
+//          Delta: friction follows from volts, and the lateral sensitivity from mu. A is the scene's own pull-off force.
 #pragma once
 
 #include <optional>
@@ -21,8 +21,9 @@ namespace wedge {
 
 double uphill(double load, double adhesion, double mu, double slope);
 double downhill(double load, double adhesion, double mu, double slope);
-// mu <= 1 from a loop's offset and half-width, without adhesion; nothing where no mu fits, or slope = 0.
-std::optional<double> friction(double half_width, double offset, double slope);
+// mu <= 1 from a loop's offset and half-width, and the adhesion over the load; nothing where no mu fits, or slope = 0.
+std::optional<double> friction(double half_width, double offset, double slope,
+                               double adhesion_by_load);
 
 }  // namespace wedge
 

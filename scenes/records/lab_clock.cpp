@@ -131,6 +131,25 @@ void find_offset(Clocks& clocks, const PressRecord& press, const LoggerRecord& l
   clocks.offset_uncertainty = std::hypot(start->uncertainty, sliding.start.uncertainty);
 }
 
+// The end of the loading lies within the tolerance as well, and moves the punch much farther than the hold does: left out is
+// what comes before the force is as near to its level as it mostly is.
+Samples without_loading(const PressRecord& press, Samples hold) {
+  constexpr double usual = 4;  // medians of the distance from the median
+  const auto median = [](std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  if (hold.count() == 0) return hold;
+  std::vector<double> off(press.force.begin() + static_cast<std::ptrdiff_t>(hold.begin),
+                          press.force.begin() + static_cast<std::ptrdiff_t>(hold.end));
+  const double level = median(off);
+  for (double& force : off) force = std::abs(force - level);
+  const double most = usual * median(off);
+  for (std::size_t i = 0; i < off.size() && off[i] > most; ++i) ++hold.begin;
+  return hold;
+}
+
 }  // namespace
 
 Samples find_hold(const PressRecord& press, double tolerance) {
@@ -149,7 +168,7 @@ Samples find_hold(const PressRecord& press, double tolerance) {
     now.end = i + 1;
     if (now.count() > longest.count()) longest = now;
   }
-  return longest;
+  return without_loading(press, longest);
 }
 
 Clocks match_clocks(const PressRecord& press, const LoggerRecord& logger, const Sliding& sliding,

@@ -137,7 +137,7 @@ std::vector<OverCurves> over_curves(const std::vector<ReducedCurve>& curves) {
 
 SimulatedCompression read_compression(const std::filesystem::path& run_folder,
                                       const SimulationSpec& spec) {
-  const csv::Table history = csv::read(run_folder / "history.csv");
+  const csv::Table history = history_of_run(run_folder);
   const auto series = [&](const std::string& name, const char* key, const char* unit) {
     if (!csv::has_column(history, name))
       csv::refuse(history, std::string("simulation.") + key,

@@ -122,7 +122,7 @@ DieCurve die_curve(const DieRecord& record, const TransmissionSpec& spec, const 
 DieCurve simulated_die(const std::filesystem::path& run_folder) {
   const Scene scene = load_scene(run_folder / "scene.toml").scene;
   const CompactionCurve names(scene);
-  const csv::Table history = csv::read(run_folder / "history.csv");
+  const csv::Table history = history_of_run(run_folder);
   if (!names.has_die())
     csv::refuse(history, "stress/axial_top",
                 "the run has no die of four plane tools, allowed: a compaction in one");

@@ -1,7 +1,5 @@
 #include "scenes/records/lab_simulation.hpp"
 
-#include "scenes/language/csv_table.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,8 +34,17 @@ std::string name_of_run(const std::filesystem::path& run_folder) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
+csv::Table history_of_run(const std::filesystem::path& run_folder) {
+  csv::Table history = csv::read(run_folder / "history.csv");
+  for (const csv::Column& column : history.columns)
+    if (column.name.starts_with("tool/") && column.name.ends_with("/force_z"))
+      csv::refuse(history, column.name,
+                  "the run is one in three dimensions, allowed: runs in two dimensions");
+  return history;
+}
+
 SimulatedCurve read_simulation(const std::filesystem::path& run_folder, const std::string& target) {
-  const csv::Table history = csv::read(run_folder / "history.csv");
+  const csv::Table history = history_of_run(run_folder);
   const std::string tool = "tool/" + target + "/";
   if (!csv::has_column(history, tool + "force_x"))
     csv::refuse(history, "simulation.target",

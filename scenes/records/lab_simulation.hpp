@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/language/csv_table.hpp"
+
 namespace pulvis::lab {
 
 struct SimulatedCurve {
@@ -16,7 +18,10 @@ struct SimulatedCurve {
 // What a run is called: its folder.
 std::string name_of_run(const std::filesystem::path& run_folder);
 
-// Refused: no history, no such tool, a target that does not move along x.
+// history.csv of a run. Refused: none, or one of a run in three dimensions.
+csv::Table history_of_run(const std::filesystem::path& run_folder);
+
+// Refused: no such tool, a target that does not move along x.
 SimulatedCurve read_simulation(const std::filesystem::path& run_folder, const std::string& target);
 
 }  // namespace pulvis::lab

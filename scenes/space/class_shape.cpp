@@ -6,40 +6,15 @@
 #include <stdexcept>
 
 #include "engine/portable_math.hpp"
-#include "engine/result_cache.hpp"
 #include "scenes/language/problem.hpp"
 #include "scenes/space/meshes/mesh.hpp"
 
 namespace pulvis::space {
-namespace {
-
-struct ShapeKey {
-  ParticleShape shape;
-  MeshSpec mesh;
-  bool operator==(const ShapeKey&) const = default;
-};
-
-std::size_t bytes_of(const Shape& shape) {
-  return shape.hexahedra.size() *
-         (sizeof(shape.hexahedra[0]) + sizeof(shape.element[0]) + sizeof(shape.gauss[0]));
-}
-
-// The layout of the particles, the summary and the warnings of a scene ask for the same shapes, and so do the runs of a study.
-Shape known_shape(const ParticleSpec& particle) {
-  static ResultCache<ShapeKey, Shape> cache(32 << 20);  // bytes, about
-  const auto make = [&](const ShapeKey&) { return make_shape(particle); };
-  const auto size = [&](const Shape& made) { return stl_bytes(particle.shape) + bytes_of(made); };
-  Shape shape = cache.get({particle.shape, particle.mesh}, make, size);
-  shape.name = particle.name;
-  return shape;
-}
-
-}  // namespace
 
 Shape class_shape(const Scene& scene, std::size_t particle) {
   const ParticleSpec& spec = scene.space->particles.at(particle);
   try {
-    return known_shape(spec);
+    return make_shape(spec);
   } catch (const std::invalid_argument& error) {
     const std::size_t declared =
         spec.class_of < 0 ? particle : static_cast<std::size_t>(spec.class_of);

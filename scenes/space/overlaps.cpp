@@ -39,7 +39,9 @@ Turn turn_to_z(const Vec3& axis) {
 
 class BodyOverlaps {
  public:
-  BodyOverlaps(const Scene& scene, const std::vector<BodySpec>& bodies)
+  using ShapeOf = RigidShape(const ParticleSpec&, double unit);
+
+  BodyOverlaps(const Scene& scene, const std::vector<BodySpec>& bodies, ShapeOf& shape_of)
       : scene_(*scene.space),
         bodies_(bodies),
         tools_(tool_shapes(scene_)),
@@ -48,7 +50,7 @@ class BodyOverlaps {
     for (const ParticleSpec& particle : scene_.particles) sum += diameter_of(particle.shape);
     unit_ = sum / static_cast<double>(scene_.particles.size());
     for (const ParticleSpec& particle : scene_.particles)
-      shapes_.push_back(rigid_shape(particle.shape, unit_));
+      shapes_.push_back(shape_of(particle, unit_));
     for (const BodySpec& body : bodies)
       poses_.push_back({vector_of(body.position / unit_), turn_of(body.rotation)});
   }
@@ -163,6 +165,10 @@ class BodyOverlaps {
   std::size_t pairs_ = 0;
 };
 
+RigidShape true_shape(const ParticleSpec& particle, double unit) {
+  return rigid_shape(particle.shape, unit);
+}
+
 class OverlapReport {
  public:
   OverlapReport(const Scene& scene, const std::vector<BodySpec>& bodies)
@@ -239,7 +245,7 @@ class OverlapReport {
 
 std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodies) {
   if (bodies.empty()) return 0;
-  BodyOverlaps search(scene, bodies);
+  BodyOverlaps search(scene, bodies, true_shape);
   OverlapReport report(scene, bodies);
   for (std::size_t t = 0; t < scene.space->tools.size(); ++t) {
     const std::vector<Overlap> found = search.with_tool(t);
@@ -254,6 +260,34 @@ std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodi
   for (const Overlap& overlap : search.between_particles()) report.particles(overlap);
   report.throw_if_any();
   return search.pairs();
+}
+
+std::vector<std::string> contact_overlap_warnings(const Scene& scene,
+                                                  const std::vector<BodySpec>& bodies) {
+  if (bodies.empty()) return {};
+  BodyOverlaps search(scene, bodies, contact_shape);
+  std::size_t count = 0;
+  double deepest = 0;
+  std::string where;
+  const auto see = [&](const std::vector<Overlap>& overlaps, const auto& name_of) {
+    count += overlaps.size();
+    for (const Overlap& overlap : overlaps) {
+      if (overlap.depth <= deepest) continue;
+      deepest = overlap.depth;
+      where = fmt::format("particle {} and {}", overlap.particle, name_of(overlap.other));
+    }
+  };
+  see(search.between_particles(), [](std::size_t i) { return fmt::format("particle {}", i); });
+  for (std::size_t t = 0; t < scene.space->tools.size(); ++t)
+    see(search.with_tool(t),
+        [&](std::size_t tool) { return fmt::format("tool '{}'", scene.space->tools[tool].name); });
+  if (count == 0) return {};
+  return {
+      fmt::format("the surfaces that contacts see bulge out over their shapes: at the start {}, by "
+                  "up to {:.3g} "
+                  "m ({}), and push each other apart; leave as much room, or take more divisions",
+                  count == 1 ? "two overlap" : fmt::format("they overlap in {} places", count),
+                  deepest, where)};
 }
 
 }  // namespace pulvis::space

@@ -2,6 +2,7 @@
 
 #include "scenes/checks/setup_warnings.hpp"
 #include "scenes/space/class_shape.hpp"
+#include "scenes/space/overlaps.hpp"
 #include "scenes/space/tools/powder.hpp"
 #include "scenes/space/travel.hpp"
 
@@ -26,6 +27,8 @@ FastTool fastest_in_space(const Scene& scene) {
 
 std::vector<std::string> setup_warnings(const Scene& scene, const std::vector<BodySpec>& bodies) {
   std::vector<std::string> lines = coarse_surface_warnings(scene);
+  for (std::string& line : contact_overlap_warnings(scene, bodies))
+    lines.push_back(std::move(line));
   for (std::string& line : travel_warnings(scene, bodies)) lines.push_back(std::move(line));
   const FastTool fast = fastest_in_space(scene);
   if (!(fast.speed > 0)) return lines;

@@ -189,7 +189,9 @@ std::vector<Key<ParticleSpec>> mesh_keys() {
             .range = within(1, 64),
             .doc = "Elements along each edge of the cube in the middle: its core has divisions^3, "
                    "the surface 6 divisions^2 faces (with `axial_divisions` m: divisions^2 m and "
-                   "2 divisions^2 + 4 divisions m).",
+                   "2 divisions^2 + 4 divisions m). The cube lies along the shape's axes; of polyhedra "
+                   "and STL shapes it is turned to where contacts see the shape best, unless "
+                   "`axial_divisions` is given.",
             .fallback_doc = "by `accuracy`; beside `rings` 4"},
            [](ParticleSpec& spec, const Decoded& value) {
              spec.mesh.divisions = static_cast<int>(value.integer);

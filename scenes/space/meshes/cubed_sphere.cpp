@@ -16,6 +16,11 @@ CubedSphere::CubedSphere(const Lattice& divisions, int rings)
       }
 }
 
+std::array<double, 3> CubedSphere::on_cube(const Lattice& at) const {
+  const auto along = [&](int axis) { return 2.0 * entry(at, axis) / divisions(axis) - 1; };
+  return {along(0), along(1), along(2)};
+}
+
 Lattice CubedSphere::core_point(int number) const {
   const int row = divisions_[0] + 1, plane = row * (divisions_[1] + 1);
   return {number % row, number % plane / row, number / plane};

@@ -24,6 +24,8 @@ class CubedSphere {
   int layer_nodes() const { return static_cast<int>(rim_.size()); }
   int nodes() const { return rings_ * layer_nodes() + static_cast<int>(number_.size()); }
 
+  // Of a lattice point, in [-1, 1]^3.
+  std::array<double, 3> on_cube(const Lattice& at) const;
   // The lattice points of a layer's nodes, and those of the core's.
   const std::vector<Lattice>& rim() const { return rim_; }
   Lattice core_point(int number) const;

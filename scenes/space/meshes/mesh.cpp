@@ -1,15 +1,14 @@
 #include "scenes/space/meshes/mesh.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <limits>
 #include <stdexcept>
 
-#include "engine/portable_math.hpp"
+#include "engine/result_cache.hpp"
 #include "scenes/space/meshes/cubed_sphere.hpp"
 #include "scenes/space/meshes/element_constants.hpp"
 #include "scenes/space/meshes/extruded_disc.hpp"
+#include "scenes/space/meshes/mesh_axes.hpp"
 #include "scenes/space/meshes/smooth_hexahedra.hpp"
 #include "scenes/space/meshes/smooth_surface.hpp"
 #include "scenes/space/meshes/true_volume.hpp"
@@ -18,35 +17,6 @@ namespace pulvis::space {
 namespace {
 
 constexpr Smoothing smoothing{0.5, 200};
-
-// In [-1, 1]^3.
-Vec3 cube_place(const CubedSphere& grid, const Lattice& at) {
-  const auto along = [&](int axis) { return 2.0 * entry(at, axis) / grid.divisions(axis) - 1; };
-  return {along(0), along(1), along(2)};
-}
-
-// Equiangular on a ball: its faces are of similar size.
-Vec3 on_square_box(const Vec3& on_cube) {
-  return (std::numbers::pi / 4 * on_cube).unaryExpr([](double a) { return portable::tan(a); });
-}
-
-// The cube with its sections drawn into circles: edges that run around the z axis come to lie on the rims of a cylinder.
-// (Fong, Analytical methods for squaring the disc, 2014: elliptical grid.)
-Vec3 on_round_box(const Vec3& on_cube) {
-  const auto even = [](double a) {
-    return std::numbers::sqrt2 * portable::sin(std::numbers::pi / 4 * a);
-  };
-  const double x = even(on_cube.x()), y = even(on_cube.y());
-  return {x * std::sqrt(1 - y * y / 2), y * std::sqrt(1 - x * x / 2), on_cube.z()};
-}
-
-// Where a point of the cube's surface is projected onto the true one.
-Vec3 direction_of(const Vec3& on_cube, const StarSurface& surface) {
-  const Vec3 square = on_square_box(on_cube), round = on_round_box(on_cube);
-  const double share = surface.roundness();
-  const Vec3 on_box = (1 - share) * square + share * round;
-  return on_box.cwiseProduct(surface.half_size()).normalized();
-}
 
 // Moves the nodes of the surface, the first ones.
 void make_surface_true(std::vector<Vec3>& nodes, int surface_nodes,
@@ -80,19 +50,23 @@ class Mesher {
     const auto in_core = [&](const Vec3& on_cube) {
       const double out = on_cube.cwiseAbs().maxCoeff();
       if (out == 0) return Vec3(Vec3::Zero());
-      const Vec3 round = surface_.point(direction_of(on_cube / out, surface_)) * out;
+      const Vec3 round = surface_.point(surface_.direction_of(on_cube / out)) * out;
       return Vec3(core.cwiseProduct(0.5 * round + 0.35 * on_cube.cwiseProduct(half)));
     };
     for (int layer = 0; layer < grid_.rings(); ++layer)
       for (const Lattice& at : grid_.rim()) {
-        const Vec3 on_cube = cube_place(grid_, at);
+        const Vec3 on_cube = place_on_cube(at);
         const double share = static_cast<double>(layer) / grid_.rings();
-        nodes_.push_back((1 - share) * surface_.point(direction_of(on_cube, surface_)) +
+        nodes_.push_back((1 - share) * surface_.point(surface_.direction_of(on_cube)) +
                          share * in_core(on_cube));
       }
     for (int i = grid_.core_node({0, 0, 0}); i < grid_.nodes(); ++i)
-      nodes_.push_back(
-          in_core(cube_place(grid_, grid_.core_point(i - grid_.core_node({0, 0, 0})))));
+      nodes_.push_back(in_core(place_on_cube(grid_.core_point(i - grid_.core_node({0, 0, 0})))));
+  }
+
+  Vec3 place_on_cube(const Lattice& at) const {
+    const std::array<double, 3> place = grid_.on_cube(at);
+    return {place[0], place[1], place[2]};
   }
 
   // Over the size of the shape.
@@ -131,20 +105,87 @@ void mesh_by_extrusion(const CylinderShape& cylinder, const MeshSpec& mesh,
   set_mesh(shape, disc.nodes, disc.surface_nodes, disc.hexahedra);
 }
 
+// As seen from the axes that the mesh is laid along, where those are not the shape's own.
+using Seen = const TurnedSurface*;
+
+// From `nodes` and `hexahedra` on.
+void complete(Shape& shape, const StarSurface& surface) {
+  shape.true_volume = surface.volume();
+  complete_elements(shape);  // the stiffness of the faces is made of the elements' volumes,
+  complete_surface(shape, surface);
+  complete_elements(shape);  // and the contact's frequencies of the faces
+}
+
+Shape shape_on_cube(const MeshSpec& mesh, const StarSurface& surface, Seen seen) {
+  Shape shape;
+  mesh_on_cube(mesh, seen ? *seen : surface, shape);
+  if (seen)
+    for (Point& p : shape.nodes) {
+      const Vec3 at = seen->in_own_axes({p[0], p[1], p[2]});
+      p = {at.x(), at.y(), at.z()};
+    }
+  complete(shape, surface);
+  return shape;
+}
+
+// A polyhedron or a scan lies anyhow in its file. The cube is turned to where contacts see the shape best; it stays along
+// the shape's own axes where that gains little.
+Shape shape_on_fitting_cube(const MeshSpec& mesh, const StarSurface& surface) {
+  constexpr double clearly = 0.8;
+  std::optional<Shape> best;
+  double best_error = std::numeric_limits<double>::infinity();
+  const auto try_along = [&](Seen seen, double less_than) {
+    try {
+      Shape shape = shape_on_cube(mesh, surface, seen);
+      if (!(shape.surface_error < less_than)) return;
+      best_error = shape.surface_error;
+      best = std::move(shape);
+    } catch (const std::invalid_argument&) {  // folded
+    }
+  };
+  try_along(nullptr, best_error);
+  for (const TurnedSurface& seen : turned_to_fit(surface, mesh.divisions))
+    try_along(&seen, clearly * best_error);
+  return best ? *std::move(best) : shape_on_cube(mesh, surface, nullptr);
+}
+
+struct ShapeKey {
+  ParticleShape shape;
+  MeshSpec mesh;
+  bool operator==(const ShapeKey&) const = default;
+};
+
+// `axial_divisions` are along the shape's own z.
+bool has_free_axes(const ShapeKey& of) {
+  return !of.mesh.axial_divisions && (std::holds_alternative<PolyhedronShape>(of.shape) ||
+                                      std::holds_alternative<StlShape>(of.shape));
+}
+
+Shape shape_of(const ShapeKey& of) {
+  const auto& [true_shape, mesh] = of;
+  const std::unique_ptr<StarSurface> surface = star_surface(true_shape);
+  if (has_free_axes(of)) return shape_on_fitting_cube(mesh, *surface);
+  if (mesh.grid == MeshSpec::Grid::cube) return shape_on_cube(mesh, *surface, nullptr);
+  Shape shape;
+  mesh_by_extrusion(std::get<CylinderShape>(true_shape), mesh, *surface, shape);
+  complete(shape, *surface);
+  return shape;
+}
+
+std::size_t bytes_of(const Shape& shape) {
+  return shape.hexahedra.size() *
+         (sizeof(shape.hexahedra[0]) + sizeof(shape.element[0]) + sizeof(shape.gauss[0]));
+}
+
 }  // namespace
 
 Shape make_shape(const ParticleSpec& particle) {
-  const std::unique_ptr<StarSurface> surface = star_surface(particle.shape);
-  Shape shape;
+  // Packings, the layout of the particles, the summary and the warnings of a scene ask for the same shapes, and so do the
+  // runs of a study.
+  static ResultCache<ShapeKey, Shape> cache(32 << 20);  // bytes, about
+  const auto size = [&](const Shape& made) { return stl_bytes(particle.shape) + bytes_of(made); };
+  Shape shape = cache.get({particle.shape, particle.mesh}, shape_of, size);
   shape.name = particle.name;
-  if (particle.mesh.grid == MeshSpec::Grid::extruded)
-    mesh_by_extrusion(std::get<CylinderShape>(particle.shape), particle.mesh, *surface, shape);
-  else
-    mesh_on_cube(particle.mesh, *surface, shape);
-  shape.true_volume = surface->volume();
-  complete_elements(shape);  // the stiffness of the faces is made of the elements' volumes,
-  complete_surface(shape, *surface);
-  complete_elements(shape);  // and the contact's frequencies of the faces
   return shape;
 }
 

@@ -51,6 +51,7 @@ constexpr std::array looked_at{0.0, 0.03, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 1.0};
 // How well a smooth surface stands for the true one.
 struct Likeness {
   double distance = 0;  // m, from the true surface at most, as the centre of volume sees it
+  double bulge = 0;     // m, outwards along its normal at most
   double cosine = 1;    // between both normals at least; <= 0: the surface is folded
   double evenness = 1;  // least area that (u, v) stands for, over the mean of the face
 
@@ -66,9 +67,10 @@ Likeness likeness(const SurfaceNet& net, const std::vector<Vec3>& points,
       for (const double v : looked_at) {
         const PatchPoint patch = patch_at(points_of(net, f), points, u, v);
         const Vec3 direction = patch.at.normalized();
-        worst.distance = std::max(worst.distance, (patch.at - surface.point(direction)).norm());
-        const double area = patch.area().norm(),
-                     along = patch.area().dot(surface.normal(direction));
+        const Vec3 off = patch.at - surface.point(direction), normal = surface.normal(direction);
+        worst.distance = std::max(worst.distance, off.norm());
+        worst.bulge = std::max(worst.bulge, off.dot(normal));
+        const double area = patch.area().norm(), along = patch.area().dot(normal);
         worst.cosine = std::min(worst.cosine, along > 0 ? along / area : -1.0);
         least = std::min(least, area);
         sum += area;
@@ -326,6 +328,7 @@ void complete_surface(Shape& shape, const StarSurface& surface) {
   store_faces(shape, net);
   store_points(shape, net, fit.points(), fit.smoothing());
   shape.surface_error = fit.reached().distance;
+  shape.surface_bulge = fit.reached().bulge;
   if (!(fit.reached().cosine > 0)) throw std::invalid_argument("its smooth surface is folded");
   measure(shape);
 }

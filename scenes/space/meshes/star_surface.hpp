@@ -20,6 +20,8 @@ class StarSurface {
   virtual double roundness() const { return 0; }
 
   Vec3 point(const Vec3& direction) const { return radius(direction) * direction; }
+  // Unit vector: along which a point of the surface of the cube [-1, 1]^3 is projected onto this one, for a mesh.
+  Vec3 direction_of(const Vec3& on_cube) const;
 };
 
 std::unique_ptr<StarSurface> star_surface(const ParticleShape& shape);

@@ -1,5 +1,6 @@
 #include "scenes/space/meshes/true_volume.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/portable_math.hpp"
@@ -9,6 +10,8 @@ namespace pulvis::space {
 namespace {
 
 using Quads = std::vector<std::array<int, 4>>;
+
+constexpr double most_shift = 1.0 / 6;  // of the edges at a node: more makes spikes of sharp bends
 
 struct BilinearPlace {
   Vec3 at, area;
@@ -71,6 +74,19 @@ std::vector<double> shifts(const std::vector<Vec3>& nodes, const Quads& quads,
   return volume;
 }
 
+// The mean length of the edges at each node.
+std::vector<double> edge_lengths(const std::vector<Vec3>& nodes, const Quads& quads) {
+  std::vector<double> length(nodes.size()), sides(nodes.size());
+  for (const auto& quad : quads)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (const std::size_t beside : {k + 1, k + 3}) {
+        entry(length, quad[k]) += (entry(nodes, quad[beside % 4]) - entry(nodes, quad[k])).norm();
+        entry(sides, quad[k]) += 1;
+      }
+  for (std::size_t i = 0; i < nodes.size(); ++i) length[i] /= sides[i];
+  return length;
+}
+
 }  // namespace
 
 double volume_inside(const std::vector<Vec3>& nodes, const Quads& quads) {
@@ -87,7 +103,7 @@ double volume_inside(const std::vector<Vec3>& nodes, const Quads& quads) {
 void make_volume_true(std::vector<Vec3>& nodes, const Quads& quads, const StarSurface& surface) {
   std::vector<Vec3> normal;
   for (const Vec3& node : nodes) normal.push_back(surface.normal(node.normalized()));
-  const std::vector<double> shift = shifts(nodes, quads, normal, surface);
+  std::vector<double> shift = shifts(nodes, quads, normal, surface);
   const auto moved = [&](double factor) {
     std::vector<Vec3> to = nodes;
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * shift[i] * normal[i];
@@ -103,7 +119,10 @@ void make_volume_true(std::vector<Vec3>& nodes, const Quads& quads, const StarSu
     missing = now;
     factor = next;
   }
-  nodes = moved(factor);
+  const std::vector<double> length = edge_lengths(nodes, quads);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    shift[i] = std::min(factor * shift[i], most_shift * length[i]);
+  nodes = moved(1);
   const double scale = portable::cbrt(wanted / volume_inside(nodes, quads));
   for (Vec3& node : nodes) node *= scale;
 }

@@ -89,7 +89,7 @@ class RandomPacking {
   void add(const MixtureSize& size) {
     const int particle = sized_class(scene_, size.particle, size.scale);
     order_.shapes.push_back(
-        rigid_shape(scene_.particles[static_cast<std::size_t>(particle)].shape, unit_));
+        contact_shape(scene_.particles[static_cast<std::size_t>(particle)], unit_));
     classes_.push_back(particle);
     order_.shape_of.insert(order_.shape_of.end(), static_cast<std::size_t>(size.count),
                            static_cast<int>(order_.shapes.size()) - 1);

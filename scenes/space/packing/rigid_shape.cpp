@@ -4,11 +4,13 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <tuple>
 
 #include "engine/portable_math.hpp"
 #include "engine/result_cache.hpp"
 #include "scenes/space/meshes/convex_hull.hpp"
+#include "scenes/space/meshes/mesh.hpp"
 #include "scenes/space/meshes/rounded_polyhedron.hpp"
 #include "scenes/space/meshes/star_surface.hpp"
 #include "scenes/space/meshes/stl.hpp"
@@ -266,6 +268,19 @@ RigidShape rigid_shape(const ParticleShape& shape, double unit) {
     return sizeof(RigidKey) + stl_bytes(shape) + made.table.bytes();
   };
   return cache.get({shape, unit}, make_rigid, size);
+}
+
+RigidShape contact_shape(const ParticleSpec& particle, double unit) {
+  constexpr double little = 0.002;  // of the mean radius: spheres are taken as they are
+  RigidShape shape = rigid_shape(particle.shape, unit);
+  try {
+    const double bulge = make_shape(particle).surface_bulge / unit;
+    if (bulge < little * shape.diameter / 2) return shape;
+    shape.radius += bulge;
+    shape.reach += bulge;
+  } catch (const std::invalid_argument&) {  // no mesh of it: told by the layout of the particles
+  }
+  return shape;
 }
 
 double volume_of(const ParticleShape& shape) { return star_surface(shape)->volume(); }

@@ -29,6 +29,10 @@ struct RigidShape {
 // In units of `unit` (m).
 RigidShape rigid_shape(const ParticleShape& shape, double unit);
 
+// With what the smooth surface of its mesh, which contacts see, bulges out over the true one, if that is more than little:
+// particles that touch by their true surfaces would be pressed into each other.
+RigidShape contact_shape(const ParticleSpec& particle, double unit);
+
 inline V3 vector_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 inline Turn turn_of(const Rotation& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 

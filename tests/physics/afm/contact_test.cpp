@@ -121,11 +121,13 @@ TEST(Wedge, ALoopWhoseLoadDriftsGivesNoFriction) {
 
 TEST(Wedge, FrictionComesBackOutOfTheFormula) {
   for (const double degrees : {14.0, -12.5})
-    for (const double mu : {0.02, 0.1, 0.6}) {
-      const double a = degrees * std::numbers::pi / 180;
-      const double up = wedge::uphill(1, 0, mu, a), down = wedge::downhill(1, 0, mu, a);
-      EXPECT_NEAR(*wedge::friction((up - down) / 2, (up + down) / 2, a), mu, 1e-12);
-    }
+    for (const double mu : {0.02, 0.1, 0.6})
+      for (const double adhesion : {0.0, 0.5}) {
+        const double a = degrees * std::numbers::pi / 180;
+        const double up = wedge::uphill(2, 2 * adhesion, mu, a),
+                     down = wedge::downhill(2, 2 * adhesion, mu, a);
+        EXPECT_NEAR(*wedge::friction((up - down) / 2, (up + down) / 2, a, adhesion), mu, 1e-12);
+      }
 }
 
 TEST(AfmContact, AFrictionlessSlopeOfOnePushesAsMuchSidewaysAsUp) {

@@ -196,6 +196,39 @@ body = [{ particle = "disc", position = ["0 mm", "5 mm"] }, { particle = "grain"
   EXPECT_THAT(loaded.text_in_place, HasSubstr("file = \"parts/grain/corners.csv\""));
 }
 
+// A saved scene names its files in the order of the language: a run must be known again by it.
+TEST_F(Extends, TheHashDoesNotDependOnTheOrderOfFiles) {
+  write("corners.csv", "x (mm), y (mm)\n5, 0\n4, 4\n0, 5\n-4, 4\n-5, 0\n-4, -4\n0, -5\n4, -4\n");
+  write("flow.csv", "plastic_strain, stress [MPa]\n0, 200\n0.1, 250\n");
+  const LoadedScene loaded = load(R"(extends = "base.toml"
+[[body]]
+particle = "grain"
+position = ["20 mm", "5 mm"]
+[[body]]
+particle = "disc"
+position = ["0 mm", "5 mm"]
+[[particle]]
+name = "grain"
+material = "soft"
+outline = "points"
+file = "corners.csv"
+mesh.size = "2 mm"
+[[material]]
+name = "soft"
+density = "7850 kg/m^3"
+youngs_modulus = "200 GPa"
+poissons_ratio = 0.3
+hardening = { law = "table", file = "flow.csv" }
+)");
+  ASSERT_EQ(loaded.inputs.size(), 2U);
+  write("saved/scene.toml", loaded.text);
+  for (const InputFile& input : loaded.inputs) {
+    fs::create_directories((place / "saved" / input.copy).parent_path());
+    fs::copy_file(input.source, place / "saved" / input.copy);
+  }
+  EXPECT_EQ(load_scene(place / "saved" / "scene.toml").hash, loaded.hash);
+}
+
 TEST_F(Extends, OverridesChangeTheWhole) {
   const std::string text = "extends = \"base.toml\"\n[contact]\nfriction = 0.5";
   const std::vector<std::string> overrides{"contact.friction=0.7",

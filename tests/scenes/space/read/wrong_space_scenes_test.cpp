@@ -107,7 +107,7 @@ const std::vector<WrongSpaceScene> wrong_in_space{
      {"one plane"}},
     // Three faces of the cube end in each of its corners: two divisions leave nothing of them.
     {"FoldedSurface",
-     {"particle.pill.mesh.divisions=2", "particle.pill.rounding=0.2 mm"},
+     {"particle.pill.mesh.divisions=2", "particle.pill.rounding=0.05 mm"},
      {pill_sizes,
       "shape = \"polyhedron\"\ncorners = [[\"0 mm\", \"0 mm\", \"0 mm\"], [\"4 mm\", \"0 mm\", \"0 "
       "mm\"], [\"0 mm\", \"4 mm\", \"0 mm\"], [\"0 mm\", \"0 mm\", \"4 mm\"]]\n"},

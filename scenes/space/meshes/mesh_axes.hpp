@@ -1,0 +1,37 @@
+// How the cube of a cubed-sphere mesh lies in a shape that has no axes of its own: a polyhedron or a scan, as its file turns
+// it.
+#pragma once
+
+#include <vector>
+
+#include "scenes/space/meshes/star_surface.hpp"
+
+namespace pulvis::space {
+
+// A shape as seen from axes turned by `axes` from its own. Keeps a reference to the surface.
+class TurnedSurface final : public StarSurface {
+ public:
+  // `points`: of the surface, in its own axes, many enough to tell its extents.
+  TurnedSurface(const StarSurface& surface, const Rotation& axes, const std::vector<Vec3>& points);
+
+  double radius(const Vec3& d) const override { return surface_.radius(axes_ * d); }
+  Vec3 normal(const Vec3& d) const override {
+    return axes_.transpose() * surface_.normal(axes_ * d);
+  }
+  Vec3 half_size() const override { return half_size_; }
+  double volume() const override { return surface_.volume(); }
+  double roundness() const override { return surface_.roundness(); }
+
+  Vec3 in_own_axes(const Vec3& p) const { return axes_ * p; }
+
+ private:
+  const StarSurface& surface_;
+  Eigen::Matrix3d axes_;
+  Vec3 half_size_;
+};
+
+// The surface from axes in which its mesh may lie closer to it than in its own, as far as a search finds them: those of the
+// least box around it, and those that leave clearly less between it and a mesh of so many divisions.
+std::vector<TurnedSurface> turned_to_fit(const StarSurface& surface, int divisions);
+
+}  // namespace pulvis::space
