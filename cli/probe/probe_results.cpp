@@ -11,11 +11,18 @@
 namespace pulvis {
 namespace {
 
-// Number of the first sample at or behind the end of a stage; none: the stage has not ended.
-std::optional<double> end_of_stage(const StudyResult& result, const std::string& name) {
+struct StageTimes {
+  double begin = 0, end = 0;  // s
+};
+// None: the stage has not ended.
+std::optional<StageTimes> times_of_stage(const StudyResult& result, const std::string& name) {
   if (!result.summary.contains("stages")) return std::nullopt;
-  for (const auto& stage : result.summary.at("stages"))
-    if (stage.at("name") == name) return stage.at("end").get<double>();
+  double begin = 0;
+  for (const auto& stage : result.summary.at("stages")) {
+    const double end = stage.at("end").get<double>();
+    if (stage.at("name") == name) return StageTimes{begin, end};
+    begin = end;
+  }
   return std::nullopt;
 }
 
@@ -71,21 +78,20 @@ std::vector<ProbeState> states_of(const ProbeLoading& loading, const ProbeSpec& 
   std::vector<ProbeState> states;
   for (const double density : spec.densities) {
     const std::string name = density_name(density);
-    const auto end = end_of_stage(result, name);
-    if (!end || !std::filesystem::exists(result.folder / ("state-" + name + ".h5"))) continue;
+    const auto stage = times_of_stage(result, name);
+    if (!stage || !std::filesystem::exists(result.folder / ("state-" + name + ".h5"))) continue;
     ProbeState state{loading.path, loading.seed, density, loading.name};
-    const auto value = [&](const char* series) {
-      return at_time(result.series("time"), result.series(series), *end);
+    const auto value_at = [&](double time, const char* series) {
+      return at_time(result.series("time"), result.series(series), time);
     };
-    state.density = value("relative_density");
-    constexpr double overshoot =
-        0.005;  // of a stage that ends at the first step that reaches its density
-    if (state.density > (1 + overshoot) * density) {
+    if (const double before = value_at(stage->begin, "relative_density"); before >= density) {
       passed.push_back(fmt::format(
           "{}: the powder has a relative density of {:.4f} before it is pressed to {:g}",
-          loading.name, state.density, density));
+          loading.name, before, density));
       continue;
     }
+    const auto value = [&](const char* series) { return value_at(stage->end, series); };
+    state.density = value("relative_density");
     state.stress = {value("cell/stress_xx"), value("cell/stress_yy"), value("cell/stress_xy"),
                     value("stress/zz")};
     state.pressure = -(state.stress[0] + state.stress[1] + state.stress[3]) / 3;

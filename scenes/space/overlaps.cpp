@@ -264,7 +264,10 @@ std::size_t check_overlaps(const Scene& scene, const std::vector<BodySpec>& bodi
 
 std::vector<std::string> contact_overlap_warnings(const Scene& scene,
                                                   const std::vector<BodySpec>& bodies) {
-  if (bodies.empty()) return {};
+  const auto bulges = [](const ParticleSpec& particle) {
+    return contact_shape(particle, 1).radius > rigid_shape(particle.shape, 1).radius;
+  };
+  if (bodies.empty() || std::ranges::none_of(scene.space->particles, bulges)) return {};
   BodyOverlaps search(scene, bodies, contact_shape);
   std::size_t count = 0;
   double deepest = 0;

@@ -121,7 +121,7 @@ void make_volume_true(std::vector<Vec3>& nodes, const Quads& quads, const StarSu
   }
   const std::vector<double> length = edge_lengths(nodes, quads);
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    shift[i] = std::min(factor * shift[i], most_shift * length[i]);
+    shift[i] = std::clamp(factor * shift[i], -most_shift * length[i], most_shift * length[i]);
   nodes = moved(1);
   const double scale = portable::cbrt(wanted / volume_inside(nodes, quads));
   for (Vec3& node : nodes) node *= scale;
