@@ -98,6 +98,22 @@ class CellChecks {
       refuse(path + (drive.mean_stress ? ".mean_stress" : ".stress_ratio"),
              "the component xx has something else to follow, too, allowed: one of strain_xx, "
              "stress_xx, stress_ratio and mean_stress");
+    unused(drive, path);
+  }
+
+  // Keys of strains without any, and of stresses.
+  void unused(const CellDriveSpec& drive, const std::string& path) {
+    const bool strains =
+        drive.strain_xx || drive.strain_yy || drive.strain_xy || drive.rotation != 0;
+    const bool stresses = drive.stress_xx || drive.stress_yy || drive.stress_xy ||
+                          drive.stress_ratio || drive.mean_stress;
+    const auto only_with = [&](const std::string& key, bool any, const char* what) {
+      if (!any && origins_.contains(path + key))
+        refuse(path + key, fmt::format("has no effect without {0}, allowed: with {0}", what));
+    };
+    only_with(".ramp", strains, "a strain or a rotation");
+    for (const char* key : {".rise", ".response", ".tolerance"})
+      only_with(key, stresses, "a stress");
   }
 
   // Of a scene without a cell.

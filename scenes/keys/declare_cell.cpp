@@ -114,28 +114,31 @@ const TableDeclaration<CellDriveSpec>& cell_drive() {
        {{.name = "ramp",
          .kind = Kind::number,
          .range = above(0, 0.5),
-         .fallback = value_of(0.1),
-         .doc = "Share of the stage in which the rates of strain rise smoothly, and fall again."},
+         .doc =
+             "Share of the stage in which the rates of strain rise smoothly, and fall again; only "
+             "with a strain or a rotation.",
+         .fallback_doc = "0.1"},
         to(&CellDriveSpec::ramp)},
        {{.name = "rise",
          .kind = Kind::number,
          .range = within(0, 1),
-         .fallback = value_of(0.2),
-         .doc = "Share of the stage in which a stress rises smoothly to what is asked for."},
+         .doc =
+             "Share of the stage in which a stress rises smoothly to what is asked for; only with "
+             "a stress, as `response` and `tolerance`.",
+         .fallback_doc = "0.2"},
         to(&CellDriveSpec::rise)},
        {{.name = "response",
          .kind = Kind::number,
          .range = within(1e-3, 1e3),
-         .fallback = value_of(0.1),
-         .doc =
-             "Inertia of the cell over that of the powder in it: how fast a stress is followed."},
+         .doc = "Inertia of the cell over that of the powder in it: how fast a stress is followed.",
+         .fallback_doc = "0.1"},
         to(&CellDriveSpec::response)},
        {{.name = "tolerance",
          .kind = Kind::number,
          .range = above(0, 1e9),
-         .fallback = value_of(0.05),
          .doc = "Share of the largest stress asked for by which each may be off at the end of the "
-                "stage; otherwise the run stops and says what was reached."},
+                "stage; otherwise the run stops and says what was reached.",
+         .fallback_doc = "0.05"},
         to(&CellDriveSpec::tolerance)}}};
   return declaration;
 }

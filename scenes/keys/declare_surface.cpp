@@ -135,8 +135,8 @@ std::vector<Key<TargetSpec>> law_keys() {
         .kind = Kind::quantity,
         .unit = "m",
         .range = within(1e-12, 1e-3),
-        .fallback = value_of("1 nm"),
-        .doc = "Gap r over which attraction fades as 1/(1 + gap/r)^2."},
+        .doc = "Gap r over which attraction fades as 1/(1 + gap/r)^2; only with DMT.",
+        .fallback_doc = "1 nm"},
        to(&TargetSpec::range)},
   };
 }

@@ -283,6 +283,7 @@ class AfmChecks {
     if (target.adhesion == TargetSpec::Adhesion::dmt)
       return only_with("surface.work_of_adhesion", "jkr", target.work != 0);
     only_with("surface.pull_off", "dmt", target.pull_off != 0);
+    only_with("surface.adhesion_range", "dmt", origins_.contains("surface.adhesion_range"));
     if (target.work == 0)
       refuse("surface.work_of_adhesion", "required key is missing, allowed: a quantity in J/m^2");
     if (tip_.shape != Shape::sphere)

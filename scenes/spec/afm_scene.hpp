@@ -94,7 +94,7 @@ struct TargetSpec {
   double friction = 0;    // -
   enum class Adhesion { dmt, jkr } adhesion = Adhesion::dmt;
   double pull_off = 0;  // N, DMT
-  double range = 0;     // m, of adhesion, DMT
+  double range = 1e-9;  // m, of adhesion, DMT
   double work = 0;      // J/m^2, JKR
 };
 

@@ -206,6 +206,8 @@ def test_titles_can_be_left_out(compact, tmp_path):
     (("--animate", "film.avi"), "--animate film.avi: allowed: a file .mp4 or .gif"),
     (("--field", "presure"), "no field presure of cells or particles; there are: "),
     (("--frame", "7"), "frame 7: there are 0 to 4"),
+    (("--across", "z"), "--across and --at are of sections, which three dimensions have"),
+    (("--at", "1mm"), "--across and --at are of sections"),
 ])
 def test_wrong_options_are_refused_by_name_value_and_what_is_allowed(compact, tmp_path, words, says):
     assert says in call("figure", compact, *words, code=2, cwd=tmp_path)
@@ -314,6 +316,7 @@ def test_names_come_from_one_table():
     assert label("effective_stress", "MPa") == r"Effective stress $\sigma_\mathrm{eff}$ / MPa"
     assert label("tool/upper punch/force_y", "kN") == "Force on upper punch $F_y$ / kN"
     assert label("stress:4", "Pa", 4) == r"Stress $\sigma_{xy}$ / Pa"
+    assert label("stress:6", "Pa", 6) == r"Stress $\sigma_{zx}$ / Pa"
     assert label("peak/top_force", "N").startswith("Top force at peak density")
     assert name_of("something/of_mine").words == "something, of mine"
     assert over("Energy", "J/m^3") == "Energy / (J/m³)"

@@ -245,6 +245,7 @@ TEST(Jkr, WhatItDoesNotHoldForIsRefused) {
     EXPECT_NE(refusal(overrides).find(why), std::string::npos) << refusal(overrides);
   };
   refused({"surface.pull_off=1 nN"}, "surface.pull_off: is of another law");
+  refused({"surface.adhesion_range=2 nm"}, "surface.adhesion_range: is of another law");
   refused({"surface.adhesion=dmt"}, "surface.work_of_adhesion: is of another law");
   refused({"surface.work_of_adhesion=0 J/m^2"}, "surface.work_of_adhesion");
   refused({"surface.work_of_adhesion=1 N"}, "surface.work_of_adhesion");

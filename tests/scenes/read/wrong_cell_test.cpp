@@ -96,6 +96,14 @@ INSTANTIATE_TEST_SUITE_P(
                         "[[tool]]\nname = \"floor\"\nshape = \"plane\"\npoint = [\"0 mm\", \"0 "
                         "mm\"]\nnormal = [0, 1]\n"),
                   "tool[0]", "has no walls"},
+        WrongCell{"rise_of_strains", scene(tall, body, "strain_yy = -0.1\nrise = 0.5"),
+                  "stage[0].cell.rise", "no effect without a stress"},
+        WrongCell{"tolerance_of_strains", scene(tall, body, "strain_yy = -0.1\ntolerance = 1"),
+                  "stage[0].cell.tolerance", "no effect without a stress"},
+        WrongCell{"response_of_strains", scene(tall, body, "rotation = \"1 deg\"\nresponse = 1"),
+                  "stage[0].cell.response", "no effect without a stress"},
+        WrongCell{"ramp_of_stresses", scene(tall, body, "stress_yy = \"-1 MPa\"\nramp = 0.2"),
+                  "stage[0].cell.ramp", "no effect without a strain"},
         WrongCell{"empty", scene(tall, body, "strain_zz = -0.1"), "stage[0].cell.strain_zz",
                   "unknown key"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });

@@ -107,8 +107,8 @@ def save_all(run, asked, options, place):
 
 def save_group(figures, what, asked, options, place):
     """Of a probe or a study."""
-    if options.series or options.field or asked.animate or asked.format in ("csv", "gsf"):
-        raise PulvisError(f"a {what} has its own figures: without --series, --field, --animate and csv")
+    if options.series or options.field or asked.animate or asked.across or asked.at or asked.format in ("csv", "gsf"):
+        raise PulvisError(f"a {what} has its own figures: without --series, --field, --across, --at, --animate and csv")
     for name, figure in figures(asked.folder, options):
         path = asked.to / f"{name}.{asked.format}"
         if figure is None:
@@ -119,6 +119,8 @@ def save_group(figures, what, asked, options, place):
 
 def save_run(run, asked, options, place):
     file = asked.output if asked.output and asked.output.suffix in FORMATS else None
+    if not run.in_space and (asked.across or asked.at):
+        raise PulvisError("--across and --at are of sections, which three dimensions have")
     if asked.animate:
         if options.series or file or asked.output:
             raise PulvisError("--animate names its file: without --series and -o")
@@ -164,8 +166,8 @@ def arguments(words=None):
     parser.add_argument("--cmap", help="colour map of what is on a scale, by matplotlib's name")
     parser.add_argument("--range", help="LOW:HIGH of the field's colours, as 0:400MPa")
     parser.add_argument("--dpi", default="200")
-    parser.add_argument("--across", choices=["x", "y", "z"], default="y", help="axis of sections and density maps in space")
-    parser.add_argument("--at", help="where, as 2mm; near the middle if not said")
+    parser.add_argument("--across", choices=["x", "y", "z"], help="in three dimensions: axis of sections and density maps, y if not said")
+    parser.add_argument("--at", help="where along that axis, as 2mm; near the middle if not said")
     parser.add_argument("--animate", type=Path, help="file .mp4 or .gif: all frames of the field, or of a lever")
     parser.add_argument("-o", "--output", type=Path, help="a file, or a folder for all figures")
     parser.add_argument("--draw-into", type=Path, help=argparse.SUPPRESS)
@@ -181,7 +183,7 @@ def arguments(words=None):
 
 
 def options_of(asked):
-    options = Options(across=asked.across, at=length("--at", asked.at), frame=asked.frame, field=asked.field, series=asked.series, against=asked.against, level=asked.level,
+    options = Options(across=asked.across or "y", at=length("--at", asked.at), frame=asked.frame, field=asked.field, series=asked.series, against=asked.against, level=asked.level,
                       width=inches("--width", asked.width), height=inches("--height", asked.height),
                       title=not asked.no_title, cmap=asked.cmap, limits=asked.range, dpi=resolution(asked.dpi),
                       vector=(asked.output.suffix if asked.output and asked.output.suffix in FORMATS else f".{asked.format}")

@@ -180,7 +180,8 @@ NAMES = {
  "components": {
   "4": ["xx", "yy", "zz", "xy"],
   "2": ["x", "y"],
-  "3": ["x", "y", "z"]
+  "3": ["x", "y", "z"],
+  "6": ["xx", "yy", "zz", "xy", "yz", "zx"]
  },
  "letters": {
   "\\rho": "ρ",
