@@ -144,6 +144,7 @@ class Probing {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
     write_probe(folder_, probe_, surfaces, time.count());
     tell("{}", caps_text(probe_, surfaces));
+    for (const ProbeSurface& surface : surfaces) warn_of_moduli(surface);
     const std::size_t missing =
         probe_.loadings.size() * probe_.spec.densities.size() - states_.size();
     if (missing > 0) tell(stderr, "pulvis: not reached: {}\n", counted(missing, "state"));
@@ -152,6 +153,19 @@ class Probing {
   }
 
  private:
+  void warn_of_moduli(const ProbeSurface& surface) const {
+    const PowderModuli& m = surface.moduli;
+    const bool none = m.c11 == 0 && m.c22 == 0;  // their runs are told of
+    if (none || m.are_of_a_solid()) return;
+    const ProbeState& state = *surface.state;
+    tell(
+        stderr,
+        "pulvis: warning: path '{}', relative density {:.4f}, seed {}: the moduli (c11 {:.3g}, c12 "
+        "{:.3g}, c22 {:.3g}, g {:.3g} GPa) are of no solid, and so are the fits: less "
+        "elastic_strain ({:g}), or a longer duration\n",
+        state.path, state.density, state.seed, m.c11 * 1e-9, m.c12 * 1e-9, m.c22 * 1e-9, m.g * 1e-9,
+        probe_.spec.elastic_strain);
+  }
   std::vector<ProbeSurface> surfaces_of(const std::vector<StudyResult>& probed) const {
     std::vector<ProbeSurface> surfaces;
     for (std::size_t s = 0; s < states_.size(); ++s) {

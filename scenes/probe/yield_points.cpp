@@ -67,6 +67,7 @@ double PowderModuli::poissons_ratio() const {
   const double shear = 0.5 * (0.5 * (c11 + c22) - c12);
   return c12 / (2 * (c12 + shear));
 }
+bool PowderModuli::are_of_a_solid() const { return c11 > 0 && c11 * c22 > c12 * c12 && g >= 0; }
 
 double YieldPoint::pressure() const { return -(stress[0] + stress[1] + stress[3]) / 3; }
 double YieldPoint::deviatoric() const {

@@ -24,6 +24,7 @@ struct PowderModuli {
   // Of the isotropic solid nearest to c11, c12, c22: G = ((c11 + c22)/2 - c12)/2, lambda = c12.
   double youngs_modulus() const;
   double poissons_ratio() const;
+  bool are_of_a_solid() const;  // every strain costs energy
 };
 
 // Least squares of stress against strain over the parts of all curves with less than `elastic_strain`. `shear`: a probe in

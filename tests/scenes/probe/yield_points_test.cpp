@@ -60,6 +60,13 @@ TEST(PowderModuli, GiveBackAnIsotropicSolid) {
   EXPECT_NEAR(m.poissons_ratio(), nu, 1e-12);
 }
 
+TEST(PowderModuli, OfAnElasticSolidTakeEnergyForEveryStrain) {
+  EXPECT_TRUE((PowderModuli{c11, c12, c22, g}.are_of_a_solid()));
+  EXPECT_FALSE((PowderModuli{c11, 1.01 * std::sqrt(c11 * c22), c22, g}.are_of_a_solid()));
+  EXPECT_FALSE((PowderModuli{-c11, 0, -c22, g}.are_of_a_solid()));
+  EXPECT_FALSE((PowderModuli{c11, c12, c22, -g}.are_of_a_solid()));
+}
+
 TEST(YieldPoints, AreOnTheSurfaceAndFlowAlongItsNormal) {
   const std::vector<ProbeCurve> curves = all_probed();
   const PowderModuli m = moduli_of(curves, nullptr, 2e-4);

@@ -92,13 +92,13 @@ def surfaces(summary, criterion, options):
 
 def models(summary, options):
     """The densest state of each path beside what theories of powders say, each with its strength fitted."""
-    paths = paths_of(summary)
+    paths = [path for path in paths_of(summary) if of_path(summary, path)[-1]["yield"]["dissipation"]["models"]]
+    if not paths:
+        return None
     figure, axes = plt.subplots(len(paths), 2, figsize=options.size(9.6, 4.0 * len(paths)), constrained_layout=True, squeeze=False)
     for row, path in zip(axes, paths):
         state = of_path(summary, path)[-1]
         mine = state["yield"]["dissipation"]
-        if not mine["models"]:
-            continue
         factor, unit = unit_for("Pa", np.array([point["p"] for point in mine["points"]]))
         for side, names, x, y in ((row[0], MODELS, "p", "q"), (row[1], PLANE_MODELS, "plane_p", "plane_shear")):
             side.plot([factor * point[x] for point in mine["points"]],
@@ -139,7 +139,10 @@ def parameters(summary, options):
                 draw_parameter(side, states, name, line, path)
     for side in axes.flat:
         side.set_xlabel(worded("relative_density", ""))
-        side.legend(fontsize=7)
+        if side.get_legend_handles_labels()[1]:
+            side.legend(fontsize=7)
+        else:
+            side.text(0.5, 0.5, "too few yield points for a fit", ha="center", transform=side.transAxes)
     axes[1][0].set_ylabel("Hydrostatic yield pressure / MPa")
     axes[1][1].set_ylabel("Cap eccentricity $R$, slope $M$")
     if options.title:
@@ -151,6 +154,8 @@ def draw_parameter(axes, states, name, line, path):
     model = 0 if name in ("p_b", "R") else 1
     found = [(state["relative_density"], state["yield"]["dissipation"]["models"][model]) for state in states
              if state["yield"]["dissipation"]["models"]]
+    if not found:
+        return
     factor = 1e-6 if name.startswith("p_") else 1
     values = [factor * one["parameters"][name] for _, one in found]
     bars = [factor * one["scatter"].get(name, {"deviation": 0})["deviation"] for _, one in found]
@@ -159,10 +164,9 @@ def draw_parameter(axes, states, name, line, path):
 
 
 def figures_of_probe(folder, options=None):
-    """Name and figure of each."""
+    """Name and figure of each; None for one whose yield points are too few."""
     options = options or Options()
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    drawn = [("yield_surfaces", surfaces(summary, "offset_strain", options)),
-             ("yield_surfaces_dissipation", surfaces(summary, "dissipation", options)),
-             ("models", models(summary, options)), ("parameters", parameters(summary, options))]
-    return [(name, figure) for name, figure in drawn if figure is not None]
+    return [("yield_surfaces", surfaces(summary, "offset_strain", options)),
+            ("yield_surfaces_dissipation", surfaces(summary, "dissipation", options)),
+            ("models", models(summary, options)), ("parameters", parameters(summary, options))]
