@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t longest_unit = 8;  // characters
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_space(char c) { return c == ' ' || c == '\t'; }
 
 std::string_view stripped(std::string_view text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t largest_file = 256U << 20U;  // bytes
 constexpr std::size_t longest_shown = 40;          // characters of a cell in a message
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -55,12 +55,13 @@ std::vector<Line> lines_of(std::string_view text, const std::filesystem::path& f
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
   std::vector<Line> lines;
   for (int number = 1; !text.empty(); ++number) {
-    const std::size_t end = text.find('\n');
+    const std::size_t end = text.find_first_of("\r\n");
     lines.push_back({text.substr(0, end), number});
     const std::size_t nul = lines.back().text.find('\0');
     if (nul != std::string_view::npos)
       refuse_at(file, number, static_cast<int>(nul) + 1, "table", "a NUL byte, allowed: text");
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const bool two = end != std::string_view::npos && text.substr(end, 2) == "\r\n";
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + (two ? 2 : 1));
   }
   return lines;
 }

@@ -34,6 +34,14 @@ TEST(CsvTable, ReadsSemicolonsDecimalCommasAndALineOfUnits) {
   EXPECT_THAT(column(text, "kraft", "N"), ElementsAre(1.25, 2));
 }
 
+TEST(CsvTable, ReadsEveryEndOfLine) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const std::string good = "x [m],y [m]" + end + "1,2" + end + "3,4" + end;
+    EXPECT_THAT(column(good, "x", "m"), ElementsAre(1, 3));
+    EXPECT_THAT(message_of([&] { column(good + "5,oops", "y", "m"); }), StartsWith("t.csv:4:3: "));
+  }
+}
+
 TEST(CsvTable, ReadsTabsQuotesAndATrailingSeparator) {
   EXPECT_THAT(column("\"a (mm)\"\tb\t\n\" 1,5 \"\tx\t\n", "a", "m"), ElementsAre(0.0015));
 }
