@@ -131,9 +131,10 @@ struct HourglassWork : Component<Particle, double, 1> {
   static constexpr ComponentInfo info{"hourglass_work", "J",
                                       "spent in plastic hourglassing so far"};
 };
-struct RateWork : Component<Particle, double, 1> {
-  static constexpr ComponentInfo info{"rate_work", "J",
-                                      "spent so far because flow at a rate bears more"};
+struct WorkBeyondHardening : Component<Particle, double, 1> {
+  static constexpr ComponentInfo info{"work_beyond_hardening", "J",
+                                      "plastic work so far beyond the area under the hardening "
+                                      "curve: by the rate of flow, and by the change of volume"};
 };
 struct ReturnResidual : Component<Particle, double, 2> {
   static constexpr ComponentInfo info{

@@ -1,6 +1,7 @@
 // Tools that hold a force, and stages that end when something is reached: only in scenes that ask for them.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -107,6 +108,12 @@ struct StageEnds {
   std::vector<Point3> tools_at_begin;  // m, [tools]: where they stood when the stage began
   double run_end = std::numeric_limits<double>::infinity();  // s: Clock::end from the next step on
   std::size_t stage = static_cast<std::size_t>(-1);
+
+  bool has_ended_early(std::size_t of_stage) const {
+    return std::ranges::any_of(ends, [&](const End& end) {
+      return end.reached && static_cast<std::size_t>(end.stage) == of_stage;
+    });
+  }
 
   // Cell and room are the scene's.
   template <class Bytes>

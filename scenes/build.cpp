@@ -94,8 +94,8 @@ void add_body_columns(World& world, const Bodies& bodies, const Needs& needs) {
   world.add<YieldStress>();
   world.add<HardeningModulus>();
   world.add<PlasticWork>();
+  world.add<WorkBeyondHardening>();
   if (needs.flow_laws) world.add<ReturnResidual>();
-  if (needs.rate) world.add<RateWork>();
 }
 
 template <class At>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "engine/run_failure.hpp"
 #include "scenes/checks/expect_checks.hpp"
@@ -125,8 +126,8 @@ double value_of(const std::string& name, const Scene& scene, const Results& resu
   return results.value(name);
 }
 
-OtherRun run_other(const Scene& scene, const std::vector<std::string>& names,
-                   const OutputSpec& output, int threads, const std::function<bool()>& stop) {
+OtherRun run_other(const Scene& scene, const std::set<std::string>& names, const OutputSpec& output,
+                   int threads, const std::function<bool()>& stop) {
   OtherRun run;
   Simulation simulation(scene, threads);
   Results results(scene, simulation.world());
@@ -158,19 +159,28 @@ OtherRun run_other(const Scene& scene, const std::vector<std::string>& names,
 }
 
 // Largest difference over the largest value of the other scene's series; infinite where nothing can
-// be compared.
+// be compared, or a sample has a value in one run only. Samples without a value in both runs are alike.
 double deviation(const ExpectSpec& expect, const Values& here, const Values& other) {
-  if (here.empty() || here.size() != other.size()) return std::numeric_limits<double>::infinity();
+  constexpr double incomparable = std::numeric_limits<double>::infinity();
+  if (here.empty() || here.size() != other.size()) return incomparable;
   const bool last = when_of(expect) == When::end;
   double largest = 0, difference = 0;
   for (std::size_t i = 0; i < here.size(); ++i) {
     const double wanted = expect.scale * other[i];
-    largest = std::max(largest, std::abs(wanted));
-    const double off = std::abs(here[i] - wanted);
-    if (!last || i + 1 == here.size())
-      if (!(off <= difference)) difference = off;
+    if (!std::isnan(wanted)) largest = std::max(largest, std::abs(wanted));
+    if (last && i + 1 != here.size()) continue;
+    if (std::isnan(here[i]) && std::isnan(wanted)) continue;
+    if (std::isnan(here[i]) || std::isnan(wanted)) return incomparable;
+    difference = std::max(difference, std::abs(here[i] - wanted));
   }
   return difference == 0 ? 0 : difference / largest;
+}
+
+std::string measured_deviation(const Values& here, const Values& other, double deviation) {
+  if (here.size() != other.size())
+    return fmt::format("{} samples against {}", here.size(), other.size());
+  if (std::isinf(deviation)) return "some samples have a value in one run only";
+  return fmt::format("{:.4g} off", deviation);
 }
 
 Verdict compare(const ExpectSpec& expect, const Values& here, const OtherRun& other) {
@@ -183,9 +193,7 @@ Verdict compare(const ExpectSpec& expect, const Values& here, const OtherRun& ot
   const Values& all = other.series.at(expect.series);
   const Values there = figure ? all : window(expect, other.times, all, other.end);
   verdict.value = deviation(expect, here, there);
-  verdict.measured = here.size() == there.size()
-                         ? fmt::format("{:.4g} off", *verdict.value)
-                         : fmt::format("{} samples against {}", here.size(), there.size());
+  verdict.measured = measured_deviation(here, there, *verdict.value);
   verdict.met = *verdict.value <= *expect.within;
   return verdict;
 }
@@ -258,9 +266,9 @@ std::vector<Verdict> Expectations::judge(const Lookup& figure, double end,
   if (scene_.expects.empty()) return verdicts;
   verdicts.push_back(outcome_of(scene_, failure));
   const std::vector<SeriesInfo> series = expectable_series(scene_);
-  std::map<std::filesystem::path, std::vector<std::string>> wanted;
+  std::map<std::filesystem::path, std::set<std::string>> wanted;
   for (const ExpectSpec& expect : scene_.expects)
-    if (!expect.like.empty()) wanted[other_scene(scene_, expect)].push_back(expect.series);
+    if (!expect.like.empty()) wanted[other_scene(scene_, expect)].insert(expect.series);
   std::map<std::filesystem::path, OtherRun> others;
   for (const auto& [file, names] : wanted)
     others[file] = run_other(read_scene_alone(file), names, scene_.output, threads, stop);

@@ -30,7 +30,6 @@ Needs needs_of(const Scene& scene, std::size_t particles) {
   needs.plastic = any_material_yields(scene);
   for (const MaterialSpec& m : scene.materials) {
     needs.flow_laws = needs.flow_laws || m.flow;
-    needs.rate = needs.rate || (m.flow && m.flow->rate.index() != 0);
   }
   const auto any = [&](ToolSpec::Shape shape) {
     return std::ranges::any_of(scene.tools, [&](const ToolSpec& t) { return t.shape == shape; });

@@ -9,7 +9,6 @@ namespace pulvis {
 struct Needs {
   bool plastic = false;    // a material yields
   bool flow_laws = false;  // and one hardens along a curve or by its rate
-  bool rate = false;       // by its rate
   bool pairs = false;      // more than one particle, or one that tools can fold onto itself
   bool tools = false;      // something that particles touch
   bool polylines = false;

@@ -8,25 +8,16 @@ or thrown against a wall. Strengths, energies, stiffness, drawn strengths, meshe
 The health checks of every run are on, and its energies balance to 1% in the end; all that is asked of it is in `faults`. A scene that
 is refused, or that stops in a health check that names what went bad, is told and counted apart.
 """
-import collections
-import json
 import math
-import pathlib
 import random
 import re
-import subprocess
 import sys
-import tempfile
 
-from random_scenes import MATERIALS, log_uniform, parser
+from random_scenes import MATERIALS, log_uniform, metres, try_all
 
 SIDE = 1e-3  # m, of a particle
 # What a physical limit says when it stops a run (exit code 3); an energy balance is no such limit.
 LIMITS = re.compile(r"penetration|inverted|det F|turned over|itself|hole|lost|left behind|unconverged|ridge|passed through")
-
-
-def metres(*numbers):
-    return "[" + ", ".join(f'"{x:.12g} m"' for x in numbers) + "]"
 
 
 class Scene:
@@ -258,68 +249,9 @@ class Scene:
                f"contact {self.contact:.2g}, damping {self.damping:.2g}"
 
 
-# ---- what is asked of a run ---------------------------------------------------------------------------
-def run(program, file, folder, threads):
-    try:
-        done = subprocess.run([program, "run", file, "-o", folder, "--overwrite", "--quiet", "--threads", str(threads)],
-                              capture_output=True, text=True, timeout=900)
-    except subprocess.TimeoutExpired:
-        return 1000, "it takes longer than 15 minutes"
-    return done.returncode, done.stderr.strip()
-
-
-def faults(outcomes, folders):
-    """(kind, text): "ok", "refused", "stopped" or "BAD"."""
-    (code, message), (again, _) = outcomes
-    if code == 2:
-        return "refused", message
-    if code not in (0, 3):
-        return "BAD", f"exit code {code}: {message}"
-    if again != code:
-        return "BAD", f"exit code {code} on one thread, {again} on two"
-    one, two = (json.loads((folder / "summary.json").read_text()) for folder in folders)
-    # A step that a limit ends is not finished by every thread.
-    if one["steps"] != two["steps"] or (code == 0 and one["state_hash"] != two["state_hash"]):
-        return "BAD", "two threads give other bits"
-    if (folders[0] / "history.csv").read_bytes() != (folders[1] / "history.csv").read_bytes():
-        return "BAD", "two threads give another history"
-    if not one["energy_balance_error"] <= 0.01:
-        return "BAD", f"energy balance {one['energy_balance_error']:.3g}: {message}"
-    if code == 3:
-        return ("stopped" if LIMITS.search(message) else "BAD"), message.splitlines()[0]
-    return "ok", ""
-
-
-def figures(folder):
-    summary = json.loads((folder / "summary.json").read_text())
-    lines = (folder / "history.csv").read_text().splitlines()
-    last = dict(zip((name.split(" [")[0] for name in lines[0].split(",")), lines[-1].split(",")))
-    cracks = float(last.get("bonds/crack_length", "nan"))
-    return f"{summary['steps']} steps in {summary['wall_seconds']:.1f} s, balance " \
-           f"{summary['energy_balance_error']:.1e}, cracks {1e3 * cracks:.2f} mm"
-
-
-def main():
-    options = parser(__doc__, scenes=100).parse_args()
-    options.program = options.program.resolve()
-    ends = collections.Counter()
-    with tempfile.TemporaryDirectory() as scratch:
-        place = options.keep or pathlib.Path(scratch)
-        place.mkdir(parents=True, exist_ok=True)
-        for number in range(options.first, options.first + options.scenes):
-            scene = Scene(options.seed, number)
-            file = place / f"{scene.name}.toml"
-            file.write_text(scene.text())
-            folders = [place / f"{scene.name}-{threads}" for threads in (1, 2)]
-            outcomes = [run(options.program, file, folder, threads) for threads, folder in zip((1, 2), folders)]
-            end, what = faults(outcomes, folders)
-            ends[end] += 1
-            told = figures(folders[0]) if end in ("ok", "stopped") else ""
-            print(f"{end:8}{number}: {scene.describe()}" + "".join(f"\n        {line}" for line in (told, what) if line),
-                  flush=True)
-    print(f"{options.scenes} scenes: " + ", ".join(f"{count} {end}" for end, count in sorted(ends.items())))
-    return 1 if ends["BAD"] or ends["refused"] > 0.1 * options.scenes else 0
+def figures(summary, last):
+    return f", cracks {1e3 * float(last.get('bonds/crack_length', 'nan')):.2f} mm"
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(try_all(__doc__, 100, Scene, LIMITS, figures))

@@ -26,10 +26,10 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
+// Not Tensor6, whose components readers take for xx xy xz yy yz zz: those of a stress stand as xx yy zz xy yz zx.
 const char* attribute_type(int components) {
   if (components == 1) return "Scalar";
   if (components == 3) return "Vector";
-  if (components == 6) return "Tensor6";
   return components == 9 ? "Tensor" : "Matrix";
 }
 

@@ -6,6 +6,7 @@
 
 #include "components/contact.hpp"
 #include "components/run_state.hpp"
+#include "components/servo.hpp"
 #include "engine/access.hpp"
 #include "engine/entry.hpp"
 #include "scenes/tools/die_sides.hpp"
@@ -48,22 +49,37 @@ Vec2 velocity_of(const World& world, int slot) {
   return sum / nodes;
 }
 
+// The longest move of a stage along a tool's own face.
+std::optional<ShearSetup> target_of(const Scene& scene, const StageSpec& stage) {
+  std::optional<ShearSetup> target;
+  double longest = 0;
+  for (const MoveSpec& move : stage.moves) {
+    const ToolSpec& tool = scene.tools[static_cast<std::size_t>(move.tool)];
+    if (tool.shape == ToolSpec::Shape::constraint) continue;
+    const Vec2 up = face_normal(tool);
+    const Vec2 along = move.displacement - move.displacement.dot(up) * up;
+    const bool presses_only = along.norm() < 1e-9 * move.displacement.norm();
+    if (presses_only || along.norm() <= longest) continue;
+    longest = along.norm();
+    target.emplace();
+    target->target = move.tool;
+    target->up = up;
+    target->along = along.normalized();
+  }
+  return target;
+}
+
 }  // namespace
 
 std::optional<ShearSetup> shear_setup(const Scene& scene) {
-  const auto stage = std::ranges::find(scene.stages, StageSpec::Kind::shear, &StageSpec::kind);
-  if (stage == scene.stages.end() || stage->moves.empty()) return std::nullopt;
-  const MoveSpec& move = *std::ranges::max_element(
-      stage->moves, {}, [](const MoveSpec& m) { return m.displacement.norm(); });
-  const ToolSpec& tool = scene.tools[static_cast<std::size_t>(move.tool)];
-  if (tool.shape == ToolSpec::Shape::constraint) return std::nullopt;
-  ShearSetup setup;
-  setup.stage = static_cast<int>(stage - scene.stages.begin());
-  setup.target = move.tool;
-  setup.up = face_normal(tool);
-  const Vec2 along = move.displacement - move.displacement.dot(setup.up) * setup.up;
-  if (along.norm() < 1e-9 * move.displacement.norm()) return std::nullopt;  // it presses only
-  setup.along = along.normalized();
+  std::optional<ShearSetup> found;
+  std::size_t stage = 0;
+  for (; stage < scene.stages.size() && !found; ++stage)
+    if (scene.stages[stage].kind == StageSpec::Kind::shear)
+      found = target_of(scene, scene.stages[stage]);
+  if (!found) return std::nullopt;
+  ShearSetup setup = *found;
+  setup.stage = static_cast<int>(stage) - 1;
   setup.punch = plane_facing(scene, -setup.up);
   setup.wall = plane_facing(scene, -setup.along);
   const int other = plane_facing(scene, setup.along);
@@ -122,6 +138,12 @@ const ToolProgram::Stage& ShearResults::stage() const {
   return entry(world_.resource<ToolProgram>().stages, setup_->stage);
 }
 
+// m, of the target along itself, by servos and drives that give.
+double ShearResults::travel_now() const {
+  if (!world_.has<ServoTravel>()) return 0;
+  return vector_of(world_.column<ServoTravel>().values(), setup_->target).dot(setup_->along);
+}
+
 double ShearResults::distance_now() const {
   const ToolProgram& program = world_.resource<ToolProgram>();
   const double begin = stage().begin;
@@ -129,7 +151,8 @@ double ShearResults::distance_now() const {
   if (time <= begin) return 0;
   const Point3 now = tool_position_at(program, setup_->target, time);
   const Point3 then = tool_position_at(program, setup_->target, begin);
-  return Vec2(now[0] - then[0], now[1] - then[1]).dot(setup_->along);
+  const double driven = Vec2(now[0] - then[0], now[1] - then[1]).dot(setup_->along);
+  return driven + travel_now() - travel_at_begin_;
 }
 
 int ShearResults::take_touching(bool sliding) {
@@ -163,6 +186,7 @@ void ShearResults::append_sample(double plastic, std::vector<double>& row) {
   const double* positions = world_.column<ToolPosition>().values();
   const Vec2 force = vector_of(forces, setup_->target);
   const double normal = -force.dot(setup_->up), lateral = -force.dot(setup_->along);
+  if (world_.resource<Clock>().time <= stage().begin) travel_at_begin_ = travel_now();
   const double distance = distance_now();
   const double face = setup_->width * world_.resource<Bodies>().thickness;
   const double friction = normal > 0 ? lateral / normal : nothing;

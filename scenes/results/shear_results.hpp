@@ -12,7 +12,7 @@
 
 namespace pulvis {
 
-// The first stage of kind "shear": its target is the tool that moves farthest in it.
+// The first stage of kind "shear" in which a tool moves along its own face: the one that moves farthest so is the target.
 struct ShearSetup {
   int stage = 0, target = 0;
   int punch = -1;              // the plane on the other side of the powder; -1: none
@@ -53,7 +53,7 @@ class ShearResults {
   template <class Bytes>
   void state(Bytes& bytes) {
     bytes(punch_at_begin_, punch_before_, time_before_, work_, lateral_before_, distance_before_,
-          slip_, samples_, plastic_at_begin_, pressed_, normal_before_);
+          slip_, samples_, plastic_at_begin_, travel_at_begin_, pressed_, normal_before_);
   }
 
  private:
@@ -65,6 +65,7 @@ class ShearResults {
     }
   };
   const ToolProgram::Stage& stage() const;
+  double travel_now() const;
   double distance_now() const;
   int take_touching(bool sliding);  // sums up slip while sliding; returns how many go along
 
@@ -76,6 +77,7 @@ class ShearResults {
   std::vector<double> slip_;                // m, [particles]
   std::vector<Sample> samples_;             // of the shear stage, as long as the target goes on
   double plastic_at_begin_ = 0;             // J
+  double travel_at_begin_ = 0;              // m
   double pressed_ = 0, normal_before_ = 0;  // N m, the normal force over the distance; N
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 // What the materials ask for.
 struct MaterialNeeds {
-  bool plastic = false, curved = false, rated = false, damped = false;
+  bool plastic = false, curved = false, damped = false;
 };
 
 MaterialNeeds needs_of(const Scene& scene) {
@@ -25,7 +25,6 @@ MaterialNeeds needs_of(const Scene& scene) {
   needs.plastic = any_material_yields(scene);
   for (const MaterialSpec& m : scene.materials) {
     needs.curved = needs.curved || m.flow;
-    needs.rated = needs.rated || (m.flow && m.flow->rate.index() != 0);
     needs.damped = needs.damped || m.damped();
   }
   return needs;
@@ -74,8 +73,8 @@ void add_particle_columns(World& world, const MaterialNeeds& needs) {
   world.add<YieldStress>();
   world.add<HardeningModulus>();
   world.add<PlasticWork>();
+  world.add<WorkBeyondHardening>();
   if (needs.curved) world.add<ReturnResidual>();
-  if (needs.rated) world.add<RateWork>();
 }
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }

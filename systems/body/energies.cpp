@@ -87,7 +87,7 @@ void plastic_work<F>::operator()(Chunk chunk) const {
   else
     add(linear);
   total *= bodies->thickness;
-  if (rate) total += rate->chunk(chunk)(particle);
+  total += beyond.chunk(chunk)(particle);
   // The joint flow of stress and hourglass stress spends both; the latter is reported by itself.
   if (hourglass) total -= hourglass->chunk(chunk)(particle);
   work.chunk(chunk)(particle) = total;

@@ -4,8 +4,9 @@
 //          isochoric elastic left Cauchy-Green tensor. Two departures: the state is the inverse plastic
 //          metric C_p^-1 (as in Simo 1992), so that the stress follows from F alone and cannot drift;
 //          and the trace after the return comes from det b_e = 1 instead of being kept, which makes
-//          the stored energy follow the stress. (The plastic work is sigma_y d eps; the exact
-//          dissipation differs from it by the square of the elastic strain.)
+//          the stored energy follow the stress. The plastic work is theta sigma_y d eps per undeformed
+//          volume (systems/laws/rate.hpp); the exact dissipation differs from it by the square of the
+//          elastic deviator.
 // Symbols  C      C_p^-1 - 1 [-] (xx yy zz xy; zero when virgin);  b = J^(-2/3) F C_p^-1 F^T [-]
 //          mu, K  shear and bulk modulus [Pa];  theta element dilatation [-]
 //          s      deviatoric Cauchy stress [Pa] = mu dev b / theta;  p mean stress [Pa]

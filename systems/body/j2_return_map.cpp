@@ -16,7 +16,7 @@ namespace {
 // What the elements of a packet of particles add up to.
 struct PacketSums {
   Packet hourglass_work{};          // J/m
-  Packet rate_work{};               // J/m
+  Packet beyond_hardening{};        // J/m
   Packet residual{}, element = -1;  // the worst return's
 };
 
@@ -58,10 +58,9 @@ void return_point(const Views<F, Law>& v, Row<Element> e, int g, const PointKine
   v.metric(e, 4 * g + 2) = next.c.zz;
   v.metric(e, 4 * g + 3) = next.c.xy;
   v.strain(e, g) = next.eps;
-  if constexpr (!kernels::is_closed_form<Law>) {
-    keep_worst(next.residual, e, sums);
-    sums.rate_work += at.area * kernels::rate_work(v.law, before, next.eps - before);
-  }
+  sums.beyond_hardening +=
+      at.area * kernels::work_beyond_hardening(v.law, before, next.eps - before, at.theta);
+  if constexpr (!kernels::is_closed_form<Law>) keep_worst(next.residual, e, sums);
 }
 
 template <class F, class Law>
@@ -172,9 +171,8 @@ template <class F>
     if constexpr (F::stabilised)
       part_of(hourglass->work.chunk(chunk), part)(particle) +=
           sums.hourglass_work * bodies->thickness;
-    if (const auto& work = iterated.rate_work)
-      part_of(work->chunk(chunk), part)(particle) += sums.rate_work * bodies->thickness;
-    if (const auto& residual = iterated.residual) {
+    part_of(work.beyond.chunk(chunk), part)(particle) += sums.beyond_hardening * bodies->thickness;
+    if (const auto& residual = work.residual) {
       const auto worst = part_of(residual->chunk(chunk), part);
       worst(particle, 0) = sums.residual;
       worst(particle, 1) = sums.element;

@@ -65,10 +65,10 @@ struct j2_return_map {
     Write<HourglassWork> work;
   };
   Optional<Hourglass> hourglass;
-  struct Iterated {  // of curved laws and rates
-    Optional<Write<RateWork>> rate_work;
-    Optional<Write<ReturnResidual>> residual;
-  } iterated;
+  struct Work {
+    Write<WorkBeyondHardening> beyond;
+    Optional<Write<ReturnResidual>> residual;  // of curved laws and rates
+  } work;
   void operator()(BusyChunk chunk) const;
 };
 
@@ -183,7 +183,7 @@ struct plastic_work {
   Flow flow;
   Read<PlasticStrain<F::points>> eps;
   Optional<Read<HourglassWork>> hourglass;
-  Optional<Read<RateWork>> rate;
+  Read<WorkBeyondHardening> beyond;
   Write<PlasticWork> work;
   void operator()(Chunk chunk) const;
 };

@@ -79,4 +79,12 @@ T rate_work(const RatedHardening<Hardening, Rate>& law, T eps, T grown) {
   return slow * (law.rate.factor(grown * law.over_dt) - 1.0) * grown;
 }
 
+// Plastic work of a step beyond the area under the hardening curve, J/m^3 of undeformed volume: that of the rate, and what comes
+// of it that a Cauchy stress acts on theta times that volume.
+template <class T, class Law>
+T work_beyond_hardening(const Law& law, T eps, T grown, T theta) {
+  const T stress = min(law.flow_stress(fma(T{} + 0.5, grown, eps)), 1e300);  // elastic: infinite
+  return fma(theta - 1.0, stress * grown, theta * rate_work(law, eps, grown));
+}
+
 }  // namespace pulvis::kernels

@@ -90,15 +90,17 @@ void check_mass(const Servo& servo, const ToolProgram& program, const Clock& clo
 }  // namespace
 
 void drive_tools(const Servos& s, const Touching& touching) {
-  const auto& [clock, program, force, rules, servos, drive] = s;
+  const auto& [clock, program, ends, force, rules, servos, drive] = s;
   const std::size_t stage = program->stage_at(clock->time);
   const bool new_stage = stage != servos->stage;
+  // A stage that [stage.until] ended did so before all of the force was asked for.
+  const bool ended_early = ends && (*ends)->has_ended_early(servos->stage);
   for (int t = 0; t < force.rows(); ++t) {
     const Row<Tool> tool(t);
     const Servo* servo = servo_of(*servos, t, stage);
     const Servo* last = servo_of(*servos, t, servos->stage);
     const ToolServos::Driven* driven = servos->driven_force(t);
-    if (new_stage && last != nullptr && driven == nullptr)
+    if (new_stage && last != nullptr && driven == nullptr && !ended_early)
       check_held(*last, *program, *clock, borne(*last, force));
     if (servo == nullptr) {
       set_along(drive.velocity, tool, {}, 0), set_along(drive.dragged, tool, {}, 0);

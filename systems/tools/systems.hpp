@@ -37,6 +37,7 @@ struct stage_control {
 struct Servos {
   Read<Clock> clock;
   Read<ToolProgram> program;
+  Optional<Read<StageEnds>> ends;
   Read<ToolForce> force;
   Read<ContactRules> rules;
   Write<ToolServos> servos;

@@ -118,7 +118,6 @@ name = "316L"
     World& w = e.simulation.world();
     EXPECT_FALSE(w.has<FlowLaws>());
     EXPECT_FALSE(w.has<ReturnResidual>());
-    EXPECT_FALSE(w.has<RateWork>());
     e.simulation.run_steps(2000);
     hashes.push_back(state_hash(w));
   }

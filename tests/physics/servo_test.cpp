@@ -107,6 +107,19 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"AFlatBlock", metal + flat + body(10, 2.5), 20, 5, 4000, 0.5, 0.1, 0.4}),
     [](const auto& test) { return std::string(test.param.name); });
 
+// A stage that ends at a density does so while the force still rises; that is no failure to hold it.
+TEST(Servo, MayBeEndedBeforeItsForceIsReached) {
+  Experiment e(own_scene(metal + flows + disc + square(1) + die(10, 10) +
+                         stage("press", "compact", 1) + "[stage.until]\nrelative_density = 0.8\n" +
+                         "[[stage.servo]]\ntool = \"top\"\nforce = \"20 kN\"\nrise = 1\n" +
+                         stage("hold", "hold", 0.1) + contact(1, 0.1)));
+  double maximum = 0;
+  e.run(100, [&] { maximum = std::max(maximum, e.value("tool/top/force_y")); });
+  EXPECT_GT(maximum, 500);
+  EXPECT_LT(maximum, 10000);
+  EXPECT_NEAR(e.value("relative_density"), 0.8, 0.01);
+}
+
 // ---- a law ------------------------------------------------------------------------------------------------
 // A block that flows under plane strain without hardening bears 2/sqrt(3) of its yield stress more along its axis
 // than from the side, where the servo keeps 1 kN on a height that shrinks. When all of it yields at once, the wall

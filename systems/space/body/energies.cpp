@@ -102,7 +102,7 @@ void plastic_work<F>::operator()(Chunk chunk) const {
     with_hardening((*flow.laws)->of_chunk(*meshes.bodies, chunk), linear, add);
   else
     add(linear);
-  if (rate) total += rate->chunk(chunk)(particle);
+  total += beyond.chunk(chunk)(particle);
   // The joint flow of stress and hourglass stress spends both; the latter is reported by itself.
   if (hourglass) total -= hourglass->chunk(chunk)(particle);
   work.chunk(chunk)(particle) = total;

@@ -30,7 +30,9 @@ struct LinearRule {
                               CoupledOf<F>& coupled) const {
     return kernels::radial_return(at, norm2, law, coupled);
   }
-  Packet rate_work(Packet, Packet) const { return {}; }
+  Packet work_beyond(Packet eps, Packet grown, Packet theta) const {
+    return pulvis::kernels::work_beyond_hardening(law, eps, grown, theta);
+  }
 };
 
 template <class F>
@@ -40,14 +42,16 @@ struct AnyRule {
   Packet (*flow_stress_of)(const void*, Packet);
   kernels::Return<Packet> (*map_of)(const void*, const kernels::TrialPoint<Packet>&, Packet,
                                     CoupledOf<F>&);
-  Packet (*rate_work_of)(const void*, Packet, Packet);
+  Packet (*work_beyond_of)(const void*, Packet, Packet, Packet);
 
   Packet flow_stress(Packet eps) const { return flow_stress_of(law, eps); }
   kernels::Return<Packet> map(const kernels::TrialPoint<Packet>& at, Packet norm2,
                               CoupledOf<F>& coupled) const {
     return map_of(law, at, norm2, coupled);
   }
-  Packet rate_work(Packet eps, Packet grown) const { return rate_work_of(law, eps, grown); }
+  Packet work_beyond(Packet eps, Packet grown, Packet theta) const {
+    return work_beyond_of(law, eps, grown, theta);
+  }
 };
 
 template <class F, class Law>
@@ -58,16 +62,17 @@ AnyRule<F> any_rule(const Law& law) {
              CoupledOf<F>& coupled) {
             return kernels::radial_return(at, norm2, *static_cast<const Law*>(p), coupled);
           },
-          [](const void* p, Packet eps, Packet grown) {
-            return pulvis::kernels::rate_work(*static_cast<const Law*>(p), eps, grown);
+          [](const void* p, Packet eps, Packet grown, Packet theta) {
+            return pulvis::kernels::work_beyond_hardening(*static_cast<const Law*>(p), eps, grown,
+                                                          theta);
           }};
 }
 
 // ---- the material -------------------------------------------------------------------------------------------
 // What the elements of a packet of particles add up to.
 struct PacketSums {
-  Packet hourglass_work{}, rate_work{};  // J
-  Packet residual{}, element = -1;       // the worst return's
+  Packet hourglass_work{}, beyond_hardening{};  // J
+  Packet residual{}, element = -1;              // the worst return's
 };
 
 // Not a number is worse than any.
@@ -123,10 +128,8 @@ struct PlasticMaterial {
     store(metric, at.element, at.g,
           kernels::returned_metric(metric_at(metric, at.element, at.g), r, at.adj, at.r2));
     strain(at.element, at.g) = r.eps;
-    if constexpr (Rule::iterated) {
-      keep_worst_return(r.residual, at.element, sums);
-      sums.rate_work += at.volume * rule.rate_work(before, r.eps - before);
-    }
+    sums.beyond_hardening += at.volume * rule.work_beyond(before, r.eps - before, at.j);
+    if constexpr (Rule::iterated) keep_worst_return(r.residual, at.element, sums);
   }
 
   // Keeps the share `retained` of the hourglass stress; the rest of its strain has become plastic.
@@ -153,7 +156,7 @@ void add_sums(const PacketSums& sums, const auto& work, Chunk chunk, int part) {
   const Row<Particle> particle;
   if (const auto& hourglass = work.hourglass)
     part_of(hourglass->chunk(chunk), part)(particle) += sums.hourglass_work;
-  if (const auto& rate = work.rate) part_of(rate->chunk(chunk), part)(particle) += sums.rate_work;
+  part_of(work.beyond.chunk(chunk), part)(particle) += sums.beyond_hardening;
   if (const auto& residual = work.residual) {
     const auto worst = part_of(residual->chunk(chunk), part);
     worst(particle, 0) = sums.residual;

@@ -45,8 +45,8 @@ struct plastic_force {
   PlasticState<F> state;
   struct Work {
     Optional<Write<HourglassWork>> hourglass;
-    Optional<Write<RateWork>> rate;  // of curved laws and rates
-    Optional<Write<ReturnResidual>> residual;
+    Write<WorkBeyondHardening> beyond;
+    Optional<Write<ReturnResidual>> residual;  // of curved laws and rates
   } work;
   ForceResults<F> results;
   void operator()(BusyChunk chunk) const;
@@ -116,7 +116,7 @@ struct plastic_work {
   Flow flow;
   Read<PlasticStrain<F::points>> eps;
   Optional<Read<HourglassWork>> hourglass;
-  Optional<Read<RateWork>> rate;
+  Read<WorkBeyondHardening> beyond;
   Write<PlasticWork> work;
   void operator()(Chunk chunk) const;
 };

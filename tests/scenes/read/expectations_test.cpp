@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -181,6 +182,35 @@ TEST_F(Program, AnotherSceneTimesAScale) {
   EXPECT_EQ(run(thick + expect(like)), 3);
   EXPECT_THAT(out, HasSubstr(": 1 off; expected: within 1e-12 of that of other.toml\n"));
   EXPECT_EQ(run(thick + expect(like + "scale = 2.0"), "--set 'body[0].angle=10 deg'"), 3);
+}
+
+TEST_F(Program, TwoExpectationsOfOneSeriesAndScene) {
+  std::ofstream(place / "other.toml") << pressed;
+  const std::string like = "series = \"tool/top/force_y\"\nlike = \"other.toml\"\nwithin = 1e-12\n";
+  EXPECT_EQ(run(pressed + expect(like) + expect(like + "when = \"end\"")), 0) << out;
+}
+
+// A value that one run does not have is not like one that the other has, wherever it is.
+TEST_F(Program, ASampleWithoutAValueIsLikeNoOther) {
+  const fs::path other = place / "other.toml", own = place / "scene.toml";
+  std::ofstream(other) << pressed;
+  std::ofstream(own) << pressed
+                     << expect(
+                            "series = \"tool/top/force_y\"\nlike = \"other.toml\"\n"
+                            "within = 1e9");
+  const Scene scene = load_scene(own, {}).scene;
+  const Judged run(pressed);
+  for (const std::size_t without : {0U, 20U, 40U}) {
+    Expectations expectations(scene);
+    for (std::size_t i = 0; i < run.time.size(); ++i)
+      expectations.sample(run.time[i], [&](const std::string&) {
+        return i == without ? std::nan("") : run.force[i] + 1;
+      });
+    const auto verdicts =
+        expectations.judge([](const std::string&) { return 0.0; }, run.end, {}, 1);
+    EXPECT_FALSE(verdicts[1].met) << without;
+    EXPECT_EQ(verdicts[1].measured, "some samples have a value in one run only");
+  }
 }
 
 TEST_F(Program, AStopThatIsExpected) {
